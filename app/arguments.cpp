@@ -1,0 +1,74 @@
+// See arguments.hpp.
+#include "app/arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <vector>
+
+#include "app/options.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/core/memory.hpp"
+
+namespace footprint {
+
+void add_backend_options(CLI::App& command, BackendArguments& arguments) {
+  command.add_option("--backend", arguments.backend, "OpenGL by auto, egl, egl-device or osmesa")
+      ->capture_default_str();
+  command.add_option("--device", arguments.device, "Which GPU for egl-device, as `footprint info` numbers them")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command.add_option("--tile", arguments.tile, "Side of the tiles a frame is rendered in, pixels; 0: as few as fit")
+      ->check(CLI::Range(0, 1 << 16))
+      ->capture_default_str();
+}
+
+gl::ContextRequest context_request(const BackendArguments& arguments) {
+  return {.backend = gl::parse_backend(arguments.backend), .device = arguments.device};
+}
+
+void add_reference_options(CLI::App& command, ReferenceArguments& arguments) {
+  command.add_option("--spp", arguments.spp, "Samples a pixel of the reference")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  command.add_option("--seed", arguments.seed, "Seed of the reference's samples: same seed, same bytes")
+      ->capture_default_str();
+  command.add_option("--filter", arguments.filter, "The reference's filter: after_shading, nearest or bilinear")
+      ->capture_default_str();
+}
+
+void add_size_option(CLI::App& command, std::string& text) {
+  command.add_option("--size", text, "Frame size WIDTHxHEIGHT, pixels; if not given the scene's, or 512x512");
+}
+
+void add_anisotropy_option(CLI::App& command, int& probes) {
+  command.add_option("--anisotropy", probes, "Probes along the footprint's major axis; 1: isotropic")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
+}
+
+void add_quiet_flag(CLI::App& command, bool& quiet) {
+  command.add_flag("-q,--quiet", quiet, "No progress on standard error");
+}
+
+std::optional<glm::ivec2> parse_optional_size(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  constexpr std::uint64_t pixel_bytes = 4 * sizeof(float);
+  const glm::ivec2 size = parse_size(text);
+  require_memory(frame_bytes(static_cast<std::uint64_t>(size.x), static_cast<std::uint64_t>(size.y), pixel_bytes),
+                 fmt::format("a picture of {}x{}", size.x, size.y));
+  return size;
+}
+
+MethodSpec parse_method(std::string_view option, const std::string& text) {
+  const std::vector<MethodSpec> methods = parse_methods(text);
+  if (methods.size() == 1) return methods.front();
+  throw Error(ErrorKind::usage, std::string(option), fmt::format("`{}` is more than one method", text), "name one");
+}
+
+std::filesystem::path scenes_folder() {
+  const char* given = std::getenv("FOOTPRINT_SCENES");
+  return given != nullptr && *given != '\0' ? given : FOOTPRINT_SCENES_FOLDER;
+}
+
+}  // namespace footprint

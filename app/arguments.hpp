@@ -1,0 +1,59 @@
+// Arguments that several subcommands share, as the parser fills them, and what they mean.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "renderer/core/options.hpp"
+#include "renderer/gl/context.hpp"
+
+namespace footprint {
+
+/// Which OpenGL to render with.
+struct BackendArguments {
+  std::string backend = "auto";
+  int device = 0;
+  int tile = 0;  ///< texels a side; 0: as large as the backend's limit
+};
+
+/// Adds --backend, --device and --tile.
+void add_backend_options(CLI::App& command, BackendArguments& arguments);
+
+/// Errors (usage): no such backend.
+[[nodiscard]] gl::ContextRequest context_request(const BackendArguments& arguments);
+
+/// What the reference is made with.
+struct ReferenceArguments {
+  int spp = 64;
+  std::uint64_t seed = 1;
+  std::string filter = "after_shading";
+};
+
+/// Adds --spp, --seed and --filter.
+void add_reference_options(CLI::App& command, ReferenceArguments& arguments);
+
+/// Adds --size; `text` stays empty if it is not given, and the scene's own size counts.
+void add_size_option(CLI::App& command, std::string& text);
+
+/// Adds --anisotropy.
+void add_anisotropy_option(CLI::App& command, int& probes);
+
+/// Adds --quiet.
+void add_quiet_flag(CLI::App& command, bool& quiet);
+
+/// The size that --size gives; empty if it was not given. Errors (usage): no size; (machine): one picture of that size
+/// is more than memory holds, known before anything is loaded.
+[[nodiscard]] std::optional<glm::ivec2> parse_optional_size(const std::string& text);
+
+/// One method. Errors (usage): more than one, or as parse_methods.
+[[nodiscard]] MethodSpec parse_method(std::string_view option, const std::string& text);
+
+/// Where the scenes that have a name lie: the environment variable FOOTPRINT_SCENES, or the source tree's scenes/.
+[[nodiscard]] std::filesystem::path scenes_folder();
+
+}  // namespace footprint

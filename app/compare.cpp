@@ -1,0 +1,139 @@
+// `footprint compare`: methods against the supersampled reference on one scene, the error and fps table and the page.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "app/arguments.hpp"
+#include "app/commands.hpp"
+#include "app/cpu_info.hpp"
+#include "app/options.hpp"
+#include "app/progress_display.hpp"
+#include "app/standard_output.hpp"
+#include "app/timing_process.hpp"
+#include "experiments/runner/compare.hpp"
+#include "renderer/core/files.hpp"
+#include "renderer/core/interrupt.hpp"
+#include "results/report/report.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr const char* examples =
+    "SCENE is a folder of scenes/, a path to a scene.toml, or a .gltf or .glb file. A method is written name or\n"
+    "name:option=value:option=value; `footprint list methods` names them.\n"
+    "\n"
+    "Examples:\n"
+    "  footprint compare model.gltf -o out\n"
+    "  footprint compare model.gltf --methods direct,toksvig:storage=fp16 --distance 1,2,4,8 -o out\n"
+    "  footprint compare scenes/quad/scene.toml --spp 256 --size 1024x768 --seed 7 -o out";
+
+struct Arguments {
+  std::string scene;
+  std::string methods = "direct,naive_mip,toksvig";
+  ReferenceArguments reference;
+  std::string distances;  // empty: the scene's zoom path
+  std::string size;       // empty: the scene's
+  std::string exposure = "auto";
+  std::string effects = "auto";
+  int repeats = 9;
+  int processes = 1;
+  int anisotropy = 1;
+  BackendArguments backend;
+  std::string output = "out";
+  std::string timing_file;  // not empty: this is a process that only takes times
+  bool quiet = false;
+};
+
+void add_options(CLI::App& command, Arguments& arguments) {
+  command.add_option("scene", arguments.scene, "What to render")->required();
+  command.add_option("--methods", arguments.methods, "Methods, commas between")->capture_default_str();
+  add_reference_options(command, arguments.reference);
+  command.add_option("--distance", arguments.distances,
+                     "Factors on the camera's distance, commas between; if not given the scene's zoom path");
+  add_size_option(command, arguments.size);
+  add_anisotropy_option(command, arguments.anisotropy);
+  command.add_option("--exposure", arguments.exposure, "Factor on radiance for display and clamped errors, or auto")
+      ->capture_default_str();
+  command
+      .add_option("--effects", arguments.effects, "auto: those that the scene calls for; all: every one compiled in")
+      ->capture_default_str();
+  command.add_option("--repeats", arguments.repeats, "Timed frames of each method in each process, interleaved")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command.add_option("--processes", arguments.processes, "Processes that time frames, one after the other")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  add_backend_options(command, arguments.backend);
+  command
+      .add_option("-o,--output", arguments.output,
+                  "Folder for results.json, results.csv, table.md, index.html, images/")
+      ->capture_default_str();
+  command.add_option(timing_file_option, arguments.timing_file)->group("");  // no part of the help
+  add_quiet_flag(command, arguments.quiet);
+}
+
+bool parse_effects(const std::string& word) {
+  const std::array<std::string, 2> choices{"auto", "all"};
+  return parse_choice("--effects", word, choices) == 1;
+}
+
+CompareSettings settings_from(const Arguments& arguments) {
+  CompareSettings settings;
+  settings.scene = arguments.scene;
+  settings.scenes_folder = scenes_folder();
+  settings.methods = parse_methods(arguments.methods);
+  if (!arguments.distances.empty()) settings.distances = parse_distances(arguments.distances);
+  settings.size = parse_optional_size(arguments.size);
+  settings.spp = arguments.reference.spp;
+  settings.seed = arguments.reference.seed;
+  settings.filter = parse_filter(arguments.reference.filter);
+  settings.exposure = parse_exposure(arguments.exposure);
+  settings.all_effects = parse_effects(arguments.effects);
+  settings.repeats = arguments.repeats;
+  settings.anisotropy = arguments.anisotropy;
+  settings.tile = arguments.backend.tile;
+  settings.context = context_request(arguments.backend);
+  return settings;
+}
+
+// Everything is written out of sight and moved to its place at the end.
+Results compare_into(OutputFolder& folder, const CompareSettings& settings, int processes, const Progress& progress) {
+  constexpr double process_share = 0.1;  // of the whole job's time, roughly: timing is the smaller part of it
+  const double before = std::min(0.5, process_share * (processes - 1));
+  const auto further = times_of_processes(processes - 1, folder.path(), part_of(progress, 0, before));
+  Results results = run_compare(settings, folder.path(), further, part_of(progress, before, 1));
+  results.tool.version = FOOTPRINT_VERSION;
+  results.backend.cpu = describe_cpu();
+  write_report(results, folder.path());
+  throw_if_interrupted();
+  folder.commit();
+  return results;
+}
+
+void run_compare_command(const Arguments& arguments) {
+  const CompareSettings settings = settings_from(arguments);
+  ProgressDisplay display(progress_style(arguments.quiet));
+  if (!arguments.timing_file.empty()) {
+    return write_frame_times(arguments.timing_file, time_frames(settings, display.callback()));
+  }
+  OutputFolder folder(arguments.output);
+  const Results results = compare_into(folder, settings, arguments.processes, display.callback());
+  display.finish();
+  write_output(fmt::format("{}\npage: {}\n", results_table(results), (folder.final_path() / "index.html").string()));
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("compare", "Compare methods with a supersampled reference: the main job");
+  const auto arguments = std::make_shared<Arguments>();
+  add_options(*command, *arguments);
+  command->footer(examples);
+  command->callback([arguments] { run_compare_command(*arguments); });
+}
+
+}  // namespace footprint

@@ -1,0 +1,178 @@
+// `footprint explain`: which effects a scene calls for and why, the pass, textures and bytes that follow, what they
+// cost.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/arguments.hpp"
+#include "app/commands.hpp"
+#include "app/effect_cost.hpp"
+#include "app/options.hpp"
+#include "app/progress_display.hpp"
+#include "app/standard_output.hpp"
+#include "experiments/runner/stage.hpp"
+#include "renderer/core/memory.hpp"
+#include "renderer/scene/load_scene.hpp"
+
+namespace footprint {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* examples =
+    "SCENE is a folder of scenes/, a path to a scene.toml, or a .gltf or .glb file.\n"
+    "\n"
+    "Examples:\n"
+    "  footprint explain model.gltf                 effects with reasons, pass, textures, bytes\n"
+    "  footprint explain model.gltf --method toksvig --cost\n"
+    "  footprint explain model.gltf --json          for programs";
+
+struct Arguments {
+  std::string scene;
+  std::string method = "direct";
+  bool cost = false;
+  bool json = false;
+  bool quiet = false;
+  std::string size;
+  int repeats = 15;
+  int anisotropy = 1;
+  BackendArguments backend;
+};
+
+// A texture of the method, over all materials.
+struct TextureUse {
+  std::string name;
+  std::size_t bytes = 0;
+};
+
+// Everything that `explain` has to say.
+struct Explanation {
+  std::vector<EffectDecision> effects;
+  std::string method;
+  std::vector<std::string> left_out;  // effects that the scene calls for and the method cannot honour
+  std::size_t draws = 0;              // of the forward pass: one a material
+  std::size_t shared_bytes = 0, method_bytes = 0;
+  std::vector<TextureUse> textures;
+  std::size_t shader_lines = 0;
+  std::vector<EffectCost> costs;
+};
+
+std::vector<TextureUse> texture_uses(const BakedMethod& baked) {
+  std::vector<TextureUse> uses;
+  for (const Prefiltered& material : baked.materials) {
+    for (const PrefilteredTexture& texture : material.textures) {
+      auto use = std::ranges::find(uses, texture.name, &TextureUse::name);
+      if (use == uses.end()) use = uses.insert(uses.end(), {.name = texture.name});
+      for (const TextureLevel& level : texture.levels) use->bytes += level.bytes.size();
+    }
+  }
+  return uses;
+}
+
+Explanation explain(const Arguments& arguments, const Progress& progress) {
+  const StageSettings settings{.methods = {parse_method("--method", arguments.method)},
+                               .size = parse_optional_size(arguments.size),
+                               .anisotropy = arguments.anisotropy,
+                               .tile = arguments.backend.tile};
+  const gl::ContextRequest request = context_request(arguments.backend);
+  const Stage stage(request, load_scene(arguments.scene, scenes_folder()), settings,
+                    part_of(progress, 0, arguments.cost ? 0.3 : 1));
+  const StagedMethod& method = stage.methods().front();
+
+  Explanation out;
+  out.effects = stage.decisions();
+  out.method = arguments.method;
+  out.left_out = effect_names(stage.effects() & ~method.baked().method->info().honours);
+  out.draws = stage.gpu_scene().batches().size();
+  out.shared_bytes = stage.gpu_scene().shared_bytes();
+  out.method_bytes = method.baked().bytes;
+  out.textures = texture_uses(method.baked());
+  out.shader_lines = static_cast<std::size_t>(std::ranges::count(method.frames().program().fragment_text(), '\n'));
+  if (arguments.cost) out.costs = measure_effect_costs(stage, settings, arguments.repeats, part_of(progress, 0.3, 1));
+  return out;
+}
+
+std::string text_of(const Explanation& explanation) {
+  std::string text = "effects\n";
+  for (const EffectDecision& decision : explanation.effects) {
+    text +=
+        fmt::format("  {:<21} {:<4} {}\n", effect_name(decision.effect), decision.on ? "on" : "off", decision.reason);
+  }
+  text += fmt::format("\nforward pass with {}\n  {:<21} {}\n  {:<21} {} lines\n  {:<21} {}\n", explanation.method,
+                      "draws", explanation.draws, "fragment shader", explanation.shader_lines, "shared by all methods",
+                      readable_bytes(explanation.shared_bytes));
+  text += fmt::format("  {:<21} {}\n", "the method's own", readable_bytes(explanation.method_bytes));
+  for (const TextureUse& use : explanation.textures) {
+    text += fmt::format("    {:<19} {}\n", use.name, readable_bytes(use.bytes));
+  }
+  if (!explanation.left_out.empty()) {
+    text += fmt::format("  {:<21} {}\n", "left out", fmt::join(explanation.left_out, ", "));
+  }
+  if (explanation.costs.empty()) return text;
+  text += fmt::format("\n{:<23} {:>10} {:>12} {:>10}\n", "cost, ms a frame", "with", "without", "adds");
+  for (const EffectCost& cost : explanation.costs) {
+    text += fmt::format("  {:<21} {:>10.3f} {:>12.3f} {:>10.3f}\n", effect_name(cost.effect), cost.with_ms,
+                        cost.without_ms, cost.added_ms);
+  }
+  return text;
+}
+
+std::string json_of(const Explanation& explanation) {
+  Json json;
+  for (const EffectDecision& decision : explanation.effects) {
+    json["effects"].push_back(
+        {{"effect", effect_name(decision.effect)}, {"on", decision.on}, {"reason", decision.reason}});
+  }
+  json["method"] = explanation.method;
+  json["left_out"] = explanation.left_out;
+  json["passes"] = {{{"name", "forward"}, {"draws", explanation.draws}, {"shader_lines", explanation.shader_lines}}};
+  json["shared_bytes"] = explanation.shared_bytes;
+  json["method_bytes"] = explanation.method_bytes;
+  json["textures"] = Json::array();
+  for (const TextureUse& use : explanation.textures) {
+    json["textures"].push_back({{"name", use.name}, {"bytes", use.bytes}});
+  }
+  for (const EffectCost& cost : explanation.costs) {
+    json["cost"].push_back({{"effect", effect_name(cost.effect)},
+                            {"with_ms", cost.with_ms},
+                            {"without_ms", cost.without_ms},
+                            {"added_ms", cost.added_ms}});
+  }
+  return json.dump(2) + "\n";
+}
+
+void run_explain(const Arguments& arguments) {
+  Explanation explanation;
+  {
+    ProgressDisplay display(progress_style(arguments.quiet));
+    explanation = explain(arguments, display.callback());
+  }
+  write_output(arguments.json ? json_of(explanation) : text_of(explanation));
+}
+
+}  // namespace
+
+void add_explain_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("explain", "Say which effects a scene calls for, why, and what they cost");
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("scene", arguments->scene, "What to look at")->required();
+  command->add_option("--method", arguments->method, "The method whose textures and shader count")
+      ->capture_default_str();
+  command->add_flag("--cost", arguments->cost, "Measure what each effect adds to a frame's time");
+  command->add_flag("--json", arguments->json, "Print JSON");
+  command->add_option("--repeats", arguments->repeats, "Timed frames with and without each effect, for --cost")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  add_size_option(*command, arguments->size);
+  add_anisotropy_option(*command, arguments->anisotropy);
+  add_backend_options(*command, arguments->backend);
+  add_quiet_flag(*command, arguments->quiet);
+  command->footer(examples);
+  command->callback([arguments] { run_explain(*arguments); });
+}
+
+}  // namespace footprint

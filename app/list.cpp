@@ -1,0 +1,128 @@
+// `footprint list`: the methods with their options, the scenes, the backends.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "app/arguments.hpp"
+#include "app/backend_text.hpp"
+#include "app/commands.hpp"
+#include "app/options.hpp"
+#include "app/standard_output.hpp"
+#include "methods/registry.hpp"
+#include "renderer/scene/load_scene.hpp"
+
+namespace footprint {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  footprint list                               everything\n"
+    "  footprint list methods                       the methods and their options\n"
+    "  footprint list scenes --json                 for programs";
+
+const std::vector<std::string> kinds{"methods", "scenes", "backends"};
+
+struct Arguments {
+  std::string kind;  // empty: all
+  bool json = false;
+};
+
+std::string default_text(const OptionSpec& option) {
+  if (const auto* number = std::get_if<double>(&option.default_value)) return fmt::format("{}", *number);
+  return std::get<std::string>(option.default_value);
+}
+
+std::string range_text(const OptionSpec& option) {
+  if (option.choices.empty()) return fmt::format("{} to {}", option.minimum, option.maximum);
+  return fmt::format("{}", fmt::join(option.choices, ", "));
+}
+
+std::string method_text(const MethodInfo& method) {
+  std::string text = fmt::format("  {}\n      {}\n      {}\n", method.name, method.summary, method.paper);
+  for (const OptionSpec& option : method.options) {
+    text +=
+        fmt::format("      :{}={}  ({})  {}\n", option.name, default_text(option), range_text(option), option.meaning);
+  }
+  return text;
+}
+
+Json option_json(const OptionSpec& option) {
+  Json json{{"name", option.name}, {"meaning", option.meaning}};
+  if (const auto* number = std::get_if<double>(&option.default_value)) {
+    json["default"] = *number;
+    json["minimum"] = option.minimum;
+    json["maximum"] = option.maximum;
+    json["integer"] = option.integer;
+  } else {
+    json["default"] = std::get<std::string>(option.default_value);
+    json["choices"] = option.choices;
+  }
+  return json;
+}
+
+Json method_json(const MethodInfo& method) {
+  Json options = Json::array();
+  for (const OptionSpec& option : method.options) options.push_back(option_json(option));
+  return {{"name", method.name},
+          {"summary", method.summary},
+          {"paper", method.paper},
+          {"honours", effect_names(method.honours)},
+          {"options", std::move(options)}};
+}
+
+std::string kind_text(const std::string& kind) {
+  std::string text = kind + "\n";
+  if (kind == "methods") {
+    for (const Method* method : all_methods()) text += method_text(method->info());
+  } else if (kind == "scenes") {
+    for (const std::string& scene : list_scenes(scenes_folder())) text += fmt::format("  {}\n", scene);
+  } else {
+    for (const gl::BackendReport& report : gl::probe_backends()) text += backend_text(report);
+  }
+  return text;
+}
+
+Json kind_json(const std::string& kind) {
+  if (kind == "scenes") return list_scenes(scenes_folder());
+  Json json = Json::array();
+  if (kind == "methods") {
+    for (const Method* method : all_methods()) json.push_back(method_json(method->info()));
+  } else {
+    for (const gl::BackendReport& report : gl::probe_backends()) json.push_back(backend_json(report));
+  }
+  return json;
+}
+
+void run_list(const Arguments& arguments) {
+  std::vector<std::string> shown = kinds;
+  if (!arguments.kind.empty()) shown = {kinds[parse_choice("list", arguments.kind, kinds)]};
+  Json json;
+  std::string text;
+  for (const std::string& kind : shown) {
+    if (arguments.json) {
+      json[kind] = kind_json(kind);
+    } else {
+      text += (text.empty() ? "" : "\n") + kind_text(kind);
+    }
+  }
+  write_output(arguments.json ? json.dump(2) + "\n" : text);
+}
+
+}  // namespace
+
+void add_list_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("list", "List the methods with their options, the scenes, the backends");
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("kind", arguments->kind, "methods, scenes or backends; all if not given");
+  command->add_flag("--json", arguments->json, "Print JSON");
+  command->footer(examples);
+  command->callback([arguments] { run_list(*arguments); });
+}
+
+}  // namespace footprint

@@ -1,0 +1,75 @@
+// The program: parses the command line, runs one subcommand and turns every error into one line and an exit code.
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "app/commands.hpp"
+#include "app/parse_error.hpp"
+#include "app/standard_output.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/core/interrupt.hpp"
+
+namespace {
+
+constexpr const char* description =
+    "Renders shiny, bumpy surfaces headlessly and compares the methods that prefilter them with a supersampled "
+    "reference: what each costs, and what error is left.";
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  footprint compare model.gltf -o out          the error and fps table, pictures and a page\n"
+    "  footprint render model.gltf --method toksvig -o out.exr\n"
+    "  footprint list methods                       the methods and their options\n"
+    "\n"
+    "Exit codes: 0 fine, 1 a check fell short, 2 the command line or an input is wrong, 3 the machine cannot,\n"
+    "130 interrupted.";
+
+void run(int argc, const char* const* argv) {
+  CLI::App app(description, "footprint");
+  app.footer(examples);
+  app.set_version_flag("--version", "footprint " FOOTPRINT_VERSION);
+  app.require_subcommand(1);
+  footprint::add_compare_command(app);
+  footprint::add_render_command(app);
+  footprint::add_explain_command(app);
+  footprint::add_list_command(app);
+  footprint::add_info_command(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    const auto chosen = app.get_subcommands();
+    footprint::write_output(chosen.empty() ? app.help() : chosen.front()->help());
+  } catch (const CLI::CallForVersion& version) {
+    footprint::write_output(std::string(version.what()) + "\n");
+  } catch (const CLI::ParseError& error) {
+    throw footprint::usage_error(app, error);
+  }
+}
+
+int fail(const std::string& text, footprint::ErrorKind kind) {
+  (void)std::fprintf(stderr, "footprint: %s\n", text.c_str());
+  return static_cast<int>(kind);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using footprint::ErrorKind;
+  // A closed pipe and a file over its limit come back as failed writes, which leave nothing half-written.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  footprint::watch_interrupts();
+  try {
+    run(argc, argv);
+    return 0;
+  } catch (const footprint::Error& error) {
+    return fail(error.what(), error.kind());
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory (ask for a smaller --size, or free memory)", ErrorKind::machine);
+  } catch (const std::exception& error) {
+    return fail(error.what(), ErrorKind::machine);
+  }
+}

@@ -1,0 +1,64 @@
+// Progress for people: a bar on a terminal, plain lines elsewhere, nothing if quiet.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "renderer/core/progress.hpp"
+
+namespace footprint {
+
+/// How progress is shown.
+enum class ProgressStyle {
+  quiet,  ///< not at all
+  lines,  ///< a line at most every two seconds and one at the end of each stage that took half a second
+  bar,    ///< one line, redrawn at most ten times a second, cleared at the end
+};
+
+/// The style for standard error: a bar if it is a terminal that can redraw a line, else lines.
+[[nodiscard]] ProgressStyle progress_style(bool quiet);
+
+/// A part of a job's progress as that of the whole: 0 to 1 becomes `begin` to `end`.
+[[nodiscard]] Progress part_of(const Progress& whole, double begin, double end);
+
+/// Shows the progress of one job, with an estimate of the time left, and lets Ctrl-C through at every report. For one
+/// thread at a time.
+class ProgressDisplay {
+ public:
+  using Clock = std::function<std::chrono::steady_clock::time_point()>;
+  using Sink = std::function<void(std::string_view text)>;
+
+  /// Shows on standard error.
+  explicit ProgressDisplay(ProgressStyle style);
+  /// Shows on `sink` by the time of `clock`; a bar's line has at most `columns` characters.
+  ProgressDisplay(ProgressStyle style, Sink sink, Clock clock, std::size_t columns);
+  ProgressDisplay(const ProgressDisplay&) = delete;
+  ProgressDisplay& operator=(const ProgressDisplay&) = delete;
+  ~ProgressDisplay();
+
+  /// One report: what is being done and the fraction done of the whole job, 0 to 1. Throws Error{interrupted}.
+  void report(std::string_view what, double fraction);
+
+  /// Ends the display: clears the bar, or writes the last stage's line. Reports after it start anew.
+  void finish();
+
+  /// This display as the callback that long work takes; the display must outlive it.
+  [[nodiscard]] Progress callback();
+
+ private:
+  void draw_bar(std::string_view what, double fraction);
+  void write_lines(std::string_view what, double fraction);
+  [[nodiscard]] std::string time_left(double fraction) const;
+
+  ProgressStyle style_;
+  Sink sink_;
+  Clock clock_;
+  std::size_t columns_;
+  std::chrono::steady_clock::time_point started_, last_shown_, stage_started_;
+  std::string stage_;          // what the last report was about; empty before the first
+  double stage_fraction_ = 0;  // and how far it was
+};
+
+}  // namespace footprint

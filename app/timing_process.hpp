@@ -1,0 +1,24 @@
+// Frame times taken by further processes of this program: code that a driver compiles can differ in speed from process
+// to process.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/runner/compare.hpp"
+
+namespace footprint {
+
+/// The option that makes `compare` take times, write them to its file and do nothing else.
+inline constexpr const char* timing_file_option = "--timing-file";
+
+/// Writes times for the process that asked for them. Errors (machine): the file cannot be written.
+void write_frame_times(const std::filesystem::path& file, const FrameTimes& times);
+
+/// Runs this program `count` times, one after the other, each with this process's own arguments and `--timing-file`
+/// in `scratch`, which exists; nothing is left there. Errors: those of such a process, or Error{interrupted}.
+[[nodiscard]] std::vector<FrameTimes> times_of_processes(int count, const std::filesystem::path& scratch,
+                                                         const Progress& progress);
+
+}  // namespace footprint

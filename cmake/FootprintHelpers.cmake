@@ -1,0 +1,36 @@
+# footprint_add_library(NAME SOURCES ... LIBRARIES ...): a static library with the project's settings.
+function(footprint_add_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  target_link_libraries(${name} PUBLIC footprint_settings ${ARG_LIBRARIES})
+  set_property(GLOBAL APPEND PROPERTY FOOTPRINT_LIBRARIES ${name})
+endfunction()
+
+# footprint_add_test(NAME SOURCES ... LIBRARIES ...): one GTest binary, one ctest entry.
+function(footprint_add_test name)
+  if(NOT FOOTPRINT_TESTS)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE footprint_settings ${ARG_LIBRARIES} GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE FOOTPRINT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  add_test(NAME ${name} COMMAND ${name})
+  set_tests_properties(${name} PROPERTIES TIMEOUT 300)
+endfunction()
+
+# footprint_embed(TARGET FILE SYMBOL): FILE's text as `extern const std::string_view SYMBOL` in namespace
+# footprint::embedded, so that the program needs no file of its own at run time.
+function(footprint_embed target file symbol)
+  get_filename_component(path "${file}" ABSOLUTE)
+  set(generated "${CMAKE_CURRENT_BINARY_DIR}/embedded_${symbol}.cpp")
+  add_custom_command(
+    OUTPUT "${generated}"
+    COMMAND "${CMAKE_COMMAND}" -DINPUT=${path} -DOUTPUT=${generated} -DSYMBOL=${symbol}
+            -P "${FOOTPRINT_CMAKE_DIR}/EmbedText.cmake"
+    DEPENDS "${path}" "${FOOTPRINT_CMAKE_DIR}/EmbedText.cmake"
+    COMMENT "Embedding ${file}"
+    VERBATIM)
+  target_sources(${target} PRIVATE "${generated}")
+endfunction()
+set(FOOTPRINT_CMAKE_DIR "${CMAKE_CURRENT_LIST_DIR}" CACHE INTERNAL "Footprint's CMake scripts")

@@ -1,0 +1,32 @@
+# Language, warnings and build type for every target.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+option(FOOTPRINT_WERROR "Treat warnings as errors" OFF)
+option(FOOTPRINT_TESTS "Build the tests" ON)
+option(FOOTPRINT_BENCH "Build the benchmarks" ON)
+option(FOOTPRINT_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
+
+add_library(footprint_settings INTERFACE)
+target_include_directories(footprint_settings INTERFACE "${PROJECT_SOURCE_DIR}")
+target_compile_features(footprint_settings INTERFACE cxx_std_20)  # for projects that use the build folder
+target_compile_options(footprint_settings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+                                                    -Wnon-virtual-dtor -Woverloaded-virtual)
+if(FOOTPRINT_WERROR)
+  target_compile_options(footprint_settings INTERFACE -Werror)
+endif()
+if(FOOTPRINT_SANITIZE)
+  target_compile_options(footprint_settings INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer
+                                                      -fno-sanitize-recover=undefined)
+  target_link_options(footprint_settings INTERFACE -fsanitize=address,undefined)
+endif()
+
+find_program(FOOTPRINT_CCACHE ccache)
+if(FOOTPRINT_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${FOOTPRINT_CCACHE}")
+endif()

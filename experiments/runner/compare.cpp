@@ -1,0 +1,329 @@
+// See compare.hpp.
+#include "experiments/runner/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "experiments/runner/exposure.hpp"
+#include "experiments/runner/picture_files.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/image/metrics.hpp"
+#include "renderer/pipeline/timing.hpp"
+#include "renderer/scene/load_scene.hpp"
+#include "results/report/equivalent_spp.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr std::array curve_counts{1, 2, 4, 8, 16, 32, 64};
+constexpr int curve_samples = 127;  // their sum: what the curve weighs beside the reference
+constexpr int curve_repeats = 3;    // timed renders of each count
+constexpr double scale_quantile = 0.99;
+constexpr double smallest_error_scale = 0.01;
+constexpr std::uint64_t curve_seed = 0x9e3779b97f4a7c15;  // keeps the curve's samples apart from the reference's
+
+StageSettings stage_settings(const CompareSettings& settings) {
+  return {.methods = settings.methods,
+          .size = settings.size,
+          .filter = settings.filter,
+          .anisotropy = settings.anisotropy,
+          .tile = settings.tile,
+          .all_effects = settings.all_effects};
+}
+
+// `direct` is what every ratio is taken to; it is staged first, also where it is not asked for.
+StageSettings timing_settings(const CompareSettings& settings) {
+  StageSettings stage = stage_settings(settings);
+  stage.methods.insert(stage.methods.begin(), {.text = "direct", .name = "direct", .options = {}});
+  return stage;
+}
+
+std::vector<double> distances_of(const CompareSettings& settings, const Scene& scene) {
+  return settings.distances.empty() ? scene.distances : settings.distances;
+}
+
+// What is known of one distance besides the methods.
+struct Truth {
+  double distance = 1;
+  View view;
+  Supersampled reference;
+  std::optional<double> noise_floor;
+  std::string reference_file;
+  std::vector<SupersamplingPoint> curve;
+};
+
+// A record whose error picture waits for the scale that all of them share.
+struct Draft {
+  Record record;
+  Image error;
+  std::string stem;
+};
+
+std::optional<double> normalized_color(const Image& picture, const Image& reference, float exposure) {
+  const std::optional<ErrorFigures> figures = compare_images(picture, reference, exposure);
+  return figures ? std::optional(figures->normalized_color) : std::nullopt;
+}
+
+class Comparison {
+ public:
+  Comparison(const CompareSettings& settings, const std::filesystem::path& folder, const Progress& progress)
+      : settings_(settings),
+        folder_(folder),
+        stage_(settings.context, load_scene(settings.scene, settings.scenes_folder), timing_settings(settings),
+               no_progress),
+        distances_(distances_of(settings, stage_.scene())),
+        parts_(progress, static_cast<double>(distances_.size()) *
+                             (settings.spp + curve_samples * (1 + curve_repeats) + method_weight())) {}
+
+  Results run(std::span<const FrameTimes> further_times) {
+    std::filesystem::create_directories(folder_ / "images");
+    for (std::size_t i = 0; i < distances_.size(); ++i) {
+      const Truth truth = find_truth(distances_[i]);
+      results_.supersampling.insert(results_.supersampling.end(), truth.curve.begin(), truth.curve.end());
+      for (std::size_t m = 0; m < settings_.methods.size(); ++m) drafts_.push_back(compare_method(truth, m));
+      set_times(i, further_times);
+    }
+    finish_error_pictures();
+    describe();
+    return std::move(results_);
+  }
+
+  FrameTimes times() {
+    FrameTimes all;
+    for (const double distance : distances_) all.push_back(time_distance(distance));
+    return all;
+  }
+
+ private:
+  [[nodiscard]] double method_weight() const {
+    return static_cast<double>(settings_.methods.size()) * (settings_.spp + settings_.repeats);
+  }
+
+  [[nodiscard]] const StagedMethod& method(std::size_t index) const { return stage_.methods()[index + 1]; }
+
+  [[nodiscard]] std::string stem_of(double distance, const std::string& what) const {
+    return fmt::format("d{}_{}", file_stem(fmt::format("{}", distance)), what);
+  }
+
+  // Names that differ only in characters that no file name has would overwrite each other: such a method has its place
+  // added.
+  [[nodiscard]] std::string method_stem(std::size_t index) const {
+    const std::string stem = file_stem(settings_.methods[index].text);
+    const auto same = [&](const MethodSpec& other) { return file_stem(other.text) == stem; };
+    return std::ranges::count_if(settings_.methods, same) > 1 || stem == "reference" ? fmt::format("{}.{}", stem, index)
+                                                                                     : stem;
+  }
+
+  Truth find_truth(double distance) {
+    const std::string prefix = fmt::format("distance {:g}: ", distance);
+    Truth truth{.distance = distance,
+                .view = stage_.view(distance),
+                .reference = {},
+                .noise_floor = {},
+                .reference_file = {},
+                .curve = {}};
+    truth.reference = stage_.reference().render(truth.view, settings_.spp, settings_.seed,
+                                                parts_.next(settings_.spp, prefix + "reference, "));
+    set_exposure(truth.reference.mean);
+    if (truth.reference.halves) {
+      const auto difference =
+          normalized_color(truth.reference.halves->first, truth.reference.halves->second, exposure_);
+      if (difference)
+        truth.noise_floor = *difference / 2.0;  // A - B has twice the deviation of the reference's own error
+    }
+    if (results_.records.empty() && drafts_.empty())
+      results_.reference.standard_error = relative_standard_error(truth.reference);
+    truth.reference_file = write_picture(folder_, stem_of(distance, "reference"), truth.reference.mean, exposure_);
+    truth.curve = supersampling_curve(truth, prefix);
+    return truth;
+  }
+
+  void set_exposure(const Image& first_reference) {
+    if (exposure_ > 0.0F) return;
+    if (settings_.exposure) {
+      exposure_ = *settings_.exposure;
+      results_.scene.exposure_source = "command line";
+    } else if (stage_.scene().exposure) {
+      exposure_ = *stage_.scene().exposure;
+      results_.scene.exposure_source = "scene";
+    } else {
+      exposure_ = automatic_exposure(first_reference);
+      results_.scene.exposure_source = "automatic";
+    }
+    results_.scene.exposure = exposure_;
+  }
+
+  std::vector<SupersamplingPoint> supersampling_curve(const Truth& truth, const std::string& prefix) {
+    std::vector<SupersamplingPoint> curve;
+    for (const int spp : curve_counts) {
+      const std::uint64_t seed = settings_.seed ^ (curve_seed * static_cast<std::uint64_t>(spp));
+      const Supersampled picture =
+          stage_.reference().render(truth.view, spp, seed, parts_.next(spp, prefix + "supersampling, "));
+      const std::array<DrawFrame, 1> draw{[&] { stage_.reference().draw(truth.view, spp, seed); }};
+      const auto times =
+          interleaved_times(stage_.context().info(), draw, curve_repeats, parts_.next(spp * curve_repeats, prefix));
+      curve.push_back({.distance = truth.distance,
+                       .spp = spp,
+                       .normalized_color = normalized_color(picture.mean, truth.reference.mean, exposure_),
+                       .ms = quantile(times.front(), 0.5)});
+    }
+    return curve;
+  }
+
+  Draft compare_method(const Truth& truth, std::size_t index) {
+    const StagedMethod& staged = method(index);
+    const std::string prefix = fmt::format("distance {:g}: {}, ", truth.distance, settings_.methods[index].text);
+    Draft draft{.record = new_record(truth, staged), .error = {}, .stem = stem_of(truth.distance, method_stem(index))};
+    const Image picture = staged.frames().render(truth.view);
+    const Supersampled finest = stage_.finest_level(staged).render(
+        truth.view, settings_.spp, settings_.seed, parts_.next(settings_.spp, prefix + "finest level, "));
+    stage_.context().check("rendering " + settings_.methods[index].text);
+    try {
+      set_error(draft.record, truth, picture, finest.mean);
+    } catch (const Error& error) {
+      throw error.within("method " + settings_.methods[index].text);
+    }
+    draft.error = error_map(picture, truth.reference.mean, exposure_);
+    draft.record.images.color = write_picture(folder_, draft.stem, picture, exposure_);
+    draft.record.images.reference = truth.reference_file;
+    return draft;
+  }
+
+  Record new_record(const Truth& truth, const StagedMethod& staged) const {
+    const BakedMethod& baked = staged.baked();
+    const EffectSet& honours = baked.method->info().honours;
+    Record record;
+    record.scene = stage_.scene().name;
+    record.method = baked.spec.text;
+    record.options = {baked.options.all().begin(), baked.options.all().end()};
+    record.distance = truth.distance;
+    record.width = truth.view.size.x;
+    record.height = truth.view.size.y;
+    record.precompute_seconds = baked.seconds;
+    record.precompute_bytes = baked.bytes;
+    record.effects_on = effect_names(stage_.effects() & honours);
+    record.effects_left_out = effect_names(stage_.effects() & ~honours);
+    return record;
+  }
+
+  void set_error(Record& record, const Truth& truth, const Image& picture, const Image& finest) const {
+    const Image& reference = truth.reference.mean;
+    const std::optional<ErrorFigures> figures = compare_images(picture, reference, exposure_);
+    if (!figures) {
+      record.equivalent_bound = "n/a";
+      return;
+    }
+    // The finest level is supersampled with the reference's own samples: where one covers a pixel whole, so does the
+    // other.
+    record.error = RecordError{.normalized_color = figures->normalized_color,
+                               .relative_rmse = figures->relative_rmse,
+                               .relmse = figures->relmse,
+                               .psnr = figures->psnr,
+                               .energy_bias = figures->energy_bias,
+                               .noise_floor = truth.noise_floor,
+                               .representation = normalized_color(finest, reference, exposure_).value(),
+                               .filtering = normalized_color(picture, finest, exposure_).value()};
+    const EquivalentSamples worth =
+        equivalent_samples(footprint::supersampling_curve(truth.curve, truth.distance), figures->normalized_color);
+    record.equivalent_spp = worth.spp;
+    record.equivalent_bound = worth.bound;
+  }
+
+  std::vector<std::vector<double>> time_distance(double distance) {
+    const View view = stage_.view(distance);
+    std::vector<DrawFrame> draws;
+    for (const StagedMethod& staged : stage_.methods())
+      draws.emplace_back([&staged, &view] { staged.frames().draw(view); });
+    const double weight = static_cast<double>(settings_.methods.size()) * settings_.repeats;
+    return interleaved_times(stage_.context().info(), draws, settings_.repeats,
+                             parts_.next(weight, fmt::format("distance {:g}: ", distance)));
+  }
+
+  // Fills in the times of the drafts of one distance, the last ones made.
+  void set_times(std::size_t distance, std::span<const FrameTimes> further) {
+    std::vector<FrameTimes> processes(further.begin(), further.end());
+    processes.emplace_back(distances_.size());
+    processes.back()[distance] = time_distance(distances_[distance]);
+    const std::size_t count = settings_.methods.size();
+    for (std::size_t m = 0; m < count; ++m) {
+      std::vector<double> times;
+      std::vector<double> ratios;
+      for (const FrameTimes& process : processes) {
+        const auto& own = process.at(distance).at(m + 1);
+        const std::vector<double> paired = paired_ratios(own, process.at(distance).front());
+        times.insert(times.end(), own.begin(), own.end());
+        ratios.insert(ratios.end(), paired.begin(), paired.end());
+      }
+      Record& record = drafts_[drafts_.size() - count + m].record;
+      record.frame_ms = {
+          .median = quantile(times, 0.5), .minimum = std::ranges::min(times), .p90 = quantile(times, 0.9)};
+      record.fps = 1000.0 / record.frame_ms.median;
+      record.ratio_to_direct = {
+          .median = quantile(ratios, 0.5), .minimum = std::ranges::min(ratios), .maximum = std::ranges::max(ratios)};
+    }
+  }
+
+  // One scale for every false-colour picture: the largest 99th percentile over all of them, in two digits.
+  void finish_error_pictures() {
+    double scale = smallest_error_scale;
+    for (const Draft& draft : drafts_) {
+      std::vector<double> values;
+      std::ranges::copy_if(draft.error.texels, std::back_inserter(values), [](float v) { return v > 0.0F; });
+      if (!values.empty()) scale = std::max(scale, quantile(std::move(values), scale_quantile));
+    }
+    const double step = std::pow(10.0, std::floor(std::log10(scale)) - 1.0);
+    results_.error_scale = std::ceil(scale / step) * step;
+    for (Draft& draft : drafts_) {
+      draft.record.images.error =
+          write_error_picture(folder_, draft.stem + "_error", draft.error, static_cast<float>(results_.error_scale));
+      results_.records.push_back(std::move(draft.record));
+    }
+  }
+
+  void describe() {
+    const Scene& scene = stage_.scene();
+    const gl::ContextInfo& context = stage_.context().info();
+    results_.backend = {.name = std::string(gl::backend_name(context.backend)),
+                        .renderer = context.renderer,
+                        .version = context.version,
+                        .cpu = {}};
+    results_.scene.name = scene.name;
+    results_.scene.source = scene.source;
+    for (const Mesh& mesh : scene.meshes) results_.scene.triangles += mesh.indices.size() / 3;
+    results_.scene.materials = scene.materials.size();
+    results_.scene.lights = scene.lights.size();
+    results_.scene.defaults = scene.defaults;
+    results_.scene.warnings = scene.warnings;
+    results_.reference.spp = settings_.spp;
+    results_.reference.filter = filter_name(settings_.filter);
+    results_.reference.seed = settings_.seed;
+  }
+
+  const CompareSettings& settings_;
+  std::filesystem::path folder_;
+  Stage stage_;
+  std::vector<double> distances_;
+  ProgressParts parts_;
+  float exposure_ = 0.0F;  // above 0 once it is known
+  std::vector<Draft> drafts_;
+  Results results_;
+};
+
+}  // namespace
+
+FrameTimes time_frames(const CompareSettings& settings, const Progress& progress) {
+  return Comparison(settings, {}, progress).times();
+}
+
+Results run_compare(const CompareSettings& settings, const std::filesystem::path& folder,
+                    std::span<const FrameTimes> further_times, const Progress& progress) {
+  return Comparison(settings, folder, progress).run(further_times);
+}
+
+}  // namespace footprint

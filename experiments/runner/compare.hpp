@@ -1,0 +1,49 @@
+// The main job: methods against the supersampled reference over the distances of a scene, as records and pictures.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiments/runner/stage.hpp"
+#include "renderer/gl/context.hpp"
+#include "renderer/pipeline/supersample.hpp"
+#include "results/report/records.hpp"
+
+namespace footprint {
+
+/// What `footprint compare` is asked for.
+struct CompareSettings {
+  std::string scene;  ///< as load_scene takes it
+  std::filesystem::path scenes_folder;
+  std::vector<MethodSpec> methods;
+  std::vector<double> distances;   ///< factors on the camera's distance; empty: the scene's zoom path
+  std::optional<glm::ivec2> size;  ///< none: the scene's own
+  int spp = 64;                    ///< samples a pixel of the reference, 1 to 4096
+  std::uint64_t seed = 1;
+  ReferenceFilter filter = ReferenceFilter::after_shading;
+  std::optional<float> exposure;  ///< none: the scene's own, else automatic
+  bool all_effects = false;
+  int repeats = 9;  ///< timed frames of each method and distance in each process
+  int anisotropy = 1;
+  int tile = 0;
+  gl::ContextRequest context;
+};
+
+/// Frame times of one process: [distance][candidate][repeat], milliseconds; candidate 0 is `direct`, then the methods
+/// in the order of the settings.
+using FrameTimes = std::vector<std::vector<std::vector<double>>>;
+
+/// Times frames and does nothing else: what each further process of `--processes` runs.
+[[nodiscard]] FrameTimes time_frames(const CompareSettings& settings, const Progress& progress);
+
+/// Runs the comparison and writes its pictures into FOLDER/images (made here). `further_times` are those of other
+/// processes; the figures are over all of them. Results lacks tool and backend.cpu, which the program knows.
+/// Errors: of scene, methods and settings (usage), of the machine, an interrupt through `progress`.
+[[nodiscard]] Results run_compare(const CompareSettings& settings, const std::filesystem::path& folder,
+                                  std::span<const FrameTimes> further_times, const Progress& progress);
+
+}  // namespace footprint

@@ -1,0 +1,30 @@
+// See exposure.hpp.
+#include "experiments/runner/exposure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace footprint {
+namespace {
+
+constexpr double percentile = 0.95;
+constexpr float target = 0.8F;
+
+}  // namespace
+
+float automatic_exposure(const Image& reference) {
+  std::vector<float> luminances;
+  for (std::size_t i = 0; i < reference.texels.size(); i += 4) {
+    const float* const p = &reference.texels[i];
+    // Rec. 709 luminance
+    if (p[3] == 1.0F) luminances.push_back(0.2126F * p[0] + 0.7152F * p[1] + 0.0722F * p[2]);
+  }
+  if (luminances.empty()) return 1.0F;
+  const auto place =
+      luminances.begin() + static_cast<std::ptrdiff_t>(percentile * static_cast<double>(luminances.size() - 1));
+  std::ranges::nth_element(luminances, place);
+  return *place > 0.0F && std::isfinite(*place) ? target / *place : 1.0F;
+}
+
+}  // namespace footprint

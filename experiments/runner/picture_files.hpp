@@ -1,0 +1,23 @@
+// The pictures of a run as files: what they are called and how they are written.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "renderer/image/image.hpp"
+
+namespace footprint {
+
+/// A file name part from any text: letters, digits, '-', '.' and '_' stay, all else becomes '_'.
+[[nodiscard]] std::string file_stem(const std::string& text);
+
+/// Writes FOLDER/images/STEM.exr (linear radiance, coverage in alpha) and STEM.png beside it (exposed, sRGB); returns
+/// "images/STEM.exr".
+std::string write_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,
+                          float exposure);
+
+/// Writes FOLDER/images/STEM.png in false colour from 0 to `scale`; returns "images/STEM.png".
+std::string write_error_picture(const std::filesystem::path& folder, const std::string& stem, const Image& error,
+                                float scale);
+
+}  // namespace footprint

@@ -1,0 +1,82 @@
+// See stage.hpp.
+#include "experiments/runner/stage.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "methods/registry.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/core/memory.hpp"
+#include "renderer/pipeline/base_surface.hpp"
+#include "renderer/scene/load_scene.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr int default_width = 512;
+constexpr std::uint64_t pixel_bytes = 16;  // RGBA, 32-bit floats
+
+BakedMethod bake_base(const Scene& scene, const EffectSet& effects, const Progress& progress) {
+  return bake(base_surface(), {.text = "reference", .name = "reference", .options = {}}, scene, effects, progress);
+}
+
+}  // namespace
+
+glm::ivec2 frame_size(const Scene& scene, const std::optional<glm::ivec2>& wanted, int pictures) {
+  glm::ivec2 size(default_width, default_width);
+  if (scene.camera.aspect) size.y = std::max(1, static_cast<int>(std::lround(default_width / *scene.camera.aspect)));
+  if (scene.frame_size) size = *scene.frame_size;
+  if (wanted) size = *wanted;
+  if (size.x < 1 || size.y < 1) {
+    throw Error(ErrorKind::usage, "--size", fmt::format("{}x{} has no pixel", size.x, size.y), "give at least 1x1");
+  }
+  const std::uint64_t one =
+      frame_bytes(static_cast<std::uint64_t>(size.x), static_cast<std::uint64_t>(size.y), pixel_bytes);
+  const auto count = static_cast<std::uint64_t>(pictures);
+  const bool fits = one <= std::numeric_limits<std::uint64_t>::max() / count;
+  require_memory(fits ? one * count : one, fmt::format("{} pictures of {}x{}", pictures, size.x, size.y));
+  return size;
+}
+
+StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& scene, const Scene& values,
+                           const EffectSet& effects, const MethodSpec& spec, const glm::ivec2& size,
+                           const StageSettings& settings, const Progress& progress)
+    : baked_(std::make_unique<BakedMethod>(bake(find_method(spec.name), spec, values, effects, progress))),
+      gpu_(std::make_unique<GpuMethod>(scene, *baked_)),
+      frames_(std::make_unique<FrameRenderer>(context, scene, *gpu_, size,
+                                              ProgramSettings{.sampling = Sampling::frame,
+                                                              .lookup = Lookup::trilinear,
+                                                              .max_probes = settings.anisotropy,
+                                                              .orthographic = values.camera.orthographic},
+                                              settings.tile)) {}
+
+Stage::Stage(const gl::ContextRequest& request, Scene scene, const StageSettings& settings, const Progress& progress)
+    : context_(request),
+      scene_(std::move(scene)),
+      settings_(settings),
+      // Picture, reference with its halves and error, finest level likewise, and the reading buffers.
+      size_(frame_size(scene_, settings.size, 16)),
+      decisions_(derive_effects(scene_)),
+      effects_(settings.all_effects ? EffectSet{}.set() : effects_on(decisions_)),
+      gpu_scene_(std::make_unique<GpuScene>(context_.info(), scene_, effects_)) {
+  ProgressParts parts(progress, static_cast<double>(settings.methods.size() + 1));
+  for (const MethodSpec& spec : settings.methods) {
+    methods_.emplace_back(context_.info(), *gpu_scene_, scene_, effects_, spec, size_, settings,
+                          parts.next(1, "bake "));
+  }
+  base_ = std::make_unique<BakedMethod>(bake_base(scene_, effects_, parts.next(1, "bake ")));
+  gpu_base_ = std::make_unique<GpuMethod>(*gpu_scene_, *base_);
+  reference_ = std::make_unique<Supersampler>(context_.info(), *gpu_scene_, *gpu_base_, settings.filter,
+                                              scene_.camera.orthographic, settings.tile);
+  context_.check("setting up the scene");
+}
+
+View Stage::view(double distance) const { return {.size = size_, .camera = camera_at_distance(scene_, distance)}; }
+
+Supersampler Stage::finest_level(const StagedMethod& method) const {
+  return {context_.info(), *gpu_scene_, method.gpu(), settings_.filter, scene_.camera.orthographic, settings_.tile};
+}
+
+}  // namespace footprint

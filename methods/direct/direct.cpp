@@ -1,0 +1,34 @@
+// `direct`: the finest level at the pixel's centre, no filtering. What a renderer does that does nothing, and the
+// picture that every method must meet where there is nothing to filter.
+#include "renderer/pipeline/base_surface.hpp"
+
+namespace footprint {
+namespace {
+
+class Direct final : public Method {
+ public:
+  [[nodiscard]] const MethodInfo& info() const override { return info_; }
+
+  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                                       const Progress& progress) const override {
+    return base_surface().precompute(material, options, effects, progress);
+  }
+
+  [[nodiscard]] std::string_view shader() const override { return base_surface().shader(); }
+
+ private:
+  MethodInfo info_{.name = "direct",
+                   .summary = "The finest level of every map at the pixel's centre: no filtering.",
+                   .paper = "",
+                   .options = {},
+                   .honours = EffectSet{}.set()};
+};
+
+}  // namespace
+
+const Method& direct_method() {
+  static const Direct method;
+  return method;
+}
+
+}  // namespace footprint

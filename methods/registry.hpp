@@ -1,0 +1,17 @@
+// The methods that this build holds. CMake writes the list: one footprint_add_method line a method.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "renderer/pipeline/method.hpp"
+
+namespace footprint {
+
+/// All methods, in the order of methods/CMakeLists.txt.
+[[nodiscard]] std::span<const Method* const> all_methods();
+
+/// The method of a name. Errors (usage): unknown, with the nearest right one.
+[[nodiscard]] const Method& find_method(const std::string& name);
+
+}  // namespace footprint

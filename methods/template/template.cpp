@@ -1,0 +1,86 @@
+// `template`: a method to copy. One lobe about the mean normal, widened as if the normals of different texels had
+// nothing to do with each other: N of them then hold, on average, 1 - 1/N of the whole map's spread.
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "renderer/image/mipmap.hpp"
+#include "renderer/pipeline/base_surface.hpp"
+#include "renderer/pipeline/normal_chain.hpp"
+
+namespace footprint {
+
+// The text of template.glsl, which footprint_add_method embeds under this name.
+namespace embedded {
+extern const std::string_view template_glsl;
+}
+
+namespace {
+
+// The slope variance per axis of normals whose mean is `mean` (Toksvig 2005: 1/s' - 1/s).
+float spread_of(std::span<const float> mean) {
+  const float consistency = std::min(std::hypot(mean[0], mean[1], mean[2]), 1.0F);  // rounding leaves more than 1
+  return (1.0F - consistency) / std::max(consistency, 1e-3F);  // normals that cancel have no mean: stay finite
+}
+
+// Four channels: the mean normal, and the spread to expect among the texels that a texel of this level stands for.
+std::vector<Image> normal_and_spread(const Material& material) {
+  const std::vector<Image> normals = mean_normal_chain(material);
+  const float whole_spread = spread_of(normals.back().at(0, 0));
+  const auto texels = static_cast<float>(normals.front().texel_count());
+  std::vector<Image> chain;
+  for (const Image& level : normals) {
+    const float share = 1.0F - static_cast<float>(level.texel_count()) / texels;
+    Image& out = chain.emplace_back(level.width, level.height, 4, share * whole_spread);
+    for (std::size_t i = 0; i < level.texel_count(); ++i) std::copy_n(&level.texels[3 * i], 3, &out.texels[4 * i]);
+  }
+  return chain;
+}
+
+// This method leaves out that the roughness may vary: it takes its mean.
+float mean_lobe(const Material& material) {
+  if (material.lobe_parameter) return *material.lobe_parameter;
+  const float roughness = mip_chain(roughness_map_of(material)).back().texels.front();
+  return lobe_from_alpha(material.brdf.distribution, roughness * roughness);
+}
+
+class IndependentTexels final : public Method {
+ public:
+  [[nodiscard]] const MethodInfo& info() const override { return info_; }
+
+  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& /*options*/, const EffectSet& effects,
+                                       const Progress& /*progress*/) const override {
+    Prefiltered out;
+    out.scalars["template_lobe"] = mean_lobe(material);
+    if (has(effects, Effect::normal_variation)) {
+      out.textures.push_back(
+          make_texture("template_normal", normal_and_spread(material), Storage::fp32, normal_coordinates(material)));
+    }
+    return out;
+  }
+
+  [[nodiscard]] std::string_view shader() const override { return embedded::template_glsl; }
+
+ private:
+  MethodInfo info_{.name = "template",
+                   .summary = "One lobe about the mean normal, widened as if texels were independent.",
+                   .paper = "none: an example to copy",
+                   .options = {{.name = "share",
+                                .default_value = 1.0,
+                                .minimum = 0.0,
+                                .maximum = 4.0,
+                                .choices = {},
+                                .meaning = "Factor on the spread that is added to the lobe's slope variance per axis; "
+                                           "0 leaves the base lobe as it is.",
+                                .integer = false}},
+                   .honours = EffectSet{}.set().reset(static_cast<std::size_t>(Effect::roughness_variation))};
+};
+
+}  // namespace
+
+const Method& template_method() {
+  static const IndependentTexels method;
+  return method;
+}
+
+}  // namespace footprint

@@ -1,0 +1,88 @@
+// `toksvig`: the length of the mean normal tells the spread of the normals under a footprint; one lobe about the mean
+// normal takes that spread into its width. Toksvig 2004/2005, "Mipmapping Normal Maps".
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/image/mipmap.hpp"
+#include "renderer/pipeline/base_surface.hpp"
+#include "renderer/pipeline/normal_chain.hpp"
+
+namespace footprint {
+
+namespace embedded {
+extern const std::string_view toksvig_glsl;
+}
+
+namespace {
+
+// Variances of independent spreads add, so the base lobe is filtered as its slope variance. The root of its mean is
+// stored: half floats and bytes keep it well, where a mirror's variance of 1e-6 would not survive.
+std::vector<Image> deviation_chain(const Material& material) {
+  const NormalDistribution distribution = material.brdf.distribution;
+  Image variance = roughness_map_of(material);
+  std::ranges::transform(variance.texels, variance.texels.begin(), [&](float roughness) {
+    return lobe_variance(distribution, lobe_from_alpha(distribution, roughness * roughness));
+  });
+  std::vector<Image> chain = mip_chain(std::move(variance));
+  for (Image& level : chain) {
+    std::ranges::transform(level.texels, level.texels.begin(), [](float v) { return std::sqrt(std::min(v, 1.0F)); });
+  }
+  return chain;
+}
+
+class Toksvig final : public Method {
+ public:
+  [[nodiscard]] const MethodInfo& info() const override { return info_; }
+
+  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                                       const Progress& /*progress*/) const override {
+    const Storage storage = parse_storage(options.word("storage"));
+    Prefiltered out;
+    if (has(effects, Effect::normal_variation)) {
+      out.textures.push_back(
+          make_texture("toksvig_normal", mean_normal_chain(material), storage, normal_coordinates(material), true));
+    }
+    if (has(effects, Effect::roughness_variation)) {
+      out.textures.push_back(
+          make_texture("toksvig_deviation", deviation_chain(material), storage, roughness_coordinates(material)));
+    }
+    return out;
+  }
+
+  [[nodiscard]] std::string_view shader() const override { return embedded::toksvig_glsl; }
+
+ private:
+  MethodInfo info_{
+      .name = "toksvig",
+      .summary = "One lobe about the mean normal, widened by the spread that the mean normal's length tells.",
+      .paper = "Toksvig 2005, Mipmapping Normal Maps, Journal of Graphics Tools 10(3)",
+      .options = {storage_option(),
+                  {.name = "spread",
+                   .default_value = 1.0,
+                   .minimum = 0.0,
+                   .maximum = 4.0,
+                   .choices = {},
+                   .meaning =
+                       "Factor on the spread (1 - |Na|) / |Na| before it is added to the lobe's slope variance per "
+                       "axis; 1 is Toksvig's. Engines' recipes for alpha^2 differ: alpha^2 += 2 spread / kappa.",
+                   .integer = false},
+                  {.name = "diffuse",
+                   .default_value = std::string("mean"),
+                   .minimum = 0,
+                   .maximum = 0,
+                   .choices = {"mean", "normalized"},
+                   .meaning =
+                       "The diffuse term's normal: the mean normal, whose dot product is the mean of the facets' "
+                       "own while all face the light, or the renormalised one.",
+                   .integer = false}},
+      .honours = EffectSet{}.set()};
+};
+
+}  // namespace
+
+const Method& toksvig_method() {
+  static const Toksvig method;
+  return method;
+}
+
+}  // namespace footprint

@@ -1,0 +1,53 @@
+// Toksvig 2005: the mean of unit normals has length |Na| = 1 - variance + ..., and a Blinn-Phong lobe of exponent s over
+// such normals is close to one of exponent s' = |Na| s / (|Na| + s (1 - |Na|)). The same said of widths,
+//   1 / s' = 1 / s + (1 - |Na|) / |Na|,
+// is a sum of slope variances per axis, which serves every distribution: alpha^2 / 2 takes the place of 1 / s for
+// Beckmann and GGX (Walter 2007, section 5.2), 1 / kappa for vMF.
+struct Effective {
+  vec3 normal;
+  float lobe;
+  float consistency;  // |Na|, 1 where all normals agree
+};
+
+float baseVariance(Footprints f) {
+//? if roughness_variation
+  float deviation = fetch(toksvig_deviation, f.roughness).r;
+  return deviation * deviation;
+//? else
+  return lobeVariance(lobe_cutoff.x);
+//? end
+}
+
+Effective effective(Footprints f) {
+  Effective e;
+  float variance = baseVariance(f);
+//? if normal_variation
+  vec3 mean = fetch(toksvig_normal, f.normal).xyz;
+//? if storage_unorm8
+  mean = 2.0 * mean - 1.0;
+//? end
+  float size = length(mean);
+  e.consistency = min(size, 1.0);  // rounding of the storage leaves |Na| > 1 on flat maps: a negative variance
+  e.normal = size > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0);
+  variance += option_spread * (1.0 - e.consistency) / max(e.consistency, 1e-6);
+//? else
+  e.consistency = 1.0;
+  e.normal = vec3(0.0, 0.0, 1.0);
+//? end
+  e.lobe = lobeFromVariance(variance);
+  return e;
+}
+
+vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) { return lobeSpecular(e.lobe, e.normal, f0, wi, wo); }
+
+//? if diffuse
+vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
+  vec3 reflected = lambert(e.normal, albedo, f0, wi, wo);
+//? if diffuse_mean
+  reflected *= e.consistency;
+//? end
+  return reflected;
+}
+//? end
+
+float ndf(Effective e, vec3 h) { return lobeDensity(e.lobe, e.normal, h); }

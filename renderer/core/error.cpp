@@ -1,0 +1,28 @@
+// See error.hpp.
+#include "renderer/core/error.hpp"
+
+#include <utility>
+
+namespace footprint {
+namespace {
+
+std::string sentence(const std::string& place, const std::string& message, const std::string& mend) {
+  std::string text = place.empty() ? message : place + ": " + message;
+  if (!mend.empty()) text += " (" + mend + ")";
+  return text;
+}
+
+}  // namespace
+
+Error::Error(ErrorKind kind, std::string place, std::string message, std::string mend)
+    : std::runtime_error(sentence(place, message, mend)),
+      kind_(kind),
+      place_(std::move(place)),
+      message_(std::move(message)),
+      mend_(std::move(mend)) {}
+
+Error Error::within(const std::string& outer) const {
+  return {kind_, place_.empty() ? outer : outer + ", " + place_, message_, mend_};
+}
+
+}  // namespace footprint

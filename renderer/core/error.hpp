@@ -1,0 +1,35 @@
+// The one exception type of Footprint: what went wrong, where, and how to mend it.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace footprint {
+
+/// Who can mend an error, and so the exit code of the program (docs/command-line.md).
+enum class ErrorKind {
+  check = 1,          ///< a held threshold or claim fell short
+  usage = 2,          ///< the command line, a config or an input file is wrong
+  machine = 3,        ///< the machine cannot: no GL, no memory, no disk
+  interrupted = 130,  ///< the user asked to stop (128 + SIGINT)
+};
+
+/// Every error that a user can see. `what()` reads "PLACE: MESSAGE (MEND)"; PLACE and MEND may be empty.
+class Error : public std::runtime_error {
+ public:
+  Error(ErrorKind kind, std::string place, std::string message, std::string mend = {});
+
+  [[nodiscard]] ErrorKind kind() const noexcept { return kind_; }
+  [[nodiscard]] const std::string& place() const noexcept { return place_; }
+  [[nodiscard]] const std::string& message() const noexcept { return message_; }
+  [[nodiscard]] const std::string& mend() const noexcept { return mend_; }
+
+  /// The same error seen from further out: `outer` is put before the place ("scene.gltf, material 3").
+  [[nodiscard]] Error within(const std::string& outer) const;
+
+ private:
+  ErrorKind kind_;
+  std::string place_, message_, mend_;
+};
+
+}  // namespace footprint

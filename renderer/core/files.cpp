@@ -1,0 +1,193 @@
+// See files.hpp.
+#include "renderer/core/files.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <ranges>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+namespace {
+
+namespace fs = std::filesystem;
+
+Error machine_error(const fs::path& path, std::string_view what, const std::error_code& why) {
+  const bool full = why == std::errc::no_space_on_device || why == std::errc::file_too_large;
+  return {ErrorKind::machine, path.string(), fmt::format("{}: {}", what, why.message()),
+          full ? "free some space, or choose a folder on another disk" : "choose a folder that you can write to"};
+}
+
+std::error_code last_error() { return {errno, std::generic_category()}; }
+
+// The hidden name under which FOLDER/NAME grows; the attempt tells apart those of one process.
+fs::path partial_path(const fs::path& folder, const fs::path& name, int attempt) {
+  const std::string suffix = attempt == 0 ? std::string{} : fmt::format("-{}", attempt);
+  return folder / fmt::format(".{}.partial-{}{}", name.string(), ::getpid(), suffix);
+}
+
+// A new file beside `target`, closed and removed again unless it was renamed to it.
+class TemporaryNeighbour {
+ public:
+  explicit TemporaryNeighbour(fs::path target) : target_(std::move(target)) {
+    for (int attempt = 0; descriptor_ < 0; ++attempt) {
+      path_ = partial_path(target_.parent_path(), target_.filename(), attempt);
+      descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (descriptor_ < 0 && errno != EEXIST) throw machine_error(target_, "cannot be created", last_error());
+    }
+  }
+  ~TemporaryNeighbour() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!renamed_) ::unlink(path_.c_str());
+  }
+  TemporaryNeighbour(const TemporaryNeighbour&) = delete;
+  TemporaryNeighbour& operator=(const TemporaryNeighbour&) = delete;
+
+  void write(std::span<const std::uint8_t> content) {
+    while (!content.empty()) {
+      const ssize_t written = ::write(descriptor_, content.data(), content.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) throw machine_error(target_, "cannot be written", last_error());
+      content = content.subspan(static_cast<std::size_t>(written));
+    }
+  }
+
+  // Network file systems report a full disk at the close.
+  void close_and_rename() {
+    if (::close(std::exchange(descriptor_, -1)) != 0) throw machine_error(target_, "cannot be written", last_error());
+    if (::rename(path_.c_str(), target_.c_str()) != 0)
+      throw machine_error(target_, "cannot be put in place", last_error());
+    renamed_ = true;
+  }
+
+ private:
+  fs::path target_, path_;
+  int descriptor_ = -1;
+  bool renamed_ = false;
+};
+
+// Renaming over a device or a pipe would replace it by a file.
+void require_regular_or_absent(const fs::path& file) {
+  std::error_code ignored;  // what cannot be asked cannot be created either, and says so there
+  const fs::file_status status = fs::status(file, ignored);
+  if (file.has_filename() && (!fs::exists(status) || fs::is_regular_file(status))) return;
+  throw Error(ErrorKind::usage, file.string(), fs::is_directory(status) ? "is a folder" : "is not a regular file",
+              "name a file to write");
+}
+
+// Creates what is missing of `folder` and appends it to `created`, outermost first.
+void create_folders(const fs::path& folder, std::vector<fs::path>& created) {
+  std::error_code status;
+  if (!folder.has_relative_path() || fs::exists(folder, status)) return;
+  create_folders(folder.parent_path(), created);
+  if (fs::create_directory(folder, status)) created.push_back(folder);
+  if (status) throw machine_error(folder, "cannot be created", status);
+}
+
+// What is not empty stays: someone else uses it by now.
+void remove_empty_folders(const std::vector<fs::path>& folders) {
+  std::error_code ignored;
+  for (const fs::path& folder : folders | std::views::reverse) fs::remove(folder, ignored);
+}
+
+fs::path create_staging(const fs::path& folder, const fs::path& final_path) {
+  for (int attempt = 0;; ++attempt) {
+    fs::path staging = partial_path(folder, final_path.filename(), attempt);
+    std::error_code status;
+    if (fs::create_directory(staging, status)) return staging;
+    if (status) throw machine_error(final_path, "cannot be created", status);
+  }
+}
+
+std::vector<fs::path> relative_entries(const fs::path& folder) {
+  std::vector<fs::path> entries;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    entries.push_back(entry.path().lexically_relative(folder));
+  }
+  std::ranges::sort(entries);  // a folder before what is in it
+  return entries;
+}
+
+// Moves all files of `staging` into the existing `target`.
+void merge_folder(const fs::path& staging, const fs::path& target) {
+  const std::vector<fs::path> entries = relative_entries(staging);
+  for (const fs::path& entry : entries) {
+    if (!fs::exists(target / entry) || fs::is_directory(target / entry) == fs::is_directory(staging / entry)) continue;
+    throw Error(
+        ErrorKind::machine, (target / entry).string(),
+        fs::is_directory(target / entry) ? "is a folder where a file belongs" : "is a file where a folder belongs",
+        "move it away, or choose another output folder");
+  }
+  for (const fs::path& entry : entries) {
+    std::error_code status;
+    if (fs::is_directory(staging / entry)) {
+      fs::create_directory(target / entry, status);
+    } else {
+      fs::rename(staging / entry, target / entry, status);
+    }
+    if (status) throw machine_error(target / entry, "cannot be put in place", status);
+  }
+  fs::remove_all(staging);
+}
+
+}  // namespace
+
+void write_file_atomically(const fs::path& file, std::span<const std::uint8_t> content) {
+  require_regular_or_absent(file);
+  TemporaryNeighbour neighbour(file);
+  neighbour.write(content);
+  neighbour.close_and_rename();
+}
+
+void write_file_atomically(const fs::path& file, std::string_view content) {
+  write_file_atomically(file, std::span(reinterpret_cast<const std::uint8_t*>(content.data()), content.size()));
+}
+
+OutputFolder::OutputFolder(const fs::path& final_path) {
+  const auto refuse = [&](const char* message) {
+    throw Error(ErrorKind::usage, final_path.string(), message, "name a folder to write to");
+  };
+  if (final_path.empty()) refuse("an output folder has no name");
+  final_ = fs::absolute(final_path).lexically_normal();
+  if (!final_.has_filename()) final_ = final_.parent_path();  // "out/" is "out"
+  if (!final_.has_filename()) refuse("is no output folder");
+  std::error_code ignored;
+  const fs::file_status status = fs::status(final_, ignored);
+  if (fs::exists(status) && !fs::is_directory(status)) refuse("is not a folder");
+  const fs::path home = fs::exists(status) ? final_ : final_.parent_path();
+  try {
+    create_folders(home, created_parents_);
+    staging_ = create_staging(home, final_);
+  } catch (const Error&) {
+    remove_empty_folders(created_parents_);
+    throw;
+  }
+}
+
+OutputFolder::~OutputFolder() {
+  if (committed_) return;
+  std::error_code ignored;  // a destructor has no one to tell
+  fs::remove_all(staging_, ignored);
+  remove_empty_folders(created_parents_);
+}
+
+void OutputFolder::commit() {
+  try {
+    std::error_code status;
+    if (!fs::exists(final_)) fs::rename(staging_, final_, status);
+    if (status) throw machine_error(final_, "cannot be put in place", status);
+    if (fs::exists(staging_)) merge_folder(staging_, final_);
+  } catch (const fs::filesystem_error& failure) {
+    throw machine_error(final_, "cannot be put in place", failure.code());
+  }
+  committed_ = true;
+}
+
+}  // namespace footprint

@@ -1,0 +1,33 @@
+// See interrupt.hpp.
+#include "renderer/core/interrupt.hpp"
+
+#include <atomic>
+#include <csignal>
+
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+namespace {
+
+std::atomic<int> received{0};  // the one thing a signal handler may touch; lock-free, asserted below
+static_assert(std::atomic<int>::is_always_lock_free);
+
+extern "C" void remember(int signal_number) {
+  received.store(signal_number);
+  std::signal(signal_number, SIG_DFL);  // the next one ends the process
+}
+
+}  // namespace
+
+void watch_interrupts() {
+  received.store(0);
+  std::signal(SIGINT, remember);
+  std::signal(SIGTERM, remember);
+}
+
+void throw_if_interrupted() {
+  if (received.load() == 0) return;
+  throw Error(ErrorKind::interrupted, {}, "interrupted: nothing was written");
+}
+
+}  // namespace footprint

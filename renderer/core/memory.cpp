@@ -1,0 +1,118 @@
+// See memory.hpp.
+#include "renderer/core/memory.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
+
+// The files of one version of control groups that limit memory.
+struct GroupFiles {
+  std::string_view mount, limit, usage, reclaimable;  // `reclaimable` is a key of the group's memory.stat
+};
+constexpr GroupFiles version_1{"sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes",
+                               "total_inactive_file"};
+constexpr GroupFiles version_2{"sys/fs/cgroup", "memory.max", "memory.current", "inactive_file"};
+
+std::optional<std::uint64_t> read_number(const fs::path& file) {
+  std::ifstream in(file);
+  std::uint64_t number = 0;
+  if (in >> number) return number;
+  return std::nullopt;  // also for the word `max`, which is no limit
+}
+
+// The number behind `key` in a file of "key number" lines.
+std::optional<std::uint64_t> read_keyed_number(const fs::path& file, std::string_view key) {
+  std::ifstream in(file);
+  std::string word, rest;
+  while (in >> word) {
+    std::uint64_t number = 0;
+    if (word == key && in >> number) return number;
+    std::getline(in, rest);
+  }
+  return std::nullopt;
+}
+
+// What a group leaves to its processes. Cached file pages count as used, though the kernel gives them up on demand.
+std::uint64_t left_in_group(const fs::path& folder, const GroupFiles& files) {
+  const auto limit = read_number(folder / files.limit);
+  const auto usage = read_number(folder / files.usage);
+  if (!limit || !usage) return unlimited;
+  const std::uint64_t reclaimable = read_keyed_number(folder / "memory.stat", files.reclaimable).value_or(0);
+  const std::uint64_t used = *usage - std::min(*usage, reclaimable);
+  return *limit - std::min(*limit, used);
+}
+
+// The tightest limit from the group `group` up to the root. A group whose folder is not there (a container shows
+// its own group as the root) is skipped, its parents are not.
+std::uint64_t left_in_groups(const fs::path& root, const GroupFiles& files, std::string_view group) {
+  const fs::path mount = root / files.mount;
+  std::uint64_t left = left_in_group(mount, files);
+  for (fs::path path = fs::path(group).relative_path(); !path.empty(); path = path.parent_path()) {
+    left = std::min(left, left_in_group(mount / path, files));
+  }
+  return left;
+}
+
+std::uint64_t left_by_groups(const fs::path& root) {
+  std::ifstream in(root / "proc/self/cgroup");  // lines "number:controllers:group"
+  std::uint64_t left = unlimited;
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t first = line.find(':');
+    const std::size_t second = line.find(':', first + 1);
+    if (first == std::string::npos || second == std::string::npos) continue;
+    const std::string controllers = fmt::format(",{},", line.substr(first + 1, second - first - 1));
+    const std::string_view group = std::string_view(line).substr(second + 1);
+    if (controllers == ",,") left = std::min(left, left_in_groups(root, version_2, group));
+    if (controllers.find(",memory,") != std::string::npos) {
+      left = std::min(left, left_in_groups(root, version_1, group));
+    }
+  }
+  return left;
+}
+
+}  // namespace
+
+std::uint64_t available_memory(const fs::path& root) {
+  const auto kibibytes = read_keyed_number(root / "proc/meminfo", "MemAvailable:");
+  return std::min(kibibytes ? *kibibytes * 1024 : unlimited, left_by_groups(root));
+}
+
+std::uint64_t frame_bytes(std::uint64_t width, std::uint64_t height, std::uint64_t bytes_per_pixel) {
+  std::uint64_t bytes = 0;
+  const bool too_many =
+      __builtin_mul_overflow(width, height, &bytes) || __builtin_mul_overflow(bytes, bytes_per_pixel, &bytes);
+  return too_many ? unlimited : bytes;
+}
+
+std::string readable_bytes(std::uint64_t bytes) {
+  constexpr std::array<std::string_view, 7> units{"B", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
+  auto number = static_cast<double>(bytes);
+  std::size_t unit = 0;
+  for (; number >= 1024.0 && unit + 1 < units.size(); ++unit) number /= 1024.0;
+  return fmt::format("{:.{}f} {}", number, unit == 0 ? 0 : 1, units[unit]);
+}
+
+void require_memory(std::uint64_t bytes, std::string_view what, std::string_view mend) {
+  const std::uint64_t available = available_memory();
+  if (bytes <= available) return;
+  throw Error(
+      ErrorKind::machine, {},
+      fmt::format("{} needs {} of memory, and {} is available", what, readable_bytes(bytes), readable_bytes(available)),
+      std::string(mend));
+}
+
+}  // namespace footprint

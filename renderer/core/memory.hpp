@@ -1,0 +1,27 @@
+// How much memory there is left, asked before a frame takes more than that.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace footprint {
+
+/// Bytes that this process may still take without swapping: /proc/meminfo's MemAvailable, or what the limits of its
+/// control groups (versions 1 and 2, every parent counted) leave, where that is less. Files are looked up under
+/// `root`. The largest std::uint64_t where the system tells nothing.
+[[nodiscard]] std::uint64_t available_memory(const std::filesystem::path& root = "/");
+
+/// Bytes of width x height pixels of `bytes_per_pixel`; the largest std::uint64_t if that does not fit.
+[[nodiscard]] std::uint64_t frame_bytes(std::uint64_t width, std::uint64_t height, std::uint64_t bytes_per_pixel);
+
+/// "1.5 GiB", "512 B": one decimal, binary units.
+[[nodiscard]] std::string readable_bytes(std::uint64_t bytes);
+
+/// Throws Error{machine} if `bytes` is more than `available_memory()`; `what` is what they are for ("a frame of 8192 x
+/// 8192") and `mend` says how to need less.
+void require_memory(std::uint64_t bytes, std::string_view what,
+                    std::string_view mend = "ask for a smaller --size, or free memory");
+
+}  // namespace footprint

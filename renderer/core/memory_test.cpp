@@ -1,0 +1,88 @@
+// Memory limits read from made-up /proc and /sys trees.
+#include "renderer/core/memory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
+
+class MemoryTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    root_ = fs::path(testing::TempDir()) /
+            (std::string("footprint_memory_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(root_);
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  void file(const fs::path& path, const std::string& text) const {
+    fs::create_directories((root_ / path).parent_path());
+    std::ofstream(root_ / path) << text;
+  }
+
+  fs::path root_;
+};
+
+TEST_F(MemoryTest, NothingToldIsNoLimit) { EXPECT_EQ(available_memory(root_), unlimited); }
+
+TEST_F(MemoryTest, ReadsAvailableNotFree) {
+  file("proc/meminfo", "MemTotal:  8000 kB\nMemFree:  100 kB\nMemAvailable:    4000 kB\n");
+  EXPECT_EQ(available_memory(root_), 4000U * 1024U);
+}
+
+TEST_F(MemoryTest, TightestParentOfVersion2Counts) {
+  file("proc/meminfo", "MemAvailable: 4000 kB\n");
+  file("proc/self/cgroup", "0::/outer/inner\n");
+  file("sys/fs/cgroup/outer/memory.max", "1000000\n");
+  file("sys/fs/cgroup/outer/memory.current", "400000\n");
+  file("sys/fs/cgroup/outer/memory.stat", "anon 1\ninactive_file 100000\nactive_file 7\n");
+  file("sys/fs/cgroup/outer/inner/memory.max", "max\n");
+  file("sys/fs/cgroup/outer/inner/memory.current", "400000\n");
+  EXPECT_EQ(available_memory(root_), 1000000U - 300000U);
+}
+
+TEST_F(MemoryTest, Version1InsideAContainer) {
+  file("proc/self/cgroup", "4:cpu,memory:/docker/0123\n2:cpuset:/\n");
+  file("sys/fs/cgroup/memory/memory.limit_in_bytes", "5000\n");
+  file("sys/fs/cgroup/memory/memory.usage_in_bytes", "6000\n");
+  EXPECT_EQ(available_memory(root_), 0U);
+}
+
+TEST(FrameBytes, SaturatesInsteadOfWrapping) {
+  EXPECT_EQ(frame_bytes(512, 256, 16), 512U * 256U * 16U);
+  EXPECT_EQ(frame_bytes(1000000, 1000000, 16), 16000000000000U);
+  EXPECT_EQ(frame_bytes(unlimited, 2, 1), unlimited);
+  EXPECT_EQ(frame_bytes(1ULL << 31, 1ULL << 31, 16), unlimited);
+}
+
+TEST(ReadableBytes, PicksTheUnit) {
+  EXPECT_EQ(readable_bytes(0), "0 B");
+  EXPECT_EQ(readable_bytes(1023), "1023 B");
+  EXPECT_EQ(readable_bytes(1536), "1.5 KiB");
+  EXPECT_EQ(readable_bytes(unlimited), "16.0 EiB");
+}
+
+TEST(RequireMemory, RefusesWhatNoMachineHas) {
+  EXPECT_NO_THROW(require_memory(1, "a byte"));
+  try {
+    require_memory(frame_bytes(1000000, 1000000, 16), "a frame of 1000000 x 1000000");
+    FAIL() << "14.6 TiB were granted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::machine);
+    EXPECT_NE(error.message().find("a frame of 1000000 x 1000000 needs 14.6 TiB"), std::string::npos) << error.what();
+    EXPECT_NE(error.mend().find("--size"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace footprint

@@ -1,0 +1,107 @@
+// See options.hpp.
+#include "renderer/core/options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+#include "renderer/core/error.hpp"
+#include "renderer/core/suggest.hpp"
+
+namespace footprint {
+namespace {
+
+using Value = std::variant<double, std::string>;
+
+double parse_number(const OptionSpec& spec, const std::string& text, std::string_view owner) {
+  double number = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, status] = std::from_chars(text.data(), end, number);
+  const bool fits = status == std::errc{} && stop == end && std::isfinite(number) && number >= spec.minimum &&
+                    number <= spec.maximum && (!spec.integer || number == std::floor(number));
+  if (fits) return number;
+  throw Error(
+      ErrorKind::usage, fmt::format("{}, option {}", owner, spec.name), fmt::format("`{}` does not fit", text),
+      fmt::format("give a {} from {} to {}", spec.integer ? "whole number" : "number", spec.minimum, spec.maximum));
+}
+
+std::string parse_word(const OptionSpec& spec, const std::string& text, std::string_view owner) {
+  if (std::ranges::find(spec.choices, text) != spec.choices.end()) return text;
+  throw Error(ErrorKind::usage, fmt::format("{}, option {}", owner, spec.name), fmt::format("unknown value `{}`", text),
+              suggestion(text, spec.choices));
+}
+
+Value parse_value(const OptionSpec& spec, const std::string& text, std::string_view owner) {
+  if (std::holds_alternative<double>(spec.default_value)) return parse_number(spec, text, owner);
+  return parse_word(spec, text, owner);
+}
+
+MethodSpec parse_method(std::string_view text) {
+  const auto bad = [&](const std::string& message) {
+    return Error(ErrorKind::usage, fmt::format("method `{}`", text), message,
+                 "write name or name:option=value:option=value");
+  };
+  MethodSpec spec{.text = std::string(text), .name = {}, .options = {}};
+  std::size_t start = 0;
+  for (bool first = true; start <= text.size(); first = false) {
+    const std::size_t stop = std::min(text.find(':', start), text.size());
+    const std::string_view part = text.substr(start, stop - start);
+    start = stop + 1;
+    if (first) {
+      spec.name = part;
+      if (part.empty()) throw bad("a method has no name");
+      continue;
+    }
+    const std::size_t equals = part.find('=');
+    if (equals == std::string_view::npos || equals == 0) throw bad(fmt::format("option `{}` is not name=value", part));
+    const bool fresh = spec.options.emplace(part.substr(0, equals), part.substr(equals + 1)).second;
+    if (!fresh) throw bad(fmt::format("option `{}` is given twice", part.substr(0, equals)));
+  }
+  return spec;
+}
+
+}  // namespace
+
+Options::Options(const std::vector<OptionSpec>& specs, const std::map<std::string, std::string>& given,
+                 std::string_view owner) {
+  std::vector<std::string> names;
+  for (const OptionSpec& spec : specs) {
+    names.push_back(spec.name);
+    values_[spec.name] = spec.default_value;
+  }
+  for (const auto& [name, text] : given) {
+    const auto spec = std::ranges::find(specs, name, &OptionSpec::name);
+    if (spec == specs.end()) {
+      throw Error(ErrorKind::usage, std::string(owner), fmt::format("unknown option `{}`", name),
+                  names.empty() ? "it takes no options" : suggestion(name, names));
+    }
+    values_[name] = parse_value(*spec, text, owner);
+  }
+}
+
+double Options::number(std::string_view name) const { return std::get<double>(values_.find(name)->second); }
+
+const std::string& Options::word(std::string_view name) const {
+  return std::get<std::string>(values_.find(name)->second);
+}
+
+std::vector<MethodSpec> parse_methods(std::string_view list) {
+  std::vector<MethodSpec> methods;
+  std::set<std::string> seen;
+  std::size_t start = 0;
+  while (start <= list.size()) {
+    const std::size_t stop = std::min(list.find(',', start), list.size());
+    methods.push_back(parse_method(list.substr(start, stop - start)));
+    if (!seen.insert(methods.back().text).second) {
+      throw Error(ErrorKind::usage, fmt::format("method `{}`", methods.back().text), "given twice",
+                  "name each method once");
+    }
+    start = stop + 1;
+  }
+  return methods;
+}
+
+}  // namespace footprint

@@ -1,0 +1,51 @@
+// A method's options: one table that feeds --help, the config reader, the documentation and the report.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace footprint {
+
+/// One option as its owner declares it. A choice has `choices`; a number has a range.
+struct OptionSpec {
+  std::string name;
+  std::variant<double, std::string> default_value;
+  double minimum = 0.0, maximum = 0.0;  ///< numbers only, both inclusive
+  std::vector<std::string> choices;     ///< words only
+  std::string meaning;                  ///< one sentence, with units
+  bool integer = false;                 ///< numbers only: whole numbers
+};
+
+/// Values for a table of options: every option present, defaults filled in.
+class Options {
+ public:
+  /// Checks `given` against `specs`. Errors (usage): unknown name or choice (with the nearest right one), not a
+  /// number, out of range; `owner` is named in the text.
+  Options(const std::vector<OptionSpec>& specs, const std::map<std::string, std::string>& given,
+          std::string_view owner);
+
+  /// The value of a number or a word that the table declares.
+  [[nodiscard]] double number(std::string_view name) const;
+  [[nodiscard]] const std::string& word(std::string_view name) const;
+  [[nodiscard]] const std::map<std::string, std::variant<double, std::string>, std::less<>>& all() const {
+    return values_;
+  }
+
+ private:
+  std::map<std::string, std::variant<double, std::string>, std::less<>> values_;
+};
+
+/// A method as written on the command line: `name` or `name:option=value:option=value`.
+struct MethodSpec {
+  std::string text;  ///< as written
+  std::string name;
+  std::map<std::string, std::string> options;
+};
+
+/// Splits "a,b:x=1:y=2". Errors (usage): empty names, an option without `=`, an option or a text given twice.
+[[nodiscard]] std::vector<MethodSpec> parse_methods(std::string_view list);
+
+}  // namespace footprint

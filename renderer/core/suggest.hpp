@@ -1,0 +1,17 @@
+// "Did you mean ...?": the nearest right name for a wrong one.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace footprint {
+
+/// The candidate with the smallest Damerau-Levenshtein distance to `wrong`, compared without case; empty if none is
+/// nearer than half the length of `wrong` (at least 2), or if `candidates` is empty.
+[[nodiscard]] std::string nearest_name(std::string_view wrong, std::span<const std::string> candidates);
+
+/// A sentence for an Error's mend: "did you mean `toksvig`? known: direct, naive_mip, toksvig".
+[[nodiscard]] std::string suggestion(std::string_view wrong, std::span<const std::string> candidates);
+
+}  // namespace footprint

@@ -1,0 +1,140 @@
+// See effects.hpp.
+#include "renderer/effects/effects.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ranges>
+
+namespace footprint {
+namespace {
+
+constexpr std::array<std::string_view, effect_count> names{"diffuse",
+                                                           "fresnel",
+                                                           "masking_shadowing",
+                                                           "normal_variation",
+                                                           "roughness_variation",
+                                                           "base_color_variation",
+                                                           "metallic_variation",
+                                                           "alpha_mask",
+                                                           "double_sided",
+                                                           "point_light",
+                                                           "spot_light",
+                                                           "directional_light"};
+
+// Smaller than any step of an 8-bit map; larger than what decoding one leaves in 32 bits.
+constexpr float constant_tolerance = 1e-5F;
+
+bool channel_varies(const Image& image, int channel) {
+  const auto stride = static_cast<std::size_t>(image.channels);
+  const auto first = static_cast<std::size_t>(channel);
+  for (std::size_t i = first; i < image.texels.size(); i += stride) {
+    if (std::abs(image.texels[i] - image.texels[first]) > constant_tolerance) return true;
+  }
+  return false;
+}
+
+// A constant map that leans is no flat one: it must still be drawn.
+bool is_flat(const Image& normals) {
+  const auto stride = static_cast<std::size_t>(normals.channels);
+  for (std::size_t i = 0; i < normals.texels.size(); i += stride) {
+    if (std::hypot(normals.texels[i], normals.texels[i + 1]) > constant_tolerance) return false;
+    if (stride == 4 && normals.texels[i + 3] < 0.5F) return false;
+  }
+  return true;
+}
+
+// "2 of 19 materials": how many materials a predicate holds for.
+struct Count {
+  std::size_t holding = 0, all = 0;
+  [[nodiscard]] std::string text() const {
+    return fmt::format("{} of {} material{}", holding, all, all == 1 ? "" : "s");
+  }
+};
+
+template <class Predicate>
+Count count_materials(const Scene& scene, Predicate holds) {
+  return {static_cast<std::size_t>(std::ranges::count_if(scene.materials, holds)), scene.materials.size()};
+}
+
+template <class Predicate>
+EffectDecision decide(Effect effect, const Scene& scene, Predicate holds, std::string_view on, std::string_view off) {
+  const Count count = count_materials(scene, holds);
+  return {effect, count.holding > 0, count.holding > 0 ? fmt::format("{}: {}", count.text(), on) : std::string(off)};
+}
+
+bool reflects_diffusely(const Material& m) {
+  const bool albedo = m.base_color.r > 0.0F || m.base_color.g > 0.0F || m.base_color.b > 0.0F;
+  return m.brdf.diffuse && albedo && (m.metallic < 1.0F || m.metallic_roughness_map);
+}
+
+EffectDecision normal_variation(const Scene& scene) {
+  const Count mapped = count_materials(scene, [](const Material& m) { return m.normal_map.has_value(); });
+  const auto rough = [](const Material& m) { return m.normal_map && !is_flat(*m.normal_map->image); };
+  return decide(Effect::normal_variation, scene, rough, "a normal map that is not flat",
+                mapped.holding == 0 ? "no normal map" : "every normal map is flat");
+}
+
+template <class Kind>
+EffectDecision lights(Effect effect, const Scene& scene, std::string_view word) {
+  const auto n = std::ranges::count_if(scene.lights, [](const Light& l) { return std::holds_alternative<Kind>(l); });
+  return {effect, n > 0,
+          n > 0 ? fmt::format("{} {} light{}", n, word, n == 1 ? "" : "s") : fmt::format("no {} light", word)};
+}
+
+}  // namespace
+
+std::string_view effect_name(Effect effect) { return names.at(static_cast<std::size_t>(effect)); }
+
+std::vector<EffectDecision> derive_effects(const Scene& scene) {
+  const auto roughness_varies = [](const Material& m) {
+    return !m.lobe_parameter && m.metallic_roughness_map && channel_varies(*m.metallic_roughness_map->image, 0);
+  };
+  const auto metallic_varies = [](const Material& m) {
+    return m.metallic_roughness_map && channel_varies(*m.metallic_roughness_map->image, 1);
+  };
+  return {
+      decide(Effect::diffuse, scene, reflects_diffusely, "a Lambert term with an albedo above 0",
+             "no material reflects diffusely"),
+      decide(
+          Effect::fresnel, scene, [](const Material& m) { return m.brdf.fresnel == FresnelTerm::schlick; },
+          "the base BRDF has Schlick's term", "the base BRDF has no Fresnel term"),
+      decide(
+          Effect::masking_shadowing, scene, [](const Material& m) { return m.brdf.geometry != GeometryTerm::none; },
+          "the base BRDF has a geometry term", "the base BRDF has no geometry term"),
+      normal_variation(scene),
+      decide(Effect::roughness_variation, scene, roughness_varies, "a roughness map that varies",
+             "roughness is constant over each material"),
+      decide(
+          Effect::base_color_variation, scene, [](const Material& m) { return m.base_color_map.has_value(); },
+          "a base-colour map", "no base-colour map"),
+      decide(Effect::metallic_variation, scene, metallic_varies, "a metallic map that varies",
+             "metalness is constant over each material"),
+      decide(
+          Effect::alpha_mask, scene, [](const Material& m) { return m.alpha_cutoff.has_value(); },
+          "parts cut out by alpha", "no material is cut out by alpha"),
+      decide(
+          Effect::double_sided, scene, [](const Material& m) { return m.double_sided; }, "seen from both sides",
+          "every material is one-sided"),
+      lights<PointLight>(Effect::point_light, scene, "point"),
+      lights<SpotLight>(Effect::spot_light, scene, "spot"),
+      lights<DirectionalLight>(Effect::directional_light, scene, "directional"),
+  };
+}
+
+EffectSet effects_on(const std::vector<EffectDecision>& decisions) {
+  EffectSet set;
+  for (const EffectDecision& decision : decisions) set.set(static_cast<std::size_t>(decision.effect), decision.on);
+  return set;
+}
+
+std::vector<std::string> effect_names(const EffectSet& set) {
+  std::vector<std::string> out;
+  for (const Effect effect : all_effects()) {
+    if (has(set, effect)) out.emplace_back(effect_name(effect));
+  }
+  return out;
+}
+
+}  // namespace footprint

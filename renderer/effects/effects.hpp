@@ -1,0 +1,64 @@
+// Which effects a scene calls for, and why: the set that passes, textures and shader text follow.
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "renderer/scene/scene.hpp"
+
+namespace footprint {
+
+/// Something that the renderer can simulate and a scene may lack.
+enum class Effect : std::size_t {
+  diffuse,               ///< a facet's Lambert term
+  fresnel,               ///< Schlick's term over F0
+  masking_shadowing,     ///< the geometry term of the base BRDF
+  normal_variation,      ///< a normal map that is not flat
+  roughness_variation,   ///< a roughness map that is not constant
+  base_color_variation,  ///< a base-colour map
+  metallic_variation,    ///< a metallic map that is not constant
+  alpha_mask,            ///< parts cut out by alpha
+  double_sided,          ///< surfaces seen from behind
+  point_light,
+  spot_light,
+  directional_light,
+};
+
+inline constexpr std::size_t effect_count = 12;
+using EffectSet = std::bitset<effect_count>;
+
+/// The name of an effect as shaders, tables and `explain` write it.
+[[nodiscard]] std::string_view effect_name(Effect effect);
+
+/// All effects, in the order of the enumeration.
+[[nodiscard]] constexpr std::array<Effect, effect_count> all_effects() {
+  std::array<Effect, effect_count> effects{};
+  for (std::size_t i = 0; i < effect_count; ++i) effects[i] = static_cast<Effect>(i);
+  return effects;
+}
+
+[[nodiscard]] inline bool has(const EffectSet& set, Effect effect) {
+  return set.test(static_cast<std::size_t>(effect));
+}
+
+/// One effect of a scene: on or off, and the reason in words ("the normal map is constant").
+struct EffectDecision {
+  Effect effect;
+  bool on;
+  std::string reason;
+};
+
+/// Every effect with its decision, in the order of the enumeration. Pure: looks at the scene's values alone.
+[[nodiscard]] std::vector<EffectDecision> derive_effects(const Scene& scene);
+
+/// The effects that are on.
+[[nodiscard]] EffectSet effects_on(const std::vector<EffectDecision>& decisions);
+
+/// The names of the effects of `set`, in order.
+[[nodiscard]] std::vector<std::string> effect_names(const EffectSet& set);
+
+}  // namespace footprint

@@ -1,0 +1,106 @@
+// Which effects follow from a scene, and the reasons given.
+#include "renderer/effects/effects.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace footprint {
+namespace {
+
+TextureMap map_of(Image image) { return {"map", std::make_shared<const Image>(std::move(image)), {}}; }
+
+Scene plain_scene() {
+  Scene scene;
+  scene.materials.emplace_back();
+  scene.materials[0].metallic = 0.0F;
+  scene.lights.emplace_back(PointLight{});
+  return scene;
+}
+
+EffectDecision decision(const Scene& scene, Effect effect) {
+  return derive_effects(scene).at(static_cast<std::size_t>(effect));
+}
+
+bool on(const Scene& scene, Effect effect) { return decision(scene, effect).on; }
+
+TEST(Effects, ComeInOrderEachWithAReason) {
+  const auto decisions = derive_effects(plain_scene());
+  ASSERT_EQ(decisions.size(), effect_count);
+  std::set<std::string_view> names;
+  for (std::size_t i = 0; i < effect_count; ++i) {
+    EXPECT_EQ(decisions[i].effect, static_cast<Effect>(i));
+    EXPECT_FALSE(decisions[i].reason.empty());
+    names.insert(effect_name(decisions[i].effect));
+  }
+  EXPECT_EQ(names.size(), effect_count);
+}
+
+TEST(Effects, PlainSceneCallsForItsLightAndBaseBrdfAlone) {
+  const EffectSet set = effects_on(derive_effects(plain_scene()));
+  EXPECT_EQ(effect_names(set), (std::vector<std::string>{"diffuse", "fresnel", "masking_shadowing", "point_light"}));
+}
+
+TEST(Effects, MetalHasNoDiffuseTerm) {
+  Scene scene = plain_scene();
+  scene.materials[0].metallic = 1.0F;
+  EXPECT_FALSE(on(scene, Effect::diffuse));
+  scene.materials[0].metallic = 0.0F;
+  scene.materials[0].base_color = {0, 0, 0, 1};
+  EXPECT_FALSE(on(scene, Effect::diffuse));
+}
+
+TEST(Effects, TermsOfTheBaseBrdfFollowIt) {
+  Scene scene = plain_scene();
+  scene.materials[0].brdf = {NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, false};
+  for (const Effect effect : {Effect::diffuse, Effect::fresnel, Effect::masking_shadowing})
+    EXPECT_FALSE(on(scene, effect));
+}
+
+TEST(Effects, ConstantNormalMapIsOffOnlyIfFlat) {
+  Scene scene = plain_scene();
+  EXPECT_EQ(decision(scene, Effect::normal_variation).reason, "no normal map");
+  Image normals(2, 2, 4, 0.0F);
+  for (std::size_t i = 0; i < 16; i += 4) normals.texels[i + 2] = normals.texels[i + 3] = 1.0F;
+  scene.materials[0].normal_map = map_of(normals);
+  EXPECT_FALSE(on(scene, Effect::normal_variation));
+  EXPECT_EQ(decision(scene, Effect::normal_variation).reason, "every normal map is flat");
+  for (std::size_t i = 0; i < 16; i += 4) normals.texels[i] = 0.6F;
+  scene.materials[0].normal_map = map_of(normals);
+  EXPECT_TRUE(on(scene, Effect::normal_variation));
+}
+
+TEST(Effects, MapsCountWhereTheyVary) {
+  Scene scene = plain_scene();
+  Image map(2, 1, 2, 0.5F);
+  scene.materials[0].metallic_roughness_map = map_of(map);
+  EXPECT_FALSE(on(scene, Effect::roughness_variation));
+  EXPECT_FALSE(on(scene, Effect::metallic_variation));
+  map.texels[2] = 0.7F;
+  scene.materials[0].metallic_roughness_map = map_of(map);
+  EXPECT_TRUE(on(scene, Effect::roughness_variation));
+  EXPECT_FALSE(on(scene, Effect::metallic_variation));
+  scene.materials[0].lobe_parameter = 0.2F;
+  EXPECT_FALSE(on(scene, Effect::roughness_variation));
+}
+
+TEST(Effects, OneMaterialOfManyIsEnoughAndIsCounted) {
+  Scene scene = plain_scene();
+  scene.materials.push_back(scene.materials[0]);
+  scene.materials[1].alpha_cutoff = 0.5F;
+  scene.materials[1].double_sided = true;
+  EXPECT_EQ(decision(scene, Effect::alpha_mask).reason, "1 of 2 materials: parts cut out by alpha");
+  EXPECT_TRUE(on(scene, Effect::double_sided));
+}
+
+TEST(Effects, LightsAreCountedByKind) {
+  Scene scene = plain_scene();
+  scene.lights = {DirectionalLight{}, DirectionalLight{}, SpotLight{}};
+  EXPECT_FALSE(on(scene, Effect::point_light));
+  EXPECT_EQ(decision(scene, Effect::directional_light).reason, "2 directional lights");
+  EXPECT_EQ(decision(scene, Effect::spot_light).reason, "1 spot light");
+}
+
+}  // namespace
+}  // namespace footprint

@@ -1,0 +1,262 @@
+// See context.hpp: chooses a backend, keeps track of the current context, fills in what a context says of itself.
+#include "renderer/gl/context.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+#include "renderer/core/error.hpp"
+#include "renderer/core/suggest.hpp"
+#include "renderer/gl/debug_log.hpp"
+#include "renderer/gl/functions.hpp"
+#include "renderer/gl/native_context.hpp"
+
+namespace footprint::gl {
+namespace {
+
+/// The order in which `auto` tries them.
+constexpr std::array<Backend, 3> all_backends = {Backend::egl, Backend::egl_device, Backend::osmesa};
+
+/// What is current on a thread. GL itself keeps its context per thread, so this has to follow it.
+struct Current {
+  NativeContext* native = nullptr;
+  const Functions* functions = nullptr;
+};
+thread_local Current current;
+
+/// Makes `next` current. The one before is released first, because EGL and OSMesa do not know of each other and each
+/// would take its own for current still.
+void switch_to(Current next) {
+  if (current.native == next.native) return;
+  const Current before = std::exchange(current, {});
+  if (before.native != nullptr) before.native->release();
+  if (next.native == nullptr) return;
+  next.native->make_current();
+  current = next;
+}
+
+/// Brings back what was current, unless told to `keep` what is current by then.
+class RestoreCurrent {
+ public:
+  RestoreCurrent() = default;
+  RestoreCurrent(const RestoreCurrent&) = delete;
+  RestoreCurrent& operator=(const RestoreCurrent&) = delete;
+  ~RestoreCurrent() {
+    if (keep_) return;
+    try {
+      switch_to(before_);
+    } catch (const Error&) {
+      // It was current a moment ago; the next call of api() says that none is.
+    }
+  }
+  void keep() { keep_ = true; }
+
+ private:
+  Current before_ = current;
+  bool keep_ = false;
+};
+
+std::string text(GLenum name) {
+  const GLubyte* value = api().GetString(name);
+  return value == nullptr ? std::string() : std::string(reinterpret_cast<const char*>(value));
+}
+
+int integer(GLenum name) {
+  GLint value = 0;
+  api().GetIntegerv(name, &value);
+  return value;
+}
+
+/// What the current context says of itself.
+ContextInfo describe(Backend backend) {
+  ContextInfo info;
+  info.backend = backend;
+  info.vendor = text(GL_VENDOR);
+  info.renderer = text(GL_RENDERER);
+  info.version = text(GL_VERSION);
+  info.glsl_version = text(GL_SHADING_LANGUAGE_VERSION);
+  info.max_texture_size = integer(GL_MAX_TEXTURE_SIZE);
+  std::array<GLint, 2> viewport{};
+  api().GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
+  info.max_framebuffer_size = std::min({viewport[0], viewport[1], integer(GL_MAX_RENDERBUFFER_SIZE)});
+  info.max_uniform_block_bytes = integer(GL_MAX_UNIFORM_BLOCK_SIZE);
+  info.max_texture_units = integer(GL_MAX_TEXTURE_IMAGE_UNITS);
+  info.software = std::ranges::any_of(std::array{"llvmpipe", "softpipe", "swrast", "Software Rasterizer"},
+                                      [&](const char* name) { return info.renderer.find(name) != std::string::npos; });
+  return info;
+}
+
+std::unique_ptr<NativeContext> open_native(Backend backend, int device) {
+  switch (backend) {
+    case Backend::egl:
+      return open_egl_surfaceless();
+    case Backend::egl_device:
+      return open_egl_device(device);
+    case Backend::osmesa:
+      return open_osmesa();
+  }
+  throw std::logic_error("not a backend");
+}
+
+}  // namespace
+
+const Functions& api() {
+  if (current.functions == nullptr) throw std::logic_error("an OpenGL call where no context is current");
+  return *current.functions;
+}
+
+bool has_current_context() noexcept { return current.functions != nullptr; }
+
+struct Context::Impl {
+  // The log and the table come first: the context may use them until it is gone.
+  DebugLog log;
+  Functions functions;
+  ContextInfo info;
+  std::unique_ptr<NativeContext> native;
+
+  Impl(Backend backend, int device) : native(open_native(backend, device)) {
+    try {
+      become_current();
+      load(backend);
+    } catch (...) {
+      leave();
+      throw;
+    }
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+  ~Impl() { leave(); }
+
+  [[nodiscard]] bool is_current() const { return current.native == native.get(); }
+  void become_current() const { switch_to({native.get(), &functions}); }
+  void leave() const {
+    if (is_current()) switch_to({});
+  }
+
+  void load(Backend backend) {
+    // OSMesa knows some of GL_ARB_robustness, which 4.5 took over, by their old names alone.
+    const auto missing = load_functions(functions, [this](const char* name) {
+      const auto address = native->address_of(name);
+      return address != nullptr ? address : native->address_of((std::string(name) + "ARB").c_str());
+    });
+    const auto place = fmt::format("OpenGL by {}", backend_name(backend));
+    // A loader may hand out an address for a function that the driver lacks, so the version has the last word.
+    const int version =
+        functions.GetIntegerv == nullptr ? 0 : 10 * integer(GL_MAJOR_VERSION) + integer(GL_MINOR_VERSION);
+    if (version < 45) {
+      throw Error(ErrorKind::machine, place,
+                  fmt::format("version 4.5 is needed, not {}.{}", version / 10, version % 10),
+                  "use a newer driver or another backend");
+    }
+    if (!missing.empty()) {
+      throw Error(ErrorKind::machine, place, fmt::format("the driver lacks {}", fmt::join(missing, ", ")),
+                  "use a newer driver or another backend");
+    }
+    log.listen();
+    info = describe(backend);
+  }
+
+  /// The first backend that works.
+  static std::unique_ptr<Impl> open_any() {
+    std::string reasons;
+    for (const Backend backend : all_backends) {
+      try {
+        return std::make_unique<Impl>(backend, 0);
+      } catch (const Error& error) {
+        reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", backend_name(backend), error.message());
+      }
+    }
+    throw Error(ErrorKind::machine, "OpenGL", "no backend gives an OpenGL 4.5 core context: " + reasons,
+                "for software OpenGL install libegl1 and libgl1-mesa-dri");
+  }
+};
+
+std::string_view backend_name(Backend backend) {
+  switch (backend) {
+    case Backend::egl:
+      return "egl";
+    case Backend::egl_device:
+      return "egl-device";
+    case Backend::osmesa:
+      return "osmesa";
+  }
+  throw std::logic_error("not a backend");
+}
+
+Context::Context(const ContextRequest& request) {
+  if (request.device != 0 && request.backend != Backend::egl_device) {
+    throw Error(ErrorKind::usage, fmt::format("device {}", request.device), "only the backend egl-device has devices",
+                "choose `--backend egl-device`");
+  }
+  RestoreCurrent restore;
+  impl_ = request.backend ? std::make_unique<Impl>(*request.backend, request.device) : Impl::open_any();
+  restore.keep();
+}
+
+Context::Context(Context&&) noexcept = default;
+Context& Context::operator=(Context&&) noexcept = default;
+Context::~Context() = default;
+
+const ContextInfo& Context::info() const { return impl_->info; }
+
+void Context::make_current() const { impl_->become_current(); }
+
+std::vector<std::string> Context::take_debug_errors() const {
+  auto messages = impl_->log.take();
+  if (!impl_->is_current()) return messages;
+  // A driver may raise an error flag without a message; where there is one, the flag says nothing new.
+  const bool silent = messages.empty();
+  for (GLenum code = api().GetError(); code != GL_NO_ERROR; code = api().GetError()) {
+    if (silent) messages.push_back(gl_error_name(code));
+  }
+  return messages;
+}
+
+void Context::check(std::string_view doing) const {
+  const auto messages = take_debug_errors();
+  if (messages.empty()) return;
+  throw Error(ErrorKind::machine, fmt::format("OpenGL, {}", doing), fmt::format("{}", fmt::join(messages, "; ")));
+}
+
+std::vector<BackendReport> probe_backends() {
+  const RestoreCurrent restore;
+  std::vector<BackendReport> reports;
+  const auto probe = [&reports](Backend backend, int device) {
+    BackendReport report{.backend = backend, .device = device, .info = {}, .why_not = {}};
+    try {
+      report.info = Context({.backend = backend, .device = device}).info();
+    } catch (const Error& error) {
+      report.why_not = error.what();
+    }
+    reports.push_back(std::move(report));
+  };
+  for (const Backend backend : all_backends) {
+    // A machine that cannot list its devices, or has none, gets one line that says so.
+    int devices = 1;
+    if (backend == Backend::egl_device) {
+      try {
+        devices = std::max(1, egl_device_count());
+      } catch (const Error&) {
+        devices = 1;
+      }
+    }
+    for (int device = 0; device < devices; ++device) probe(backend, device);
+  }
+  return reports;
+}
+
+std::optional<Backend> parse_backend(const std::string& word) {
+  if (word == "auto") return std::nullopt;
+  std::vector<std::string> known = {"auto"};
+  for (const Backend backend : all_backends) {
+    if (word == backend_name(backend)) return backend;
+    known.emplace_back(backend_name(backend));
+  }
+  throw Error(ErrorKind::usage, "backend", fmt::format("there is no backend `{}`", word), suggestion(word, known));
+}
+
+}  // namespace footprint::gl

@@ -1,0 +1,73 @@
+// A headless OpenGL 4.5 core context, by EGL surfaceless, EGL device or OSMesa.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace footprint::gl {
+
+enum class Backend { egl, egl_device, osmesa };
+
+/// As the command line writes them: egl, egl-device, osmesa.
+[[nodiscard]] std::string_view backend_name(Backend backend);
+
+/// What a context says of itself.
+struct ContextInfo {
+  Backend backend = Backend::egl;
+  std::string vendor, renderer, version, glsl_version;
+  int max_texture_size = 0;
+  int max_framebuffer_size = 0;  ///< the smaller of the largest viewport and renderbuffer, texels a side
+  int max_uniform_block_bytes = 0;
+  int max_texture_units = 0;  ///< for the fragment stage
+  bool software = false;      ///< llvmpipe, softpipe or swrast: timer queries mean nothing there
+};
+
+/// Which context is wanted. The order is fixed, so that the same request gives the same backend on the same machine: a
+/// user who wants a GPU that only egl_device reaches asks for egl_device, though egl gives a software renderer.
+struct ContextRequest {
+  std::optional<Backend> backend;  ///< none: the first of egl, egl_device, osmesa that works
+  int device = 0;                  ///< for egl_device alone: index into `footprint info`'s list
+};
+
+/// A context, current on the thread that made it until destroyed or another is made current. KHR_debug is on and
+/// synchronous: messages of severity high or of type error are collected.
+class Context {
+ public:
+  /// Errors (machine): says for each backend that was tried why it is not there; (usage): no such device, or a device
+  /// other than 0 for a backend that has none. What was current before stays so after an error.
+  explicit Context(const ContextRequest& request);
+  Context(Context&&) noexcept;
+  Context& operator=(Context&&) noexcept;
+  ~Context();
+
+  [[nodiscard]] const ContextInfo& info() const;
+  void make_current() const;
+
+  /// The KHR_debug errors since the last call; empty when all is well.
+  [[nodiscard]] std::vector<std::string> take_debug_errors() const;
+  /// Throws Error{machine} with the collected KHR_debug errors, if any; `doing` names what was being done.
+  void check(std::string_view doing) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// One line of `footprint info`: a backend (each EGL device has its own line) with its context or why it is not there.
+struct BackendReport {
+  Backend backend = Backend::egl;
+  int device = 0;
+  std::optional<ContextInfo> info;
+  std::string why_not;
+};
+
+/// Tries every backend and every EGL device.
+[[nodiscard]] std::vector<BackendReport> probe_backends();
+
+/// Errors (usage) with the nearest right name; "auto" gives an empty backend.
+[[nodiscard]] std::optional<Backend> parse_backend(const std::string& word);
+
+}  // namespace footprint::gl

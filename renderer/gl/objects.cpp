@@ -1,0 +1,158 @@
+// See objects.hpp: buffers, textures, samplers and render targets.
+#include "renderer/gl/objects.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <stdexcept>
+
+#include "renderer/core/error.hpp"
+#include "renderer/gl/debug_log.hpp"
+
+namespace footprint::gl {
+namespace {
+
+/// Makes an allocation and gives its GL error. The context's debug output is silent meanwhile: a size that the machine
+/// cannot hold is reported once, by the caller, who knows what it was for.
+template <class Allocation>
+GLenum error_of(const Allocation& allocate) {
+  while (api().GetError() != GL_NO_ERROR) {
+  }
+  api().Disable(GL_DEBUG_OUTPUT);
+  allocate();
+  const GLenum error = api().GetError();
+  api().Enable(GL_DEBUG_OUTPUT);
+  return error;
+}
+
+[[noreturn]] void throw_no_memory(const std::string& place, const std::string& what, GLenum error) {
+  throw Error(ErrorKind::machine, place, fmt::format("{} cannot be allocated ({})", what, gl_error_name(error)),
+              "use smaller frames or textures, or a machine with more memory");
+}
+
+GLenum read_format(int channels) {
+  constexpr std::array<GLenum, 4> formats = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
+  if (channels < 1 || channels > 4) throw std::logic_error("a render target is read with 1 to 4 channels");
+  return formats[static_cast<std::size_t>(channels - 1)];
+}
+
+std::string_view completeness_name(GLenum status) {
+  switch (status) {
+    case GL_FRAMEBUFFER_UNSUPPORTED:
+      return "GL_FRAMEBUFFER_UNSUPPORTED";
+    case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
+      return "GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT";
+    case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
+      return "GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT";
+    default:
+      return "incomplete";
+  }
+}
+
+}  // namespace
+
+// A context takes its objects with it, so a name that outlives every context is gone already.
+void delete_buffer(GLuint name) {
+  if (has_current_context()) api().DeleteBuffers(1, &name);
+}
+void delete_vertex_array(GLuint name) {
+  if (has_current_context()) api().DeleteVertexArrays(1, &name);
+}
+void delete_texture(GLuint name) {
+  if (has_current_context()) api().DeleteTextures(1, &name);
+}
+void delete_sampler(GLuint name) {
+  if (has_current_context()) api().DeleteSamplers(1, &name);
+}
+void delete_framebuffer(GLuint name) {
+  if (has_current_context()) api().DeleteFramebuffers(1, &name);
+}
+void delete_program(GLuint name) {
+  if (has_current_context()) api().DeleteProgram(name);
+}
+void delete_query(GLuint name) {
+  if (has_current_context()) api().DeleteQueries(1, &name);
+}
+
+Sampler trilinear_sampler(GLenum wrap_s, GLenum wrap_t) {
+  GLuint name = 0;
+  api().CreateSamplers(1, &name);
+  Sampler sampler(name);
+  api().SamplerParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  api().SamplerParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  api().SamplerParameteri(name, GL_TEXTURE_WRAP_S, static_cast<GLint>(wrap_s));
+  api().SamplerParameteri(name, GL_TEXTURE_WRAP_T, static_cast<GLint>(wrap_t));
+  return sampler;
+}
+
+Buffer::Buffer(std::span<const std::byte> bytes) {
+  static constexpr std::array<std::byte, 16> zeros{};
+  const std::span<const std::byte> content = bytes.empty() ? std::span<const std::byte>(zeros) : bytes;
+  GLuint name = 0;
+  api().CreateBuffers(1, &name);
+  handle_ = Handle<delete_buffer>(name);
+  const GLenum error =
+      error_of([&] { api().NamedBufferStorage(name, static_cast<GLsizeiptr>(content.size()), content.data(), 0); });
+  if (error != GL_NO_ERROR) throw_no_memory("buffer", fmt::format("{} bytes", content.size()), error);
+}
+
+Texture::Texture(GLenum internal_format, int width, int height, int levels) : width_(width), height_(height) {
+  const std::string what = fmt::format("{}x{} texels of format {:#06x}", width, height, internal_format);
+  GLint limit = 0;
+  api().GetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
+  if (width < 1 || height < 1 || width > limit || height > limit) {
+    throw Error(ErrorKind::machine, "texture", fmt::format("{}: a side must have 1 to {}", what, limit),
+                "use smaller frames or textures");
+  }
+  GLuint name = 0;
+  api().CreateTextures(GL_TEXTURE_2D, 1, &name);
+  handle_ = Handle<delete_texture>(name);
+  const GLenum error = error_of([&] { api().TextureStorage2D(name, levels, internal_format, width, height); });
+  if (error != GL_NO_ERROR) throw_no_memory("texture", what, error);
+}
+
+void Texture::upload(int level, int width, int height, GLenum format, GLenum type, const void* texels) {
+  api().PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  api().TextureSubImage2D(name(), level, 0, 0, width, height, format, type, texels);
+}
+
+RenderTarget::RenderTarget(int width, int height, std::span<const GLenum> color_formats, bool depth)
+    : width_(width), height_(height) {
+  if (color_formats.size() > max_attachments) throw std::logic_error("a render target has at most 4 attachments");
+  GLuint name = 0;
+  api().CreateFramebuffers(1, &name);
+  framebuffer_ = Framebuffer(name);
+  std::array<GLenum, max_attachments> draw_buffers{};
+  for (std::size_t i = 0; i < color_formats.size(); ++i) {
+    colors_[i] = Texture(color_formats[i], width, height);
+    draw_buffers[i] = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i);
+    api().NamedFramebufferTexture(name, draw_buffers[i], colors_[i].name(), 0);
+  }
+  api().NamedFramebufferDrawBuffers(name, static_cast<GLsizei>(color_formats.size()), draw_buffers.data());
+  if (depth) {
+    depth_ = Texture(GL_DEPTH_COMPONENT32F, width, height);
+    api().NamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depth_.name(), 0);
+  }
+  const GLenum status = api().CheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE) {
+    throw Error(ErrorKind::machine, "render target",
+                fmt::format("the driver cannot draw into {}x{} with {} colour attachments{}: {} ({:#06x})", width,
+                            height, color_formats.size(), depth ? " and depth" : "", completeness_name(status), status),
+                "use another backend");
+  }
+}
+
+void RenderTarget::read(std::size_t attachment, int channels, std::span<float> out) const {
+  const auto expected =
+      static_cast<std::size_t>(channels) * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+  const GLenum format = read_format(channels);
+  if (attachment >= max_attachments || !colors_[attachment].name()) throw std::logic_error("no such attachment");
+  if (out.size() != expected) throw std::logic_error("a read of a render target needs room for exactly its texels");
+  api().BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer());
+  api().NamedFramebufferReadBuffer(framebuffer(), GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(attachment));
+  api().PixelStorei(GL_PACK_ALIGNMENT, 1);
+  api().ReadPixels(0, 0, width_, height_, format, GL_FLOAT, out.data());
+  api().BindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+}
+
+}  // namespace footprint::gl

@@ -1,0 +1,122 @@
+// RAII owners of OpenGL objects. All need the context that made them to be current, also when destroyed, or to be gone
+// and no other current. Functions come from gl/functions.hpp.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "renderer/gl/functions.hpp"
+
+namespace footprint::gl {
+
+/// A name that one object owns; `Deleter(GLuint)` gives it back. Movable, not copyable; 0 owns nothing.
+template <void (*Deleter)(GLuint)>
+class Handle {
+ public:
+  Handle() = default;
+  explicit Handle(GLuint name) : name_(name) {}
+  Handle(Handle&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(name_, other.name_);
+    return *this;
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  ~Handle() {
+    if (name_ != 0) Deleter(name_);
+  }
+  [[nodiscard]] GLuint name() const { return name_; }
+  [[nodiscard]] explicit operator bool() const { return name_ != 0; }
+
+ private:
+  GLuint name_ = 0;
+};
+
+void delete_buffer(GLuint name);
+void delete_vertex_array(GLuint name);
+void delete_texture(GLuint name);
+void delete_sampler(GLuint name);
+void delete_framebuffer(GLuint name);
+void delete_program(GLuint name);
+void delete_query(GLuint name);
+
+using VertexArray = Handle<delete_vertex_array>;
+using Sampler = Handle<delete_sampler>;
+using Query = Handle<delete_query>;
+using Framebuffer = Handle<delete_framebuffer>;
+
+/// Magnifies linearly, minifies linearly within and between mip levels; a wrap mode is GL_REPEAT, GL_CLAMP_TO_EDGE, ...
+[[nodiscard]] Sampler trilinear_sampler(GLenum wrap_s, GLenum wrap_t);
+
+/// An immutable buffer.
+class Buffer {
+ public:
+  Buffer() = default;
+  /// `bytes` are copied; an empty span makes a buffer of 16 zero bytes (GL has no empty ones).
+  /// Errors (machine): memory is out.
+  explicit Buffer(std::span<const std::byte> bytes);
+  [[nodiscard]] GLuint name() const { return handle_.name(); }
+
+ private:
+  Handle<delete_buffer> handle_;
+};
+
+/// A 2D texture with immutable storage.
+class Texture {
+ public:
+  Texture() = default;
+  /// `internal_format` sized (GL_RGBA32F, ...). Errors (machine): the size is over the GL limit or memory is out.
+  Texture(GLenum internal_format, int width, int height, int levels = 1);
+  /// Rows from v = 0, tightly packed, `format` and `type` as glTextureSubImage2D takes them.
+  void upload(int level, int width, int height, GLenum format, GLenum type, const void* texels);
+  [[nodiscard]] GLuint name() const { return handle_.name(); }
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+
+ private:
+  Handle<delete_texture> handle_;
+  int width_ = 0, height_ = 0;
+};
+
+/// Colour textures with an optional 32-bit float depth buffer to draw into.
+class RenderTarget {
+ public:
+  RenderTarget() = default;
+  /// At most 4 colour formats. Errors (machine): as Texture, or the driver cannot draw into these together.
+  RenderTarget(int width, int height, std::span<const GLenum> color_formats, bool depth);
+  [[nodiscard]] GLuint framebuffer() const { return framebuffer_.name(); }
+  [[nodiscard]] const Texture& color(std::size_t attachment) const { return colors_[attachment]; }
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+  /// Reads channels x width x height floats of an attachment, the row of window y = 0 first. Leaves framebuffer 0 bound
+  /// for reading. Errors: std::logic_error where `out` has another size.
+  void read(std::size_t attachment, int channels, std::span<float> out) const;
+
+ private:
+  static constexpr std::size_t max_attachments = 4;
+  Framebuffer framebuffer_;
+  Texture colors_[max_attachments];
+  Texture depth_;
+  int width_ = 0, height_ = 0;
+};
+
+/// A linked program.
+class Program {
+ public:
+  Program() = default;
+  /// Errors (machine): the compiler's log with the offending source lines and their numbers; `name` names the program.
+  Program(const std::string& name, std::string_view vertex_source, std::string_view fragment_source);
+  /// A compute program.
+  Program(const std::string& name, std::string_view compute_source);
+  [[nodiscard]] GLuint name() const { return handle_.name(); }
+  /// -1 where the program has no such active uniform (the compiler may drop one).
+  [[nodiscard]] GLint uniform(const char* uniform_name) const;
+
+ private:
+  Handle<delete_program> handle_;
+};
+
+}  // namespace footprint::gl

@@ -1,0 +1,100 @@
+// A context by OSMesa, Mesa's off-screen software library, opened at run time so that a machine may lack it.
+#include <dlfcn.h>
+
+#include <array>
+#include <string>
+
+#include "renderer/core/error.hpp"
+#include "renderer/gl/native_context.hpp"
+
+namespace footprint::gl {
+namespace {
+
+// Declared by hand: <GL/osmesa.h> includes <GL/gl.h>, which clashes with <GL/glcorearb.h>.
+using OsMesaHandle = struct OsMesaContextTag*;
+using CreateContextAttribs = OsMesaHandle (*)(const int* attributes, OsMesaHandle share);
+using DestroyContext = void (*)(OsMesaHandle context);
+using MakeCurrent = unsigned char (*)(OsMesaHandle context, void* buffer, unsigned type, int width, int height);
+using GetProcAddress = auto(*)(const char* function) -> void (*)();
+constexpr int osmesa_format = 0x22, osmesa_rgba = 0x1908;
+constexpr int osmesa_profile = 0x33, osmesa_core_profile = 0x34;
+constexpr int osmesa_major_version = 0x36, osmesa_minor_version = 0x37;
+constexpr unsigned gl_unsigned_byte = 0x1401;
+constexpr int buffer_side = 16;
+
+[[noreturn]] void fail(const std::string& message) {
+  throw Error(ErrorKind::machine, "OSMesa", message, "install libosmesa6, or use another backend");
+}
+
+/// libOSMesa.so.8 and the functions of it that are used here. Never unloaded: the LLVM within keeps per-thread state
+/// that outlives the contexts.
+class Library {
+ public:
+  /// Errors (machine): the library or one of the functions is not there; the next call tries again.
+  static const Library& instance() {
+    static const Library library;
+    return library;
+  }
+
+  CreateContextAttribs create_context = nullptr;
+  DestroyContext destroy_context = nullptr;
+  MakeCurrent make_current = nullptr;
+  GetProcAddress get_proc_address = nullptr;
+
+ private:
+  Library() : library_(dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)) {
+    if (library_ == nullptr) fail(dlerror());
+    find(create_context, "OSMesaCreateContextAttribs");
+    find(destroy_context, "OSMesaDestroyContext");
+    find(make_current, "OSMesaMakeCurrent");
+    find(get_proc_address, "OSMesaGetProcAddress");
+  }
+
+  template <class Function>
+  void find(Function& function, const char* name) {
+    function = reinterpret_cast<Function>(dlsym(library_, name));
+    if (function == nullptr) fail(std::string("libOSMesa.so.8 lacks ") + name);
+  }
+
+  void* library_;
+};
+
+class OsMesaContext final : public NativeContext {
+ public:
+  OsMesaContext() {
+    constexpr std::array<int, 9> attributes = {osmesa_format,
+                                               osmesa_rgba,
+                                               osmesa_profile,
+                                               osmesa_core_profile,
+                                               osmesa_major_version,
+                                               4,
+                                               osmesa_minor_version,
+                                               5,
+                                               0};
+    context_ = library_.create_context(attributes.data(), nullptr);
+    if (context_ == nullptr) fail("the library gives no OpenGL 4.5 core context");
+  }
+  ~OsMesaContext() override { library_.destroy_context(context_); }
+
+  void make_current() override {
+    if (library_.make_current(context_, buffer_.data(), gl_unsigned_byte, buffer_side, buffer_side) == 0) {
+      fail("the context cannot be made current");
+    }
+  }
+  void release() noexcept override { library_.make_current(nullptr, nullptr, 0, 0, 0); }
+  [[nodiscard]] auto address_of(const char* function) const -> void (*)() override {
+    return library_.get_proc_address(function);
+  }
+
+ private:
+  const Library& library_ = Library::instance();
+  OsMesaHandle context_ = nullptr;
+  /// OSMesa insists on a default framebuffer; nothing draws into it.
+  std::array<unsigned char, 4 * buffer_side * buffer_side> buffer_{};
+};
+
+}  // namespace
+
+std::unique_ptr<NativeContext> open_osmesa() { return std::make_unique<OsMesaContext>(); }
+
+}  // namespace footprint::gl

@@ -1,0 +1,222 @@
+// See image_io.hpp.
+#include "renderer/image/image_io.hpp"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "renderer/core/error.hpp"
+#include "renderer/core/files.hpp"
+#include "renderer/core/memory.hpp"
+
+namespace footprint {
+namespace {
+
+using IOProxy = OIIO::Filesystem::IOProxy;
+
+struct Signature {
+  std::size_t offset;
+  std::string_view bytes;
+  const char* format;  // OpenImageIO's name
+};
+
+// What a file is, told by its first bytes, never by its name: a glTF buffer has no name, and names can be wrong.
+constexpr std::array<Signature, 9> signatures{{{0, "\x89PNG\r\n\x1a\n", "png"},
+                                               {0, "\xff\xd8\xff", "jpeg"},
+                                               {0, "\x76\x2f\x31\x01", "openexr"},
+                                               {0, "#?RADIANCE", "hdr"},
+                                               {0, "#?RGBE", "hdr"},
+                                               {0, {"II*\0", 4}, "tiff"},
+                                               {0, {"MM\0*", 4}, "tiff"},
+                                               {0, "BM", "bmp"},
+                                               {8, "WEBP", "webp"}}};
+
+Error unreadable(const std::string& name, const std::string& message) {
+  return {ErrorKind::usage, name, message, "give a whole PNG, JPEG, EXR, Radiance HDR, TIFF, BMP or WebP file"};
+}
+
+// OpenImageIO ends some messages with line breaks and repeats others.
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+// The reason that the reader gives, or else the one in OpenImageIO's queue of this thread, which must not be left for
+// the next caller to find.
+std::string reason_of_failure(const OIIO::ImageInput* input) {
+  const std::string queued = OIIO::geterror();
+  const std::string own = input != nullptr ? input->geterror() : std::string{};
+  const std::string reason = first_line(own.empty() ? queued : own);
+  return reason.empty() ? "it is damaged" : reason;
+}
+
+std::string format_of(IOProxy& source, const std::string& name) {
+  std::array<char, 16> head{};
+  if (source.size() == 0) throw unreadable(name, "the file is empty");
+  const std::size_t length = source.pread(head.data(), std::min(head.size(), source.size()), 0);
+  const std::string_view start(head.data(), length);
+  for (const Signature& signature : signatures) {
+    if (start.size() > signature.offset && start.substr(signature.offset).starts_with(signature.bytes)) {
+      return signature.format;
+    }
+  }
+  throw unreadable(name, "is not an image of a known kind");
+}
+
+// Walks the chunks of a PNG to its end. Where one ends early, libpng would write to stderr and OpenImageIO 2.4 would
+// lose a string to libpng's longjmp.
+void require_whole_png(IOProxy& source, const std::string& name) {
+  constexpr std::size_t signature_size = 8, frame_size = 12;  // length, type and CRC of a chunk
+  std::array<std::uint8_t, 8> head{};
+  for (std::size_t start = signature_size; start + frame_size <= source.size();) {
+    source.pread(head.data(), head.size(), static_cast<std::int64_t>(start));
+    const std::size_t length =
+        std::size_t{head[0]} << 24 | std::size_t{head[1]} << 16 | std::size_t{head[2]} << 8 | head[3];
+    start += frame_size + length;
+    const bool is_end = std::string_view(reinterpret_cast<const char*>(&head[4]), 4) == "IEND";
+    if (is_end && start <= source.size()) return;
+  }
+  throw unreadable(name, "is truncated or damaged: the PNG does not reach its end");
+}
+
+std::unique_ptr<OIIO::ImageInput> open_image(IOProxy& source, const std::string& name) {
+  OIIO::ImageSpec config;
+  IOProxy* proxy = &source;
+  config.attribute("oiio:UnassociatedAlpha", 1);
+  config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  const std::string format = format_of(source, name);
+  if (format == "png") require_whole_png(source, name);
+  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format, false, &config, proxy);
+  OIIO::ImageSpec spec;
+  if (!input || !input->open(name, spec, config)) {
+    throw unreadable(name, fmt::format("cannot be read: {}", reason_of_failure(input.get())));
+  }
+  return input;
+}
+
+void check_header(const OIIO::ImageSpec& spec, const std::string& name, int max_side) {
+  if (spec.width < 1 || spec.height < 1 || spec.depth != 1 || spec.deep) {
+    throw unreadable(name, fmt::format("is no flat picture ({} x {} x {})", spec.width, spec.height, spec.depth));
+  }
+  if (spec.width > max_side || spec.height > max_side) {
+    throw Error(ErrorKind::usage, name, fmt::format("declares {} x {} texels", spec.width, spec.height),
+                fmt::format("at most {0} x {0} are taken; scale it down", max_side));
+  }
+  if (spec.nchannels < 1 || spec.nchannels > 4) {
+    throw Error(ErrorKind::usage, name, fmt::format("has {} channels", spec.nchannels),
+                "give one with 1 to 4 channels");
+  }
+}
+
+// The sRGB transfer curve of IEC 61966-2-1 and its inverse.
+float srgb_decoded(float value) {
+  return value <= 0.04045F ? value / 12.92F : std::pow((value + 0.055F) / 1.055F, 2.4F);
+}
+float srgb_encoded(float value) {
+  return value <= 0.0031308F ? value * 12.92F : 1.055F * std::pow(value, 1.0F / 2.4F) - 0.055F;
+}
+
+void decode_srgb(Image& image, int alpha_channel) {
+  for (std::size_t i = 0; i < image.texels.size(); ++i) {
+    const int channel = static_cast<int>(i % static_cast<std::size_t>(image.channels));
+    if (channel != alpha_channel) image.texels[i] = srgb_decoded(image.texels[i]);
+  }
+}
+
+Image decode(IOProxy& source, const std::string& name, Transfer transfer, int max_side) {
+  const std::unique_ptr<OIIO::ImageInput> input = open_image(source, name);
+  const OIIO::ImageSpec& spec = input->spec();
+  check_header(spec, name, max_side);
+  require_memory(frame_bytes(spec.width, spec.height, spec.nchannels * sizeof(float)), name,
+                 "scale the picture down, or free memory");
+  Image image(spec.width, spec.height, spec.nchannels);
+  const bool complete = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.texels.data());
+  // The JPEG reader fills up what a truncated file lacks, returns success and leaves a message.
+  if (!complete || input->has_error()) {
+    throw unreadable(name, fmt::format("is truncated or damaged: {}", reason_of_failure(input.get())));
+  }
+  if (transfer == Transfer::srgb && !spec.format.is_floating_point()) decode_srgb(image, spec.alpha_channel);
+  return image;
+}
+
+// Encoded in memory, so that there is one way of writing files and of finding a full disk.
+std::vector<unsigned char> encode(const std::string& name, const char* format, const OIIO::ImageSpec& spec,
+                                  OIIO::TypeDesc type, const void* texels) {
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput target(bytes);
+  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format, &target);
+  if (output && output->open(name, spec) && output->write_image(type, texels) && output->close()) return bytes;
+  const std::string queued = OIIO::geterror();
+  throw Error(ErrorKind::machine, name,
+              fmt::format("cannot be encoded: {}", first_line(output ? output->geterror() : queued)));
+}
+
+OIIO::ImageSpec writable_spec(const std::filesystem::path& file, const Image& image, OIIO::TypeDesc type) {
+  const bool taken = image.channels == 1 || image.channels == 3 || image.channels == 4;
+  if (image.empty() || !taken) {
+    throw Error(
+        ErrorKind::usage, file.string(),
+        fmt::format("a picture of {} x {} x {} channels cannot be written", image.width, image.height, image.channels),
+        "write 1, 3 or 4 channels");
+  }
+  return {image.width, image.height, image.channels, type};
+}
+
+float clamped(float value) { return value > 0.0F ? std::min(value, 1.0F) : 0.0F; }  // NaN as 0
+
+}  // namespace
+
+Image read_image(const std::filesystem::path& file, Transfer transfer, int max_side) {
+  const std::string name = file.string();
+  std::error_code ignored;  // what cannot be asked cannot be opened either
+  const std::filesystem::file_status status = std::filesystem::status(file, ignored);
+  if (!std::filesystem::exists(status)) {
+    throw Error(ErrorKind::usage, name, "there is no such file", "check the path");
+  }
+  if (!std::filesystem::is_regular_file(status)) throw unreadable(name, "is not a file");
+  OIIO::Filesystem::IOFile source(name, IOProxy::Read);
+  if (!source.opened()) throw Error(ErrorKind::usage, name, "cannot be opened", "check its permissions");
+  return decode(source, name, transfer, max_side);
+}
+
+Image read_image(std::span<const std::uint8_t> bytes, const std::string& name, Transfer transfer, int max_side) {
+  OIIO::Filesystem::IOMemReader source(bytes.data(), bytes.size());
+  return decode(source, name, transfer, max_side);
+}
+
+void write_exr(const std::filesystem::path& file, const Image& image) {
+  OIIO::ImageSpec spec = writable_spec(file, image, OIIO::TypeDesc::FLOAT);
+  if (image.channels == 1) spec.channelnames = {"Y"};
+  spec.attribute("compression", "zip");
+  spec.attribute("oiio:ColorSpace", "Linear");
+  spec.attribute("DateTime", "");  // else OpenImageIO stamps the hour, and equal pictures are different files
+  write_file_atomically(file, encode(file.string(), "openexr", spec, OIIO::TypeDesc::FLOAT, image.texels.data()));
+}
+
+void write_png(const std::filesystem::path& file, const Image& image) {
+  OIIO::ImageSpec spec = writable_spec(file, image, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  std::vector<std::uint8_t> bytes(image.texels.size());
+  std::ranges::transform(image.texels, bytes.begin(),
+                         [](float value) { return static_cast<std::uint8_t>(std::lround(clamped(value) * 255.0F)); });
+  write_file_atomically(file, encode(file.string(), "png", spec, OIIO::TypeDesc::UINT8, bytes.data()));
+}
+
+Image to_display(const Image& radiance, float exposure) {
+  Image display = radiance;
+  const bool has_alpha = radiance.channels == 4;
+  for (std::size_t i = 0; i < display.texels.size(); ++i) {
+    const bool is_alpha = has_alpha && i % 4 == 3;
+    const bool background = has_alpha && !(radiance.texels[i / 4 * 4 + 3] > 0.0F);
+    if (is_alpha) continue;
+    display.texels[i] = background ? 0.0F : srgb_encoded(clamped(exposure * radiance.texels[i]));
+  }
+  return display;
+}
+
+}  // namespace footprint

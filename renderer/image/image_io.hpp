@@ -1,0 +1,39 @@
+// Pictures in and out of files, by OpenImageIO: EXR for linear radiance, PNG for looking at, anything for textures.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "renderer/image/image.hpp"
+
+namespace footprint {
+
+/// How the numbers of a file become floats.
+enum class Transfer {
+  linear,  ///< as stored: 0..1 for integer formats, the value for float formats (normal maps, roughness, EXR)
+  srgb,    ///< colour channels of integer formats are decoded from sRGB; alpha and float formats stay as they are
+};
+
+/// Reads a PNG, JPEG, EXR, Radiance HDR, TIFF, BMP or WebP file, told by its first bytes, whatever its name. Alpha is
+/// never premultiplied; 1 to 4 channels come back as stored, NaN and negative values in float files too.
+/// Errors (usage): missing, empty, not an image, truncated, over `max_side` texels a side (hostile size: refused from
+/// the header, before memory is taken), no channel or more than four; (machine): not enough memory.
+[[nodiscard]] Image read_image(const std::filesystem::path& file, Transfer transfer, int max_side = 16384);
+
+/// The same from the encoded bytes of a file in memory (an image in a glTF buffer); `name` is for the error text.
+[[nodiscard]] Image read_image(std::span<const std::uint8_t> bytes, const std::string& name, Transfer transfer,
+                               int max_side = 16384);
+
+/// Writes 1, 3 or 4 channels as 32-bit float EXR (zip); written to a temporary neighbour and renamed, so the file
+/// appears whole or not at all. Errors (machine): the folder cannot be written, the disk is full.
+void write_exr(const std::filesystem::path& file, const Image& image);
+
+/// Writes 1, 3 or 4 channels of display values 0..1 (clamped, NaN as 0) as 8-bit PNG; atomic as write_exr.
+void write_png(const std::filesystem::path& file, const Image& image);
+
+/// Linear radiance to display: exposure, clamp, sRGB transfer curve; alpha stays, background is black.
+[[nodiscard]] Image to_display(const Image& radiance, float exposure);
+
+}  // namespace footprint

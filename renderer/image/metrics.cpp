@@ -1,0 +1,129 @@
+// See metrics.hpp; the formulas are those of docs/metrics.md.
+#include "renderer/image/metrics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <ranges>
+#include <string_view>
+
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+namespace {
+
+using Rgb = std::array<double, 3>;
+
+constexpr double relmse_epsilon_share = 1e-2;  // of the squared mean luminance of the reference
+
+// Half of one sample in 4096 may be lost to rounding. NaN counts as covered, so that the check for finite values sees
+// it.
+bool covers_whole_pixel(std::span<const float> texel) { return !(texel[3] < 1.0F - 1.0F / 8192.0F); }
+
+Rgb rgb_of(const Image& image, int x, int y, std::string_view which) {
+  const std::span<const float> texel = image.at(x, y);
+  if (!std::ranges::all_of(texel, [](float value) { return std::isfinite(value); })) {
+    throw Error(ErrorKind::usage, fmt::format("{}, pixel ({}, {})", which, x, y), "the value is not a finite number");
+  }
+  if (texel[3] <= 0) return {};  // left uncovered: black
+  return {texel[0], texel[1], texel[2]};
+}
+
+void require_comparable(const Image& picture, const Image& reference) {
+  if (picture.channels != 4 || reference.channels != 4) {
+    throw Error(ErrorKind::usage, "comparison",
+                fmt::format("the picture has {} channels, the reference {}", picture.channels, reference.channels),
+                "compare RGBA pictures with the coverage in alpha");
+  }
+  if (picture.width != reference.width || picture.height != reference.height) {
+    throw Error(ErrorKind::usage, "comparison",
+                fmt::format("the picture is {} x {}, the reference {} x {}", picture.width, picture.height,
+                            reference.width, reference.height),
+                "compare pictures of one size");
+  }
+}
+
+template <typename Visit>  // visit(column, row, picture's rgb, reference's rgb), row by row
+void visit_object_pixels(const Image& picture, const Image& reference, Visit visit) {
+  require_comparable(picture, reference);
+  for (int y = 0; y < reference.height; ++y) {
+    for (int x = 0; x < reference.width; ++x) {
+      if (!covers_whole_pixel(reference.at(x, y))) continue;
+      const Rgb truth = rgb_of(reference, x, y, "the reference");
+      visit(x, y, rgb_of(picture, x, y, "the picture"), truth);
+    }
+  }
+}
+
+double squared(double value) { return value * value; }
+
+double luminance(const Rgb& rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }  // Rec. 709
+
+// Sum over the channels of the squared difference of what a display of peak 1 shows.
+double displayed_squared_distance(const Rgb& a, const Rgb& b, double exposure) {
+  double sum = 0;
+  for (std::size_t c = 0; c < a.size(); ++c) {
+    sum += squared(std::clamp(exposure * a[c], 0.0, 1.0) - std::clamp(exposure * b[c], 0.0, 1.0));
+  }
+  return sum;
+}
+
+// 0 / 0 is 0: nothing differs from nothing. Anything else over 0 is infinite.
+double ratio(double difference, double scale) {
+  if (difference == 0) return 0;
+  return scale > 0 ? difference / scale : std::copysign(std::numeric_limits<double>::infinity(), difference);
+}
+
+double mean_luminance(const Image& reference) {
+  double sum = 0;
+  visit_object_pixels(reference, reference, [&](int, int, const Rgb&, const Rgb& r) { sum += luminance(r); });
+  return sum / static_cast<double>(object_pixel_count(reference));
+}
+
+}  // namespace
+
+std::optional<ErrorFigures> compare_images(const Image& picture, const Image& reference, float exposure) {
+  require_comparable(picture, reference);
+  const double pixels = static_cast<double>(object_pixel_count(reference));
+  if (pixels == 0) return std::nullopt;
+  const double epsilon = relmse_epsilon_share * squared(mean_luminance(reference));
+
+  double distance = 0, displayed = 0, squares = 0, reference_squares = 0, relative = 0, sum = 0, reference_sum = 0;
+  visit_object_pixels(picture, reference, [&](int, int, const Rgb& x, const Rgb& r) {
+    const double shown = displayed_squared_distance(x, r, exposure);
+    distance += std::sqrt(shown / 3);
+    displayed += shown;
+    for (std::size_t c = 0; c < x.size(); ++c) {
+      squares += squared(x[c] - r[c]);
+      reference_squares += squared(r[c]);
+      relative += ratio(squared(x[c] - r[c]), squared(r[c]) + epsilon);
+      sum += x[c];
+      reference_sum += r[c];
+    }
+  });
+  return ErrorFigures{.normalized_color = distance / pixels,
+                      .relative_rmse = std::sqrt(ratio(squares, reference_squares)),
+                      .relmse = relative / (3 * pixels),
+                      .psnr = -10 * std::log10(displayed / (3 * pixels)),
+                      .energy_bias = ratio(sum - reference_sum, reference_sum)};
+}
+
+Image error_map(const Image& picture, const Image& reference, float exposure) {
+  Image map(reference.width, reference.height, 1);
+  visit_object_pixels(picture, reference, [&](int column, int row, const Rgb& x, const Rgb& r) {
+    map.at(column, row)[0] = static_cast<float>(std::sqrt(displayed_squared_distance(x, r, exposure) / 3));
+  });
+  return map;
+}
+
+std::size_t object_pixel_count(const Image& reference) {
+  if (reference.channels != 4) return 0;
+  return static_cast<std::size_t>(std::ranges::count_if(
+      std::views::iota(std::size_t{0}, reference.texel_count()),
+      [&](std::size_t i) { return covers_whole_pixel(std::span(reference.texels).subspan(4 * i, 4)); }));
+}
+
+}  // namespace footprint

@@ -1,0 +1,31 @@
+// The error measures of docs/metrics.md, over the object's pixels.
+#pragma once
+
+#include <optional>
+
+#include "renderer/image/image.hpp"
+
+namespace footprint {
+
+/// What a picture differs from the reference by. Only object pixels count: those whose reference coverage is 1.
+struct ErrorFigures {
+  double normalized_color = 0;  ///< Tan 2005: mean of |rgb - rgb_ref| / sqrt(3) on exposed values clamped to [0,1]
+  double relative_rmse = 0;     ///< sqrt(sum |x - r|^2 / sum |r|^2) on linear radiance
+  double relmse = 0;            ///< mean of (x - r)^2 / (r^2 + epsilon), epsilon in docs/metrics.md
+  double psnr = 0;              ///< dB, peak 1, on exposed clamped values; infinite for equal pictures
+  double energy_bias = 0;       ///< (sum x - sum r) / sum r on linear radiance, signed
+};
+
+/// Compares RGBA pictures of the same size: linear radiance (mean over the covered part of the pixel), coverage in
+/// alpha. A pixel that the picture left uncovered counts as black. Empty if the reference has no fully covered pixel.
+/// Throws Error{usage} on different sizes, on other than 4 channels and on a NaN or infinity in an object pixel of
+/// either (naming the pixel).
+[[nodiscard]] std::optional<ErrorFigures> compare_images(const Image& picture, const Image& reference, float exposure);
+
+/// Per-pixel normalised colour error, one channel, 0 outside the object: what the false-colour picture shows.
+[[nodiscard]] Image error_map(const Image& picture, const Image& reference, float exposure);
+
+/// Pixels whose reference coverage is 1.
+[[nodiscard]] std::size_t object_pixel_count(const Image& reference);
+
+}  // namespace footprint

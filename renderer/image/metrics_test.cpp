@@ -1,0 +1,193 @@
+// Error measures against values worked out by hand, and their invariances.
+#include "renderer/image/metrics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+namespace {
+
+Image noise(unsigned seed, float maximum = 1.0F) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<float> uniform(0.0F, maximum);
+  Image image(9, 7, 4, 1.0F);
+  for (std::size_t i = 0; i < image.texels.size(); ++i) {
+    if (i % 4 != 3) image.texels[i] = uniform(generator);
+  }
+  return image;
+}
+
+Image pixels(const std::vector<std::array<float, 4>>& values) {
+  Image image(static_cast<int>(values.size()), 1, 4);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    std::ranges::copy(values[i], image.at(static_cast<int>(i), 0).begin());
+  return image;
+}
+
+void scale_radiance(Image& image, float factor) {
+  for (std::size_t i = 0; i < image.texels.size(); ++i) {
+    if (i % 4 != 3) image.texels[i] *= factor;
+  }
+}
+
+std::string error_text(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    return error.what();
+  }
+  return "no error";
+}
+
+// Two object pixels, worked out by hand. Exposure 2: shown differences (.2, 0, 0) and, clamped at 1, (0, .5, 0).
+TEST(Metrics, HandComputedFigures) {
+  const Image reference = pixels({{0.1F, 0.2F, 0.3F, 1}, {0.8F, 0.25F, 0.0F, 1}});
+  const Image picture = pixels({{0.2F, 0.2F, 0.3F, 1}, {2.0F, 0.5F, 0.0F, 1}});
+  const ErrorFigures figures = compare_images(picture, reference, 2.0F).value();
+  EXPECT_NEAR(figures.normalized_color, (0.2 + 0.5) / std::sqrt(3.0) / 2, 1e-7);
+  EXPECT_NEAR(figures.psnr, 10 * std::log10(6 / (0.04 + 0.25)), 1e-6);
+  const double squares = 0.01 + 1.44 + 0.0625;
+  const double reference_squares = 0.01 + 0.04 + 0.09 + 0.64 + 0.0625;
+  EXPECT_NEAR(figures.relative_rmse, std::sqrt(squares / reference_squares), 1e-7);
+  EXPECT_NEAR(figures.energy_bias, (3.2 - 1.65) / 1.65, 1e-6);
+  const double first = 0.2126 * 0.1 + 0.7152 * 0.2 + 0.0722 * 0.3;
+  const double second = 0.2126 * 0.8 + 0.7152 * 0.25;
+  const double epsilon = 0.01 * std::pow((first + second) / 2, 2);
+  EXPECT_NEAR(figures.relmse, (0.01 / (0.01 + epsilon) + 1.44 / (0.64 + epsilon) + 0.0625 / (0.0625 + epsilon)) / 6,
+              1e-6);
+}
+
+TEST(Metrics, EqualPicturesDifferByNothing) {
+  const Image image = noise(1, 3.0F);
+  const ErrorFigures figures = compare_images(image, image, 1.0F).value();
+  EXPECT_EQ(figures.normalized_color, 0);
+  EXPECT_EQ(figures.relative_rmse, 0);
+  EXPECT_EQ(figures.relmse, 0);
+  EXPECT_EQ(figures.energy_bias, 0);
+  EXPECT_EQ(figures.psnr, std::numeric_limits<double>::infinity());
+}
+
+// The whole range of the measure: black against white is 1.
+TEST(Metrics, BlackAgainstWhiteIsOne) {
+  const Image black = pixels({{0, 0, 0, 1}});
+  const Image white = pixels({{1, 1, 1, 1}});
+  const ErrorFigures figures = compare_images(black, white, 1.0F).value();
+  EXPECT_DOUBLE_EQ(figures.normalized_color, 1);
+  EXPECT_NEAR(figures.psnr, 0, 1e-12);
+  EXPECT_DOUBLE_EQ(figures.energy_bias, -1);
+  EXPECT_DOUBLE_EQ(figures.relative_rmse, 1);
+}
+
+// Against a black reference relative figures have no scale.
+TEST(Metrics, ABlackReferenceGivesInfiniteRelativeErrors) {
+  const Image black = pixels({{0, 0, 0, 1}});
+  const Image white = pixels({{1, 1, 1, 1}});
+  const ErrorFigures figures = compare_images(white, black, 1.0F).value();
+  EXPECT_TRUE(std::isinf(figures.relmse));
+  EXPECT_TRUE(std::isinf(figures.relative_rmse));
+  EXPECT_TRUE(std::isinf(figures.energy_bias));
+  EXPECT_EQ(compare_images(black, black, 1.0F)->relmse, 0);
+}
+
+TEST(Metrics, RadianceTimesExposureIsWhatCounts) {
+  Image picture = noise(1), reference = noise(2);
+  const ErrorFigures before = compare_images(picture, reference, 0.75F).value();
+  scale_radiance(picture, 8.0F);
+  scale_radiance(reference, 8.0F);
+  const ErrorFigures after = compare_images(picture, reference, 0.75F / 8).value();
+  EXPECT_DOUBLE_EQ(after.normalized_color, before.normalized_color);
+  EXPECT_DOUBLE_EQ(after.psnr, before.psnr);
+  EXPECT_NEAR(after.relative_rmse, before.relative_rmse, 1e-12);
+  EXPECT_NEAR(after.relmse, before.relmse, 1e-12);
+  EXPECT_NEAR(after.energy_bias, before.energy_bias, 1e-12);
+}
+
+TEST(Metrics, TheBackgroundNeverCounts) {
+  const Image object_picture = pixels({{0.5F, 0.5F, 0.5F, 1}});
+  const Image object_reference = pixels({{0.25F, 0.5F, 0.5F, 1}});
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const Image picture = pixels({{9, 9, 9, 1}, {0.5F, 0.5F, 0.5F, 1}, {nan, 9, 9, 1}});
+  const Image reference = pixels({{1, 2, 3, 0}, {0.25F, 0.5F, 0.5F, 1}, {1, 2, 3, 0.97F}});
+  EXPECT_EQ(compare_images(picture, reference, 1.0F)->normalized_color,
+            compare_images(object_picture, object_reference, 1.0F)->normalized_color);
+  EXPECT_EQ(compare_images(picture, reference, 1.0F)->relmse,
+            compare_images(object_picture, object_reference, 1.0F)->relmse);
+  EXPECT_EQ(object_pixel_count(reference), 1U);
+  EXPECT_EQ(error_map(picture, reference, 1.0F).texels[0], 0.0F);
+  EXPECT_EQ(error_map(picture, reference, 1.0F).texels[2], 0.0F);
+}
+
+TEST(Metrics, APixelLeftUncoveredCountsAsBlack) {
+  const Image reference = pixels({{0.25F, 0.5F, 0.5F, 1}});
+  const Image uncovered = pixels({{0.25F, 0.5F, 0.5F, 0}});
+  const Image black = pixels({{0, 0, 0, 1}});
+  EXPECT_EQ(compare_images(uncovered, reference, 1.0F)->normalized_color,
+            compare_images(black, reference, 1.0F)->normalized_color);
+  EXPECT_EQ(compare_images(uncovered, reference, 1.0F)->energy_bias, -1.0);
+}
+
+TEST(Metrics, OneChangedPixelChangesTheFigureByItsShare) {
+  const Image reference = noise(3);
+  Image picture = reference;
+  picture.at(4, 2)[1] = reference.at(4, 2)[1] < 0.5F ? reference.at(4, 2)[1] + 0.25F : reference.at(4, 2)[1] - 0.25F;
+  const double expected = 0.25 / std::sqrt(3.0) / 63;
+  EXPECT_NEAR(compare_images(picture, reference, 1.0F)->normalized_color, expected, 1e-8);
+  const Image map = error_map(picture, reference, 1.0F);
+  EXPECT_NEAR(map.at(4, 2)[0], 0.25 / std::sqrt(3.0), 1e-6);
+  EXPECT_EQ(std::ranges::count_if(map.texels, [](float value) { return value != 0; }), 1);
+}
+
+// The figure is the mean of the picture that the page shows.
+TEST(Metrics, TheFigureIsTheMeanOfTheErrorMap) {
+  const Image picture = noise(4, 2.0F), reference = noise(5, 2.0F);
+  const Image map = error_map(picture, reference, 0.8F);
+  double sum = 0;
+  for (const float value : map.texels) sum += value;
+  EXPECT_NEAR(compare_images(picture, reference, 0.8F)->normalized_color, sum / 63, 1e-7);
+}
+
+TEST(Metrics, NoFullyCoveredPixelNoFigures) {
+  EXPECT_FALSE(compare_images(pixels({{1, 1, 1, 1}}), pixels({{1, 1, 1, 0.5F}}), 1.0F).has_value());
+  EXPECT_FALSE(compare_images(Image(0, 0, 4), Image(0, 0, 4), 1.0F).has_value());
+}
+
+TEST(Metrics, ACoverageOfOneLessARoundingErrorIsWhole) {
+  EXPECT_EQ(object_pixel_count(pixels({{0, 0, 0, 0.9999998F}, {0, 0, 0, 4095.0F / 4096.0F}})), 1U);
+}
+
+TEST(Metrics, NotANumberIsNamedWithItsPixelAndPicture) {
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    const Image good = noise(6);
+    Image broken = good;
+    broken.at(3, 5)[2] = bad;
+    const std::string in_picture = error_text([&] { (void)compare_images(broken, good, 1.0F); });
+    EXPECT_NE(in_picture.find("the picture, pixel (3, 5)"), std::string::npos) << in_picture;
+    const std::string in_reference = error_text([&] { (void)compare_images(good, broken, 1.0F); });
+    EXPECT_NE(in_reference.find("the reference, pixel (3, 5)"), std::string::npos) << in_reference;
+    EXPECT_NE(error_text([&] { (void)error_map(broken, good, 1.0F); }), "no error");
+  }
+  Image uncovered = noise(6);
+  uncovered.at(1, 1)[3] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_NE(error_text([&] { (void)compare_images(noise(6), uncovered, 1.0F); }), "no error");
+}
+
+TEST(Metrics, PicturesOfAnotherSizeAreRefused) {
+  const std::string text = error_text([] { (void)compare_images(Image(2, 2, 4, 1), Image(2, 3, 4, 1), 1.0F); });
+  EXPECT_NE(text.find("2 x 2"), std::string::npos) << text;
+  EXPECT_NE(text.find("2 x 3"), std::string::npos) << text;
+  EXPECT_NE(error_text([] { (void)compare_images(Image(2, 2, 3, 1), Image(2, 2, 4, 1), 1.0F); }), "no error");
+}
+
+}  // namespace
+}  // namespace footprint

@@ -1,0 +1,105 @@
+// See mipmap.hpp.
+#include "renderer/image/mipmap.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <utility>
+
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+namespace {
+
+// The fine texels under one coarse texel along one axis, and the share of it that each covers.
+struct Taps {
+  int first = 0;
+  int count = 1;
+  std::array<double, 3> weight{1.0, 0.0, 0.0};
+};
+
+// Coarse texel i of m = floor(n / 2) covers [i n / m, (i + 1) n / m) of n fine ones: two whole ones if n is even; for
+// n = 2m + 1 the shares are ((m - i), m, (1 + i)) / n (Guthe and Heckbert 2005, "Non-power-of-two mipmapping").
+Taps taps_of(int fine_size, int i) {
+  if (fine_size == 1) return {};
+  if (fine_size % 2 == 0) return {2 * i, 2, {0.5, 0.5, 0.0}};
+  const int m = fine_size / 2;
+  const double n = fine_size;
+  return {2 * i, 3, {(m - i) / n, m / n, (1 + i) / n}};
+}
+
+template <typename Visit>  // visit(texel, share of the coarse texel's area)
+void visit_taps(const Image& fine, const Taps& across, const Taps& down, Visit visit) {
+  for (int j = 0; j < down.count; ++j) {
+    for (int i = 0; i < across.count; ++i) {
+      visit(fine.at(across.first + i, down.first + j), across.weight[i] * down.weight[j]);
+    }
+  }
+}
+
+double mean_of_channel(const Image& fine, const Taps& across, const Taps& down, std::size_t channel) {
+  double sum = 0;
+  visit_taps(fine, across, down, [&](std::span<const float> texel, double share) { sum += share * texel[channel]; });
+  return sum;
+}
+
+void plain_mean(const Image& fine, const Taps& across, const Taps& down, std::span<float> coarse) {
+  for (std::size_t c = 0; c < coarse.size(); ++c)
+    coarse[c] = static_cast<float>(mean_of_channel(fine, across, down, c));
+}
+
+void weighted_mean(const Image& fine, const Taps& across, const Taps& down, std::span<float> coarse) {
+  const std::size_t last = coarse.size() - 1;
+  const double weight = mean_of_channel(fine, across, down, last);
+  if (weight <= 0) return plain_mean(fine, across, down, coarse);
+  for (std::size_t c = 0; c < last; ++c) {
+    double sum = 0;
+    visit_taps(fine, across, down, [&](std::span<const float> texel, double share) {
+      if (texel[last] > 0) sum += share * texel[last] * texel[c];  // an invalid texel may hold NaN: 0 * NaN is no 0
+    });
+    coarse[c] = static_cast<float>(sum / weight);
+  }
+  coarse[last] = static_cast<float>(weight);
+}
+
+// Each coarse texel is a sum of its own in a fixed order, so the result does not depend on the number of threads.
+template <typename Reduce>
+Image reduced(const Image& fine, Reduce reduce) {
+  Image coarse(std::max(fine.width / 2, 1), std::max(fine.height / 2, 1), fine.channels);
+  constexpr int texels_per_task = 16384;
+  const int rows_per_task = std::max(1, texels_per_task / coarse.width);
+  tbb::parallel_for(tbb::blocked_range<int>(0, coarse.height, rows_per_task), [&](const tbb::blocked_range<int>& rows) {
+    for (int y = rows.begin(); y < rows.end(); ++y) {
+      const Taps down = taps_of(fine.height, y);
+      for (int x = 0; x < coarse.width; ++x) reduce(fine, taps_of(fine.width, x), down, coarse.at(x, y));
+    }
+  });
+  return coarse;
+}
+
+template <typename Reduce>
+std::vector<Image> chain(Image finest, Reduce reduce) {
+  if (finest.empty()) throw Error(ErrorKind::usage, "mip chain", "the picture has no texels");
+  std::vector<Image> levels;
+  levels.reserve(static_cast<std::size_t>(mip_level_count(finest.width, finest.height)));
+  levels.push_back(std::move(finest));
+  while (levels.back().texel_count() > 1) levels.push_back(reduced(levels.back(), reduce));
+  return levels;
+}
+
+}  // namespace
+
+int mip_level_count(int width, int height) {
+  return static_cast<int>(std::bit_width(static_cast<unsigned>(std::max({width, height, 1}))));
+}
+
+Image downsample(const Image& fine) { return fine.texel_count() <= 1 ? fine : reduced(fine, plain_mean); }
+
+std::vector<Image> mip_chain(Image finest) { return chain(std::move(finest), plain_mean); }
+
+std::vector<Image> weighted_mip_chain(Image finest) { return chain(std::move(finest), weighted_mean); }
+
+}  // namespace footprint

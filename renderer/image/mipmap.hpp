@@ -1,0 +1,26 @@
+// Exact mip chains for any size, power of two or not.
+#pragma once
+
+#include <vector>
+
+#include "renderer/image/image.hpp"
+
+namespace footprint {
+
+/// Level sizes follow OpenGL: floor(n / 2), at least 1, down to 1 x 1.
+[[nodiscard]] int mip_level_count(int width, int height);
+
+/// The next coarser level: each coarse texel is the exact mean of the area that it covers of the finer level (for an
+/// odd size n = 2m + 1 the polyphase weights ((m - i), m, (1 + i)) / n per axis), so every channel's mean survives
+/// every level to rounding. Sums are taken in double. A 1 x 1 image is returned as it is.
+[[nodiscard]] Image downsample(const Image& fine);
+
+/// The whole chain, `finest` first, 1 x 1 last. Plain means of every channel.
+[[nodiscard]] std::vector<Image> mip_chain(Image finest);
+
+/// As mip_chain, but the last channel is a weight: the other channels of a coarse texel are the weighted mean of those
+/// under it, its weight the mean weight. Texels of weight 0 (invalid normals) leave the mean untouched; where all are
+/// 0, the plain mean of the others stands in.
+[[nodiscard]] std::vector<Image> weighted_mip_chain(Image finest);
+
+}  // namespace footprint

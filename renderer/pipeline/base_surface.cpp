@@ -1,0 +1,139 @@
+// See base_surface.hpp.
+#include "renderer/pipeline/base_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace footprint {
+
+namespace embedded {
+extern const std::string_view base_surface_glsl;
+}
+
+namespace {
+
+// Twins of the constants in common_lobes.glsl.
+constexpr float smallest_alpha = 1e-3F;
+constexpr float smallest_concentration = 1e-6F;
+
+Image one_channel(const Image& image, int channel) {
+  Image out(image.width, image.height, 1);
+  const auto stride = static_cast<std::size_t>(image.channels);
+  for (std::size_t i = 0; i < out.texels.size(); ++i)
+    out.texels[i] = image.texels[i * stride + static_cast<std::size_t>(channel)];
+  return out;
+}
+
+class BaseSurface final : public Method {
+ public:
+  [[nodiscard]] const MethodInfo& info() const override { return info_; }
+
+  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& /*options*/, const EffectSet& effects,
+                                       const Progress& /*progress*/) const override {
+    Prefiltered out;
+    if (has(effects, Effect::normal_variation)) {
+      out.textures.push_back(
+          make_texture("base_normal", {normal_map_of(material)}, Storage::fp32, normal_coordinates(material)));
+    }
+    if (has(effects, Effect::roughness_variation)) {
+      out.textures.push_back(
+          make_texture("base_roughness", {roughness_map_of(material)}, Storage::fp32, roughness_coordinates(material)));
+    }
+    return out;
+  }
+
+  [[nodiscard]] std::string_view shader() const override { return embedded::base_surface_glsl; }
+
+ private:
+  MethodInfo info_{.name = "reference",
+                   .summary = "The supersampled truth: many samples a pixel, each shading one texel's own base BRDF.",
+                   .paper = "",
+                   .options = {},
+                   .honours = EffectSet{}.set()};
+};
+
+}  // namespace
+
+const Method& base_surface() {
+  static const BaseSurface method;
+  return method;
+}
+
+Image normal_map_of(const Material& material) {
+  if (material.normal_map) return *material.normal_map->image;
+  Image flat(1, 1, 4);
+  flat.texels = {0.0F, 0.0F, 1.0F, 1.0F};
+  return flat;
+}
+
+Image roughness_map_of(const Material& material) {
+  if (material.metallic_roughness_map && !material.lobe_parameter)
+    return one_channel(*material.metallic_roughness_map->image, 0);
+  if (material.lobe_parameter)
+    return Image(1, 1, 1, std::sqrt(lobe_alpha(material.brdf.distribution, *material.lobe_parameter)));
+  return Image(1, 1, 1, material.roughness);
+}
+
+Image metallic_map_of(const Material& material) {
+  if (material.metallic_roughness_map) return one_channel(*material.metallic_roughness_map->image, 1);
+  return Image(1, 1, 1, material.metallic);
+}
+
+TextureCoordinates normal_coordinates(const Material& material) {
+  return material.normal_map ? material.normal_map->coordinates : TextureCoordinates{};
+}
+
+TextureCoordinates roughness_coordinates(const Material& material) {
+  return material.metallic_roughness_map ? material.metallic_roughness_map->coordinates : TextureCoordinates{};
+}
+
+TextureCoordinates base_color_coordinates(const Material& material) {
+  return material.base_color_map ? material.base_color_map->coordinates : TextureCoordinates{};
+}
+
+float lobe_parameter(const Material& material) {
+  if (material.lobe_parameter) return *material.lobe_parameter;
+  const float roughness = roughness_map_of(material).texels.front();
+  return lobe_from_alpha(material.brdf.distribution, roughness * roughness);
+}
+
+float lobe_from_alpha(NormalDistribution distribution, float alpha) {
+  const float bounded = std::max(alpha, smallest_alpha);
+  switch (distribution) {
+    case NormalDistribution::blinn_phong:
+      return 2.0F / (bounded * bounded) - 2.0F;
+    case NormalDistribution::vmf:
+      return 2.0F / (bounded * bounded);
+    case NormalDistribution::beckmann:
+    case NormalDistribution::ggx:
+      break;
+  }
+  return bounded;
+}
+
+float lobe_alpha(NormalDistribution distribution, float lobe) {
+  switch (distribution) {
+    case NormalDistribution::blinn_phong:
+      return std::sqrt(2.0F / (lobe + 2.0F));
+    case NormalDistribution::vmf:
+      return std::min(std::sqrt(2.0F / std::max(lobe, smallest_concentration)), 1.0F);
+    case NormalDistribution::beckmann:
+    case NormalDistribution::ggx:
+      break;
+  }
+  return lobe;
+}
+
+float lobe_variance(NormalDistribution distribution, float lobe) {
+  switch (distribution) {
+    case NormalDistribution::blinn_phong:
+    case NormalDistribution::vmf:
+      return 1.0F / std::max(lobe, smallest_concentration);
+    case NormalDistribution::beckmann:
+    case NormalDistribution::ggx:
+      break;
+  }
+  return 0.5F * lobe * lobe;
+}
+
+}  // namespace footprint

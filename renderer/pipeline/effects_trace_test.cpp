@@ -1,0 +1,178 @@
+// What an effect leaves behind: nothing where a scene does not call for it, the same picture where it is compiled in
+// with nothing to do, another picture where it has something to do.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "renderer/pipeline/base_surface.hpp"
+#include "tests/support/rendering.hpp"
+#include "tests/support/test_scenes.hpp"
+
+namespace footprint::testing {
+namespace {
+
+// The scene that calls for least: one facet without terms, under one directional light low enough for Fresnel to show.
+Scene least_scene() {
+  Scene scene = square_scene({}, {.brdf = {NormalDistribution::ggx, GeometryTerm::none, FresnelTerm::none, false},
+                                  .roughness = 0.8F,
+                                  .base_color = glm::vec3(0.5F),
+                                  .specular = glm::vec3(0.5F),
+                                  .metallic = 0.0F});
+  scene.lights = {DirectionalLight{.direction = {0.99F, 0.0F, -0.1410674F}, .illuminance = glm::vec3(10.0F)}};
+  return scene;
+}
+
+TextureMap map_of(Image image) { return {"map", std::make_shared<const Image>(std::move(image)), {}}; }
+
+Image halves(int channels, float left, float right) {
+  Image image(2, 1, channels, left);
+  for (std::size_t i = static_cast<std::size_t>(channels); i < image.texels.size(); ++i) image.texels[i] = right;
+  return image;
+}
+
+// An effect, text that its code leaves in the shader, and what makes a scene call for it.
+struct EffectCase {
+  Effect effect;
+  std::string trace;
+  void (*call_for)(Scene&);
+};
+
+const EffectCase cases[] = {
+    {Effect::diffuse, "diffuse(", [](Scene& s) { s.materials[0].brdf.diffuse = true; }},
+    {Effect::fresnel, "Schlick", [](Scene& s) { s.materials[0].brdf.fresnel = FresnelTerm::schlick; }},
+    {Effect::masking_shadowing, "Smith", [](Scene& s) { s.materials[0].brdf.geometry = GeometryTerm::smith; }},
+    {Effect::normal_variation, "base_normal",
+     [](Scene& s) {
+       s.materials[0].normal_map = map_of(constant_normals(2, 2, {0.6F, 0.0F, 0.8F}));
+     }},
+    {Effect::roughness_variation, "base_roughness",
+     [](Scene& s) {
+       s.materials[0].metallic = 0.0F;
+       Image map(2, 1, 2, 0.0F);
+       map.texels = {0.4F, 0.0F, 0.8F, 0.0F};
+       s.materials[0].metallic_roughness_map = map_of(std::move(map));
+     }},
+    {Effect::base_color_variation, "base_color_map",
+     [](Scene& s) {
+       s.materials[0].metallic = 1.0F;
+       s.materials[0].base_color_map = map_of(halves(4, 1.0F, 0.5F));
+     }},
+    {Effect::metallic_variation, "metallic_map",
+     [](Scene& s) {
+       s.materials[0].base_color = {1.0F, 0.0F, 0.0F, 1.0F};
+       s.materials[0].metallic_roughness_map = map_of(halves(2, 0.5F, 0.9F));
+     }},
+    {Effect::alpha_mask, "discard",
+     [](Scene& s) {
+       s.materials[0].base_color.a = 0.3F;
+       s.materials[0].alpha_cutoff = 0.5F;
+     }},
+    {Effect::double_sided, "gl_FrontFacing", [](Scene& s) { s.materials[0].double_sided = true; }},
+    {Effect::point_light, "PointLight",
+     [](Scene& s) {
+       s.lights.emplace_back(PointLight{.position = {0, 0, 2}, .intensity = glm::vec3(2.0F), .range = {}});
+     }},
+    {Effect::spot_light, "SpotLight",
+     [](Scene& s) {
+       s.lights.emplace_back(SpotLight{.point = {.position = {0, 0, 2}, .intensity = glm::vec3(2.0F), .range = {}},
+                                       .direction = {0, 0, -1}});
+     }},
+    {Effect::directional_light, "DirectionalLight",
+     [](Scene& s) {
+       s.lights.emplace_back(DirectionalLight{.direction = {0, 0, -1}, .illuminance = glm::vec3(1.0F)});
+     }},
+};
+
+class EffectTrace : public ::testing::TestWithParam<EffectCase> {};
+
+// The scene without the effect; a directional light is what the least scene has, so a point light takes its place.
+Scene scene_without(Effect effect) {
+  Scene scene = least_scene();
+  if (effect == Effect::directional_light)
+    scene.lights = {PointLight{.position = {0, 0, 2}, .intensity = glm::vec3(2.0F), .range = {}}};
+  return scene;
+}
+
+TEST_P(EffectTrace, IsAbsentWhereTheSceneDoesNotCallForIt) {
+  const EffectCase& c = GetParam();
+  Scene without = scene_without(c.effect);
+  Scene with = without;
+  c.call_for(with);
+  ASSERT_FALSE(has(effects_on(derive_effects(without)), c.effect));
+  ASSERT_TRUE(has(effects_on(derive_effects(with)), c.effect));
+  EXPECT_EQ(TestRenderer(without).fragment_text(base_surface()).find(c.trace), std::string::npos);
+  EXPECT_NE(TestRenderer(with).fragment_text(base_surface()).find(c.trace), std::string::npos);
+}
+
+TEST_P(EffectTrace, ChangesNothingWithNothingToDo) {
+  const EffectCase& c = GetParam();
+  const Scene scene = scene_without(c.effect);
+  EffectSet set = effects_on(derive_effects(scene));
+  const Image plain = TestRenderer(scene).frame(base_surface());
+  set.set(static_cast<std::size_t>(c.effect));
+  // `diffuse` alone has a term of its own to be given nothing: a black albedo under an opaque specular.
+  Scene idle = scene;
+  if (c.effect == Effect::diffuse) idle.materials[0].base_color = {0, 0, 0, 1};
+  EXPECT_LT(largest_difference(TestRenderer(idle, {64, 64}, set).frame(base_surface()), plain), 1e-5);
+}
+
+TEST_P(EffectTrace, ChangesThePictureWhereItHasSomethingToDo) {
+  const EffectCase& c = GetParam();
+  Scene scene = scene_without(c.effect);
+  if (c.effect == Effect::double_sided)
+    scene.camera.world = glm::mat4(1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, -3, 1);
+  Scene with = scene;
+  c.call_for(with);
+  EXPECT_GT(largest_difference(TestRenderer(with).frame(base_surface()), TestRenderer(scene).frame(base_surface())),
+            1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(AllEffects, EffectTrace, ::testing::ValuesIn(cases),
+                         [](const auto& test) { return std::string(effect_name(test.param.effect)); });
+
+TEST(EffectTrace, EveryEffectHasACase) { EXPECT_EQ(std::size(cases), effect_count); }
+
+TEST(EffectTrace, TexturesAndBytesFollow) {
+  Scene scene = least_scene();
+  const auto bytes = [](const Scene& s) {
+    const EffectSet set = effects_on(derive_effects(s));
+    return bake(base_surface(), {.text = "r", .name = "r", .options = {}}, s, set, no_progress).bytes;
+  };
+  EXPECT_EQ(bytes(scene), 0U);
+  EXPECT_EQ(TestRenderer(scene).gpu_scene().shared_bytes(), 0U);
+  scene.materials[0].normal_map = map_of(constant_normals(8, 8, {0.6F, 0.0F, 0.8F}));
+  EXPECT_EQ(bytes(scene), 8U * 8U * 16U);
+  scene.materials[0].base_color_map = map_of(Image(2, 2, 4, 1.0F));
+  EXPECT_EQ(TestRenderer(scene).gpu_scene().shared_bytes(), (4U + 1U) * 16U);
+}
+
+// An effect that a method cannot honour is left out of its picture; all else stays.
+class NoFresnel final : public Method {
+ public:
+  [[nodiscard]] const MethodInfo& info() const override { return info_; }
+  [[nodiscard]] Prefiltered precompute(const Material& m, const Options& o, const EffectSet& e,
+                                       const Progress& p) const override {
+    EXPECT_FALSE(has(e, Effect::fresnel));
+    return base_surface().precompute(m, o, e, p);
+  }
+  [[nodiscard]] std::string_view shader() const override { return base_surface().shader(); }
+
+ private:
+  MethodInfo info_{.name = "no_fresnel",
+                   .summary = "",
+                   .paper = "",
+                   .options = {},
+                   .honours = ~EffectSet{}.set(static_cast<std::size_t>(Effect::fresnel))};
+};
+
+TEST(EffectTrace, IsLeftOutByAMethodThatCannotHonourIt) {
+  Scene scene = least_scene();
+  const Image without = TestRenderer(scene).frame(base_surface());
+  scene.materials[0].brdf.fresnel = FresnelTerm::schlick;
+  const NoFresnel method;
+  EXPECT_LT(largest_difference(TestRenderer(scene).frame(method), without), 1e-6);
+  EXPECT_GT(largest_difference(TestRenderer(scene).frame(base_surface()), without), 1e-3);
+}
+
+}  // namespace
+}  // namespace footprint::testing

@@ -1,0 +1,69 @@
+// See frame.hpp.
+#include "renderer/pipeline/frame.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace footprint {
+namespace {
+
+constexpr int largest_tile = 4096;  // 256 MiB of radiance: more at once gains nothing
+constexpr std::array<GLenum, 1> radiance_format{GL_RGBA32F};
+
+int edge_of(const gl::ContextInfo& context, int wanted) {
+  const int most = std::min(largest_tile, context.max_framebuffer_size);
+  return wanted > 0 ? std::min(wanted, most) : most;
+}
+
+}  // namespace
+
+FrameRenderer::FrameRenderer(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method,
+                             const glm::ivec2& size, const ProgramSettings& settings, int tile_edge)
+    : scene_(&scene),
+      method_(&method),
+      program_(scene, method.baked(), settings),
+      tiles_(tiles_of(size, edge_of(context, tile_edge))),
+      target_(tiles_.front().size.x, tiles_.front().size.y, radiance_format, true) {}
+
+void FrameRenderer::draw_tile(const View& view, const Tile& tile) const {
+  gl::api().BindFramebuffer(GL_FRAMEBUFFER, target_.framebuffer());
+  gl::api().Viewport(0, 0, tile.size.x, tile.size.y);
+  clear_target();
+  program_.draw(*scene_, *method_, view, tile_matrix(view, tile, {0.0, 0.0}));
+}
+
+void FrameRenderer::draw(const View& view) const {
+  for (const Tile& tile : tiles_) draw_tile(view, tile);
+}
+
+Image FrameRenderer::render(const View& view) const {
+  Image picture(view.size.x, view.size.y, 4);
+  for (const Tile& tile : tiles_) {
+    draw_tile(view, tile);
+    read_tile(target_, 0, tile, picture);
+  }
+  return picture;
+}
+
+void read_tile(const gl::RenderTarget& target, std::size_t attachment, const Tile& tile, Image& picture) {
+  constexpr int channels = 4;
+  std::vector<float> texels(static_cast<std::size_t>(target.width()) * static_cast<std::size_t>(target.height()) *
+                            channels);
+  target.read(attachment, channels, texels);
+  for (int y = 0; y < tile.size.y; ++y) {
+    const auto row = texels.begin() + static_cast<std::ptrdiff_t>(y) * target.width() * channels;
+    const int picture_y = picture.height - 1 - (tile.origin.y + y);
+    std::copy_n(row, tile.size.x * channels, picture.at(tile.origin.x, picture_y).begin());
+  }
+}
+
+void clear_target() {
+  constexpr std::array<float, 4> nothing{};
+  constexpr float far_plane = 1.0F;
+  gl::api().ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl::api().DepthMask(GL_TRUE);
+  gl::api().ClearBufferfv(GL_COLOR, 0, nothing.data());
+  gl::api().ClearBufferfv(GL_DEPTH, 0, &far_plane);
+}
+
+}  // namespace footprint

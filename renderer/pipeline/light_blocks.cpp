@@ -1,0 +1,42 @@
+// See light_blocks.hpp.
+#include "renderer/pipeline/light_blocks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace footprint {
+namespace {
+
+void append(std::vector<glm::vec4>& block, const PointLight& light) {
+  block.emplace_back(light.position, light.range.value_or(0.0F));
+  block.emplace_back(light.intensity, 0.0F);
+}
+
+struct Appender {
+  LightBlocks& blocks;
+
+  void operator()(const PointLight& light) const { append(blocks.point, light); }
+
+  void operator()(const SpotLight& light) const {
+    append(blocks.spot, light.point);
+    blocks.spot.emplace_back(light.direction, 0.0F);
+    // KHR_lights_punctual, "Inner and Outer Cone Angles": the same guard against equal angles.
+    const float scale = 1.0F / std::max(0.001F, std::cos(light.inner_cone_angle) - std::cos(light.outer_cone_angle));
+    blocks.spot.emplace_back(scale, -std::cos(light.outer_cone_angle) * scale, 0.0F, 0.0F);
+  }
+
+  void operator()(const DirectionalLight& light) const {
+    blocks.directional.emplace_back(-light.direction, 0.0F);
+    blocks.directional.emplace_back(light.illuminance, 0.0F);
+  }
+};
+
+}  // namespace
+
+LightBlocks light_blocks(std::span<const Light> lights) {
+  LightBlocks blocks;
+  for (const Light& light : lights) std::visit(Appender{blocks}, light);
+  return blocks;
+}
+
+}  // namespace footprint

@@ -1,0 +1,46 @@
+// How a prefiltering method plugs in. The pipeline knows nothing more of a method than this interface.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "renderer/core/options.hpp"
+#include "renderer/core/progress.hpp"
+#include "renderer/effects/effects.hpp"
+#include "renderer/pipeline/prefiltered.hpp"
+#include "renderer/scene/material.hpp"
+
+namespace footprint {
+
+/// What a method says of itself: one table that feeds `list`, --help, the reports and the docs.
+struct MethodInfo {
+  std::string name;     ///< as on the command line
+  std::string summary;  ///< one sentence
+  std::string paper;    ///< author, year, title
+  std::vector<OptionSpec> options;
+  EffectSet honours;  ///< effects that it can simulate; others are left out, and the table says so
+};
+
+/// A prefiltering method: a pure precompute and a GLSL module (docs/adding-a-method.md). Stateless.
+class Method {
+ public:
+  Method() = default;
+  Method(const Method&) = delete;
+  Method& operator=(const Method&) = delete;
+  virtual ~Method() = default;
+
+  [[nodiscard]] virtual const MethodInfo& info() const = 0;
+
+  /// Bakes one material, for a scene with `effects`: textures of effects that are off are not made. Pure: equal
+  /// arguments give equal values, at any number of threads. Long work reports progress (which may throw
+  /// Error{interrupted}). The textures' names, channels and storage and the scalars' names depend on options and
+  /// effects alone, so that one program serves every material of a scene.
+  [[nodiscard]] virtual Prefiltered precompute(const Material& material, const Options& options,
+                                               const EffectSet& effects, const Progress& progress) const = 0;
+
+  /// The GLSL module that evaluates the effective BRDF (renderer/shaders/README.md gives its contract).
+  [[nodiscard]] virtual std::string_view shader() const = 0;
+};
+
+}  // namespace footprint

@@ -1,0 +1,49 @@
+// See normal_chain.hpp.
+#include "renderer/pipeline/normal_chain.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/image/mipmap.hpp"
+#include "renderer/pipeline/base_surface.hpp"
+
+namespace footprint {
+namespace {
+
+// Decoded 8-bit normals are up to 0.6% too long or short, which would pass for spread or for a negative variance.
+void renormalise(Image& normals) {
+  for (std::size_t i = 0; i < normals.texels.size(); i += 4) {
+    float* const n = &normals.texels[i];
+    const float size = std::hypot(n[0], n[1], n[2]);
+    if (size < 1e-3F) continue;  // the loader has given it weight 0
+    for (int c = 0; c < 3; ++c) n[c] /= size;
+  }
+}
+
+Image without_weight(const Image& weighted) {
+  Image out(weighted.width, weighted.height, 3);
+  for (std::size_t i = 0; i < out.texel_count(); ++i) std::copy_n(&weighted.texels[4 * i], 3, &out.texels[3 * i]);
+  return out;
+}
+
+}  // namespace
+
+std::vector<Image> mean_normal_chain(const Material& material) {
+  Image normals = normal_map_of(material);
+  renormalise(normals);
+  std::vector<Image> chain;
+  for (const Image& level : weighted_mip_chain(std::move(normals))) chain.push_back(without_weight(level));
+  return chain;
+}
+
+OptionSpec storage_option() {
+  return {.name = "storage",
+          .default_value = std::string("fp32"),
+          .minimum = 0,
+          .maximum = 0,
+          .choices = {"fp32", "fp16", "unorm8"},
+          .meaning = "How the baked textures are stored: 32-bit floats, 16-bit floats or 8-bit fixed point.",
+          .integer = false};
+}
+
+}  // namespace footprint

@@ -1,0 +1,162 @@
+// The raster pipeline on small scenes: seeds, tiles, backends, invalid normals, lights.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "renderer/core/error.hpp"
+#include "renderer/image/metrics.hpp"
+#include "renderer/pipeline/base_surface.hpp"
+#include "tests/support/rendering.hpp"
+#include "tests/support/test_scenes.hpp"
+
+namespace footprint::testing {
+namespace {
+
+Scene bumpy_square() { return square_scene(random_normals(64, 64, 0.5F, 1), {}); }
+
+TEST(Reference, SameSeedSameBytes) {
+  TestRenderer renderer(bumpy_square());
+  const Supersampled first = renderer.reference(16, 3);
+  const Supersampled again = renderer.reference(16, 3);
+  EXPECT_EQ(first.mean, again.mean);
+  EXPECT_EQ(first.standard_error, again.standard_error);
+  EXPECT_NE(first.mean, renderer.reference(16, 4).mean);
+}
+
+TEST(Reference, DoesNotDependOnTheTiles) {
+  TestRenderer renderer(bumpy_square(), {50, 34});
+  const Image whole = renderer.reference(64, 3).mean;
+  const Image tiled = renderer.reference(64, 3, ReferenceFilter::after_shading, 16).mean;
+  const auto figures = compare_images(tiled, whole, 1.0F);
+  ASSERT_TRUE(figures.has_value());
+  EXPECT_LT(figures->relative_rmse, 1e-3);  // a sample on the edge of two texels may take the other one
+}
+
+TEST(Reference, StandardErrorFallsWithTheRootOfTheSamples) {
+  TestRenderer renderer(bumpy_square());
+  const double coarse = relative_standard_error(renderer.reference(16)).value();
+  const double fine = relative_standard_error(renderer.reference(256)).value();
+  EXPECT_NEAR(coarse / fine, 4.0, 0.4);
+  EXPECT_FALSE(relative_standard_error(renderer.reference(1)).has_value());
+}
+
+TEST(Reference, HalvesAverageToTheWhole) {
+  TestRenderer renderer(bumpy_square());
+  const Supersampled picture = renderer.reference(64);
+  ASSERT_TRUE(picture.halves.has_value());
+  Image mean = picture.halves->first;
+  for (std::size_t i = 0; i < mean.texels.size(); ++i)
+    mean.texels[i] = 0.5F * (mean.texels[i] + picture.halves->second.texels[i]);
+  EXPECT_LT(largest_difference(mean, picture.mean), 1e-4);
+  EXPECT_FALSE(renderer.reference(1).halves.has_value());
+}
+
+TEST(Reference, InvalidNormalsDoNotCount) {
+  Image normals = constant_normals(4, 4, {0, 0, 1});
+  normals.at(1, 2)[3] = 0.0F;
+  const Scene flat = square_scene(constant_normals(4, 4, {0, 0, 1}), {});
+  TestRenderer with_hole(square_scene(normals, {}), {8, 8}), without(flat, {8, 8});
+  const Image holed = with_hole.reference(64).mean;
+  const Image whole = without.reference(64).mean;
+  int partly = 0;
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      if (holed.at(x, y)[3] < 1.0F) ++partly;
+      if (holed.at(x, y)[3] < 0.3F) continue;  // too few samples to compare
+      EXPECT_NEAR(holed.at(x, y)[0], whole.at(x, y)[0], 0.02F);
+    }
+  }
+  EXPECT_GT(partly, 0);
+}
+
+TEST(Frame, DoesNotDependOnTheTiles) {
+  TestRenderer renderer(bumpy_square(), {50, 34});
+  EXPECT_LT(largest_difference(renderer.frame(base_surface()), renderer.frame(base_surface(), {}, 1, 16)), 1e-3);
+}
+
+// One facet under one light, by hand: Lambert alone at the foot of the perpendicular.
+TEST(Frame, LambertMeetsTheHandComputedValue) {
+  const SquareMaterial matte{.brdf = {NormalDistribution::ggx, GeometryTerm::none, FresnelTerm::none, true},
+                             .roughness = 1.0F,
+                             .base_color = glm::vec3(0.5F),
+                             .specular = glm::vec3(0.0F),
+                             .metallic = 0.0F};
+  Scene scene = square_scene({}, matte);
+  scene.lights = {
+      DirectionalLight{.direction = glm::normalize(glm::vec3(0.0F, -0.6F, -0.8F)), .illuminance = {2, 1, 0}}};
+  TestRenderer renderer(scene, {9, 9});
+  const Image picture = renderer.frame(base_surface());
+  const double expected = 0.5 / std::numbers::pi * 0.8;
+  EXPECT_NEAR(picture.at(4, 4)[0], 2.0 * expected, 1e-5);
+  EXPECT_NEAR(picture.at(4, 4)[1], expected, 1e-5);
+  EXPECT_EQ(picture.at(4, 4)[2], 0.0F);
+  EXPECT_EQ(picture.at(4, 4)[3], 1.0F);
+}
+
+TEST(Frame, SpotLightFollowsItsConeAndRange) {
+  const SquareMaterial matte{.brdf = {NormalDistribution::ggx, GeometryTerm::none, FresnelTerm::none, true},
+                             .roughness = 1.0F,
+                             .base_color = glm::vec3(1.0F),
+                             .specular = glm::vec3(0.0F),
+                             .metallic = 0.0F};
+  Scene scene = square_scene({}, matte);
+  scene.lights = {SpotLight{.point = {.position = {0, 0, 1}, .intensity = glm::vec3(3.0F), .range = 2.0F},
+                            .direction = {0, 0, -1},
+                            .inner_cone_angle = 0.2F,
+                            .outer_cone_angle = 0.5F}};
+  TestRenderer renderer(scene, {65, 65});
+  const Image picture = renderer.frame(base_surface());
+  // Below the light: distance 1, full cone, window 1 - (1/2)^4.
+  EXPECT_NEAR(picture.at(32, 32)[0], 3.0 / std::numbers::pi * (1.0 - 1.0 / 16.0), 1e-3);
+  EXPECT_EQ(picture.at(0, 32)[0], 0.0F);  // 45 degrees off: outside
+}
+
+TEST(Frame, BackFacesAreDrawnOnlyWhereDoubleSided) {
+  Scene scene = bumpy_square();
+  scene.camera.world = glm::mat4(1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, -3, 1);  // from below
+  scene.lights = {PointLight{.position = {0, 0, -2}, .intensity = glm::vec3(4.0F), .range = {}}};
+  EXPECT_EQ(TestRenderer(scene).frame(base_surface()).at(32, 32)[3], 0.0F);
+  scene.materials[0].double_sided = true;
+  const Image picture = TestRenderer(scene).frame(base_surface());
+  EXPECT_EQ(picture.at(32, 32)[3], 1.0F);
+  EXPECT_GT(picture.at(32, 32)[0], 0.0F);
+}
+
+TEST(Frame, OrthographicCamerasSeeParallelRays) {
+  Scene scene = square_scene({}, {});
+  scene.lights = {DirectionalLight{.direction = {0, 0, -1}, .illuminance = glm::vec3(1.0F)}};
+  scene.camera.orthographic = true;
+  scene.camera.ymag = 0.5F;
+  scene.camera.zfar = 10.0F;
+  const Image picture = TestRenderer(scene, {16, 16}).frame(base_surface());
+  EXPECT_NEAR(picture.at(0, 0)[0], picture.at(8, 8)[0], 1e-6F);  // no view angle changes over the frame
+  EXPECT_EQ(picture.at(0, 0)[3], 1.0F);
+}
+
+TEST(Backends, DrawTheSamePicture) {
+  const Scene scene = bumpy_square();
+  const Image expected = TestRenderer(scene).reference(16).mean;
+  int compared = 0;
+  for (const gl::BackendReport& report : gl::probe_backends()) {
+    if (!report.info) continue;
+    const gl::Context context({.backend = report.backend, .device = report.device});
+    const Image picture = TestRenderer(scene, {64, 64}, {}, context).reference(16).mean;
+    // Software rasterisers of one build agree to the bit; a GPU rounds otherwise and may draw a neighbouring texel.
+    const auto figures = compare_images(picture, expected, 1.0F);
+    EXPECT_LT(figures.value().relative_rmse, report.info->software ? 1e-6 : 2e-2) << gl::backend_name(report.backend);
+    ++compared;
+  }
+  (void)shared_context();
+  EXPECT_GE(compared, 1);
+}
+
+TEST(GpuScene, RefusesTwoBaseBrdfs) {
+  Scene scene = bumpy_square();
+  scene.materials.push_back(scene.materials.front());
+  scene.materials.back().brdf.distribution = NormalDistribution::beckmann;
+  EXPECT_THROW(TestRenderer{scene}, Error);
+}
+
+}  // namespace
+}  // namespace footprint::testing

@@ -1,0 +1,63 @@
+// What a method bakes once per material: a plain value that one piece of code uploads, counts and tests.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "renderer/image/image.hpp"
+#include "renderer/scene/material.hpp"
+
+namespace footprint {
+
+/// How a channel is stored: what the GPU holds and what `bytes` counts.
+enum class Storage { fp32, fp16, unorm8 };
+
+[[nodiscard]] std::string_view storage_name(Storage storage);
+
+/// Errors (usage) on a word that is no storage.
+[[nodiscard]] Storage parse_storage(std::string_view word);
+
+/// One level of one layer of a texture, encoded in the texture's storage, rows from v = 0.
+struct TextureLevel {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> bytes;
+
+  friend bool operator==(const TextureLevel&, const TextureLevel&) = default;
+};
+
+/// A texture with its whole mip chain. The shader finds it as `sampler2D NAME`.
+struct PrefilteredTexture {
+  std::string name;
+  Storage storage = Storage::fp32;
+  int channels = 4;                  ///< 1 to 4
+  TextureCoordinates coordinates;    ///< those of the map that it prefilters
+  std::vector<TextureLevel> levels;  ///< finest first, 1 x 1 last
+
+  friend bool operator==(const PrefilteredTexture&, const PrefilteredTexture&) = default;
+};
+
+/// The outcome of a precompute: everything that the method's shader reads besides the shared material.
+struct Prefiltered {
+  std::vector<PrefilteredTexture> textures;
+  std::map<std::string, float> scalars;  ///< uniform float NAME
+
+  friend bool operator==(const Prefiltered&, const Prefiltered&) = default;
+};
+
+/// Bytes of all textures and scalars as stored on the GPU.
+[[nodiscard]] std::size_t byte_count(const Prefiltered& prefiltered);
+
+/// Encodes a mip chain: fp16 and unorm8 round to nearest; unorm8 maps [-1,1] to 0..255 where `signed_range` (a
+/// normal), else [0,1]. fp16 clamps to +-65504. Values must be finite.
+[[nodiscard]] PrefilteredTexture make_texture(std::string name, const std::vector<Image>& chain, Storage storage,
+                                              const TextureCoordinates& coordinates, bool signed_range = false);
+
+/// The floats that the shader reads from a level, before any decoding of a signed range.
+[[nodiscard]] Image decode_level(const PrefilteredTexture& texture, std::size_t level);
+
+}  // namespace footprint

@@ -1,0 +1,217 @@
+// See shader_source.hpp.
+#include "renderer/pipeline/shader_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+
+namespace embedded {
+extern const std::string_view surface_vertex_glsl, surface_fragment_glsl, surface_lights_glsl, common_footprint_glsl,
+    common_lobes_glsl, common_base_brdf_glsl, resolve_samples_glsl;
+}
+
+namespace {
+
+constexpr std::string_view directive_mark = "//? ";
+constexpr std::string_view version_line = "#version 450 core\n";
+
+// An open `if`: whether its parent keeps text, and whether its own condition holds.
+struct Branch {
+  bool outer;
+  bool holds;
+};
+
+class Selector {
+ public:
+  Selector(const ShaderFlags& flags, std::string_view file) : flags_(flags), file_(file) {}
+
+  void line(std::string_view text) {
+    ++number_;
+    if (text.starts_with(directive_mark)) {
+      directive(text.substr(directive_mark.size()));
+    } else if (keeping_) {
+      out_ += text;
+      out_ += '\n';
+    }
+  }
+
+  std::string finish() {
+    if (!branches_.empty()) throw bad("an `if` is not closed");
+    return std::move(out_);
+  }
+
+ private:
+  void directive(std::string_view words) {
+    if (words.starts_with("if ")) {
+      open(words.substr(3));
+    } else if (words == "else" && !branches_.empty()) {
+      keeping_ = branches_.back().outer && !branches_.back().holds;
+    } else if (words == "end" && !branches_.empty()) {
+      keeping_ = branches_.back().outer;
+      branches_.pop_back();
+    } else {
+      throw bad(fmt::format("`{}` is no directive here", words));
+    }
+  }
+
+  void open(std::string_view condition) {
+    const bool negated = condition.starts_with("not ");
+    if (negated) condition.remove_prefix(4);
+    branches_.push_back({keeping_, flags_.contains(condition) != negated});
+    keeping_ = keeping_ && branches_.back().holds;
+  }
+
+  [[nodiscard]] Error bad(const std::string& message) const {
+    return {ErrorKind::usage, fmt::format("{}, line {}", file_, number_), message,
+            "directives: if FLAG, if not FLAG, else, end"};
+  }
+
+  const ShaderFlags& flags_;
+  std::string_view file_;
+  std::string out_;
+  std::vector<Branch> branches_;
+  bool keeping_ = true;
+  int number_ = 0;
+};
+
+std::string_view distribution_flag(NormalDistribution distribution) {
+  switch (distribution) {
+    case NormalDistribution::blinn_phong:
+      return "distribution_blinn_phong";
+    case NormalDistribution::beckmann:
+      return "distribution_beckmann";
+    case NormalDistribution::ggx:
+      return "distribution_ggx";
+    case NormalDistribution::vmf:
+      return "distribution_vmf";
+  }
+  return {};
+}
+
+std::string_view geometry_flag(GeometryTerm geometry) {
+  switch (geometry) {
+    case GeometryTerm::none:
+      return "geometry_none";
+    case GeometryTerm::tan:
+      return "geometry_tan";
+    case GeometryTerm::smith:
+      return "geometry_smith";
+  }
+  return {};
+}
+
+std::string_view sampling_flag(Sampling sampling) {
+  switch (sampling) {
+    case Sampling::frame:
+      return "sampling_frame";
+    case Sampling::texel:
+      return "sampling_texel";
+    case Sampling::point:
+      return "sampling_point";
+  }
+  return {};
+}
+
+std::string light_capacities(const ShaderVariant& v) {
+  std::string text;
+  const auto capacity = [&](Effect effect, std::string_view name, std::size_t count) {
+    if (has(v.effects, effect))
+      text += fmt::format("const int {}_capacity = {};\n", name, std::max<std::size_t>(count, 1));
+  };
+  capacity(Effect::point_light, "point_light", v.point_lights);
+  capacity(Effect::spot_light, "spot_light", v.spot_lights);
+  capacity(Effect::directional_light, "directional_light", v.directional_lights);
+  return text;
+}
+
+std::string number_options(const Options& options) {
+  std::string text;
+  for (const auto& [name, value] : options.all()) {
+    if (const auto* number = std::get_if<double>(&value))
+      text += fmt::format("const float option_{} = {:e};\n", name, *number);
+  }
+  return text;
+}
+
+std::string declarations(const EffectSet& effects, const Prefiltered& prefiltered) {
+  std::string text;
+  int unit = 0;
+  for (const std::string& name : texture_names(effects, prefiltered)) {
+    text += fmt::format("layout(binding = {}) uniform sampler2D {};\n", unit++, name);
+  }
+  if (prefiltered.scalars.empty()) return text;
+  text += "layout(std140, binding = 1) uniform MethodBlock {\n";
+  for (const auto& [name, value] : prefiltered.scalars) text += fmt::format("  float {};\n", name);
+  return text + "};\n";
+}
+
+}  // namespace
+
+std::string select_text(std::string_view text, const ShaderFlags& flags, std::string_view file) {
+  Selector selector(flags, file);
+  while (!text.empty()) {
+    const std::size_t stop = std::min(text.find('\n'), text.size());
+    selector.line(text.substr(0, stop));
+    text.remove_prefix(std::min(stop + 1, text.size()));
+  }
+  return selector.finish();
+}
+
+ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options) {
+  ShaderFlags flags;
+  for (const std::string& name : effect_names(variant.effects)) flags.insert(name);
+  flags.emplace(distribution_flag(variant.brdf.distribution));
+  flags.emplace(geometry_flag(variant.brdf.geometry));
+  if (variant.brdf.fresnel == FresnelTerm::schlick) flags.emplace("fresnel_schlick");
+  flags.emplace(sampling_flag(variant.sampling));
+  if (variant.max_probes > 1) flags.emplace("anisotropic");
+  if (variant.orthographic) flags.emplace("orthographic");
+  if (variant.shared_coordinates) flags.emplace("shared_coordinates");
+  for (const auto& [name, value] : options.all()) {
+    if (const auto* word = std::get_if<std::string>(&value)) flags.insert(name + "_" + *word);
+  }
+  return flags;
+}
+
+std::vector<std::string> texture_names(const EffectSet& effects, const Prefiltered& prefiltered) {
+  std::vector<std::string> names;
+  if (has(effects, Effect::base_color_variation)) names.emplace_back("base_color_map");
+  if (has(effects, Effect::metallic_variation)) names.emplace_back("metallic_map");
+  for (const PrefilteredTexture& texture : prefiltered.textures) names.push_back(texture.name);
+  return names;
+}
+
+std::string shared_functions(const ShaderFlags& flags) {
+  return select_text(embedded::common_footprint_glsl, flags, "common_footprint.glsl") +
+         select_text(embedded::common_lobes_glsl, flags, "common_lobes.glsl") +
+         select_text(embedded::common_base_brdf_glsl, flags, "common_base_brdf.glsl");
+}
+
+std::string vertex_shader(const ShaderVariant& variant) {
+  const ShaderFlags flags = shader_flags(variant, Options({}, {}, "vertex shader"));
+  return std::string(version_line) + select_text(embedded::surface_vertex_glsl, flags, "surface_vertex.glsl");
+}
+
+std::string fragment_shader(const ShaderVariant& variant, std::string_view module, std::string_view module_name,
+                            const Options& options, const Prefiltered& prefiltered) {
+  const ShaderFlags flags = shader_flags(variant, options);
+  std::string text(version_line);
+  if (variant.max_probes > 1) text += fmt::format("const float max_probes = {}.0;\n", variant.max_probes);
+  text += light_capacities(variant) + number_options(options) + declarations(variant.effects, prefiltered);
+  text += select_text(embedded::surface_lights_glsl, flags, "surface_lights.glsl") + shared_functions(flags);
+  // The module reads the material's block, which the forward pass declares: the block goes in front of it.
+  const std::string forward = select_text(embedded::surface_fragment_glsl, flags, "surface_fragment.glsl");
+  constexpr std::string_view split = "//# module\n";
+  const std::size_t place = forward.find(split);
+  return text + forward.substr(0, place) + select_text(module, flags, module_name) +
+         forward.substr(place + split.size());
+}
+
+std::string resolve_shader() { return std::string(version_line) + std::string(embedded::resolve_samples_glsl); }
+
+}  // namespace footprint

@@ -1,0 +1,59 @@
+// Shader text: put together from the shared files and a method's module, without what the scene does not call for.
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "renderer/core/options.hpp"
+#include "renderer/effects/effects.hpp"
+#include "renderer/pipeline/prefiltered.hpp"
+#include "renderer/scene/material.hpp"
+
+namespace footprint {
+
+/// Which texels a sample reads.
+enum class Sampling {
+  frame,  ///< the pixel's footprint: one sample a pixel, prefiltered
+  texel,  ///< one texel of the finest level, drawn with the bilinear weights: filter after shading
+  point,  ///< the finest level at a point; the sampler decides between nearest and bilinear
+};
+
+/// What a program is made for. Equal variants give equal text.
+struct ShaderVariant {
+  EffectSet effects;
+  BaseBrdf brdf;
+  Sampling sampling = Sampling::frame;
+  int max_probes = 1;  ///< anisotropic probes along the major axis; 1: isotropic
+  bool orthographic = false;
+  bool shared_coordinates = false;  ///< every map of the scene is looked up at one place
+  std::size_t point_lights = 0, spot_lights = 0, directional_lights = 0;
+};
+
+using ShaderFlags = std::set<std::string, std::less<>>;
+
+/// The text without the parts whose flags are off, and without the directives (renderer/shaders/README.md). Errors
+/// (usage) name `file` and line: a directive that is unknown or not closed.
+[[nodiscard]] std::string select_text(std::string_view text, const ShaderFlags& flags, std::string_view file);
+
+/// The flags of a variant and of a method's word options.
+[[nodiscard]] ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options);
+
+/// The textures of a program, in the order of their units: the shared ones, then the method's.
+[[nodiscard]] std::vector<std::string> texture_names(const EffectSet& effects, const Prefiltered& prefiltered);
+
+/// The lobes, base BRDF terms and footprint functions alone, for programs that evaluate a module outside of a frame.
+[[nodiscard]] std::string shared_functions(const ShaderFlags& flags);
+
+[[nodiscard]] std::string vertex_shader(const ShaderVariant& variant);
+
+/// `module` is the method's text; `prefiltered` (any material's) gives the names of its textures and scalars.
+[[nodiscard]] std::string fragment_shader(const ShaderVariant& variant, std::string_view module,
+                                          std::string_view module_name, const Options& options,
+                                          const Prefiltered& prefiltered);
+
+/// The compute shader that accumulates samples.
+[[nodiscard]] std::string resolve_shader();
+
+}  // namespace footprint

@@ -1,0 +1,68 @@
+// The reference accumulator: many jittered samples a pixel, their mean, and how far that mean can be trusted.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "renderer/pipeline/frame.hpp"
+#include "renderer/pipeline/sample_grid.hpp"
+
+namespace footprint {
+
+/// What one sample shades.
+enum class ReferenceFilter {
+  after_shading,  ///< one texel's own base BRDF, the texel drawn with the bilinear weights
+  nearest,        ///< the nearest texel's
+  bilinear,       ///< the bilinear filter of the map's values: interpolates the normal first
+};
+
+[[nodiscard]] std::string_view filter_name(ReferenceFilter filter);
+
+/// Errors (usage) with the nearest right word.
+[[nodiscard]] ReferenceFilter parse_filter(const std::string& word);
+
+/// A supersampled picture. All images have the view's size, row 0 at the top.
+struct Supersampled {
+  int spp = 0;
+  Image mean;            ///< RGBA: mean radiance over the covered samples, coverage 0..1
+  Image standard_error;  ///< RGB: sqrt(sample variance / samples), an upper bound for stratified samples
+  /// RGBA means of the even and of the odd passes; none with fewer than two passes. Their difference tells the noise.
+  std::optional<std::pair<Image, Image>> halves;
+};
+
+/// A method (or the base surface) ready to be supersampled at its finest level.
+class Supersampler {
+ public:
+  /// `tile_edge` bounds the pixels accumulated at once; 0: 512. The result does not depend on it but for rounding.
+  Supersampler(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method, ReferenceFilter filter,
+               bool orthographic, int tile_edge = 0);
+
+  /// Deterministic for a seed. Errors (usage): spp outside 1 to 4096; (interrupted) by `progress`.
+  [[nodiscard]] Supersampled render(const View& view, int spp, std::uint64_t seed, const Progress& progress) const;
+
+  /// Draws and accumulates without reading back: what supersampling costs is the time of this call up to glFinish.
+  void draw(const View& view, int spp, std::uint64_t seed) const;
+
+ private:
+  struct Accumulator;
+  void accumulate(const View& view, const Tile& tile, const SampleGrid& samples, std::uint64_t seed,
+                  std::size_t pass) const;
+  const Accumulator& accumulator(const glm::ivec2& tile_size, int grid) const;
+
+  GpuScene* scene_;
+  const GpuMethod* method_;
+  int tile_edge_;
+  SurfaceProgram program_;
+  gl::Program resolve_;
+  mutable std::unique_ptr<Accumulator> accumulator_;  // made anew when the size changes
+
+ public:
+  Supersampler(Supersampler&&) noexcept;
+  ~Supersampler();
+};
+
+/// Root mean square of the standard error over object pixels and channels, over the mean radiance; docs/metrics.md.
+/// None where the object covers no whole pixel, or spp is 1.
+[[nodiscard]] std::optional<double> relative_standard_error(const Supersampled& reference);
+
+}  // namespace footprint

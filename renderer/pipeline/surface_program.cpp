@@ -1,0 +1,125 @@
+// See surface_program.hpp.
+#include "renderer/pipeline/surface_program.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr GLuint material_binding = 0;
+constexpr GLuint method_binding = 1;
+
+ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings) {
+  return {.effects = scene.effects() & baked.method->info().honours,
+          .brdf = scene.brdf(),
+          .sampling = settings.sampling,
+          .max_probes = settings.max_probes,
+          .orthographic = settings.orthographic,
+          .shared_coordinates = scene.shared_coordinates(),
+          .point_lights = scene.light_counts().point,
+          .spot_lights = scene.light_counts().spot,
+          .directional_lights = scene.light_counts().directional};
+}
+
+std::vector<float> scalar_block(const Prefiltered& prefiltered) {
+  std::vector<float> values;
+  for (const auto& [name, value] : prefiltered.scalars) values.push_back(value);
+  values.resize((values.size() + 3) / 4 * 4);  // std140 blocks end on 16 bytes
+  return values;
+}
+
+void bind_texture(GLuint unit, const GpuTexture& texture, GpuScene& scene, Lookup lookup) {
+  gl::api().BindTextureUnit(unit, texture.texture.name());
+  gl::api().BindSampler(unit, scene.samplers().sampler(texture.coordinates, lookup));
+}
+
+}  // namespace
+
+BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scene, const EffectSet& effects,
+                 const Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  const EffectSet honoured = effects & method.info().honours;
+  BakedMethod baked{.method = &method,
+                    .spec = spec,
+                    .options = Options(method.info().options, spec.options, "method " + spec.name),
+                    .materials = {},
+                    .seconds = 0,
+                    .bytes = 0};
+  const auto count = static_cast<double>(scene.materials.size());
+  for (const Material& material : scene.materials) {
+    const auto done = static_cast<double>(baked.materials.size());
+    const Progress part = [&](std::string_view what, double fraction) { progress(what, (done + fraction) / count); };
+    part(fmt::format("{}: {}", spec.text, material.name), 0.0);
+    try {
+      baked.materials.push_back(method.precompute(material, baked.options, honoured, part));
+    } catch (const Error& error) {
+      throw error.within(fmt::format("{}, material {}, method {}", scene.source, material.name, spec.text));
+    }
+    baked.bytes += byte_count(baked.materials.back());
+  }
+  baked.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return baked;
+}
+
+GpuMethod::GpuMethod(const GpuScene& scene, const BakedMethod& baked) : baked_(&baked), first_(scene.batches().data()) {
+  for (const GpuBatch& batch : scene.batches()) {
+    const Prefiltered& prefiltered = baked.materials.at(batch.material);
+    PerBatch part;
+    for (const PrefilteredTexture& texture : prefiltered.textures) part.textures.push_back(upload(texture));
+    const std::vector<float> scalars = scalar_block(prefiltered);
+    if (!scalars.empty()) part.scalars = gl::Buffer(std::as_bytes(std::span(scalars)));
+    batches_.push_back(std::move(part));
+  }
+}
+
+void GpuMethod::bind(const GpuBatch& batch, GpuScene& scene, Lookup lookup) const {
+  const PerBatch& part = batches_.at(static_cast<std::size_t>(&batch - first_));
+  auto unit = static_cast<GLuint>(batch.shared_textures.size());
+  for (const GpuTexture& texture : part.textures) bind_texture(unit++, texture, scene, lookup);
+  if (part.scalars.name() != 0) gl::api().BindBufferBase(GL_UNIFORM_BUFFER, method_binding, part.scalars.name());
+}
+
+SurfaceProgram::SurfaceProgram(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings)
+    : settings_(settings),
+      fragment_text_(fragment_shader(variant_of(scene, baked, settings), baked.method->shader(), baked.spec.name,
+                                     baked.options, baked.materials.front())),
+      program_(baked.spec.text, vertex_shader(variant_of(scene, baked, settings)), fragment_text_) {}
+
+void SurfaceProgram::set_sample(const glm::ivec2& origin, std::uint32_t seed, std::uint32_t pass) const {
+  const GLint origin_place = program_.uniform("sample_origin");
+  const GLint seed_place = program_.uniform("sample_seed");
+  if (origin_place >= 0) gl::api().ProgramUniform2i(program_.name(), origin_place, origin.x, origin.y);
+  if (seed_place >= 0) gl::api().ProgramUniform2ui(program_.name(), seed_place, seed, pass);
+}
+
+void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& view,
+                          const glm::mat4& world_to_clip) const {
+  gl::api().UseProgram(program_.name());
+  gl::api().UniformMatrix4fv(program_.uniform("world_to_clip"), 1, GL_FALSE, glm::value_ptr(world_to_clip));
+  const glm::vec3 camera = settings_.orthographic ? direction_to_camera(view.camera) : camera_position(view.camera);
+  const char* const camera_name = settings_.orthographic ? "to_camera" : "camera_position";
+  gl::api().Uniform3fv(program_.uniform(camera_name), 1, glm::value_ptr(camera));
+  scene.bind_lights(program_);
+  gl::api().Enable(GL_DEPTH_TEST);
+  gl::api().DepthFunc(GL_LESS);
+  for (const GpuBatch& batch : scene.batches()) {
+    if (batch.double_sided) {
+      gl::api().Disable(GL_CULL_FACE);
+    } else {
+      gl::api().Enable(GL_CULL_FACE);
+    }
+    gl::api().BindBufferBase(GL_UNIFORM_BUFFER, material_binding, batch.material_block.name());
+    GLuint unit = 0;
+    for (const GpuTexture& texture : batch.shared_textures) bind_texture(unit++, texture, scene, settings_.lookup);
+    method.bind(batch, scene, settings_.lookup);
+    gl::api().BindVertexArray(batch.vertex_array.name());
+    gl::api().DrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT, nullptr);
+  }
+}
+
+}  // namespace footprint

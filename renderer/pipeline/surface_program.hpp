@@ -1,0 +1,75 @@
+// A method on the GPU: its textures for every material of a scene, and one program for one way of sampling.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "renderer/pipeline/gpu_scene.hpp"
+#include "renderer/pipeline/method.hpp"
+#include "renderer/pipeline/shader_source.hpp"
+#include "renderer/pipeline/view.hpp"
+
+namespace footprint {
+
+/// A method's precompute for every material of a scene, with what it cost.
+struct BakedMethod {
+  const Method* method = nullptr;
+  MethodSpec spec;
+  Options options;
+  std::vector<Prefiltered> materials;  ///< one for each material of the scene
+  double seconds = 0;
+  std::size_t bytes = 0;
+};
+
+/// Runs the precompute of `spec` for every material. `effects` are the scene's; the method gets those that it honours.
+[[nodiscard]] BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scene,
+                               const EffectSet& effects, const Progress& progress);
+
+/// A baked method's textures and scalars on the GPU, shared by its programs.
+class GpuMethod {
+ public:
+  GpuMethod(const GpuScene& scene, const BakedMethod& baked);
+  /// Binds textures (after the shared ones) and scalars of a batch.
+  void bind(const GpuBatch& batch, GpuScene& scene, Lookup lookup) const;
+  [[nodiscard]] const BakedMethod& baked() const { return *baked_; }
+
+ private:
+  struct PerBatch {
+    std::vector<GpuTexture> textures;
+    gl::Buffer scalars;
+  };
+  const BakedMethod* baked_;
+  const GpuBatch* first_;
+  std::vector<PerBatch> batches_;
+};
+
+/// How a program samples, and what the scene's camera asks of it.
+struct ProgramSettings {
+  Sampling sampling = Sampling::frame;
+  Lookup lookup = Lookup::trilinear;
+  int max_probes = 1;
+  bool orthographic = false;
+};
+
+/// One compiled forward pass.
+class SurfaceProgram {
+ public:
+  /// Errors (machine): the module does not compile (the log names its lines).
+  SurfaceProgram(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings);
+
+  /// Draws the scene into the bound framebuffer, whose viewport is the tile's (times the sample grid).
+  void draw(GpuScene& scene, const GpuMethod& method, const View& view, const glm::mat4& world_to_clip) const;
+
+  /// Sets what samples are drawn from: origin of the tile in the sample grid, seed, pass. Not for Sampling::frame.
+  void set_sample(const glm::ivec2& origin, std::uint32_t seed, std::uint32_t pass) const;
+
+  [[nodiscard]] const std::string& fragment_text() const { return fragment_text_; }
+
+ private:
+  ProgramSettings settings_;
+  std::string fragment_text_;
+  gl::Program program_;
+};
+
+}  // namespace footprint

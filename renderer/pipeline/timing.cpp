@@ -1,0 +1,44 @@
+// See timing.hpp.
+#include "renderer/pipeline/timing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "renderer/gl/frame_timer.hpp"
+
+namespace footprint {
+
+std::vector<std::vector<double>> interleaved_times(const gl::ContextInfo& context,
+                                                   std::span<const DrawFrame> candidates, int repeats,
+                                                   const Progress& progress) {
+  gl::FrameTimer timer(context);
+  std::vector<std::vector<double>> times(candidates.size());
+  for (int repeat = -1; repeat < repeats; ++repeat) {
+    progress("timing frames", static_cast<double>(repeat + 1) / (repeats + 1));
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      const std::size_t candidate = (i + static_cast<std::size_t>(repeat + 1)) % candidates.size();
+      timer.begin();
+      candidates[candidate]();
+      const double ms = timer.end_ms();
+      if (repeat >= 0) times[candidate].push_back(ms);
+    }
+  }
+  return times;
+}
+
+double quantile(std::vector<double> values, double q) {
+  std::ranges::sort(values);
+  const double place = q * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return std::lerp(values[below], values[above], place - static_cast<double>(below));
+}
+
+std::vector<double> paired_ratios(std::span<const double> a, std::span<const double> b) {
+  std::vector<double> ratios(a.size());
+  std::ranges::transform(a, b, ratios.begin(), [](double x, double y) { return x / y; });
+  return ratios;
+}
+
+}  // namespace footprint

@@ -1,0 +1,29 @@
+// Frame times that compare: frames of all candidates interleaved in one process, so that whatever else the machine does
+// falls on all of them alike.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "renderer/core/progress.hpp"
+#include "renderer/gl/context.hpp"
+
+namespace footprint {
+
+/// Draws one frame, without waiting for it and without reading it.
+using DrawFrame = std::function<void()>;
+
+/// times[candidate][repeat], milliseconds. One untimed round warms up; then each repeat draws one frame of every
+/// candidate, starting each time with another one. Software renderers: wall clock around glFinish; GPUs: timer queries.
+[[nodiscard]] std::vector<std::vector<double>> interleaved_times(const gl::ContextInfo& context,
+                                                                 std::span<const DrawFrame> candidates, int repeats,
+                                                                 const Progress& progress);
+
+/// The q-quantile, 0 to 1, of a sample by linear interpolation between order statistics. `values` must not be empty.
+[[nodiscard]] double quantile(std::vector<double> values, double q);
+
+/// a[i] / b[i] for frames drawn in the same repeat.
+[[nodiscard]] std::vector<double> paired_ratios(std::span<const double> a, std::span<const double> b);
+
+}  // namespace footprint

@@ -1,0 +1,61 @@
+// See view.hpp.
+#include "renderer/pipeline/view.hpp"
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace footprint {
+namespace {
+
+glm::dmat4 projection(const View& view) {
+  const double aspect = static_cast<double>(view.size.x) / static_cast<double>(view.size.y);
+  const Camera& camera = view.camera;
+  if (camera.orthographic) {
+    const double half_height = camera.ymag;
+    const double half_width = half_height * aspect;
+    return glm::ortho(-half_width, half_width, -half_height, half_height, static_cast<double>(camera.znear),
+                      static_cast<double>(camera.zfar.value_or(1e4F)));
+  }
+  if (!camera.zfar) {
+    return glm::infinitePerspective(static_cast<double>(camera.yfov), aspect, static_cast<double>(camera.znear));
+  }
+  return glm::perspective(static_cast<double>(camera.yfov), aspect, static_cast<double>(camera.znear),
+                          static_cast<double>(*camera.zfar));
+}
+
+// Scales and moves clip space so that the tile, whose samples lie `offset` off the pixel centres, fills it.
+glm::dmat4 tile_in_clip(const View& view, const Tile& tile, const glm::dvec2& offset) {
+  const glm::dvec2 whole(view.size);
+  const glm::dvec2 part(tile.size);
+  const glm::dvec2 scale = whole / part;
+  const glm::dvec2 centre = (glm::dvec2(tile.origin) + 0.5 * part + offset) / whole * 2.0 - 1.0;
+  glm::dmat4 matrix(1.0);
+  matrix[0][0] = scale.x;
+  matrix[1][1] = scale.y;
+  matrix[3][0] = -centre.x * scale.x;
+  matrix[3][1] = -centre.y * scale.y;
+  return matrix;
+}
+
+}  // namespace
+
+std::vector<Tile> tiles_of(const glm::ivec2& size, int edge) {
+  std::vector<Tile> tiles;
+  for (int y = 0; y < size.y; y += edge) {
+    for (int x = 0; x < size.x; x += edge) {
+      tiles.push_back({{x, y}, {std::min(edge, size.x - x), std::min(edge, size.y - y)}});
+    }
+  }
+  return tiles;
+}
+
+glm::mat4 tile_matrix(const View& view, const Tile& tile, const glm::dvec2& offset) {
+  const glm::dmat4 world_to_camera = glm::inverse(glm::dmat4(view.camera.world));
+  return glm::mat4(tile_in_clip(view, tile, offset) * projection(view) * world_to_camera);
+}
+
+glm::vec3 camera_position(const Camera& camera) { return glm::vec3(camera.world[3]); }
+
+glm::vec3 direction_to_camera(const Camera& camera) { return glm::normalize(glm::vec3(camera.world[2])); }
+
+}  // namespace footprint

@@ -1,0 +1,26 @@
+// Cameras that are computed: framed on bounds, looking at a target.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "renderer/scene/scene.hpp"
+
+namespace footprint {
+
+/// How a camera is framed on a scene's bounds.
+struct Framing {
+  glm::dvec3 direction{0.25, 0.2, 1.0};  ///< from the bounds' centre to the camera, any length but 0
+  double yfov = 0.6;                     ///< radians
+  double margin = 1.05;                  ///< distance over the smallest that shows all eight corners
+  double aspect = 1.0;                   ///< width / height of the frame to fill
+};
+
+/// The camera (y up, +z up where `direction` is vertical) that looks at the centre of `bounds` from the smallest
+/// distance at which all eight corners lie in the frame, times the margin. Bounds without extent count as 1 m wide.
+[[nodiscard]] Camera frame_bounds(const Bounds& bounds, const Framing& framing);
+
+/// Camera to world: at `position`, looking at `target`, `up` upwards as far as can be. Where up is parallel to the
+/// view, another axis stands in. `position` and `target` must differ.
+[[nodiscard]] glm::mat4 look_at(const glm::dvec3& position, const glm::dvec3& target, const glm::dvec3& up);
+
+}  // namespace footprint

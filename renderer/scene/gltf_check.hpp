@@ -1,0 +1,23 @@
+// Refuses glTF JSON that is ill-typed or points outside itself, before tinygltf and we rely on it.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace footprint {
+
+/// Parses JSON with a limit on its nesting. Errors (usage): not JSON, nested over 64 deep.
+[[nodiscard]] nlohmann::json parse_gltf_json(std::string_view text);
+
+/// Checks all of a glTF 2.0 document that Footprint or tinygltf reads: version, required extensions, types, numbers of
+/// array elements, indices within the arrays that they point into, buffer views within their buffers, URIs.
+/// Errors (usage) name the place as "meshes[0].primitives[1].indices".
+void check_gltf_json(const nlohmann::json& document);
+
+/// The extensions that Footprint honours.
+[[nodiscard]] std::span<const std::string_view> supported_gltf_extensions();
+
+}  // namespace footprint

@@ -1,0 +1,78 @@
+// See load_scene.hpp: what a SCENE argument names.
+#include "renderer/scene/load_scene.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <system_error>
+
+#include "renderer/core/error.hpp"
+#include "renderer/core/suggest.hpp"
+#include "renderer/scene/assemble.hpp"
+#include "renderer/scene/scene_settings.hpp"
+
+namespace footprint {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* settings_name = "scene.toml";
+
+bool is_file(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+std::string lower_extension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return extension;
+}
+
+Scene load_settings(const fs::path& file, const std::string& source) {
+  const std::string folder = fs::absolute(file).lexically_normal().parent_path().filename().string();
+  const std::string stem = file.filename() == settings_name ? folder : file.stem().string();
+  return assemble_scene(read_scene_settings(file), stem, source);
+}
+
+Scene load_bare(const fs::path& file, const std::string& source) {
+  SceneSettings settings;
+  settings.content = ModelSettings{{file}, {}};
+  return assemble_scene(settings, file.stem().string(), source);
+}
+
+}  // namespace
+
+Scene load_scene(const std::string& scene, const fs::path& scenes_folder) {
+  if (scene.empty()) throw Error(ErrorKind::usage, "scene", "the name is empty", "name a scene or a glTF file");
+  const fs::path path = scene;
+  const bool plain_name = path == path.filename() && !path.has_extension();
+  if (plain_name && is_file(scenes_folder / path / settings_name)) {
+    return load_settings(scenes_folder / path / settings_name, scene);
+  }
+  std::error_code error;
+  if (fs::is_directory(path, error)) {
+    if (is_file(path / settings_name)) return load_settings(path / settings_name, scene);
+    throw Error(ErrorKind::usage, scene, "the folder has no scene.toml", "name a folder with one, or a glTF file");
+  }
+  const std::string extension = lower_extension(path);
+  if (extension == ".toml") return load_settings(path, scene);
+  if (extension == ".gltf" || extension == ".glb") return load_bare(path, scene);
+  if (fs::exists(path, error)) {
+    throw Error(ErrorKind::usage, scene, "is neither a scene.toml nor a .gltf or .glb file",
+                "export the model as glTF 2.0");
+  }
+  throw Error(ErrorKind::usage, scene, "no such scene or file", suggestion(scene, list_scenes(scenes_folder)));
+}
+
+std::vector<std::string> list_scenes(const fs::path& scenes_folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(scenes_folder, error), end; entry != end; entry.increment(error)) {
+    if (is_file(entry->path() / settings_name)) names.push_back(entry->path().filename().string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+}  // namespace footprint

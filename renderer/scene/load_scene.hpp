@@ -1,0 +1,24 @@
+// From a scene folder, a scene.toml or a glTF file to a Scene.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "renderer/scene/scene.hpp"
+
+namespace footprint {
+
+/// Loads SCENE as the command line takes it: a folder of `scenes_folder`, a folder with a scene.toml, a path to a
+/// scene.toml, or a .gltf / .glb file (camera framed on its bounds and a light rig supplied where the file has none).
+/// Errors (usage) name file, place and mend; an unknown key in scene.toml names its line and the nearest right key.
+[[nodiscard]] Scene load_scene(const std::string& scene, const std::filesystem::path& scenes_folder);
+
+/// The names of the folders in `scenes_folder` that hold a scene.toml, sorted.
+[[nodiscard]] std::vector<std::string> list_scenes(const std::filesystem::path& scenes_folder);
+
+/// The camera moved along its viewing direction so that its depth distance to the bounds' centre is `factor` times what
+/// it is (orthographic: ymag scaled instead); near and far planes follow. `factor` > 0.
+[[nodiscard]] Camera camera_at_distance(const Scene& scene, double factor);
+
+}  // namespace footprint

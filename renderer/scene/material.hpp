@@ -1,0 +1,68 @@
+// What a surface is made of: the base BRDF of its facets and the maps that vary it.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "renderer/image/image.hpp"
+
+namespace footprint {
+
+enum class NormalDistribution { blinn_phong, beckmann, ggx, vmf };
+enum class GeometryTerm { none, tan, smith };
+enum class FresnelTerm { none, schlick };
+
+/// The base BRDF of one facet, the same for every method and for the reference (docs/base-brdf.md). All forms give
+/// f * cos: none: F D; tan: F D / (n.v); smith: F D G2 / (4 n.v) with G2 height-correlated.
+struct BaseBrdf {
+  NormalDistribution distribution = NormalDistribution::ggx;
+  GeometryTerm geometry = GeometryTerm::smith;
+  FresnelTerm fresnel = FresnelTerm::schlick;
+  bool diffuse = true;  ///< a Lambert term albedo / pi, times (1 - F) where fresnel is not none
+
+  friend bool operator==(const BaseBrdf&, const BaseBrdf&) = default;
+};
+
+enum class Wrap { repeat, mirrored_repeat, clamp_to_edge };
+
+/// Where on a map a surface point looks: texture coordinates = transform * (u, v, 1) of the mesh's set.
+struct TextureCoordinates {
+  int set = 0;                                                ///< TEXCOORD_0 or TEXCOORD_1
+  glm::mat3x2 transform{1.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F};  ///< columns: d/du, d/dv, offset (KHR_texture_transform)
+  std::array<Wrap, 2> wrap{Wrap::repeat, Wrap::repeat};       ///< along u and v
+
+  friend bool operator==(const TextureCoordinates&, const TextureCoordinates&) = default;
+};
+
+/// A map and where it is looked up. The image is shared by the materials that use it and never changed.
+struct TextureMap {
+  std::string name;  ///< file or image name, for messages
+  std::shared_ptr<const Image> image;
+  TextureCoordinates coordinates;
+};
+
+/// A surface's material. Without a map the factor alone counts; with one, factor * map as in glTF 2.0.
+struct Material {
+  std::string name;
+  BaseBrdf brdf;
+
+  glm::vec4 base_color{1.0F};            ///< linear RGB, alpha
+  glm::vec3 dielectric_specular{0.04F};  ///< F0 where metallic = 0 (ks of a material that is not glTF's)
+  float metallic = 1.0F;                 ///< 0..1
+  float roughness = 1.0F;                ///< perceptual, 0..1; alpha = roughness^2 (glTF 2.0, appendix B)
+  std::optional<float>
+      lobe_parameter;  ///< overrides roughness: exponent (blinn_phong), alpha (beckmann, ggx), kappa (vmf)
+
+  std::optional<TextureMap> base_color_map;  ///< RGBA, linear
+  std::optional<TextureMap>
+      metallic_roughness_map;            ///< 2 channels: roughness, metallic (0..1), already times the factors
+  std::optional<TextureMap> normal_map;  ///< 4 channels: unit normal xyz (z > 0 out of the surface), weight 0 or 1
+
+  std::optional<float> alpha_cutoff;  ///< MASK: a point with alpha below it is not there
+  bool double_sided = false;
+};
+
+}  // namespace footprint

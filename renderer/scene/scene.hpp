@@ -1,0 +1,91 @@
+// A scene as a plain value: what is drawn, lit by what, seen from where. No GL, no file.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "renderer/scene/material.hpp"
+
+namespace footprint {
+
+/// A vertex in world space (node transforms applied). Tangent w is the bitangent's sign (glTF 2.0).
+struct Vertex {
+  glm::vec3 position{0.0F};
+  glm::vec3 normal{0.0F, 0.0F, 1.0F};
+  glm::vec4 tangent{1.0F, 0.0F, 0.0F, 1.0F};
+  glm::vec2 uv0{0.0F};
+  glm::vec2 uv1{0.0F};
+};
+
+/// Triangles of one material: three indices each, into `vertices`, counter-clockwise seen from outside.
+struct Mesh {
+  std::string name;
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices;
+  int material = 0;  ///< index into Scene::materials
+};
+
+/// Light from one point. Radiant units of glTF's KHR_lights_punctual: candela.
+struct PointLight {
+  glm::vec3 position{0.0F};
+  glm::vec3 intensity{1.0F};   ///< candela per channel (colour * intensity)
+  std::optional<float> range;  ///< metres; KHR_lights_punctual's window where given
+};
+
+/// A point light with a cone.
+struct SpotLight {
+  PointLight point;
+  glm::vec3 direction{0.0F, 0.0F, -1.0F};  ///< where the light shines, unit
+  float inner_cone_angle = 0.0F;           ///< radians, 0 <= inner < outer <= pi / 2
+  float outer_cone_angle = 0.785398F;
+};
+
+/// Light from infinitely far.
+struct DirectionalLight {
+  glm::vec3 direction{0.0F, 0.0F, -1.0F};  ///< where the light shines, unit
+  glm::vec3 illuminance{1.0F};             ///< lux per channel on a surface that faces it
+};
+
+using Light = std::variant<PointLight, SpotLight, DirectionalLight>;
+
+/// A camera as glTF defines it: looks along its own -z, y up.
+struct Camera {
+  glm::mat4 world{1.0F};  ///< camera to world, rigid (scale removed)
+  bool orthographic = false;
+  float yfov = 0.6F;  ///< radians, perspective
+  float ymag = 1.0F;  ///< half the height seen, orthographic
+  float znear = 0.01F;
+  std::optional<float> zfar;    ///< none: infinite (perspective only)
+  std::optional<float> aspect;  ///< width / height where the file gives one; sets the default frame shape
+};
+
+/// Axis-aligned bounds of all vertices.
+struct Bounds {
+  glm::vec3 lower{0.0F};
+  glm::vec3 upper{0.0F};
+  [[nodiscard]] glm::vec3 centre() const { return 0.5F * (lower + upper); }
+  [[nodiscard]] float radius() const { return 0.5F * glm::length(upper - lower); }
+};
+
+/// What the scene file left open and the loader filled in, in words for the output ("camera: framed on the bounds").
+struct Scene {
+  std::string name;    ///< folder or file stem
+  std::string source;  ///< path as given
+  std::vector<Mesh> meshes;
+  std::vector<Material> materials;
+  std::vector<Light> lights;
+  Camera camera;
+  Bounds bounds;
+  std::optional<float> exposure;  ///< multiplies radiance before display and the clamped measures; none: automatic
+  std::vector<double> distances{
+      1.0};  ///< the default zoom path: factors on the camera's distance to the bounds' centre
+  std::optional<glm::ivec2> frame_size;  ///< where scene.toml gives one
+  std::vector<std::string> defaults;     ///< what was supplied because the input has none, one line each
+  std::vector<std::string> warnings;     ///< what the input has and Footprint leaves out, one line each
+};
+
+}  // namespace footprint

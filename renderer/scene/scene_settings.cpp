@@ -1,0 +1,258 @@
+// See scene_settings.hpp.
+#include "renderer/scene/scene_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "renderer/scene/toml_table.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr NumberRange unit{0.0, 1.0};
+constexpr NumberRange length{1e-6, 1e6};          // metres, above 0
+constexpr NumberRange coordinate{-1e9, 1e9};      // metres
+constexpr NumberRange intensity{0.0, 1e12};       // candela or lux
+constexpr NumberRange field_of_view{0.1, 170.0};  // degrees
+
+const std::vector<std::string> light_types{"point", "spot", "directional"};
+
+float radians(double degrees) { return static_cast<float>(degrees * std::numbers::pi / 180.0); }
+
+std::optional<glm::dvec3> vector3(const TomlTable& table, std::string_view key, NumberRange range) {
+  const auto values = table.numbers(key, 3, range);
+  if (!values) return std::nullopt;
+  return glm::dvec3{(*values)[0], (*values)[1], (*values)[2]};
+}
+
+std::optional<glm::vec3> color(const TomlTable& table, std::string_view key) {
+  const auto value = vector3(table, key, unit);
+  if (!value) return std::nullopt;
+  return glm::vec3{*value};
+}
+
+/// A unit vector.
+std::optional<glm::dvec3> direction(const TomlTable& table, std::string_view key) {
+  const auto value = vector3(table, key, coordinate);
+  if (!value) return std::nullopt;
+  if (glm::length(*value) < 1e-9) throw table.error_at(key, "has no length", "give a direction such as [0, 0, 1]");
+  return glm::normalize(*value);
+}
+
+[[noreturn]] void missing(const TomlTable& table, std::string_view key) {
+  throw table.error_at(key, "is missing", "add it (docs/scenes.md)");
+}
+
+ModelSettings read_model(const TomlTable& table, const std::filesystem::path& folder) {
+  if (table.has("file") == table.has("files")) {
+    throw table.error_at("file", "or `files` must be given, and only one of them", "name the glTF file to draw");
+  }
+  ModelSettings model;
+  const auto files = table.has("file") ? std::vector{*table.word("file")} : *table.words("files");
+  for (const std::string& name : files) model.candidates.push_back(folder / name);
+  model.package = table.word("package").value_or("");
+  return model;
+}
+
+PlaneSettings read_plane(const TomlTable& table, const std::filesystem::path& folder) {
+  PlaneSettings plane;
+  if (const auto size = table.numbers("size", 2, length)) plane.size = {(*size)[0], (*size)[1]};
+  const auto file = [&](std::string_view key) -> std::optional<std::filesystem::path> {
+    const auto name = table.word(key);
+    return name ? std::optional{folder / *name} : std::nullopt;
+  };
+  plane.normal_map = file("normal_map");
+  plane.base_color_map = file("base_color_map");
+  plane.metallic_roughness_map = file("metallic_roughness_map");
+  plane.normal_scale = table.number("normal_scale", {-100.0, 100.0}).value_or(plane.normal_scale);
+  plane.roughness = static_cast<float>(table.number("roughness", unit).value_or(plane.roughness));
+  plane.metallic = static_cast<float>(table.number("metallic", unit).value_or(plane.metallic));
+  return plane;
+}
+
+/// The one of exponent, alpha and kappa that is given; it must be the distribution's own.
+std::optional<float> read_lobe(const TomlTable& table, std::optional<NormalDistribution> distribution) {
+  struct Lobe {
+    std::string_view key;
+    NumberRange range;
+    std::array<NormalDistribution, 2> owners;
+  };
+  using enum NormalDistribution;
+  static constexpr std::array<Lobe, 3> lobes{{{"exponent", {1e-3, 1e6}, {blinn_phong, blinn_phong}},
+                                              {"alpha", {1e-4, 1.0}, {beckmann, ggx}},
+                                              {"kappa", {1e-3, 1e6}, {vmf, vmf}}}};
+  std::optional<float> found;
+  for (const Lobe& lobe : lobes) {
+    const auto value = table.number(lobe.key, lobe.range);
+    if (!value) continue;
+    if (found) throw table.error_at(lobe.key, "is one lobe parameter too many", "give one of exponent, alpha, kappa");
+    const NormalDistribution own = distribution.value_or(ggx);
+    if (own != lobe.owners[0] && own != lobe.owners[1]) {
+      throw table.error_at(lobe.key, "does not belong to the distribution",
+                           "exponent: blinn_phong; alpha: beckmann, ggx; kappa: vmf");
+    }
+    found = static_cast<float>(*value);
+  }
+  return found;
+}
+
+BrdfSettings read_brdf(const TomlTable& table) {
+  BrdfSettings brdf;
+  if (const auto i = table.choice("distribution", {"blinn_phong", "beckmann", "ggx", "vmf"})) {
+    brdf.distribution = static_cast<NormalDistribution>(*i);
+  }
+  if (const auto i = table.choice("geometry", {"none", "tan", "smith"})) brdf.geometry = static_cast<GeometryTerm>(*i);
+  if (const auto i = table.choice("fresnel", {"none", "schlick"})) brdf.fresnel = static_cast<FresnelTerm>(*i);
+  brdf.diffuse = table.boolean("diffuse");
+  brdf.lobe_parameter = read_lobe(table, brdf.distribution);
+  brdf.specular = color(table, "specular");
+  brdf.base_color = color(table, "base_color");
+  return brdf;
+}
+
+void read_frame(const TomlTable& table, SceneSettings& settings) {
+  if (const auto size = table.numbers("size", 2, {1.0, 65536.0})) {
+    if ((*size)[0] != std::floor((*size)[0]) || (*size)[1] != std::floor((*size)[1])) {
+      throw table.error_at("size", "must be whole numbers of pixels", "write it as [512, 512]");
+    }
+    settings.frame_size = glm::ivec2{static_cast<int>((*size)[0]), static_cast<int>((*size)[1])};
+  }
+  if (table.is_word("exposure")) {
+    settings.automatic_exposure = table.choice("exposure", {"auto"}).has_value();
+  } else if (const auto exposure = table.number("exposure", {1e-9, 1e9})) {
+    settings.exposure = static_cast<float>(*exposure);
+  }
+}
+
+/// Rejects keys that another type of light has.
+void reject(const TomlTable& table, std::initializer_list<std::string_view> keys, const std::string& type) {
+  for (const std::string_view key : keys) {
+    if (table.has(key)) throw table.error_at(key, "does not belong to a " + type + " light", "leave it out");
+  }
+}
+
+SpotLight read_spot(const TomlTable& table, const PointLight& point, const glm::dvec3& towards) {
+  constexpr NumberRange cone{0.0, 90.0};
+  SpotLight spot{point, glm::vec3{towards}};
+  spot.inner_cone_angle = radians(table.number("inner_cone_degrees", cone).value_or(0.0));
+  spot.outer_cone_angle = radians(table.number("outer_cone_degrees", cone).value_or(45.0));
+  if (spot.inner_cone_angle >= spot.outer_cone_angle) {
+    throw table.error_at("inner_cone_degrees", "must be less than outer_cone_degrees", "swap or change them");
+  }
+  return spot;
+}
+
+Light read_light(const TomlTable& table) {
+  const auto type = table.choice("type", light_types);
+  if (!type) missing(table, "type");
+  const double strength = table.number("intensity", intensity).value_or(1.0);
+  const glm::vec3 power = color(table, "color").value_or(glm::vec3{1.0F}) * static_cast<float>(strength);
+  const bool needs_direction = *type != 0;
+  const auto towards = direction(table, "direction");
+  if (needs_direction && !towards) missing(table, "direction");
+  if (*type != 1) reject(table, {"inner_cone_degrees", "outer_cone_degrees"}, light_types[*type]);
+  if (*type == 2) {
+    reject(table, {"position", "range"}, light_types[*type]);
+    return DirectionalLight{glm::vec3{*towards}, power};
+  }
+  const auto position = vector3(table, "position", coordinate);
+  if (!position) missing(table, "position");
+  PointLight point{glm::vec3{*position}, power, std::nullopt};
+  if (const auto range = table.number("range", length)) point.range = static_cast<float>(*range);
+  if (*type == 1) return read_spot(table, point, *towards);
+  reject(table, {"direction"}, light_types[*type]);
+  return point;
+}
+
+Camera read_placed_camera(const TomlTable& table) {
+  const auto position = vector3(table, "position", coordinate), target = vector3(table, "target", coordinate);
+  if (!position) missing(table, "position");
+  if (!target) missing(table, "target");
+  if (glm::length(*position - *target) < 1e-9) {
+    throw table.error_at("target", "is where the camera stands", "move one of them");
+  }
+  Camera camera;
+  camera.world = look_at(*position, *target, direction(table, "up").value_or(glm::dvec3{0.0, 1.0, 0.0}));
+  camera.yfov = radians(table.number("yfov_degrees", field_of_view).value_or(34.4));
+  const double distance = glm::length(*position - *target);
+  camera.znear = static_cast<float>(table.number("znear", length).value_or(0.01 * distance));
+  if (const auto zfar = table.number("zfar", length)) {
+    if (*zfar <= camera.znear) throw table.error_at("zfar", "must be beyond znear", "make it larger");
+    camera.zfar = static_cast<float>(*zfar);
+  }
+  return camera;
+}
+
+CameraSettings read_camera(const TomlTable& table) {
+  const auto framed = table.table("frame_bounds", {"direction", "fov_degrees", "margin"});
+  if (!framed) return read_placed_camera(table);
+  for (const char* key : {"position", "target", "up", "yfov_degrees", "znear", "zfar"}) {
+    if (table.has(key)) throw table.error_at(key, "excludes frame_bounds", "give one or the other");
+  }
+  Framing framing;
+  framing.direction = direction(*framed, "direction").value_or(framing.direction);
+  if (const auto fov = framed->number("fov_degrees", field_of_view)) framing.yfov = radians(*fov);
+  framing.margin = framed->number("margin", {0.01, 1000.0}).value_or(framing.margin);
+  return framing;
+}
+
+void read_content(const TomlTable& root, const std::filesystem::path& folder, SceneSettings& settings) {
+  const auto model = root.table("model", {"file", "files", "package"});
+  const auto plane = root.table("plane", {"size", "normal_map", "normal_scale", "base_color_map",
+                                          "metallic_roughness_map", "roughness", "metallic"});
+  if (model.has_value() == plane.has_value()) {
+    throw root.error_at("model", "or `plane` must be given, and only one of them", "add [model] file = \"NAME.gltf\"");
+  }
+  if (model) settings.content = read_model(*model, folder);
+  if (plane) settings.content = read_plane(*plane, folder);
+  if (const auto brdf = root.table("brdf", {"distribution", "geometry", "fresnel", "diffuse", "exponent", "alpha",
+                                            "kappa", "specular", "base_color"})) {
+    settings.brdf = read_brdf(*brdf);
+  }
+  if (const auto tiling = root.table("tiling", {"uv"})) {
+    if (const auto uv = tiling->numbers("uv", 2, {1e-3, 1e4})) settings.tiling = {(*uv)[0], (*uv)[1]};
+  }
+}
+
+void read_lights(const TomlTable& root, SceneSettings& settings) {
+  for (const TomlTable& light : root.tables("light", {"type", "position", "direction", "color", "intensity", "range",
+                                                      "inner_cone_degrees", "outer_cone_degrees"})) {
+    settings.lights.push_back(read_light(light));
+  }
+  if (const auto lights = root.table("lights", {"keep"})) {
+    settings.keep_model_lights = lights->boolean("keep").value_or(true);
+  }
+}
+
+void read_view(const TomlTable& root, SceneSettings& settings) {
+  if (const auto frame = root.table("frame", {"size", "exposure"})) read_frame(*frame, settings);
+  if (const auto camera =
+          root.table("camera", {"frame_bounds", "position", "target", "up", "yfov_degrees", "znear", "zfar"})) {
+    settings.camera = read_camera(*camera);
+  }
+  if (const auto zoom = root.table("zoom", {"distances"})) {
+    if (auto distances = zoom->numbers("distances", 0, {1e-3, 1e6})) settings.distances = std::move(*distances);
+  }
+}
+
+}  // namespace
+
+SceneSettings read_scene_settings(const std::filesystem::path& file) {
+  const toml::table parsed = parse_toml_file(file);
+  const TomlTable root(parsed, file, "",
+                       {"scene", "model", "plane", "brdf", "frame", "light", "lights", "camera", "zoom", "tiling"});
+  SceneSettings settings;
+  if (const auto scene = root.table("scene", {"name", "description"})) {
+    settings.name = scene->word("name");
+    settings.description = scene->word("description").value_or("");
+  }
+  read_content(root, file.parent_path(), settings);
+  read_lights(root, settings);
+  read_view(root, settings);
+  return settings;
+}
+
+}  // namespace footprint

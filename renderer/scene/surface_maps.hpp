@@ -1,0 +1,34 @@
+// Texture files to the maps that Material defines: normals with weights, roughness and metallic, RGBA colour.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "renderer/image/image.hpp"
+
+namespace footprint {
+
+/// A decoded normal map and what was wrong with it.
+struct NormalMap {
+  Image image;               ///< Material::normal_map's four channels
+  std::size_t invalid = 0;   ///< texels without a direction (weight 0)
+  std::size_t inverted = 0;  ///< texels that point into the surface, laid flat onto it
+};
+
+/// Decodes stored normals, 2 c - 1 per channel for every file format; x and y are multiplied by `scale`, then the
+/// vector is renormalised (glTF 2.0, normalTexture). A texel shorter than 1e-3 or not finite becomes (0, 0, 1) with
+/// weight 0; z <= 0 becomes a tiny positive z. Errors (usage): fewer than three channels.
+[[nodiscard]] NormalMap decode_normal_map(const Image& stored, double scale);
+
+/// What is wrong with a normal map, one line each for the output; empty where nothing is.
+[[nodiscard]] std::vector<std::string> describe_faults(const NormalMap& map, const std::string& name);
+
+/// Two channels, roughness (stored in green) and metallic (blue), each clamped to [0, 1] and times its factor. One or
+/// two stored channels count as grey.
+[[nodiscard]] Image decode_metallic_roughness(const Image& stored, float roughness_factor, float metallic_factor);
+
+/// Four channels, each clamped to [0, 1], from one (grey), two (grey, alpha), three or four.
+[[nodiscard]] Image to_rgba(const Image& stored);
+
+}  // namespace footprint

@@ -1,0 +1,71 @@
+// Decoding of normal, roughness and colour maps against values worked out by hand.
+#include "renderer/scene/surface_maps.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+namespace {
+
+Image one_texel(std::vector<float> channels) {
+  Image image(1, 1, static_cast<int>(channels.size()));
+  image.texels = std::move(channels);
+  return image;
+}
+
+TEST(SurfaceMaps, NormalsAreDecodedScaledAndRenormalised) {
+  // Stored (0.8, 0.5, 0.9) is (0.6, 0, 0.8); x doubled: (1.2, 0, 0.8) / sqrt(2.08).
+  const NormalMap map = decode_normal_map(one_texel({0.8F, 0.5F, 0.9F}), 2.0);
+  EXPECT_NEAR(map.image.texels[0], 1.2 / std::sqrt(2.08), 1e-6);
+  EXPECT_NEAR(map.image.texels[1], 0.0, 1e-6);
+  EXPECT_NEAR(map.image.texels[2], 0.8 / std::sqrt(2.08), 1e-6);
+  EXPECT_EQ(map.image.texels[3], 1.0F);
+  EXPECT_EQ(map.invalid + map.inverted, 0U);
+}
+
+TEST(SurfaceMaps, TexelsWithoutDirectionHaveNoWeight) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const auto& texel : {std::vector{0.5F, 0.5F, 0.5F}, std::vector{nan, 0.5F, 1.0F}}) {
+    const NormalMap map = decode_normal_map(one_texel(texel), 1.0);
+    EXPECT_EQ(map.image.texels, (std::vector{0.0F, 0.0F, 1.0F, 0.0F}));
+    EXPECT_EQ(map.invalid, 1U);
+  }
+}
+
+TEST(SurfaceMaps, TexelsPointingInwardsAreLaidFlat) {
+  const NormalMap map = decode_normal_map(one_texel({1.0F, 0.5F, 0.0F}), 1.0);
+  EXPECT_EQ(map.inverted, 1U);
+  EXPECT_NEAR(map.image.texels[0], 1.0F, 1e-6F);
+  EXPECT_GT(map.image.texels[2], 0.0F);
+  EXPECT_EQ(map.image.texels[3], 1.0F);
+  const NormalMap straight_down = decode_normal_map(one_texel({0.5F, 0.5F, 0.0F}), 1.0);
+  EXPECT_NEAR(straight_down.image.texels[2], 1.0F, 1e-6F);
+  EXPECT_EQ(describe_faults(map, "n.png").size(), 1U);
+}
+
+TEST(SurfaceMaps, NormalMapsNeedThreeChannels) {
+  EXPECT_THROW((void)decode_normal_map(Image(2, 2, 1, 0.5F), 1.0), Error);
+}
+
+TEST(SurfaceMaps, RoughnessIsGreenAndMetallicBlue) {
+  const Image map = decode_metallic_roughness(one_texel({0.1F, 0.5F, 0.25F}), 0.5F, 0.8F);
+  EXPECT_EQ(map.channels, 2);
+  EXPECT_FLOAT_EQ(map.texels[0], 0.25F);
+  EXPECT_FLOAT_EQ(map.texels[1], 0.2F);
+  const Image grey = decode_metallic_roughness(one_texel({0.5F}), 1.0F, 1.0F);
+  EXPECT_EQ(grey.texels, (std::vector{0.5F, 0.5F}));
+}
+
+TEST(SurfaceMaps, EveryChannelCountBecomesRgba) {
+  EXPECT_EQ(to_rgba(one_texel({0.5F})).texels, (std::vector{0.5F, 0.5F, 0.5F, 1.0F}));
+  EXPECT_EQ(to_rgba(one_texel({0.5F, 0.25F})).texels, (std::vector{0.5F, 0.5F, 0.5F, 0.25F}));
+  EXPECT_EQ(to_rgba(one_texel({0.1F, 0.2F, 0.3F})).texels, (std::vector{0.1F, 0.2F, 0.3F, 1.0F}));
+  EXPECT_EQ(to_rgba(one_texel({0.1F, -2.0F, 7.0F, 0.5F})).texels, (std::vector{0.1F, 0.0F, 1.0F, 0.5F}));
+}
+
+}  // namespace
+}  // namespace footprint

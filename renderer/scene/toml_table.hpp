@@ -1,0 +1,64 @@
+// Strict reading of TOML tables: every key is asked for, checked and named with its line when it is wrong.
+#pragma once
+
+#include <toml++/toml.h>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+
+/// An inclusive range of numbers.
+struct NumberRange {
+  double low, high;
+};
+
+/// Parses a TOML file of at most 1 MiB. Errors (usage): missing, empty, or not TOML, as "FILE:LINE: ...".
+[[nodiscard]] toml::table parse_toml_file(const std::filesystem::path& file);
+
+/// One table of a TOML file. Readers return nothing where the key is absent and throw Error{usage} "FILE:LINE" where
+/// its value has the wrong type, is not finite or is out of range. The table must outlive this.
+class TomlTable {
+ public:
+  /// `name` is for messages: "[frame]"; empty for the whole file. `known` are the keys that may stand in it: any other
+  /// is an error that names the nearest right one.
+  TomlTable(const toml::table& table, std::filesystem::path file, std::string name,
+            const std::vector<std::string>& known);
+
+  [[nodiscard]] bool has(std::string_view key) const { return table_.contains(key); }
+
+  [[nodiscard]] bool is_word(std::string_view key) const { return has(key) && find(key)->is_string(); }
+
+  [[nodiscard]] std::optional<std::string> word(std::string_view key) const;
+  /// A word out of `choices`: its place there.
+  [[nodiscard]] std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& choices) const;
+  [[nodiscard]] std::optional<bool> boolean(std::string_view key) const;
+  [[nodiscard]] std::optional<double> number(std::string_view key, NumberRange range) const;
+  /// `count` numbers; a `count` of 0 takes any number of them but none.
+  [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view key, std::size_t count,
+                                                           NumberRange range) const;
+  [[nodiscard]] std::optional<std::vector<std::string>> words(std::string_view key) const;
+  [[nodiscard]] std::optional<TomlTable> table(std::string_view key, const std::vector<std::string>& known) const;
+  /// The tables of [[key]]; empty where there are none.
+  [[nodiscard]] std::vector<TomlTable> tables(std::string_view key, const std::vector<std::string>& known) const;
+
+  /// An error at `key`'s line (the table's, where the key is absent).
+  [[nodiscard]] Error error_at(std::string_view key, const std::string& message, const std::string& mend) const;
+
+ private:
+  [[nodiscard]] const toml::node* find(std::string_view key) const { return table_.get(key); }
+  [[nodiscard]] double checked(const toml::node& node, std::string_view key, NumberRange range) const;
+  [[nodiscard]] std::string full_name(std::string_view key) const;
+
+  const toml::table& table_;
+  std::filesystem::path file_;
+  std::string name_;
+};
+
+}  // namespace footprint

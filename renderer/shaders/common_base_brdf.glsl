@@ -1,0 +1,94 @@
+// What one facet reflects: the terms around the distribution, all as f * cos (docs/base-brdf.md).
+
+vec3 halfVector(vec3 wi, vec3 wo) {
+  vec3 sum = wi + wo;
+  return sum / max(length(sum), 1e-12);
+}
+
+// Nothing is reflected where the half vector is undefined (wi = -wo).
+bool halfVectorIsDefined(vec3 wi, vec3 wo) {
+  vec3 sum = wi + wo;
+  return dot(sum, sum) > 1e-8;
+}
+
+//? if fresnel
+//? if fresnel_schlick
+// Schlick 1994, with F90 = 1 as glTF 2.0 has it.
+vec3 fresnelTerm(vec3 f0, vec3 wi, vec3 wo) {
+  float x = 1.0 - clamp(dot(wo, halfVector(wi, wo)), 0.0, 1.0);
+  float x2 = x * x;
+  return f0 + (1.0 - f0) * (x2 * x2 * x);
+}
+vec3 transmitted(vec3 f0, vec3 wi, vec3 wo) { return 1.0 - fresnelTerm(f0, wi, wo); }
+//? else
+vec3 fresnelTerm(vec3 f0, vec3 wi, vec3 wo) { return f0; }
+vec3 transmitted(vec3 f0, vec3 wi, vec3 wo) { return vec3(1.0); }
+//? end
+//? else
+vec3 fresnelTerm(vec3 f0, vec3 wi, vec3 wo) { return f0; }
+//? end
+
+// The geometry factor of f * cos = F * D * factor, for facets about n with a lobe.
+//? if masking_shadowing
+//? if geometry_smith
+//? if distribution_ggx
+// G2 / (4 n.v) with the height-correlated Smith term of GGX (Heitz 2014, equation 99; glTF 2.0, appendix B).
+float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
+  float nl = dot(n, wi);
+  if (nl <= 0.0) return 0.0;
+  float nv = max(dot(n, wo), 1e-4);
+  float a2 = lobe * lobe;
+  float masked = nl * sqrt(a2 + (1.0 - a2) * nv * nv) + nv * sqrt(a2 + (1.0 - a2) * nl * nl);
+  return 0.5 * nl / max(masked, 1e-12);
+}
+//? else
+// Smith's Lambda for Beckmann slopes (Walter 2007, equation 18, as a rational function); Blinn-Phong and vMF lobes take
+// the alpha of the same width (Walter 2007, section 5.2).
+float smithLambda(float alpha, float c) {
+  float tangent = sqrt(max(1.0 - c * c, 0.0)) / c;
+  float a = 1.0 / max(alpha * tangent, 1e-6);
+  return a < 1.6 ? (1.0 - 1.259 * a + 0.396 * a * a) / (3.535 * a + 2.181 * a * a) : 0.0;
+}
+// G2 / (4 n.v), height-correlated (Heitz 2014, equation 99).
+float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
+  float nl = dot(n, wi);
+  if (nl <= 0.0) return 0.0;
+  float nv = max(dot(n, wo), 1e-4);
+  float alpha = lobeAlpha(lobe);
+  return 0.25 / ((1.0 + smithLambda(alpha, nv) + smithLambda(alpha, min(nl, 1.0))) * nv);
+}
+//? end
+//? end
+//? if geometry_none
+float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) { return 1.0; }
+//? end
+//? if geometry_tan
+// 1 / (n.v) as Tan 2005, section 3 prints it, under the bound 2 (n.h) / (v.h) of a V-cavity's masking: as printed it
+// grows without limit at grazing views.
+float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
+  float bound = 2.0 * max(dot(n, h), 0.0) / max(dot(wo, h), 1e-6);
+  return min(1.0 / max(dot(n, wo), 1e-3), bound);
+}
+//? end
+//? else
+// f * cos = F D, as Xu 2017 and Iwasaki 2012 use it.
+float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) { return 1.0; }
+//? end
+
+// f * cos of facets whose normals are spread about n as the lobe says.
+vec3 lobeSpecular(float lobe, vec3 n, vec3 f0, vec3 wi, vec3 wo) {
+  if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
+  vec3 h = halfVector(wi, wo);
+  return fresnelTerm(f0, wi, wo) * (lobeDensity(lobe, n, h) * geometryFactor(lobe, n, h, wi, wo));
+}
+
+//? if diffuse
+// Lambert's albedo / pi * (n.l), times what the Fresnel term leaves (glTF 2.0, appendix B; Tan 2005, section 3).
+vec3 lambert(vec3 n, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
+  vec3 reflected = albedo * (max(dot(n, wi), 0.0) / pi);
+//? if fresnel
+  reflected *= transmitted(f0, wi, wo);
+//? end
+  return reflected;
+}
+//? end

@@ -1,0 +1,83 @@
+// The normal distributions of the base BRDF: densities over solid angle (microfacet ones: times the cosine they
+// integrate to one), as functions of one lobe parameter: exponent (blinn_phong), alpha (beckmann, ggx), kappa (vmf).
+const float pi = 3.14159265358979;
+
+// Mirrors: no lobe is narrower than this; the peak stays finite in 32 bits, also times 1e3 of light.
+const float smallest_alpha = 1e-3;
+const float largest_exponent = 2e6;  // 2 / smallest_alpha^2
+
+// log(1 - u) for u in [0, 1) without the cancellation of log near 1: -2 atanh(u / (2 - u)), as a series up to u = 1/2.
+float log1m(float u) {
+  if (u > 0.5) return log(1.0 - u);
+  float z = u / (2.0 - u);
+  float z2 = z * z;
+  return -2.0 * z * (1.0 + z2 * (1.0 / 3.0 + z2 * (1.0 / 5.0 + z2 * (1.0 / 7.0 + z2 * (1.0 / 9.0 + z2 / 11.0)))));
+}
+
+// 1 - n.h from the difference of the vectors: exact where the dot product in 32 bits has lost it.
+float oneMinusDot(vec3 n, vec3 h) {
+  vec3 d = h - n;
+  return 0.5 * dot(d, d);
+}
+
+//? if distribution_blinn_phong
+// (s + 1) / (2 pi) (n.h)^s: unit energy over solid angle.
+float lobeDensity(float s, vec3 n, vec3 h) {
+  float u = oneMinusDot(n, h);
+  if (u >= 1.0) return 0.0;
+  return (s + 1.0) / (2.0 * pi) * exp(s * log1m(u));
+}
+float lobeFromAlpha(float alpha) { return 2.0 / max(alpha * alpha, smallest_alpha * smallest_alpha) - 2.0; }  // Walter 2007, section 5.2
+float lobeVariance(float s) { return 1.0 / max(s, 1e-6); }
+float lobeFromVariance(float variance) { return min(1.0 / max(variance, 1e-12), largest_exponent); }
+float lobeAlpha(float s) { return sqrt(2.0 / (s + 2.0)); }
+//? end
+
+//? if distribution_vmf
+// kappa / (2 pi (1 - e^{-2 kappa})) e^{kappa (n.h - 1)} (Xu 2017, equation 6, in the form that does not overflow).
+float lobeDensity(float kappa, vec3 n, vec3 h) {
+  float u = oneMinusDot(n, h);
+  if (kappa < 1e-4) return (1.0 + kappa * (1.0 - u)) / (4.0 * pi);
+  float mass = kappa < 0.01 ? 2.0 * kappa * (1.0 - kappa) : 1.0 - exp(-2.0 * kappa);
+  return kappa / (2.0 * pi * mass) * exp(-kappa * u);
+}
+float lobeFromAlpha(float alpha) { return 2.0 / max(alpha * alpha, smallest_alpha * smallest_alpha); }
+float lobeVariance(float kappa) { return 1.0 / max(kappa, 1e-6); }
+float lobeFromVariance(float variance) { return min(1.0 / max(variance, 1e-12), largest_exponent); }
+float lobeAlpha(float kappa) { return min(sqrt(2.0 / max(kappa, 1e-6)), 1.0); }
+//? end
+
+//? if distribution_beckmann
+// e^{-tan^2 / alpha^2} / (pi alpha^2 cos^4) (Beckmann 1963; Walter 2007, equation 25).
+float lobeDensity(float alpha, vec3 n, vec3 h) {
+  float c = dot(n, h);
+  if (c <= 1e-3) return 0.0;  // tan overflows, and the exponential has long been zero
+  vec3 s = cross(n, h);       // |s| = sin, exact where 1 - c^2 cancels
+  float c2 = c * c;
+  float a2 = alpha * alpha;
+  return exp(-dot(s, s) / (c2 * a2)) / (pi * a2 * c2 * c2);
+}
+float lobeFromAlpha(float alpha) { return max(alpha, smallest_alpha); }
+float lobeVariance(float alpha) { return 0.5 * alpha * alpha; }
+float lobeFromVariance(float variance) { return max(sqrt(2.0 * variance), smallest_alpha); }
+float lobeAlpha(float alpha) { return alpha; }
+//? end
+
+//? if distribution_ggx
+// alpha^2 / (pi (alpha^2 cos^2 + sin^2)^2) (Trowbridge and Reitz 1975; Walter 2007, equation 33).
+float lobeDensity(float alpha, vec3 n, vec3 h) {
+  float c = dot(n, h);
+  if (c <= 0.0) return 0.0;
+  vec3 s = cross(n, h);  // |s| = sin, exact where 1 - c^2 cancels
+  float a2 = alpha * alpha;
+  float d = a2 * c * c + dot(s, s);
+  return a2 / (pi * d * d);
+}
+float lobeFromAlpha(float alpha) { return max(alpha, smallest_alpha); }
+float lobeVariance(float alpha) { return 0.5 * alpha * alpha; }
+float lobeFromVariance(float variance) { return clamp(sqrt(2.0 * variance), smallest_alpha, 1.0); }
+float lobeAlpha(float alpha) { return alpha; }
+//? end
+
+// glTF 2.0, appendix B: alpha is the square of the perceptual roughness.
+float lobeFromRoughness(float roughness) { return lobeFromAlpha(roughness * roughness); }

@@ -1,0 +1,151 @@
+// The forward pass: linear radiance towards the camera, coverage in alpha. Everything that all methods share is here.
+// The method's module takes the place of the line `//# module`.
+in vec3 world_position;
+in vec3 world_normal;
+in vec4 world_tangent;
+in vec2 uv0;
+in vec2 uv1;
+
+layout(location = 0) out vec4 radiance_coverage;
+
+layout(std140, binding = 0) uniform MaterialBlock {
+  vec4 base_color_factor;
+  vec4 dielectric_specular_metallic;
+  vec4 lobe_cutoff;    // lobe parameter, alpha cutoff
+  vec4 uv_linear[3];   // slots normal, roughness, base_color: columns d/du, d/dv
+  vec4 uv_offset_set[3];
+};
+
+uniform vec3 camera_position;
+//? if orthographic
+uniform vec3 to_camera;
+//? end
+//? if not sampling_frame
+uniform ivec2 sample_origin;  // of this tile in the whole picture's sample grid
+uniform uvec2 sample_seed;    // seed and pass
+//? end
+
+//# module
+Footprint footprintOf(int slot) {
+  vec2 uv = uv_offset_set[slot].z < 0.5 ? uv0 : uv1;
+  mat2 linear = mat2(uv_linear[slot].xy, uv_linear[slot].zw);
+  vec2 mapped = linear * uv + uv_offset_set[slot].xy;
+  return Footprint(mapped, dFdx(mapped), dFdy(mapped));
+}
+
+Footprints pixelFootprints() {
+//? if shared_coordinates
+  Footprint f = footprintOf(0);
+  return Footprints(f, f, f);
+//? else
+  return Footprints(footprintOf(0), footprintOf(1), footprintOf(2));
+//? end
+}
+
+//? if sampling_texel
+// PCG3D (Jarzynski and Olano 2020): independent numbers for each sample of the picture, whatever the tile.
+uvec3 hashed(uvec3 v) {
+  v = v * 1664525u + 1013904223u;
+  v.x += v.y * v.z;
+  v.y += v.z * v.x;
+  v.z += v.x * v.y;
+  v ^= v >> 16u;
+  v.x += v.y * v.z;
+  v.y += v.z * v.x;
+  v.z += v.x * v.y;
+  return v;
+}
+
+vec2 drawTexelOffsets() {
+  uvec2 place = uvec2(ivec2(gl_FragCoord.xy) + sample_origin);
+  uvec3 bits = hashed(uvec3(place, sample_seed.y) ^ hashed(uvec3(sample_seed.x, 0x9e3779b9u, sample_seed.y)));
+  return vec2(bits.xy >> 8u) * (1.0 / 16777216.0);  // 24 bits: exact in a float, below 1
+}
+//? end
+
+// The tangent frame, right-handed or not as the mesh says; columns tangent, bitangent, normal.
+mat3 tangentFrame() {
+  vec3 n = normalize(world_normal);
+//? if double_sided
+  if (!gl_FrontFacing) n = -n;
+//? end
+  vec3 t = world_tangent.xyz - n * dot(n, world_tangent.xyz);
+  t /= max(length(t), 1e-12);
+  return mat3(t, cross(n, t) * world_tangent.w, n);
+}
+
+struct SurfacePoint {
+  Effective effective;
+  vec3 albedo;
+  vec3 f0;
+  mat3 frame;
+  vec3 wo;  // tangent frame
+};
+
+// One light's share. A light below the surface's own horizon does not reach it.
+vec3 reflected(SurfacePoint p, vec3 to_light, vec3 irradiance_at_normal) {
+  vec3 wi = to_light * p.frame;
+  if (wi.z <= 0.0) return vec3(0.0);
+  vec3 f_cos = specular(p.effective, p.f0, wi, p.wo);
+//? if diffuse
+  f_cos += diffuse(p.effective, p.albedo, p.f0, wi, p.wo);
+//? end
+  return f_cos * irradiance_at_normal;
+}
+
+vec3 lit(SurfacePoint p) {
+  vec3 radiance = vec3(0.0);
+//? if point_light
+  for (int i = 0; i < point_light_count; ++i) {
+    vec3 d = point_lights[i].position_range.xyz - world_position;
+    float d2 = dot(d, d);
+    float attenuation = distanceAttenuation(d2, point_lights[i].position_range.w);
+    radiance += reflected(p, d * inversesqrt(max(d2, 1e-24)), point_lights[i].intensity.rgb * attenuation);
+  }
+//? end
+//? if spot_light
+  for (int i = 0; i < spot_light_count; ++i) {
+    vec3 d = spot_lights[i].position_range.xyz - world_position;
+    float d2 = dot(d, d);
+    vec3 to_light = d * inversesqrt(max(d2, 1e-24));
+    float angular = clamp(-dot(spot_lights[i].direction.xyz, to_light) * spot_lights[i].cone.x + spot_lights[i].cone.y, 0.0, 1.0);
+    float attenuation = distanceAttenuation(d2, spot_lights[i].position_range.w) * angular * angular;
+    radiance += reflected(p, to_light, spot_lights[i].intensity.rgb * attenuation);
+  }
+//? end
+//? if directional_light
+  for (int i = 0; i < directional_light_count; ++i) {
+    radiance += reflected(p, directional_lights[i].to_light.xyz, directional_lights[i].illuminance.rgb);
+  }
+//? end
+  return radiance;
+}
+
+void main() {
+  Footprints f = pixelFootprints();
+//? if sampling_texel
+  texel_draw = drawTexelOffsets();
+//? end
+  vec4 base_color = base_color_factor;
+//? if base_color_variation
+  base_color *= fetch(base_color_map, f.base_color);
+//? end
+//? if alpha_mask
+  if (base_color.a < lobe_cutoff.y) discard;
+//? end
+  float metallic = dielectric_specular_metallic.w;
+//? if metallic_variation
+  metallic = fetch(metallic_map, f.roughness).r;
+//? end
+  SurfacePoint p;
+  p.effective = effective(f);
+  p.albedo = base_color.rgb * (1.0 - metallic);
+  p.f0 = mix(dielectric_specular_metallic.rgb, base_color.rgb, metallic);
+  p.frame = tangentFrame();
+//? if orthographic
+  p.wo = to_camera * p.frame;
+//? else
+  p.wo = normalize(camera_position - world_position) * p.frame;
+//? end
+  radiance_coverage = vec4(lit(p), 1.0);
+}

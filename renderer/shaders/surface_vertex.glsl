@@ -1,0 +1,23 @@
+// Vertices to clip space; the fragment stage gets position and frame in world space.
+layout(location = 0) in vec3 in_position;
+layout(location = 1) in vec3 in_normal;
+layout(location = 2) in vec4 in_tangent;
+layout(location = 3) in vec2 in_uv0;
+layout(location = 4) in vec2 in_uv1;
+
+uniform mat4 world_to_clip;
+
+out vec3 world_position;
+out vec3 world_normal;
+out vec4 world_tangent;
+out vec2 uv0;
+out vec2 uv1;
+
+void main() {
+  world_position = in_position;
+  world_normal = in_normal;
+  world_tangent = in_tangent;
+  uv0 = in_uv0;
+  uv1 = in_uv1;
+  gl_Position = world_to_clip * vec4(in_position, 1.0);
+}

@@ -1,0 +1,112 @@
+// See example_results.hpp.
+#include "results/report/example_results.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "results/report/equivalent_spp.hpp"
+
+namespace footprint {
+namespace {
+
+/// How one made-up method behaves: its error at distance 1 and by how much it grows per distance, and its price.
+struct Behaviour {
+  const char* method;
+  double error, growth, milliseconds;
+  std::uint64_t bytes;
+};
+
+constexpr Behaviour behaviours[] = {{"direct", 0.021, 2.1, 2.04, 0},
+                                    {"naive_mip", 0.018, 1.65, 2.31, 12'582'912},
+                                    {"toksvig", 0.011, 1.18, 2.52, 16'777'216},
+                                    {"toksvig:storage=unorm8", 0.0125, 1.22, 2.43, 4'194'304}};
+
+Record example_record(const Results& results, const Behaviour& behaviour, double distance) {
+  Record record;
+  record.scene = results.scene.name;
+  record.method = behaviour.method;
+  record.options = {{"probes", 1.0}, {"storage", std::string("fp32")}};
+  record.distance = distance;
+  record.width = record.height = 256;
+  const double error = behaviour.error * std::pow(behaviour.growth, std::log2(distance));
+  record.error = RecordError{error,   error * 4.1,  error * 9.3, -20 * std::log10(error), -0.013 * distance,
+                             0.00071, error * 0.22, error * 0.91};
+  const EquivalentSamples equal = equivalent_samples(supersampling_curve(results.supersampling, distance), error);
+  record.equivalent_spp = equal.spp;
+  record.equivalent_bound = equal.bound;
+  const double ms = behaviour.milliseconds / std::pow(distance, 0.3);
+  record.frame_ms = {ms, ms * 0.96, ms * 1.11};
+  record.fps = 1000 / ms;
+  const double ratio = behaviour.milliseconds / behaviours[0].milliseconds;
+  record.ratio_to_direct = {ratio, ratio * 0.97, ratio * 1.05};
+  record.precompute_bytes = behaviour.bytes;
+  record.precompute_seconds = static_cast<double>(behaviour.bytes) * 2e-8;
+  record.effects_on = {"diffuse", "fresnel", "normal_variation"};
+  if (behaviour.bytes != 0) record.effects_left_out = {"roughness_variation"};
+  const std::string stem = fmt::format("images/method{}_d{}", &behaviour - behaviours, distance);
+  record.images = {stem + ".exr", fmt::format("images/reference_d{}.exr", distance), stem + "_error.png"};
+  return record;
+}
+
+}  // namespace
+
+Results example_results() {
+  Results results;
+  results.tool.version = "0.1.0";
+  results.backend = {"egl", "llvmpipe (LLVM 15.0.6, 256 bits)", "4.5 (Core Profile) Mesa 22.3.6",
+                     "AMD EPYC 7B13, 2 cores"};
+  results.scene = {.name = "ClearCoatTest",
+                   .source = "ClearCoatTest.gltf",
+                   .triangles = 37'322,
+                   .materials = 9,
+                   .lights = 2,
+                   .exposure = 0.84,
+                   .exposure_source = "automatic",
+                   .defaults = {"a camera framed on the bounds", "a rig of two lights"},
+                   .warnings = {"KHR_materials_clearcoat is optional here and was left out"}};
+  results.reference = {256, "after_shading", 7, 0.0042};
+  results.error_scale = 0.1;
+  for (const double distance : {1.0, 4.0, 16.0}) {
+    for (const int spp : {1, 2, 4, 8, 16, 32, 64}) {
+      const double error = 0.024 * std::pow(distance, 0.9) / std::sqrt(spp);
+      results.supersampling.push_back({distance, spp, error, (1.6 + 0.72 * spp) / std::pow(distance, 0.3)});
+    }
+    for (const Behaviour& behaviour : behaviours) {
+      results.records.push_back(example_record(results, behaviour, distance));
+    }
+  }
+  results.records[2].error->normalized_color = 0.0006;  // below the noise floor
+  results.records[3].frame_build_ms = 0.31;
+  results.records[3].precompute_cached = true;
+  return results;
+}
+
+Results hostile_results() {
+  Results results = example_results();
+  results.scene.name = "</script><script>document.title='broken'</script>\"<b>&amp; {{data}}";
+  results.scene.source = "a,b\r\n\"c\".gltf";
+  results.scene.warnings = {"not UTF-8: \xff\xfe, and <!-- a comment"};
+  results.backend.cpu = "| pipe `tick` [link](javascript:alert(1)) *star*";
+  for (Record& record : results.records) record.scene = results.scene.name;
+  Record& named = results.records[1];
+  named.method = "<img src=x onerror=\"document.title='broken'\">' , #?%";
+  named.options["a/b~c"] = std::string("=;\"");
+  named.images.color = "images/absent <b>#1.exr";
+  results.records[2].error.reset();
+  results.records[2].equivalent_spp.reset();
+  results.records[2].equivalent_bound = "n/a";
+  RecordError& equal = *results.records[3].error;
+  equal.normalized_color = 0;
+  equal.psnr = equal.relative_rmse = equal.relmse = equal.energy_bias = std::numeric_limits<double>::infinity();
+  equal.noise_floor.reset();
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  results.records[3].ratio_to_direct = {unknown, unknown, unknown};
+  results.reference.standard_error.reset();
+  results.reference.seed = std::numeric_limits<std::uint64_t>::max();
+  results.supersampling[3].normalized_color.reset();
+  return results;
+}
+
+}  // namespace footprint

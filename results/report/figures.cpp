@@ -1,0 +1,117 @@
+// See figures.hpp.
+#include "results/report/figures.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace footprint {
+namespace {
+
+std::string plural(const std::string& count, std::string_view noun) {
+  return count == "1" ? fmt::format("1 {}", noun) : fmt::format("{} {}s", count, noun);
+}
+
+std::string worth(const Record& record) {
+  if (record.equivalent_spp) return "worth " + plural(equivalent_text(record), "sample");
+  const std::string_view bound = record.equivalent_bound;
+  if (bound.starts_with('<')) return "worth less than " + plural(std::string(bound.substr(1)), "sample");
+  if (bound.starts_with('>')) return "worth more than " + plural(std::string(bound.substr(1)), "sample");
+  return fmt::format("off by {}", error_text(record.error->normalized_color));
+}
+
+std::string reference_text(const ReferenceInfo& reference) {
+  std::string text = fmt::format("{} a pixel, filter {}, seed {}", plural(std::to_string(reference.spp), "sample"),
+                                 reference.filter, reference.seed);
+  if (reference.standard_error) text += fmt::format(", standard error {}", error_text(*reference.standard_error));
+  return text;
+}
+
+std::string scene_text(const SceneInfo& scene) {
+  return fmt::format("{} ({}, {}, {}) from {}", scene.name, plural(std::to_string(scene.triangles), "triangle"),
+                     plural(std::to_string(scene.materials), "material"), plural(std::to_string(scene.lights), "light"),
+                     scene.source);
+}
+
+}  // namespace
+
+std::string error_text(double error) {
+  if (!std::isfinite(error)) return "n/a";
+  if (error == 0) return "0";
+  return std::abs(error) < 5e-4 ? fmt::format("{:.1e}", error) : fmt::format("{:.5f}", error);
+}
+
+std::string three_figures(double value) {
+  if (!std::isfinite(value)) return "n/a";
+  const double size = std::abs(value);
+  return size >= 99.95 && size < 1e6 ? fmt::format("{:.0f}", value) : fmt::format("{:#.3g}", value);
+}
+
+std::string spread_text(double median, double low, double high) {
+  if (!std::isfinite(median)) return "n/a";
+  return fmt::format("{} ({}-{})", three_figures(median), three_figures(low), three_figures(high));
+}
+
+std::string bytes_text(std::uint64_t bytes) {
+  if (bytes < 1024) return fmt::format("{} B", bytes);
+  constexpr std::array units{"KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
+  double size = static_cast<double>(bytes) / 1024;
+  std::size_t unit = 0;
+  for (; size >= 1023.5 && unit + 1 < units.size(); ++unit) size /= 1024;
+  return fmt::format("{} {}", three_figures(size), units[unit]);
+}
+
+std::string equivalent_text(const Record& record) {
+  if (!record.equivalent_spp) return record.equivalent_bound.empty() ? "n/a" : record.equivalent_bound;
+  const double spp = *record.equivalent_spp;
+  const std::string text = spp < 9.95 ? fmt::format("{:.1f}", spp) : fmt::format("{:.0f}", spp);
+  return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
+}
+
+bool at_noise_floor(const Record& record) {
+  return record.error && record.error->noise_floor && record.error->normalized_color <= *record.error->noise_floor;
+}
+
+std::string list_text(const std::vector<std::string>& words, const std::string& none) {
+  return words.empty() ? none : fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::string reading(const Record& record) {
+  const std::string subject = fmt::format("{} at distance {}", record.method, record.distance);
+  if (!record.error) return subject + " has no error: the object covers no whole pixel.";
+  const double ratio = record.ratio_to_direct.median;
+  const std::string price =
+      std::isfinite(ratio)
+          ? fmt::format("at the price of {} direct {}", three_figures(ratio), ratio == 1 ? "frame" : "frames")
+          : fmt::format("at {} ms a frame", three_figures(record.frame_ms.median));
+  const std::string floor = at_noise_floor(record) ? "; its error is within the noise of the reference" : "";
+  return fmt::format("{} is {} {}{}.", subject, worth(record), price, floor);
+}
+
+std::vector<Provenance> provenance(const Results& results) {
+  const SceneInfo& scene = results.scene;
+  std::vector<Provenance> lines{
+      {"Tool", fmt::format("{} {}", results.tool.name, results.tool.version)},
+      {"Backend", fmt::format("{}: {}, {}", results.backend.name, results.backend.renderer, results.backend.version)},
+      {"Processor", results.backend.cpu},
+      {"Scene", scene_text(scene)},
+      {"Exposure", fmt::format("{} ({})", three_figures(scene.exposure), scene.exposure_source)},
+      {"Reference", reference_text(results.reference)},
+      {"Supplied", list_text(scene.defaults, "nothing, the input has it all")}};
+  for (const std::string& warning : scene.warnings) lines.push_back({"Warning", warning});
+  return lines;
+}
+
+std::vector<double> distances_of(const Results& results) {
+  std::vector<double> distances;
+  for (const Record& record : results.records) {
+    if (std::ranges::find(distances, record.distance) == distances.end()) distances.push_back(record.distance);
+  }
+  return distances;
+}
+
+}  // namespace footprint

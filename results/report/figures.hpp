@@ -1,0 +1,47 @@
+// Figures as readers see them: one way to write a number, shared by the table and the page.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "results/report/records.hpp"
+
+namespace footprint {
+
+/// An error between 0 and 1: five decimals, or two figures and an exponent where those would hide it.
+[[nodiscard]] std::string error_text(double error);
+
+/// Three figures, never an exponent up to a million: "0.0123", "1.31", "41.2", "1234".
+[[nodiscard]] std::string three_figures(double value);
+
+/// "1.31 (1.25-1.40)": the median and the ends of the spread; "n/a" for figures that were not measured.
+[[nodiscard]] std::string spread_text(double median, double low, double high);
+
+/// "0 B", "640 B", "1.50 KiB", "12.3 MiB"; binary multiples.
+[[nodiscard]] std::string bytes_text(std::uint64_t bytes);
+
+/// "41", "1.5", or the bound "<1", ">64", "n/a".
+[[nodiscard]] std::string equivalent_text(const Record& record);
+
+/// Whether the error cannot be told from the reference's own noise.
+[[nodiscard]] bool at_noise_floor(const Record& record);
+
+/// "a, b, c", or `none` for an empty list.
+[[nodiscard]] std::string list_text(const std::vector<std::string>& words, const std::string& none);
+
+/// "toksvig at distance 4 is worth 41 samples at the price of 1.31 direct frames.", from measured figures only.
+[[nodiscard]] std::string reading(const Record& record);
+
+/// One labelled line of where the figures come from.
+struct Provenance {
+  std::string label, value;
+};
+
+/// Backend, processor, scene, exposure, reference, what was supplied and what was left out: the head of every report.
+[[nodiscard]] std::vector<Provenance> provenance(const Results& results);
+
+/// The distances of the records, in the order in which they first appear.
+[[nodiscard]] std::vector<double> distances_of(const Results& results);
+
+}  // namespace footprint

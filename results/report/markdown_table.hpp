@@ -1,0 +1,21 @@
+// A Markdown table whose columns are padded to one width, so that it also reads well in a terminal.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace footprint {
+
+struct MarkdownColumn {
+  std::string title;
+  bool numeric = true;  ///< aligned right
+};
+
+/// `text` with the characters that mean something in Markdown or HTML escaped, line breaks as spaces.
+[[nodiscard]] std::string markdown_escaped(const std::string& text);
+
+/// The table, every cell escaped; each row has one cell a column.
+[[nodiscard]] std::string markdown_table(const std::vector<MarkdownColumn>& columns,
+                                         const std::vector<std::vector<std::string>>& rows);
+
+}  // namespace footprint

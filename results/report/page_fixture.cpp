@@ -1,0 +1,74 @@
+// Writes a report with pictures for the tests of the page and of the schema: footprint_page_fixture FOLDER KIND.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+#include <string_view>
+
+#include "renderer/image/false_color.hpp"
+#include "renderer/image/image_io.hpp"
+#include "renderer/image/metrics.hpp"
+#include "results/report/example_results.hpp"
+#include "results/report/report.hpp"
+
+namespace footprint {
+namespace {
+
+/// A lit ball with a glittering highlight; `sharpness` sets the size of the glitter, 0 the smooth mean.
+Image ball(int size, double sharpness) {
+  Image picture(size, size, 4);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const double u = 2.2 * (x + 0.5) / size - 1.1;
+      const double v = 2.2 * (y + 0.5) / size - 1.1;
+      if (u * u + v * v > 1) continue;
+      const double toward_light = std::max(0.0, -0.4 * u - 0.5 * v + 0.77 * std::sqrt(1 - u * u - v * v));
+      const double glitter = 1 + sharpness * std::sin(x * 1.7) * std::sin(y * 2.3 + x * 0.4);
+      const double shine = 0.9 * std::pow(toward_light, 30) * glitter;
+      const std::span<float> texel = picture.at(x, y);
+      texel[0] = static_cast<float>(0.35 * toward_light + shine);
+      texel[1] = static_cast<float>(0.14 * toward_light + shine);
+      texel[2] = static_cast<float>(0.10 * toward_light + shine);
+      texel[3] = 1;
+    }
+  }
+  return picture;
+}
+
+std::filesystem::path png_of(const std::filesystem::path& folder, const std::string& image) {
+  return (folder / image).replace_extension(".png");
+}
+
+void write_pictures(const Results& results, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder / "images");
+  for (const Record& record : results.records) {
+    const Image reference = ball(record.width, 0.05);
+    const Image picture = ball(record.width, 20 * (record.error ? record.error->normalized_color : 0));
+    write_png(png_of(folder, record.images.reference), to_display(reference, 1));
+    const bool left_out = record.images.color.find("absent") != std::string::npos;
+    if (!left_out) write_png(png_of(folder, record.images.color), to_display(picture, 1));
+    const auto top = static_cast<float>(results.error_scale);
+    write_png(folder / record.images.error, false_color(error_map(picture, reference, 1), top));
+  }
+}
+
+void write_fixture(const std::filesystem::path& folder, std::string_view kind) {
+  const Results results = kind == "hostile" ? hostile_results() : example_results();
+  write_pictures(results, folder);
+  write_report(results, folder);
+}
+
+}  // namespace
+}  // namespace footprint
+
+int main(int argc, char** argv) {
+  try {
+    if (argc != 3) throw std::invalid_argument("usage: footprint_page_fixture FOLDER example|hostile");
+    footprint::write_fixture(argv[1], argv[2]);
+    return 0;
+  } catch (const std::exception& fault) {
+    fmt::print(stderr, "{}\n", fault.what());
+    return 2;
+  }
+}

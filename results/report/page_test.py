@@ -1,0 +1,270 @@
+"""Opens index.html in headless Chromium, from disk, and uses it: page_test.py FIXTURE_PROGRAM [FOLDER].
+
+Speaks plain WebDriver to chromedriver on the loopback. FOLDER keeps the pages and the screenshots. Exit code 77
+(skipped) where chromium or chromedriver is not installed.
+"""
+
+import base64
+import contextlib
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import urllib.error
+import urllib.request
+
+SKIPPED = 77
+ELEMENT = "element-6066-11e4-a52e-4f735466cecf"
+FLAGS = ["--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking",
+         "--disable-component-update", "--disable-sync", "--hide-scrollbars", "--window-size=1280,900"]
+
+
+class Browser:
+    """One WebDriver session."""
+
+    def __init__(self, port, chromium, profile):
+        self.base = f"http://127.0.0.1:{port}"
+        options = {"binary": chromium, "args": [*FLAGS, f"--user-data-dir={profile}"]}
+        wanted = {"browserName": "chrome", "goog:chromeOptions": options, "goog:loggingPrefs": {"browser": "ALL"}}
+        reply = self.send("POST", "/session", {"capabilities": {"alwaysMatch": wanted}})
+        self.base += f"/session/{reply['sessionId']}"
+
+    def send(self, method, path, body=None):
+        content = None if body is None else json.dumps(body).encode()
+        headers = {"Content-Type": "application/json"}
+        request = urllib.request.Request(self.base + path, content, headers, method=method)
+        opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
+        try:
+            with opener.open(request, timeout=60) as reply:
+                return json.load(reply)["value"]
+        except urllib.error.HTTPError as fault:
+            raise RuntimeError(f"{method} {path}: {fault.read().decode()}") from fault
+
+    def open(self, page):
+        self.send("POST", "/url", {"url": page.as_uri()})
+
+    def run(self, script, *arguments):
+        return self.send("POST", "/execute/sync", {"script": script, "args": list(arguments)})
+
+    def wait_for(self, script):
+        """Waits until the script's promise is there, and gives its value."""
+        body = {"script": f"const done = arguments[arguments.length - 1]; ({script}).then(done)", "args": []}
+        return self.send("POST", "/execute/async", body)
+
+    def find(self, selector):
+        return self.send("POST", "/element", {"using": "css selector", "value": selector})[ELEMENT]
+
+    def show(self, selector):
+        """Scrolls the element out from under the bar that stays at the top."""
+        self.run("document.querySelector(arguments[0]).scrollIntoView({block: 'center'})", selector)
+
+    def click(self, selector):
+        self.show(selector)
+        self.send("POST", f"/element/{self.find(selector)}/click", {})
+
+    def keys(self, selector, text):
+        self.send("POST", f"/element/{self.find(selector)}/value", {"text": text})
+
+    def drag(self, selector, offsets):
+        """Presses at the first horizontal offset from the element's centre, moves over the others, lets go."""
+        self.show(selector)
+        origin = {ELEMENT: self.find(selector)}
+        move = [{"type": "pointerMove", "duration": 50, "origin": origin, "x": x, "y": 0} for x in offsets]
+        actions = [move[0], {"type": "pointerDown", "button": 0}, *move[1:], {"type": "pointerUp", "button": 0}]
+        self.send("POST", "/actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": actions}]})
+
+    def emulate(self, scheme):
+        media = {"media": "", "features": [{"name": "prefers-color-scheme", "value": scheme}]}
+        self.send("POST", "/goog/cdp/execute", {"cmd": "Emulation.setEmulatedMedia", "params": media})
+
+    def resize(self, width, height):
+        metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
+        self.send("POST", "/goog/cdp/execute", {"cmd": "Emulation.setDeviceMetricsOverride", "params": metrics})
+        self.wait_for("new Promise((done) => setTimeout(() => requestAnimationFrame(done), 100))")
+
+    def complaints(self):
+        return [entry["message"] for entry in self.send("POST", "/se/log", {"type": "browser"})
+                if entry["level"] in ("SEVERE", "WARNING")]
+
+    def screenshot(self, file=None):
+        """The window's PNG; the colours of a coarse grid over it, as the browser itself decodes them."""
+        png = self.send("GET", "/screenshot")
+        if file:
+            file.write_bytes(base64.b64decode(png))
+        return self.wait_for("""new Promise((done, failed) => {
+          const image = new Image();
+          image.onerror = () => failed(new Error('the screenshot is no picture'));
+          image.onload = () => {
+            const canvas = Object.assign(document.createElement('canvas'), {width: 160, height: 112});
+            const context = canvas.getContext('2d');
+            context.drawImage(image, 0, 0, 160, 112);
+            const bytes = context.getImageData(0, 0, 160, 112).data;
+            const colors = new Set();
+            for (let i = 0; i < bytes.length; i += 4) colors.add(bytes.slice(i, i + 3).join());
+            done([...colors]);
+          };
+          image.src = 'data:image/png;base64,%s';
+        })""" % png)
+
+
+@contextlib.contextmanager
+def started_browser():
+    chromium, driver = shutil.which("chromium"), shutil.which("chromedriver")
+    if not chromium or not driver:
+        print("skipped: the packages chromium and chromium-driver are not installed")
+        sys.exit(SKIPPED)
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as home:
+        environment = {**os.environ, "HOME": home, "XDG_CONFIG_HOME": home, "XDG_CACHE_HOME": home}
+        process = subprocess.Popen([driver, "--port=0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+                                   env=environment)
+        browser = None
+        try:
+            greetings = (re.search(r"successfully on port (\d+)", line) for line in process.stdout)
+            port = next(found[1] for found in greetings if found)
+            browser = Browser(port, chromium, pathlib.Path(home) / "profile")
+            yield browser
+        finally:
+            if browser:
+                browser.send("DELETE", "")
+            process.terminate()
+            process.wait(timeout=20)
+
+
+def wait_for_pictures(browser):
+    browser.wait_for("""Promise.all([...document.querySelectorAll('.picture img')].map(
+        (image) => image.decode().catch(() => null)))""")
+
+
+def plot(browser):
+    return browser.run("return document.getElementById('plot').toDataURL()")
+
+
+def check_first_sight(browser):
+    wait_for_pictures(browser)
+    assert browser.run("return document.querySelectorAll('#table tbody tr').length") == 4
+    assert browser.run("return document.querySelectorAll('.card').length") == 4
+    widths = browser.run("return [...document.querySelectorAll('.picture img')].map((image) => image.naturalWidth)")
+    assert widths == [256] * 12, widths
+    drawn = browser.run("""const canvas = document.getElementById('plot');
+        const bytes = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+        return new Set(new Uint32Array(bytes.buffer)).size""")
+    assert drawn > 20, f"the plot has {drawn} colours"
+    labels = browser.run("return Chart.getChart('plot').data.datasets.map((set) => set.label)")
+    assert labels == ["direct", "naive_mip", "toksvig", "toksvig:storage=unorm8", "plain supersampling",
+                      "noise floor"], labels
+    assert browser.run("return !document.getElementById('floor-note').hidden"), "one error is at the noise floor"
+
+
+def check_distances(browser):
+    words, drawn = browser.run("return document.getElementById('words').textContent"), plot(browser)
+    sources = "return [...document.querySelectorAll('.compare img')].map((image) => image.getAttribute('src'))"
+    before = browser.run(sources)
+    browser.click("#distances label:nth-of-type(2)")
+    after = browser.run(sources)
+    assert all("_d1.png" in source for source in before), before
+    assert all("_d4.png" in source for source in after), after
+    assert "at distance 4 is worth" in browser.run("return document.getElementById('words').textContent")
+    assert words != browser.run("return document.getElementById('words').textContent")
+    assert drawn != plot(browser), "the plot did not follow the distance"
+    wait_for_pictures(browser)
+
+
+def check_slider(browser):
+    split = "return document.querySelector('.compare').style.getPropertyValue('--split')"
+    edge = "return document.querySelector('.compare .divider').getBoundingClientRect().x"
+    assert browser.run(split) == "50%"
+    before = browser.run(edge)
+    browser.drag(".compare", [0, -40, -120])
+    dragged, moved = float(browser.run(split).rstrip("%")), before - browser.run(edge)
+    assert dragged < 40, f"the split stands at {dragged}% after the drag"
+    assert abs(moved - 120) < 8, f"the line moved by {moved} pixels for a drag of 120"
+    clip = browser.run("return getComputedStyle(document.querySelector('.compare .over')).clipPath")
+    assert f"{dragged:g}%" in clip, clip
+    browser.keys(".compare input", "\ue014\ue014")  # arrow right, twice
+    assert float(browser.run(split).rstrip("%")) > dragged, "the arrow keys do not move the split"
+
+
+def check_zoom_and_layout(browser):
+    scale = "return getComputedStyle(document.querySelector('.compare img')).transform"
+    assert browser.run(scale) == "matrix(1, 0, 0, 1, 0, 0)"
+    browser.click("#zooms label:nth-of-type(3)")
+    assert browser.run(scale) == "matrix(4, 0, 0, 4, 0, 0)"
+    browser.click("#zooms label:nth-of-type(1)")
+    width = "return document.querySelector('.card').getBoundingClientRect().width"
+    large = browser.run(width)
+    browser.click("#layouts label:nth-of-type(2)")
+    assert browser.run(width) < 0.6 * large
+    browser.click("#layouts label:nth-of-type(1)")
+
+
+def check_table(browser):
+    errors = """return [...document.querySelectorAll('#table tbody tr')].map(
+        (row) => parseFloat(row.cells[1].textContent.replace('≈', '')))"""
+    browser.click("#table thead th:nth-child(2) button")
+    rising = browser.run(errors)
+    assert rising == sorted(rising), rising
+    browser.click("#table thead th:nth-child(2) button")
+    assert browser.run(errors) == rising[::-1]
+    browser.click("#all-distances")
+    assert browser.run("return document.querySelectorAll('#table tbody tr').length") == 12
+    browser.click("#all-distances")
+
+
+def check_looks(browser, folder):
+    colors = {}
+    for name, scheme, width in (("light", "light", 1280), ("dark", "dark", 1280), ("narrow", "light", 390)):
+        browser.emulate(scheme)
+        browser.resize(width, 900)
+        height = browser.run("window.scrollTo(0, 0); return document.documentElement.scrollHeight")
+        overflow = browser.run("return document.documentElement.scrollWidth - window.innerWidth")
+        assert overflow <= 0, f"{name}: the page is {overflow} pixels too wide"
+        browser.resize(width, height)
+        colors[name] = browser.screenshot(folder / f"{name}.png")
+        assert len(colors[name]) > 100, f"{name}: the screenshot has {len(colors[name])} colours"
+    assert set(colors["light"]) != set(colors["dark"]), "light and dark look the same"
+    browser.emulate("light")
+    browser.resize(1280, 900)
+
+
+def check_example(browser, folder):
+    browser.open(folder / "index.html")
+    check_first_sight(browser)
+    check_distances(browser)
+    check_slider(browser)
+    check_zoom_and_layout(browser)
+    check_table(browser)
+    check_looks(browser, folder)
+    assert not (messages := browser.complaints()), messages
+
+
+def check_hostile(browser, folder):
+    browser.open(folder / "index.html")
+    wait_for_pictures(browser)
+    assert browser.run("return document.title").startswith("</script><script>"), "the title is not the scene's name"
+    assert browser.run("return document.querySelector('h1').textContent").endswith("<b>&amp; {{data}}")
+    assert browser.run("return document.querySelectorAll('#table tbody tr').length") == 4
+    names = browser.run("return [...document.querySelectorAll('td.name')].map((cell) => cell.textContent)")
+    assert names[1].startswith("<img"), names
+    assert browser.run("return document.querySelectorAll('.missing').length") == 1, "one picture is not there"
+    assert "toksvig" in browser.run("return document.getElementById('plot-note').textContent")
+    assert len(browser.screenshot(folder / "hostile.png")) > 100
+    messages = [text for text in browser.complaints() if "absent" not in text]
+    assert not messages, messages
+
+
+def main(fixture, keep=None):
+    with tempfile.TemporaryDirectory() as temporary, started_browser() as browser:
+        for kind, check in (("example", check_example), ("hostile", check_hostile)):
+            folder = pathlib.Path(keep or temporary).resolve() / kind
+            folder.mkdir(parents=True, exist_ok=True)
+            subprocess.run([fixture, str(folder), kind], check=True)
+            check(browser, folder)
+    print("the page works in Chromium")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

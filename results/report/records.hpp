@@ -1,0 +1,113 @@
+// What a run measured, as plain values: the content of results.json (docs/results.md), free of GL and of files.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace footprint {
+
+/// Median with its spread over the repeats of one run.
+struct FrameTime {
+  double median = 0, minimum = 0, p90 = 0;  ///< milliseconds
+};
+
+/// frame time over `direct`'s, pair by pair.
+struct TimeRatio {
+  double median = 0, minimum = 0, maximum = 0;
+};
+
+/// Errors of one picture; docs/metrics.md. Absent figures are null in the JSON and "n/a" in tables.
+struct RecordError {
+  double normalized_color = 0;
+  double relative_rmse = 0;
+  double relmse = 0;
+  double psnr = 0;  ///< dB; infinite for equal pictures (null in the JSON)
+  double energy_bias = 0;
+  std::optional<double> noise_floor;  ///< normalised colour error that the reference's own noise causes
+  double representation = 0;          ///< normalised colour error of the method's finest level, supersampled
+  double filtering = 0;               ///< normalised colour error against that supersampled finest level
+};
+
+/// Pictures of one record, as paths relative to the output folder.
+struct RecordImages {
+  std::string color;      ///< EXR; a .png of the same stem lies beside it
+  std::string reference;  ///< EXR, likewise
+  std::string error;      ///< PNG, false colour on the shared scale
+};
+
+/// One method at one distance.
+struct Record {
+  std::string scene;
+  std::string method;                                                ///< the method as written, options included
+  std::map<std::string, std::variant<double, std::string>> options;  ///< every option, defaults filled in
+  double distance = 1;
+  int frame = 0;
+  int width = 0, height = 0;
+  std::optional<RecordError> error;      ///< none: the object covers no whole pixel
+  std::optional<double> equivalent_spp;  ///< none: above or below the measured curve, see `equivalent_bound`
+  std::string equivalent_bound;          ///< "", "<1" or ">64" (the ends of the curve), "n/a" without an error
+  FrameTime frame_ms;
+  std::optional<double> frame_build_ms;  ///< none: the method rebuilds nothing each frame
+  double fps = 0;                        ///< 1000 / frame_ms.median
+  TimeRatio ratio_to_direct;
+  double precompute_seconds = 0;
+  std::uint64_t precompute_bytes = 0;
+  bool precompute_cached = false;
+  std::vector<std::string> effects_on;
+  std::vector<std::string> effects_left_out;
+  RecordImages images;
+};
+
+/// Plain supersampling of the base BRDF at one count, at one distance.
+struct SupersamplingPoint {
+  double distance = 1;
+  int spp = 1;
+  std::optional<double> normalized_color;
+  double ms = 0;
+};
+
+struct ToolInfo {
+  std::string name = "footprint";
+  std::string version;
+};
+
+struct BackendInfo {
+  std::string name;      ///< egl, egl-device, osmesa
+  std::string renderer;  ///< GL_RENDERER
+  std::string version;   ///< GL_VERSION
+  std::string cpu;       ///< processor model and core count: times mean nothing without them
+};
+
+struct SceneInfo {
+  std::string name, source;
+  std::size_t triangles = 0, materials = 0, lights = 0;
+  double exposure = 1;
+  std::string exposure_source;        ///< "scene", "automatic" or "command line"
+  std::vector<std::string> defaults;  ///< what was supplied because the input has none
+  std::vector<std::string> warnings;  ///< what the input has and the run left out
+};
+
+struct ReferenceInfo {
+  int spp = 0;
+  std::string filter;  ///< after_shading, nearest, bilinear
+  std::uint64_t seed = 0;
+  std::optional<double>
+      standard_error;  ///< root mean square of the per-pixel standard error over mean radiance, first distance
+};
+
+/// A whole run.
+struct Results {
+  ToolInfo tool;
+  BackendInfo backend;
+  SceneInfo scene;
+  ReferenceInfo reference;
+  std::vector<SupersamplingPoint> supersampling;
+  std::vector<Record> records;
+  double error_scale = 0;  ///< the normalised colour error at the top of every false-colour picture
+};
+
+}  // namespace footprint

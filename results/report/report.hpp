@@ -1,0 +1,30 @@
+// Results as files that people and programs read: results.json, results.csv, table.md and index.html.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "results/report/records.hpp"
+
+namespace footprint {
+
+/// The document of docs/results.schema.json, "schema": "footprint-results/1"; pretty-printed, key order fixed,
+/// infinities and absent figures as null.
+[[nodiscard]] std::string results_json(const Results& results);
+
+/// The inverse of results_json. Errors (usage) name `source`, the JSON pointer and what is wrong.
+[[nodiscard]] Results parse_results(const std::string& json, const std::string& source);
+
+/// One line a record, RFC 4180; the header names every column with its unit.
+[[nodiscard]] std::string results_csv(const Results& results);
+
+/// The error and fps table in Markdown, aligned so that it also reads well in a terminal.
+[[nodiscard]] std::string results_table(const Results& results);
+
+/// The page, whole and self-contained but for the pictures in `images/` beside it; opens from disk without a network.
+[[nodiscard]] std::string results_page(const Results& results);
+
+/// Writes the four files into `folder` (which exists), each whole or not at all. Errors (machine): cannot write.
+void write_report(const Results& results, const std::filesystem::path& folder);
+
+}  // namespace footprint

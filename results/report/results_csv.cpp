@@ -1,0 +1,113 @@
+// Results as comma-separated values after RFC 4180: one line a record, absent figures empty.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "results/report/report.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr std::array columns{"scene",
+                             "method",
+                             "options",
+                             "distance",
+                             "frame",
+                             "width_px",
+                             "height_px",
+                             "normalized_color_error",
+                             "relative_rmse",
+                             "relmse",
+                             "psnr_db",
+                             "energy_bias",
+                             "noise_floor",
+                             "representation_error",
+                             "filtering_error",
+                             "equivalent_spp",
+                             "equivalent_bound",
+                             "frame_median_ms",
+                             "frame_min_ms",
+                             "frame_p90_ms",
+                             "frame_build_ms",
+                             "frames_per_second",
+                             "ratio_to_direct_median",
+                             "ratio_to_direct_min",
+                             "ratio_to_direct_max",
+                             "precompute_s",
+                             "precompute_bytes",
+                             "precompute_cached",
+                             "effects_on",
+                             "effects_left_out",
+                             "image_color",
+                             "image_reference",
+                             "image_error"};
+
+constexpr std::string_view line_end = "\r\n";
+
+std::string field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (const char character : text) quoted.append(character == '"' ? 2 : 1, character);
+  return quoted + '"';
+}
+
+std::string field(double value) { return std::isfinite(value) ? fmt::format("{}", value) : std::string(); }
+
+std::string field(const std::optional<double>& value) { return value ? field(*value) : std::string(); }
+
+/// "name=value;name=value", every option in the order of its name.
+std::string options_text(const Record& record) {
+  std::vector<std::string> pairs;
+  for (const auto& [name, value] : record.options) {
+    pairs.push_back(std::visit([&](const auto& held) { return fmt::format("{}={}", name, held); }, value));
+  }
+  return fmt::format("{}", fmt::join(pairs, ";"));
+}
+
+std::array<std::string, 8> error_fields(const std::optional<RecordError>& error) {
+  if (!error) return {};
+  return {field(error->normalized_color), field(error->relative_rmse),
+          field(error->relmse),           field(error->psnr),
+          field(error->energy_bias),      field(error->noise_floor),
+          field(error->representation),   field(error->filtering)};
+}
+
+std::string line(const Record& record) {
+  const FrameTime& frame = record.frame_ms;
+  const TimeRatio& ratio = record.ratio_to_direct;
+  const std::array<std::string, columns.size() - 15> after_error{
+      field(record.equivalent_spp),
+      field(record.equivalent_bound),
+      field(frame.median),
+      field(frame.minimum),
+      field(frame.p90),
+      field(record.frame_build_ms),
+      field(record.fps),
+      field(ratio.median),
+      field(ratio.minimum),
+      field(ratio.maximum),
+      field(record.precompute_seconds),
+      fmt::format("{}", record.precompute_bytes),
+      record.precompute_cached ? "true" : "false",
+      field(fmt::format("{}", fmt::join(record.effects_on, ";"))),
+      field(fmt::format("{}", fmt::join(record.effects_left_out, ";"))),
+      field(record.images.color),
+      field(record.images.reference),
+      field(record.images.error)};
+  return fmt::format("{},{},{},{},{},{},{},{},{}", field(record.scene), field(record.method),
+                     field(options_text(record)), field(record.distance), record.frame, record.width, record.height,
+                     fmt::join(error_fields(record.error), ","), fmt::join(after_error, ","));
+}
+
+}  // namespace
+
+std::string results_csv(const Results& results) {
+  std::string csv = fmt::format("{}{}", fmt::join(columns, ","), line_end);
+  for (const Record& record : results.records) csv.append(line(record)).append(line_end);
+  return csv;
+}
+
+}  // namespace footprint

@@ -1,0 +1,85 @@
+// results.csv, read back by a small reader of RFC 4180 that knows nothing of the writer.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "results/report/example_results.hpp"
+#include "results/report/report.hpp"
+
+namespace footprint {
+namespace {
+
+using Line = std::vector<std::string>;
+
+std::vector<Line> read_csv(const std::string& text) {
+  std::vector<Line> lines(1, Line(1));
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    std::string& field = lines.back().back();
+    if (quoted && text[i] == '"' && i + 1 < text.size() && text[i + 1] == '"') {
+      field += text[i++];
+    } else if (text[i] == '"') {
+      quoted = !quoted;
+    } else if (!quoted && text[i] == ',') {
+      lines.back().emplace_back();
+    } else if (!quoted && text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n') {
+      lines.emplace_back(1);
+      ++i;
+    } else {
+      field += text[i];
+    }
+  }
+  lines.pop_back();  // what stands after the last line end: nothing
+  return lines;
+}
+
+std::string value(const std::vector<Line>& lines, std::size_t line, const std::string& column) {
+  for (std::size_t i = 0; i < lines[0].size(); ++i) {
+    if (lines[0][i] == column) return lines[line][i];
+  }
+  ADD_FAILURE() << "no column " << column;
+  return {};
+}
+
+TEST(ResultsCsv, OneLineARecordWithAllColumns) {
+  for (const Results& results : {example_results(), hostile_results()}) {
+    const std::vector<Line> lines = read_csv(results_csv(results));
+    ASSERT_EQ(lines.size(), results.records.size() + 1);
+    for (const Line& line : lines) EXPECT_EQ(line.size(), lines[0].size());
+  }
+}
+
+TEST(ResultsCsv, FiguresStandUnderTheirColumn) {
+  const Results results = example_results();
+  const std::vector<Line> lines = read_csv(results_csv(results));
+  const Record& record = results.records[3];
+  EXPECT_EQ(value(lines, 4, "method"), "toksvig:storage=unorm8");
+  EXPECT_EQ(std::stod(value(lines, 4, "normalized_color_error")), record.error->normalized_color);
+  EXPECT_EQ(std::stod(value(lines, 4, "filtering_error")), record.error->filtering);
+  EXPECT_EQ(std::stod(value(lines, 4, "equivalent_spp")), record.equivalent_spp.value());
+  EXPECT_EQ(std::stod(value(lines, 4, "frame_p90_ms")), record.frame_ms.p90);
+  EXPECT_EQ(std::stod(value(lines, 4, "ratio_to_direct_max")), record.ratio_to_direct.maximum);
+  EXPECT_EQ(value(lines, 4, "frame_build_ms"), "0.31");
+  EXPECT_EQ(value(lines, 4, "precompute_bytes"), "4194304");
+  EXPECT_EQ(value(lines, 4, "precompute_cached"), "true");
+  EXPECT_EQ(value(lines, 4, "effects_on"), "diffuse;fresnel;normal_variation");
+  EXPECT_EQ(value(lines, 4, "options"), "probes=1;storage=fp32");
+  EXPECT_EQ(value(lines, 4, "image_error"), "images/method3_d1_error.png");
+  EXPECT_EQ(value(lines, 1, "height_px"), "256");
+}
+
+TEST(ResultsCsv, AbsentFiguresAreEmptyAndNamesSurvive) {
+  const Results results = hostile_results();
+  const std::vector<Line> lines = read_csv(results_csv(results));
+  EXPECT_EQ(value(lines, 1, "scene"), results.scene.name);
+  EXPECT_EQ(value(lines, 2, "method"), results.records[1].method);
+  EXPECT_EQ(value(lines, 3, "normalized_color_error"), "");
+  EXPECT_EQ(value(lines, 3, "equivalent_bound"), "n/a");
+  EXPECT_EQ(value(lines, 4, "psnr_db"), "");
+  EXPECT_EQ(value(lines, 4, "normalized_color_error"), "0");
+  EXPECT_EQ(value(lines, 4, "ratio_to_direct_median"), "");
+}
+
+}  // namespace
+}  // namespace footprint

@@ -1,0 +1,116 @@
+// table.md and the wording of figures.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "results/report/example_results.hpp"
+#include "results/report/figures.hpp"
+#include "results/report/markdown_table.hpp"
+#include "results/report/report.hpp"
+
+namespace footprint {
+namespace {
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(Figures, NumbersReadTheSameEverywhere) {
+  EXPECT_EQ(error_text(0.0123456), "0.01235");
+  EXPECT_EQ(error_text(0.0000123), "1.2e-05");
+  EXPECT_EQ(error_text(0), "0");
+  EXPECT_EQ(error_text(std::nan("")), "n/a");
+  EXPECT_EQ(three_figures(1.3), "1.30");
+  EXPECT_EQ(three_figures(99.94), "99.9");
+  EXPECT_EQ(three_figures(99.96), "100");
+  EXPECT_EQ(three_figures(12345.6), "12346");
+  EXPECT_EQ(three_figures(0), "0.00");
+  EXPECT_EQ(spread_text(1.31, 1.25, 1.4), "1.31 (1.25-1.40)");
+  EXPECT_EQ(bytes_text(0), "0 B");
+  EXPECT_EQ(bytes_text(1536), "1.50 KiB");
+  EXPECT_EQ(bytes_text(1024 * 1024 - 1), "1.00 MiB");
+  EXPECT_EQ(bytes_text(UINT64_MAX), "16.0 EiB");
+}
+
+TEST(Figures, ReadingUsesMeasuredFiguresOnly) {
+  Record record = example_results().records[2];
+  record.distance = 4;
+  record.error->normalized_color = 0.02;
+  record.equivalent_spp = 41.2;
+  record.equivalent_bound.clear();
+  record.ratio_to_direct.median = 1.3;
+  EXPECT_EQ(reading(record), "toksvig at distance 4 is worth 41 samples at the price of 1.30 direct frames.");
+  record.equivalent_spp.reset();
+  record.equivalent_bound = ">64";
+  EXPECT_EQ(reading(record), "toksvig at distance 4 is worth more than 64 samples at the price of 1.30 direct frames.");
+  record.equivalent_bound = "<1";
+  record.ratio_to_direct.median = std::nan("");
+  record.frame_ms.median = 2.5;
+  EXPECT_EQ(reading(record), "toksvig at distance 4 is worth less than 1 sample at 2.50 ms a frame.");
+  record.equivalent_bound = "n/a";
+  EXPECT_EQ(reading(record), "toksvig at distance 4 is off by 0.02000 at 2.50 ms a frame.");
+  record.error->noise_floor = 0.02;
+  EXPECT_TRUE(holds(reading(record), "within the noise of the reference"));
+  record.error.reset();
+  EXPECT_EQ(reading(record), "toksvig at distance 4 has no error: the object covers no whole pixel.");
+}
+
+TEST(MarkdownTable, ColumnsAlignAndMarkupIsEscaped) {
+  const std::string text = markdown_table({{"Name", false}, {"ms"}}, {{"a|b", "1.25"}, {"µ <b> <1 x *", "10"}});
+  EXPECT_EQ(text,
+            "| Name          |   ms |\n"
+            "|:--------------|-----:|\n"
+            "| a\\|b          | 1.25 |\n"
+            "| µ \\<b> <1 x * |   10 |\n");
+}
+
+TEST(ResultsTable, FitsATerminalAndAligns) {
+  const std::string table = results_table(example_results());
+  std::size_t width = 0;
+  for (const std::string& line : lines_of(table)) {
+    EXPECT_LE(line.size(), 130U) << line;
+    if (line.starts_with('|') && width != 0) {
+      EXPECT_EQ(line.size(), width) << line;
+    }
+    width = line.starts_with('|') ? line.size() : 0;
+  }
+}
+
+TEST(ResultsTable, LongMethodNamesSplitIt) {
+  Results results = example_results();
+  results.records[3].method = "toksvig:storage=unorm8:normalization=beckmann:probes=16";
+  for (const std::string& line : lines_of(results_table(results))) {
+    if (line.starts_with('|')) {
+      EXPECT_LE(line.size(), 130U) << line;
+    }
+  }
+}
+
+TEST(ResultsTable, SaysWhatWasMeasuredAndUnderWhatConditions) {
+  const std::string table = results_table(example_results());
+  for (const char* part : {"llvmpipe", "AMD EPYC", "0.840 (automatic)", "256 samples a pixel", "after_shading",
+                           "seed 7", "a rig of two lights", "KHR_materials_clearcoat", "## Distance 16",
+                           "Plain supersampling", "roughness_variation", "16.0 MiB", "0.31"}) {
+    EXPECT_TRUE(holds(table, part)) << part;
+  }
+  EXPECT_TRUE(holds(table, "0.00060 *")) << "an error below the noise floor carries the mark";
+  EXPECT_EQ(lines_of(table).front(), "# ClearCoatTest");
+}
+
+TEST(ResultsTable, NamesCannotBreakIt) {
+  const Results results = hostile_results();
+  const std::string table = results_table(results);
+  EXPECT_FALSE(holds(table, " <img"));
+  EXPECT_TRUE(holds(table, "\\<img src=x"));
+  EXPECT_FALSE(holds(table, "n/a (")) << "figures that were not measured have no spread";
+  EXPECT_TRUE(holds(table, "\\[link](javascript"));
+}
+
+}  // namespace
+}  // namespace footprint

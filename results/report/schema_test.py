@@ -1,0 +1,74 @@
+"""Holds docs/results.schema.json and results.json against each other: schema_test.py SCHEMA FIXTURE_PROGRAM.
+
+A written results.json validates, and documents that are broken in one place each do not. Exit code 77 (skipped)
+without the package python3-jsonschema.
+"""
+
+import copy
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+SKIPPED = 77
+
+try:
+    import jsonschema
+except ImportError:
+    print("skipped: the package python3-jsonschema is not installed")
+    sys.exit(SKIPPED)
+
+
+def described(node, place):
+    """Every property says what it is, and every object says which keys it takes."""
+    assert node.get("description"), f"{place} has no description"
+    if "object" in node.get("type", ""):
+        assert "additionalProperties" in node, f"{place} takes any key"
+    for name, child in node.get("properties", {}).items():
+        described(child, f"{place}/{name}")
+        assert name in node["required"], f"{place}/{name} may be left out"
+    if "items" in node:
+        described(node["items"], f"{place}/items")
+
+
+def broken(document):
+    """Copies of the document, each wrong in one place."""
+    changes = {
+        "an unknown key": lambda d: d.update(extra=1),
+        "an unknown key in a record": lambda d: d["records"][0]["time"].update(gpu_ms=1),
+        "a missing key": lambda d: d["records"][0]["error"].pop("psnr"),
+        "another schema": lambda d: d.update(schema="footprint-results/0"),
+        "text for a number": lambda d: d["supersampling"][0].update(ms="1.0"),
+        "a negative time": lambda d: d["records"][0]["time"]["frame_ms"].update(median=-1),
+        "an error above 1": lambda d: d["records"][0]["error"].update(normalized_color=1.5),
+        "three sides": lambda d: d["records"][0].update(size=[1, 2, 3]),
+        "null for a time": lambda d: d["records"][0]["time"]["frame_ms"].update(p90=None),
+        "a ratio of 0": lambda d: d["records"][0]["time"]["ratio_to_direct"].update(min=0),
+        "an option that is a list": lambda d: d["records"][0]["options"].update(probes=[1]),
+        "a bound of another kind": lambda d: d["records"][0].update(equivalent_bound="many"),
+        "samples that are no whole number": lambda d: d["reference"].update(spp=1.5),
+    }
+    for name, change in changes.items():
+        wrong = copy.deepcopy(document)
+        change(wrong)
+        yield name, wrong
+
+
+def main(schema_file, fixture):
+    schema = json.loads(pathlib.Path(schema_file).read_text(encoding="utf-8"))
+    jsonschema.Draft7Validator.check_schema(schema)
+    described(schema, "")
+    validator = jsonschema.Draft7Validator(schema)
+    for kind in ("example", "hostile"):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([fixture, folder, kind], check=True)
+            document = json.loads((pathlib.Path(folder) / "results.json").read_text(encoding="utf-8"))
+        validator.validate(document)
+        for name, wrong in broken(document):
+            assert not validator.is_valid(wrong), f"{kind}: the schema takes {name}"
+    print("results.json holds to its schema, and broken documents do not")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,21 @@
+// Fills text into a page: `{{name}}` in a template, and the escaping that HTML asks for.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace footprint {
+
+/// `page` with every `{{name}}` replaced by its value; values are not searched again. Throws std::logic_error for a
+/// name without a value: template and program belong together.
+[[nodiscard]] std::string fill_template(std::string_view page, const std::map<std::string, std::string_view>& values);
+
+/// `text` for use as HTML content or in a quoted attribute.
+[[nodiscard]] std::string html_escaped(std::string_view text);
+
+/// JSON text for use inside a <script> element: `<` becomes \u003c, which stands only in strings, so that no
+/// `</script>` or `<!--` ends the element early.
+[[nodiscard]] std::string script_escaped(std::string_view json);
+
+}  // namespace footprint

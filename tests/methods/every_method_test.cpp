@@ -1,0 +1,113 @@
+// What must hold for every method of the registry: it meets `direct` where there is nothing to filter, is
+// deterministic, stays finite, and says what it is.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "methods/registry.hpp"
+#include "renderer/image/metrics.hpp"
+#include "renderer/pipeline/base_surface.hpp"
+#include "tests/support/rendering.hpp"
+#include "tests/support/test_scenes.hpp"
+
+namespace footprint::testing {
+namespace {
+
+class EveryMethod : public ::testing::TestWithParam<const Method*> {
+ protected:
+  static double difference_from_direct(const Scene& scene, double distance) {
+    TestRenderer renderer(scene);
+    const Image direct = renderer.frame(find_method("direct"), {}, 1, 0, distance);
+    const Image picture = renderer.frame(*GetParam(), {}, 1, 0, distance);
+    return compare_images(picture, direct, 1.0F).value().relative_rmse;
+  }
+};
+
+constexpr BaseBrdf brdfs[] = {
+    {NormalDistribution::ggx, GeometryTerm::smith, FresnelTerm::schlick, true},
+    {NormalDistribution::beckmann, GeometryTerm::smith, FresnelTerm::schlick, true},
+    {NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, true},
+    {NormalDistribution::vmf, GeometryTerm::tan, FresnelTerm::schlick, true},
+};
+
+// A tilted constant map cannot be left out as flat: it goes through the whole precompute.
+TEST_P(EveryMethod, EqualsDirectOnAConstantMapAtAnyDistance) {
+  for (const BaseBrdf& brdf : brdfs) {
+    for (const glm::vec3& normal : {glm::vec3(0, 0, 1), glm::vec3(0.28F, 0, 0.96F)}) {
+      Image normals = constant_normals(64, 64, normal);
+      normals.at(0, 0)[0] += 2e-5F;  // keeps a flat map from being left out, and is no bump to speak of
+      const Scene scene = square_scene(normals, {.brdf = brdf});
+      for (const double distance : {0.05, 1.0, 4.0}) {
+        EXPECT_LT(difference_from_direct(scene, distance), 1e-3)
+            << "distribution " << static_cast<int>(brdf.distribution) << ", distance " << distance;
+      }
+    }
+  }
+}
+
+// Near a map that is flat where the camera looks.
+TEST_P(EveryMethod, EqualsDirectAtMagnificationWhereTheMapIsFlat) {
+  Image normals = random_normals(64, 64, 0.5F, 2);
+  for (int y = 24; y < 40; ++y) {
+    for (int x = 24; x < 40; ++x) {
+      const glm::vec3 up(0, 0, 1);
+      std::copy_n(&up.x, 3, normals.at(x, y).begin());
+    }
+  }
+  EXPECT_LT(difference_from_direct(square_scene(normals, {}), 0.05), 1e-3);
+}
+
+TEST_P(EveryMethod, StaysFiniteAtTheLimits) {
+  for (const BaseBrdf& brdf : brdfs) {
+    for (const float roughness : {0.0F, 1.0F}) {
+      for (const float tilt : {0.0F, 0.999F}) {
+        const Scene scene = square_scene(random_normals(33, 17, tilt, 3), {.brdf = brdf, .roughness = roughness});
+        for (const double distance : {0.05, 1.0, 20.0}) {
+          for (const float value : TestRenderer(scene).frame(*GetParam(), {}, 1, 0, distance).texels) {
+            ASSERT_TRUE(std::isfinite(value) && value >= 0.0F);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_P(EveryMethod, IsDeterministic) {
+  const Scene scene = square_scene(random_normals(64, 48, 0.5F, 4), {});
+  TestRenderer renderer(scene);
+  EXPECT_EQ(renderer.frame(*GetParam()), renderer.frame(*GetParam()));
+  const EffectSet set = effects_on(derive_effects(scene));
+  const Options options(GetParam()->info().options, {}, "test");
+  EXPECT_EQ(GetParam()->precompute(scene.materials[0], options, set, no_progress),
+            GetParam()->precompute(scene.materials[0], options, set, no_progress));
+}
+
+// At its finest level a method shades texels: it is then the base BRDF, but for what its representation cannot hold.
+TEST_P(EveryMethod, RepresentsTheBaseBrdfAtItsFinestLevel) {
+  TestRenderer renderer(square_scene(random_normals(64, 64, 0.5F, 5), {}));
+  const Image truth = renderer.reference(64).mean;
+  const Image finest = renderer.supersampled(*GetParam(), 64).mean;
+  EXPECT_LT(compare_images(finest, truth, 1.0F).value().relative_rmse, 0.05);
+}
+
+TEST_P(EveryMethod, TakesAnisotropicProbes) {
+  TestRenderer renderer(square_scene(random_normals(64, 64, 0.5F, 6), {}));
+  const Image isotropic = renderer.frame(*GetParam(), {}, 1);
+  const Image probed = renderer.frame(*GetParam(), {}, 8);
+  EXPECT_LT(compare_images(probed, isotropic, 1.0F).value().relative_rmse, 0.5);
+  for (const float value : probed.texels) ASSERT_TRUE(std::isfinite(value));
+}
+
+TEST_P(EveryMethod, DescribesItself) {
+  const MethodInfo& info = GetParam()->info();
+  EXPECT_EQ(&find_method(info.name), GetParam());
+  EXPECT_TRUE(info.summary.ends_with('.')) << info.summary;
+  for (const OptionSpec& option : info.options) EXPECT_FALSE(option.meaning.empty()) << option.name;
+  EXPECT_NO_THROW(Options(info.options, {}, info.name));
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryMethod, ::testing::ValuesIn(all_methods().begin(), all_methods().end()),
+                         [](const auto& test) { return test.param->info().name; });
+
+}  // namespace
+}  // namespace footprint::testing

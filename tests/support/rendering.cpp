@@ -1,0 +1,76 @@
+// See rendering.hpp.
+#include "tests/support/rendering.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "renderer/pipeline/base_surface.hpp"
+#include "renderer/scene/load_scene.hpp"
+
+namespace footprint::testing {
+
+const gl::Context& shared_context() {
+  static const gl::Context context({.backend = gl::Backend::egl, .device = 0});
+  context.make_current();
+  return context;
+}
+
+TestRenderer::TestRenderer(const Scene& scene, const glm::ivec2& size, std::optional<EffectSet> effects,
+                           const gl::Context& context)
+    : context_(&context),
+      scene_(scene),
+      size_(size),
+      effects_(effects.value_or(effects_on(derive_effects(scene)))),
+      gpu_scene_(context.info(), scene, effects_) {}
+
+BakedMethod TestRenderer::baked(const Method& method, const std::string& text) const {
+  const MethodSpec spec = parse_methods(text.empty() ? method.info().name : text).front();
+  return bake(method, spec, scene_, effects_, no_progress);
+}
+
+Image TestRenderer::frame(const Method& method, const std::string& text, int anisotropy, int tile, double distance) {
+  const BakedMethod bake_result = baked(method, text);
+  const GpuMethod gpu(gpu_scene_, bake_result);
+  const FrameRenderer frames(context_->info(), gpu_scene_, gpu, size_,
+                             {.sampling = Sampling::frame,
+                              .lookup = Lookup::trilinear,
+                              .max_probes = anisotropy,
+                              .orthographic = scene_.camera.orthographic},
+                             tile);
+  Image picture = frames.render({.size = size_, .camera = camera_at_distance(scene_, distance)});
+  context_->check("drawing a test frame");
+  return picture;
+}
+
+Supersampled TestRenderer::supersampled(const Method& method, int spp, std::uint64_t seed, ReferenceFilter filter,
+                                        int tile) {
+  const BakedMethod bake_result = baked(method, {});
+  const GpuMethod gpu(gpu_scene_, bake_result);
+  const Supersampler sampler(context_->info(), gpu_scene_, gpu, filter, scene_.camera.orthographic, tile);
+  Supersampled picture = sampler.render({.size = size_, .camera = scene_.camera}, spp, seed, no_progress);
+  context_->check("supersampling a test picture");
+  return picture;
+}
+
+Supersampled TestRenderer::reference(int spp, std::uint64_t seed, ReferenceFilter filter, int tile) {
+  return supersampled(base_surface(), spp, seed, filter, tile);
+}
+
+std::string TestRenderer::fragment_text(const Method& method) {
+  return SurfaceProgram(gpu_scene_, baked(method, {}), {}).fragment_text();
+}
+
+double largest_difference(const Image& a, const Image& b) {
+  if (a.width != b.width || a.height != b.height || a.channels != b.channels)
+    return std::numeric_limits<double>::infinity();
+  double largest = 0;
+  for (std::size_t i = 0; i < a.texels.size(); ++i) {
+    const double difference = std::abs(static_cast<double>(a.texels[i]) - b.texels[i]);
+    if (std::isnan(difference)) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, difference);
+  }
+  return largest;
+}
+
+}  // namespace footprint::testing

@@ -1,0 +1,43 @@
+// One scene on one context, drawn by any method: what tests of the pipeline and of methods need.
+#pragma once
+
+#include <memory>
+
+#include "renderer/gl/context.hpp"
+#include "renderer/pipeline/frame.hpp"
+#include "renderer/pipeline/supersample.hpp"
+
+namespace footprint::testing {
+
+/// The EGL surfaceless context that all tests of a binary share; made on the first call.
+[[nodiscard]] const gl::Context& shared_context();
+
+/// A scene uploaded with its own effects, or with `effects` where given.
+class TestRenderer {
+ public:
+  explicit TestRenderer(const Scene& scene, const glm::ivec2& size = {64, 64}, std::optional<EffectSet> effects = {},
+                        const gl::Context& context = shared_context());
+
+  [[nodiscard]] Image frame(const Method& method, const std::string& text = {}, int anisotropy = 1, int tile = 0,
+                            double distance = 1.0);
+  [[nodiscard]] Supersampled supersampled(const Method& method, int spp, std::uint64_t seed = 1,
+                                          ReferenceFilter filter = ReferenceFilter::after_shading, int tile = 0);
+  [[nodiscard]] Supersampled reference(int spp, std::uint64_t seed = 1,
+                                       ReferenceFilter filter = ReferenceFilter::after_shading, int tile = 0);
+  [[nodiscard]] std::string fragment_text(const Method& method);
+  [[nodiscard]] const GpuScene& gpu_scene() const { return gpu_scene_; }
+
+ private:
+  [[nodiscard]] BakedMethod baked(const Method& method, const std::string& text) const;
+
+  const gl::Context* context_;
+  Scene scene_;
+  glm::ivec2 size_;
+  EffectSet effects_;
+  GpuScene gpu_scene_;
+};
+
+/// The largest absolute difference of any channel; infinite for different sizes or a NaN.
+[[nodiscard]] double largest_difference(const Image& a, const Image& b);
+
+}  // namespace footprint::testing

@@ -1,0 +1,58 @@
+// See test_scenes.hpp.
+#include "tests/support/test_scenes.hpp"
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <random>
+
+#include "renderer/scene/plane.hpp"
+
+namespace footprint::testing {
+
+Image random_normals(int width, int height, float most_tilt, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  const auto uniform = [&] { return static_cast<float>(random()) / 4294967296.0F * 2.0F - 1.0F; };
+  Image image(width, height, 4);
+  for (std::size_t i = 0; i < image.texels.size(); i += 4) {
+    const float x = uniform() * most_tilt * 0.7071F;
+    const float y = uniform() * most_tilt * 0.7071F;
+    image.texels[i] = x;
+    image.texels[i + 1] = y;
+    image.texels[i + 2] = std::sqrt(1.0F - x * x - y * y);
+    image.texels[i + 3] = 1.0F;
+  }
+  return image;
+}
+
+Image constant_normals(int width, int height, const glm::vec3& normal) {
+  Image image(width, height, 4, 1.0F);
+  for (std::size_t i = 0; i < image.texels.size(); i += 4) {
+    for (int c = 0; c < 3; ++c) image.texels[i + static_cast<std::size_t>(c)] = normal[c];
+  }
+  return image;
+}
+
+Scene square_scene(const Image& normals, const SquareMaterial& settings) {
+  constexpr float side = 2.0F;
+  constexpr float camera_height = 3.0F;
+  Scene scene;
+  scene.name = scene.source = "square";
+  Material material;
+  material.name = "square";
+  material.brdf = settings.brdf;
+  material.roughness = settings.roughness;
+  material.metallic = settings.metallic;
+  material.base_color = glm::vec4(settings.base_color, 1.0F);
+  material.dielectric_specular = settings.specular;
+  if (!normals.empty()) material.normal_map = TextureMap{"normals", std::make_shared<const Image>(normals), {}};
+  scene.materials.push_back(std::move(material));
+  scene.meshes.push_back(make_plane({side, side}, {1.0F, 1.0F}));
+  scene.lights.emplace_back(PointLight{.position = {0.4F, 0.3F, 1.5F}, .intensity = glm::vec3(4.0F), .range = {}});
+  scene.camera.world = glm::translate(glm::mat4(1.0F), {0.0F, 0.0F, camera_height});
+  scene.camera.yfov = 2.0F * std::atan(0.5F * side / camera_height);
+  scene.bounds = {{-1.0F, -1.0F, 0.0F}, {1.0F, 1.0F, 0.0F}};
+  scene.exposure = 1.0F;
+  return scene;
+}
+
+}  // namespace footprint::testing

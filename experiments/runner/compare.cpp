@@ -22,8 +22,8 @@ namespace footprint {
 namespace {
 
 constexpr std::array curve_counts{1, 2, 4, 8, 16, 32, 64};
-constexpr int curve_samples = 127;  // their sum: what the curve weighs beside the reference
-constexpr int curve_repeats = 3;    // timed renders of each count
+constexpr int curve_samples = 286;  // of its renders and timed draws: what the curve weighs beside the reference
+constexpr double converged_standard_error = 0.1;  // of the mean radiance; above it a warning goes with the results
 constexpr double scale_quantile = 0.99;
 constexpr double smallest_error_scale = 0.01;
 constexpr std::uint64_t curve_seed = 0x9e3779b97f4a7c15;  // keeps the curve's samples apart from the reference's
@@ -61,9 +61,12 @@ struct Truth {
 // A record whose error picture waits for the scale that all of them share.
 struct Draft {
   Record record;
-  Image error;
+  Exhibit exhibit;
   std::string stem;
 };
+
+// How often a count is timed: the short ones, which a passing disturbance would spoil, more often.
+int curve_repeats(int spp) { return std::clamp(16 / spp, 1, 5); }
 
 std::optional<double> normalized_color(const Image& picture, const Image& reference, float exposure) {
   const std::optional<ErrorFigures> figures = compare_images(picture, reference, exposure);
@@ -78,8 +81,7 @@ class Comparison {
         stage_(settings.context, load_scene(settings.scene, settings.scenes_folder), timing_settings(settings),
                no_progress),
         distances_(distances_of(settings, stage_.scene())),
-        parts_(progress, static_cast<double>(distances_.size()) *
-                             (settings.spp + curve_samples * (1 + curve_repeats) + method_weight())) {}
+        parts_(progress, static_cast<double>(distances_.size()) * (settings.spp + curve_samples + method_weight())) {}
 
   Results run(std::span<const FrameTimes> further_times) {
     std::filesystem::create_directories(folder_ / "images");
@@ -139,6 +141,8 @@ class Comparison {
     }
     if (results_.records.empty() && drafts_.empty())
       results_.reference.standard_error = relative_standard_error(truth.reference);
+    references_.push_back(
+        {.caption = fmt::format("reference, {} spp", settings_.spp), .picture = truth.reference.mean, .error = {}});
     truth.reference_file = write_picture(folder_, stem_of(distance, "reference"), truth.reference.mean, exposure_);
     truth.curve = supersampling_curve(truth, prefix);
     return truth;
@@ -165,13 +169,14 @@ class Comparison {
       const std::uint64_t seed = settings_.seed ^ (curve_seed * static_cast<std::uint64_t>(spp));
       const Supersampled picture =
           stage_.reference().render(truth.view, spp, seed, parts_.next(spp, prefix + "supersampling, "));
-      const std::array<DrawFrame, 1> draw{[&] { stage_.reference().draw(truth.view, spp, seed); }};
-      const auto times =
-          interleaved_times(stage_.context().info(), draw, curve_repeats, parts_.next(spp * curve_repeats, prefix));
+      const int repeats = curve_repeats(spp);
+      const DrawFrame draw = [&] { stage_.reference().draw(truth.view, spp, seed); };
+      const std::vector<double> times =
+          repeated_times(stage_.context().info(), draw, repeats, parts_.next(spp * repeats, prefix));
       curve.push_back({.distance = truth.distance,
                        .spp = spp,
                        .normalized_color = normalized_color(picture.mean, truth.reference.mean, exposure_),
-                       .ms = quantile(times.front(), 0.5)});
+                       .ms = quantile(times, 0.5)});
     }
     return curve;
   }
@@ -179,8 +184,9 @@ class Comparison {
   Draft compare_method(const Truth& truth, std::size_t index) {
     const StagedMethod& staged = method(index);
     const std::string prefix = fmt::format("distance {:g}: {}, ", truth.distance, settings_.methods[index].text);
-    Draft draft{.record = new_record(truth, staged), .error = {}, .stem = stem_of(truth.distance, method_stem(index))};
-    const Image picture = staged.frames().render(truth.view);
+    Draft draft{
+        .record = new_record(truth, staged), .exhibit = {}, .stem = stem_of(truth.distance, method_stem(index))};
+    Image picture = staged.frames().render(truth.view);
     const Supersampled finest = stage_.finest_level(staged).render(
         truth.view, settings_.spp, settings_.seed, parts_.next(settings_.spp, prefix + "finest level, "));
     stage_.context().check("rendering " + settings_.methods[index].text);
@@ -189,9 +195,11 @@ class Comparison {
     } catch (const Error& error) {
       throw error.within("method " + settings_.methods[index].text);
     }
-    draft.error = error_map(picture, truth.reference.mean, exposure_);
     draft.record.images.color = write_picture(folder_, draft.stem, picture, exposure_);
     draft.record.images.reference = truth.reference_file;
+    Image error = error_map(picture, truth.reference.mean, exposure_);
+    draft.exhibit = {
+        .caption = settings_.methods[index].text, .picture = std::move(picture), .error = std::move(error)};
     return draft;
   }
 
@@ -274,15 +282,27 @@ class Comparison {
     double scale = smallest_error_scale;
     for (const Draft& draft : drafts_) {
       std::vector<double> values;
-      std::ranges::copy_if(draft.error.texels, std::back_inserter(values), [](float v) { return v > 0.0F; });
+      std::ranges::copy_if(draft.exhibit.error.texels, std::back_inserter(values), [](float v) { return v > 0.0F; });
       if (!values.empty()) scale = std::max(scale, quantile(std::move(values), scale_quantile));
     }
     const double step = std::pow(10.0, std::floor(std::log10(scale)) - 1.0);
     results_.error_scale = std::ceil(scale / step) * step;
+    write_distance_strips();
     for (Draft& draft : drafts_) {
-      draft.record.images.error =
-          write_error_picture(folder_, draft.stem + "_error", draft.error, static_cast<float>(results_.error_scale));
+      draft.record.images.error = write_error_picture(folder_, draft.stem + "_error", draft.exhibit.error,
+                                                      static_cast<float>(results_.error_scale));
       results_.records.push_back(std::move(draft.record));
+    }
+  }
+
+  // The drafts stand in the order of the distances, as many for each as there are methods.
+  void write_distance_strips() {
+    for (std::size_t i = 0; i < distances_.size(); ++i) {
+      std::vector<Exhibit> exhibits{std::move(references_[i])};
+      for (std::size_t m = 0; m < settings_.methods.size(); ++m)
+        exhibits.push_back(drafts_[i * settings_.methods.size() + m].exhibit);
+      write_strips(folder_, stem_of(distances_[i], "all"), exhibits, exposure_,
+                   static_cast<float>(results_.error_scale));
     }
   }
 
@@ -300,6 +320,12 @@ class Comparison {
     results_.scene.lights = scene.lights.size();
     results_.scene.defaults = scene.defaults;
     results_.scene.warnings = scene.warnings;
+    if (const auto noise = results_.reference.standard_error; noise && *noise > converged_standard_error) {
+      results_.scene.warnings.push_back(fmt::format(
+          "the reference has not converged: its standard error is {:.2g} of the mean radiance, as happens where lights "
+          "make highlights too sharp for {} samples; raise --spp before small differences are trusted",
+          *noise, settings_.spp));
+    }
     results_.reference.spp = settings_.spp;
     results_.reference.filter = filter_name(settings_.filter);
     results_.reference.seed = settings_.seed;
@@ -312,6 +338,7 @@ class Comparison {
   ProgressParts parts_;
   float exposure_ = 0.0F;  // above 0 once it is known
   std::vector<Draft> drafts_;
+  std::vector<Exhibit> references_;  // one a distance, for the strips
   Results results_;
 };
 

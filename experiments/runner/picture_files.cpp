@@ -8,6 +8,16 @@
 #include "renderer/image/image_io.hpp"
 
 namespace footprint {
+namespace {
+
+// Two pictures of one width and three channels, the first on top.
+Image stacked(const Image& top, const Image& bottom) {
+  Image both(top.width, top.height + bottom.height, top.channels);
+  std::ranges::copy(bottom.texels, std::ranges::copy(top.texels, both.texels.begin()).out);
+  return both;
+}
+
+}  // namespace
 
 std::string file_stem(const std::string& text) {
   std::string stem = text;
@@ -27,6 +37,23 @@ std::string write_error_picture(const std::filesystem::path& folder, const std::
                                 float scale) {
   write_png(folder / "images" / (stem + ".png"), false_color(error, scale));
   return "images/" + stem + ".png";
+}
+
+void write_strips(const std::filesystem::path& folder, const std::string& stem, const std::vector<Exhibit>& exhibits,
+                  float exposure, float scale) {
+  std::vector<Image> pictures, errors;
+  std::vector<std::string> captions, error_captions;
+  for (const Exhibit& exhibit : exhibits) {
+    pictures.push_back(to_display(exhibit.picture, exposure));
+    captions.push_back(exhibit.caption);
+    if (exhibit.error.empty()) continue;
+    errors.push_back(false_color(exhibit.error, scale));
+    error_captions.push_back(exhibit.caption);
+  }
+  write_png(folder / "images" / (stem + ".png"), labelled_strip(pictures, captions));
+  const Image strip = labelled_strip(errors, error_captions);
+  const Image legend = false_color_legend(strip.width, std::max(24, strip.height / 12), scale);
+  write_png(folder / "images" / (stem + "_errors.png"), stacked(strip, legend));
 }
 
 }  // namespace footprint

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "renderer/image/image.hpp"
 
@@ -19,5 +20,17 @@ std::string write_picture(const std::filesystem::path& folder, const std::string
 /// Writes FOLDER/images/STEM.png in false colour from 0 to `scale`; returns "images/STEM.png".
 std::string write_error_picture(const std::filesystem::path& folder, const std::string& stem, const Image& error,
                                 float scale);
+
+/// A picture of a comparison, for the strips that show all of one distance side by side.
+struct Exhibit {
+  std::string caption;
+  Image picture;  ///< linear radiance, coverage in alpha
+  Image error;    ///< normalised colour error of each pixel; empty for the reference
+};
+
+/// Writes FOLDER/images/STEM.png, the pictures side by side, and STEM_errors.png, their errors over the legend
+/// of the scale.
+void write_strips(const std::filesystem::path& folder, const std::string& stem, const std::vector<Exhibit>& exhibits,
+                  float exposure, float scale);
 
 }  // namespace footprint

@@ -49,6 +49,17 @@ std::string_view completeness_name(GLenum status) {
   }
 }
 
+Sampler make_sampler(GLint magnified, GLint minified, GLenum wrap_s, GLenum wrap_t) {
+  GLuint name = 0;
+  api().CreateSamplers(1, &name);
+  Sampler sampler(name);
+  api().SamplerParameteri(name, GL_TEXTURE_MAG_FILTER, magnified);
+  api().SamplerParameteri(name, GL_TEXTURE_MIN_FILTER, minified);
+  api().SamplerParameteri(name, GL_TEXTURE_WRAP_S, static_cast<GLint>(wrap_s));
+  api().SamplerParameteri(name, GL_TEXTURE_WRAP_T, static_cast<GLint>(wrap_t));
+  return sampler;
+}
+
 }  // namespace
 
 // A context takes its objects with it, so a name that outlives every context is gone already.
@@ -75,14 +86,11 @@ void delete_query(GLuint name) {
 }
 
 Sampler trilinear_sampler(GLenum wrap_s, GLenum wrap_t) {
-  GLuint name = 0;
-  api().CreateSamplers(1, &name);
-  Sampler sampler(name);
-  api().SamplerParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  api().SamplerParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-  api().SamplerParameteri(name, GL_TEXTURE_WRAP_S, static_cast<GLint>(wrap_s));
-  api().SamplerParameteri(name, GL_TEXTURE_WRAP_T, static_cast<GLint>(wrap_t));
-  return sampler;
+  return make_sampler(GL_LINEAR, GL_LINEAR_MIPMAP_LINEAR, wrap_s, wrap_t);
+}
+
+Sampler nearest_sampler(GLenum wrap_s, GLenum wrap_t) {
+  return make_sampler(GL_NEAREST, GL_NEAREST_MIPMAP_NEAREST, wrap_s, wrap_t);
 }
 
 Buffer::Buffer(std::span<const std::byte> bytes) {

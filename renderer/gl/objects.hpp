@@ -51,6 +51,9 @@ using Framebuffer = Handle<delete_framebuffer>;
 /// Magnifies linearly, minifies linearly within and between mip levels; a wrap mode is GL_REPEAT, GL_CLAMP_TO_EDGE, ...
 [[nodiscard]] Sampler trilinear_sampler(GLenum wrap_s, GLenum wrap_t);
 
+/// Looks up the nearest texel of the nearest level.
+[[nodiscard]] Sampler nearest_sampler(GLenum wrap_s, GLenum wrap_t);
+
 /// An immutable buffer.
 class Buffer {
  public:

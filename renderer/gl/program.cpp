@@ -1,10 +1,13 @@
 // Compiles and links programs; a compiler's log comes with the source lines that it complains about.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <initializer_list>
-#include <regex>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -40,36 +43,61 @@ using Location = std::pair<int, int>;
 
 struct SourceLine {
   Location location;
-  std::string text;
+  std::string_view text;
 };
+
+/// Takes the first line off `text`, without its end.
+std::string_view take_line(std::string_view& text) {
+  const std::size_t length = text.find('\n');
+  const std::string_view line = text.substr(0, length);
+  text.remove_prefix(length == std::string_view::npos ? text.size() : length + 1);
+  return line;
+}
+
+/// Takes `word` off the front of `text`, spaces before it too, if it is there.
+bool take_word(std::string_view& text, std::string_view word) {
+  const std::size_t start = text.find_first_not_of(" \t");
+  if (start == std::string_view::npos || !text.substr(start).starts_with(word)) return false;
+  text.remove_prefix(start + word.size());
+  return true;
+}
+
+/// Takes a whole number off the front of `text`, spaces before it too, if there is one.
+std::optional<int> take_number(std::string_view& text) {
+  std::string_view rest = text;
+  take_word(rest, "");
+  int number = 0;
+  const auto [end, failure] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
+  if (failure != std::errc()) return std::nullopt;
+  text = rest.substr(static_cast<std::size_t>(end - rest.data()));
+  return number;
+}
 
 /// The lines of a shader with the numbers that the compiler gives them.
 std::vector<SourceLine> number_lines(std::string_view source) {
-  static const std::regex line_directive(R"(^\s*#\s*line\s+(\d{1,8})(?:\s+(\d{1,8}))?)");
   std::vector<SourceLine> lines;
   Location next{0, 1};
   while (!source.empty()) {
-    const std::size_t length = source.find('\n');
-    std::string text(source.substr(0, length));
-    source.remove_prefix(length == std::string_view::npos ? source.size() : length + 1);
-    std::smatch match;
-    const bool renumbers = std::regex_search(text, match, line_directive);
-    const Location after = renumbers
-                               ? Location{match[2].matched ? std::stoi(match[2]) : next.first, std::stoi(match[1])}
-                               : Location{next.first, next.second + 1};
-    lines.push_back({next, std::move(text)});
-    next = after;
+    const std::string_view line = take_line(source);
+    lines.push_back({next, line});
+    ++next.second;
+    std::string_view directive = line;
+    if (!take_word(directive, "#") || !take_word(directive, "line")) continue;
+    next.second = take_number(directive).value_or(next.second);
+    next.first = take_number(directive).value_or(next.first);
   }
   return lines;
 }
 
 /// The places that a log names. Mesa writes "0:12(5): error", NVIDIA "0(12) : error", others "ERROR: 0:12: ".
-std::set<Location> locations_in(const std::string& log) {
-  static const std::regex place(R"((?:^|\n|ERROR: |WARNING: )(\d{1,8})(?::(\d{1,8})|\((\d{1,8})\)))");
+std::set<Location> locations_in(std::string_view log) {
   std::set<Location> locations;
-  for (std::sregex_iterator match(log.begin(), log.end(), place), end; match != end; ++match) {
-    const auto& line = (*match)[2].matched ? (*match)[2] : (*match)[3];
-    locations.emplace(std::stoi((*match)[1]), std::stoi(line));
+  while (!log.empty()) {
+    std::string_view line = take_line(log);
+    if (!take_word(line, "ERROR:")) take_word(line, "WARNING:");
+    const auto source = take_number(line);
+    if (!source || !(take_word(line, ":") || take_word(line, "("))) continue;
+    if (const auto number = take_number(line)) locations.emplace(*source, *number);
   }
   return locations;
 }

@@ -161,16 +161,9 @@ GLuint SamplerCache::sampler(const TextureCoordinates& coordinates, Lookup looku
   for (const Entry& entry : entries_) {
     if (entry.wrap == coordinates.wrap && entry.lookup == lookup) return entry.sampler.name();
   }
-  GLuint name = 0;
-  gl::api().CreateSamplers(1, &name);
-  entries_.push_back({coordinates.wrap, lookup, gl::Sampler(name)});
-  const bool linear = lookup == Lookup::trilinear;
-  gl::api().SamplerParameteri(name, GL_TEXTURE_MAG_FILTER, linear ? GL_LINEAR : GL_NEAREST);
-  gl::api().SamplerParameteri(name, GL_TEXTURE_MIN_FILTER,
-                              linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_NEAREST);
-  gl::api().SamplerParameteri(name, GL_TEXTURE_WRAP_S, static_cast<GLint>(gl_wrap(coordinates.wrap[0])));
-  gl::api().SamplerParameteri(name, GL_TEXTURE_WRAP_T, static_cast<GLint>(gl_wrap(coordinates.wrap[1])));
-  return name;
+  const auto make = lookup == Lookup::trilinear ? gl::trilinear_sampler : gl::nearest_sampler;
+  entries_.push_back({coordinates.wrap, lookup, make(gl_wrap(coordinates.wrap[0]), gl_wrap(coordinates.wrap[1]))});
+  return entries_.back().sampler.name();
 }
 
 GpuTexture upload(const PrefilteredTexture& texture) {

@@ -27,6 +27,19 @@ std::vector<std::vector<double>> interleaved_times(const gl::ContextInfo& contex
   return times;
 }
 
+std::vector<double> repeated_times(const gl::ContextInfo& context, const DrawFrame& draw, int repeats,
+                                   const Progress& progress) {
+  gl::FrameTimer timer(context);
+  std::vector<double> times;
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    progress("timing supersampling", static_cast<double>(repeat) / repeats);
+    timer.begin();
+    draw();
+    times.push_back(timer.end_ms());
+  }
+  return times;
+}
+
 double quantile(std::vector<double> values, double q) {
   std::ranges::sort(values);
   const double place = q * static_cast<double>(values.size() - 1);

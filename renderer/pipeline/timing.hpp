@@ -20,6 +20,11 @@ using DrawFrame = std::function<void()>;
                                                                  std::span<const DrawFrame> candidates, int repeats,
                                                                  const Progress& progress);
 
+/// Milliseconds of each of `repeats` draws of one candidate that has been drawn before: no warming up, nothing
+/// interleaved.
+[[nodiscard]] std::vector<double> repeated_times(const gl::ContextInfo& context, const DrawFrame& draw, int repeats,
+                                                 const Progress& progress);
+
 /// The q-quantile, 0 to 1, of a sample by linear interpolation between order statistics. `values` must not be empty.
 [[nodiscard]] double quantile(std::vector<double> values, double q);
 

@@ -128,6 +128,7 @@ std::filesystem::path test_folder() {
 std::filesystem::path write_file(const std::string& name, const std::string& text) {
   const auto file = test_folder() / name;
   std::filesystem::create_directories(file.parent_path());
+  std::filesystem::remove(file);  // truncating a file that exists makes some file systems write it out at once
   std::ofstream(file, std::ios::binary) << text;
   return file;
 }

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <vector>
 
 #include "app/options.hpp"
+#include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
 
@@ -60,8 +60,17 @@ std::optional<glm::ivec2> parse_optional_size(const std::string& text) {
   return size;
 }
 
-MethodSpec parse_method(std::string_view option, const std::string& text) {
-  const std::vector<MethodSpec> methods = parse_methods(text);
+std::vector<MethodSpec> parse_known_methods(const std::string& text) {
+  std::vector<MethodSpec> methods = parse_methods(text);
+  for (const MethodSpec& method : methods) {
+    (void)Options(find_method(method.name).info().options, method.options, "method " + method.name);
+  }
+  return methods;
+}
+
+MethodSpec parse_known_method(std::string_view option, const std::string& text) {
+  if (text == "reference") return {.text = text, .name = text, .options = {}};
+  const std::vector<MethodSpec> methods = parse_known_methods(text);
   if (methods.size() == 1) return methods.front();
   throw Error(ErrorKind::usage, std::string(option), fmt::format("`{}` is more than one method", text), "name one");
 }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "renderer/core/options.hpp"
 #include "renderer/gl/context.hpp"
@@ -50,8 +51,11 @@ void add_quiet_flag(CLI::App& command, bool& quiet);
 /// is more than memory holds, known before anything is loaded.
 [[nodiscard]] std::optional<glm::ivec2> parse_optional_size(const std::string& text);
 
-/// One method. Errors (usage): more than one, or as parse_methods.
-[[nodiscard]] MethodSpec parse_method(std::string_view option, const std::string& text);
+/// Methods with their options, known to be right before anything is loaded. Errors (usage): unknown method or option.
+[[nodiscard]] std::vector<MethodSpec> parse_known_methods(const std::string& text);
+
+/// The one method that `option` gives; `reference` counts as one. Errors (usage): more than one, or not known.
+[[nodiscard]] MethodSpec parse_known_method(std::string_view option, const std::string& text);
 
 /// Where the scenes that have a name lie: the environment variable FOOTPRINT_SCENES, or the source tree's scenes/.
 [[nodiscard]] std::filesystem::path scenes_folder();

@@ -1,7 +1,6 @@
 // `footprint compare`: methods against the supersampled reference on one scene, the error and fps table and the page.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -85,7 +84,7 @@ CompareSettings settings_from(const Arguments& arguments) {
   CompareSettings settings;
   settings.scene = arguments.scene;
   settings.scenes_folder = scenes_folder();
-  settings.methods = parse_methods(arguments.methods);
+  settings.methods = parse_known_methods(arguments.methods);
   if (!arguments.distances.empty()) settings.distances = parse_distances(arguments.distances);
   settings.size = parse_optional_size(arguments.size);
   settings.spp = arguments.reference.spp;
@@ -102,10 +101,10 @@ CompareSettings settings_from(const Arguments& arguments) {
 
 // Everything is written out of sight and moved to its place at the end.
 Results compare_into(OutputFolder& folder, const CompareSettings& settings, int processes, const Progress& progress) {
-  constexpr double process_share = 0.1;  // of the whole job's time, roughly: timing is the smaller part of it
-  const double before = std::min(0.5, process_share * (processes - 1));
-  const auto further = times_of_processes(processes - 1, folder.path(), part_of(progress, 0, before));
-  Results results = run_compare(settings, folder.path(), further, part_of(progress, before, 1));
+  constexpr double weight = 10;  // of the main process's work, where a further process's is 1
+  ProgressParts parts(progress, weight + processes - 1);
+  const auto further = times_of_processes(processes - 1, folder.path(), parts.next(processes - 1, ""));
+  Results results = run_compare(settings, folder.path(), further, parts.next(weight, ""));
   results.tool.version = FOOTPRINT_VERSION;
   results.backend.cpu = describe_cpu();
   write_report(results, folder.path());

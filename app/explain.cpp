@@ -74,13 +74,13 @@ std::vector<TextureUse> texture_uses(const BakedMethod& baked) {
 }
 
 Explanation explain(const Arguments& arguments, const Progress& progress) {
-  const StageSettings settings{.methods = {parse_method("--method", arguments.method)},
+  const StageSettings settings{.methods = {parse_known_method("--method", arguments.method)},
                                .size = parse_optional_size(arguments.size),
                                .anisotropy = arguments.anisotropy,
                                .tile = arguments.backend.tile};
   const gl::ContextRequest request = context_request(arguments.backend);
-  const Stage stage(request, load_scene(arguments.scene, scenes_folder()), settings,
-                    part_of(progress, 0, arguments.cost ? 0.3 : 1));
+  ProgressParts parts(progress, arguments.cost ? 3 : 1);
+  const Stage stage(request, load_scene(arguments.scene, scenes_folder()), settings, parts.next(1, ""));
   const StagedMethod& method = stage.methods().front();
 
   Explanation out;
@@ -92,7 +92,7 @@ Explanation explain(const Arguments& arguments, const Progress& progress) {
   out.method_bytes = method.baked().bytes;
   out.textures = texture_uses(method.baked());
   out.shader_lines = static_cast<std::size_t>(std::ranges::count(method.frames().program().fragment_text(), '\n'));
-  if (arguments.cost) out.costs = measure_effect_costs(stage, settings, arguments.repeats, part_of(progress, 0.3, 1));
+  if (arguments.cost) out.costs = measure_effect_costs(stage, settings, arguments.repeats, parts.next(2, ""));
   return out;
 }
 

@@ -45,10 +45,6 @@ ProgressStyle progress_style(bool quiet) {
   return redraws ? ProgressStyle::bar : ProgressStyle::lines;
 }
 
-Progress part_of(const Progress& whole, double begin, double end) {
-  return [whole, begin, end](std::string_view what, double fraction) { whole(what, begin + (end - begin) * fraction); };
-}
-
 ProgressDisplay::ProgressDisplay(ProgressStyle style)
     : ProgressDisplay(style, write_to_stderr, std::chrono::steady_clock::now, terminal_columns()) {}
 

@@ -20,9 +20,6 @@ enum class ProgressStyle {
 /// The style for standard error: a bar if it is a terminal that can redraw a line, else lines.
 [[nodiscard]] ProgressStyle progress_style(bool quiet);
 
-/// A part of a job's progress as that of the whole: 0 to 1 becomes `begin` to `end`.
-[[nodiscard]] Progress part_of(const Progress& whole, double begin, double end);
-
 /// Shows the progress of one job, with an estimate of the time left, and lets Ctrl-C through at every report. For one
 /// thread at a time.
 class ProgressDisplay {

@@ -27,15 +27,6 @@ class ProgressDisplayTest : public testing::Test {
   std::vector<std::string> written_;
 };
 
-TEST(PartOf, ScalesIntoTheWhole) {
-  double seen = 0;
-  const Progress part = part_of([&](std::string_view, double fraction) { seen = fraction; }, 0.5, 0.75);
-  part("x", 0.0);
-  EXPECT_EQ(seen, 0.5);
-  part("x", 1.0);
-  EXPECT_EQ(seen, 0.75);
-}
-
 TEST_F(ProgressDisplayTest, QuietWritesNothing) {
   {
     auto shown = display(ProgressStyle::quiet);

@@ -78,7 +78,7 @@ void save_picture(const std::filesystem::path& path, const Image& picture, std::
 
 void run_render(const Arguments& arguments) {
   const std::filesystem::path path = picture_path(arguments.output);
-  const MethodSpec method = parse_method("--method", arguments.method);
+  const MethodSpec method = parse_known_method("--method", arguments.method);
   const std::optional<float> exposure = parse_exposure(arguments.exposure);
   StageSettings settings{.methods = {},
                          .size = parse_optional_size(arguments.size),
@@ -91,9 +91,9 @@ void run_render(const Arguments& arguments) {
   const double distance = distance_factor(arguments, scene);
 
   ProgressDisplay display(progress_style(arguments.quiet));
-  const Progress progress = display.callback();
-  const Stage stage(request, std::move(scene), settings, part_of(progress, 0, 0.3));
-  const Image picture = render_picture(stage, distance, arguments.reference, part_of(progress, 0.3, 1));
+  ProgressParts parts(display.callback(), 3);
+  const Stage stage(request, std::move(scene), settings, parts.next(1, ""));
+  const Image picture = render_picture(stage, distance, arguments.reference, parts.next(2, ""));
   throw_if_interrupted();
   save_picture(path, picture, exposure ? exposure : stage.scene().exposure);
   display.finish();

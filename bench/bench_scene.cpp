@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
+#include <string>
 
 #include "methods/registry.hpp"
 #include "renderer/scene/load_scene.hpp"
@@ -18,7 +19,7 @@ std::optional<Scene> load_bench_scene() {
 }
 
 StageSettings bench_settings() {
-  StageSettings settings{.methods = {}, .size = glm::ivec2(512, 512)};
+  StageSettings settings{.methods = {}, .size = frame_pixels};
   for (const Method* method : all_methods()) {
     settings.methods.push_back({.text = method->info().name, .name = method->info().name, .options = {}});
   }
@@ -32,10 +33,7 @@ BenchScene::BenchScene(Scene scene)
   stage_.context().check("setting up the benchmark");
 }
 
-void BenchScene::draw_reference() const {
-  constexpr std::uint64_t seed = 1;
-  stage_.reference().draw(view_, reference_spp, seed);
-}
+void BenchScene::draw_reference() const { stage_.reference().draw(view_, reference_spp, reference_seed); }
 
 const StagedMethod& BenchScene::method(std::string_view name) const {
   for (const StagedMethod& method : stage_.methods()) {

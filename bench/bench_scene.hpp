@@ -1,14 +1,18 @@
 // What frame times are taken on: every method over Khronos' ClearCoatTest at 512 x 512, on one context.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "bench/bare_frame.hpp"
 #include "experiments/runner/stage.hpp"
 
 namespace footprint::bench {
 
+inline constexpr glm::ivec2 frame_pixels{512, 512};
 inline constexpr int reference_spp = 64;
+inline constexpr std::uint64_t reference_seed = 1;
 
 /// The model; none where its package (assimp-testmodels) is not installed, after a line on stderr that says so.
 [[nodiscard]] std::optional<Scene> load_bench_scene();

@@ -4,53 +4,82 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ctime>
 #include <vector>
 
+#include "renderer/gl/functions.hpp"
 #include "renderer/pipeline/timing.hpp"
 
 namespace footprint::bench {
 namespace {
 
+using Times = std::vector<std::vector<double>>;  // [candidate][repeat], milliseconds
+
+struct WallAndCpu {
+  Times wall, cpu;
+};
+
+// CPU time is that of all threads of the process: other load on the machine hardly moves it, while wall clock shows
+// what a user waits for.
+WallAndCpu measure(const BenchScene& scene, const std::vector<DrawFrame>& candidates, int repeats) {
+  WallAndCpu times;
+  times.cpu.resize(candidates.size());
+  std::vector<DrawFrame> measured;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    measured.emplace_back([&, i] {
+      const std::clock_t start = std::clock();
+      candidates[i]();
+      gl::api().Finish();
+      times.cpu[i].push_back(1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+    });
+  }
+  times.wall = interleaved_times(scene.stage().context().info(), measured, repeats, no_progress);
+  for (std::vector<double>& cpu : times.cpu) cpu.erase(cpu.begin());  // the round that warms up
+  return times;
+}
+
 std::string row(const std::string& name, const std::vector<double>& a, const std::vector<double>& b) {
   const std::vector<double> ratios = paired_ratios(a, b);
-  return fmt::format("{:<28} {:>8.3f} {:>8.3f} {:>8.3f} {:>8.3f} {:>8.3f} {:>11.3f}\n", name, quantile(ratios, 0.5),
-                     quantile(ratios, 0.0), quantile(ratios, 0.1), quantile(ratios, 0.9), quantile(ratios, 1.0),
-                     quantile(a, 0.5));
+  return fmt::format("{:<28} {:>8.3f} {:>8.3f} {:>8.3f} {:>8.3f} {:>8.3f} {:>11.3f} {:>11.3f}\n", name,
+                     quantile(ratios, 0.5), quantile(ratios, 0.0), quantile(ratios, 0.1), quantile(ratios, 0.9),
+                     quantile(ratios, 1.0), quantile(a, 0.5), quantile(b, 0.5));
+}
+
+std::string rows(const std::string& name, const WallAndCpu& times, std::size_t a, std::size_t b) {
+  return row(name + ", wall", times.wall[a], times.wall[b]) + row(name + ", cpu", times.cpu[a], times.cpu[b]);
 }
 
 // The bare shader first, then the methods in the order of the registry.
 std::string frame_rows(const BenchScene& scene, int repeats) {
-  std::vector<DrawFrame> candidates{[&] { scene.draw_bare(); }};
+  std::vector<DrawFrame> candidates{[&scene] { scene.draw_bare(); }};
   std::size_t direct = 0;
   for (const StagedMethod& method : scene.stage().methods()) {
     if (&method == &scene.method("direct")) direct = candidates.size();
-    candidates.emplace_back([&] { scene.draw(method); });
+    candidates.emplace_back([&scene, &method] { scene.draw(method); });
   }
-  const auto times = interleaved_times(scene.stage().context().info(), candidates, repeats, no_progress);
-  std::string text = row("direct / bare", times[direct], times[0]);
-  for (std::size_t i = 1; i < times.size(); ++i) {
-    const std::string& name = scene.stage().methods()[i - 1].baked().spec.name;
-    if (i != direct) text += row(name + " / direct", times[i], times[direct]);
+  const WallAndCpu times = measure(scene, candidates, repeats);
+  std::string text = rows("direct / bare", times, direct, 0);
+  for (std::size_t i = 1; i < candidates.size(); ++i) {
+    if (i != direct) text += rows(scene.stage().methods()[i - 1].baked().spec.name + " / direct", times, i, direct);
   }
   return text;
 }
 
-std::string reference_row(const BenchScene& scene, int repeats) {
+std::string reference_rows(const BenchScene& scene, int repeats) {
   const StagedMethod& direct = scene.method("direct");
-  const std::vector<DrawFrame> candidates{[&] { scene.draw_reference(); },
-                                          [&] {
+  const std::vector<DrawFrame> candidates{[&scene] { scene.draw_reference(); },
+                                          [&scene, &direct] {
                                             for (int i = 0; i < reference_spp; ++i) scene.draw(direct);
                                           }};
-  const auto times = interleaved_times(scene.stage().context().info(), candidates, repeats, no_progress);
-  return row(fmt::format("reference / {} direct", reference_spp), times[0], times[1]);
+  return rows(fmt::format("reference / {} direct", reference_spp), measure(scene, candidates, repeats), 0, 1);
 }
 
 }  // namespace
 
 std::string ratio_table(const BenchScene& scene, int repeats) {
-  std::string text = fmt::format("{:<28} {:>8} {:>8} {:>8} {:>8} {:>8} {:>11}\n", "frames in the same round", "median",
-                                 "min", "p10", "p90", "max", "median ms");
-  text += frame_rows(scene, repeats) + reference_row(scene, std::max(5, repeats / 10));
+  std::string text = fmt::format("{:<28} {:>8} {:>8} {:>8} {:>8} {:>8} {:>11} {:>11}\n", "a / b, in the same round",
+                                 "median", "min", "p10", "p90", "max", "a, ms", "b, ms");
+  text += frame_rows(scene, repeats) + reference_rows(scene, std::max(5, repeats / 10));
   scene.stage().context().check("timing frames");
   return text;
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "renderer/core/error.hpp"
 
@@ -28,12 +27,16 @@ struct Branch {
 
 class Selector {
  public:
-  Selector(const ShaderFlags& flags, std::string_view file) : flags_(flags), file_(file) {}
+  Selector(const ShaderFlags& flags, std::string_view file, std::optional<int> source)
+      : flags_(flags), file_(file), source_(source) {
+    mark_line();
+  }
 
   void line(std::string_view text) {
     ++number_;
     if (text.starts_with(directive_mark)) {
       directive(text.substr(directive_mark.size()));
+      mark_line();
     } else if (keeping_) {
       out_ += text;
       out_ += '\n';
@@ -46,6 +49,10 @@ class Selector {
   }
 
  private:
+  void mark_line() {
+    if (source_) out_ += fmt::format("#line {} {}\n", number_ + 1, *source_);
+  }
+
   void directive(std::string_view words) {
     if (words.starts_with("if ")) {
       open(words.substr(3));
@@ -73,6 +80,7 @@ class Selector {
 
   const ShaderFlags& flags_;
   std::string_view file_;
+  std::optional<int> source_;
   std::string out_;
   std::vector<Branch> branches_;
   bool keeping_ = true;
@@ -152,8 +160,9 @@ std::string declarations(const EffectSet& effects, const Prefiltered& prefiltere
 
 }  // namespace
 
-std::string select_text(std::string_view text, const ShaderFlags& flags, std::string_view file) {
-  Selector selector(flags, file);
+std::string select_text(std::string_view text, const ShaderFlags& flags, std::string_view file,
+                        std::optional<int> source) {
+  Selector selector(flags, file, source);
   while (!text.empty()) {
     const std::size_t stop = std::min(text.find('\n'), text.size());
     selector.line(text.substr(0, stop));
@@ -208,8 +217,8 @@ std::string fragment_shader(const ShaderVariant& variant, std::string_view modul
   const std::string forward = select_text(embedded::surface_fragment_glsl, flags, "surface_fragment.glsl");
   constexpr std::string_view split = "//# module\n";
   const std::size_t place = forward.find(split);
-  return text + forward.substr(0, place) + select_text(module, flags, module_name) +
-         forward.substr(place + split.size());
+  return text + forward.substr(0, place) + select_text(module, flags, module_name, module_source) +
+         fmt::format("#line 1 {}\n", module_source + 1) + forward.substr(place + split.size());
 }
 
 std::string resolve_shader() { return std::string(version_line) + std::string(embedded::resolve_samples_glsl); }

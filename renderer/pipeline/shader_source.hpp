@@ -1,6 +1,7 @@
 // Shader text: put together from the shared files and a method's module, without what the scene does not call for.
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -33,9 +34,14 @@ struct ShaderVariant {
 
 using ShaderFlags = std::set<std::string, std::less<>>;
 
-/// The text without the parts whose flags are off, and without the directives (renderer/shaders/README.md). Errors
-/// (usage) name `file` and line: a directive that is unknown or not closed.
-[[nodiscard]] std::string select_text(std::string_view text, const ShaderFlags& flags, std::string_view file);
+/// The text without the parts whose flags are off, and without the directives (renderer/shaders/README.md). Where
+/// `source` is given, `#line` directives keep the compiler's line numbers those of `text`, as that source string.
+/// Errors (usage) name `file` and line: a directive that is unknown or not closed.
+[[nodiscard]] std::string select_text(std::string_view text, const ShaderFlags& flags, std::string_view file,
+                                      std::optional<int> source = {});
+
+/// The source string of a method's module in its fragment shader: compiler messages "1:12" mean its line 12.
+inline constexpr int module_source = 1;
 
 /// The flags of a variant and of a method's word options.
 [[nodiscard]] ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options);

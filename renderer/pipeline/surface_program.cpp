@@ -88,7 +88,8 @@ SurfaceProgram::SurfaceProgram(const GpuScene& scene, const BakedMethod& baked, 
     : settings_(settings),
       fragment_text_(fragment_shader(variant_of(scene, baked, settings), baked.method->shader(), baked.spec.name,
                                      baked.options, baked.materials.front())),
-      program_(baked.spec.text, vertex_shader(variant_of(scene, baked, settings)), fragment_text_) {}
+      program_(fmt::format("{} (source {} is {}.glsl)", baked.spec.text, module_source, baked.spec.name),
+               vertex_shader(variant_of(scene, baked, settings)), fragment_text_) {}
 
 void SurfaceProgram::set_sample(const glm::ivec2& origin, std::uint32_t seed, std::uint32_t pass) const {
   const GLint origin_place = program_.uniform("sample_origin");

@@ -8,7 +8,7 @@ Effective effective(Footprints f) {
   Effective e;
 //? if normal_variation
   vec4 texel = fetchFinest(base_normal, f.normal);
-//? if sampling_texel
+//? if not sampling_frame
   if (texel.w < 0.5) discard;  // an invalid normal of the map: nothing is there to shade
 //? end
   e.normal = normalize(texel.xyz);

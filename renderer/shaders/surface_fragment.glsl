@@ -65,7 +65,7 @@ vec2 drawTexelOffsets() {
 
 // The tangent frame, right-handed or not as the mesh says; columns tangent, bitangent, normal.
 mat3 tangentFrame() {
-  vec3 n = normalize(world_normal);
+  vec3 n = world_normal / max(length(world_normal), 1e-20);  // opposite normals of a vertex pair meet at zero: unlit, not NaN
 //? if double_sided
   if (!gl_FrontFacing) n = -n;
 //? end

@@ -26,6 +26,7 @@ struct Case {
   std::string standard_output{};                   // a device to write to
   std::optional<std::uint64_t> file_size_limit{};  // bytes a file may have: a full disk
   std::string interrupt_at{};                      // Ctrl-C at this text on standard error
+  std::set<std::string> leaves{};                  // files that must be there afterwards
   double seconds = 120;                            // it must have ended by then
 };
 
@@ -87,13 +88,15 @@ TEST_P(CommandLine, EndsAsItShould) {
   for (const std::string& text : row.output_has) {
     EXPECT_NE(result.output.find(text), std::string::npos) << text << "\nis not in\n" << result.output;
   }
+  const std::set<std::string> left = left_behind();
+  for (const std::string& file : row.leaves) EXPECT_TRUE(left.contains(file)) << file;
   if (row.exit_code == 0) return;
   const std::string line = last_line(result.errors);
   EXPECT_TRUE(line.starts_with("footprint: ")) << result.errors;
   for (const std::string& text : row.errors_have) {
     EXPECT_NE(line.find(text), std::string::npos) << text << "\nis not in\n" << line;
   }
-  EXPECT_EQ(left_behind(), std::set<std::string>{});
+  EXPECT_EQ(left, std::set<std::string>{});
 }
 
 const std::vector<Case> help_cases{
@@ -209,12 +212,94 @@ const std::vector<Case> wrong_values{
      .errors_have = {"a.jpg", ".exr", ".png"}},
 };
 
+const std::string model = "/usr/share/assimp/models/glTF2/ClearCoat-glTF/ClearCoatTest.gltf";
+
 const std::vector<Case> machine_cases{
     {.name = "FullDiskUnderStandardOutput",
      .arguments = {"list", "methods"},
      .exit_code = 3,
      .errors_have = {"standard output"},
      .standard_output = "/dev/full"},
+    {.name = "FrameOverMemory",
+     .arguments = {"compare", model, "--size", "1000000x1000000", "-o", "{}/out"},
+     .exit_code = 3,
+     .errors_have = {"1000000x1000000", "TiB", "--size"},
+     .seconds = 1},
+    {.name = "FrameOverMemoryOfRender",
+     .arguments = {"render", model, "--method", "direct", "--size", "1000000x1000000", "-o", "{}/a.exr"},
+     .exit_code = 3,
+     .errors_have = {"1000000x1000000", "TiB", "--size"},
+     .seconds = 1},
+    {.name = "NoGl",
+     .arguments = {"render", model, "--method", "direct", "--backend", "egl", "-o", "{}/a.exr"},
+     .exit_code = 3,
+     .errors_have = {"egl"},
+     .environment = {{"__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent"}}},
+    {.name = "NoSuchDevice",
+     .arguments = {"render", model, "--method", "direct", "--backend", "egl-device", "--device", "99", "-o",
+                   "{}/a.exr"},
+     .exit_code = 2,
+     .errors_have = {"99"}},
+    {.name = "FolderThatCannotBeMade",
+     .arguments = {"compare", model, "-o", "{}/file/out"},
+     .exit_code = 3,
+     .errors_have = {"file"},
+     .files = {{"file", "a file, not a folder"}}},
+    {.name = "PictureWhereNoFolderIs",
+     .arguments = {"render", model, "--method", "direct", "--size", "16x16", "-o", "{}/missing/a.exr"},
+     .exit_code = 3,
+     .errors_have = {"missing"}},
+    {.name = "FullDiskUnderPicture",
+     .arguments = {"render", model, "--method", "direct", "--size", "256x256", "-o", "{}/a.exr"},
+     .exit_code = 3,
+     .errors_have = {"a.exr"},
+     .file_size_limit = 4096},
+    {.name = "FullDiskUnderResults",
+     .arguments = {"compare", model, "--size", "64x64", "--spp", "1", "--repeats", "1", "-o", "{}/out"},
+     .exit_code = 3,
+     .errors_have = {"out"},
+     .file_size_limit = 4096},
+    {.name = "ControlC",
+     .arguments = {"compare", model, "--size", "256x256", "--spp", "4096", "-o", "{}/out"},
+     .exit_code = 130,
+     .errors_have = {"interrupted"},
+     .interrupt_at = "reference"},
+    {.name = "ControlCOfRender",
+     .arguments = {"render", model, "--method", "reference", "--spp", "4096", "-o", "{}/a.exr"},
+     .exit_code = 130,
+     .errors_have = {"interrupted"},
+     .interrupt_at = "samples a pixel"},
+    {.name = "ReferenceOptionWithAMethod",
+     .arguments = {"render", model, "--method", "direct", "--spp", "64", "-o", "{}/a.exr"},
+     .exit_code = 2,
+     .errors_have = {"--spp", "--method reference"}},
+    {.name = "NoSuchFrame",
+     .arguments = {"render", model, "--method", "direct", "--frame", "999", "-o", "{}/a.exr"},
+     .exit_code = 2,
+     .errors_have = {"--frame", "999"}},
+};
+
+// Small jobs that go well.
+const std::vector<Case> good_cases{
+    {.name = "RenderAMethod",
+     .arguments = {"render", model, "--method", "direct", "--size", "64x48", "-o", "{}/a.exr"},
+     .output_has = {"a.exr"},
+     .leaves = {"a.exr"}},
+    {.name = "RenderTheReference",
+     .arguments = {"render", model, "--method", "reference", "--spp", "4", "--size", "64x48", "-o", "{}/a.png"},
+     .output_has = {"a.png"},
+     .leaves = {"a.png"}},
+    {.name = "Explain",
+     .arguments = {"explain", model, "--size", "64x64"},
+     .output_has = {"normal_variation", "a normal map that is not flat", "base_normal"}},
+    {.name = "ExplainCost",
+     .arguments = {"explain", model, "--size", "64x64", "--cost", "--repeats", "1", "--json"},
+     .output_has = {"\"cost\"", "\"added_ms\""}},
+    {.name = "CompareInTwoProcesses",
+     .arguments = {"compare", model, "--size", "64x64", "--spp", "4", "--repeats", "1", "--processes", "2", "-o",
+                   "{}/out"},
+     .output_has = {"direct", "naive_mip", "toksvig", "page: "},
+     .leaves = {"out/index.html", "out/results.json", "out/results.csv", "out/table.md", "out/images"}},
 };
 
 std::string case_name(const testing::TestParamInfo<Case>& info) { return info.param.name; }
@@ -223,6 +308,7 @@ INSTANTIATE_TEST_SUITE_P(Help, CommandLine, testing::ValuesIn(help_cases), case_
 INSTANTIATE_TEST_SUITE_P(Listing, CommandLine, testing::ValuesIn(listing_cases), case_name);
 INSTANTIATE_TEST_SUITE_P(WrongWord, CommandLine, testing::ValuesIn(wrong_words), case_name);
 INSTANTIATE_TEST_SUITE_P(WrongValue, CommandLine, testing::ValuesIn(wrong_values), case_name);
+INSTANTIATE_TEST_SUITE_P(Good, CommandLine, testing::ValuesIn(good_cases), case_name);
 INSTANTIATE_TEST_SUITE_P(Machine, CommandLine, testing::ValuesIn(machine_cases), case_name);
 
 }  // namespace

@@ -26,7 +26,8 @@ std::string read_text(const fs::path& file) {
 
 std::vector<std::string> full_environment(const std::map<std::string, std::string>& added) {
   std::vector<std::string> variables;
-  for (const auto& [name, value] : added) variables.push_back(name + "=" + value);
+  variables.reserve(added.size());
+  for (const auto& [name, value] : added) variables.emplace_back(name).append("=").append(value);
   for (char** variable = environ; *variable != nullptr; ++variable) {
     const std::string text = *variable;
     if (!added.contains(text.substr(0, text.find('=')))) variables.push_back(text);

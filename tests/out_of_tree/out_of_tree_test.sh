@@ -41,7 +41,6 @@ program=$work/build/footprint_with_$name
 
 run_program() {
   "$program" list methods >"$work/methods"
-  # shellcheck source=/dev/null
   for method in direct naive_mip toksvig "$name"; do expect "$work/methods" "  $method"; done
   "$program" render ribbed_plane --method "$name:share=0.5" --size 64x64 -o "$work/picture.exr" >"$work/log"
   [ -s "$work/picture.exr" ] || fail "no picture"

@@ -1,0 +1,51 @@
+// footprint_bench: what frames, the reference, start-up, mip chains and baking cost (docs/performance.md).
+#include <benchmark/benchmark.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <optional>
+
+#include "bench/frame_benchmarks.hpp"
+#include "bench/mip_benchmarks.hpp"
+#include "bench/ratios.hpp"
+#include "renderer/core/error.hpp"
+
+namespace {
+
+void run(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);  // takes the --benchmark_... options out
+  CLI::App app("Benchmarks of Footprint; all --benchmark_... options of Google Benchmark work too.", "footprint_bench");
+  int repeats = 0;
+  app.add_option("--ratios", repeats, "Print ratios of interleaved frame times over this many rounds, and nothing else")
+      ->check(CLI::Range(1, 100000));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    std::exit(app.exit(error));
+  }
+  std::optional<footprint::Scene> scene = footprint::bench::load_bench_scene();
+  std::optional<footprint::bench::BenchScene> subject;
+  if (scene) subject.emplace(std::move(*scene));
+  if (repeats > 0) {
+    if (subject) (void)std::fputs(footprint::bench::ratio_table(*subject, repeats).c_str(), stdout);
+    return;
+  }
+  if (subject) {
+    footprint::bench::register_frame_benchmarks(*subject);
+    footprint::bench::register_start_up_benchmarks(*subject);
+  }
+  footprint::bench::register_mip_benchmarks();
+  benchmark::RunSpecifiedBenchmarks();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    run(argc, argv);
+    return 0;
+  } catch (const footprint::Error& error) {
+    (void)std::fprintf(stderr, "footprint_bench: %s\n", error.what());
+    return static_cast<int>(error.kind());
+  }
+}

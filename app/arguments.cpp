@@ -32,6 +32,7 @@ void add_reference_options(CLI::App& command, ReferenceArguments& arguments) {
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
   command.add_option("--seed", arguments.seed, "Seed of the reference's samples: same seed, same bytes")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command.add_option("--filter", arguments.filter, "The reference's filter: after_shading, nearest or bilinear")
       ->capture_default_str();

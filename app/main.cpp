@@ -1,12 +1,12 @@
 // The program: parses the command line, runs one subcommand and turns every error into one line and an exit code.
 #include <CLI/CLI.hpp>
 #include <csignal>
-#include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
 
 #include "app/commands.hpp"
+#include "app/messages.hpp"
 #include "app/parse_error.hpp"
 #include "app/standard_output.hpp"
 #include "renderer/core/error.hpp"
@@ -50,7 +50,7 @@ void run(int argc, const char* const* argv) {
 }
 
 int fail(const std::string& text, footprint::ErrorKind kind) {
-  (void)std::fprintf(stderr, "footprint: %s\n", text.c_str());
+  footprint::write_message(text);
   return static_cast<int>(kind);
 }
 

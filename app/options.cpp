@@ -10,9 +10,12 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/suggest.hpp"
+#include "renderer/scene/scene.hpp"
 
 namespace footprint {
 namespace {
+
+constexpr std::string_view distance_mend = "give factors on the camera's distance, for example 1,2,4,8";
 
 Error does_not_fit(std::string_view option, std::string_view text, std::string_view why, std::string_view mend) {
   return {ErrorKind::usage, std::string(option), fmt::format("`{}` {}", text, why), std::string(mend)};
@@ -56,18 +59,26 @@ glm::ivec2 parse_size(std::string_view text) {
   return size;
 }
 
+double parse_distance(std::string_view text) {
+  const auto distance = positive(text);
+  if (!distance) throw does_not_fit("--distance", text, "is no positive number", distance_mend);
+  if (*distance < smallest_distance || *distance > largest_distance) {
+    throw does_not_fit("--distance", text, fmt::format("is not within {} to {}", smallest_distance, largest_distance),
+                       distance_mend);
+  }
+  return *distance;
+}
+
 std::vector<double> parse_distances(std::string_view text) {
-  constexpr std::string_view mend = "give positive factors on the camera's distance, for example 1,2,4,8";
   std::vector<double> distances;
   for (std::size_t start = 0; start <= text.size();) {
     const std::size_t stop = std::min(text.find(',', start), text.size());
     const std::string_view part = text.substr(start, stop - start);
-    const auto distance = positive(part);
-    if (!distance) throw does_not_fit("--distance", part, "is no positive number", mend);
-    if (std::ranges::find(distances, *distance) != distances.end()) {
-      throw does_not_fit("--distance", part, "is given twice", mend);
+    const double distance = parse_distance(part);
+    if (std::ranges::find(distances, distance) != distances.end()) {
+      throw does_not_fit("--distance", part, "is given twice", distance_mend);
     }
-    distances.push_back(*distance);
+    distances.push_back(distance);
     start = stop + 1;
   }
   return distances;

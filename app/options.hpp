@@ -16,8 +16,11 @@ inline constexpr int max_frame_side = 10'000'000;
 /// "WIDTHxHEIGHT" in pixels. Errors (usage): not that form, a side of 0 or over `max_frame_side`.
 [[nodiscard]] glm::ivec2 parse_size(std::string_view text);
 
-/// "1,2,4": factors on the camera's distance, in the order given. Errors (usage): not a number, not finite, not
-/// positive, given twice, none at all.
+/// A factor on the camera's distance. Errors (usage): not a number, not within `smallest_distance` to
+/// `largest_distance`.
+[[nodiscard]] double parse_distance(std::string_view text);
+
+/// "1,2,4": such factors, in the order given. Errors (usage): those of each, given twice, none at all.
 [[nodiscard]] std::vector<double> parse_distances(std::string_view text);
 
 /// A positive factor on radiance, or "auto" for an empty value. Errors (usage): anything else.

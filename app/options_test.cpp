@@ -51,6 +51,9 @@ TEST(ParseDistances, RefusesWhatIsNoDistance) {
   for (const std::string_view text : {"", ",", "1,", ",1", "0", "-1", "1,nan", "inf", "1e400", "one", "1;2", "1, 2"}) {
     EXPECT_TRUE(contains(refusal([&] { (void)parse_distances(text); }), "is no positive number")) << text;
   }
+  for (const std::string_view text : {"1e-4", "1,1000001", "1e300"}) {
+    EXPECT_TRUE(contains(refusal([&] { (void)parse_distances(text); }), "is not within 0.001 to 1000000")) << text;
+  }
   EXPECT_TRUE(contains(refusal([] { (void)parse_distances("1,2,1.0"); }), "given twice"));
 }
 

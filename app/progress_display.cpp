@@ -88,7 +88,7 @@ void ProgressDisplay::draw_bar(std::string_view what, double fraction) {
   stage_ = what;
   if (!first && now - last_shown_ < 100ms) return;
   last_shown_ = now;
-  const int full = static_cast<int>(std::floor(fraction * bar_cells));
+  const auto full = static_cast<int>(std::floor(fraction * bar_cells));
   std::string line = fmt::format("[{:#<{}}{:->{}}] {:3.0f} %  {}{}", "", full, "", bar_cells - full,
                                  std::floor(100.0 * fraction), what, time_left(fraction));
   if (columns_ > 0 && line.size() >= columns_) line.resize(columns_ - 1);  // a full line would wrap and not clear

@@ -9,6 +9,7 @@
 
 #include "app/arguments.hpp"
 #include "app/commands.hpp"
+#include "app/messages.hpp"
 #include "app/options.hpp"
 #include "app/progress_display.hpp"
 #include "app/standard_output.hpp"
@@ -35,7 +36,7 @@ struct Arguments {
   std::string scene;
   std::string method;
   ReferenceArguments reference;
-  std::optional<double> distance;
+  std::string distance = "1";
   std::optional<std::size_t> frame;
   std::string size;  // empty: the scene's
   std::string exposure = "auto";
@@ -53,10 +54,10 @@ std::filesystem::path picture_path(const std::string& text) {
 }
 
 // The factor on the camera's distance: given, or that of a frame of the scene's zoom path.
-double distance_factor(const Arguments& arguments, const Scene& scene) {
-  if (!arguments.frame) return arguments.distance.value_or(1.0);
-  if (*arguments.frame < scene.distances.size()) return scene.distances[*arguments.frame];
-  throw Error(ErrorKind::usage, "--frame", fmt::format("there is no frame {}", *arguments.frame),
+double distance_factor(double given, const std::optional<std::size_t>& frame, const Scene& scene) {
+  if (!frame) return given;
+  if (*frame < scene.distances.size()) return scene.distances[*frame];
+  throw Error(ErrorKind::usage, "--frame", fmt::format("there is no frame {}", *frame),
               fmt::format("the scene's zoom path has frames 0 to {}", scene.distances.size() - 1));
 }
 
@@ -80,6 +81,7 @@ void run_render(const Arguments& arguments) {
   const std::filesystem::path path = picture_path(arguments.output);
   const MethodSpec method = parse_known_method("--method", arguments.method);
   const std::optional<float> exposure = parse_exposure(arguments.exposure);
+  const double given_distance = parse_distance(arguments.distance);
   StageSettings settings{.methods = {},
                          .size = parse_optional_size(arguments.size),
                          .filter = parse_filter(arguments.reference.filter),
@@ -88,7 +90,7 @@ void run_render(const Arguments& arguments) {
   if (!is_reference(method)) settings.methods = {method};
   const gl::ContextRequest request = context_request(arguments.backend);
   Scene scene = load_scene(arguments.scene, scenes_folder());
-  const double distance = distance_factor(arguments, scene);
+  const double distance = distance_factor(given_distance, arguments.frame, scene);
 
   ProgressDisplay display(progress_style(arguments.quiet));
   ProgressParts parts(display.callback(), 3);
@@ -97,6 +99,7 @@ void run_render(const Arguments& arguments) {
   throw_if_interrupted();
   save_picture(path, picture, exposure ? exposure : stage.scene().exposure);
   display.finish();
+  write_scene_notes(stage.scene(), arguments.quiet);
   write_output(fmt::format("{}\n", path.string()));
 }
 
@@ -119,9 +122,11 @@ void add_render_command(CLI::App& app) {
   command->add_option("--method", arguments->method, "name or name:option=value, or `reference`")->required();
   command->add_option("-o,--output", arguments->output, "The picture, .exr or .png")->required();
   add_size_option(*command, arguments->size);
-  auto* distance = command->add_option("--distance", arguments->distance, "Factor on the camera's distance")
-                       ->check(CLI::PositiveNumber);
-  command->add_option("--frame", arguments->frame, "Frame of the scene's zoom path, from 0")->excludes(distance);
+  auto* distance =
+      command->add_option("--distance", arguments->distance, "Factor on the camera's distance")->capture_default_str();
+  command->add_option("--frame", arguments->frame, "Frame of the scene's zoom path, from 0")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(distance);
   add_reference_options(*command, arguments->reference);
   add_anisotropy_option(*command, arguments->anisotropy);
   command->add_option("--exposure", arguments->exposure, "Factor on radiance of a .png, or auto")

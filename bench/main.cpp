@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <optional>
 
 #include "bench/frame_benchmarks.hpp"
@@ -47,5 +49,8 @@ int main(int argc, char** argv) {
   } catch (const footprint::Error& error) {
     (void)std::fprintf(stderr, "footprint_bench: %s\n", error.what());
     return static_cast<int>(error.kind());
+  } catch (const std::exception& error) {
+    (void)std::fprintf(stderr, "footprint_bench: %s\n", error.what());
+    return static_cast<int>(footprint::ErrorKind::machine);
   }
 }

@@ -29,20 +29,22 @@ configure() {
   cmake --preset "$1" -S "$footprint_root"
 }
 
-# The C++ sources that git tracks, each with a trailing zero byte; all in the tree where there is no git checkout.
+# list_sources [PATH...]: the C++ sources that git tracks, or all where there is no git checkout, each with a trailing
+# zero byte; of all folders or, seen from the root, of the files and folders named.
 list_sources() {
   (
     cd -- "$footprint_root" || exit
+    [ $# -gt 0 ] || set -- app bench experiments methods renderer results tests
     if git rev-parse --is-inside-work-tree >/dev/null 2>&1; then
-      git ls-files -z -- '*.cpp' '*.hpp'
+      git ls-files -z -- "$@"
     else
-      find app bench experiments methods renderer results tests \( -name '*.cpp' -o -name '*.hpp' \) -print0
-    fi
+      find "$@" -type f -print0
+    fi | sed -nz '/\.[ch]pp$/p'
   )
 }
 
-# Fails, naming files and lines, if a source is not laid out as .clang-format says.
+# check_format [PATH...]: fails, naming files and lines, if a source is not laid out as .clang-format says.
 check_format() {
   step "Checking the layout of the sources with clang-format"
-  (cd -- "$footprint_root" && list_sources | xargs -0 -r clang-format --dry-run -Werror)
+  (cd -- "$footprint_root" && list_sources "$@" | xargs -0 -r clang-format --dry-run -Werror)
 }

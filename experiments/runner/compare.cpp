@@ -75,9 +75,9 @@ std::optional<double> normalized_color(const Image& picture, const Image& refere
 
 class Comparison {
  public:
-  Comparison(const CompareSettings& settings, const std::filesystem::path& folder, const Progress& progress)
+  Comparison(const CompareSettings& settings, std::filesystem::path folder, const Progress& progress)
       : settings_(settings),
-        folder_(folder),
+        folder_(std::move(folder)),
         stage_(settings.context, load_scene(settings.scene, settings.scenes_folder), timing_settings(settings),
                no_progress),
         distances_(distances_of(settings, stage_.scene())),

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <ranges>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -94,7 +93,7 @@ void create_folders(const fs::path& folder, std::vector<fs::path>& created) {
 // What is not empty stays: someone else uses it by now.
 void remove_empty_folders(const std::vector<fs::path>& folders) {
   std::error_code ignored;
-  for (const fs::path& folder : folders | std::views::reverse) fs::remove(folder, ignored);
+  std::for_each(folders.rbegin(), folders.rend(), [&](const fs::path& folder) { fs::remove(folder, ignored); });
 }
 
 fs::path create_staging(const fs::path& folder, const fs::path& final_path) {

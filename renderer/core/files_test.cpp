@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path fresh_folder() {
-  const fs::path folder =
+  fs::path folder =
       fs::path(testing::TempDir()) / "footprint_files" / testing::UnitTest::GetInstance()->current_test_info()->name();
   fs::remove_all(folder);
   fs::create_directories(folder);
@@ -232,7 +232,7 @@ TEST(OutputFolder, APathThatIsNoFolder) {
   const fs::path folder = fresh_folder();
   std::ofstream(folder / "file") << "x";
   expect_error(error_of([&] { OutputFolder(folder / "file"); }), ErrorKind::usage, folder / "file", "not a folder");
-  expect_error(error_of([] { OutputFolder(fs::path()); }), ErrorKind::usage, "", "no name");
+  expect_error(error_of([] { OutputFolder{fs::path()}; }), ErrorKind::usage, "", "no name");
   expect_error(error_of([] { OutputFolder("/"); }), ErrorKind::usage, "/", "no output folder");
   EXPECT_EQ(names_in(folder), Names{"file"});
 }

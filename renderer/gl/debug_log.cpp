@@ -17,8 +17,7 @@ void APIENTRY on_message(GLenum /*source*/, GLenum type, GLuint /*id*/, GLenum s
                          const GLchar* text, const void* user) noexcept {
   if (type != GL_DEBUG_TYPE_ERROR && severity != GL_DEBUG_SEVERITY_HIGH) return;
   const std::string_view message = length < 0 ? std::string_view(text) : std::string_view(text, length);
-  // GL hands the pointer through as const; listen() gave it a mutable object.
-  static_cast<DebugLog*>(const_cast<void*>(user))->add(std::string(message));
+  (*static_cast<DebugLog* const*>(user))->add(std::string(message));
 }
 
 }  // namespace
@@ -27,7 +26,7 @@ void DebugLog::listen() {
   const Functions& gl = api();
   gl.Enable(GL_DEBUG_OUTPUT);
   gl.Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-  gl.DebugMessageCallback(on_message, this);
+  gl.DebugMessageCallback(on_message, &self_);
   gl.DebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DEBUG_SEVERITY_NOTIFICATION, 0, nullptr, GL_FALSE);
   // Program asks for the compiler's log itself and throws it.
   gl.DebugMessageControl(GL_DEBUG_SOURCE_SHADER_COMPILER, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_FALSE);

@@ -20,6 +20,7 @@ class DebugLog {
   [[nodiscard]] std::vector<std::string> take();
 
  private:
+  DebugLog* const self_ = this;  // GL hands its callback a pointer to const; the log behind this one can be written
   std::vector<std::string> messages_;
   std::size_t dropped_ = 0;
 };

@@ -3,11 +3,9 @@
 #include <EGL/eglext.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <map>
 #include <mutex>
-#include <ranges>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,8 +37,8 @@ std::string egl_error_name() {
 bool has_extension(EGLDisplay display, std::string_view name) {
   const char* list = eglQueryString(display, EGL_EXTENSIONS);
   if (list == nullptr) return false;
-  return std::ranges::any_of(std::views::split(std::string_view(list), ' '),
-                             [&](auto word) { return std::string_view(word.begin(), word.end()) == name; });
+  // Whole words: one extension's name may begin another's.
+  return fmt::format(" {} ", list).find(fmt::format(" {} ", name)) != std::string::npos;
 }
 
 void require_extension(EGLDisplay display, const std::string& platform, std::string_view name) {

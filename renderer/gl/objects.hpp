@@ -2,6 +2,7 @@
 // and no other current. Functions come from gl/functions.hpp.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -101,7 +102,7 @@ class RenderTarget {
  private:
   static constexpr std::size_t max_attachments = 4;
   Framebuffer framebuffer_;
-  Texture colors_[max_attachments];
+  std::array<Texture, max_attachments> colors_;
   Texture depth_;
   int width_ = 0, height_ = 0;
 };

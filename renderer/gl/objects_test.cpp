@@ -101,7 +101,7 @@ TEST_F(Objects, ATextureTakesTightRowsOfAnyWidthAtEachLevel) {
   Texture texture(GL_RGB8, 5, 3, 2);
   EXPECT_EQ(texture.width(), 5);
   EXPECT_EQ(texture.height(), 3);
-  std::vector<std::uint8_t> base(5 * 3 * 3), half(2 * 1 * 3);
+  std::vector<std::uint8_t> base(45), half(6);  // 5 x 3 and 2 x 1 texels of 3 bytes
   std::iota(base.begin(), base.end(), std::uint8_t{1});
   std::iota(half.begin(), half.end(), std::uint8_t{200});
   texture.upload(0, 5, 3, GL_RGB, GL_UNSIGNED_BYTE, base.data());
@@ -120,10 +120,10 @@ TEST_F(Objects, ATextureTakesTightRowsOfAnyWidthAtEachLevel) {
 TEST_F(Objects, ATextureOfAnImpossibleSizeIsAMachineError) {
   const int limit = context_.info().max_texture_size;
   const std::array<std::array<int, 2>, 4> sizes = {{{limit + 1, 1}, {1, limit + 1}, {0, 8}, {8, -1}}};
-  for (const auto& [width, height] : sizes) {
-    const Error error = error_of([&] { const Texture texture(GL_RGBA32F, width, height); });
+  for (const auto& size : sizes) {
+    const Error error = error_of([&] { const Texture texture(GL_RGBA32F, size[0], size[1]); });
     EXPECT_EQ(error.kind(), ErrorKind::machine);
-    EXPECT_THAT(error.what(), HasSubstr(std::to_string(width) + "x" + std::to_string(height)));
+    EXPECT_THAT(error.what(), HasSubstr(std::to_string(size[0]) + "x" + std::to_string(size[1])));
   }
   EXPECT_EQ(error_of([&] { const RenderTarget target(limit + 1, 8, rgba32f, true); }).kind(), ErrorKind::machine);
 }

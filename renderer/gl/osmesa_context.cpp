@@ -90,7 +90,7 @@ class OsMesaContext final : public NativeContext {
   const Library& library_ = Library::instance();
   OsMesaHandle context_ = nullptr;
   /// OSMesa insists on a default framebuffer; nothing draws into it.
-  std::array<unsigned char, 4 * buffer_side * buffer_side> buffer_{};
+  std::array<unsigned char, std::size_t{4} * buffer_side * buffer_side> buffer_{};
 };
 
 }  // namespace

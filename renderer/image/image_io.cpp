@@ -145,7 +145,7 @@ Image decode(IOProxy& source, const std::string& name, Transfer transfer, int ma
 
 // Encoded in memory, so that there is one way of writing files and of finding a full disk.
 std::vector<unsigned char> encode(const std::string& name, const char* format, const OIIO::ImageSpec& spec,
-                                  OIIO::TypeDesc type, const void* texels) {
+                                  const OIIO::TypeDesc& type, const void* texels) {
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput target(bytes);
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format, &target);
@@ -155,7 +155,7 @@ std::vector<unsigned char> encode(const std::string& name, const char* format, c
               fmt::format("cannot be encoded: {}", first_line(output ? output->geterror() : queued)));
 }
 
-OIIO::ImageSpec writable_spec(const std::filesystem::path& file, const Image& image, OIIO::TypeDesc type) {
+OIIO::ImageSpec writable_spec(const std::filesystem::path& file, const Image& image, const OIIO::TypeDesc& type) {
   const bool taken = image.channels == 1 || image.channels == 3 || image.channels == 4;
   if (image.empty() || !taken) {
     throw Error(

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <ranges>
 #include <string_view>
 
 #include "renderer/core/error.hpp"
@@ -87,7 +86,7 @@ double mean_luminance(const Image& reference) {
 
 std::optional<ErrorFigures> compare_images(const Image& picture, const Image& reference, float exposure) {
   require_comparable(picture, reference);
-  const double pixels = static_cast<double>(object_pixel_count(reference));
+  const auto pixels = static_cast<double>(object_pixel_count(reference));
   if (pixels == 0) return std::nullopt;
   const double epsilon = relmse_epsilon_share * squared(mean_luminance(reference));
 
@@ -121,9 +120,11 @@ Image error_map(const Image& picture, const Image& reference, float exposure) {
 
 std::size_t object_pixel_count(const Image& reference) {
   if (reference.channels != 4) return 0;
-  return static_cast<std::size_t>(std::ranges::count_if(
-      std::views::iota(std::size_t{0}, reference.texel_count()),
-      [&](std::size_t i) { return covers_whole_pixel(std::span(reference.texels).subspan(4 * i, 4)); }));
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < reference.texel_count(); ++i) {
+    if (covers_whole_pixel(std::span(reference.texels).subspan(4 * i, 4))) ++count;
+  }
+  return count;
 }
 
 }  // namespace footprint

@@ -2,6 +2,7 @@
 // with nothing to do, another picture where it has something to do.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 
 #include "renderer/pipeline/base_surface.hpp"
@@ -26,7 +27,7 @@ TextureMap map_of(Image image) { return {"map", std::make_shared<const Image>(st
 
 Image halves(int channels, float left, float right) {
   Image image(2, 1, channels, left);
-  for (std::size_t i = static_cast<std::size_t>(channels); i < image.texels.size(); ++i) image.texels[i] = right;
+  for (auto i = static_cast<std::size_t>(channels); i < image.texels.size(); ++i) image.texels[i] = right;
   return image;
 }
 
@@ -37,7 +38,7 @@ struct EffectCase {
   void (*call_for)(Scene&);
 };
 
-const EffectCase cases[] = {
+const auto cases = std::to_array<EffectCase>({
     {Effect::diffuse, "diffuse(", [](Scene& s) { s.materials[0].brdf.diffuse = true; }},
     {Effect::fresnel, "Schlick", [](Scene& s) { s.materials[0].brdf.fresnel = FresnelTerm::schlick; }},
     {Effect::masking_shadowing, "Smith", [](Scene& s) { s.materials[0].brdf.geometry = GeometryTerm::smith; }},
@@ -81,7 +82,7 @@ const EffectCase cases[] = {
      [](Scene& s) {
        s.lights.emplace_back(DirectionalLight{.direction = {0, 0, -1}, .illuminance = glm::vec3(1.0F)});
      }},
-};
+});
 
 class EffectTrace : public ::testing::TestWithParam<EffectCase> {};
 

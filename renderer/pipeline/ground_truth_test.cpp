@@ -59,7 +59,7 @@ double radiance_at(const Image& map, const Case& c, int channel, double x, doubl
   const dvec3 v = glm::normalize(dvec3(0.0, 0.0, 3.0) - point);
   const double u = (x + 1.0) / 2.0 * map_edge - 0.5;
   const double w = (1.0 - y) / 2.0 * map_edge - 0.5;  // v points down
-  const int x0 = static_cast<int>(std::floor(u)), y0 = static_cast<int>(std::floor(w));
+  const auto x0 = static_cast<int>(std::floor(u)), y0 = static_cast<int>(std::floor(w));
   const double fx = u - x0, fy = w - y0;
   double sum = 0;
   for (int j = 0; j < 2; ++j) {

@@ -58,6 +58,6 @@ struct Prefiltered {
                                               const TextureCoordinates& coordinates, bool signed_range = false);
 
 /// The floats that the shader reads from a level, before any decoding of a signed range.
-[[nodiscard]] Image decode_level(const PrefilteredTexture& texture, std::size_t level);
+[[nodiscard]] Image decode_level(const PrefilteredTexture& texture, std::size_t index);
 
 }  // namespace footprint

@@ -45,7 +45,7 @@ glm::ivec2 strata_of(int count) {
     const int columns = count / rows;
     if (count % rows == 0 && columns <= 2 * rows) return {columns, rows};
   }
-  const int edge = static_cast<int>(std::ceil(std::sqrt(count)));
+  const auto edge = static_cast<int>(std::ceil(std::sqrt(count)));
   return {edge, edge};
 }
 
@@ -63,8 +63,9 @@ SampleGrid sample_grid(int spp, std::uint64_t seed) {
   const std::vector<int> order = shuffled(strata.x * strata.y, random);
   for (int pass = 0; pass < passes; ++pass) {
     const int stratum = order[static_cast<std::size_t>(pass)];
-    const double x = (stratum % strata.x + uniform(random)) / strata.x - 0.5;
-    const double y = (stratum / strata.x + uniform(random)) / strata.y - 0.5;
+    const int column = stratum % strata.x, row = stratum / strata.x;
+    const double x = (column + uniform(random)) / strata.x - 0.5;
+    const double y = (row + uniform(random)) / strata.y - 0.5;
     out.offsets.emplace_back(x, y);
   }
   return out;

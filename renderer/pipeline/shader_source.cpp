@@ -11,7 +11,7 @@ namespace footprint {
 
 namespace embedded {
 extern const std::string_view surface_vertex_glsl, surface_fragment_glsl, surface_lights_glsl, common_footprint_glsl,
-    common_lobes_glsl, common_base_brdf_glsl, resolve_samples_glsl;
+    common_lobes_glsl, common_base_brdf_glsl, resolve_samples_glsl, screen_vertex_glsl;
 }
 
 namespace {
@@ -220,6 +220,8 @@ std::string fragment_shader(const ShaderVariant& variant, std::string_view modul
   return text + forward.substr(0, place) + select_text(module, flags, module_name, module_source) +
          fmt::format("#line 1 {}\n", module_source + 1) + forward.substr(place + split.size());
 }
+
+std::string screen_vertex_shader() { return std::string(version_line) + std::string(embedded::screen_vertex_glsl); }
 
 std::string resolve_shader() { return std::string(version_line) + std::string(embedded::resolve_samples_glsl); }
 

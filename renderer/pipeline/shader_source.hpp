@@ -59,7 +59,8 @@ inline constexpr int module_source = 1;
                                           std::string_view module_name, const Options& options,
                                           const Prefiltered& prefiltered);
 
-/// The compute shader that accumulates samples.
+/// The stages that add a pass of samples to the reference's sums.
+[[nodiscard]] std::string screen_vertex_shader();
 [[nodiscard]] std::string resolve_shader();
 
 }  // namespace footprint

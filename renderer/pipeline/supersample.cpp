@@ -14,7 +14,6 @@ namespace footprint {
 namespace {
 
 constexpr int default_tile_edge = 512;
-constexpr GLuint resolve_group = 8;  // local_size of resolve_samples.glsl
 constexpr std::array<std::pair<ReferenceFilter, std::string_view>, 3> filters{{
     {ReferenceFilter::after_shading, "after_shading"},
     {ReferenceFilter::nearest, "nearest"},
@@ -75,28 +74,63 @@ ReferenceFilter parse_filter(const std::string& word) {
   throw Error(ErrorKind::usage, "--filter", fmt::format("unknown filter `{}`", word), suggestion(word, names));
 }
 
-// What a tile's samples are drawn into and added up in.
-struct Supersampler::Accumulator {
+// What a tile's samples are drawn into and added up in. Sums are read from one target and written to the other.
+class Supersampler::Accumulator {
+ public:
+  Accumulator(const glm::ivec2& tile, int grid)
+      : tile_(tile),
+        grid_(grid),
+        samples_(tile.x * grid, tile.y * grid, sample_format, true),
+        sums_{sums_of(tile), sums_of(tile)} {
+    GLuint name = 0;
+    gl::api().CreateVertexArrays(1, &name);
+    no_vertices_ = gl::VertexArray(name);
+  }
+
+  [[nodiscard]] bool fits(const glm::ivec2& tile, int grid) const { return tile_ == tile && grid_ == grid; }
+  [[nodiscard]] const gl::RenderTarget& samples() const { return samples_; }
+  [[nodiscard]] const gl::RenderTarget& sums() const { return sums_[newest_]; }
+
+  void clear() {
+    constexpr std::array<float, 4> nothing{};
+    gl::api().BindFramebuffer(GL_FRAMEBUFFER, sums().framebuffer());
+    for (GLint i = 0; i < sum_count; ++i) gl::api().ClearBufferfv(GL_COLOR, i, nothing.data());
+  }
+
+  // Adds the samples that have been drawn to the sums of the tile's pixels.
+  void add(const gl::Program& resolve, const Tile& tile, bool even_pass) {
+    gl::api().UseProgram(resolve.name());
+    gl::api().Uniform1i(resolve.uniform("grid"), grid_);
+    gl::api().Uniform1i(resolve.uniform("even_pass"), even_pass ? 1 : 0);
+    bind(0, samples_.color(0));
+    for (GLuint i = 0; i < sum_count; ++i) bind(i + 1, sums().color(i));
+    newest_ = 1 - newest_;
+    gl::api().BindFramebuffer(GL_FRAMEBUFFER, sums().framebuffer());
+    gl::api().Viewport(0, 0, tile.size.x, tile.size.y);
+    gl::api().Disable(GL_DEPTH_TEST);
+    gl::api().Disable(GL_CULL_FACE);
+    gl::api().BindVertexArray(no_vertices_.name());
+    gl::api().DrawArrays(GL_TRIANGLES, 0, 3);
+  }
+
+ private:
+  static constexpr GLint sum_count = 3;  // mean and count, squares, mean and count of the even passes
   static constexpr std::array<GLenum, 1> sample_format{GL_RGBA32F};
   static constexpr std::array<GLenum, 3> sum_formats{GL_RGBA32F, GL_RGBA32F, GL_RGBA32F};
 
-  Accumulator(const glm::ivec2& tile, int cells)
-      : tile_size(tile),
-        grid(cells),
-        samples(tile.x * cells, tile.y * cells, sample_format, true),
-        sums(tile.x, tile.y, sum_formats, false) {}
+  static gl::RenderTarget sums_of(const glm::ivec2& tile) { return {tile.x, tile.y, sum_formats, false}; }
 
-  void clear() const {
-    constexpr std::array<float, 4> nothing{};
-    gl::api().BindFramebuffer(GL_FRAMEBUFFER, sums.framebuffer());
-    for (GLint i = 0; i < static_cast<GLint>(sum_formats.size()); ++i)
-      gl::api().ClearBufferfv(GL_COLOR, i, nothing.data());
+  static void bind(GLuint unit, const gl::Texture& texture) {
+    gl::api().BindTextureUnit(unit, texture.name());
+    gl::api().BindSampler(unit, 0);
   }
 
-  glm::ivec2 tile_size;
-  int grid;
-  gl::RenderTarget samples;
-  gl::RenderTarget sums;  // mean and count, squares, mean and count of the even passes
+  glm::ivec2 tile_;
+  int grid_;
+  gl::RenderTarget samples_;
+  std::array<gl::RenderTarget, 2> sums_;
+  std::size_t newest_ = 0;
+  gl::VertexArray no_vertices_;
 };
 
 Supersampler::Supersampler(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method,
@@ -105,50 +139,36 @@ Supersampler::Supersampler(const gl::ContextInfo& context, GpuScene& scene, cons
       method_(&method),
       tile_edge_(std::min(tile_edge > 0 ? tile_edge : default_tile_edge, context.max_framebuffer_size / 4)),
       program_(scene, method.baked(), settings_of(filter, orthographic)),
-      resolve_("resolve samples", resolve_shader()) {}
+      resolve_("resolve samples", screen_vertex_shader(), resolve_shader()) {}
 
 Supersampler::Supersampler(Supersampler&&) noexcept = default;
 Supersampler::~Supersampler() = default;
 
-const Supersampler::Accumulator& Supersampler::accumulator(const glm::ivec2& tile_size, int grid) const {
-  if (!accumulator_ || accumulator_->tile_size != tile_size || accumulator_->grid != grid) {
-    accumulator_ = std::make_unique<Accumulator>(tile_size, grid);
-  }
+Supersampler::Accumulator& Supersampler::accumulator(const glm::ivec2& picture, int grid) const {
+  const glm::ivec2 tile = glm::min(picture, glm::ivec2(tile_edge_));
+  if (!accumulator_ || !accumulator_->fits(tile, grid)) accumulator_ = std::make_unique<Accumulator>(tile, grid);
+  accumulator_->clear();
   return *accumulator_;
 }
 
-void Supersampler::accumulate(const View& view, const Tile& tile, const SampleGrid& samples, std::uint64_t seed,
-                              std::size_t pass) const {
-  const Accumulator& sums = *accumulator_;
+void Supersampler::accumulate(Accumulator& sums, const View& view, const Tile& tile, const SampleGrid& samples,
+                              std::uint64_t seed, std::size_t pass) const {
   const glm::ivec2 size = tile.size * samples.grid;
-  gl::api().BindFramebuffer(GL_FRAMEBUFFER, sums.samples.framebuffer());
+  gl::api().BindFramebuffer(GL_FRAMEBUFFER, sums.samples().framebuffer());
   gl::api().Viewport(0, 0, size.x, size.y);
   clear_target();
   program_.set_sample(tile.origin * samples.grid, static_cast<std::uint32_t>(seed ^ (seed >> 32U)),
                       static_cast<std::uint32_t>(pass));
-  program_.draw(*scene_, *method_, view,
-                tile_matrix(view, tile, samples.offsets[pass] / static_cast<double>(samples.grid)));
-
-  gl::api().UseProgram(resolve_.name());
-  gl::api().Uniform1i(resolve_.uniform("grid"), samples.grid);
-  gl::api().Uniform2i(resolve_.uniform("pixels"), tile.size.x, tile.size.y);
-  gl::api().Uniform1i(resolve_.uniform("even_pass"), pass % 2 == 0 ? 1 : 0);
-  for (GLuint i = 0; i < Accumulator::sum_formats.size(); ++i) {
-    gl::api().BindImageTexture(i, sums.sums.color(i).name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
-  }
-  gl::api().BindTextureUnit(0, sums.samples.color(0).name());
-  gl::api().BindSampler(0, 0);
-  gl::api().MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  const auto groups = [](int pixels) { return (static_cast<GLuint>(pixels) + resolve_group - 1) / resolve_group; };
-  gl::api().DispatchCompute(groups(tile.size.x), groups(tile.size.y), 1);
-  gl::api().MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
+  const glm::dvec2 offset = samples.offsets[pass] / static_cast<double>(samples.grid);
+  program_.draw(*scene_, *method_, view, tile_matrix(view, tile, offset));
+  sums.add(resolve_, tile, pass % 2 == 0);
 }
 
 void Supersampler::draw(const View& view, int spp, std::uint64_t seed) const {
   const SampleGrid samples = sample_grid(spp, seed);
   for (const Tile& tile : tiles_of(view.size, tile_edge_)) {
-    accumulator(glm::min(view.size, glm::ivec2(tile_edge_)), samples.grid).clear();
-    for (std::size_t pass = 0; pass < samples.offsets.size(); ++pass) accumulate(view, tile, samples, seed, pass);
+    Accumulator& sums = accumulator(view.size, samples.grid);
+    for (std::size_t pass = 0; pass < samples.offsets.size(); ++pass) accumulate(sums, view, tile, samples, seed, pass);
   }
 }
 
@@ -161,15 +181,14 @@ Supersampled Supersampler::render(const View& view, int spp, std::uint64_t seed,
   Image half(view.size.x, view.size.y, 4);
   double done = 0;
   for (const Tile& tile : tiles) {
-    const Accumulator& sums = accumulator(glm::min(view.size, glm::ivec2(tile_edge_)), samples.grid);
-    sums.clear();
+    Accumulator& sums = accumulator(view.size, samples.grid);
     for (std::size_t pass = 0; pass < samples.offsets.size(); ++pass) {
       progress(fmt::format("{} samples a pixel", spp), done++ / steps);
-      accumulate(view, tile, samples, seed, pass);
+      accumulate(sums, view, tile, samples, seed, pass);
     }
-    read_tile(sums.sums, 0, tile, mean);
-    read_tile(sums.sums, 1, tile, squares);
-    read_tile(sums.sums, 2, tile, half);
+    read_tile(sums.sums(), 0, tile, mean);
+    read_tile(sums.sums(), 1, tile, squares);
+    read_tile(sums.sums(), 2, tile, half);
   }
   Supersampled out{.spp = spp, .mean = {}, .standard_error = standard_error_of(squares, mean), .halves = {}};
   if (samples.offsets.size() >= 2) {

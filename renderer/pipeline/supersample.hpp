@@ -36,6 +36,8 @@ class Supersampler {
   /// `tile_edge` bounds the pixels accumulated at once; 0: 512. The result does not depend on it but for rounding.
   Supersampler(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method, ReferenceFilter filter,
                bool orthographic, int tile_edge = 0);
+  Supersampler(Supersampler&&) noexcept;
+  ~Supersampler();
 
   /// Deterministic for a seed. Errors (usage): spp outside 1 to 4096; (interrupted) by `progress`.
   [[nodiscard]] Supersampled render(const View& view, int spp, std::uint64_t seed, const Progress& progress) const;
@@ -44,21 +46,18 @@ class Supersampler {
   void draw(const View& view, int spp, std::uint64_t seed) const;
 
  private:
-  struct Accumulator;
-  void accumulate(const View& view, const Tile& tile, const SampleGrid& samples, std::uint64_t seed,
+  class Accumulator;
+  /// The sums of a tile, cleared; made anew where the size changes.
+  Accumulator& accumulator(const glm::ivec2& picture, int grid) const;
+  void accumulate(Accumulator& sums, const View& view, const Tile& tile, const SampleGrid& samples, std::uint64_t seed,
                   std::size_t pass) const;
-  const Accumulator& accumulator(const glm::ivec2& tile_size, int grid) const;
 
   GpuScene* scene_;
   const GpuMethod* method_;
   int tile_edge_;
   SurfaceProgram program_;
   gl::Program resolve_;
-  mutable std::unique_ptr<Accumulator> accumulator_;  // made anew when the size changes
-
- public:
-  Supersampler(Supersampler&&) noexcept;
-  ~Supersampler();
+  mutable std::unique_ptr<Accumulator> accumulator_;  // kept from picture to picture: its memory is what it costs
 };
 
 /// Root mean square of the standard error over object pixels and channels, over the mean radiance; docs/metrics.md.

@@ -124,7 +124,7 @@ void set_camera(const SceneSettings& settings, const std::optional<Camera>& own,
   if (settings.frame_size) used.aspect = static_cast<double>(settings.frame_size->x) / settings.frame_size->y;
   scene.camera = frame_bounds(scene.bounds, used);
   if (framing == nullptr) {
-    scene.defaults.push_back("camera: framed on the bounds, seen from the front, slightly right and above");
+    scene.defaults.emplace_back("camera: framed on the bounds, seen from the front, slightly right and above");
   }
 }
 
@@ -134,10 +134,10 @@ void set_lights(const SceneSettings& settings, std::vector<Light> own, Scene& sc
   scene.exposure = settings.exposure;
   if (!scene.lights.empty()) return;
   scene.lights = supplied_lights(scene.camera, scene.bounds);
-  scene.defaults.push_back("lights: a key and a fill directional light and a point light, white at radiance 0.8");
+  scene.defaults.emplace_back("lights: a key and a fill directional light and a point light, white at radiance 0.8");
   if (!settings.exposure && !settings.automatic_exposure) {
     scene.exposure = 1.0F;
-    scene.defaults.push_back("exposure: 1, which suits the supplied lights");
+    scene.defaults.emplace_back("exposure: 1, which suits the supplied lights");
   }
 }
 

@@ -87,7 +87,7 @@ std::uint32_t vertex_for(std::uint32_t index, int handedness, std::vector<Vertex
   if (own.handedness == handedness) return index;
   if (own.twin == unused) {
     own.twin = static_cast<std::uint32_t>(vertices.size());
-    vertices.push_back(Vertex{vertices[index]});
+    vertices.push_back(vertices[index]);
     gathered.push_back({glm::dvec3{0.0}, handedness, unused});  // `own` dangles from here on
     return static_cast<std::uint32_t>(vertices.size() - 1);
   }

@@ -160,7 +160,7 @@ TEST(GltfBadInput, NodesMustBeTrees) {
 }
 
 TEST(GltfBadInput, CamerasAndLights) {
-  const auto with_camera = [](json camera) {
+  const auto with_camera = [](const json& camera) {
     return [camera](GltfBuilder& quad) {
       quad.json["cameras"] = {camera};
       quad.json["nodes"][0]["camera"] = 0;
@@ -174,7 +174,7 @@ TEST(GltfBadInput, CamerasAndLights) {
   expect_error("znear", perspective(1.0, 0.0, 1.0));
   expect_error("zfar", perspective(1.0, 2.0, 1.0));
   expect_error("fisheye", with_camera({{"type", "fisheye"}}));
-  const auto with_light = [](json light) {
+  const auto with_light = [](const json& light) {
     return [light](GltfBuilder& quad) {
       quad.json["extensions"]["KHR_lights_punctual"]["lights"] = {light};
       quad.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;

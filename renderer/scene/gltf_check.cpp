@@ -300,6 +300,21 @@ void check_buffer_views(const json& document) {
   }
 }
 
+// tinygltf names neither the buffer nor what is wrong with it, but the whole URI.
+void check_embedded_buffers(const json& document) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const json buffers = document.value("buffers", json::array());
+  for (std::size_t i = 0; i < buffers.size(); ++i) {
+    const auto uri = buffers[i].value("uri", std::string{});
+    if (!uri.starts_with("data:")) continue;
+    const std::string_view text = std::string_view(uri).substr(uri.find(',') + 1);
+    const std::size_t bytes = std::min(text.find_first_not_of(digits), text.size()) * 6 / 8;
+    const auto length = buffers[i]["byteLength"].get<std::uint64_t>();
+    if (bytes == length) continue;
+    fail(fmt::format("buffers[{}]", i), fmt::format("its data URI holds {} bytes, byteLength is {}", bytes, length));
+  }
+}
+
 void check_uris(const json& document, const std::string& array) {
   const json items = document.value(array, json::array());
   for (std::size_t i = 0; i < items.size(); ++i) {
@@ -328,7 +343,8 @@ json parse_gltf_json(std::string_view text) {
   try {
     return json::parse(text, limit_depth);
   } catch (const json::exception& error) {
-    fail({}, fmt::format("not valid JSON: {:.300}", error.what()));
+    const std::string_view reason = error.what();
+    fail({}, fmt::format("not valid JSON: {:.300}", reason.substr(reason.find("] ") + 2)));  // without its own number
   }
 }
 
@@ -347,6 +363,7 @@ void check_gltf_json(const json& document) {
   check_buffer_views(document);
   check_uris(document, "buffers");
   check_uris(document, "images");
+  check_embedded_buffers(document);
 }
 
 std::span<const std::string_view> supported_gltf_extensions() { return supported; }

@@ -20,6 +20,7 @@ namespace footprint {
 namespace {
 
 constexpr std::uint64_t largest_file = std::numeric_limits<std::int32_t>::max();  // tinygltf counts in int
+constexpr const char* damaged_mend = "the file is damaged: export or download it again";
 
 std::uint32_t word_at(std::span<const std::uint8_t> bytes, std::size_t offset) {
   const auto b = bytes.subspan(offset, 4);
@@ -28,7 +29,7 @@ std::uint32_t word_at(std::span<const std::uint8_t> bytes, std::size_t offset) {
 }
 
 [[noreturn]] void fail_container(const std::string& message) {
-  throw Error(ErrorKind::usage, "GLB container", message, "the file is damaged: export or download it again");
+  throw Error(ErrorKind::usage, "GLB container", message, damaged_mend);
 }
 
 /// The JSON text of a GLB file; checks header and chunks, whose lengths tinygltf 2.7 trusts in part.
@@ -86,7 +87,7 @@ bool write_nothing(std::string* /*message*/, const std::string& /*file*/, const 
   return false;
 }
 
-/// tinygltf's messages may hold a whole data URI and end in line breaks.
+/// tinygltf's messages may be long and end in line breaks.
 std::string one_line(std::string message) {
   if (message.size() > 300) message = message.substr(0, 300) + " ...";
   std::ranges::replace(message, '\n', ' ');
@@ -125,6 +126,9 @@ GltfDocument read_gltf(const std::filesystem::path& file) {
   constexpr std::string_view magic = "glTF";
   const bool binary = bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
   try {
+    if (!binary && std::ranges::find(bytes, 0) != bytes.end()) {
+      throw Error(ErrorKind::usage, {}, "is neither JSON text nor a GLB container", damaged_mend);
+    }
     check_gltf_json(parse_gltf_json(
         binary ? glb_json(bytes) : std::string_view{reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
     return {parse(bytes, binary, std::filesystem::absolute(file).parent_path().string()), file};

@@ -35,7 +35,7 @@ class GltfMaterials {
   void convert_alpha(const tinygltf::Material& source, Material& material);
   void warn_left_out(const tinygltf::Material& source);
   [[nodiscard]] std::optional<TextureMap> find_map(int texture, int set, const tinygltf::ExtensionMap& extensions);
-  [[nodiscard]] const Image& stored(int image, Transfer transfer);
+  [[nodiscard]] const Image& stored(int index, Transfer transfer);
   [[nodiscard]] MapPointer base_color(int image);
   [[nodiscard]] MapPointer metallic_roughness(int image, const Material& material);
   [[nodiscard]] MapPointer normals(int image, double scale);

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <map>
-#include <ranges>
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/interrupt.hpp"
@@ -77,7 +76,7 @@ class Gatherer {
     std::vector<Pending> stack;
     std::vector<bool> seen(document_.model.nodes.size(), false);
     const auto push = [&](const std::vector<int>& nodes, const glm::dmat4& parent, int depth) {
-      for (const int node : nodes | std::views::reverse) stack.push_back({node, parent, depth});
+      std::for_each(nodes.rbegin(), nodes.rend(), [&](int node) { stack.push_back({node, parent, depth}); });
     };
     push(root_nodes(document_.model), glm::dmat4{1.0}, 1);
     while (!stack.empty()) {

@@ -120,13 +120,13 @@ GltfBuilder make_quad() {
 }
 
 std::filesystem::path test_folder() {
-  const auto folder = std::filesystem::path(::testing::TempDir()) / fmt::format("footprint_scene_test_{}", ::getpid());
+  auto folder = std::filesystem::path(::testing::TempDir()) / fmt::format("footprint_scene_test_{}", ::getpid());
   std::filesystem::create_directories(folder);
   return folder;
 }
 
 std::filesystem::path write_file(const std::string& name, const std::string& text) {
-  const auto file = test_folder() / name;
+  auto file = test_folder() / name;
   std::filesystem::create_directories(file.parent_path());
   std::filesystem::remove(file);  // truncating a file that exists makes some file systems write it out at once
   std::ofstream(file, std::ios::binary) << text;

@@ -71,6 +71,9 @@ struct Bounds {
   [[nodiscard]] float radius() const { return 0.5F * glm::length(upper - lower); }
 };
 
+/// The factors on the camera's distance that a zoom may take.
+inline constexpr double smallest_distance = 1e-3, largest_distance = 1e6;
+
 /// What the scene file left open and the loader filled in, in words for the output ("camera: framed on the bounds").
 struct Scene {
   std::string name;    ///< folder or file stem

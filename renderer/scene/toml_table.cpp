@@ -115,7 +115,7 @@ std::optional<std::vector<std::string>> TomlTable::words(std::string_view key) c
     }
   }
   if (array == nullptr || values.empty() || values.size() != array->size()) {
-    throw error_at(key, "must be a list of strings", "write it as [\"a\", \"b\"]");
+    throw error_at(key, "must be a list of strings", R"(write it as ["a", "b"])");
   }
   return values;
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -18,10 +19,10 @@ struct Behaviour {
   std::uint64_t bytes;
 };
 
-constexpr Behaviour behaviours[] = {{"direct", 0.021, 2.1, 2.04, 0},
-                                    {"naive_mip", 0.018, 1.65, 2.31, 12'582'912},
-                                    {"toksvig", 0.011, 1.18, 2.52, 16'777'216},
-                                    {"toksvig:storage=unorm8", 0.0125, 1.22, 2.43, 4'194'304}};
+constexpr std::array<Behaviour, 4> behaviours = {{{"direct", 0.021, 2.1, 2.04, 0},
+                                                  {"naive_mip", 0.018, 1.65, 2.31, 12'582'912},
+                                                  {"toksvig", 0.011, 1.18, 2.52, 16'777'216},
+                                                  {"toksvig:storage=unorm8", 0.0125, 1.22, 2.43, 4'194'304}}};
 
 Record example_record(const Results& results, const Behaviour& behaviour, double distance) {
   Record record;
@@ -45,7 +46,7 @@ Record example_record(const Results& results, const Behaviour& behaviour, double
   record.precompute_seconds = static_cast<double>(behaviour.bytes) * 2e-8;
   record.effects_on = {"diffuse", "fresnel", "normal_variation"};
   if (behaviour.bytes != 0) record.effects_left_out = {"roughness_variation"};
-  const std::string stem = fmt::format("images/method{}_d{}", &behaviour - behaviours, distance);
+  const std::string stem = fmt::format("images/method{}_d{}", &behaviour - behaviours.data(), distance);
   record.images = {stem + ".exr", fmt::format("images/reference_d{}.exr", distance), stem + "_error.png"};
   return record;
 }

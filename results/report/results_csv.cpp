@@ -62,7 +62,8 @@ std::string field(const std::optional<double>& value) { return value ? field(*va
 std::string options_text(const Record& record) {
   std::vector<std::string> pairs;
   for (const auto& [name, value] : record.options) {
-    pairs.push_back(std::visit([&](const auto& held) { return fmt::format("{}={}", name, held); }, value));
+    const std::string text = std::visit([](const auto& held) { return fmt::format("{}", held); }, value);
+    pairs.push_back(fmt::format("{}={}", name, text));
   }
   return fmt::format("{}", fmt::join(pairs, ";"));
 }

@@ -142,7 +142,7 @@ TEST(ResultsJson, RefusesWrongTypesAndRanges) {
 }
 
 TEST(ResultsJson, TextThatIsNoJsonIsOneError) {
-  for (const char* text : {"", "{", "{\"schema\": \"footprint-results/1\"", "[1,]", "\xff"}) {
+  for (const char* text : {"", "{", R"({"schema": "footprint-results/1")", "[1,]", "\xff"}) {
     try {
       (void)parse_results(text, "results.json");
       ADD_FAILURE() << "`" << text << "` was taken";

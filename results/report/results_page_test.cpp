@@ -47,7 +47,7 @@ TEST(ResultsPage, IsWholeAndAsksForNothingFromTheNetwork) {
 TEST(ResultsPage, CarriesTheDocumentOfResultsJson) {
   const Results results = hostile_results();
   const std::string page = results_page(results);
-  const std::string open = "<script type=\"application/json\" id=\"data\">";
+  const std::string open = R"(<script type="application/json" id="data">)";
   const std::size_t begin = page.find(open) + open.size();
   const auto data = nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
   EXPECT_EQ(data.at("results"), nlohmann::json::parse(results_json(results)));

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <map>
-#include <ranges>
+#include <span>
 
 #include "results/report/figures.hpp"
 #include "results/report/markdown_table.hpp"
@@ -15,8 +17,11 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-auto records_at(const Results& results, double distance) {
-  return results.records | std::views::filter([distance](const Record& r) { return r.distance == distance; });
+std::vector<std::reference_wrapper<const Record>> records_at(const Results& results, double distance) {
+  std::vector<std::reference_wrapper<const Record>> records;
+  std::ranges::copy_if(results.records, std::back_inserter(records),
+                       [distance](const Record& r) { return r.distance == distance; });
+  return records;
 }
 
 /// The error with its mark; unmarked ones keep its room, so that the figures stand under each other.
@@ -63,16 +68,17 @@ std::string main_table(const Rows& rows) {
   const std::vector<MarkdownColumn> times{{"Method", false}, {"Frame ms"}, {"x direct"}, {"fps"}};
   std::vector<MarkdownColumn> all = errors;
   all.insert(all.end(), times.begin() + 1, times.end());
-  const std::string whole = markdown_table(all, rows);
+  std::string whole = markdown_table(all, rows);
   if (whole.find('\n') <= terminal) return whole;
   return markdown_table(errors, cut(rows, 1, errors.size() - 1)) + "\n" +
          markdown_table(times, cut(rows, errors.size(), times.size() - 1));
 }
 
 std::string distance_section(const Results& results, double distance) {
-  const bool any_marked = std::ranges::any_of(records_at(results, distance), at_noise_floor);
+  const auto records = records_at(results, distance);
+  const bool any_marked = std::ranges::any_of(records, at_noise_floor);
   Rows rows;
-  for (const Record& record : records_at(results, distance)) rows.push_back(main_row(record, any_marked));
+  for (const Record& record : records) rows.push_back(main_row(record, any_marked));
   return fmt::format("\n## Distance {}\n\n{}{}", distance, main_table(rows),
                      any_marked ? "\n\\* at the noise floor: the reference's own noise explains this error.\n" : "");
 }

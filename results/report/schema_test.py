@@ -1,4 +1,7 @@
-"""Holds docs/results.schema.json and results.json against each other: schema_test.py SCHEMA FIXTURE_PROGRAM.
+"""Holds docs/results.schema.json and results.json against each other.
+
+schema_test.py SCHEMA PROGRAM    with the examples that PROGRAM writes
+schema_test.py SCHEMA X.json     with a run's own results
 
 A written results.json validates, and documents that are broken in one place each do not. Exit code 77 (skipped)
 without the package python3-jsonschema.
@@ -55,18 +58,26 @@ def broken(document):
         yield name, wrong
 
 
-def main(schema_file, fixture):
+def documents(source):
+    """The documents to hold against the schema, each with its name."""
+    if source.endswith(".json"):
+        yield source, json.loads(pathlib.Path(source).read_text(encoding="utf-8"))
+        return
+    for kind in ("example", "hostile"):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([source, folder, kind], check=True)
+            yield kind, json.loads((pathlib.Path(folder) / "results.json").read_text(encoding="utf-8"))
+
+
+def main(schema_file, source):
     schema = json.loads(pathlib.Path(schema_file).read_text(encoding="utf-8"))
     jsonschema.Draft7Validator.check_schema(schema)
     described(schema, "")
     validator = jsonschema.Draft7Validator(schema)
-    for kind in ("example", "hostile"):
-        with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([fixture, folder, kind], check=True)
-            document = json.loads((pathlib.Path(folder) / "results.json").read_text(encoding="utf-8"))
+    for title, document in documents(source):
         validator.validate(document)
         for name, wrong in broken(document):
-            assert not validator.is_valid(wrong), f"{kind}: the schema takes {name}"
+            assert not validator.is_valid(wrong), f"{title}: the schema takes {name}"
     print("results.json holds to its schema, and broken documents do not")
 
 

@@ -1,103 +1,8 @@
-// The program as a user meets it: exit codes, one clear error each, nothing half-written. One row a case.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <csignal>
-#include <fstream>
-#include <ostream>
-#include <set>
-
-#include "tests/command_line/process.hpp"
+// The program as a user meets it: words, values, and a machine that cannot.
+#include "tests/command_line/program_case.hpp"
 
 namespace footprint::test {
 namespace {
-
-namespace fs = std::filesystem;
-
-// One way to call the program and what must come of it. `{}` in arguments stands for the case's own folder.
-struct Case {
-  std::string name;
-  std::vector<std::string> arguments{};
-  int exit_code = 0;
-  std::vector<std::string> output_has{};       // texts on standard output
-  std::vector<std::string> errors_have{};      // texts in the error line on standard error
-  std::map<std::string, std::string> files{};  // input files: name in the case's folder, content
-  std::map<std::string, std::string> environment{};
-  std::string standard_output{};                   // a device to write to
-  std::optional<std::uint64_t> file_size_limit{};  // bytes a file may have: a full disk
-  std::string interrupt_at{};                      // Ctrl-C at this text on standard error
-  std::set<std::string> leaves{};                  // files that must be there afterwards
-  double seconds = 120;                            // it must have ended by then
-};
-
-void PrintTo(const Case& row, std::ostream* out) { *out << row.name; }
-
-class CommandLine : public testing::TestWithParam<Case> {
- protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / ("footprint_command_line_" + GetParam().name);
-    fs::remove_all(folder_);
-    fs::create_directories(folder_ / "work");
-    for (const auto& [name, content] : GetParam().files) std::ofstream(folder_ / "work" / name) << content;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  [[nodiscard]] ProcessResult run() const {
-    const Case& row = GetParam();
-    ProcessRequest request{.command = {FOOTPRINT_PROGRAM},
-                           .folder = folder_,
-                           .environment = row.environment,
-                           .standard_output = row.standard_output,
-                           .file_size_limit = row.file_size_limit,
-                           .interrupt_at = row.interrupt_at};
-    for (std::string argument : row.arguments) {
-      if (const auto at = argument.find("{}"); at != std::string::npos) {
-        argument.replace(at, 2, (folder_ / "work").string());
-      }
-      request.command.push_back(argument);
-    }
-    return run_process(request);
-  }
-
-  // Everything below the case's folder, without the input files.
-  [[nodiscard]] std::set<std::string> left_behind() const {
-    std::set<std::string> names;
-    for (const auto& entry : fs::recursive_directory_iterator(folder_ / "work")) {
-      names.insert(fs::relative(entry.path(), folder_ / "work").string());
-    }
-    for (const auto& [name, content] : GetParam().files) names.erase(name);
-    return names;
-  }
-
-  fs::path folder_;
-};
-
-// The last line: progress may stand before it.
-std::string last_line(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text.substr(text.rfind('\n') + 1);
-}
-
-TEST_P(CommandLine, EndsAsItShould) {
-  const Case& row = GetParam();
-  const ProcessResult result = run();
-  EXPECT_EQ(result.exit_code, row.exit_code) << result.errors;
-  EXPECT_EQ(result.signal, 0);
-  EXPECT_LT(result.duration.count(), row.seconds);
-  EXPECT_EQ(result.interrupted, !row.interrupt_at.empty());
-  for (const std::string& text : row.output_has) {
-    EXPECT_NE(result.output.find(text), std::string::npos) << text << "\nis not in\n" << result.output;
-  }
-  const std::set<std::string> left = left_behind();
-  for (const std::string& file : row.leaves) EXPECT_TRUE(left.contains(file)) << file;
-  if (row.exit_code == 0) return;
-  const std::string line = last_line(result.errors);
-  EXPECT_TRUE(line.starts_with("footprint: ")) << result.errors;
-  for (const std::string& text : row.errors_have) {
-    EXPECT_NE(line.find(text), std::string::npos) << text << "\nis not in\n" << line;
-  }
-  EXPECT_EQ(left, std::set<std::string>{});
-}
 
 const std::vector<Case> help_cases{
     {.name = "Help",
@@ -166,6 +71,10 @@ const std::vector<Case> wrong_words{
 };
 
 const std::vector<Case> wrong_values{
+    {.name = "NoPixelsOfRender",
+     .arguments = {"render", "{}/a.gltf", "--method", "direct", "--size", "0x0", "-o", "{}/a.exr"},
+     .exit_code = 2,
+     .errors_have = {"--size", "0x0", "512x512"}},
     {.name = "NoPixels",
      .arguments = {"compare", "{}/a.gltf", "--size", "0x0", "-o", "{}/out"},
      .exit_code = 2,
@@ -190,6 +99,22 @@ const std::vector<Case> wrong_values{
      .arguments = {"compare", "{}/a.gltf", "--distance", "1,-2", "-o", "{}/out"},
      .exit_code = 2,
      .errors_have = {"--distance", "`-2`"}},
+    {.name = "DistanceOutOfRange",
+     .arguments = {"compare", "{}/a.gltf", "--distance", "1,1e30", "-o", "{}/out"},
+     .exit_code = 2,
+     .errors_have = {"--distance", "`1e30`", "0.001 to 1000000"}},
+    {.name = "DistanceOfRenderThatIsNoNumber",
+     .arguments = {"render", "ribbed_plane", "--method", "direct", "--distance", "nan", "-o", "{}/a.exr"},
+     .exit_code = 2,
+     .errors_have = {"--distance", "`nan`"}},
+    {.name = "NegativeSeed",
+     .arguments = {"compare", "{}/a.gltf", "--seed", "-1", "-o", "{}/out"},
+     .exit_code = 2,
+     .errors_have = {"--seed", "-1"}},
+    {.name = "NegativeFrame",
+     .arguments = {"render", "ribbed_plane", "--method", "direct", "--frame", "-1", "-o", "{}/a.exr"},
+     .exit_code = 2,
+     .errors_have = {"--frame", "-1"}},
     {.name = "NegativeExposure",
      .arguments = {"compare", "{}/a.gltf", "--exposure", "0", "-o", "{}/out"},
      .exit_code = 2,
@@ -214,6 +139,11 @@ const std::vector<Case> wrong_values{
 
 const std::string model = "/usr/share/assimp/models/glTF2/ClearCoat-glTF/ClearCoatTest.gltf";
 
+// No EGL driver, and a file that is no library in the place of OSMesa's.
+const std::map<std::string, std::string> no_osmesa{{"libOSMesa.so.8", "no library"}};
+const std::map<std::string, std::string> no_gl{{"__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent"},
+                                               {"LD_LIBRARY_PATH", "{}"}};
+
 const std::vector<Case> machine_cases{
     {.name = "FullDiskUnderStandardOutput",
      .arguments = {"list", "methods"},
@@ -235,6 +165,18 @@ const std::vector<Case> machine_cases{
      .exit_code = 3,
      .errors_have = {"egl"},
      .environment = {{"__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent"}}},
+    {.name = "NoGlAtAll",
+     .arguments = {"compare", "ribbed_plane", "-o", "{}/out"},
+     .exit_code = 3,
+     .errors_have = {"no backend gives an OpenGL 4.5 core context", "egl: ", "egl-device: ", "osmesa: ", "install"},
+     .files = no_osmesa,
+     .environment = no_gl},
+    {.name = "NoOsmesa",
+     .arguments = {"render", "ribbed_plane", "--method", "direct", "--backend", "osmesa", "-o", "{}/a.exr"},
+     .exit_code = 3,
+     .errors_have = {"libOSMesa.so.8", "install libosmesa6"},
+     .files = no_osmesa,
+     .environment = no_gl},
     {.name = "NoSuchDevice",
      .arguments = {"render", model, "--method", "direct", "--backend", "egl-device", "--device", "99", "-o",
                    "{}/a.exr"},
@@ -245,6 +187,20 @@ const std::vector<Case> machine_cases{
      .exit_code = 3,
      .errors_have = {"file"},
      .files = {{"file", "a file, not a folder"}}},
+    {.name = "FolderThatIsNoneToWriteTo",
+     .arguments = {"compare", "ribbed_plane", "-o", "/proc/out"},
+     .exit_code = 3,
+     .errors_have = {"/proc/out", "folder that you can write to"}},
+    {.name = "FileWhereTheFolderGoes",
+     .arguments = {"compare", "ribbed_plane", "-o", "{}/file"},
+     .exit_code = 2,
+     .errors_have = {"file: is not a folder"},
+     .files = {{"file", "a file, not a folder"}}},
+    {.name = "FolderWhereThePictureGoes",
+     .arguments = {"render", "ribbed_plane", "--method", "direct", "--size", "16x16", "-o", "{}/a.exr"},
+     .exit_code = 2,
+     .errors_have = {"a.exr: is a folder"},
+     .files = {{"a.exr/notes.txt", "a folder, not a picture"}}},
     {.name = "PictureWhereNoFolderIs",
      .arguments = {"render", model, "--method", "direct", "--size", "16x16", "-o", "{}/missing/a.exr"},
      .exit_code = 3,
@@ -264,6 +220,17 @@ const std::vector<Case> machine_cases{
      .exit_code = 130,
      .errors_have = {"interrupted"},
      .interrupt_at = "reference"},
+    {.name = "ControlCKeepsWhatWasThere",
+     .arguments = {"compare", model, "--size", "256x256", "--spp", "4096", "-o", "{}/out"},
+     .exit_code = 130,
+     .errors_have = {"interrupted"},
+     .files = {{"out/results.json", "an earlier run's"}, {"out/images/a.exr", "an earlier run's"}},
+     .interrupt_at = "reference"},
+    {.name = "ControlCInAnotherProcess",
+     .arguments = {"compare", model, "--repeats", "10000", "--processes", "2", "-o", "{}/out"},
+     .exit_code = 130,
+     .errors_have = {"interrupted"},
+     .interrupt_at = "timing in process"},
     {.name = "ControlCOfRender",
      .arguments = {"render", model, "--method", "reference", "--spp", "4096", "-o", "{}/a.exr"},
      .exit_code = 130,
@@ -302,14 +269,12 @@ const std::vector<Case> good_cases{
      .leaves = {"out/index.html", "out/results.json", "out/results.csv", "out/table.md", "out/images"}},
 };
 
-std::string case_name(const testing::TestParamInfo<Case>& info) { return info.param.name; }
-
-INSTANTIATE_TEST_SUITE_P(Help, CommandLine, testing::ValuesIn(help_cases), case_name);
-INSTANTIATE_TEST_SUITE_P(Listing, CommandLine, testing::ValuesIn(listing_cases), case_name);
-INSTANTIATE_TEST_SUITE_P(WrongWord, CommandLine, testing::ValuesIn(wrong_words), case_name);
-INSTANTIATE_TEST_SUITE_P(WrongValue, CommandLine, testing::ValuesIn(wrong_values), case_name);
-INSTANTIATE_TEST_SUITE_P(Good, CommandLine, testing::ValuesIn(good_cases), case_name);
-INSTANTIATE_TEST_SUITE_P(Machine, CommandLine, testing::ValuesIn(machine_cases), case_name);
+INSTANTIATE_TEST_SUITE_P(Help, CommandLine, ::testing::ValuesIn(help_cases), case_name);
+INSTANTIATE_TEST_SUITE_P(Listing, CommandLine, ::testing::ValuesIn(listing_cases), case_name);
+INSTANTIATE_TEST_SUITE_P(WrongWord, CommandLine, ::testing::ValuesIn(wrong_words), case_name);
+INSTANTIATE_TEST_SUITE_P(WrongValue, CommandLine, ::testing::ValuesIn(wrong_values), case_name);
+INSTANTIATE_TEST_SUITE_P(Good, CommandLine, ::testing::ValuesIn(good_cases), case_name);
+INSTANTIATE_TEST_SUITE_P(Machine, CommandLine, ::testing::ValuesIn(machine_cases), case_name);
 
 }  // namespace
 }  // namespace footprint::test

@@ -2,6 +2,7 @@
 // deterministic, stays finite, and says what it is.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "methods/registry.hpp"
@@ -23,12 +24,12 @@ class EveryMethod : public ::testing::TestWithParam<const Method*> {
   }
 };
 
-constexpr BaseBrdf brdfs[] = {
+constexpr std::array<BaseBrdf, 4> brdfs = {{
     {NormalDistribution::ggx, GeometryTerm::smith, FresnelTerm::schlick, true},
     {NormalDistribution::beckmann, GeometryTerm::smith, FresnelTerm::schlick, true},
     {NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, true},
     {NormalDistribution::vmf, GeometryTerm::tan, FresnelTerm::schlick, true},
-};
+}};
 
 // A tilted constant map cannot be left out as flat: it goes through the whole precompute.
 TEST_P(EveryMethod, EqualsDirectOnAConstantMapAtAnyDistance) {

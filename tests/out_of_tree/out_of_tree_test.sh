@@ -28,8 +28,9 @@ copy_template() {
 }
 
 build() {
-  "$cmake" -S "$work/$name" -B "$work/build" -DFootprint_DIR="$build_folder" "$@" >"$work/log" 2>&1 &&
-    "$cmake" --build "$work/build" >>"$work/log" 2>&1 || fail "it does not build: $(cat -- "$work/log")"
+  {
+    "$cmake" -S "$work/$name" -B "$work/build" -DFootprint_DIR="$build_folder" "$@" && "$cmake" --build "$work/build"
+  } >"$work/log" 2>&1 || fail "it does not build: $(cat -- "$work/log")"
 }
 
 run_tests() {
@@ -60,8 +61,7 @@ run_broken_shader() {
   "$program" render ribbed_plane --method "$name" --size 64x64 -o "$work/broken.exr" 2>"$work/error" || code=$?
   [ "$code" -eq 3 ] || fail "exit code $code for a broken shader"
   expect "$work/error" "$name.glsl"
-  expect "$work/error" "$line | "
-  expect "$work/error" "lenght(texel.xyz)"
+  expect "$work/error" " $line |   float size = lenght(texel.xyz);"
   [ ! -e "$work/broken.exr" ] || fail "a broken shader left a picture"
 }
 

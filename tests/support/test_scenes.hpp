@@ -25,6 +25,6 @@ struct SquareMaterial {
 /// A square of side 2 in the plane z = 0 with one material, a camera at (0, 0, 3) that sees it whole with a margin of
 /// none (the square fills the frame), and one point light at (0.4, 0.3, 1.5) of 4 candela. No normal map where
 /// `normals` is empty. Exposure 1.
-[[nodiscard]] Scene square_scene(const Image& normals, const SquareMaterial& material);
+[[nodiscard]] Scene square_scene(const Image& normals, const SquareMaterial& settings);
 
 }  // namespace footprint::testing

@@ -1,5 +1,5 @@
 // See process.hpp.
-#include "tests/command_line/process.hpp"
+#include "tests/support/process.hpp"
 
 #include <fcntl.h>
 #include <sys/resource.h>

@@ -1,0 +1,83 @@
+// Models and frames that are odd and no error: they render, and what was mended is said.
+#include <limits>
+
+#include "tests/command_line/bumpy_quad.hpp"
+#include "tests/command_line/program_case.hpp"
+
+namespace footprint::test {
+namespace {
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+// The bumpy quad with one attribute or with the indices replaced, and what the program says of it.
+Case with_attribute(const std::string& name, const std::string& attribute, const std::vector<float>& values,
+                    const std::vector<std::string>& says = {}) {
+  GltfBuilder quad = make_bumpy_quad();
+  const std::string type = attribute == "TEXCOORD_0" ? "VEC2" : "VEC3";
+  primitive_of(quad)["attributes"][attribute] = quad.add_floats(values, type);
+  return {.name = name,
+          .arguments = {"{}/quad.gltf"},
+          .says = says,
+          .files = {{"quad.gltf", quad.text()}, {"bumps.png", bumps_png()}}};
+}
+
+Case with_indices(const std::string& name, const std::vector<std::uint16_t>& indices) {
+  GltfBuilder quad = make_bumpy_quad();
+  primitive_of(quad)["indices"] = quad.add_indices(indices);
+  return {
+      .name = name, .arguments = {"{}/quad.gltf"}, .files = {{"quad.gltf", quad.text()}, {"bumps.png", bumps_png()}}};
+}
+
+Case without_normals() {
+  GltfBuilder quad = make_bumpy_quad();
+  primitive_of(quad)["attributes"].erase("NORMAL");
+  return {.name = "NoNormals",
+          .arguments = {"{}/quad.gltf"},
+          .files = {{"quad.gltf", quad.text()}, {"bumps.png", bumps_png()}}};
+}
+
+std::vector<Case> models() {
+  const std::vector<float> one_place(12, 0.5F);
+  return {
+      with_attribute("NormalsOfLengthZero", "NORMAL", std::vector<float>(12, 0.0F),
+                     {"`quad`", "4 normals without a direction"}),
+      with_attribute("NormalsThatAreNoNumbers", "NORMAL", std::vector<float>(12, nan),
+                     {"`quad`", "4 normals without a direction"}),
+      with_attribute("CoordinatesThatAreNoNumbers", "TEXCOORD_0", std::vector<float>(8, nan),
+                     {"`quad`", "4 texture coordinates"}),
+      with_attribute("CoordinatesAllTheSame", "TEXCOORD_0", std::vector<float>(8, 0.5F)),
+      with_attribute("CoordinatesOnALine", "TEXCOORD_0", {0, 0, 1, 0, 2, 0, 3, 0}),
+      with_attribute("TrianglesInOnePlace", "POSITION", one_place),
+      with_attribute("TrianglesOnALine", "POSITION", {-1, 0, 0, 0, 0, 0, 1, 0, 0, 2, 0, 0}),
+      with_indices("SomeTrianglesWithoutArea", {0, 3, 2, 0, 2, 1, 0, 0, 1, 2, 2, 2}),
+      without_normals(),
+  };
+}
+
+// What `compare` is given after the scene.
+Case comparison(const std::string& name, std::vector<std::string> arguments, std::vector<std::string> output) {
+  arguments.insert(arguments.begin(), {"compare", "ribbed_plane", "--repeats", "1", "-o", "{}/out"});
+  return {.name = name,
+          .arguments = std::move(arguments),
+          .output_has = std::move(output),
+          .leaves = {"out/results.json", "out/index.html"}};
+}
+
+const std::vector<Case> frames{
+    comparison("OnePixel", {"--size", "1x1", "--spp", "4", "--distance", "1"}, {"direct"}),
+    comparison("OneSample", {"--size", "16x16", "--spp", "1", "--distance", "1"}, {"direct"}),
+    comparison("NoWholePixelCovered", {"--size", "16x16", "--spp", "4", "--distance", "1000"},
+               {"n/a", "the object covers no whole pixel"}),
+    comparison("TilesOfOnePixel", {"--size", "4x4", "--spp", "2", "--distance", "1", "--tile", "1"}, {"direct"}),
+    {.name = "NoLightFromTheFront",
+     .arguments = {"compare", "{}/scene.toml", "--size", "16x16", "--spp", "2", "--repeats", "1", "-o", "{}/out"},
+     .output_has = {"direct"},
+     .files = {{"scene.toml", "[plane]\n[[light]]\ntype = \"directional\"\ndirection = [0, 0, 1]\n"}},
+     .leaves = {"out/results.json"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(OddModel, CommandLine, ::testing::ValuesIn(of_compare_and_render(models())), case_name);
+INSTANTIATE_TEST_SUITE_P(OddFrame, CommandLine, ::testing::ValuesIn(frames), case_name);
+
+}  // namespace
+}  // namespace footprint::test

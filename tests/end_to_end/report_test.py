@@ -1,0 +1,129 @@
+"""The files of one comparison, read as a user's own programs would: schema, CSV, page, pictures, and what they say."""
+
+import csv
+import html.parser
+import math
+import re
+import subprocess
+import sys
+import unittest
+
+from whole_runs import SOURCE, WholeRunTest, picture_facts, results_of
+
+METHODS = ["direct", "naive_mip", "toksvig"]
+NEAR, FAR = 1, 6
+
+
+class References(html.parser.HTMLParser):
+    """What a page loads: the values of src and href."""
+
+    def __init__(self):
+        super().__init__()
+        self.found = []
+
+    def handle_starttag(self, tag, attrs):
+        self.found += [value for name, value in attrs if name in ("src", "href")]
+
+
+class Report(WholeRunTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.out = cls.compare("out", "ribbed_plane", "--size", "64x64", "--spp", "256", "--distance", f"{NEAR},{FAR}")
+        cls.results = results_of(cls.out)
+        cls.records = {(record["method"], record["distance"]): record for record in cls.results["records"]}
+
+    def error(self, method, distance, key="normalized_color"):
+        return self.records[method, distance]["error"][key]
+
+    # The files.
+
+    def test_the_results_hold_to_their_schema(self):
+        validator = SOURCE / "results" / "report" / "schema_test.py"
+        schema = SOURCE / "docs" / "results.schema.json"
+        command = [sys.executable, "-B", validator, schema, self.out / "results.json"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode == 77:
+            self.skipTest(done.stdout.strip())
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_the_csv_has_a_row_a_record(self):
+        with (self.out / "results.csv").open(encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file, strict=True))
+        self.assertEqual([(row["method"], float(row["distance"])) for row in rows], list(self.records))
+        for row, record in zip(rows, self.records.values(), strict=True):
+            self.assertNotIn(None, row, "a row is longer than the header")
+            self.assertEqual(float(row["normalized_color_error"]), record["error"]["normalized_color"])
+            self.assertEqual(float(row["frame_median_ms"]), record["time"]["frame_ms"]["median"])
+
+    def test_the_page_asks_for_nothing_that_is_not_there(self):
+        text = (self.out / "index.html").read_text(encoding="utf-8")
+        references = References()
+        references.feed(text)
+        loaded = [place for place in references.found if not place.startswith(("data:", "#"))]
+        pictures = set(re.findall(r"images/[\w.-]+\.(?:exr|png)", text))
+        self.assertGreaterEqual(len(pictures), 2 * (1 + 2 * len(METHODS)))
+        for place in [*loaded, *pictures]:
+            self.assertTrue((self.out / place).is_file(), place)
+
+    def test_every_picture_of_a_record_is_there(self):
+        for record in self.records.values():
+            for place in record["images"].values():
+                self.assertTrue((self.out / place).is_file(), place)
+                self.assertTrue((self.out / place).with_suffix(".png").is_file(), place)
+
+    def test_the_pictures_are_whole(self):
+        files = sorted((self.out / "images").glob("*.exr"))
+        self.assertEqual(len(files), 2 * (1 + len(METHODS)))
+        for name, facts in picture_facts(files).items():
+            self.assertEqual(facts["size"], (64, 64), name)
+            self.assertEqual(facts["format"], "float openexr", name)
+            self.assertEqual(facts["channels"], "R, G, B, A", name)
+            self.assertEqual(facts["unusable"], [0] * 8, name)
+            self.assertGreaterEqual(min(facts["least"]), 0.0, name)
+            self.assertEqual(facts["most"][3], 1.0, name)
+
+    # What they say.
+
+    def test_the_filtered_method_is_nearer_to_the_reference(self):
+        self.assertLess(self.error("toksvig", FAR), self.error("direct", FAR))
+        self.assertLess(self.error("naive_mip", FAR), self.error("direct", FAR))
+        for method in METHODS:
+            self.assertGreater(self.error(method, FAR), self.error(method, FAR, "noise_floor"), method)
+
+    def test_the_finest_level_is_the_surface_itself(self):
+        for method in METHODS:
+            for distance in (NEAR, FAR):
+                self.assertLess(self.error(method, distance, "representation"), 1e-5, method)
+
+    def test_more_samples_leave_less_error(self):
+        for distance in (NEAR, FAR):
+            curve = {p["spp"]: p["normalized_color"] for p in self.results["supersampling"] if p["distance"] == distance}
+            self.assertEqual(list(curve), [1, 2, 4, 8, 16, 32, 64])
+            # Stratified samples beat the square root of their number; half of it is left to chance.
+            self.assertLess(curve[64], curve[1] / 4)
+            self.assertLess(curve[64], curve[8])
+
+    def test_times_add_up(self):
+        for record in self.records.values():
+            time = record["time"]
+            self.assertGreater(time["frame_ms"]["min"], 0.0)
+            self.assertLessEqual(time["frame_ms"]["min"], time["frame_ms"]["median"])
+            self.assertLessEqual(time["frame_ms"]["median"], time["frame_ms"]["p90"])
+            self.assertTrue(math.isclose(time["fps"] * time["frame_ms"]["median"], 1000.0))
+
+    def test_one_sample_has_no_noise_floor(self):
+        one = results_of(self.compare("one", "ribbed_plane", "--size", "16x16", "--spp", "1", "--distance", "1"))
+        self.assertIsNone(one["reference"]["standard_error"])
+        self.assertEqual([record["error"]["noise_floor"] for record in one["records"]], [None] * len(METHODS))
+
+    def test_a_far_object_has_no_error(self):
+        far = results_of(self.compare("far", "ribbed_plane", "--size", "16x16", "--spp", "4", "--distance", "1000"))
+        for record in far["records"]:
+            self.assertIsNone(record["error"])
+            self.assertIsNone(record["equivalent_spp"])
+            self.assertEqual(record["equivalent_bound"], "n/a")
+
+
+if __name__ == "__main__":
+    unittest.main()

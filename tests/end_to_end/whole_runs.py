@@ -1,0 +1,77 @@
+"""Runs the program and reads back what it wrote with programs that are not its own."""
+
+import json
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["FOOTPRINT_PROGRAM"]
+SOURCE = pathlib.Path(os.environ["FOOTPRINT_SOURCE_DIR"])
+
+
+def run(*arguments):
+    """What the program prints; fails with its error line."""
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, f"{arguments}: exit code {done.returncode}: {done.stderr}"
+    return done.stdout
+
+
+class WholeRunTest(unittest.TestCase):
+    """Tests that share one scratch folder, removed at the end."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory(prefix="footprint_end_to_end_")
+        cls.addClassCleanup(cls.scratch.cleanup)
+        cls.folder = pathlib.Path(cls.scratch.name)
+
+    @classmethod
+    def compare(cls, name, *arguments):
+        """The folder of a small comparison, quick to time."""
+        folder = cls.folder / name
+        run("compare", *arguments, "--repeats", 1, "--quiet", "-o", folder)
+        return folder
+
+    @classmethod
+    def render(cls, name, *arguments):
+        file = cls.folder / f"{name}.exr"
+        run("render", *arguments, "--quiet", "-o", file)
+        return file
+
+    def assert_alike(self, first, second, largest):
+        """No channel of any pixel differs by more than `largest`, by OpenImageIO's reckoning."""
+        self.assertLessEqual(largest_difference(first, second), largest, f"{first.name} and {second.name}")
+
+
+def results_of(folder):
+    return json.loads((folder / "results.json").read_text(encoding="utf-8"))
+
+
+def largest_difference(first, second):
+    """The largest difference of any channel of any pixel, as idiff finds it."""
+    done = subprocess.run(["idiff", "-fail", "0", "-warn", "0", first, second], capture_output=True, text=True, check=False)
+    if done.returncode == 0:
+        return 0.0
+    found = re.search(r"Max error\s*=\s*(\S+)", done.stdout)
+    assert found, f"idiff {first} {second}: {done.stdout} {done.stderr}"
+    return float(found[1])
+
+
+def picture_facts(files):
+    """What oiiotool says of each file: size, channels, statistics."""
+    done = subprocess.run(["oiiotool", "--info", "-v", "--stats", *files], capture_output=True, text=True, check=True)
+    facts = {}
+    for block in done.stdout.split("Reading ")[1:]:
+        size = re.search(r"(\d+) x\s+(\d+), (\d+) channel, (\S+) (\S+)", block)
+        facts[block.split("\n", 1)[0].strip()] = {
+            "size": (int(size[1]), int(size[2])),
+            "format": f"{size[4]} {size[5]}",
+            "channels": re.search(r"channel list: (.*)", block)[1],
+            "unusable": [int(n) for n in " ".join(re.findall(r"(?:Nan|Inf)Count: (.*)", block)).split()],
+            "least": [float(n) for n in re.search(r"Stats Min: ([^(]*)", block)[1].split()],
+            "most": [float(n) for n in re.search(r"Stats Max: ([^(]*)", block)[1].split()],
+        }
+    return facts

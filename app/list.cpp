@@ -44,7 +44,8 @@ std::string range_text(const OptionSpec& option) {
 }
 
 std::string method_text(const MethodInfo& method) {
-  std::string text = fmt::format("  {}\n      {}\n      {}\n", method.name, method.summary, method.paper);
+  std::string text = fmt::format("  {}\n      {}\n", method.name, method.summary);
+  if (!method.paper.empty()) text += fmt::format("      {}\n", method.paper);
   for (const OptionSpec& option : method.options) {
     text +=
         fmt::format("      :{}={}  ({})  {}\n", option.name, default_text(option), range_text(option), option.meaning);

@@ -32,6 +32,8 @@ constexpr const char* examples =
     "  footprint render model.gltf --method reference --spp 256 --seed 7 -o reference.exr\n"
     "  footprint render model.gltf --method toksvig:storage=fp16 --distance 4 -o far.png";
 
+constexpr int reference_pictures = 6;  // mean, squares, two halves, error, and one to spare
+
 struct Arguments {
   std::string scene;
   std::string method;
@@ -87,7 +89,11 @@ void run_render(const Arguments& arguments) {
                          .filter = parse_filter(arguments.reference.filter),
                          .anisotropy = arguments.anisotropy,
                          .tile = arguments.backend.tile};
-  if (!is_reference(method)) settings.methods = {method};
+  if (is_reference(method)) {
+    settings.pictures = reference_pictures;
+  } else {
+    settings.methods = {method};
+  }
   const gl::ContextRequest request = context_request(arguments.backend);
   Scene scene = load_scene(arguments.scene, scenes_folder());
   const double distance = distance_factor(given_distance, arguments.frame, scene);

@@ -44,6 +44,14 @@ StageSettings timing_settings(const CompareSettings& settings) {
   return stage;
 }
 
+// Kept of each distance until the end: the reference, and of each method the picture and its error (a quarter as
+// large). Beside them what is worked on: most of all the strips of one distance, made of all its pictures in 5 steps.
+int pictures_held(std::size_t methods, std::size_t distances) {
+  const double kept = static_cast<double>(distances) * (1.0 + 1.25 * static_cast<double>(methods));
+  constexpr double own_of_the_reference = 6;
+  return static_cast<int>(std::ceil(kept + 5.0 * static_cast<double>(methods + 1) + own_of_the_reference));
+}
+
 std::vector<double> distances_of(const CompareSettings& settings, const Scene& scene) {
   return settings.distances.empty() ? scene.distances : settings.distances;
 }
@@ -81,7 +89,9 @@ class Comparison {
         stage_(settings.context, load_scene(settings.scene, settings.scenes_folder), timing_settings(settings),
                no_progress),
         distances_(distances_of(settings, stage_.scene())),
-        parts_(progress, static_cast<double>(distances_.size()) * (settings.spp + curve_samples + method_weight())) {}
+        parts_(progress, static_cast<double>(distances_.size()) * (settings.spp + curve_samples + method_weight())) {
+    require_pictures(stage_.view(1.0).size, pictures_held(settings.methods.size(), distances_.size()));
+  }
 
   Results run(std::span<const FrameTimes> further_times) {
     std::filesystem::create_directories(folder_ / "images");

@@ -24,7 +24,7 @@ BakedMethod bake_base(const Scene& scene, const EffectSet& effects, const Progre
 
 }  // namespace
 
-glm::ivec2 frame_size(const Scene& scene, const std::optional<glm::ivec2>& wanted, int pictures) {
+glm::ivec2 frame_size(const Scene& scene, const std::optional<glm::ivec2>& wanted) {
   glm::ivec2 size(default_width, default_width);
   if (scene.camera.aspect) size.y = std::max(1, static_cast<int>(std::lround(default_width / *scene.camera.aspect)));
   if (scene.frame_size) size = *scene.frame_size;
@@ -32,12 +32,15 @@ glm::ivec2 frame_size(const Scene& scene, const std::optional<glm::ivec2>& wante
   if (size.x < 1 || size.y < 1) {
     throw Error(ErrorKind::usage, "--size", fmt::format("{}x{} has no pixel", size.x, size.y), "give at least 1x1");
   }
+  return size;
+}
+
+void require_pictures(const glm::ivec2& size, int count) {
   const std::uint64_t one =
       frame_bytes(static_cast<std::uint64_t>(size.x), static_cast<std::uint64_t>(size.y), pixel_bytes);
-  const auto count = static_cast<std::uint64_t>(pictures);
-  const bool fits = one <= std::numeric_limits<std::uint64_t>::max() / count;
-  require_memory(fits ? one * count : one, fmt::format("{} pictures of {}x{}", pictures, size.x, size.y));
-  return size;
+  const auto factor = static_cast<std::uint64_t>(count);
+  const bool fits = one <= std::numeric_limits<std::uint64_t>::max() / factor;
+  require_memory(fits ? one * factor : one, fmt::format("{} pictures of {}x{}", count, size.x, size.y));
 }
 
 StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& scene, const Scene& values,
@@ -56,11 +59,11 @@ Stage::Stage(const gl::ContextRequest& request, Scene scene, const StageSettings
     : context_(request),
       scene_(std::move(scene)),
       settings_(settings),
-      // Picture, reference with its halves and error, finest level likewise, and the reading buffers.
-      size_(frame_size(scene_, settings.size, 16)),
+      size_(frame_size(scene_, settings.size)),
       decisions_(derive_effects(scene_)),
       effects_(settings.all_effects ? EffectSet{}.set() : effects_on(decisions_)),
       gpu_scene_(std::make_unique<GpuScene>(context_.info(), scene_, effects_)) {
+  require_pictures(size_, settings.pictures);
   ProgressParts parts(progress, static_cast<double>(settings.methods.size() + 1));
   for (const MethodSpec& spec : settings.methods) {
     methods_.emplace_back(context_.info(), *gpu_scene_, scene_, effects_, spec, size_, settings,

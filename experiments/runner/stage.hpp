@@ -20,11 +20,15 @@ struct StageSettings {
   int anisotropy = 1;        ///< probes along the major axis, at most
   int tile = 0;              ///< pixels a side drawn at once; 0: as many as fit
   bool all_effects = false;  ///< every effect compiled in, also those that the scene gives nothing to do
+  int pictures = 3;          ///< as large as the frame, that are held at once: the frame, and two while it is written
 };
 
 /// The size of a frame: `wanted`, else scene.toml's, else 512 wide in the aspect of the camera (square without one).
-/// Errors (usage): a side below 1; (machine): more pixels than memory holds, counting `pictures` of them at once.
-[[nodiscard]] glm::ivec2 frame_size(const Scene& scene, const std::optional<glm::ivec2>& wanted, int pictures = 1);
+/// Errors (usage): a side below 1.
+[[nodiscard]] glm::ivec2 frame_size(const Scene& scene, const std::optional<glm::ivec2>& wanted);
+
+/// Errors (machine): so many pictures (RGBA, 32-bit floats) of this size are more than memory holds.
+void require_pictures(const glm::ivec2& size, int count);
 
 /// A method ready to draw frames. Pinned: each part keeps the address of those before it.
 class StagedMethod {

@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 using test::PngColor;
 
 fs::path fresh_folder() {
-  const fs::path folder = fs::path(testing::TempDir()) / "footprint_hostile_image" /
-                          testing::UnitTest::GetInstance()->current_test_info()->name();
+  fs::path folder = fs::path(testing::TempDir()) / "footprint_hostile_image" /
+                    testing::UnitTest::GetInstance()->current_test_info()->name();
   fs::remove_all(folder);
   fs::create_directories(folder);
   return folder;

@@ -26,8 +26,8 @@ using namespace std::string_literals;
 using test::PngColor;
 
 fs::path fresh_folder() {
-  const fs::path folder = fs::path(testing::TempDir()) / "footprint_image_io" /
-                          testing::UnitTest::GetInstance()->current_test_info()->name();
+  fs::path folder = fs::path(testing::TempDir()) / "footprint_image_io" /
+                    testing::UnitTest::GetInstance()->current_test_info()->name();
   fs::remove_all(folder);
   fs::create_directories(folder);
   return folder;
@@ -69,7 +69,7 @@ TEST(ReadImage, PaletteTransparencyBecomesAlpha) {
   const std::string chunks = test::png_chunk("PLTE",
                                              "\xff\0\0"
                                              "\0\xff\0"s) +
-                             test::png_chunk("tRNS", "\x33"s);
+                             test::png_chunk("tRNS", std::string(1, '\x33'));
   const auto file = test::png_file(2, 1, 8, PngColor::palette, "\0\0\1"s, chunks);
   expect_texels(read_image(file, "palette", Transfer::linear), {1, 0, 0, 0.2, 0, 1, 0, 1});
 }
@@ -113,7 +113,7 @@ TEST(ReadImage, SrgbLeavesFloatFilesAlone) {
 
 TEST(ReadImage, JpegToldByItsBytesNotItsName) {
   const fs::path folder = fresh_folder();
-  const std::vector<std::uint8_t> gray(16 * 16 * 3, 100);
+  const std::vector<std::uint8_t> gray(std::size_t{16} * 16 * 3, 100);
   const auto output = OIIO::ImageOutput::create("jpeg");
   ASSERT_TRUE(output->open((folder / "gray.jpg").string(), {16, 16, 3, OIIO::TypeDesc::UINT8}));
   ASSERT_TRUE(output->write_image(OIIO::TypeDesc::UINT8, gray.data()));
@@ -127,7 +127,7 @@ TEST(ReadImage, JpegToldByItsBytesNotItsName) {
 
 TEST(ReadImage, EveryKindThatTheErrorsNameIsRead) {
   const fs::path folder = fresh_folder();
-  const std::vector<float> texels(8 * 8 * 3, 0.25F);
+  const std::vector<float> texels(std::size_t{8} * 8 * 3, 0.25F);
   for (const std::string extension : {"png", "jpg", "exr", "hdr", "tif", "bmp", "webp"}) {
     const fs::path file = folder / ("image." + extension);
     const auto output = OIIO::ImageOutput::create(file.string());

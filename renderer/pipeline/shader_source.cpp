@@ -27,8 +27,8 @@ struct Branch {
 
 class Selector {
  public:
-  Selector(const ShaderFlags& flags, std::string_view file, std::optional<int> source)
-      : flags_(flags), file_(file), source_(source) {
+  Selector(const ShaderFlags& flags, std::string_view file, bool numbered)
+      : flags_(flags), file_(file), numbered_(numbered) {
     mark_line();
   }
 
@@ -50,7 +50,7 @@ class Selector {
 
  private:
   void mark_line() {
-    if (source_) out_ += fmt::format("#line {} {}\n", number_ + 1, *source_);
+    if (numbered_) out_ += fmt::format("#line {}\n", number_ + 1);
   }
 
   void directive(std::string_view words) {
@@ -80,7 +80,7 @@ class Selector {
 
   const ShaderFlags& flags_;
   std::string_view file_;
-  std::optional<int> source_;
+  bool numbered_;
   std::string out_;
   std::vector<Branch> branches_;
   bool keeping_ = true;
@@ -160,9 +160,8 @@ std::string declarations(const EffectSet& effects, const Prefiltered& prefiltere
 
 }  // namespace
 
-std::string select_text(std::string_view text, const ShaderFlags& flags, std::string_view file,
-                        std::optional<int> source) {
-  Selector selector(flags, file, source);
+std::string select_text(std::string_view text, const ShaderFlags& flags, std::string_view file, bool numbered) {
+  Selector selector(flags, file, numbered);
   while (!text.empty()) {
     const std::size_t stop = std::min(text.find('\n'), text.size());
     selector.line(text.substr(0, stop));
@@ -209,7 +208,7 @@ std::string vertex_shader(const ShaderVariant& variant) {
 std::string fragment_shader(const ShaderVariant& variant, std::string_view module, std::string_view module_name,
                             const Options& options, const Prefiltered& prefiltered) {
   const ShaderFlags flags = shader_flags(variant, options);
-  std::string text(version_line);
+  std::string text = fmt::format("{}#line {}\n", version_line, first_shared_line);
   if (variant.max_probes > 1) text += fmt::format("const float max_probes = {}.0;\n", variant.max_probes);
   text += light_capacities(variant) + number_options(options) + declarations(variant.effects, prefiltered);
   text += select_text(embedded::surface_lights_glsl, flags, "surface_lights.glsl") + shared_functions(flags);
@@ -217,8 +216,10 @@ std::string fragment_shader(const ShaderVariant& variant, std::string_view modul
   const std::string forward = select_text(embedded::surface_fragment_glsl, flags, "surface_fragment.glsl");
   constexpr std::string_view split = "//# module\n";
   const std::size_t place = forward.find(split);
-  return text + forward.substr(0, place) + select_text(module, flags, module_name, module_source) +
-         fmt::format("#line 1 {}\n", module_source + 1) + forward.substr(place + split.size());
+  text += forward.substr(0, place);
+  const auto next_line = first_shared_line + std::ranges::count(text, '\n');
+  return text + select_text(module, flags, module_name, true) + fmt::format("#line {}\n", next_line) +
+         forward.substr(place + split.size());
 }
 
 std::string screen_vertex_shader() { return std::string(version_line) + std::string(embedded::screen_vertex_glsl); }

@@ -34,14 +34,15 @@ struct ShaderVariant {
 
 using ShaderFlags = std::set<std::string, std::less<>>;
 
-/// The text without the parts whose flags are off, and without the directives (renderer/shaders/README.md). Where
-/// `source` is given, `#line` directives keep the compiler's line numbers those of `text`, as that source string.
-/// Errors (usage) name `file` and line: a directive that is unknown or not closed.
+/// The text without the parts whose flags are off, and without the directives (renderer/shaders/README.md). `numbered`:
+/// `#line` directives keep the compiler's line numbers those of `text`. Errors (usage) name `file` and line: a
+/// directive that is unknown or not closed.
 [[nodiscard]] std::string select_text(std::string_view text, const ShaderFlags& flags, std::string_view file,
-                                      std::optional<int> source = {});
+                                      bool numbered = false);
 
-/// The source string of a method's module in its fragment shader: compiler messages "1:12" mean its line 12.
-inline constexpr int module_source = 1;
+/// In a fragment shader the lines of the method's module have the numbers of its own file; all others are numbered from
+/// here, out of their way. (Source strings would tell them apart, but Mesa's messages always name string 0.)
+inline constexpr int first_shared_line = 10001;
 
 /// The flags of a variant and of a method's word options.
 [[nodiscard]] ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options);

@@ -29,8 +29,8 @@ TEST(SelectText, NamesFileAndLineOfABadDirective) {
   EXPECT_THROW((void)select_text("//? if x\n", {}, "t"), Error);
 }
 
-TEST(SelectText, KeepsLineNumbersWhereASourceIsGiven) {
-  EXPECT_EQ(select_text("a\n//? if x\nb\n//? end\nc\n", {}, "t", 1), "#line 1 1\na\n#line 3 1\n#line 5 1\nc\n");
+TEST(SelectText, KeepsLineNumbersWhereAsked) {
+  EXPECT_EQ(select_text("a\n//? if x\nb\n//? end\nc\n", {}, "t", true), "#line 1\na\n#line 3\n#line 5\nc\n");
 }
 
 TEST(ShaderFlags, FollowEffectsTermsAndWordOptions) {

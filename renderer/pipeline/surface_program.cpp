@@ -88,7 +88,7 @@ SurfaceProgram::SurfaceProgram(const GpuScene& scene, const BakedMethod& baked, 
     : settings_(settings),
       fragment_text_(fragment_shader(variant_of(scene, baked, settings), baked.method->shader(), baked.spec.name,
                                      baked.options, baked.materials.front())),
-      program_(fmt::format("{} (source {} is {}.glsl)", baked.spec.text, module_source, baked.spec.name),
+      program_(fmt::format("{} (lines below {} are of {}.glsl)", baked.spec.text, first_shared_line, baked.spec.name),
                vertex_shader(variant_of(scene, baked, settings)), fragment_text_) {}
 
 void SurfaceProgram::set_sample(const glm::ivec2& origin, std::uint32_t seed, std::uint32_t pass) const {

@@ -21,7 +21,7 @@ std::vector<std::uint8_t> read_file_bytes(const std::filesystem::path& file, std
   if (!std::filesystem::is_regular_file(status)) throw fail("not a regular file", "name a file");
   const auto size = std::filesystem::file_size(file, error);
   if (error) throw fail("cannot be read: " + error.message(), "check the permissions");
-  if (size == 0) throw fail("the file is empty", "export it again");
+  if (size == 0) throw fail("the file is empty", "give the whole file");
   if (size > largest) {
     throw fail(fmt::format("{} bytes, more than the {} that are read", size, largest), "make the file smaller");
   }

@@ -32,7 +32,12 @@ std::string lower_extension(const fs::path& path) {
 Scene load_settings(const fs::path& file, const std::string& source) {
   const std::string folder = fs::absolute(file).lexically_normal().parent_path().filename().string();
   const std::string stem = file.filename() == settings_name ? folder : file.stem().string();
-  return assemble_scene(read_scene_settings(file), stem, source);
+  const SceneSettings settings = read_scene_settings(file);
+  try {
+    return assemble_scene(settings, stem, source);
+  } catch (const Error& error) {
+    throw error.within(file.string());
+  }
 }
 
 Scene load_bare(const fs::path& file, const std::string& source) {

@@ -234,7 +234,8 @@ void read_view(const TomlTable& root, SceneSettings& settings) {
     settings.camera = read_camera(*camera);
   }
   if (const auto zoom = root.table("zoom", {"distances"})) {
-    if (auto distances = zoom->numbers("distances", 0, {smallest_distance, largest_distance})) settings.distances = std::move(*distances);
+    if (auto distances = zoom->numbers("distances", 0, {smallest_distance, largest_distance}))
+      settings.distances = std::move(*distances);
   }
 }
 

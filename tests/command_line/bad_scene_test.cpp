@@ -29,9 +29,11 @@ std::vector<Case> scenes() {
       row("WrongType", {"scene.toml:2: ", "`size` in [plane]"}, "[plane]\nsize = \"big\"\n"),
       row("HostileSize", {"scene.toml:3: ", "`size` in [frame]"}, "[plane]\n[frame]\nsize = [1000000, 1000000]\n"),
       row("NotToml", {"scene.toml:2: ", "not valid TOML"}, "[plane]\n[brdf\n"),
-      row("NothingToShow", {"scene.toml:1: ", "`model` or `plane`"}, ""),
-      row("MissingModel", {"scene.toml:2: ", "missing.gltf"}, "[model]\nfile = \"missing.gltf\"\n"),
-      row("MissingMap", {"scene.toml", "missing.png"}, "[plane]\nnormal_map = \"missing.png\"\n"),
+      row("EmptyScene", {"scene.toml: ", "empty"}, ""),
+      row("NothingToShow", {"scene.toml:1: ", "`model` or `plane`"}, "# nothing\n"),
+      row("MissingModel", {"scene.toml, ", "missing.gltf: no such file"}, "[model]\nfile = \"missing.gltf\"\n"),
+      row("MissingMap", {"scene.toml, ", "missing.png: there is no such file"},
+          "[plane]\nnormal_map = \"missing.png\"\n"),
   };
 }
 

@@ -40,11 +40,11 @@ std::vector<Case> models() {
   const std::vector<float> one_place(12, 0.5F);
   return {
       with_attribute("NormalsOfLengthZero", "NORMAL", std::vector<float>(12, 0.0F),
-                     {"`quad`", "4 normals without a direction"}),
+                     {"mesh 0", "4 normals without a direction"}),
       with_attribute("NormalsThatAreNoNumbers", "NORMAL", std::vector<float>(12, nan),
-                     {"`quad`", "4 normals without a direction"}),
+                     {"mesh 0", "4 normals without a direction"}),
       with_attribute("CoordinatesThatAreNoNumbers", "TEXCOORD_0", std::vector<float>(8, nan),
-                     {"`quad`", "4 texture coordinates"}),
+                     {"mesh 0", "4 texture coordinates"}),
       with_attribute("CoordinatesAllTheSame", "TEXCOORD_0", std::vector<float>(8, 0.5F)),
       with_attribute("CoordinatesOnALine", "TEXCOORD_0", {0, 0, 1, 0, 2, 0, 3, 0}),
       with_attribute("TrianglesInOnePlace", "POSITION", one_place),

@@ -8,7 +8,7 @@ from whole_runs import SOURCE, WholeRunTest, largest_difference, picture_facts, 
 # A flat, matt plane: no texture to alias, so that tiles must agree to the last digits.
 FLAT = """
 [plane]
-size = [200.0, 1.0]
+size = [4000.0, 2.0]
 [[light]]
 type = "directional"
 direction = [-0.4, -0.3, -1.0]
@@ -51,10 +51,16 @@ class Pictures(WholeRunTest):
 
     def test_tiles_leave_no_trace(self):
         settings = ["ribbed_plane", "--size", "150x100"]
-        for method in (["toksvig"], ["reference", "--spp", "5", "--seed", "3"]):
-            whole = self.render(f"{method[0]}_whole", *settings, "--method", *method)
-            tiles = self.render(f"{method[0]}_tiles", *settings, "--method", *method, "--tile", "64")
-            self.assert_alike(whole, tiles, 1e-3)
+        whole = self.render("whole", *settings, "--method", "toksvig")
+        tiles = self.render("tiles", *settings, "--method", "toksvig", "--tile", "64")
+        self.assert_alike(whole, tiles, 1e-3)
+
+    def test_tiles_leave_the_reference_its_samples(self):
+        settings = ["ribbed_plane", "--size", "150x100", "--method", "reference", "--spp", "5", "--seed", "3"]
+        whole = self.render("reference_whole", *settings)
+        tiles = self.render("reference_tiles", *settings, "--tile", "64")
+        # Rounding may take a sample across the edge of its texel; other samples would change every pixel by far more.
+        self.assert_alike(whole, tiles, 1e-3, percent_beyond=0.1)
 
     def test_probes_matter_at_a_flat_angle(self):
         oblique = self.scene("oblique", OBLIQUE.format(maps=SOURCE / "scenes" / "ribbed_plane"))

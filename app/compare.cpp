@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "app/arguments.hpp"
 #include "app/commands.hpp"
@@ -14,6 +15,7 @@
 #include "app/standard_output.hpp"
 #include "app/timing_process.hpp"
 #include "experiments/runner/compare.hpp"
+#include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
 #include "renderer/core/interrupt.hpp"
 #include "results/report/report.hpp"
@@ -99,6 +101,14 @@ CompareSettings settings_from(const Arguments& arguments) {
   return settings;
 }
 
+// An error of a file that is still out of sight, with the place that the file was meant for.
+Error at_final_place(const Error& error, const OutputFolder& folder) {
+  std::string place = error.place();
+  const std::string hidden = folder.path().string();
+  if (place.starts_with(hidden)) place.replace(0, hidden.size(), folder.final_path().string());
+  return {error.kind(), std::move(place), error.message(), error.mend()};
+}
+
 // Everything is written out of sight and moved to its place at the end.
 Results compare_into(OutputFolder& folder, const CompareSettings& settings, int processes, const Progress& progress) {
   constexpr double weight = 10;  // of the main process's work, where a further process's is 1
@@ -120,7 +130,12 @@ void run_compare_command(const Arguments& arguments) {
     return write_frame_times(arguments.timing_file, time_frames(settings, display.callback()));
   }
   OutputFolder folder(arguments.output);
-  const Results results = compare_into(folder, settings, arguments.processes, display.callback());
+  Results results;
+  try {
+    results = compare_into(folder, settings, arguments.processes, display.callback());
+  } catch (const Error& error) {
+    throw at_final_place(error, folder);
+  }
   display.finish();
   write_output(fmt::format("{}\npage: {}\n", results_table(results), (folder.final_path() / "index.html").string()));
 }

@@ -16,7 +16,8 @@ namespace footprint {
 namespace {
 
 constexpr int default_width = 512;
-constexpr std::uint64_t pixel_bytes = 16;  // RGBA, 32-bit floats
+constexpr float highest_default = 1 << 20;  // of a camera narrower than a hair
+constexpr std::uint64_t pixel_bytes = 16;   // RGBA, 32-bit floats
 
 BakedMethod bake_base(const Scene& scene, const EffectSet& effects, const Progress& progress) {
   return bake(base_surface(), {.text = "reference", .name = "reference", .options = {}}, scene, effects, progress);
@@ -26,7 +27,9 @@ BakedMethod bake_base(const Scene& scene, const EffectSet& effects, const Progre
 
 glm::ivec2 frame_size(const Scene& scene, const std::optional<glm::ivec2>& wanted) {
   glm::ivec2 size(default_width, default_width);
-  if (scene.camera.aspect) size.y = std::max(1, static_cast<int>(std::lround(default_width / *scene.camera.aspect)));
+  if (scene.camera.aspect) {
+    size.y = static_cast<int>(std::clamp(default_width / *scene.camera.aspect, 1.0F, highest_default) + 0.5F);
+  }
   if (scene.frame_size) size = *scene.frame_size;
   if (wanted) size = *wanted;
   if (size.x < 1 || size.y < 1) {
@@ -36,11 +39,9 @@ glm::ivec2 frame_size(const Scene& scene, const std::optional<glm::ivec2>& wante
 }
 
 void require_pictures(const glm::ivec2& size, int count) {
-  const std::uint64_t one =
-      frame_bytes(static_cast<std::uint64_t>(size.x), static_cast<std::uint64_t>(size.y), pixel_bytes);
-  const auto factor = static_cast<std::uint64_t>(count);
-  const bool fits = one <= std::numeric_limits<std::uint64_t>::max() / factor;
-  require_memory(fits ? one * factor : one, fmt::format("{} pictures of {}x{}", count, size.x, size.y));
+  const std::uint64_t bytes = frame_bytes(static_cast<std::uint64_t>(size.x), static_cast<std::uint64_t>(size.y),
+                                          pixel_bytes * static_cast<std::uint64_t>(count));
+  require_memory(bytes, fmt::format("{} pictures of {}x{}", count, size.x, size.y));
 }
 
 StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& scene, const Scene& values,

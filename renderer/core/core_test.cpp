@@ -227,6 +227,18 @@ TEST(Interrupt, IsAnErrorAtTheNextSafePoint) {
   EXPECT_NO_THROW(throw_if_interrupted());
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
+  std::signal(SIGHUP, SIG_DFL);
+}
+
+TEST(Interrupt, AClosedTerminalCountsUnlessItIsIgnored) {
+  watch_interrupts();
+  std::raise(SIGHUP);
+  EXPECT_THROW(throw_if_interrupted(), Error);
+  std::signal(SIGHUP, SIG_IGN);
+  watch_interrupts();
+  std::raise(SIGHUP);
+  EXPECT_NO_THROW(throw_if_interrupted());
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
 }
 
 }  // namespace

@@ -160,6 +160,7 @@ OutputFolder::OutputFolder(const fs::path& final_path) {
   std::error_code ignored;
   const fs::file_status status = fs::status(final_, ignored);
   if (fs::exists(status) && !fs::is_directory(status)) refuse("is not a folder");
+  if (!fs::exists(status) && fs::is_symlink(fs::symlink_status(final_, ignored))) refuse("is a link to nothing");
   const fs::path home = fs::exists(status) ? final_ : final_.parent_path();
   try {
     create_folders(home, created_parents_);

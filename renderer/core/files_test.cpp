@@ -232,9 +232,11 @@ TEST(OutputFolder, APathThatIsNoFolder) {
   const fs::path folder = fresh_folder();
   std::ofstream(folder / "file") << "x";
   expect_error(error_of([&] { OutputFolder(folder / "file"); }), ErrorKind::usage, folder / "file", "not a folder");
+  fs::create_symlink(folder / "nowhere", folder / "link");
+  expect_error(error_of([&] { OutputFolder(folder / "link"); }), ErrorKind::usage, folder / "link", "link to nothing");
   expect_error(error_of([] { OutputFolder{fs::path()}; }), ErrorKind::usage, "", "no name");
   expect_error(error_of([] { OutputFolder("/"); }), ErrorKind::usage, "/", "no output folder");
-  EXPECT_EQ(names_in(folder), Names{"file"});
+  EXPECT_EQ(names_in(folder), (Names{"file", "link"}));
 }
 
 TEST(OutputFolder, AParentThatCannotBeCreated) {

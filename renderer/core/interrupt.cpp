@@ -23,6 +23,7 @@ void watch_interrupts() {
   received.store(0);
   std::signal(SIGINT, remember);
   std::signal(SIGTERM, remember);
+  if (std::signal(SIGHUP, remember) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup: the terminal may close
 }
 
 void throw_if_interrupted() {

@@ -3,7 +3,8 @@
 
 namespace footprint {
 
-/// Installs handlers for SIGINT and SIGTERM that only set a flag; a second SIGINT ends the process at once.
+/// Installs handlers for SIGINT, SIGTERM and SIGHUP (where it is not ignored) that only set a flag; a second such
+/// signal ends the process at once.
 void watch_interrupts();
 
 /// Throws Error{interrupted} if the user asked to stop since `watch_interrupts`. Cheap: call it in every long loop.

@@ -48,7 +48,7 @@ Camera convert_perspective(const tinygltf::PerspectiveCamera& source, const std:
   require(source.zfar == 0.0 || (source.zfar > source.znear && source.zfar < largest), place,
           "zfar must be beyond znear");
   require(source.aspectRatio == 0.0 || (source.aspectRatio > 1e-4 && source.aspectRatio < 1e4), place,
-          "aspectRatio must be above 0");
+          "aspectRatio must be within 1e-4 to 1e4");
   Camera camera;
   camera.yfov = static_cast<float>(source.yfov);
   camera.znear = static_cast<float>(source.znear);

@@ -42,7 +42,7 @@ float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
   return 0.5 * nl / max(masked, 1e-12);
 }
 //? else
-// Smith's Lambda for Beckmann slopes (Walter 2007, equation 18, as a rational function); Blinn-Phong and vMF lobes take
+// Smith's Lambda for Beckmann slopes (Walter 2007, section 5.2, as a rational function); Blinn-Phong and vMF lobes take
 // the alpha of the same width (Walter 2007, section 5.2).
 float smithLambda(float alpha, float c) {
   float tangent = sqrt(max(1.0 - c * c, 0.0)) / c;

@@ -28,7 +28,7 @@ BakedMethod bake_base(const Scene& scene, const EffectSet& effects, const Progre
 glm::ivec2 frame_size(const Scene& scene, const std::optional<glm::ivec2>& wanted) {
   glm::ivec2 size(default_width, default_width);
   if (scene.camera.aspect) {
-    size.y = static_cast<int>(std::clamp(default_width / *scene.camera.aspect, 1.0F, highest_default) + 0.5F);
+    size.y = static_cast<int>(std::lround(std::clamp(default_width / *scene.camera.aspect, 1.0F, highest_default)));
   }
   if (scene.frame_size) size = *scene.frame_size;
   if (wanted) size = *wanted;

@@ -80,7 +80,7 @@ std::vector<Case> buffers() {
       {.name = "GlbOfGarbage",
        .arguments = {"{}/quad.glb"},
        .exit_code = 2,
-       .errors_have = {"quad.glb", "does not begin with `glTF`"},
+       .errors_have = {"quad.glb", "neither JSON text nor a GLB container"},
        .files = {{"quad.glb", garbage("")}}},
       {.name = "GlbOfGarbageAfterItsMagic",
        .arguments = {"{}/quad.glb"},

@@ -17,7 +17,7 @@ struct Bump {
 /// The largest slope of (1 - t^2)^3 over t, at t = 1 / sqrt(5).
 const double steepest = 6.0 / std::sqrt(5.0) * (16.0 / 25.0);
 
-/// One bump a cell of a count x count grid, row by row. Lengths are in cells; a bump reaches 1.15 cells from its
+/// One bump a cell of a count x count grid, row by row. Lengths are in cells; a bump reaches 0.95 cells from its
 /// centre, which lies within 0.35 of its cell's: no point is reached from further than the next cell.
 std::vector<Bump> scatter(int count, double steepness, std::uint32_t seed) {
   std::mt19937_64 random(seed);
@@ -28,7 +28,7 @@ std::vector<Bump> scatter(int count, double steepness, std::uint32_t seed) {
     const double x = uniform(random), y = uniform(random), width = uniform(random), slope = uniform(random);
     Bump& bump = bumps[i];
     bump.centre = cell + 0.5 + 0.7 * (glm::dvec2{x, y} - 0.5);
-    bump.radius = 0.75 + 0.4 * width;
+    bump.radius = 0.6 + 0.35 * width;
     bump.height = steepness * (0.5 + 0.5 * slope) * bump.radius / steepest;
   }
   return bumps;
@@ -70,7 +70,7 @@ Surface bumps_surface() {
                           .meaning = "bumps along a side",
                           .integer = true},
                          {.name = "steepness",
-                          .default_value = 0.8,
+                          .default_value = 0.7,
                           .minimum = 0,
                           .maximum = 10,
                           .meaning = "steepest slope of the highest bump on its own, rise over run"}},

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "renderer/image/mipmap.hpp"
 #include "renderer/pipeline/base_surface.hpp"
@@ -33,6 +34,19 @@ std::vector<Image> mean_normal_chain(const Material& material) {
   renormalise(normals);
   std::vector<Image> chain;
   for (const Image& level : weighted_mip_chain(std::move(normals))) chain.push_back(without_weight(level));
+  return chain;
+}
+
+std::vector<Image> lobe_deviation_chain(const Material& material) {
+  const NormalDistribution distribution = material.brdf.distribution;
+  Image variance = roughness_map_of(material);
+  std::ranges::transform(variance.texels, variance.texels.begin(), [&](float roughness) {
+    return lobe_variance(distribution, lobe_from_alpha(distribution, roughness * roughness));
+  });
+  std::vector<Image> chain = mip_chain(std::move(variance));
+  for (Image& level : chain) {
+    std::ranges::transform(level.texels, level.texels.begin(), [](float v) { return std::sqrt(std::min(v, 1.0F)); });
+  }
   return chain;
 }
 

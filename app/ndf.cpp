@@ -44,6 +44,7 @@ struct Arguments {
   int size = 256;
   BackendArguments backend;
   std::string output;
+  bool no_cache = false;
   bool quiet = false;
 };
 
@@ -84,6 +85,7 @@ void run_ndf(const Arguments& arguments) {
   settings.anisotropy = arguments.anisotropy;
   settings.resolution = arguments.resolution;
   settings.picture = arguments.size;
+  settings.cache = cache_folder(arguments.no_cache);
   settings.context = context_request(arguments.backend);
   if (!arguments.footprint.empty()) (void)parse_rectangle("--footprint", arguments.footprint);
   if (!arguments.texels.empty()) (void)parse_rectangle("--texels", arguments.texels);
@@ -138,6 +140,7 @@ void add_ndf_command(CLI::App& app) {
   command->add_option("--size", arguments->size, "Side of the pictures, pixels")
       ->check(CLI::Range(16, 4096))
       ->capture_default_str();
+  add_cache_flag(*command, arguments->no_cache);
   add_backend_options(*command, arguments->backend);
   command->add_option("-o,--output", arguments->output, "Folder for ndf.json, ndf.png, images/")->required();
   add_quiet_flag(*command, arguments->quiet);

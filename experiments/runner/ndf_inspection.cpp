@@ -97,16 +97,18 @@ class Bench {
         scene_(scene_of_facets(material)),
         context_(settings.context),
         effects_(effects_on(derive_effects(scene_))),
-        gpu_scene_(context_.info(), scene_, effects_) {}
+        gpu_scene_(context_.info(), scene_, effects_) {
+    if (settings.cache) cache_.emplace(*settings.cache);
+  }
 
   // Adds the figures of a method to `results` and gives its picture.
   NdfPicture inspect(const MethodSpec& spec, const Grid& grid, NdfResults& results, const Progress& progress) {
     const Method& method = find_method(spec.name);
-    const BakedMethod baked = bake(method, spec, scene_, effects_, progress);
+    const BakedMethod baked = bake(method, spec, scene_, effects_, progress, cache_ ? &*cache_ : nullptr);
     const MethodNdf ndf(context_.info(), gpu_scene_, baked, scene_.materials.front(), settings_.anisotropy);
     const std::vector<float> densities = ndf.densities(settings_.footprint, grid.hemisphere.directions);
     const NdfFigures figures = compare_ndfs(grid.hemisphere, densities, grid.truth);
-    NdfRecord record{spec.text, {}, figures.l2, figures.energy, figures.peak, 1, {}};
+    NdfRecord record{spec.text, {}, figures.l2, figures.energy, figures.peak, method.lobe_count(baked.options), {}};
     for (const auto& [name, value] : baked.options.all()) record.options[name] = value;
     results.records.push_back(std::move(record));
     NdfPicture picture{file_stem(spec.text), fmt::format("{}  L2 {:.3g}", spec.text, figures.l2),
@@ -121,6 +123,7 @@ class Bench {
   gl::Context context_;
   EffectSet effects_;
   GpuScene gpu_scene_;
+  std::optional<BakeCache> cache_;
 };
 
 }  // namespace

@@ -39,6 +39,7 @@ struct NdfSettings {
   int resolution = 0;               ///< cells across the disc of directions; 0: from the narrowest lobe
   int picture = 256;                ///< side of the pictures, pixels
   gl::ContextRequest context;
+  std::optional<std::filesystem::path> cache;  ///< folder where slow precomputes are kept; none: they are not
 };
 
 /// Takes the figures, and writes ndf.png and images/ below `folder`. Errors (usage): an empty footprint, no normal

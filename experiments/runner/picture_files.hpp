@@ -12,6 +12,9 @@ namespace footprint {
 /// A file name part from any text: letters, digits, '-', '.' and '_' stay, all else becomes '_'.
 [[nodiscard]] std::string file_stem(const std::string& text);
 
+/// Two pictures of equally many channels, the first on top, both from the left edge on.
+[[nodiscard]] Image stacked(const Image& top, const Image& bottom);
+
 /// Writes FOLDER/images/STEM.exr (linear radiance, coverage in alpha) and STEM.png beside it (exposed, sRGB); returns
 /// "images/STEM.exr".
 std::string write_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,

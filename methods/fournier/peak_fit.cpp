@@ -26,9 +26,9 @@ constexpr int parameters_per_peak = 4;      // root of the weight, deviation, tw
 constexpr double smallest_variance = 5e-7;  // the narrowest lobe of the shaders
 constexpr double largest_variance = 100.0;  // wider ones differ from the uniform one by 1%
 constexpr double ridge = 1e-10;             // relative; keeps G's factor where peaks coincide or have no weight
-constexpr double noise = 1e-12;             // of Q over the target's norm: the sums' rounding
+constexpr double negligible = 1e-6;         // of Q over the target's norm: an error of a thousandth is none
 constexpr double least_deviation = 0.05;    // of the base lobe's: at 0 the derivative is 0 and a peak could not widen
-constexpr double tolerance = 1e-5;          // relative change of Q, or of the parameters, at which a fit has converged
+constexpr double tolerance = 1e-3;          // relative change of Q, or of the parameters, at which a fit has converged
 constexpr int most_evaluations = 100;
 
 double bounded(double variance) { return std::clamp(variance, smallest_variance, largest_variance); }
@@ -223,7 +223,8 @@ class Residual : public Eigen::DenseFunctor<double> {
     jacobian_.topRows(n) = factor.matrixU() * Matrix(scale.asDiagonal());
     residual.resize(n + 1);
     residual.head(n) = factor.matrixL().solve(at.gradient.cwiseQuotient(scale));
-    residual[n] = std::sqrt(std::max(at.q - residual.head(n).squaredNorm(), 0.0) + noise * objective_->target_norm());
+    residual[n] =
+        std::sqrt(std::max(at.q - residual.head(n).squaredNorm(), 0.0) + negligible * objective_->target_norm());
     x_ = x;
     return 0;
   }

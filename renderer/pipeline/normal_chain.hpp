@@ -1,4 +1,4 @@
-// What several methods bake: the mean normal and the base lobe's width of every footprint, and the storage option.
+// What several methods bake: the mean normal of every footprint, the base lobe's width, and how they are stored.
 #pragma once
 
 #include <vector>
@@ -13,9 +13,11 @@ namespace footprint {
 /// length tells their spread. Normals enter renormalised in 32 bits; invalid ones (weight 0) do not enter.
 [[nodiscard]] std::vector<Image> mean_normal_chain(const Material& material);
 
-/// The mip chain of a material's base lobe: 1 channel, the root of the footprint's mean slope variance per axis
-/// (`lobe_variance`), at most 1. Variances of independent spreads add, so the mean is taken of them; the root is what
-/// half floats and bytes keep well, where a mirror's variance of 1e-6 would not survive.
+/// Slope variance per axis of the base lobe at every texel of the roughness map (1 x 1 where it has none), one channel.
+[[nodiscard]] Image lobe_variance_map(const Material& material);
+
+/// The mip chain of lobe_variance_map, which is what adds up when spreads are independent, stored as its root, at most
+/// 1: half floats and bytes keep the root well, where a mirror's variance of 1e-6 would not survive.
 [[nodiscard]] std::vector<Image> lobe_deviation_chain(const Material& material);
 
 /// `storage=fp32|fp16|unorm8`.

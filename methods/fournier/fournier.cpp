@@ -1,5 +1,7 @@
 // `fournier`: a few Phong peaks a texel at every mip level, fitted to the distribution of normals; all peaks of the
 // footprint's texels are summed. Fournier 1992, "Normal distribution functions and multiple surfaces".
+#include <fmt/format.h>
+
 #include <span>
 
 #include "methods/fournier/peak_chain.hpp"
@@ -28,6 +30,13 @@ OptionSpec peak_storage_option() {
   option.choices = {"fp32", "fp16"};
   option.meaning = "How the baked textures are stored: 32-bit floats or 16-bit floats.";
   return option;
+}
+
+std::string note_on(const fournier::FitStatistics& statistics) {
+  return fmt::format(
+      "{} of {} fits of peaks stopped before they converged; the mean error of all is {:.2g} of the distribution's "
+      "norm",
+      statistics.not_converged, statistics.fits, statistics.mean_error);
 }
 
 class Fournier final : public Method {
@@ -63,6 +72,7 @@ class Fournier final : public Method {
                         Prefiltered& out) {
     const fournier::PeakChain chain =
         fournier::fit_peak_chain(normal_map_of(material), base_variance(material), count, progress);
+    if (chain.statistics.not_converged > 0) out.notes.push_back(note_on(chain.statistics));
     const TextureCoordinates coordinates = normal_coordinates(material);
     out.textures.push_back(
         make_array_texture("fournier_first", std::span(&chain.first, 1), storage, coordinates, TextureFilter::nearest));

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -56,14 +57,23 @@ std::vector<double> distances_of(const CompareSettings& settings, const Scene& s
   return settings.distances.empty() ? scene.distances : settings.distances;
 }
 
+// Another reference, of another count of samples.
+struct OtherTruth {
+  int spp = 1;
+  Image mean;
+  std::optional<double> noise_floor;
+};
+
 // What is known of one distance besides the methods.
 struct Truth {
+  std::size_t frame = 0;
   double distance = 1;
   View view;
   Supersampled reference;
   std::optional<double> noise_floor;
   std::string reference_file;
   std::vector<SupersamplingPoint> curve;
+  std::vector<OtherTruth> others;
 };
 
 // A record whose error picture waits for the scale that all of them share.
@@ -81,25 +91,34 @@ std::optional<double> normalized_color(const Image& picture, const Image& refere
   return figures ? std::optional(figures->normalized_color) : std::nullopt;
 }
 
+// The error that the reference's own noise causes: A - B has twice the deviation of the reference's own error.
+std::optional<double> noise_floor_of(const Supersampled& reference, float exposure) {
+  if (!reference.halves) return std::nullopt;
+  const auto difference = normalized_color(reference.halves->first, reference.halves->second, exposure);
+  return difference ? std::optional(*difference / 2.0) : std::nullopt;
+}
+
 class Comparison {
  public:
   Comparison(const CompareSettings& settings, std::filesystem::path folder, const Progress& progress)
       : settings_(settings),
         folder_(std::move(folder)),
-        stage_(settings.context, load_scene(settings.scene, settings.scenes_folder), timing_settings(settings),
-               no_progress),
+        stage_(settings.context, load_scene(settings.scene, settings.scenes_folder, settings.camera),
+               timing_settings(settings), no_progress),
         distances_(distances_of(settings, stage_.scene())),
-        parts_(progress, static_cast<double>(distances_.size()) * (settings.spp + curve_samples + method_weight())) {
+        parts_(progress, static_cast<double>(distances_.size()) *
+                             (settings.spp + other_samples() + curve_samples + method_weight())) {
     require_pictures(stage_.view(1.0).size, pictures_held(settings.methods.size(), distances_.size()));
   }
 
   Results run(std::span<const FrameTimes> further_times) {
     std::filesystem::create_directories(folder_ / "images");
     for (std::size_t i = 0; i < distances_.size(); ++i) {
-      const Truth truth = find_truth(distances_[i]);
+      Truth truth = find_truth(i);
       results_.supersampling.insert(results_.supersampling.end(), truth.curve.begin(), truth.curve.end());
       for (std::size_t m = 0; m < settings_.methods.size(); ++m) drafts_.push_back(compare_method(truth, m));
       set_times(i, further_times);
+      before_ = std::move(truth.reference.halves);
     }
     finish_error_pictures();
     describe();
@@ -113,6 +132,10 @@ class Comparison {
   }
 
  private:
+  [[nodiscard]] double other_samples() const {
+    return std::accumulate(settings_.other_spp.begin(), settings_.other_spp.end(), 0.0);
+  }
+
   [[nodiscard]] double method_weight() const {
     return static_cast<double>(settings_.methods.size()) * (settings_.spp + settings_.repeats);
   }
@@ -132,29 +155,32 @@ class Comparison {
                                                                                      : stem;
   }
 
-  Truth find_truth(double distance) {
+  Truth find_truth(std::size_t frame) {
+    const double distance = distances_[frame];
     const std::string prefix = fmt::format("distance {:g}: ", distance);
-    Truth truth{.distance = distance,
+    Truth truth{.frame = frame,
+                .distance = distance,
                 .view = stage_.view(distance),
                 .reference = {},
                 .noise_floor = {},
                 .reference_file = {},
-                .curve = {}};
+                .curve = {},
+                .others = {}};
     truth.reference = stage_.reference().render(truth.view, settings_.spp, settings_.seed,
                                                 parts_.next(settings_.spp, prefix + "reference, "));
     set_exposure(truth.reference.mean);
-    if (truth.reference.halves) {
-      const auto difference =
-          normalized_color(truth.reference.halves->first, truth.reference.halves->second, exposure_);
-      if (difference)
-        truth.noise_floor = *difference / 2.0;  // A - B has twice the deviation of the reference's own error
-    }
+    truth.noise_floor = noise_floor_of(truth.reference, exposure_);
     if (results_.records.empty() && drafts_.empty())
       results_.reference.standard_error = relative_standard_error(truth.reference);
     references_.push_back(
         {.caption = fmt::format("reference, {} spp", settings_.spp), .picture = truth.reference.mean, .error = {}});
     truth.reference_file = write_picture(folder_, stem_of(distance, "reference"), truth.reference.mean, exposure_);
     truth.curve = supersampling_curve(truth, prefix);
+    for (const int spp : settings_.other_spp) {
+      const Supersampled other =
+          stage_.reference().render(truth.view, spp, settings_.seed, parts_.next(spp, prefix + "other reference, "));
+      truth.others.push_back({.spp = spp, .mean = other.mean, .noise_floor = noise_floor_of(other, exposure_)});
+    }
     return truth;
   }
 
@@ -205,6 +231,7 @@ class Comparison {
     } catch (const Error& error) {
       throw error.within("method " + settings_.methods[index].text);
     }
+    set_flicker(draft.record, truth, picture, index);
     draft.record.images.color = write_picture(folder_, draft.stem, picture, exposure_);
     draft.record.images.reference = truth.reference_file;
     Image error = error_map(picture, truth.reference.mean, exposure_);
@@ -221,6 +248,7 @@ class Comparison {
     record.method = baked.spec.text;
     record.options = {baked.options.all().begin(), baked.options.all().end()};
     record.distance = truth.distance;
+    record.frame = static_cast<int>(truth.frame);
     record.width = truth.view.size.x;
     record.height = truth.view.size.y;
     record.precompute_seconds = baked.seconds;
@@ -251,6 +279,26 @@ class Comparison {
         equivalent_samples(footprint::supersampling_curve(truth.curve, truth.distance), figures->normalized_color);
     record.equivalent_spp = worth.spp;
     record.equivalent_bound = worth.bound;
+    for (const OtherTruth& other : truth.others) {
+      if (const auto error = normalized_color(picture, other.mean, exposure_)) {
+        record.other_references.push_back(
+            {.spp = other.spp, .normalized_color = *error, .noise_floor = other.noise_floor});
+      }
+    }
+  }
+
+  // Against the frame before: its reference is the last but one, its picture that of the same method one round earlier.
+  void set_flicker(Record& record, const Truth& truth, const Image& picture, std::size_t index) const {
+    if (!settings_.consecutive || truth.frame == 0) return;
+    const Image& before = drafts_[(truth.frame - 1) * settings_.methods.size() + index].exhibit.picture;
+    const auto figures =
+        compare_changes(before, picture, references_[truth.frame - 1].picture, truth.reference.mean, exposure_);
+    if (!figures) return;
+    record.flicker = Flicker{.mean = figures->mean, .p99 = figures->p99, .noise_floor = {}};
+    if (!before_ || !truth.reference.halves) return;
+    const auto noise = compare_changes(before_->first, truth.reference.halves->first, before_->second,
+                                       truth.reference.halves->second, exposure_);
+    if (noise) record.flicker->noise_floor = noise->mean / 2.0;  // as that of the error
   }
 
   std::vector<std::vector<double>> time_distance(double distance) {
@@ -348,7 +396,8 @@ class Comparison {
   ProgressParts parts_;
   float exposure_ = 0.0F;  // above 0 once it is known
   std::vector<Draft> drafts_;
-  std::vector<Exhibit> references_;  // one a distance, for the strips
+  std::vector<Exhibit> references_;                // one a distance, for the strips
+  std::optional<std::pair<Image, Image>> before_;  // the two halves of the reference of the frame before
   Results results_;
 };
 

@@ -1,6 +1,7 @@
 // Results to JSON; parse_results.cpp is the way back.
 #include <cmath>
 
+#include "results/report/experiment_json.hpp"
 #include "results/report/report.hpp"
 #include "results/report/results_document.hpp"
 
@@ -33,6 +34,22 @@ Json error_json(const std::optional<RecordError>& error) {
           {"filtering", number(error->filtering)}};
 }
 
+Json other_references_json(const Record& record) {
+  Json others = Json::array();
+  for (const OtherReference& other : record.other_references) {
+    others.push_back({{"spp", other.spp},
+                      {"normalized_color", number(other.normalized_color)},
+                      {"noise_floor", number(other.noise_floor)}});
+  }
+  return others;
+}
+
+Json flicker_json(const std::optional<Flicker>& flicker) {
+  if (!flicker) return nullptr;
+  return {
+      {"mean", number(flicker->mean)}, {"p99", number(flicker->p99)}, {"noise_floor", number(flicker->noise_floor)}};
+}
+
 Json time_json(const Record& record) {
   return {{"frame_ms",
            {{"median", number(record.frame_ms.median)},
@@ -56,6 +73,8 @@ Json record_json(const Record& record) {
           {"error", error_json(record.error)},
           {"equivalent_spp", number(record.equivalent_spp)},
           {"equivalent_bound", record.equivalent_bound},
+          {"other_references", other_references_json(record)},
+          {"flicker", flicker_json(record.flicker)},
           {"time", time_json(record)},
           {"precompute",
            {{"seconds", number(record.precompute_seconds)},
@@ -105,6 +124,7 @@ nlohmann::ordered_json results_document(const Results& results) {
             {"filter", results.reference.filter},
             {"seed", results.reference.seed},
             {"standard_error", number(results.reference.standard_error)}}},
+          {"experiment", results.experiment ? experiment_json(*results.experiment) : Json(nullptr)},
           {"error_scale", number(results.error_scale)},
           {"supersampling", std::move(supersampling)},
           {"records", std::move(records)}};

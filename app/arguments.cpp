@@ -8,6 +8,7 @@
 #include "app/options.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
+#include "renderer/pipeline/bake_cache.hpp"
 
 namespace footprint {
 namespace {
@@ -54,6 +55,16 @@ void add_anisotropy_option(CLI::App& command, int& probes) {
   command.add_option("--anisotropy", probes, "Probes along the footprint's major axis; 1: isotropic")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
+}
+
+void add_cache_flag(CLI::App& command, bool& no_cache) {
+  command.add_flag(
+      "--no-cache", no_cache,
+      "Bake anew: neither read nor keep slow precomputes (kept in $FOOTPRINT_CACHE, or ~/.cache/footprint)");
+}
+
+std::optional<std::filesystem::path> cache_folder(bool no_cache) {
+  return no_cache ? std::nullopt : default_cache_folder();
 }
 
 void add_quiet_flag(CLI::App& command, bool& quiet) {

@@ -44,6 +44,12 @@ void add_size_option(CLI::App& command, std::string& text);
 /// Adds --anisotropy.
 void add_anisotropy_option(CLI::App& command, int& probes);
 
+/// Adds --no-cache.
+void add_cache_flag(CLI::App& command, bool& no_cache);
+
+/// Where slow precomputes are kept between runs; none with --no-cache, or where no folder for caches is known.
+[[nodiscard]] std::optional<std::filesystem::path> cache_folder(bool no_cache);
+
 /// Adds --quiet.
 void add_quiet_flag(CLI::App& command, bool& quiet);
 

@@ -47,6 +47,7 @@ struct Arguments {
   BackendArguments backend;
   std::string output = "out";
   std::string timing_file;  // not empty: this is a process that only takes times
+  bool no_cache = false;
   bool quiet = false;
 };
 
@@ -75,6 +76,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
                   "Folder for results.json, results.csv, table.md, index.html, images/")
       ->capture_default_str();
   command.add_option(timing_file_option, arguments.timing_file)->group("");  // no part of the help
+  add_cache_flag(command, arguments.no_cache);
   add_quiet_flag(command, arguments.quiet);
 }
 
@@ -98,6 +100,7 @@ CompareSettings settings_from(const Arguments& arguments) {
   settings.repeats = arguments.repeats;
   settings.anisotropy = arguments.anisotropy;
   settings.tile = arguments.backend.tile;
+  settings.cache = cache_folder(arguments.no_cache);
   settings.context = context_request(arguments.backend);
   return settings;
 }

@@ -36,6 +36,7 @@ struct Arguments {
   std::string method = "direct";
   bool cost = false;
   bool json = false;
+  bool no_cache = false;
   bool quiet = false;
   std::string size;
   int repeats = 15;
@@ -77,7 +78,8 @@ Explanation explain(const Arguments& arguments, const Progress& progress) {
   const StageSettings settings{.methods = {parse_known_method("--method", arguments.method)},
                                .size = parse_optional_size(arguments.size),
                                .anisotropy = arguments.anisotropy,
-                               .tile = arguments.backend.tile};
+                               .tile = arguments.backend.tile,
+                               .cache = cache_folder(arguments.no_cache)};
   const gl::ContextRequest request = context_request(arguments.backend);
   ProgressParts parts(progress, arguments.cost ? 3 : 1);
   const Stage stage(request, load_scene(arguments.scene, scenes_folder()), settings, parts.next(1, ""));
@@ -170,6 +172,7 @@ void add_explain_command(CLI::App& app) {
   add_size_option(*command, arguments->size);
   add_anisotropy_option(*command, arguments->anisotropy);
   add_backend_options(*command, arguments->backend);
+  add_cache_flag(*command, arguments->no_cache);
   add_quiet_flag(*command, arguments->quiet);
   command->footer(examples);
   command->callback([arguments] { run_explain(*arguments); });

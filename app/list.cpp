@@ -47,6 +47,7 @@ std::string range_text(const OptionSpec& option) {
 std::string method_text(const MethodInfo& method) {
   std::string text = fmt::format("  {}\n      {}\n", method.name, method.summary);
   if (!method.paper.empty()) text += fmt::format("      {}\n", method.paper);
+  if (method.slow_precompute) text += "      bakes for seconds; kept on disk between runs\n";
   for (const OptionSpec& option : method.options) {
     text +=
         fmt::format("      :{}={}  ({})  {}\n", option.name, default_text(option), range_text(option), option.meaning);
@@ -74,6 +75,7 @@ Json method_json(const MethodInfo& method) {
   return {{"name", method.name},
           {"summary", method.summary},
           {"paper", method.paper},
+          {"slow_precompute", method.slow_precompute},
           {"honours", effect_names(method.honours)},
           {"options", std::move(options)}};
 }

@@ -45,6 +45,7 @@ struct Arguments {
   int anisotropy = 1;
   BackendArguments backend;
   std::string output;
+  bool no_cache = false;
   bool quiet = false;
 };
 
@@ -88,7 +89,8 @@ void run_render(const Arguments& arguments) {
                          .size = parse_optional_size(arguments.size),
                          .filter = parse_filter(arguments.reference.filter),
                          .anisotropy = arguments.anisotropy,
-                         .tile = arguments.backend.tile};
+                         .tile = arguments.backend.tile,
+                         .cache = cache_folder(arguments.no_cache)};
   if (is_reference(method)) {
     settings.pictures = reference_pictures;
   } else {
@@ -138,6 +140,7 @@ void add_render_command(CLI::App& app) {
   command->add_option("--exposure", arguments->exposure, "Factor on radiance of a .png, or auto")
       ->capture_default_str();
   add_backend_options(*command, arguments->backend);
+  add_cache_flag(*command, arguments->no_cache);
   add_quiet_flag(*command, arguments->quiet);
   command->footer(examples);
   command->callback([arguments, command] {

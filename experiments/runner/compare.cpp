@@ -35,7 +35,8 @@ StageSettings stage_settings(const CompareSettings& settings) {
           .filter = settings.filter,
           .anisotropy = settings.anisotropy,
           .tile = settings.tile,
-          .all_effects = settings.all_effects};
+          .all_effects = settings.all_effects,
+          .cache = settings.cache};
 }
 
 // `direct` is what every ratio is taken to; it is staged first, also where it is not asked for.
@@ -253,6 +254,7 @@ class Comparison {
     record.height = truth.view.size.y;
     record.precompute_seconds = baked.seconds;
     record.precompute_bytes = baked.bytes;
+    record.precompute_cached = baked.cached;
     record.effects_on = effect_names(stage_.effects() & honours);
     record.effects_left_out = effect_names(stage_.effects() & ~honours);
     return record;

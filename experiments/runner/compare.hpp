@@ -34,6 +34,7 @@ struct CompareSettings {
   int repeats = 9;  ///< timed frames of each method and distance in each process
   int anisotropy = 1;
   int tile = 0;
+  std::optional<std::filesystem::path> cache;  ///< where slow precomputes are kept; none: they are not
   gl::ContextRequest context;
 };
 

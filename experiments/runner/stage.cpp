@@ -23,6 +23,13 @@ BakedMethod bake_base(const Scene& scene, const EffectSet& effects, const Progre
   return bake(base_surface(), {.text = "reference", .name = "reference", .options = {}}, scene, effects, progress);
 }
 
+BakedMethod bake_method(const Scene& scene, const EffectSet& effects, const MethodSpec& spec,
+                        const std::optional<std::filesystem::path>& folder, const Progress& progress) {
+  if (!folder) return bake(find_method(spec.name), spec, scene, effects, progress);
+  const BakeCache cache(*folder);
+  return bake(find_method(spec.name), spec, scene, effects, progress, &cache);
+}
+
 }  // namespace
 
 glm::ivec2 frame_size(const Scene& scene, const std::optional<glm::ivec2>& wanted) {
@@ -47,7 +54,7 @@ void require_pictures(const glm::ivec2& size, int count) {
 StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& scene, const Scene& values,
                            const EffectSet& effects, const MethodSpec& spec, const glm::ivec2& size,
                            const StageSettings& settings, const Progress& progress)
-    : baked_(std::make_unique<BakedMethod>(bake(find_method(spec.name), spec, values, effects, progress))),
+    : baked_(std::make_unique<BakedMethod>(bake_method(values, effects, spec, settings.cache, progress))),
       gpu_(std::make_unique<GpuMethod>(scene, *baked_)),
       frames_(std::make_unique<FrameRenderer>(context, scene, *gpu_, size,
                                               ProgramSettings{.sampling = Sampling::frame,

@@ -1,6 +1,7 @@
 // Everything that a run over one scene holds on the GPU: context, scene, and the methods ready to draw.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,7 +21,8 @@ struct StageSettings {
   int anisotropy = 1;        ///< probes along the major axis, at most
   int tile = 0;              ///< pixels a side drawn at once; 0: as many as fit
   bool all_effects = false;  ///< every effect compiled in, also those that the scene gives nothing to do
-  int pictures = 3;          ///< as large as the frame, that are held at once: the frame, and two while it is written
+  std::optional<std::filesystem::path> cache = {};  ///< folder where slow precomputes are kept; none: they are not
+  int pictures = 3;  ///< as large as the frame, that are held at once: the frame, and two while it is written
 };
 
 /// The size of a frame: `wanted`, else scene.toml's, else 512 wide in the aspect of the camera (square without one).

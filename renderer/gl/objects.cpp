@@ -104,24 +104,41 @@ Buffer::Buffer(std::span<const std::byte> bytes) {
   if (error != GL_NO_ERROR) throw_no_memory("buffer", fmt::format("{} bytes", content.size()), error);
 }
 
-Texture::Texture(GLenum internal_format, int width, int height, int levels) : width_(width), height_(height) {
-  const std::string what = fmt::format("{}x{} texels of format {:#06x}", width, height, internal_format);
+Texture::Texture(GLenum internal_format, int width, int height, int levels, int layers)
+    : width_(width), height_(height), layers_(layers) {
+  const std::string what = fmt::format("{}x{}{} texels of format {:#06x}", width, height,
+                                       layers > 0 ? fmt::format("x{}", layers) : "", internal_format);
   GLint limit = 0;
   api().GetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
   if (width < 1 || height < 1 || width > limit || height > limit) {
     throw Error(ErrorKind::machine, "texture", fmt::format("{}: a side must have 1 to {}", what, limit),
                 "use smaller frames or textures");
   }
+  api().GetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &limit);
+  if (layers < 0 || layers > limit) {
+    throw Error(ErrorKind::machine, "texture", fmt::format("{}: an array has at most {} layers", what, limit),
+                "ask the method for fewer lobes");
+  }
   GLuint name = 0;
-  api().CreateTextures(GL_TEXTURE_2D, 1, &name);
+  api().CreateTextures(layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, 1, &name);
   handle_ = Handle<delete_texture>(name);
-  const GLenum error = error_of([&] { api().TextureStorage2D(name, levels, internal_format, width, height); });
+  const GLenum error = error_of([&] {
+    if (layers > 0) {
+      api().TextureStorage3D(name, levels, internal_format, width, height, layers);
+    } else {
+      api().TextureStorage2D(name, levels, internal_format, width, height);
+    }
+  });
   if (error != GL_NO_ERROR) throw_no_memory("texture", what, error);
 }
 
 void Texture::upload(int level, int width, int height, GLenum format, GLenum type, const void* texels) {
   api().PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  api().TextureSubImage2D(name(), level, 0, 0, width, height, format, type, texels);
+  if (layers_ > 0) {
+    api().TextureSubImage3D(name(), level, 0, 0, 0, width, height, layers_, format, type, texels);
+  } else {
+    api().TextureSubImage2D(name(), level, 0, 0, width, height, format, type, texels);
+  }
 }
 
 RenderTarget::RenderTarget(int width, int height, std::span<const GLenum> color_formats, bool depth)

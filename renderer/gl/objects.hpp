@@ -68,13 +68,14 @@ class Buffer {
   Handle<delete_buffer> handle_;
 };
 
-/// A 2D texture with immutable storage.
+/// A 2D texture, or an array of them, with immutable storage.
 class Texture {
  public:
   Texture() = default;
-  /// `internal_format` sized (GL_RGBA32F, ...). Errors (machine): the size is over the GL limit or memory is out.
-  Texture(GLenum internal_format, int width, int height, int levels = 1);
-  /// Rows from v = 0, tightly packed, `format` and `type` as glTextureSubImage2D takes them.
+  /// `internal_format` sized (GL_RGBA32F, ...); `layers` 0: a plain 2D texture, else an array of so many.
+  /// Errors (machine): the size or the layers are over the GL limit, or memory is out.
+  Texture(GLenum internal_format, int width, int height, int levels = 1, int layers = 0);
+  /// Rows from v = 0, tightly packed, layer after layer, `format` and `type` as glTextureSubImage2D takes them.
   void upload(int level, int width, int height, GLenum format, GLenum type, const void* texels);
   [[nodiscard]] GLuint name() const { return handle_.name(); }
   [[nodiscard]] int width() const { return width_; }
@@ -82,7 +83,7 @@ class Texture {
 
  private:
   Handle<delete_texture> handle_;
-  int width_ = 0, height_ = 0;
+  int width_ = 0, height_ = 0, layers_ = 0;
 };
 
 /// Colour textures with an optional 32-bit float depth buffer to draw into.

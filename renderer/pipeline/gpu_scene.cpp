@@ -169,8 +169,9 @@ GLuint SamplerCache::sampler(const TextureCoordinates& coordinates, Lookup looku
 GpuTexture upload(const PrefilteredTexture& texture) {
   const GlFormat format = gl_format(texture.storage, texture.channels);
   const TextureLevel& finest = texture.levels.front();
-  GpuTexture out{gl::Texture(format.internal, finest.width, finest.height, static_cast<int>(texture.levels.size())),
-                 texture.coordinates};
+  GpuTexture out{gl::Texture(format.internal, finest.width, finest.height, static_cast<int>(texture.levels.size()),
+                             texture.layers),
+                 texture.coordinates, texture.filter};
   for (std::size_t i = 0; i < texture.levels.size(); ++i) {
     const TextureLevel& level = texture.levels[i];
     out.texture.upload(static_cast<int>(i), level.width, level.height, format.format, format.type, level.bytes.data());

@@ -29,10 +29,16 @@ class SamplerCache {
   std::vector<Entry> entries_;
 };
 
-/// A texture bound with the sampler that its coordinates ask for.
+/// A texture bound with the sampler that its coordinates and its filter ask for.
 struct GpuTexture {
   gl::Texture texture;
   TextureCoordinates coordinates;
+  TextureFilter filter = TextureFilter::trilinear;
+
+  /// The program's lookup, unless this texture's texels must not be blended.
+  [[nodiscard]] Lookup lookup(Lookup wanted) const {
+    return filter == TextureFilter::nearest ? Lookup::nearest : wanted;
+  }
 };
 
 /// Uploads a prefiltered texture with its whole chain. Errors (machine): over the GL limits, out of memory.

@@ -19,7 +19,8 @@ struct MethodInfo {
   std::string summary;  ///< one sentence
   std::string paper;    ///< author, year, title
   std::vector<OptionSpec> options;
-  EffectSet honours;  ///< effects that it can simulate; others are left out, and the table says so
+  EffectSet honours;             ///< effects that it can simulate; others are left out, and the table says so
+  bool slow_precompute = false;  ///< seconds, not milliseconds: kept on disk between runs (bake_cache.hpp)
 };
 
 /// A prefiltering method: a pure precompute and a GLSL module (docs/adding-a-method.md). Stateless.
@@ -38,6 +39,9 @@ class Method {
   /// effects alone, so that one program serves every material of a scene.
   [[nodiscard]] virtual Prefiltered precompute(const Material& material, const Options& options,
                                                const EffectSet& effects, const Progress& progress) const = 0;
+
+  /// Lobes of the effective NDF that the shader evaluates for a pixel, with isotropic filtering.
+  [[nodiscard]] virtual int lobe_count(const Options& /*options*/) const { return 1; }
 
   /// The GLSL module that evaluates the effective BRDF (renderer/shaders/README.md gives its contract).
   [[nodiscard]] virtual std::string_view shader() const = 0;

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
 #include <utility>
 
 #include "renderer/core/error.hpp"
@@ -40,24 +41,54 @@ std::uint8_t unorm8(float value, bool signed_range) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(unit, 0.0F, 1.0F) * 255.0F));
 }
 
-TextureLevel encode(const Image& image, Storage storage, bool signed_range) {
-  TextureLevel level{.width = image.width, .height = image.height, .bytes = {}};
-  level.bytes.resize(image.texels.size() * channel_bytes(storage));
+// Appends the texels to `bytes` in their storage.
+void encode(const Image& image, Storage storage, bool signed_range, std::vector<std::uint8_t>& bytes) {
+  const std::size_t start = bytes.size();
+  bytes.resize(start + image.texels.size() * channel_bytes(storage));
+  std::uint8_t* const out = bytes.data() + start;
   switch (storage) {
     case Storage::fp32:
-      std::memcpy(level.bytes.data(), image.texels.data(), level.bytes.size());
+      std::memcpy(out, image.texels.data(), image.texels.size() * sizeof(float));
       break;
     case Storage::fp16:
       for (std::size_t i = 0; i < image.texels.size(); ++i) {
         const std::uint16_t bits = half_bits(image.texels[i]);
-        std::memcpy(level.bytes.data() + 2 * i, &bits, 2);
+        std::memcpy(out + 2 * i, &bits, 2);
       }
       break;
     case Storage::unorm8:
-      std::ranges::transform(image.texels, level.bytes.begin(), [&](float v) { return unorm8(v, signed_range); });
+      std::ranges::transform(image.texels, out, [&](float v) { return unorm8(v, signed_range); });
       break;
   }
-  return level;
+}
+
+void require_finite(const std::string& name, const Image& level) {
+  const auto bad = std::ranges::find_if(level.texels, [](float v) { return !std::isfinite(v); });
+  if (bad == level.texels.end()) return;
+  const auto texel = (bad - level.texels.begin()) / level.channels;
+  throw Error(ErrorKind::usage, fmt::format("texture {}, level {}x{}", name, level.width, level.height),
+              fmt::format("texel ({}, {}) is not finite", texel % level.width, texel / level.width),
+              "mend the map that it was baked from");
+}
+
+// All levels of all layers, finest first.
+std::vector<TextureLevel> encode_levels(const std::string& name, std::span<const std::vector<Image>> layers,
+                                        Storage storage, bool signed_range) {
+  std::vector<TextureLevel> levels;
+  for (std::size_t i = 0; i < layers.front().size(); ++i) {
+    const Image& first = layers.front()[i];
+    TextureLevel level{.width = first.width, .height = first.height, .bytes = {}};
+    level.bytes.reserve(first.texels.size() * channel_bytes(storage) * layers.size());
+    for (const std::vector<Image>& layer : layers) {
+      const Image& image = layer.at(i);
+      if (image.width != first.width || image.height != first.height || image.channels != first.channels)
+        throw std::logic_error("the layers of texture " + name + " differ in size");
+      require_finite(name, image);
+      encode(image, storage, signed_range, level.bytes);
+    }
+    levels.push_back(std::move(level));
+  }
+  return levels;
 }
 
 }  // namespace
@@ -84,42 +115,48 @@ std::size_t byte_count(const Prefiltered& prefiltered) {
 
 PrefilteredTexture make_texture(std::string name, const std::vector<Image>& chain, Storage storage,
                                 const TextureCoordinates& coordinates, bool signed_range) {
-  PrefilteredTexture texture{.name = std::move(name),
-                             .storage = storage,
-                             .channels = chain.front().channels,
-                             .coordinates = coordinates,
-                             .levels = {}};
-  for (const Image& level : chain) {
-    const auto bad = std::ranges::find_if(level.texels, [](float v) { return !std::isfinite(v); });
-    if (bad != level.texels.end()) {
-      const auto texel = (bad - level.texels.begin()) / level.channels;
-      throw Error(ErrorKind::usage, fmt::format("texture {}, level {}x{}", texture.name, level.width, level.height),
-                  fmt::format("texel ({}, {}) is not finite", texel % level.width, texel / level.width),
-                  "mend the map that it was baked from");
-    }
-    texture.levels.push_back(encode(level, storage, signed_range));
-  }
-  return texture;
+  std::vector<TextureLevel> levels = encode_levels(name, std::span(&chain, 1), storage, signed_range);
+  return {.name = std::move(name),
+          .storage = storage,
+          .channels = chain.front().channels,
+          .layers = 0,
+          .filter = TextureFilter::trilinear,
+          .coordinates = coordinates,
+          .levels = std::move(levels)};
 }
 
-Image decode_level(const PrefilteredTexture& texture, std::size_t index) {
+PrefilteredTexture make_array_texture(std::string name, std::span<const std::vector<Image>> layers, Storage storage,
+                                      const TextureCoordinates& coordinates, TextureFilter filter) {
+  std::vector<TextureLevel> levels = encode_levels(name, layers, storage, false);
+  return {.name = std::move(name),
+          .storage = storage,
+          .channels = layers.front().front().channels,
+          .layers = static_cast<int>(layers.size()),
+          .filter = filter,
+          .coordinates = coordinates,
+          .levels = std::move(levels)};
+}
+
+Image decode_level(const PrefilteredTexture& texture, std::size_t index, int layer) {
   const TextureLevel& level = texture.levels.at(index);
   Image image(level.width, level.height, texture.channels);
+  const std::size_t layer_bytes = image.texels.size() * channel_bytes(texture.storage);
+  const auto bytes = std::span(level.bytes).subspan(static_cast<std::size_t>(layer) * layer_bytes, layer_bytes);
   for (std::size_t i = 0; i < image.texels.size(); ++i) {
     switch (texture.storage) {
       case Storage::fp32:
-        std::memcpy(&image.texels[i], level.bytes.data() + 4 * i, 4);
+        std::memcpy(&image.texels[i], bytes.data() + 4 * i, 4);
         break;
       case Storage::fp16: {
         half value;
         std::uint16_t bits = 0;
-        std::memcpy(&bits, level.bytes.data() + 2 * i, 2);
+        std::memcpy(&bits, bytes.data() + 2 * i, 2);
         value.setBits(bits);
         image.texels[i] = value;
         break;
       }
       case Storage::unorm8:
-        image.texels[i] = static_cast<float>(level.bytes[i]) / 255.0F;
+        image.texels[i] = static_cast<float>(bytes[i]) / 255.0F;
         break;
     }
   }

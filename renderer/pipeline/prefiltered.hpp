@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,7 +22,10 @@ enum class Storage { fp32, fp16, unorm8 };
 /// Errors (usage) on a word that is no storage.
 [[nodiscard]] Storage parse_storage(std::string_view word);
 
-/// One level of one layer of a texture, encoded in the texture's storage, rows from v = 0.
+/// Whether texels may be blended: a mixture's lobes that have no counterpart in the neighbour may not.
+enum class TextureFilter { trilinear, nearest };
+
+/// One level of a texture, encoded in the texture's storage: layer after layer, rows from v = 0.
 struct TextureLevel {
   int width = 0;
   int height = 0;
@@ -30,11 +34,13 @@ struct TextureLevel {
   friend bool operator==(const TextureLevel&, const TextureLevel&) = default;
 };
 
-/// A texture with its whole mip chain. The shader finds it as `sampler2D NAME`.
+/// A texture with its whole mip chain. The shader finds it as `sampler2D NAME`, or `sampler2DArray NAME` with layers.
 struct PrefilteredTexture {
   std::string name;
   Storage storage = Storage::fp32;
-  int channels = 4;                  ///< 1 to 4
+  int channels = 4;  ///< 1 to 4
+  int layers = 0;    ///< 0: a plain texture, else an array of so many
+  TextureFilter filter = TextureFilter::trilinear;
   TextureCoordinates coordinates;    ///< those of the map that it prefilters
   std::vector<TextureLevel> levels;  ///< finest first, 1 x 1 last
 
@@ -57,7 +63,12 @@ struct Prefiltered {
 [[nodiscard]] PrefilteredTexture make_texture(std::string name, const std::vector<Image>& chain, Storage storage,
                                               const TextureCoordinates& coordinates, bool signed_range = false);
 
-/// The floats that the shader reads from a level, before any decoding of a signed range.
-[[nodiscard]] Image decode_level(const PrefilteredTexture& texture, std::size_t index);
+/// Encodes an array texture from one mip chain a layer, all of the same sizes and channels; otherwise as make_texture.
+[[nodiscard]] PrefilteredTexture make_array_texture(std::string name, std::span<const std::vector<Image>> layers,
+                                                    Storage storage, const TextureCoordinates& coordinates,
+                                                    TextureFilter filter = TextureFilter::trilinear);
+
+/// The floats that the shader reads from a level of a layer, before any decoding of a signed range.
+[[nodiscard]] Image decode_level(const PrefilteredTexture& texture, std::size_t index, int layer = 0);
 
 }  // namespace footprint

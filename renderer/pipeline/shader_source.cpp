@@ -150,7 +150,9 @@ std::string declarations(const EffectSet& effects, const Prefiltered& prefiltere
   std::string text;
   int unit = 0;
   for (const std::string& name : texture_names(effects, prefiltered)) {
-    text += fmt::format("layout(binding = {}) uniform sampler2D {};\n", unit++, name);
+    const auto own = std::ranges::find(prefiltered.textures, name, &PrefilteredTexture::name);
+    const bool array = own != prefiltered.textures.end() && own->layers > 0;
+    text += fmt::format("layout(binding = {}) uniform sampler2D{} {};\n", unit++, array ? "Array" : "", name);
   }
   if (prefiltered.scalars.empty()) return text;
   text += "layout(std140, binding = 1) uniform MethodBlock {\n";
@@ -186,6 +188,15 @@ ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options) {
   return flags;
 }
 
+ShaderFlags texture_flags(const Prefiltered& prefiltered) {
+  ShaderFlags flags;
+  for (const PrefilteredTexture& texture : prefiltered.textures) {
+    if (texture.layers > 0) flags.emplace("texture_arrays");
+    if (texture.filter == TextureFilter::nearest) flags.emplace("texel_lookups");
+  }
+  return flags;
+}
+
 std::vector<std::string> texture_names(const EffectSet& effects, const Prefiltered& prefiltered) {
   std::vector<std::string> names;
   if (has(effects, Effect::base_color_variation)) names.emplace_back("base_color_map");
@@ -207,7 +218,8 @@ std::string vertex_shader(const ShaderVariant& variant) {
 
 std::string fragment_shader(const ShaderVariant& variant, std::string_view module, std::string_view module_name,
                             const Options& options, const Prefiltered& prefiltered) {
-  const ShaderFlags flags = shader_flags(variant, options);
+  ShaderFlags flags = shader_flags(variant, options);
+  flags.merge(texture_flags(prefiltered));
   std::string text = fmt::format("{}#line {}\n", version_line, first_shared_line);
   if (variant.max_probes > 1) text += fmt::format("const float max_probes = {}.0;\n", variant.max_probes);
   text += light_capacities(variant) + number_options(options) + declarations(variant.effects, prefiltered);

@@ -47,6 +47,9 @@ inline constexpr int first_shared_line = 10001;
 /// The flags of a variant and of a method's word options.
 [[nodiscard]] ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options);
 
+/// What the shared functions must offer for a method's textures: `texture_arrays`, `texel_lookups`.
+[[nodiscard]] ShaderFlags texture_flags(const Prefiltered& prefiltered);
+
 /// The textures of a program, in the order of their units: the shared ones, then the method's.
 [[nodiscard]] std::vector<std::string> texture_names(const EffectSet& effects, const Prefiltered& prefiltered);
 

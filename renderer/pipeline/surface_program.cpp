@@ -35,13 +35,30 @@ std::vector<float> scalar_block(const Prefiltered& prefiltered) {
 
 void bind_texture(GLuint unit, const GpuTexture& texture, GpuScene& scene, Lookup lookup) {
   gl::api().BindTextureUnit(unit, texture.texture.name());
-  gl::api().BindSampler(unit, scene.samplers().sampler(texture.coordinates, lookup));
+  gl::api().BindSampler(unit, scene.samplers().sampler(texture.coordinates, texture.lookup(lookup)));
+}
+
+struct Outcome {
+  Prefiltered prefiltered;
+  bool from_disk;
+};
+
+// One material: from the disk where it is kept there, else by the method, and kept if that is worth it.
+Outcome prefilter(const Method& method, const Material& material, const Options& options, const EffectSet& effects,
+                  const Progress& progress, const BakeCache* cache) {
+  if (cache == nullptr || !method.info().slow_precompute)
+    return {method.precompute(material, options, effects, progress), false};
+  const std::string key = cache->key(method.info().name, material, options, effects);
+  if (std::optional<Prefiltered> kept = cache->find(key)) return {*std::move(kept), true};
+  Outcome outcome{method.precompute(material, options, effects, progress), false};
+  cache->keep(key, outcome.prefiltered);
+  return outcome;
 }
 
 }  // namespace
 
 BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scene, const EffectSet& effects,
-                 const Progress& progress) {
+                 const Progress& progress, const BakeCache* cache) {
   const auto start = std::chrono::steady_clock::now();
   const EffectSet honoured = effects & method.info().honours;
   BakedMethod baked{.method = &method,
@@ -49,14 +66,17 @@ BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scen
                     .options = Options(method.info().options, spec.options, "method " + spec.name),
                     .materials = {},
                     .seconds = 0,
-                    .bytes = 0};
+                    .bytes = 0,
+                    .cached = cache != nullptr && method.info().slow_precompute};
   const auto count = static_cast<double>(scene.materials.size());
   for (const Material& material : scene.materials) {
     const auto done = static_cast<double>(baked.materials.size());
     const Progress part = [&](std::string_view what, double fraction) { progress(what, (done + fraction) / count); };
     part(fmt::format("{}: {}", spec.text, material.name), 0.0);
     try {
-      baked.materials.push_back(method.precompute(material, baked.options, honoured, part));
+      auto [prefiltered, from_disk] = prefilter(method, material, baked.options, honoured, part, cache);
+      baked.materials.push_back(std::move(prefiltered));
+      baked.cached = baked.cached && from_disk;
     } catch (const Error& error) {
       throw error.within(fmt::format("{}, material {}, method {}", scene.source, material.name, spec.text));
     }

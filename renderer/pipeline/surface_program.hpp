@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/pipeline/bake_cache.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
 #include "renderer/pipeline/method.hpp"
 #include "renderer/pipeline/shader_source.hpp"
@@ -20,11 +21,13 @@ struct BakedMethod {
   std::vector<Prefiltered> materials;  ///< one for each material of the scene
   double seconds = 0;
   std::size_t bytes = 0;
+  bool cached = false;  ///< every material came from the disk: `seconds` is what reading took
 };
 
-/// Runs the precompute of `spec` for every material. `effects` are the scene's; the method gets those that it honours.
+/// Runs the precompute of `spec` for every material, or reads it from `cache` where that is given and has it.
+/// `effects` are the scene's; the method gets those that it honours.
 [[nodiscard]] BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scene,
-                               const EffectSet& effects, const Progress& progress);
+                               const EffectSet& effects, const Progress& progress, const BakeCache* cache = nullptr);
 
 /// A baked method's textures and scalars on the GPU, shared by its programs.
 class GpuMethod {

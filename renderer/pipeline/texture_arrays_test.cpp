@@ -1,0 +1,98 @@
+// Array textures and texel-wise lookups through the shared shader text: layers are apart, and the texels of a footprint
+// with their weights are what the sampler blends.
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "renderer/image/mipmap.hpp"
+#include "renderer/pipeline/gpu_scene.hpp"
+#include "renderer/pipeline/shader_source.hpp"
+#include "tests/support/rendering.hpp"
+#include "tests/support/shader_probe.hpp"
+#include "tests/support/test_scenes.hpp"
+
+namespace footprint::testing {
+namespace {
+
+Prefiltered three_layers(TextureFilter filter) {
+  std::vector<std::vector<Image>> layers;
+  for (std::uint32_t seed = 1; seed <= 3; ++seed) layers.push_back(mip_chain(random_normals(13, 6, 0.9F, seed)));
+  return {.textures = {make_array_texture("map", layers, Storage::fp32, {}, filter)}, .scalars = {}};
+}
+
+// Evaluates `expression` (a vec4 of Footprint f, int layer) for footprints given as uv, dx, dy.
+std::vector<glm::vec4> looked_up(const Prefiltered& prefiltered, const std::string& expression, int layer,
+                                 std::span<const std::array<glm::vec4, 3>> footprints, int max_probes) {
+  const gl::Context& context = shared_context();
+  const GpuTexture texture = upload(prefiltered.textures[0]);
+  SamplerCache samplers;
+  gl::api().BindTextureUnit(0, texture.texture.name());
+  gl::api().BindSampler(0, samplers.sampler(texture.coordinates, texture.lookup(Lookup::trilinear)));
+  ShaderVariant variant;
+  variant.max_probes = max_probes;
+  ShaderFlags flags = shader_flags(variant, Options({}, {}, "test"));
+  flags.merge(texture_flags(prefiltered));
+  const std::string text =
+      "layout(binding = 0) uniform sampler2DArray map;\nconst float max_probes = " + std::to_string(max_probes) +
+      ".0;\n" + shared_functions(flags);
+  const std::string body =
+      "Footprint f = Footprint(a.xy, b.xy, c.xy); int layer = " + std::to_string(layer) + ";\n" + expression;
+  std::vector<glm::vec4> out = evaluate_glsl(text, body, footprints);
+  context.check("looking up an array");
+  return out;
+}
+
+const std::string blended = "return fetch(map, layer, f);";
+const std::string summed =
+    "vec4 sum = vec4(0.0); float total = 0.0;\n"
+    "for (int i = 0; i < footprintTexelCount(map, f); ++i) { FootprintTexel t = footprintTexel(map, f, i); "
+    "total += t.weight; sum += t.weight * fetchTexel(map, layer, t); }\n"
+    "return abs(total - 1.0) < 1e-5 ? sum : vec4(9.0);";
+
+std::vector<std::array<glm::vec4, 3>> some_footprints() {
+  std::vector<std::array<glm::vec4, 3>> out;
+  for (const float size : {0.001F, 0.08F, 0.3F, 0.77F, 3.0F}) {
+    for (const float place : {0.03F, 0.41F, 0.98F}) {
+      out.push_back({glm::vec4(place, 1.0F - place * 0.7F, 0, 0), glm::vec4(size, 0.1F * size, 0, 0),
+                     glm::vec4(0, 0.3F * size, 0, 0)});
+    }
+  }
+  return out;
+}
+
+TEST(TextureArrays, TexelsOfAFootprintSumToWhatTheSamplerBlends) {
+  for (const int probes : {1, 4}) {
+    for (int layer = 0; layer < 3; ++layer) {
+      const auto expected =
+          looked_up(three_layers(TextureFilter::trilinear), blended, layer, some_footprints(), probes);
+      const auto got = looked_up(three_layers(TextureFilter::nearest), summed, layer, some_footprints(), probes);
+      ASSERT_EQ(got.size(), expected.size());
+      for (std::size_t i = 0; i < got.size(); ++i)
+        for (int c = 0; c < 4; ++c) EXPECT_NEAR(got[i][c], expected[i][c], 2e-4F) << probes << " " << layer << " " << i;
+    }
+  }
+}
+
+TEST(TextureArrays, LayersAreApart) {
+  const Prefiltered prefiltered = three_layers(TextureFilter::trilinear);
+  const std::array<std::array<glm::vec4, 3>, 1> whole{
+      {{glm::vec4(0.5F), glm::vec4(8, 0, 0, 0), glm::vec4(0, 8, 0, 0)}}};
+  for (int layer = 0; layer < 3; ++layer) {
+    const auto top = decode_level(prefiltered.textures[0], prefiltered.textures[0].levels.size() - 1, layer).texels;
+    const glm::vec4 got = looked_up(prefiltered, blended, layer, whole, 1)[0];
+    for (int c = 0; c < 4; ++c) EXPECT_NEAR(got[c], top[static_cast<std::size_t>(c)], 1e-5F) << layer;
+  }
+}
+
+TEST(TextureArrays, ProgramsDeclareWhatTheyNeedAndNoMore) {
+  const Options options({}, {}, "test");
+  const std::string with = fragment_shader({}, "", "m", options, three_layers(TextureFilter::nearest));
+  EXPECT_NE(with.find("uniform sampler2DArray map;"), std::string::npos);
+  EXPECT_NE(with.find("footprintTexel"), std::string::npos);
+  const std::string without = fragment_shader({}, "", "m", options, {});
+  EXPECT_EQ(without.find("sampler2DArray"), std::string::npos);
+  EXPECT_EQ(without.find("footprintTexel"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace footprint::testing

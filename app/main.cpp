@@ -35,6 +35,7 @@ void run(int argc, const char* const* argv) {
   app.require_subcommand(1);
   footprint::add_compare_command(app);
   footprint::add_render_command(app);
+  footprint::add_animate_command(app);
   footprint::add_run_command(app);
   footprint::add_check_command(app);
   footprint::add_explain_command(app);

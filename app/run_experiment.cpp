@@ -45,6 +45,7 @@ struct Arguments {
   std::string output = "out";
   bool quick = false;
   BackendArguments backend;
+  bool no_cache = false;
   bool quiet = false;
 };
 
@@ -55,6 +56,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
                   "Folder for results.json, results.csv, table.md, index.html, images/")
       ->capture_default_str();
   add_backend_options(command, arguments.backend);
+  add_cache_flag(command, arguments.no_cache);
   add_quiet_flag(command, arguments.quiet);
 }
 
@@ -75,6 +77,7 @@ std::vector<std::string> run_and_print(const Arguments& arguments) {
   const RunSettings settings{.scenes_folder = scenes_folder(),
                              .quick = arguments.quick,
                              .tile = arguments.backend.tile,
+                             .cache = cache_folder(arguments.no_cache),
                              .context = context_request(arguments.backend)};
   ProgressDisplay display(progress_style(arguments.quiet));
   const auto [results, place] = write_whole(arguments.output, [&](OutputFolder& folder) {

@@ -13,6 +13,8 @@
 
 #include "experiments/runner/exposure.hpp"
 #include "experiments/runner/picture_files.hpp"
+#include "experiments/runner/reference_noise.hpp"
+#include "experiments/runner/run_info.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/timing.hpp"
@@ -24,7 +26,6 @@ namespace {
 
 constexpr std::array curve_counts{1, 2, 4, 8, 16, 32, 64};
 constexpr int curve_samples = 286;  // of its renders and timed draws: what the curve weighs beside the reference
-constexpr double converged_standard_error = 0.5;  // of the mean radiance; above it a warning goes with the results
 constexpr double scale_quantile = 0.99;
 constexpr double smallest_error_scale = 0.01;
 constexpr std::uint64_t curve_seed = 0x9e3779b97f4a7c15;  // keeps the curve's samples apart from the reference's
@@ -92,23 +93,17 @@ std::optional<double> normalized_color(const Image& picture, const Image& refere
   return figures ? std::optional(figures->normalized_color) : std::nullopt;
 }
 
-// The error that the reference's own noise causes: A - B has twice the deviation of the reference's own error.
-std::optional<double> noise_floor_of(const Supersampled& reference, float exposure) {
-  if (!reference.halves) return std::nullopt;
-  const auto difference = normalized_color(reference.halves->first, reference.halves->second, exposure);
-  return difference ? std::optional(*difference / 2.0) : std::nullopt;
-}
-
 class Comparison {
  public:
   Comparison(const CompareSettings& settings, std::filesystem::path folder, const Progress& progress)
       : settings_(settings),
         folder_(std::move(folder)),
+        whole_(progress, 4),
         stage_(settings.context, load_scene(settings.scene, settings.scenes_folder, settings.camera),
-               timing_settings(settings), no_progress),
+               timing_settings(settings), whole_.next(1, "")),
         distances_(distances_of(settings, stage_.scene())),
-        parts_(progress, static_cast<double>(distances_.size()) *
-                             (settings.spp + other_samples() + curve_samples + method_weight())) {
+        parts_(whole_.next(3, ""), static_cast<double>(distances_.size()) *
+                                       (settings.spp + other_samples() + curve_samples + method_weight())) {
     require_pictures(stage_.view(1.0).size, pictures_held(settings.methods.size(), distances_.size()));
   }
 
@@ -119,7 +114,7 @@ class Comparison {
       results_.supersampling.insert(results_.supersampling.end(), truth.curve.begin(), truth.curve.end());
       for (std::size_t m = 0; m < settings_.methods.size(); ++m) drafts_.push_back(compare_method(truth, m));
       set_times(i, further_times);
-      before_ = std::move(truth.reference.halves);
+      before_ = std::move(truth.reference);
     }
     finish_error_pictures();
     describe();
@@ -147,15 +142,6 @@ class Comparison {
     return fmt::format("d{}_{}", file_stem(fmt::format("{}", distance)), what);
   }
 
-  // Names that differ only in characters that no file name has would overwrite each other: such a method has its place
-  // added.
-  [[nodiscard]] std::string method_stem(std::size_t index) const {
-    const std::string stem = file_stem(settings_.methods[index].text);
-    const auto same = [&](const MethodSpec& other) { return file_stem(other.text) == stem; };
-    return std::ranges::count_if(settings_.methods, same) > 1 || stem == "reference" ? fmt::format("{}.{}", stem, index)
-                                                                                     : stem;
-  }
-
   Truth find_truth(std::size_t frame) {
     const double distance = distances_[frame];
     const std::string prefix = fmt::format("distance {:g}: ", distance);
@@ -169,10 +155,12 @@ class Comparison {
                 .others = {}};
     truth.reference = stage_.reference().render(truth.view, settings_.spp, settings_.seed,
                                                 parts_.next(settings_.spp, prefix + "reference, "));
-    set_exposure(truth.reference.mean);
-    truth.noise_floor = noise_floor_of(truth.reference, exposure_);
-    if (results_.records.empty() && drafts_.empty())
+    if (frame == 0) {
+      chosen_exposure_ = choose_exposure(settings_.exposure, stage_.scene(), truth.reference.mean);
+      exposure_ = chosen_exposure_.factor;
       results_.reference.standard_error = relative_standard_error(truth.reference);
+    }
+    truth.noise_floor = noise_floor(truth.reference, exposure_);
     references_.push_back(
         {.caption = fmt::format("reference, {} spp", settings_.spp), .picture = truth.reference.mean, .error = {}});
     truth.reference_file = write_picture(folder_, stem_of(distance, "reference"), truth.reference.mean, exposure_);
@@ -180,24 +168,9 @@ class Comparison {
     for (const int spp : settings_.other_spp) {
       const Supersampled other =
           stage_.reference().render(truth.view, spp, settings_.seed, parts_.next(spp, prefix + "other reference, "));
-      truth.others.push_back({.spp = spp, .mean = other.mean, .noise_floor = noise_floor_of(other, exposure_)});
+      truth.others.push_back({.spp = spp, .mean = other.mean, .noise_floor = noise_floor(other, exposure_)});
     }
     return truth;
-  }
-
-  void set_exposure(const Image& first_reference) {
-    if (exposure_ > 0.0F) return;
-    if (settings_.exposure) {
-      exposure_ = *settings_.exposure;
-      results_.scene.exposure_source = "command line";
-    } else if (stage_.scene().exposure) {
-      exposure_ = *stage_.scene().exposure;
-      results_.scene.exposure_source = "scene";
-    } else {
-      exposure_ = automatic_exposure(first_reference);
-      results_.scene.exposure_source = "automatic";
-    }
-    results_.scene.exposure = exposure_;
   }
 
   std::vector<SupersamplingPoint> supersampling_curve(const Truth& truth, const std::string& prefix) {
@@ -221,8 +194,9 @@ class Comparison {
   Draft compare_method(const Truth& truth, std::size_t index) {
     const StagedMethod& staged = method(index);
     const std::string prefix = fmt::format("distance {:g}: {}, ", truth.distance, settings_.methods[index].text);
-    Draft draft{
-        .record = new_record(truth, staged), .exhibit = {}, .stem = stem_of(truth.distance, method_stem(index))};
+    Draft draft{.record = new_record(truth, staged),
+                .exhibit = {},
+                .stem = stem_of(truth.distance, method_stem(settings_.methods, index))};
     Image picture = staged.frames().render(truth.view);
     const Supersampled finest = stage_.finest_level(staged).render(
         truth.view, settings_.spp, settings_.seed, parts_.next(settings_.spp, prefix + "finest level, "));
@@ -289,18 +263,11 @@ class Comparison {
     }
   }
 
-  // Against the frame before: its reference is the last but one, its picture that of the same method one round earlier.
+  // Against the frame before: the picture of the same method, one round of drafts earlier.
   void set_flicker(Record& record, const Truth& truth, const Image& picture, std::size_t index) const {
     if (!settings_.consecutive || truth.frame == 0) return;
     const Image& before = drafts_[(truth.frame - 1) * settings_.methods.size() + index].exhibit.picture;
-    const auto figures =
-        compare_changes(before, picture, references_[truth.frame - 1].picture, truth.reference.mean, exposure_);
-    if (!figures) return;
-    record.flicker = Flicker{.mean = figures->mean, .p99 = figures->p99, .noise_floor = {}};
-    if (!before_ || !truth.reference.halves) return;
-    const auto noise = compare_changes(before_->first, truth.reference.halves->first, before_->second,
-                                       truth.reference.halves->second, exposure_);
-    if (noise) record.flicker->noise_floor = noise->mean / 2.0;  // as that of the error
+    record.flicker = flicker_between(before, picture, before_, truth.reference, exposure_);
   }
 
   std::vector<std::vector<double>> time_distance(double distance) {
@@ -367,39 +334,24 @@ class Comparison {
   }
 
   void describe() {
-    const Scene& scene = stage_.scene();
-    const gl::ContextInfo& context = stage_.context().info();
-    results_.backend = {.name = std::string(gl::backend_name(context.backend)),
-                        .renderer = context.renderer,
-                        .version = context.version,
-                        .cpu = {}};
-    results_.scene.name = scene.name;
-    results_.scene.source = scene.source;
-    for (const Mesh& mesh : scene.meshes) results_.scene.triangles += mesh.indices.size() / 3;
-    results_.scene.materials = scene.materials.size();
-    results_.scene.lights = scene.lights.size();
-    results_.scene.defaults = scene.defaults;
-    results_.scene.warnings = scene.warnings;
-    if (const auto noise = results_.reference.standard_error; noise && *noise > converged_standard_error) {
-      results_.scene.warnings.push_back(fmt::format(
-          "the reference has not converged: its standard error is {:.2g} of the mean radiance, as happens where lights "
-          "make highlights too sharp for {} samples; raise --spp before small differences are trusted",
-          *noise, settings_.spp));
-    }
+    results_.backend = backend_info(stage_.context().info());
     results_.reference.spp = settings_.spp;
     results_.reference.filter = filter_name(settings_.filter);
     results_.reference.seed = settings_.seed;
+    results_.scene = scene_info(stage_.scene(), chosen_exposure_, results_.reference);
   }
 
   const CompareSettings& settings_;
   std::filesystem::path folder_;
+  ProgressParts whole_;
   Stage stage_;
   std::vector<double> distances_;
   ProgressParts parts_;
-  float exposure_ = 0.0F;  // above 0 once it is known
+  ChosenExposure chosen_exposure_;
+  float exposure_ = 1.0F;  // its factor
   std::vector<Draft> drafts_;
-  std::vector<Exhibit> references_;                // one a distance, for the strips
-  std::optional<std::pair<Image, Image>> before_;  // the two halves of the reference of the frame before
+  std::vector<Exhibit> references_;  // one a distance, for the strips
+  Supersampled before_;              // the reference of the frame before
   Results results_;
 };
 

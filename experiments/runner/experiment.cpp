@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "experiments/runner/known_methods.hpp"
+#include "experiments/runner/zoom.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/suggest.hpp"
 #include "renderer/scene/toml_table.hpp"
@@ -91,15 +92,6 @@ void read_head(const TomlTable& table, Experiment& experiment) {
   if (const auto exposure = table.number("exposure", {1e-9, 1e9})) experiment.exposure = static_cast<float>(*exposure);
   experiment.anisotropy = whole_number(table, "anisotropy", {1, 16}, experiment.anisotropy);
   experiment.repeats = whole_number(table, "repeats", {1, 10000}, experiment.repeats);
-}
-
-// Frames at equal ratios of distance: each step looks like the one before.
-std::vector<double> zoom_distances(double from, double to, int frames) {
-  std::vector<double> distances;
-  for (int i = 0; i < frames; ++i)
-    distances.push_back(from * std::pow(to / from, static_cast<double>(i) / (frames - 1)));
-  distances.back() = to;
-  return distances;
 }
 
 void read_zoom(const TomlTable& table, Experiment& experiment) {

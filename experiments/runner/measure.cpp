@@ -51,7 +51,7 @@ const std::vector<Function>& functions() {
       {"time", [](const Record& r) { return Figure(r.frame_ms.median); }},
       {"ratio", [](const Record& r) { return Figure(r.ratio_to_direct.median); }},
       {"fps", [](const Record& r) { return Figure(r.fps); }},
-      {"precompute", [](const Record& r) { return Figure(r.precompute_seconds); }},
+      {"precompute", [](const Record& r) { return r.precompute_cached ? Figure() : Figure(r.precompute_seconds); }},
       {"bytes", [](const Record& r) { return Figure(static_cast<double>(r.precompute_bytes)); }}};
   return table;
 }
@@ -137,6 +137,9 @@ Measured measured(const Measure& measure, const Results& results) {
     noisy += found.at_noise_floor ? 1 : 0;
   }
   if (matching == 0) return {.value = {}, .problem = "the run has no such record"};
+  if (count == 0 && measure.function == "precompute") {
+    return {.value = {}, .problem = "the bake came from the cache (give --no-cache)"};
+  }
   if (count == 0) return {.value = {}, .problem = "no record has this figure"};
   const double mean = sum / static_cast<double>(count);
   if (std::isnan(mean)) return {.value = {}, .problem = "the figure is not a number"};

@@ -39,6 +39,7 @@ CompareSettings compare_settings(const Experiment& experiment, const RunSettings
   compare.repeats = experiment.repeats;
   compare.anisotropy = experiment.anisotropy;
   compare.tile = settings.tile;
+  compare.cache = settings.cache;
   compare.context = settings.context;
   if (settings.quick) make_quick(compare);
   return compare;

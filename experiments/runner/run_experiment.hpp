@@ -13,6 +13,7 @@ struct RunSettings {
   std::filesystem::path scenes_folder;
   bool quick = false;  ///< a quarter of the size, few samples: to see whether it runs and how it looks
   int tile = 0;
+  std::optional<std::filesystem::path> cache;  ///< where slow precomputes are kept; none: they are not
   gl::ContextRequest context;
 };
 

@@ -3,23 +3,30 @@
 
 #include <cmath>
 
+#include "results/report/results_document.hpp"
+
 namespace footprint {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(const std::optional<double>& value) { return value && std::isfinite(*value) ? Json(*value) : Json(); }
-
 Json claim_json(const ClaimOutcome& claim) {
   Json figures = Json::array();
   for (const ClaimFigure& figure : claim.figures) {
     figures.push_back(
-        {{"measure", figure.measure}, {"value", number(figure.value)}, {"at_noise_floor", figure.at_noise_floor}});
+        {{"measure", figure.measure}, {"value", json_number(figure.value)}, {"at_noise_floor", figure.at_noise_floor}});
   }
-  return {{"name", claim.name},           {"text", claim.text},           {"inequality", claim.inequality},
-          {"expect", claim.expect},       {"outcome", claim.outcome},     {"as_expected", claim.as_expected()},
-          {"reason", claim.reason},       {"problem", claim.problem},     {"left", number(claim.left)},
-          {"right", number(claim.right)}, {"figures", std::move(figures)}};
+  return {{"name", claim.name},
+          {"text", claim.text},
+          {"inequality", claim.inequality},
+          {"expect", claim.expect},
+          {"outcome", claim.outcome},
+          {"as_expected", claim.as_expected()},
+          {"reason", claim.reason},
+          {"problem", claim.problem},
+          {"left", json_number(claim.left)},
+          {"right", json_number(claim.right)},
+          {"figures", std::move(figures)}};
 }
 
 ClaimOutcome parse_claim(const JsonNode& node) {
@@ -49,8 +56,8 @@ Json published_json(const PublishedFigure& figure) {
   return {{"figure", figure.figure},
           {"measure", figure.measure},
           {"unit", figure.unit},
-          {"published", number(figure.published)},
-          {"measured", number(figure.measured)},
+          {"published", json_number(figure.published)},
+          {"measured", json_number(figure.measured)},
           {"note", figure.note}};
 }
 
@@ -66,8 +73,8 @@ PublishedFigure parse_published(const JsonNode& node) {
 
 Json threshold_json(const ThresholdOutcome& threshold) {
   return {{"measure", threshold.measure},
-          {"limit", number(threshold.limit)},
-          {"measured", number(threshold.measured)},
+          {"limit", json_number(threshold.limit)},
+          {"measured", json_number(threshold.measured)},
           {"held", threshold.held()},
           {"problem", threshold.problem}};
 }

@@ -72,7 +72,7 @@ std::optional<double> optional_distance(const std::string& text) {
 
 AnimateSettings settings_from(const Arguments& arguments) {
   return {.scene = arguments.scene,
-          .scenes_folder = scenes_folder(),
+          .library = scene_library(),
           .stage = {.methods = parse_known_methods(arguments.methods),
                     .size = parse_optional_size(arguments.size),
                     .filter = parse_filter(arguments.reference.filter),

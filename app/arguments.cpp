@@ -9,6 +9,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/pipeline/bake_cache.hpp"
+#include "scenes/surfaces/registry.hpp"
 
 namespace footprint {
 namespace {
@@ -89,6 +90,8 @@ MethodSpec parse_known_method(std::string_view option, const std::string& text) 
 
 std::filesystem::path experiments_folder() { return folder_of("FOOTPRINT_EXPERIMENTS", FOOTPRINT_EXPERIMENTS_FOLDER); }
 
-std::filesystem::path scenes_folder() { return folder_of("FOOTPRINT_SCENES", FOOTPRINT_SCENES_FOLDER); }
+SceneLibrary scene_library() {
+  return {.folder = folder_of("FOOTPRINT_SCENES", FOOTPRINT_SCENES_FOLDER), .surfaces = all_surfaces()};
+}
 
 }  // namespace footprint

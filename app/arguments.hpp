@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
-#include <filesystem>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
@@ -12,6 +11,7 @@
 
 #include "experiments/runner/known_methods.hpp"
 #include "renderer/gl/context.hpp"
+#include "renderer/scene/surface.hpp"
 
 namespace footprint {
 
@@ -64,7 +64,8 @@ void add_quiet_flag(CLI::App& command, bool& quiet);
 /// experiments/.
 [[nodiscard]] std::filesystem::path experiments_folder();
 
-/// Where the scenes that have a name lie: the environment variable FOOTPRINT_SCENES, or the source tree's scenes/.
-[[nodiscard]] std::filesystem::path scenes_folder();
+/// Where the scenes that have a name lie (the environment variable FOOTPRINT_SCENES, or the source tree's scenes/), and
+/// the surfaces of this build.
+[[nodiscard]] SceneLibrary scene_library();
 
 }  // namespace footprint

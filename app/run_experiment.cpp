@@ -74,7 +74,7 @@ Results run_into(const Experiment& experiment, const RunSettings& settings, Outp
 // Runs the experiment, prints its table and gives what fell short.
 std::vector<std::string> run_and_print(const Arguments& arguments) {
   const Experiment experiment = read_experiment(find_experiment(arguments.experiment, experiments_folder()));
-  const RunSettings settings{.scenes_folder = scenes_folder(),
+  const RunSettings settings{.library = scene_library(),
                              .quick = arguments.quick,
                              .tile = arguments.backend.tile,
                              .cache = cache_folder(arguments.no_cache),

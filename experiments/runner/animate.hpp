@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/runner/stage.hpp"
+#include "renderer/scene/surface.hpp"
 #include "results/report/animation_report.hpp"
 
 namespace footprint {
@@ -14,7 +15,7 @@ namespace footprint {
 /// What `footprint animate` is asked for.
 struct AnimateSettings {
   std::string scene;  ///< as load_scene takes it
-  std::filesystem::path scenes_folder;
+  SceneLibrary library;
   StageSettings stage;         ///< with one method or more
   std::optional<double> from;  ///< factor on the camera's distance; none: the first of the scene's zoom path
   std::optional<double> to;    ///< none: the last of it; 8 times `from` where it has one only

@@ -38,12 +38,12 @@ std::string required_word(const TomlTable& table, std::string_view key) {
 
 int whole(const TomlTable& table, std::string_view key, double value) {
   if (value == std::floor(value)) return static_cast<int>(value);
-  throw table.error_at(key, fmt::format("is {:g}", value), "give a whole number");
+  throw table.error_at(key, fmt::format("has {:g}", value), "give whole numbers");
 }
 
 int whole_number(const TomlTable& table, std::string_view key, NumberRange range, int otherwise) {
-  const auto value = table.number(key, range);
-  return value ? whole(table, key, *value) : otherwise;
+  const auto value = table.whole_number(key, range);
+  return value ? static_cast<int>(*value) : otherwise;
 }
 
 // What another reader found wrong, at the line of the key that it was reading.

@@ -25,7 +25,7 @@ void make_quick(CompareSettings& settings) {
 CompareSettings compare_settings(const Experiment& experiment, const RunSettings& settings) {
   CompareSettings compare;
   compare.scene = experiment.scene;
-  compare.scenes_folder = settings.scenes_folder;
+  compare.library = settings.library;
   compare.methods = experiment.methods;
   compare.distances = experiment.distances;
   compare.consecutive = experiment.consecutive;

@@ -10,6 +10,7 @@ void add_compare_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_explain_command(CLI::App& app);
 void add_list_command(CLI::App& app);
+void add_surface_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 
 }  // namespace footprint

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "experiments/runner/ndf_pictures.hpp"
@@ -31,9 +32,9 @@ struct Grid {
 void require_grid_memory(int resolution, int picture) {
   // Directions, solid angles, truth and one method's densities, and the growth of vectors.
   constexpr std::uint64_t bytes_a_direction = 2 * (sizeof(glm::vec3) + 2 * sizeof(double) + sizeof(float));
-  const auto side = static_cast<std::uint64_t>(std::max(resolution, picture));
-  require_memory(frame_bytes(side, side, bytes_a_direction), fmt::format("a grid of {0} x {0} directions", side),
-                 "give a smaller --resolution or --size");
+  const double directions = std::max(direction_count(resolution), static_cast<double>(picture) * picture);
+  require_memory(frame_bytes(static_cast<std::uint64_t>(directions), 1, bytes_a_direction),
+                 fmt::format("{:.0f} directions", directions), "give a smaller --resolution or --size");
 }
 
 Grid take_truth(const Material& material, const NdfSettings& settings, const FootprintTexels& texels,
@@ -53,7 +54,7 @@ Grid take_truth(const Material& material, const NdfSettings& settings, const Foo
   const NdfTotals totals = ndf_totals(grid.hemisphere, grid.truth);
   results.directions = grid.hemisphere.directions.size();
   results.truth.energy = totals.energy;
-  results.truth.peak = totals.peak;
+  results.truth.peak = std::max(totals.peak, largest_density(grid.picture));
   results.truth.expected_energy = merged.expected_energy();
   results.fine_enough =
       std::abs(totals.energy - results.truth.expected_energy) <= ndf_energy_tolerance * results.truth.expected_energy;
@@ -114,6 +115,8 @@ class Bench {
     NdfPicture picture{file_stem(spec.text), fmt::format("{}  L2 {:.3g}", spec.text, figures.l2),
                        ndf.densities(settings_.footprint, grid.disc)};
     context_.check("evaluating the NDF of " + spec.text);
+    const double peak = largest_density(picture.densities);
+    results.records.back().peak = std::isfinite(peak) ? figures.peak + std::max(peak - figures.peak, 0.0) : peak;
     return picture;
   }
 

@@ -56,12 +56,12 @@ TEST(HemisphereGrid, SumsToTheHemisphereAndItsProjection) {
     double area = 0.0, projected = 0.0;
     for (std::size_t i = 0; i < grid.directions.size(); ++i) {
       EXPECT_NEAR(glm::length(grid.directions[i]), 1.0F, 1e-6F);
-      EXPECT_GE(grid.directions[i].z, 0.0F);
+      EXPECT_GT(grid.directions[i].z, 0.0F);
       area += grid.solid_angles[i];
       projected += grid.solid_angles[i] * grid.directions[i].z;
     }
-    EXPECT_NEAR(area, 2.0 * pi, 1e-3 * 64.0 / resolution);
-    EXPECT_NEAR(projected, pi, 1e-3 * 64.0 / resolution);
+    EXPECT_NEAR(area, 2.0 * pi, 1e-9);
+    EXPECT_NEAR(projected, pi, 1e-6);
   }
 }
 
@@ -180,15 +180,16 @@ TEST(TrueNdf, IsThePlainMeanOverTheTexels) {
   const Image normals = random_normals(37, 23, 0.9F, 11);
   for (const BaseLobe& lobe : {BaseLobe{blinn_phong, 512}, {ggx, 0.02}, {beckmann, 0.1}}) {
     const FootprintTexels texels = texels_under(material_of(normals, lobe), {{0, 0}, {1, 1}});
+    const BaseLobe held{lobe.distribution, texels.facets.front().parameter};  // a material keeps 32 bits
     const auto densities = TrueNdf(lobe.distribution, texels.facets).densities(some_directions(), no_progress);
     for (std::size_t d = 0; d < densities.size(); ++d) {
       const glm::dvec3 h = glm::normalize(glm::dvec3(some_directions()[d]));
       double sum = 0.0;
       for (std::size_t i = 0; i < normals.texel_count(); ++i) {
         const glm::dvec3 n(normals.texels[4 * i], normals.texels[4 * i + 1], normals.texels[4 * i + 2]);
-        sum += lobe_peak(lobe) * lobe_shape(lobe, 0.5 * glm::dot(h - glm::normalize(n), h - glm::normalize(n)));
+        sum += lobe_peak(held) * lobe_shape(held, 0.5 * glm::dot(h - glm::normalize(n), h - glm::normalize(n)));
       }
-      EXPECT_NEAR(densities[d], sum / static_cast<double>(normals.texel_count()), 1e-10 * lobe_peak(lobe));
+      EXPECT_NEAR(densities[d], sum / static_cast<double>(normals.texel_count()), 1e-10 * lobe_peak(held));
     }
   }
 }

@@ -10,6 +10,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/pipeline/bake_cache.hpp"
+#include "scenes/surfaces/registry.hpp"
 
 namespace footprint {
 
@@ -87,9 +88,9 @@ MethodSpec parse_known_method(std::string_view option, const std::string& text) 
   throw Error(ErrorKind::usage, std::string(option), fmt::format("`{}` is more than one method", text), "name one");
 }
 
-std::filesystem::path scenes_folder() {
+SceneLibrary scene_library() {
   const char* given = std::getenv("FOOTPRINT_SCENES");
-  return given != nullptr && *given != '\0' ? given : FOOTPRINT_SCENES_FOLDER;
+  return {.folder = given != nullptr && *given != '\0' ? given : FOOTPRINT_SCENES_FOLDER, .surfaces = all_surfaces()};
 }
 
 }  // namespace footprint

@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
-#include <filesystem>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
@@ -12,6 +11,7 @@
 
 #include "renderer/core/options.hpp"
 #include "renderer/gl/context.hpp"
+#include "renderer/scene/surface.hpp"
 
 namespace footprint {
 
@@ -63,7 +63,8 @@ void add_quiet_flag(CLI::App& command, bool& quiet);
 /// The one method that `option` gives; `reference` counts as one. Errors (usage): more than one, or not known.
 [[nodiscard]] MethodSpec parse_known_method(std::string_view option, const std::string& text);
 
-/// Where the scenes that have a name lie: the environment variable FOOTPRINT_SCENES, or the source tree's scenes/.
-[[nodiscard]] std::filesystem::path scenes_folder();
+/// Where the scenes that have a name lie (the environment variable FOOTPRINT_SCENES, or the source tree's scenes/), and
+/// the surfaces of this build.
+[[nodiscard]] SceneLibrary scene_library();
 
 }  // namespace footprint

@@ -82,7 +82,7 @@ Explanation explain(const Arguments& arguments, const Progress& progress) {
                                .cache = cache_folder(arguments.no_cache)};
   const gl::ContextRequest request = context_request(arguments.backend);
   ProgressParts parts(progress, arguments.cost ? 3 : 1);
-  const Stage stage(request, load_scene(arguments.scene, scenes_folder()), settings, parts.next(1, ""));
+  const Stage stage(request, load_scene(arguments.scene, scene_library()), settings, parts.next(1, ""));
   const StagedMethod& method = stage.methods().front();
 
   Explanation out;

@@ -1,9 +1,10 @@
-// `footprint list`: the methods with their options, the scenes, the backends.
+// `footprint list`: the methods with their options, the scenes, the surfaces with their parameters, the backends.
 #include <fmt/format.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "app/standard_output.hpp"
 #include "methods/registry.hpp"
 #include "renderer/scene/load_scene.hpp"
+#include "scenes/surfaces/registry.hpp"
 
 namespace footprint {
 namespace {
@@ -26,7 +28,7 @@ constexpr const char* examples =
     "  footprint list methods                       the methods and their options\n"
     "  footprint list scenes --json                 for programs";
 
-const std::vector<std::string> kinds{"methods", "scenes", "backends"};
+const std::vector<std::string> kinds{"methods", "scenes", "surfaces", "backends"};
 
 struct Arguments {
   std::string kind;  // empty: all
@@ -43,15 +45,25 @@ std::string range_text(const OptionSpec& option) {
   return fmt::format("{}", fmt::join(option.choices, ", "));
 }
 
+// `prefix` is what stands before an option where it is written.
+std::string options_text(const std::vector<OptionSpec>& options, std::string_view prefix) {
+  std::string text;
+  for (const OptionSpec& option : options) {
+    text += fmt::format("      {}{}={}  ({})  {}\n", prefix, option.name, default_text(option), range_text(option),
+                        option.meaning);
+  }
+  return text;
+}
+
 std::string method_text(const MethodInfo& method) {
   std::string text = fmt::format("  {}\n      {}\n", method.name, method.summary);
   if (!method.paper.empty()) text += fmt::format("      {}\n", method.paper);
   if (method.slow_precompute) text += "      bakes for seconds; kept on disk between runs\n";
-  for (const OptionSpec& option : method.options) {
-    text +=
-        fmt::format("      :{}={}  ({})  {}\n", option.name, default_text(option), range_text(option), option.meaning);
-  }
-  return text;
+  return text + options_text(method.options, ":");
+}
+
+std::string surface_text(const Surface& surface) {
+  return fmt::format("  {}\n      {}\n", surface.name, surface.summary) + options_text(surface.parameters, "");
 }
 
 Json option_json(const OptionSpec& option) {
@@ -68,15 +80,26 @@ Json option_json(const OptionSpec& option) {
   return json;
 }
 
-Json method_json(const MethodInfo& method) {
+Json options_json(const std::vector<OptionSpec>& specs) {
   Json options = Json::array();
-  for (const OptionSpec& option : method.options) options.push_back(option_json(option));
+  for (const OptionSpec& spec : specs) options.push_back(option_json(spec));
+  return options;
+}
+
+Json surface_json(const Surface& surface) {
+  return {{"name", surface.name},
+          {"summary", surface.summary},
+          {"resolution", surface.default_resolution},
+          {"parameters", options_json(surface.parameters)}};
+}
+
+Json method_json(const MethodInfo& method) {
   return {{"name", method.name},
           {"summary", method.summary},
           {"paper", method.paper},
           {"slow_precompute", method.slow_precompute},
           {"honours", effect_names(method.honours)},
-          {"options", std::move(options)}};
+          {"options", options_json(method.options)}};
 }
 
 std::string kind_text(const std::string& kind) {
@@ -84,7 +107,9 @@ std::string kind_text(const std::string& kind) {
   if (kind == "methods") {
     for (const Method* method : all_methods()) text += method_text(method->info());
   } else if (kind == "scenes") {
-    for (const std::string& scene : list_scenes(scenes_folder())) text += fmt::format("  {}\n", scene);
+    for (const std::string& scene : list_scenes(scene_library().folder)) text += fmt::format("  {}\n", scene);
+  } else if (kind == "surfaces") {
+    for (const Surface& surface : all_surfaces()) text += surface_text(surface);
   } else {
     for (const gl::BackendReport& report : gl::probe_backends()) text += backend_text(report);
   }
@@ -92,10 +117,12 @@ std::string kind_text(const std::string& kind) {
 }
 
 Json kind_json(const std::string& kind) {
-  if (kind == "scenes") return list_scenes(scenes_folder());
+  if (kind == "scenes") return list_scenes(scene_library().folder);
   Json json = Json::array();
   if (kind == "methods") {
     for (const Method* method : all_methods()) json.push_back(method_json(method->info()));
+  } else if (kind == "surfaces") {
+    for (const Surface& surface : all_surfaces()) json.push_back(surface_json(surface));
   } else {
     for (const gl::BackendReport& report : gl::probe_backends()) json.push_back(backend_json(report));
   }
@@ -120,9 +147,9 @@ void run_list(const Arguments& arguments) {
 }  // namespace
 
 void add_list_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("list", "List the methods with their options, the scenes, the backends");
+  CLI::App* command = app.add_subcommand("list", "List the methods, scenes, surfaces and backends");
   const auto arguments = std::make_shared<Arguments>();
-  command->add_option("kind", arguments->kind, "methods, scenes or backends; all if not given");
+  command->add_option("kind", arguments->kind, "methods, scenes, surfaces or backends; all if not given");
   command->add_flag("--json", arguments->json, "Print JSON");
   command->footer(examples);
   command->callback([arguments] { run_list(*arguments); });

@@ -91,7 +91,7 @@ void run_ndf(const Arguments& arguments) {
   if (!arguments.texels.empty()) (void)parse_rectangle("--texels", arguments.texels);
   const std::optional<BaseLobe> lobe =
       arguments.lobe.empty() ? std::nullopt : std::optional(parse_lobe("--lobe", arguments.lobe));
-  NdfSource source = load_ndf_source(arguments.source, arguments.material, scenes_folder());
+  NdfSource source = load_ndf_source(arguments.source, arguments.material, scene_library());
   if (lobe) source.material = with_lobe(std::move(source.material), *lobe);
   settings.footprint = footprint_of(arguments, source.material);
 

@@ -97,7 +97,7 @@ void run_render(const Arguments& arguments) {
     settings.methods = {method};
   }
   const gl::ContextRequest request = context_request(arguments.backend);
-  Scene scene = load_scene(arguments.scene, scenes_folder());
+  Scene scene = load_scene(arguments.scene, scene_library());
   const double distance = distance_factor(given_distance, arguments.frame, scene);
 
   ProgressDisplay display(progress_style(arguments.quiet));

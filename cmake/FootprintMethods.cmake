@@ -2,7 +2,7 @@
 
 # footprint_add_method(NAME [SOURCES extra.cpp ...] [LIBRARIES ...]): a prefiltering method in the folder NAME, or in the
 # current folder where that holds NAME.cpp, with NAME.cpp (which defines `const Method& NAME_method()`), NAME.glsl (its text
-# is footprint::embedded::NAME_glsl) and, where it exists, NAME_test.cpp. Nothing else has to change: the registry is
+# is footprint::embedded::NAME_glsl) and a test program of all its *_test.cpp. Nothing else has to change: the registry is
 # written from these lines.
 function(footprint_add_method name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
@@ -17,8 +17,9 @@ function(footprint_add_method name)
     footprint_embed(footprint_method_${name} "${folder}/${name}.glsl" ${name}_glsl)
   endif()
   set_property(GLOBAL APPEND PROPERTY FOOTPRINT_METHODS ${name})
-  if(EXISTS "${folder}/${name}_test.cpp")
-    footprint_add_test(footprint_${name}_test SOURCES "${folder}/${name}_test.cpp"
+  file(GLOB tests CONFIGURE_DEPENDS "${folder}/*_test.cpp")
+  if(tests)
+    footprint_add_test(footprint_${name}_test SOURCES ${tests}
                        LIBRARIES footprint_method_${name} footprint_testing)
   endif()
 endfunction()

@@ -87,8 +87,7 @@ class Comparison {
   Comparison(const CompareSettings& settings, std::filesystem::path folder, const Progress& progress)
       : settings_(settings),
         folder_(std::move(folder)),
-        stage_(settings.context, load_scene(settings.scene, settings.scenes_folder), timing_settings(settings),
-               no_progress),
+        stage_(settings.context, load_scene(settings.scene, settings.library), timing_settings(settings), no_progress),
         distances_(distances_of(settings, stage_.scene())),
         parts_(progress, static_cast<double>(distances_.size()) * (settings.spp + curve_samples + method_weight())) {
     require_pictures(stage_.view(1.0).size, pictures_held(settings.methods.size(), distances_.size()));

@@ -11,14 +11,15 @@
 #include "experiments/runner/stage.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/pipeline/supersample.hpp"
+#include "renderer/scene/surface.hpp"
 #include "results/report/records.hpp"
 
 namespace footprint {
 
 /// What `footprint compare` is asked for.
 struct CompareSettings {
-  std::string scene;  ///< as load_scene takes it
-  std::filesystem::path scenes_folder;
+  std::string scene;     ///< as load_scene takes it
+  SceneLibrary library;  ///< what it may name
   std::vector<MethodSpec> methods;
   std::vector<double> distances;   ///< factors on the camera's distance; empty: the scene's zoom path
   std::optional<glm::ivec2> size;  ///< none: the scene's own

@@ -11,6 +11,7 @@
 #include "renderer/gl/context.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
 #include "renderer/scene/material.hpp"
+#include "renderer/scene/surface.hpp"
 #include "results/report/ndf_report.hpp"
 
 namespace footprint {
@@ -27,7 +28,7 @@ struct NdfSource {
 /// has it) under the lobe blinn_phong:64, anything else as a scene, of which `material` (a name or a number from 0;
 /// empty: the only one) is taken. Errors (usage): what the loaders refuse; no such material, or several and none named.
 [[nodiscard]] NdfSource load_ndf_source(const std::string& path, const std::string& material,
-                                        const std::filesystem::path& scenes_folder);
+                                        const SceneLibrary& library);
 
 /// The material with `lobe` in place of its own distribution and roughness.
 [[nodiscard]] Material with_lobe(Material material, const BaseLobe& lobe);

@@ -94,12 +94,12 @@ Material with_lobe(Material material, const BaseLobe& lobe) {
   return material;
 }
 
-NdfSource load_ndf_source(const std::string& path, const std::string& material, const fs::path& scenes_folder) {
+NdfSource load_ndf_source(const std::string& path, const std::string& material, const SceneLibrary& library) {
   if (names_a_map(path)) {
     if (material.empty()) return load_map(path);
     throw Error(ErrorKind::usage, "--material", fmt::format("{} is a map and has no materials", path), "leave it out");
   }
-  const Scene scene = load_scene(path, scenes_folder);
+  const Scene scene = load_scene(path, library);
   return {path, false, scene.materials.at(material_index(scene, material)), scene.warnings};
 }
 

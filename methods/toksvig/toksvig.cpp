@@ -1,9 +1,5 @@
 // `toksvig`: the length of the mean normal tells the spread of the normals under a footprint; one lobe about the mean
 // normal takes that spread into its width. Toksvig 2004/2005, "Mipmapping Normal Maps".
-#include <algorithm>
-#include <cmath>
-
-#include "renderer/image/mipmap.hpp"
 #include "renderer/pipeline/base_surface.hpp"
 #include "renderer/pipeline/normal_chain.hpp"
 
@@ -14,21 +10,6 @@ extern const std::string_view toksvig_glsl;
 }
 
 namespace {
-
-// Variances of independent spreads add, so the base lobe is filtered as its slope variance. The root of its mean is
-// stored: half floats and bytes keep it well, where a mirror's variance of 1e-6 would not survive.
-std::vector<Image> deviation_chain(const Material& material) {
-  const NormalDistribution distribution = material.brdf.distribution;
-  Image variance = roughness_map_of(material);
-  std::ranges::transform(variance.texels, variance.texels.begin(), [&](float roughness) {
-    return lobe_variance(distribution, lobe_from_alpha(distribution, roughness * roughness));
-  });
-  std::vector<Image> chain = mip_chain(std::move(variance));
-  for (Image& level : chain) {
-    std::ranges::transform(level.texels, level.texels.begin(), [](float v) { return std::sqrt(std::min(v, 1.0F)); });
-  }
-  return chain;
-}
 
 class Toksvig final : public Method {
  public:
@@ -44,7 +25,7 @@ class Toksvig final : public Method {
     }
     if (has(effects, Effect::roughness_variation)) {
       out.textures.push_back(
-          make_texture("toksvig_deviation", deviation_chain(material), storage, roughness_coordinates(material)));
+          make_texture("toksvig_deviation", lobe_deviation_chain(material), storage, roughness_coordinates(material)));
     }
     return out;
   }

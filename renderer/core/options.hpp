@@ -14,7 +14,7 @@ struct OptionSpec {
   std::string name;
   std::variant<double, std::string> default_value;
   double minimum = 0.0, maximum = 0.0;  ///< numbers only, both inclusive
-  std::vector<std::string> choices;     ///< words only
+  std::vector<std::string> choices{};   ///< words only
   std::string meaning;                  ///< one sentence, with units
   bool integer = false;                 ///< numbers only: whole numbers
 };

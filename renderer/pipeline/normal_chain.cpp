@@ -36,6 +36,23 @@ std::vector<Image> mean_normal_chain(const Material& material) {
   return chain;
 }
 
+Image lobe_variance_map(const Material& material) {
+  const NormalDistribution distribution = material.brdf.distribution;
+  Image variance = roughness_map_of(material);
+  std::ranges::transform(variance.texels, variance.texels.begin(), [&](float roughness) {
+    return lobe_variance(distribution, lobe_from_alpha(distribution, roughness * roughness));
+  });
+  return variance;
+}
+
+std::vector<Image> lobe_deviation_chain(const Material& material) {
+  std::vector<Image> chain = mip_chain(lobe_variance_map(material));
+  for (Image& level : chain) {
+    std::ranges::transform(level.texels, level.texels.begin(), [](float v) { return std::sqrt(std::min(v, 1.0F)); });
+  }
+  return chain;
+}
+
 OptionSpec storage_option() {
   return {.name = "storage",
           .default_value = std::string("fp32"),

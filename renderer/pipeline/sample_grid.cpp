@@ -7,6 +7,7 @@
 #include <random>
 
 #include "renderer/core/error.hpp"
+#include "renderer/core/random.hpp"
 
 namespace footprint {
 namespace {
@@ -23,9 +24,6 @@ int grid_of(int spp) {
   }
   return 1;
 }
-
-// 53 random bits: std::uniform_real_distribution differs between libraries, this does not.
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11U) * 0x1.0p-53; }
 
 // A seeded order of 0 .. count - 1 (Fisher and Yates), again without a library's own distribution.
 std::vector<int> shuffled(int count, std::mt19937_64& random) {

@@ -11,14 +11,21 @@ namespace footprint {
 
 namespace embedded {
 extern const std::string_view surface_vertex_glsl, surface_fragment_glsl, surface_lights_glsl, common_footprint_glsl,
-    common_lobes_glsl, common_base_brdf_glsl, surface_material_glsl, ndf_fragment_glsl, resolve_samples_glsl,
-    screen_vertex_glsl;
+    common_lobes_glsl, common_base_brdf_glsl, common_slopes_glsl, beckmann_lambda_glsl, surface_material_glsl,
+    ndf_fragment_glsl, resolve_samples_glsl, screen_vertex_glsl;
 }
 
 namespace {
 
 constexpr std::string_view directive_mark = "//? ";
 constexpr std::string_view version_line = "#version 450 core\n";
+
+// The texts that a module takes in by `include`: what some methods share and others do not pay for.
+std::optional<std::string_view> optional_text(std::string_view file) {
+  if (file == "common_slopes.glsl") return embedded::common_slopes_glsl;
+  if (file == "beckmann_lambda.glsl") return embedded::beckmann_lambda_glsl;
+  return std::nullopt;
+}
 
 // An open `if`: whether its parent keeps text, and whether its own condition holds.
 struct Branch {
@@ -57,6 +64,8 @@ class Selector {
   void directive(std::string_view words) {
     if (words.starts_with("if ")) {
       open(words.substr(3));
+    } else if (words.starts_with("include ")) {
+      include(words.substr(8));
     } else if (words == "else" && !branches_.empty()) {
       keeping_ = branches_.back().outer && !branches_.back().holds;
     } else if (words == "end" && !branches_.empty()) {
@@ -74,9 +83,18 @@ class Selector {
     keeping_ = keeping_ && branches_.back().holds;
   }
 
+  // Included lines are numbered as shared ones: those of the module keep the numbers of its own file.
+  void include(std::string_view file) {
+    const std::optional<std::string_view> text = optional_text(file);
+    if (!text) throw bad(fmt::format("there is no shared text `{}`", file));
+    if (!keeping_) return;
+    if (numbered_) out_ += fmt::format("#line {}\n", first_shared_line);
+    out_ += select_text(*text, flags_, file);
+  }
+
   [[nodiscard]] Error bad(const std::string& message) const {
     return {ErrorKind::usage, fmt::format("{}, line {}", file_, number_), message,
-            "directives: if FLAG, if not FLAG, else, end"};
+            "directives: if FLAG, if not FLAG, else, end, include FILE"};
   }
 
   const ShaderFlags& flags_;

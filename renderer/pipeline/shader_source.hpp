@@ -36,7 +36,7 @@ using ShaderFlags = std::set<std::string, std::less<>>;
 
 /// The text without the parts whose flags are off, and without the directives (renderer/shaders/README.md). `numbered`:
 /// `#line` directives keep the compiler's line numbers those of `text`. Errors (usage) name `file` and line: a
-/// directive that is unknown or not closed.
+/// directive that is unknown or not closed, an `include` of what is no shared text.
 [[nodiscard]] std::string select_text(std::string_view text, const ShaderFlags& flags, std::string_view file,
                                       bool numbered = false);
 

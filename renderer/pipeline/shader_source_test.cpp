@@ -17,7 +17,8 @@ TEST(SelectText, KeepsWhatIsOn) {
 }
 
 TEST(SelectText, NamesFileAndLineOfABadDirective) {
-  for (const std::string_view text : {"a\n//? iff x\n", "a\n//? end\n", "a\n//? else\n"}) {
+  for (const std::string_view text :
+       {"a\n//? iff x\n", "a\n//? end\n", "a\n//? else\n", "a\n//? include none.glsl\n"}) {
     try {
       (void)select_text(text, {}, "module.glsl");
       ADD_FAILURE() << text;
@@ -31,6 +32,14 @@ TEST(SelectText, NamesFileAndLineOfABadDirective) {
 
 TEST(SelectText, KeepsLineNumbersWhereAsked) {
   EXPECT_EQ(select_text("a\n//? if x\nb\n//? end\nc\n", {}, "t", true), "#line 1\na\n#line 3\n#line 5\nc\n");
+}
+
+TEST(SelectText, TakesInASharedTextWhereItsFlagIsOn) {
+  constexpr std::string_view text = "a\n//? if x\n//? include beckmann_lambda.glsl\n//? end\nb\n";
+  EXPECT_EQ(select_text(text, {}, "t"), "a\nb\n");
+  const std::string taken = select_text(text, {"x"}, "t", true);
+  EXPECT_TRUE(taken.starts_with("#line 1\na\n#line 3\n#line 10001\n//")) << taken;
+  EXPECT_TRUE(taken.ends_with("}\n#line 4\n#line 5\nb\n")) << taken;
 }
 
 TEST(ShaderFlags, FollowEffectsTermsAndWordOptions) {

@@ -65,6 +65,22 @@ Model load_content(const PlaneSettings& settings) {
   return model;
 }
 
+Model load_content(const SurfaceContent& content) {
+  const auto& [surface, settings] = content;
+  Material material;
+  material.name = surface->name;
+  material.roughness = 0.5F;
+  material.metallic = 0.0F;
+  material.normal_map = make_map(surface->name, surface_normals(*surface, settings));
+  if (Image colors = surface_base_color(*surface, settings); !colors.empty()) {
+    material.base_color_map = make_map(surface->name, std::move(colors));
+  }
+  Model model;
+  model.materials.push_back(std::move(material));
+  model.meshes.push_back(surface->mesh(settings));
+  return model;
+}
+
 void apply(const BrdfSettings& settings, Material& material) {
   material.brdf.distribution = settings.distribution.value_or(material.brdf.distribution);
   material.brdf.geometry = settings.geometry.value_or(material.brdf.geometry);

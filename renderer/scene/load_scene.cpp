@@ -29,10 +29,10 @@ std::string lower_extension(const fs::path& path) {
   return extension;
 }
 
-Scene load_settings(const fs::path& file, const std::string& source) {
+Scene load_settings(const fs::path& file, const std::string& source, std::span<const Surface> surfaces) {
   const std::string folder = fs::absolute(file).lexically_normal().parent_path().filename().string();
   const std::string stem = file.filename() == settings_name ? folder : file.stem().string();
-  const SceneSettings settings = read_scene_settings(file);
+  const SceneSettings settings = read_scene_settings(file, surfaces);
   try {
     return assemble_scene(settings, stem, source);
   } catch (const Error& error) {
@@ -48,26 +48,26 @@ Scene load_bare(const fs::path& file, const std::string& source) {
 
 }  // namespace
 
-Scene load_scene(const std::string& scene, const fs::path& scenes_folder) {
+Scene load_scene(const std::string& scene, const SceneLibrary& library) {
   if (scene.empty()) throw Error(ErrorKind::usage, "scene", "the name is empty", "name a scene or a glTF file");
   const fs::path path = scene;
   const bool plain_name = path == path.filename() && !path.has_extension();
-  if (plain_name && is_file(scenes_folder / path / settings_name)) {
-    return load_settings(scenes_folder / path / settings_name, scene);
+  if (plain_name && is_file(library.folder / path / settings_name)) {
+    return load_settings(library.folder / path / settings_name, scene, library.surfaces);
   }
   std::error_code error;
   if (fs::is_directory(path, error)) {
-    if (is_file(path / settings_name)) return load_settings(path / settings_name, scene);
+    if (is_file(path / settings_name)) return load_settings(path / settings_name, scene, library.surfaces);
     throw Error(ErrorKind::usage, scene, "the folder has no scene.toml", "name a folder with one, or a glTF file");
   }
   const std::string extension = lower_extension(path);
-  if (extension == ".toml") return load_settings(path, scene);
+  if (extension == ".toml") return load_settings(path, scene, library.surfaces);
   if (extension == ".gltf" || extension == ".glb") return load_bare(path, scene);
   if (fs::exists(path, error)) {
     throw Error(ErrorKind::usage, scene, "is neither a scene.toml nor a .gltf or .glb file",
                 "export the model as glTF 2.0");
   }
-  throw Error(ErrorKind::usage, scene, "no such scene or file", suggestion(scene, list_scenes(scenes_folder)));
+  throw Error(ErrorKind::usage, scene, "no such scene or file", suggestion(scene, list_scenes(library.folder)));
 }
 
 std::vector<std::string> list_scenes(const fs::path& scenes_folder) {

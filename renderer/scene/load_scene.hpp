@@ -6,13 +6,15 @@
 #include <vector>
 
 #include "renderer/scene/scene.hpp"
+#include "renderer/scene/surface.hpp"
 
 namespace footprint {
 
-/// Loads SCENE as the command line takes it: a folder of `scenes_folder`, a folder with a scene.toml, a path to a
+/// Loads SCENE as the command line takes it: a folder of `library.folder`, a folder with a scene.toml, a path to a
 /// scene.toml, or a .gltf / .glb file (camera framed on its bounds and a light rig supplied where the file has none).
-/// Errors (usage) name file, place and mend; an unknown key in scene.toml names its line and the nearest right key.
-[[nodiscard]] Scene load_scene(const std::string& scene, const std::filesystem::path& scenes_folder);
+/// Errors (usage) name file, place and mend; an unknown key in scene.toml names its line and the nearest right key, and
+/// so does a surface that is not in the library.
+[[nodiscard]] Scene load_scene(const std::string& scene, const SceneLibrary& library);
 
 /// The names of the folders in `scenes_folder` that hold a scene.toml, sorted.
 [[nodiscard]] std::vector<std::string> list_scenes(const std::filesystem::path& scenes_folder);

@@ -12,23 +12,23 @@
 namespace footprint {
 namespace {
 
-const std::filesystem::path scenes = std::filesystem::path(FOOTPRINT_SOURCE_DIR) / "scenes";
+const SceneLibrary library{.folder = std::filesystem::path(FOOTPRINT_SOURCE_DIR) / "scenes", .surfaces = {}};
 
 Scene load(const std::string& settings) {
   return load_scene(test::write_file("made/scene.toml", settings).string(), {});
 }
 
 TEST(LoadScene, ScenesOfTheRepositoryAreListedAndLoad) {
-  const auto names = list_scenes(scenes);
+  const auto names = list_scenes(library.folder);
   EXPECT_TRUE(std::ranges::is_sorted(names));
   EXPECT_TRUE(std::ranges::find(names, "ribbed_plane") != names.end());
   EXPECT_TRUE(std::ranges::find(names, "clear_coat") != names.end());
   EXPECT_TRUE(list_scenes("/nowhere/at/all").empty());
 
-  const Scene by_name = load_scene("ribbed_plane", scenes);
+  const Scene by_name = load_scene("ribbed_plane", library);
   EXPECT_EQ(by_name.name, "ribbed_plane");
   EXPECT_EQ(by_name.source, "ribbed_plane");
-  for (const auto& path : {scenes / "ribbed_plane", scenes / "ribbed_plane/scene.toml"}) {
+  for (const auto& path : {library.folder / "ribbed_plane", library.folder / "ribbed_plane/scene.toml"}) {
     EXPECT_EQ(load_scene(path.string(), {}).name, "ribbed_plane");
   }
   EXPECT_TRUE(by_name.defaults.empty());
@@ -38,7 +38,7 @@ TEST(LoadScene, ScenesOfTheRepositoryAreListedAndLoad) {
 }
 
 TEST(LoadScene, RibbedPlaneHasTheNormalsOfItsFormula) {
-  const Scene scene = load_scene("ribbed_plane", scenes);
+  const Scene scene = load_scene("ribbed_plane", library);
   const Image& map = *scene.materials.at(0).normal_map->image;
   ASSERT_EQ(map.width, 128);
   constexpr double pi = 3.14159265358979323846;
@@ -55,7 +55,7 @@ TEST(LoadScene, RibbedPlaneHasTheNormalsOfItsFormula) {
 
 TEST(LoadScene, WrongNamesAreNamed) {
   const auto error_of = [](const std::string& name) {
-    return test::usage_error([&] { return load_scene(name, scenes); });
+    return test::usage_error([&] { return load_scene(name, library); });
   };
   EXPECT_NE(error_of("ribed_plane").find("did you mean `ribbed_plane`"), std::string::npos);
   EXPECT_NE(error_of("").find("empty"), std::string::npos);

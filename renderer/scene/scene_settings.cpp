@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "renderer/scene/toml_table.hpp"
@@ -199,15 +200,57 @@ CameraSettings read_camera(const TomlTable& table) {
   return framing;
 }
 
-void read_content(const TomlTable& root, const std::filesystem::path& folder, SceneSettings& settings) {
+/// The parameters of [surface], each checked where it stands.
+std::map<std::string, std::string> read_parameters(const TomlTable& table, const Surface& surface) {
+  std::vector<std::string> names;
+  for (const OptionSpec& spec : surface.parameters) names.push_back(spec.name);
+  std::map<std::string, std::string> given;
+  const auto parameters = table.table("parameters", names);
+  if (!parameters) return given;
+  for (const OptionSpec& spec : surface.parameters) {
+    if (!spec.choices.empty()) {
+      if (const auto i = parameters->choice(spec.name, spec.choices)) given[spec.name] = spec.choices[*i];
+    } else if (spec.integer) {
+      if (const auto number = parameters->whole_number(spec.name, {spec.minimum, spec.maximum})) {
+        given[spec.name] = fmt::format("{}", *number);
+      }
+    } else if (const auto number = parameters->number(spec.name, {spec.minimum, spec.maximum})) {
+      given[spec.name] = fmt::format("{}", *number);
+    }
+  }
+  return given;
+}
+
+SurfaceContent read_surface(const TomlTable& table, std::span<const Surface> surfaces) {
+  std::vector<std::string> names;
+  for (const Surface& surface : surfaces) names.push_back(surface.name);
+  const auto place = table.choice("name", names);
+  if (!place) missing(table, "name");
+  const Surface& surface = surfaces[*place];
+  SurfaceSettings settings = surface_settings(surface, read_parameters(table, surface));
+  if (const auto resolution = table.whole_number("resolution", {1.0, largest_surface_resolution})) {
+    settings.resolution = static_cast<int>(*resolution);
+  }
+  if (const auto seed = table.whole_number("seed", {0.0, std::numeric_limits<std::uint32_t>::max()})) {
+    settings.seed = static_cast<std::uint32_t>(*seed);
+  }
+  return {&surface, std::move(settings)};
+}
+
+/// What is drawn: exactly one of the three.
+void read_content(const TomlTable& root, const std::filesystem::path& folder, std::span<const Surface> surfaces,
+                  SceneSettings& settings) {
   const auto model = root.table("model", {"file", "files", "package"});
   const auto plane = root.table("plane", {"size", "normal_map", "normal_scale", "base_color_map",
                                           "metallic_roughness_map", "roughness", "metallic"});
-  if (model.has_value() == plane.has_value()) {
-    throw root.error_at("model", "or `plane` must be given, and only one of them", "add [model] file = \"NAME.gltf\"");
+  const auto surface = root.table("surface", {"name", "resolution", "seed", "parameters"});
+  if (model.has_value() + plane.has_value() + surface.has_value() != 1) {
+    throw root.error_at("model", "or `plane` or `surface` must be given, and only one of them",
+                        "add [model] file = \"NAME.gltf\"");
   }
   if (model) settings.content = read_model(*model, folder);
   if (plane) settings.content = read_plane(*plane, folder);
+  if (surface) settings.content = read_surface(*surface, surfaces);
   if (const auto brdf = root.table("brdf", {"distribution", "geometry", "fresnel", "diffuse", "exponent", "alpha",
                                             "kappa", "specular", "base_color"})) {
     settings.brdf = read_brdf(*brdf);
@@ -241,16 +284,17 @@ void read_view(const TomlTable& root, SceneSettings& settings) {
 
 }  // namespace
 
-SceneSettings read_scene_settings(const std::filesystem::path& file) {
+SceneSettings read_scene_settings(const std::filesystem::path& file, std::span<const Surface> surfaces) {
   const toml::table parsed = parse_toml_file(file);
-  const TomlTable root(parsed, file, "",
-                       {"scene", "model", "plane", "brdf", "frame", "light", "lights", "camera", "zoom", "tiling"});
+  const TomlTable root(
+      parsed, file, "",
+      {"scene", "model", "plane", "surface", "brdf", "frame", "light", "lights", "camera", "zoom", "tiling"});
   SceneSettings settings;
   if (const auto scene = root.table("scene", {"name", "description"})) {
     settings.name = scene->word("name");
     settings.description = scene->word("description").value_or("");
   }
-  read_content(root, file.parent_path(), settings);
+  read_content(root, file.parent_path(), surfaces, settings);
   read_lights(root, settings);
   read_view(root, settings);
   return settings;

@@ -9,6 +9,7 @@
 
 #include "renderer/scene/camera.hpp"
 #include "renderer/scene/scene.hpp"
+#include "renderer/scene/surface.hpp"
 
 namespace footprint {
 
@@ -24,6 +25,12 @@ struct PlaneSettings {
   std::optional<std::filesystem::path> normal_map, base_color_map, metallic_roughness_map;
   double normal_scale = 1.0;
   float roughness = 0.5F, metallic = 0.0F;
+};
+
+/// A procedural surface on its own mesh; `surface` belongs to the library that the scene was read with.
+struct SurfaceContent {
+  const Surface* surface;
+  SurfaceSettings settings;
 };
 
 /// What [brdf] changes in every material.
@@ -43,7 +50,7 @@ using CameraSettings = std::variant<std::monostate, Framing, Camera>;
 struct SceneSettings {
   std::optional<std::string> name;  ///< else the folder's
   std::string description;          ///< for people who list scenes
-  std::variant<ModelSettings, PlaneSettings> content;
+  std::variant<ModelSettings, PlaneSettings, SurfaceContent> content;
   BrdfSettings brdf;
   std::optional<glm::ivec2> frame_size;
   std::optional<float> exposure;
@@ -55,8 +62,9 @@ struct SceneSettings {
   glm::vec2 tiling{1.0F};
 };
 
-/// Reads a scene.toml. Relative paths in it start from its folder. Errors (usage) read "FILE:LINE: ...": not TOML,
-/// unknown keys with the nearest right one, wrong types, values out of range, settings that exclude each other.
-[[nodiscard]] SceneSettings read_scene_settings(const std::filesystem::path& file);
+/// Reads a scene.toml, which may name one of `surfaces`. Relative paths in it start from its folder. Errors (usage)
+/// read "FILE:LINE: ...": not TOML, unknown keys with the nearest right one, wrong types, values out of range, settings
+/// that exclude each other.
+[[nodiscard]] SceneSettings read_scene_settings(const std::filesystem::path& file, std::span<const Surface> surfaces);
 
 }  // namespace footprint

@@ -11,7 +11,7 @@ namespace footprint {
 namespace {
 
 SceneSettings read(const std::string& text) {
-  return read_scene_settings(test::write_file("settings/scene.toml", text));
+  return read_scene_settings(test::write_file("settings/scene.toml", text), {});
 }
 
 void expect_error(const std::string& text, const std::vector<std::string>& wanted) {

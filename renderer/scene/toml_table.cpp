@@ -90,6 +90,15 @@ std::optional<double> TomlTable::number(std::string_view key, NumberRange range)
   return checked(*node, key, range);
 }
 
+std::optional<std::int64_t> TomlTable::whole_number(std::string_view key, NumberRange range) const {
+  const auto value = number(key, range);
+  if (!value) return std::nullopt;
+  if (*value != std::floor(*value)) {
+    throw error_at(key, fmt::format("is {:g}, which is not a whole number", *value), "leave out the fraction");
+  }
+  return static_cast<std::int64_t>(*value);
+}
+
 std::optional<std::vector<double>> TomlTable::numbers(std::string_view key, std::size_t count,
                                                       NumberRange range) const {
   const toml::node* node = find(key);

@@ -3,6 +3,7 @@
 
 #include <toml++/toml.h>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -40,6 +41,8 @@ class TomlTable {
   [[nodiscard]] std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& choices) const;
   [[nodiscard]] std::optional<bool> boolean(std::string_view key) const;
   [[nodiscard]] std::optional<double> number(std::string_view key, NumberRange range) const;
+  /// A number without a fraction.
+  [[nodiscard]] std::optional<std::int64_t> whole_number(std::string_view key, NumberRange range) const;
   /// `count` numbers; a `count` of 0 takes any number of them but none.
   [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view key, std::size_t count,
                                                            NumberRange range) const;

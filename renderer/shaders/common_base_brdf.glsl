@@ -42,12 +42,11 @@ float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
   return 0.5 * nl / max(masked, 1e-12);
 }
 //? else
-// Smith's Lambda for Beckmann slopes (Walter 2007, section 5.2, as a rational function); Blinn-Phong and vMF lobes take
-// the alpha of the same width (Walter 2007, section 5.2).
+//? include beckmann_lambda.glsl
+// Blinn-Phong and vMF lobes take the alpha of the same width (Walter 2007, section 5.2).
 float smithLambda(float alpha, float c) {
   float tangent = sqrt(max(1.0 - c * c, 0.0)) / c;
-  float a = 1.0 / max(alpha * tangent, 1e-6);
-  return a < 1.6 ? (1.0 - 1.259 * a + 0.396 * a * a) / (3.535 * a + 2.181 * a * a) : 0.0;
+  return beckmannLambda(1.0 / max(alpha * tangent, 1e-6));
 }
 // G2 / (4 n.v), height-correlated (Heitz 2014, equation 99).
 float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {

@@ -1,0 +1,52 @@
+// `fixed_brdf`: the finest level's reflectance at every distance, over a geometry that is filtered: the mean normal,
+// renormalised, shades with a facet's own lobe. Tan 2005's straw man (figure 8).
+#include "renderer/pipeline/base_surface.hpp"
+#include "renderer/pipeline/normal_chain.hpp"
+
+namespace footprint {
+
+namespace embedded {
+extern const std::string_view fixed_brdf_glsl;
+}
+
+namespace {
+
+class FixedBrdf final : public Method {
+ public:
+  [[nodiscard]] const MethodInfo& info() const override { return info_; }
+
+  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                                       const Progress& /*progress*/) const override {
+    const Storage storage = parse_storage(options.word("storage"));
+    Prefiltered out;
+    if (has(effects, Effect::normal_variation)) {
+      out.textures.push_back(
+          make_texture("fixed_normal", mean_normal_chain(material), storage, normal_coordinates(material), true));
+    }
+    if (has(effects, Effect::roughness_variation)) {
+      // The finest level alone: reflectance is what this method does not filter.
+      out.textures.push_back(
+          make_texture("fixed_roughness", {roughness_map_of(material)}, storage, roughness_coordinates(material)));
+    }
+    return out;
+  }
+
+  [[nodiscard]] std::string_view shader() const override { return embedded::fixed_brdf_glsl; }
+
+ private:
+  MethodInfo info_{
+      .name = "fixed_brdf",
+      .summary = "The finest level's reflectance at any distance, over geometry that is filtered.",
+      .paper = "Tan, Lin, Quan, Guo, Shum 2005, Multiresolution Reflectance Filtering, EGSR (its comparison, figure 8)",
+      .options = {storage_option()},
+      .honours = EffectSet{}.set()};
+};
+
+}  // namespace
+
+const Method& fixed_brdf_method() {
+  static const FixedBrdf method;
+  return method;
+}
+
+}  // namespace footprint

@@ -1,0 +1,56 @@
+// `lean`: first and second moments of slope filter linearly and give a footprint's mean slope and covariance; one
+// anisotropic lobe stands over them. Olano and Baker 2010, "LEAN Mapping"; CLEAN is its scalar variant.
+#include "renderer/pipeline/base_surface.hpp"
+#include "renderer/pipeline/normal_chain.hpp"
+#include "renderer/pipeline/slope_moments.hpp"
+
+namespace footprint {
+
+namespace embedded {
+extern const std::string_view lean_glsl;
+}
+
+namespace {
+
+class Lean final : public Method {
+ public:
+  [[nodiscard]] const MethodInfo& info() const override { return info_; }
+
+  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                                       const Progress& /*progress*/) const override {
+    const bool scalar = options.word("variant") == "clean";
+    Prefiltered out = bake_slopes(material, options, effects, scalar ? SlopeVariant::scalar : SlopeVariant::full);
+    if (has(effects, Effect::normal_variation) && has(effects, Effect::diffuse)) {
+      out.textures.push_back(make_texture("lean_normal", mean_normal_chain(material),
+                                          parse_storage(options.word("storage")), normal_coordinates(material)));
+    }
+    return out;
+  }
+
+  [[nodiscard]] std::string_view shader() const override { return embedded::lean_glsl; }
+
+ private:
+  MethodInfo info_{.name = "lean",
+                   .summary = "One anisotropic lobe over the mean and the covariance of the footprint's slopes.",
+                   .paper = "Olano and Baker 2010, LEAN Mapping, I3D",
+                   .options = {slope_storage_option(),
+                               slope_roughness_option(),
+                               {.name = "variant",
+                                .default_value = std::string("lean"),
+                                .minimum = 0,
+                                .maximum = 0,
+                                .choices = {"lean", "clean"},
+                                .meaning = "The whole covariance of slopes, or its trace alone (CLEAN): a round lobe "
+                                           "and three channels instead of five.",
+                                .integer = false}},
+                   .honours = EffectSet{}.set()};
+};
+
+}  // namespace
+
+const Method& lean_method() {
+  static const Lean method;
+  return method;
+}
+
+}  // namespace footprint

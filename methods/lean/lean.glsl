@@ -1,0 +1,36 @@
+// Olano and Baker 2010: mean and covariance of slope under the footprint, recovered from filtered moments, and one lobe
+// over them. The scalar variant, CLEAN, keeps the trace of the covariance alone.
+//? include common_slopes.glsl
+
+struct Effective {
+  SlopeLobe lobe;
+  float round_lobe;  // parameter of the round base lobe of the same breadth, for the geometry term
+  vec3 mean_normal;  // not renormalised: its dot product is the mean of the texels' own
+};
+
+Effective effective(Footprints f) {
+  Effective e;
+  e.lobe = footprintLobe(f);
+  e.round_lobe = lobeFromVariance(e.lobe.breadth);
+  e.mean_normal = vec3(0.0, 0.0, 1.0);
+//? if diffuse
+//? if normal_variation
+  e.mean_normal = fetch(lean_normal, f.normal).xyz;
+//? end
+//? end
+  return e;
+}
+
+float ndf(Effective e, vec3 h) { return slopeDensity(e.lobe, h); }
+
+vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
+  if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
+  vec3 h = halfVector(wi, wo);
+  return fresnelTerm(f0, wi, wo) * (ndf(e, h) * geometryFactor(e.round_lobe, e.lobe.axis, h, wi, wo));
+}
+
+//? if diffuse
+vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
+  return lambert(e.mean_normal, albedo, f0, wi, wo);
+}
+//? end

@@ -1,0 +1,80 @@
+// Expectation-maximisation of a mixture of isotropic Gaussians over the unit disc with Tan's prior, for one texel.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "methods/tan_gmm/samples.hpp"
+
+namespace footprint::tan_gmm {
+
+constexpr int most_components = 8;
+
+/// No variance is below it: a Gaussian that shrinks onto one normal would have an infinite likelihood.
+constexpr float variance_floor = 1e-6F;
+
+/// alpha g(n; mu, sigma) with g a density over dx dy of the disc (Tan 2005, section 3).
+struct Gaussian {
+  float alpha = 0.0F;               ///< 0 to 1; those of a mixture sum to 1
+  float x = 0.0F, y = 0.0F;         ///< mu
+  float variance = variance_floor;  ///< sigma^2 per axis
+
+  friend bool operator==(const Gaussian&, const Gaussian&) = default;
+};
+
+/// What the neighbours that are known say of the means: the log of the prior is
+/// -c sum_k sum_i alpha_ki |mu_ki - mu_i|^2 (Tan 2005, section 4.1; the factor c after its M-step).
+class Prior {
+ public:
+  /// No neighbours yet; c >= 0.
+  explicit Prior(double c) : c_(c) {}
+
+  /// A neighbour's mixture, components in the order of all others.
+  void add(std::span<const Gaussian> neighbour);
+
+  /// c sum_k alpha_ki, and the mean of mu_ki with those weights; 0 where it has none.
+  [[nodiscard]] double weight(std::size_t i) const { return c_ * weight_[i]; }
+  [[nodiscard]] double mean_x(std::size_t i) const { return weight_[i] > 0 ? x_[i] / weight_[i] : 0.0; }
+  [[nodiscard]] double mean_y(std::size_t i) const { return weight_[i] > 0 ? y_[i] / weight_[i] : 0.0; }
+
+  /// The log of the prior for component i at (x, y), up to a constant that depends on the neighbours alone.
+  [[nodiscard]] double log_density(std::size_t i, double x, double y) const;
+
+ private:
+  double c_;
+  std::array<double, most_components> weight_{}, x_{}, y_{};  // sums over the neighbours
+};
+
+/// How the mean is updated. exact: the maximum of the posterior; published: Tan's approximation of it, which weighs the
+/// prior by c in place of 2 sigma^2 c.
+enum class MStep { exact, published };
+
+/// What the E-step leaves of the samples for one component: sums over samples of weight * responsibility.
+struct Moments {
+  double weight = 0;
+  double x = 0, y = 0;  ///< mean
+  double scatter = 0;   ///< sum of squared distances from that mean, both axes together
+};
+
+struct Expectation {
+  std::array<Moments, most_components> moments{};
+  double log_likelihood = 0;  ///< of the mixture that the responsibilities are taken from
+};
+
+/// The E-step, with responsibilities by log-sum-exp. `samples` and `mixture` are not empty. A sample with a spread
+/// counts as its points would with the mean of their log densities (Verbeek, Nunnink, Vlassis 2006).
+[[nodiscard]] Expectation expectation(const Samples& samples, std::span<const Gaussian> mixture);
+
+/// The M-step. alpha = sum / M; mu with the variance before the step; then sigma^2 per axis about the new mean, with
+/// the floor. A component without samples keeps mean and variance, and has alpha 0.
+void maximise(const Expectation& e, const Prior& prior, MStep step, std::span<Gaussian> mixture);
+
+/// The log of the prior at a mixture.
+[[nodiscard]] double log_prior(const Prior& prior, std::span<const Gaussian> mixture);
+
+/// Iterates until the posterior gains less than `tolerance` a unit of sample weight, `most_iterations` at most. Returns
+/// the posterior before the last step.
+double iterate(const Samples& samples, const Prior& prior, MStep step, int most_iterations, double tolerance,
+               std::span<Gaussian> mixture);
+
+}  // namespace footprint::tan_gmm

@@ -1,0 +1,162 @@
+// See mixture_chain.hpp.
+#include "methods/tan_gmm/mixture_chain.hpp"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "renderer/image/mipmap.hpp"
+
+namespace footprint::tan_gmm {
+namespace {
+
+// The mixtures of one level, row by row.
+class Level {
+ public:
+  Level(int width, int height, std::size_t components)
+      : width_(width),
+        height_(height),
+        components_(components),
+        gaussians_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * components) {}
+
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+  [[nodiscard]] std::span<Gaussian> at(int x, int y) { return {gaussians_.data() + offset(x, y), components_}; }
+  [[nodiscard]] std::span<const Gaussian> at(int x, int y) const {
+    return {gaussians_.data() + offset(x, y), components_};
+  }
+
+ private:
+  [[nodiscard]] std::size_t offset(int x, int y) const {
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)) * components_;
+  }
+
+  int width_, height_;
+  std::size_t components_;
+  std::vector<Gaussian> gaussians_;
+};
+
+struct Workspace {
+  Samples samples;
+  CellPool cells;
+};
+
+// Fits the texels of one level; the coarser one, if any, is done.
+class LevelFit {
+ public:
+  LevelFit(const NormalField& normals, const FitSettings& settings, Moment moment, const Level* coarser, Level& level,
+           std::span<Image> stored, tbb::enumerable_thread_specific<Workspace>& workspaces)
+      : normals_(&normals),
+        settings_(&settings),
+        moment_(moment),
+        coarser_(coarser),
+        level_(&level),
+        stored_(stored),
+        workspaces_(&workspaces) {}
+
+  void run(const std::function<void(double)>& report) const {
+    settings_->align ? run_wavefront(report) : run_rows(report);
+  }
+
+ private:
+  // A texel needs its neighbours W, NW, N and NE. Those with equal x + 2 y need none of one another, so that a front of
+  // them runs in parallel and every texel still sees what scanline order would have shown it.
+  void run_wavefront(const std::function<void(double)>& report) const {
+    const int fronts = level_->width() + 2 * (level_->height() - 1);
+    for (int front = 0; front < fronts; ++front) {
+      const int first = std::max(0, (front - level_->width() + 2) / 2);
+      const int last = std::min(level_->height() - 1, front / 2);
+      tbb::parallel_for(tbb::blocked_range<int>(first, last + 1), [&](const tbb::blocked_range<int>& rows) {
+        Workspace& workspace = workspaces_->local();
+        for (int y = rows.begin(); y < rows.end(); ++y) fit(front - 2 * y, y, workspace);
+      });
+      report((front + 1.0) / fronts);
+    }
+  }
+
+  void run_rows(const std::function<void(double)>& report) const {
+    for (int y = 0; y < level_->height(); ++y) {
+      tbb::parallel_for(tbb::blocked_range<int>(0, level_->width()), [&](const tbb::blocked_range<int>& columns) {
+        Workspace& workspace = workspaces_->local();
+        for (int x = columns.begin(); x < columns.end(); ++x) fit(x, y, workspace);
+      });
+      report((y + 1.0) / level_->height());
+    }
+  }
+
+  [[nodiscard]] std::span<const Gaussian> parent(int x, int y) const {
+    if (coarser_ == nullptr || !settings_->align) return {};
+    return coarser_->at(std::min(x / 2, coarser_->width() - 1), std::min(y / 2, coarser_->height() - 1));
+  }
+
+  [[nodiscard]] Prior prior(int x, int y) const {
+    Prior prior(settings_->prior_weight);
+    if (!settings_->align) return prior;
+    constexpr std::array<std::pair<int, int>, 4> done{{{-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+    for (const auto& [dx, dy] : done) {
+      const bool inside = x + dx >= 0 && x + dx < level_->width() && y + dy >= 0;
+      if (inside) prior.add(std::as_const(*level_).at(x + dx, y + dy));
+    }
+    prior.add(parent(x, y));
+    return prior;
+  }
+
+  void fit(int x, int y, Workspace& workspace) const {
+    Samples& samples = workspace.samples;
+    normals_->gather(level_->width(), level_->height(), x, y, samples);
+    const double coverage = normals_->coverage(level_->width(), level_->height(), samples);
+    workspace.cells.pool(samples);
+    const std::span<Gaussian> mixture = level_->at(x, y);
+    fit_texel(samples, prior(x, y), parent(x, y), *settings_, mixture);
+    for (std::size_t i = 0; i < mixture.size(); ++i) store(mixture[i], coverage, stored_[i].at(x, y));
+  }
+
+  // In double: the shader takes |mu|^2 away again.
+  void store(const Gaussian& g, double coverage, std::span<float> texel) const {
+    const double alpha = g.alpha * coverage;
+    const double square = static_cast<double>(g.x) * g.x + static_cast<double>(g.y) * g.y;
+    const double variance = g.variance > variance_floor ? g.variance : 0.0;  // on the floor it is a single normal
+    texel[0] = static_cast<float>(alpha);
+    texel[1] = static_cast<float>(alpha * g.x);
+    texel[2] = static_cast<float>(alpha * g.y);
+    texel[3] = static_cast<float>(alpha * (square + (moment_ == Moment::corrected ? 2.0 : 1.0) * variance));
+  }
+
+  const NormalField* normals_;
+  const FitSettings* settings_;
+  Moment moment_;
+  const Level* coarser_;
+  Level* level_;
+  std::span<Image> stored_;
+  tbb::enumerable_thread_specific<Workspace>* workspaces_;
+};
+
+}  // namespace
+
+MixtureChain mixture_chain(const NormalField& normals, const FitSettings& settings, Moment moment,
+                           const Progress& progress) {
+  const int levels = mip_level_count(normals.width(), normals.height());
+  MixtureChain chain(settings.components, std::vector<Image>(static_cast<std::size_t>(levels)));
+  tbb::enumerable_thread_specific<Workspace> workspaces;
+  Level coarser(0, 0, settings.components);
+  for (int index = levels - 1; index >= 0; --index) {
+    const int width = std::max(normals.width() >> index, 1);
+    const int height = std::max(normals.height() >> index, 1);
+    Level level(width, height, settings.components);
+    std::vector<Image> stored(settings.components, Image(width, height, 4));
+    const LevelFit fit(normals, settings, moment, index == levels - 1 ? nullptr : &coarser, level, stored, workspaces);
+    const std::string what = fmt::format("fitting mixtures, {} x {}", width, height);
+    const int done = levels - 1 - index;  // every level visits every normal, so that each takes about as long
+    fit.run([&](double fraction) { progress(what, (done + fraction) / levels); });
+    for (std::size_t i = 0; i < stored.size(); ++i) chain[i][static_cast<std::size_t>(index)] = std::move(stored[i]);
+    coarser = std::move(level);
+  }
+  return chain;
+}
+
+}  // namespace footprint::tan_gmm

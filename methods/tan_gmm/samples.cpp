@@ -1,0 +1,120 @@
+// See samples.hpp.
+#include "methods/tan_gmm/samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace footprint::tan_gmm {
+namespace {
+
+constexpr int cells_across = 256;
+constexpr double cell_size = 2.0 / cells_across;
+
+int cell_of(float coordinate) {
+  return std::clamp(static_cast<int>((static_cast<double>(coordinate) + 1.0) / cell_size), 0, cells_across - 1);
+}
+
+double centre_of(int cell) { return (cell + 0.5) * cell_size - 1.0; }
+
+// What coarse texel i of `coarse` covers of `fine` ones. Counted in units of 1 / coarse of a fine texel, in which every
+// border is a whole number.
+struct Span {
+  std::int64_t begin, end, coarse;
+
+  Span(int fine_size, int coarse_size, int i)
+      : begin(static_cast<std::int64_t>(i) * fine_size),
+        end(static_cast<std::int64_t>(i + 1) * fine_size),
+        coarse(coarse_size) {}
+  [[nodiscard]] int first() const { return static_cast<int>(begin / coarse); }
+  [[nodiscard]] int past() const { return static_cast<int>((end + coarse - 1) / coarse); }
+  [[nodiscard]] double share(int fine) const {
+    const std::int64_t overlap = std::min(end, (fine + 1) * coarse) - std::max(begin, fine * coarse);
+    return static_cast<double>(overlap) / static_cast<double>(coarse);
+  }
+};
+
+}  // namespace
+
+double Samples::total_weight() const { return std::accumulate(weight.begin(), weight.end(), 0.0); }
+
+void Samples::add(float x_, float y_, float spread_, float weight_) {
+  x.push_back(x_);
+  y.push_back(y_);
+  spread.push_back(spread_);
+  weight.push_back(weight_);
+}
+
+void Samples::clear() {
+  for (std::vector<float>* column : {&x, &y, &spread, &weight}) column->clear();
+}
+
+NormalField::NormalField(const Image& normals)
+    : width_(normals.width),
+      height_(normals.height),
+      x_(normals.texel_count()),
+      y_(normals.texel_count()),
+      weight_(normals.texel_count()) {
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    const float* const n = &normals.texels[4 * i];
+    const float across = std::hypot(n[0], n[1]);
+    const float length = n[2] > 0.0F ? std::hypot(across, n[2]) : across;  // below the surface: to the rim
+    const bool valid = n[3] > 0.0F && std::isfinite(std::hypot(across, n[2])) && length >= 1e-3F;
+    x_[i] = valid ? n[0] / length : 0.0F;
+    y_[i] = valid ? n[1] / length : 0.0F;
+    weight_[i] = valid ? n[3] : 0.0F;
+  }
+}
+
+void NormalField::gather(int level_width, int level_height, int column, int row, Samples& out) const {
+  out.clear();
+  const Span across(width_, level_width, column);
+  const Span down(height_, level_height, row);
+  for (int j = down.first(); j < down.past(); ++j) {
+    const double share = down.share(j);
+    const std::size_t start = static_cast<std::size_t>(j) * static_cast<std::size_t>(width_);
+    for (int i = across.first(); i < across.past(); ++i) {
+      const std::size_t texel = start + static_cast<std::size_t>(i);
+      if (weight_[texel] <= 0.0F) continue;
+      out.add(x_[texel], y_[texel], 0.0F, static_cast<float>(share * across.share(i)) * weight_[texel]);
+    }
+  }
+}
+
+double NormalField::coverage(int level_width, int level_height, const Samples& samples) const {
+  const double area = static_cast<double>(width_) / level_width * height_ / level_height;
+  return std::min(samples.total_weight() / area, 1.0);
+}
+
+CellPool::CellPool() : cells_(static_cast<std::size_t>(cells_across) * cells_across) {}
+
+void CellPool::pool(Samples& samples) {
+  if (samples.size() < fewest) return;
+  touched_.clear();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const int column = cell_of(samples.x[i]);
+    const int row = cell_of(samples.y[i]);
+    const auto index = static_cast<std::uint32_t>(row * cells_across + column);
+    Cell& cell = cells_[index];
+    if (cell.weight == 0.0) touched_.push_back(index);
+    const double dx = samples.x[i] - centre_of(column);
+    const double dy = samples.y[i] - centre_of(row);
+    cell.weight += samples.weight[i];
+    cell.x += samples.weight[i] * dx;
+    cell.y += samples.weight[i] * dy;
+    cell.square += samples.weight[i] * (dx * dx + dy * dy + samples.spread[i]);
+  }
+  samples.clear();
+  for (const std::uint32_t index : touched_) {
+    Cell& cell = cells_[index];
+    const double x = cell.x / cell.weight;
+    const double y = cell.y / cell.weight;
+    const double spread = std::max(cell.square / cell.weight - x * x - y * y, 0.0);
+    samples.add(static_cast<float>(x + centre_of(static_cast<int>(index % cells_across))),
+                static_cast<float>(y + centre_of(static_cast<int>(index / cells_across))), static_cast<float>(spread),
+                static_cast<float>(cell.weight));
+    cell = {};
+  }
+}
+
+}  // namespace footprint::tan_gmm

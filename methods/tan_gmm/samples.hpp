@@ -1,0 +1,63 @@
+// The normals that a texel of a mip level covers, as weighted points of the unit disc.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "renderer/image/image.hpp"
+
+namespace footprint::tan_gmm {
+
+/// Weighted points (n_x, n_y) of the unit disc. A point may stand for several that lie close together: `spread` is
+/// then their mean squared distance from it (both axes together), else 0.
+struct Samples {
+  std::vector<float> x, y, spread, weight;  ///< of one size; weight > 0, in texels of the finest level
+
+  [[nodiscard]] std::size_t size() const { return x.size(); }
+  [[nodiscard]] double total_weight() const;
+  void add(float x_, float y_, float spread_, float weight_);
+  void clear();
+};
+
+/// A normal map projected to the disc: normals renormalised, those that are invalid (weight 0, shorter than 1e-3, not
+/// finite) left out, those that point below the surface moved to the rim.
+class NormalField {
+ public:
+  /// `normals` has 4 channels: normal, weight.
+  explicit NormalField(const Image& normals);
+
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+
+  /// The normals under texel (column, row) of a level of level_width x level_height texels, in place of what `out`
+  /// holds. The level spans the whole map; a fine texel that the border of a coarse one cuts counts by its share.
+  void gather(int level_width, int level_height, int column, int row, Samples& out) const;
+
+  /// The part of that texel's area that valid normals cover, given its samples: 0 to 1.
+  [[nodiscard]] double coverage(int level_width, int level_height, const Samples& samples) const;
+
+ private:
+  int width_, height_;
+  std::vector<float> x_, y_, weight_;
+};
+
+/// Pools the samples of large texels in the cells of a grid over the disc, each to its centroid and spread, so that
+/// first and second moments are kept exactly. Cells are 1/128 wide.
+class CellPool {
+ public:
+  /// Texels of fewer samples are left as they are.
+  static constexpr std::size_t fewest = 1024;
+
+  CellPool();
+  void pool(Samples& samples);
+
+ private:
+  struct Cell {
+    double weight = 0, x = 0, y = 0, square = 0;  // sums; x, y and square from the cell's centre
+  };
+  std::vector<Cell> cells_;
+  std::vector<std::uint32_t> touched_;  // in the order of the first sample
+};
+
+}  // namespace footprint::tan_gmm

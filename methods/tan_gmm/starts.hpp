@@ -1,0 +1,23 @@
+// Where EM starts from: clusters of the samples, and a narrow component on the densest spot of the disc.
+#pragma once
+
+#include <span>
+
+#include "methods/tan_gmm/em.hpp"
+
+namespace footprint::tan_gmm {
+
+/// Clusters of the samples as components (Tan 2005, section 4.1): centres farthest from one another, then Lloyd's
+/// steps. Where the samples have fewer distinct points than `mixture` components, the others get alpha 0. Returns
+/// whether every sample lies on the mean of its cluster.
+bool cluster_start(const Samples& samples, std::span<Gaussian> mixture);
+
+/// Components one less than `mixture` from clusters, and one of variance 1e-4 on the cell of a histogram that holds the
+/// most weight: clusters miss spikes of equal normals inside of a wider spread. Needs two components.
+void dense_start(const Samples& samples, std::span<Gaussian> mixture);
+
+/// Orders the components so that the prior is greatest: which cluster is which is free until neighbours tell. Those
+/// of alpha 0 take the prior's mean.
+void match_order(const Prior& prior, std::span<Gaussian> mixture);
+
+}  // namespace footprint::tan_gmm

@@ -1,0 +1,120 @@
+// `tan_gmm`: a mixture of Gaussians over the normals of every texel of every level, aligned between neighbours so that
+// the texture filter can blend it. Tan, Lin, Quan, Guo, Shum 2005, "Multiresolution Reflectance Filtering".
+#include <utility>
+
+#include "methods/tan_gmm/mixture_chain.hpp"
+#include "renderer/pipeline/base_surface.hpp"
+#include "renderer/pipeline/method.hpp"
+#include "renderer/pipeline/normal_chain.hpp"
+
+namespace footprint {
+
+namespace embedded {
+extern const std::string_view tan_gmm_glsl;
+}
+
+namespace {
+
+OptionSpec word_option(std::string name, std::vector<std::string> choices, std::string meaning) {
+  return {.name = std::move(name),
+          .default_value = choices.front(),
+          .minimum = 0,
+          .maximum = 0,
+          .choices = std::move(choices),
+          .meaning = std::move(meaning),
+          .integer = false};
+}
+
+std::vector<OptionSpec> option_table() {
+  return {
+      {.name = "n",
+       .default_value = 4.0,
+       .minimum = 1.0,
+       .maximum = tan_gmm::most_components,
+       .choices = {},
+       .meaning = "Gaussians of a mixture.",
+       .integer = true},
+      word_option("align", {"on", "off"},
+                  "Whether EM draws the means to those of the neighbouring texels, so that components correspond; off "
+                  "fits each texel on its own."),
+      word_option("m_step", {"exact", "published"},
+                  "The mean's update: the maximum of the posterior, or the paper's approximation, which weighs the "
+                  "neighbours by c in place of 2 sigma^2 c and can lower the posterior."),
+      word_option(
+          "moment", {"corrected", "published"},
+          "The stored second moment: alpha (2 sigma^2 + |mu|^2), or the paper's alpha (sigma^2 + |mu|^2), which "
+          "counts the spread of the means twice."),
+      word_option("init", {"dense_seed", "kmeans"},
+                  "Where EM starts: the best of clusters, a narrow component on the densest spot and the coarser "
+                  "texel's mixture; or clusters alone, as in the paper."),
+      {.name = "c",
+       .default_value = 1.0,
+       .minimum = 0.0,
+       .maximum = 1e6,
+       .choices = {},
+       .meaning = "Weight of the prior that aligns the means, in samples; the paper's is 1.",
+       .integer = false},
+      word_option("storage", {"fp32", "fp16"}, "How the mixtures are stored: 32-bit or 16-bit floats."),
+      word_option("foreshorten", {"on", "off"},
+                  "Whether the base lobe's variance over the disc shrinks with the cosine of the component's tilt."),
+      word_option("rim", {"normalized", "cut"},
+                  "What becomes of a Gaussian that reaches beyond the disc: scaled so that no energy is lost, or cut "
+                  "off there, as in the paper.")};
+}
+
+tan_gmm::FitSettings fit_settings(const Options& options) {
+  tan_gmm::FitSettings settings;
+  settings.components = static_cast<std::size_t>(options.number("n"));
+  settings.align = options.word("align") == "on";
+  settings.m_step = options.word("m_step") == "exact" ? tan_gmm::MStep::exact : tan_gmm::MStep::published;
+  settings.start = options.word("init") == "kmeans" ? tan_gmm::Start::clusters : tan_gmm::Start::dense_seed;
+  settings.prior_weight = options.number("c");
+  return settings;
+}
+
+class TanGmm final : public Method {
+ public:
+  [[nodiscard]] const MethodInfo& info() const override { return info_; }
+
+  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                                       const Progress& progress) const override {
+    const Storage storage = parse_storage(options.word("storage"));
+    Prefiltered out;
+    if (has(effects, Effect::normal_variation)) {
+      const auto moment =
+          options.word("moment") == "corrected" ? tan_gmm::Moment::corrected : tan_gmm::Moment::published;
+      const tan_gmm::MixtureChain chain = tan_gmm::mixture_chain(tan_gmm::NormalField(normal_map_of(material)),
+                                                                 fit_settings(options), moment, progress);
+      out.textures.push_back(make_array_texture("tan_gmm_mixture", chain, storage, normal_coordinates(material)));
+    }
+    if (has(effects, Effect::roughness_variation)) {
+      out.textures.push_back(
+          make_texture("tan_gmm_deviation", lobe_deviation_chain(material), storage, roughness_coordinates(material)));
+    }
+    return out;
+  }
+
+  [[nodiscard]] int lobe_count(const Options& options) const override { return static_cast<int>(options.number("n")); }
+
+  [[nodiscard]] std::string_view shader() const override { return embedded::tan_gmm_glsl; }
+
+ private:
+  MethodInfo info_{
+      .name = "tan_gmm",
+      .summary =
+          "A mixture of Gaussians over the normals, its components aligned between texels so that "
+          "the texture filter blends them.",
+      .paper = "Tan et al. 2005, Multiresolution Reflectance Filtering, Eurographics Symposium on Rendering",
+      .options = option_table(),
+      .honours = EffectSet{}.set(),
+      .slow_precompute = true};
+};
+
+}  // namespace
+
+const Method& tan_gmm_method() {
+  static const TanGmm method;
+  return method;
+}
+
+}  // namespace footprint

@@ -1,0 +1,154 @@
+// Tan et al. 2005, "Multiresolution Reflectance Filtering": the normals under a footprint are a mixture of isotropic
+// Gaussians over the unit disc of (n_x, n_y). A component's weight, mean and second moment are linear in its samples, so
+// that the texture filter blends them; mean and variance are recovered behind the filter (section 4.2).
+//? if normal_variation
+const int components = int(option_n);
+//? else
+const int components = 1;
+//? end
+
+// Components: `amount` is the share of the energy over the density's norm; 0 where a component is not there.
+struct Effective {
+  vec3 mean[components];
+  float share[components];
+  float amount[components];
+  float variance[components];  // per axis of the disc, normals and base lobe together
+  float lobe;                  // of a single facet
+};
+
+// One Gaussian over the disc.
+struct Component {
+  float share;
+  vec2 mean;
+  float spread;  // variance per axis of the normals alone
+};
+
+// A component weighs what it covers of the footprint; under this share it is left out, and no division is by nothing.
+const float least_share = 1e-4;
+
+Component recovered(vec4 filtered) {
+  if (filtered.x < least_share) return Component(0.0, vec2(0.0), 0.0);
+  vec2 mean = filtered.yz / filtered.x;
+  float spread = max(filtered.w / filtered.x - dot(mean, mean), 0.0);  // rounding of the storage can leave less
+//? if moment_corrected
+  spread *= 0.5;  // the texture holds E |n|^2 = |mu|^2 + 2 sigma^2, over both axes
+//? end
+  return Component(filtered.x, mean, spread);
+}
+
+// The height of the hemisphere over a point of the disc.
+float heightOver(vec2 mean) { return sqrt(max(1.0 - dot(mean, mean), 0.0)); }
+
+// The base lobe's variance over the disc. Seen from above, a solid angle shrinks by the cosine; a lobe on the rim still
+// reaches its own width above it.
+float baseOverDisc(float variance, float height) {
+//? if foreshorten_on
+  return variance * min(max(height, sqrt(variance)), 1.0);
+//? else
+  return variance;
+//? end
+}
+
+// The normal distribution function, to 1.4e-4 (Page 1977).
+float normalCdf(float x) {
+  float z = clamp(x, -8.0, 8.0);
+  return 1.0 / (1.0 + exp(-z * (1.5976 + 0.070565992 * z * z)));
+}
+
+// The mass of a Gaussian inside the disc: a noncentral chi-squared distribution of 2 degrees of freedom, by Sankaran 1963.
+float massInDisc(vec2 mean, float variance) {
+  float distance = length(mean);
+  if (1.0 - distance > 4.0 * sqrt(variance)) return 1.0;
+  float lambda = dot(mean, mean) / variance;
+  float sum = 2.0 + lambda;
+  float h = 1.0 - (2.0 / 3.0) * sum * (2.0 + 3.0 * lambda) / ((sum + lambda) * (sum + lambda));
+  float p = (sum + lambda) / (sum * sum);
+  float m = (h - 1.0) * (1.0 - 3.0 * h);
+  float centre = 1.0 + h * p * (h - 1.0 - 0.5 * (2.0 - h) * m * p);
+  return normalCdf((pow(1.0 / (variance * sum), h) - centre) / (h * sqrt(2.0 * p) * (1.0 + 0.5 * m * p)));
+}
+
+// The share of a component's energy that the hemisphere shows, over the mass of its Gaussian that the disc does. Of a
+// facet's lobe the part below the horizon is lost; of the Gaussian far more falls off the disc.
+float rimFactor(vec2 mean, float variance, float height, float base_variance) {
+//? if rim_normalized
+  return normalCdf(asin(height) * inversesqrt(base_variance)) / max(massInDisc(mean, variance), 1e-3);
+//? else
+  return 1.0;
+//? end
+}
+
+float baseLobe(Footprints f) {
+//? if roughness_variation
+  float deviation = fetch(tan_gmm_deviation, f.roughness).r;
+  return lobeFromVariance(deviation * deviation);
+//? else
+  return lobe_cutoff.x;
+//? end
+}
+
+void setComponent(inout Effective e, int i, Component c) {
+  float size = length(c.mean);
+  vec2 mean = size > 1.0 ? c.mean / size : c.mean;  // by rounding
+  float height = heightOver(mean);
+  float base = clamp(lobeVariance(e.lobe), 1e-6, 4.0);
+  float variance = clamp(c.spread + baseOverDisc(base, height), 1e-6, 4.0);
+  e.mean[i] = vec3(mean, height);
+  e.share[i] = c.share;
+  e.variance[i] = variance;
+  e.amount[i] = c.share <= 0.0 ? 0.0 : c.share * rimFactor(mean, variance, height, base) / (2.0 * pi * variance);
+}
+
+Effective effective(Footprints f) {
+  Effective e;
+  e.lobe = baseLobe(f);
+//? if normal_variation
+  Component parts[components];
+  float covered = 0.0;  // the part of the footprint with valid normals
+  for (int i = 0; i < components; ++i) {
+    parts[i] = recovered(fetch(tan_gmm_mixture, i, f.normal));
+    covered += parts[i].share;
+  }
+  if (covered <= 0.0) {
+    parts[0] = Component(1.0, vec2(0.0), 0.0);
+    covered = 1.0;
+  }
+  for (int i = 0; i < components; ++i) {
+    parts[i].share /= covered;
+    setComponent(e, i, parts[i]);
+  }
+//? else
+  setComponent(e, 0, Component(1.0, vec2(0.0), 0.0));
+//? end
+  return e;
+}
+
+// Over solid angle: an area of the disc is h_z times the solid angle above it.
+float componentDensity(Effective e, int i, vec3 h) {
+  vec2 d = h.xy - e.mean[i].xy;
+  return e.amount[i] * exp(-0.5 * dot(d, d) / e.variance[i]) * max(h.z, 0.0);
+}
+
+vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
+  if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
+  vec3 h = halfVector(wi, wo);
+  float sum = 0.0;
+  for (int i = 0; i < components; ++i) {
+    sum += componentDensity(e, i, h) * geometryFactor(e.lobe, e.mean[i], h, wi, wo);
+  }
+  return fresnelTerm(f0, wi, wo) * sum;
+}
+
+//? if diffuse
+vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < components; ++i) sum += e.share[i] * lambert(e.mean[i], albedo, f0, wi, wo);
+  return sum;
+}
+//? end
+
+float ndf(Effective e, vec3 h) {
+  float sum = 0.0;
+  for (int i = 0; i < components; ++i) sum += componentDensity(e, i, h);
+  return sum;
+}

@@ -1,0 +1,67 @@
+// See texel_fit.hpp.
+#include "methods/tan_gmm/texel_fit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "methods/tan_gmm/starts.hpp"
+
+namespace footprint::tan_gmm {
+namespace {
+
+// A histogram tells nothing of a handful of samples.
+constexpr std::size_t fewest_for_histogram = 32;
+
+// Runs a few steps of EM from each start that it is handed and keeps the best.
+class Trials {
+ public:
+  Trials(const Samples& samples, const Prior& prior, const FitSettings& settings, std::span<Gaussian> best)
+      : samples_(&samples), prior_(&prior), settings_(&settings), best_(best) {}
+
+  void take(std::span<Gaussian> start) {
+    const double posterior =
+        iterate(*samples_, *prior_, settings_->m_step, settings_->trial_iterations, settings_->tolerance, start);
+    if (posterior <= greatest_) return;
+    greatest_ = posterior;
+    std::ranges::copy(start, best_.begin());
+  }
+
+ private:
+  const Samples* samples_;
+  const Prior* prior_;
+  const FitSettings* settings_;
+  std::span<Gaussian> best_;
+  double greatest_ = -std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+void fit_texel(const Samples& samples, const Prior& prior, std::span<const Gaussian> parent,
+               const FitSettings& settings, std::span<Gaussian> mixture) {
+  std::ranges::fill(mixture, Gaussian{});
+  if (samples.size() == 0) return;
+  std::array<Gaussian, most_components> storage{};
+  const std::span<Gaussian> start(storage.data(), mixture.size());
+  // Where clusters are single points, no other start can be likelier.
+  const bool distinct = cluster_start(samples, start);
+  match_order(prior, start);
+  if (settings.start == Start::clusters || distinct) {
+    std::ranges::copy(start, mixture.begin());
+  } else {
+    Trials trials(samples, prior, settings, mixture);
+    trials.take(start);
+    if (mixture.size() > 1 && samples.size() >= fewest_for_histogram) {
+      dense_start(samples, start);
+      match_order(prior, start);
+      trials.take(start);
+    }
+    if (!parent.empty()) {
+      std::ranges::copy(parent, start.begin());
+      trials.take(start);
+    }
+  }
+  iterate(samples, prior, settings.m_step, settings.most_iterations, settings.tolerance, mixture);
+}
+
+}  // namespace footprint::tan_gmm

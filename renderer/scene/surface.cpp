@@ -1,0 +1,54 @@
+// See surface.hpp.
+#include "renderer/scene/surface.hpp"
+
+#include <fmt/format.h>
+
+#include "renderer/core/error.hpp"
+#include "renderer/core/memory.hpp"
+#include "renderer/core/suggest.hpp"
+
+namespace footprint {
+namespace {
+
+void check_resolution(const Surface& surface, int resolution) {
+  const std::string place = "surface " + surface.name;
+  if (resolution < 1 || resolution > largest_surface_resolution) {
+    throw Error(ErrorKind::usage, place,
+                fmt::format("the resolution is {}, not within 1 to {}", resolution, largest_surface_resolution),
+                "choose a value in the range");
+  }
+  constexpr std::uint64_t texel_bytes = 4 * sizeof(float);
+  const auto side = static_cast<std::uint64_t>(resolution);
+  require_memory(frame_bytes(side, side, texel_bytes),
+                 fmt::format("{}: a map of {} x {} texels", place, resolution, resolution),
+                 "ask for a smaller resolution, or free memory");
+}
+
+}  // namespace
+
+const Surface& find_surface(std::span<const Surface> surfaces, const std::string& name) {
+  std::vector<std::string> names;
+  for (const Surface& surface : surfaces) {
+    if (surface.name == name) return surface;
+    names.push_back(surface.name);
+  }
+  throw Error(ErrorKind::usage, "surface", fmt::format("unknown surface `{:.80}`", name), suggestion(name, names));
+}
+
+SurfaceSettings surface_settings(const Surface& surface, const std::map<std::string, std::string>& given) {
+  return {.resolution = surface.default_resolution,
+          .parameters = Options(surface.parameters, given, "surface " + surface.name)};
+}
+
+Image surface_normals(const Surface& surface, const SurfaceSettings& settings) {
+  check_resolution(surface, settings.resolution);
+  return surface.normals(settings);
+}
+
+Image surface_base_color(const Surface& surface, const SurfaceSettings& settings) {
+  if (surface.base_color == nullptr) return {};
+  check_resolution(surface, settings.resolution);
+  return surface.base_color(settings);
+}
+
+}  // namespace footprint

@@ -1,0 +1,60 @@
+// Procedural surfaces as the scene loader takes them: values that its caller passes, since the renderer knows none.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "renderer/core/options.hpp"
+#include "renderer/image/image.hpp"
+#include "renderer/scene/scene.hpp"
+
+namespace footprint {
+
+/// The most texels a side of a surface's maps, as of any texture file.
+inline constexpr int largest_surface_resolution = 16384;
+
+/// What a surface's maps and mesh are a pure function of.
+struct SurfaceSettings {
+  int resolution = 512;    ///< texels a side, 1 to `largest_surface_resolution`
+  std::uint32_t seed = 1;  ///< same seed, same bytes, at any number of threads
+  Options parameters;      ///< of the surface's own table
+};
+
+/// One kind of surface. Called through `surface_normals` and its neighbours below, which check the settings.
+struct Surface {
+  std::string name;
+  std::string summary;  ///< one sentence
+  std::vector<OptionSpec> parameters;
+  int default_resolution = 512;
+  /// A square map as Material::normal_map has it: unit normals, z > 0, weight 1, computed in double precision.
+  Image (*normals)(const SurfaceSettings&) = nullptr;
+  /// Linear RGBA of the same size; null where the surface has one colour.
+  Image (*base_color)(const SurfaceSettings&) = nullptr;
+  /// What the maps lie on: normals, tangents and texture coordinates set, material 0.
+  Mesh (*mesh)(const SurfaceSettings&) = nullptr;
+};
+
+/// What a SCENE argument may name beside files: the folder of the scenes that have a name, and the surfaces that a
+/// scene.toml may ask for.
+struct SceneLibrary {
+  std::filesystem::path folder;
+  std::span<const Surface> surfaces;
+};
+
+/// The surface of a name. Errors (usage): unknown, with the nearest right one.
+[[nodiscard]] const Surface& find_surface(std::span<const Surface> surfaces, const std::string& name);
+
+/// The default settings of a surface, with `given` parameters by name. Errors (usage): as of Options.
+[[nodiscard]] SurfaceSettings surface_settings(const Surface& surface, const std::map<std::string, std::string>& given);
+
+/// The normal map. Errors (usage): a resolution out of range; (machine): more than memory holds.
+[[nodiscard]] Image surface_normals(const Surface& surface, const SurfaceSettings& settings);
+
+/// The colour map; empty where the surface has none. Errors: as of `surface_normals`.
+[[nodiscard]] Image surface_base_color(const Surface& surface, const SurfaceSettings& settings);
+
+}  // namespace footprint

@@ -1,0 +1,122 @@
+// A footprint's normals as slopes, b = -n_xy / n_z, with mean B and covariance S, and the lobe over them: what methods
+// that keep moments of slope share. A module takes it in by `//? include common_slopes.glsl`; its textures and its option
+// `roughness` are those of renderer/pipeline/slope_moments.hpp.
+
+const float smallest_slope_cosine = 1e-3;  // hard stop of slopes at the horizon
+
+vec3 normalOfSlope(vec2 slope) { return normalize(vec3(-slope, 1.0)); }
+
+// M - B B^T for second moments M = (xx, xy, yy), as the nearest matrix without a negative eigenvalue: the difference of
+// rounded moments has small ones of either sign where normals agree.
+mat2 slopeCovariance(vec2 mean, vec3 second) {
+  vec3 c = second - vec3(mean.x * mean.x, mean.x * mean.y, mean.y * mean.y);
+  vec2 deviator = vec2(0.5 * (c.x - c.z), c.y);
+  float middle = 0.5 * (c.x + c.z);
+  float radius = length(deviator);
+  if (middle >= radius) return mat2(c.x, c.y, c.y, c.z);
+  float largest = max(middle + radius, 0.0);
+  vec2 turn = deviator / max(radius, 1e-30);
+  return 0.5 * largest * mat2(1.0 + turn.x, turn.y, turn.y, 1.0 - turn.x);
+}
+
+// A covariance has no negative determinant; its rounding may have.
+float determinantOfCovariance(mat2 c) { return max(c[0][0] * c[1][1] - c[0][1] * c[1][0], 0.0); }
+
+// [d -b; -c a]: the inverse times the determinant.
+mat2 adjugate(mat2 m) { return mat2(m[1][1], -m[0][1], -m[1][0], m[0][0]); }
+
+// Slopes about the normal of slope B to slopes of the surface, linear at B: J = diag(q^2, q) along and across B with
+// q = 1 / n_z = sqrt(1 + B^2), in a form without the direction of B, which a flat surface has not.
+mat2 slopeJacobian(vec2 mean, float q) { return mat2(q) + (q / (q + 1.0)) * outerProduct(mean, mean); }
+mat2 inverseSlopeJacobian(vec2 mean, float q) { return mat2(1.0 / q) - outerProduct(mean, mean) / (q * q * (q + 1.0)); }
+
+struct SlopeLobe {
+  vec2 mean;      // B
+  mat2 spread;    // S: covariance of the texels' slopes, without the base lobe
+  float base;     // v: slope variance per axis of the base lobe, about a texel's own normal
+  float breadth;  // slope variance per axis about `axis`, base lobe included: what a round lobe would have
+  vec3 axis;      // the normal of slope B
+  float secant;   // 1 / axis.z
+  mat2 shape;     // stretched: offsets from B to offsets of the base lobe; Gaussian: inverse covariance
+  float scale;    // stretched: determinant of `shape`; Gaussian: the peak of the density of slopes
+};
+
+//? if roughness_stretched
+// The base lobe about `axis`, stretched by the linear map of slopes that takes its covariance W = v J J^T to the
+// footprint's S + W. `shape` is that map's inverse, J X^-1/2 J^-1 with X = 1 + J^-1 S J^-1 / v. The root of a 2 x 2 matrix is
+// X^1/2 = (X + s) / t, s^2 = det X, t^2 = tr X + 2 s; det X = 1 + tr + det of the rest is a sum that cannot cancel.
+SlopeLobe slopeLobe(vec2 mean, mat2 spread, float variance) {
+  float q = sqrt(1.0 + dot(mean, mean));
+  mat2 inverse_jacobian = inverseSlopeJacobian(mean, q);
+  mat2 local = inverse_jacobian * spread * inverse_jacobian;
+  mat2 ratio = local / variance;
+  float trace = ratio[0][0] + ratio[1][1];
+  float s = sqrt(1.0 + trace + determinantOfCovariance(ratio));
+  float t = sqrt(2.0 + trace + 2.0 * s);
+  mat2 inverse_root = (adjugate(mat2(1.0) + ratio) + mat2(s)) / (s * t);
+  return SlopeLobe(mean, spread, variance, variance * (1.0 + 0.5 * trace), normalOfSlope(mean), q,
+                   slopeJacobian(mean, q) * inverse_root * inverse_jacobian, 1.0 / s);
+}
+
+// Density over solid angle: D(h) dh = D_base(h') dh' with dh = h_z^3 db, so that the energy stays the base lobe's own.
+float slopeDensity(SlopeLobe e, vec3 h) {
+  float cosine = max(h.z, smallest_slope_cosine);
+  vec3 base = normalOfSlope(e.mean + e.shape * (-h.xy / cosine - e.mean));
+  float ratio = base.z / cosine;
+  return lobeDensity(lobeFromVariance(e.base), e.axis, base) * (e.scale * ratio * ratio * ratio);
+}
+//? else
+// A Gaussian of slopes with covariance S + v (Olano and Baker 2010): the base lobe counts by its variance alone.
+SlopeLobe slopeLobe(vec2 mean, mat2 spread, float variance) {
+  float slope2 = dot(mean, mean);
+  float q = sqrt(1.0 + slope2);
+  mat2 inverse_jacobian = inverseSlopeJacobian(mean, q);
+  mat2 local = inverse_jacobian * spread * inverse_jacobian;
+  float least = max(variance, 1e-7 * (1.0 + slope2));  // below it, 32-bit moments are rounding
+  float determinant = least * (least + spread[0][0] + spread[1][1]) + determinantOfCovariance(spread);
+  return SlopeLobe(mean, spread, variance, variance + 0.5 * (local[0][0] + local[1][1]), normalOfSlope(mean), q,
+                   adjugate(spread + mat2(least)) / determinant, 1.0 / (2.0 * pi * sqrt(determinant)));
+}
+
+// p22 / h_z^3: density over solid angle (dh = h_z^3 db).
+float slopeDensity(SlopeLobe e, vec3 h) {
+  float cosine = max(h.z, smallest_slope_cosine);
+  vec2 offset = -h.xy / cosine - e.mean;
+  return e.scale * exp(-0.5 * max(dot(offset, e.shape * offset), 0.0)) / (cosine * cosine * cosine);
+}
+//? end
+
+// The base lobe's slope variance, but for what the moments hold already.
+//? if normal_variation
+//? if roughness_moments
+#define MOMENTS_HOLD_ROUGHNESS
+//? end
+//? end
+float addedVariance(Footprints f) {
+#ifdef MOMENTS_HOLD_ROUGHNESS
+  return 0.0;
+#else
+//? if roughness_variation
+  float deviation = fetch(slope_deviation, f.roughness).r;
+  return deviation * deviation;
+//? else
+  return lobeVariance(lobe_cutoff.x);
+//? end
+#endif
+}
+
+// The lobe over a pixel's footprint.
+SlopeLobe footprintLobe(Footprints f) {
+  vec2 mean = vec2(0.0);
+  mat2 spread = mat2(0.0);
+//? if normal_variation
+  vec4 moments = fetch(slope_moments, f.normal);
+  mean = moments.xy;
+//? if variant_clean
+  spread = mat2(max(0.5 * (moments.z - dot(mean, mean)), 0.0));
+//? else
+  spread = slopeCovariance(mean, vec3(moments.z, fetch(slope_cross, f.normal).r, moments.w));
+//? end
+//? end
+  return slopeLobe(mean, spread, addedVariance(f));
+}

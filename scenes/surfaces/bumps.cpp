@@ -1,0 +1,87 @@
+// bumps: round bumps of random place, width and height, close together, with smooth valleys between them.
+#include <cmath>
+
+#include "renderer/core/random.hpp"
+#include "scenes/surfaces/meshes.hpp"
+#include "scenes/surfaces/texel_grid.hpp"
+
+namespace footprint {
+namespace {
+
+/// A bump of height top - sharpness r^2. Lengths along the map are in cells; heights are those of steepness 1.
+struct Bump {
+  glm::dvec2 centre;
+  double top = 0.0, sharpness = 0.0;
+};
+
+/// How fast one bump takes over from the next: the height field is log(sum exp(blend h)) / blend, a rounded maximum.
+constexpr double blend = 10.0;
+
+/// Bumps this many cells away count. Those beyond are 2.2 cells or more away and, at `blend`, less than 1e-7 of the
+/// sum.
+constexpr int reach = 2;
+
+/// One bump a cell of a count x count grid, row by row, within 0.3 of its cell's centre.
+std::vector<Bump> scatter(int count, std::uint32_t seed) {
+  std::mt19937_64 random(seed);
+  const auto cells = static_cast<std::size_t>(count);
+  std::vector<Bump> bumps(cells * cells);
+  for (std::size_t i = 0; i < bumps.size(); ++i) {
+    const glm::dvec2 cell{static_cast<double>(i % cells), static_cast<double>(i / cells)};
+    const double x = uniform(random), y = uniform(random);
+    bumps[i].centre = cell + 0.5 + 0.6 * (glm::dvec2{x, y} - 0.5);
+    bumps[i].top = 0.2 * uniform(random);
+    bumps[i].sharpness = 0.7 + 0.6 * uniform(random);
+  }
+  return bumps;
+}
+
+/// The slope at `place`, in cells, for steepness 1: the bumps' slopes weighed by exp(blend h).
+glm::dvec2 slope_at(const std::vector<Bump>& bumps, int count, const glm::dvec2& place) {
+  glm::dvec2 sum{0.0};
+  double weights = 0.0;
+  const int column = static_cast<int>(place.x), row = static_cast<int>(place.y);
+  const auto wrap = [count](int index) { return (index % count + count) % count; };
+  for (int y = row - reach; y <= row + reach; ++y) {
+    for (int x = column - reach; x <= column + reach; ++x) {
+      const int wrapped_x = wrap(x), wrapped_y = wrap(y);
+      const Bump& bump = bumps[static_cast<std::size_t>(wrapped_y * count + wrapped_x)];
+      const glm::dvec2 offset = place - bump.centre - glm::dvec2{x - wrapped_x, y - wrapped_y};
+      const double weight = std::exp(blend * (bump.top - bump.sharpness * glm::dot(offset, offset)));
+      sum -= 2.0 * weight * bump.sharpness * offset;
+      weights += weight;
+    }
+  }
+  return sum / weights;
+}
+
+Image normals(const SurfaceSettings& settings) {
+  const int count = static_cast<int>(settings.parameters.number("count"));
+  const double steepness = settings.parameters.number("steepness");
+  const std::vector<Bump> bumps = scatter(count, settings.seed);
+  return fill_normals(settings.resolution, [&](const glm::dvec2& place) {
+    return normal_of_slope(steepness * slope_at(bumps, count, place * static_cast<double>(count)));
+  });
+}
+
+}  // namespace
+
+Surface bumps_surface() {
+  return {.name = "bumps",
+          .summary = "round bumps of random place, width and height, close together",
+          .parameters = {{.name = "count",
+                          .default_value = 16.0,
+                          .minimum = 1,
+                          .maximum = 1024,
+                          .meaning = "bumps along a side",
+                          .integer = true},
+                         {.name = "steepness",
+                          .default_value = 0.7,
+                          .minimum = 0,
+                          .maximum = 10,
+                          .meaning = "slope half a cell away from the middle of a mean bump, rise over run"}},
+          .normals = normals,
+          .mesh = square_mesh};
+}
+
+}  // namespace footprint

@@ -1,0 +1,28 @@
+// See meshes.hpp.
+#include "scenes/surfaces/meshes.hpp"
+
+#include "renderer/scene/plane.hpp"
+
+namespace footprint {
+
+Mesh square_mesh(const SurfaceSettings& /*settings*/) { return make_plane({2.0F, 2.0F}, {1.0F, 1.0F}); }
+
+Mesh grid_mesh(int columns, int rows, const std::function<Vertex(const glm::dvec2& place)>& vertex_at) {
+  Mesh mesh;
+  for (int row = 0; row <= rows; ++row) {
+    for (int column = 0; column <= columns; ++column) {
+      mesh.vertices.push_back(vertex_at({static_cast<double>(column) / columns, static_cast<double>(row) / rows}));
+    }
+  }
+  const auto at = [&](int column, int row) { return static_cast<std::uint32_t>(row * (columns + 1) + column); };
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const std::uint32_t low_left = at(column, row), low_right = at(column + 1, row);
+      const std::uint32_t high_left = at(column, row + 1), high_right = at(column + 1, row + 1);
+      mesh.indices.insert(mesh.indices.end(), {low_left, low_right, high_right, low_left, high_right, high_left});
+    }
+  }
+  return mesh;
+}
+
+}  // namespace footprint

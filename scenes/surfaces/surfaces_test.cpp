@@ -1,0 +1,178 @@
+// What holds for every surface: unit normals, seeds, threads, sizes, tiles, statistics, meshes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <ostream>
+
+#include "renderer/core/error.hpp"
+#include "scenes/surfaces/registry.hpp"
+
+namespace footprint {
+
+void PrintTo(const Surface& surface, std::ostream* out) { *out << surface.name; }
+
+namespace {
+
+class EverySurface : public ::testing::TestWithParam<Surface> {
+ protected:
+  static SurfaceSettings settings(int resolution, std::uint32_t seed = 1) {
+    SurfaceSettings settings = surface_settings(GetParam(), {});
+    settings.resolution = resolution;
+    settings.seed = seed;
+    return settings;
+  }
+  static Image normals(int resolution, std::uint32_t seed = 1) {
+    return surface_normals(GetParam(), settings(resolution, seed));
+  }
+};
+
+glm::dvec3 normal_at(const Image& map, int x, int y) {
+  const auto texel = map.at(x, y);
+  return {texel[0], texel[1], texel[2]};
+}
+
+void expect_unit_normals(const Image& map) {
+  double longest = 0.0, shortest = 2.0, lowest = 1.0;
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      const glm::dvec3 normal = normal_at(map, x, y);
+      longest = std::max(longest, glm::length(normal));
+      shortest = std::min(shortest, glm::length(normal));
+      lowest = std::min(lowest, normal.z);
+      ASSERT_EQ(map.at(x, y)[3], 1.0F);
+      ASSERT_TRUE(std::isfinite(glm::dot(normal, normal)));
+    }
+  }
+  EXPECT_LT(longest, 1.0 + 1e-6);
+  EXPECT_GT(shortest, 1.0 - 1e-6);
+  EXPECT_GT(lowest, 0.0);
+}
+
+TEST_P(EverySurface, HasUnitNormalsOutOfTheSurfaceAtAnySize) {
+  for (int resolution = 1; resolution <= 17; ++resolution) {
+    const Image map = normals(resolution);
+    EXPECT_EQ(map.width, resolution);
+    EXPECT_EQ(map.height, resolution);
+    EXPECT_EQ(map.channels, 4);
+    expect_unit_normals(map);
+  }
+  expect_unit_normals(normals(251));
+  expect_unit_normals(normals(256));
+}
+
+TEST_P(EverySurface, IsAFunctionOfItsSeedAlone) {
+  const Image map = normals(129);
+  EXPECT_EQ(normals(129), map);
+  EXPECT_NE(normals(129, 2), map);
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  EXPECT_EQ(normals(129), map);
+}
+
+/// Mean and variance of the normals' x and y; slopes have none where a surface is steep.
+struct Moments {
+  glm::dvec2 mean{0.0}, variance{0.0};
+};
+
+Moments moments(const Image& map) {
+  Moments moments;
+  const double weight = 1.0 / static_cast<double>(map.texel_count());
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) moments.mean += weight * glm::dvec2(normal_at(map, x, y));
+  }
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      const glm::dvec2 offset = glm::dvec2(normal_at(map, x, y)) - moments.mean;
+      moments.variance += weight * offset * offset;
+    }
+  }
+  return moments;
+}
+
+TEST_P(EverySurface, HasTheSameStatisticsAtEverySize) {
+  const Moments coarse = moments(normals(256)), fine = moments(normals(512)), odd = moments(normals(383));
+  for (int axis = 0; axis < 2; ++axis) {
+    EXPECT_NEAR(fine.mean[axis], coarse.mean[axis], 0.01);
+    EXPECT_NEAR(fine.variance[axis], coarse.variance[axis], 0.05 * fine.variance[axis] + 1e-12);
+    EXPECT_NEAR(fine.variance[axis], odd.variance[axis], 0.05 * fine.variance[axis] + 1e-12);
+  }
+  EXPECT_GT(fine.variance.x, 1e-4);
+}
+
+TEST_P(EverySurface, HasAMeshWithUnitFrames) {
+  const Mesh mesh = GetParam().mesh(settings(64));
+  ASSERT_FALSE(mesh.indices.empty());
+  EXPECT_EQ(mesh.indices.size() % 3, 0U);
+  EXPECT_EQ(mesh.material, 0);
+  for (const Vertex& vertex : mesh.vertices) {
+    ASSERT_NEAR(glm::length(vertex.normal), 1.0F, 1e-5F);
+    ASSERT_NEAR(glm::length(glm::vec3(vertex.tangent)), 1.0F, 1e-5F);
+    ASSERT_NEAR(glm::dot(glm::vec3(vertex.tangent), vertex.normal), 0.0F, 1e-5F);
+    ASSERT_EQ(std::abs(vertex.tangent.w), 1.0F);
+    ASSERT_TRUE(std::isfinite(glm::dot(vertex.position, vertex.position) + glm::dot(vertex.uv0, vertex.uv0)));
+  }
+  for (const std::uint32_t index : mesh.indices) ASSERT_LT(index, mesh.vertices.size());
+}
+
+TEST_P(EverySurface, FacesTheSideThatItsNormalsPointTo) {
+  const Mesh mesh = GetParam().mesh(settings(64));
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const Vertex& a = mesh.vertices[mesh.indices[i]];
+    const Vertex& b = mesh.vertices[mesh.indices[i + 1]];
+    const Vertex& c = mesh.vertices[mesh.indices[i + 2]];
+    const glm::vec3 face = glm::cross(b.position - a.position, c.position - a.position);
+    ASSERT_GT(glm::dot(face, a.normal + b.normal + c.normal), 0.0F) << "triangle " << i / 3;
+  }
+}
+
+TEST_P(EverySurface, MapRunsAlongItsTangents) {
+  const Mesh mesh = GetParam().mesh(settings(64));
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const Vertex& a = mesh.vertices[mesh.indices[i]];
+    const Vertex& b = mesh.vertices[mesh.indices[i + 1]];
+    const Vertex& c = mesh.vertices[mesh.indices[i + 2]];
+    const glm::mat2 coordinates{b.uv0 - a.uv0, c.uv0 - a.uv0};
+    ASSERT_NE(glm::determinant(coordinates), 0.0F);
+    const glm::mat2 solve = glm::inverse(coordinates);
+    const glm::vec3 along_u =
+        glm::normalize(solve[0][0] * (b.position - a.position) + solve[0][1] * (c.position - a.position));
+    const glm::vec3 along_v =
+        glm::normalize(solve[1][0] * (b.position - a.position) + solve[1][1] * (c.position - a.position));
+    ASSERT_GT(glm::dot(along_u, glm::vec3(a.tangent)), 0.8F);
+    const glm::vec3 bitangent = glm::cross(a.normal, glm::vec3(a.tangent)) * a.tangent.w;
+    ASSERT_LT(glm::dot(along_v, bitangent), -0.8F);  // v runs downwards on a map
+  }
+}
+
+TEST_P(EverySurface, RefusesSizesThatNoMapHas) {
+  for (const int resolution : {0, -1, largest_surface_resolution + 1, 1'000'000}) {
+    try {
+      (void)normals(resolution);
+      FAIL() << resolution;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+      EXPECT_THAT(error.what(), ::testing::HasSubstr("not within 1 to 16384"));
+    }
+  }
+}
+
+TEST_P(EverySurface, RefusesParametersThatItHasNot) {
+  EXPECT_THROW((void)surface_settings(GetParam(), {{"nonsense", "1"}}), Error);
+}
+
+INSTANTIATE_TEST_SUITE_P(Surfaces, EverySurface, ::testing::ValuesIn(all_surfaces().begin(), all_surfaces().end()),
+                         [](const auto& row) { return row.param.name; });
+
+TEST(Surfaces, AreFoundByName) {
+  EXPECT_EQ(find_surface(all_surfaces(), "v_grooves").name, "v_grooves");
+  try {
+    (void)find_surface(all_surfaces(), "v_groves");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("did you mean `v_grooves`"));
+  }
+}
+
+}  // namespace
+}  // namespace footprint

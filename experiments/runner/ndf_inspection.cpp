@@ -18,8 +18,10 @@
 namespace footprint {
 namespace {
 
-// Pictures are of facets merged within this part of the narrowest lobe's width: within 2.5e-4 of a lobe's peak.
-constexpr double merged_part = 1.0 / 32.0;
+// Pictures are of facets merged within this part of the narrowest lobe's width: within 1e-3 of a lobe's peak.
+constexpr double part_in_pictures = 1.0 / 16.0;
+// What lies below the horizon needs no more than this.
+constexpr double part_in_energy = 1.0 / 8.0;
 
 // What is evaluated, and the truth there.
 struct Grid {
@@ -43,19 +45,21 @@ Grid take_truth(const Material& material, const NdfSettings& settings, const Foo
   const NormalDistribution distribution = material.brdf.distribution;
   const TrueNdf exact(distribution, texels.facets);
   const BaseLobe narrowest = exact.narrowest();
-  const TrueNdf merged(distribution, merged_facets(texels.facets, merged_part * lobe_width(narrowest)));
+  const auto merged = [&](double part) {
+    return TrueNdf(distribution, merged_facets(texels.facets, part * lobe_width(narrowest)));
+  };
   results.lobe = lobe_text(narrowest);
   results.resolution = settings.resolution > 0 ? settings.resolution : resolution_for(narrowest);
   require_grid_memory(results.resolution, settings.picture);
   Grid grid{hemisphere_grid(results.resolution), disc_directions(settings.picture), {}, {}};
   grid.truth = exact.densities(grid.hemisphere.directions, parts.next(1, ""));
-  const std::vector<double> picture = merged.densities(grid.disc, parts.next(1, ""));
+  const std::vector<double> picture = merged(part_in_pictures).densities(grid.disc, parts.next(1, ""));
   grid.picture.assign(picture.begin(), picture.end());
   const NdfTotals totals = ndf_totals(grid.hemisphere, grid.truth);
   results.directions = grid.hemisphere.directions.size();
   results.truth.energy = totals.energy;
   results.truth.peak = std::max(totals.peak, largest_density(grid.picture));
-  results.truth.expected_energy = merged.expected_energy();
+  results.truth.expected_energy = merged(part_in_energy).expected_energy();
   results.fine_enough =
       std::abs(totals.energy - results.truth.expected_energy) <= ndf_energy_tolerance * results.truth.expected_energy;
   return grid;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/core/error.hpp"
+#include "renderer/ndf/lobe_profile.hpp"
 
 namespace footprint {
 namespace {
@@ -79,6 +80,16 @@ TEST(BaseLobe, LosesWhatLiesBelowTheHorizon) {
     if (lobe.distribution == vmf && lobe.parameter < 1.0) continue;  // also shines on the far side
     EXPECT_NEAR(lobe_energy(lobe, 0.0), 0.5 * lobe_energy(lobe, 1.0), 1e-3) << lobe_text(lobe);
     EXPECT_LE(lobe_energy(lobe, 0.3), lobe_energy(lobe, 0.6) + 1e-9);
+  }
+}
+
+TEST(LobeProfile, IsTheLobesShape) {
+  for (const BaseLobe& lobe : lobes) {
+    const LobeProfile profile(lobe);
+    for (double u = 0.0; u < 2.0; u += 0.37 * lobe_support(lobe) / 1024.0) {
+      ASSERT_NEAR(profile(u), lobe_shape(lobe, u), 2e-9) << lobe_text(lobe) << " " << u;
+      if (u > 1.5 * lobe_support(lobe)) break;
+    }
   }
 }
 

@@ -331,6 +331,7 @@ class Comparison {
     results_.scene.lights = scene.lights.size();
     results_.scene.defaults = scene.defaults;
     results_.scene.warnings = scene.warnings;
+    add_precompute_notes();
     if (const auto noise = results_.reference.standard_error; noise && *noise > converged_standard_error) {
       results_.scene.warnings.push_back(fmt::format(
           "the reference has not converged: its standard error is {:.2g} of the mean radiance, as happens where lights "
@@ -340,6 +341,17 @@ class Comparison {
     results_.reference.spp = settings_.spp;
     results_.reference.filter = filter_name(settings_.filter);
     results_.reference.seed = settings_.seed;
+  }
+
+  void add_precompute_notes() {
+    for (std::size_t m = 0; m < settings_.methods.size(); ++m) {
+      const BakedMethod& baked = method(m).baked();
+      for (std::size_t i = 0; i < baked.materials.size(); ++i) {
+        for (const std::string& note : baked.materials[i].notes)
+          results_.scene.warnings.push_back(
+              fmt::format("{}, material {}: {}", baked.spec.text, stage_.scene().materials[i].name, note));
+      }
+    }
   }
 
   const CompareSettings& settings_;

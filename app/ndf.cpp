@@ -85,6 +85,7 @@ void run_ndf(const Arguments& arguments) {
   settings.anisotropy = arguments.anisotropy;
   settings.resolution = arguments.resolution;
   settings.picture = arguments.size;
+  settings.tile = arguments.backend.tile;
   settings.cache = cache_folder(arguments.no_cache);
   settings.context = context_request(arguments.backend);
   if (!arguments.footprint.empty()) (void)parse_rectangle("--footprint", arguments.footprint);

@@ -110,7 +110,8 @@ class Bench {
   NdfPicture inspect(const MethodSpec& spec, const Grid& grid, NdfResults& results, const Progress& progress) {
     const Method& method = find_method(spec.name);
     const BakedMethod baked = bake(method, spec, scene_, effects_, progress, cache_ ? &*cache_ : nullptr);
-    const MethodNdf ndf(context_.info(), gpu_scene_, baked, scene_.materials.front(), settings_.anisotropy);
+    const MethodNdf ndf(context_.info(), gpu_scene_, baked, scene_.materials.front(), settings_.anisotropy,
+                        settings_.tile);
     const std::vector<float> densities = ndf.densities(settings_.footprint, grid.hemisphere.directions);
     const NdfFigures figures = compare_ndfs(grid.hemisphere, densities, grid.truth);
     NdfRecord record{spec.text, {}, figures.l2, figures.energy, figures.peak, method.lobe_count(baked.options), {}};

@@ -39,6 +39,7 @@ struct NdfSettings {
   int anisotropy = 1;               ///< probes, at most
   int resolution = 0;               ///< rings of directions; 0: from the narrowest lobe
   int picture = 256;                ///< side of the pictures, pixels
+  int tile = 0;                     ///< side of the square of directions evaluated at once; 0: 1024
   gl::ContextRequest context;
   std::optional<std::filesystem::path> cache;  ///< folder where slow precomputes are kept; none: they are not
 };

@@ -1,6 +1,8 @@
 // See picture_files.hpp.
 #include "experiments/runner/picture_files.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -25,6 +27,12 @@ std::string file_stem(const std::string& text) {
   std::ranges::replace_if(
       stem, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '.' && c != '_'; }, '_');
   return stem;
+}
+
+std::string method_stem(std::span<const MethodSpec> methods, std::size_t index) {
+  const std::string stem = file_stem(methods[index].text);
+  const auto same = [&](const MethodSpec& other) { return file_stem(other.text) == stem; };
+  return std::ranges::count_if(methods, same) > 1 || stem == "reference" ? fmt::format("{}.{}", stem, index) : stem;
 }
 
 std::string write_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,

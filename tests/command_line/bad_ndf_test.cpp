@@ -62,8 +62,6 @@ std::vector<Case> sources() {
       of("EmptyMap", "{}/empty.png", {"empty.png"}, {{"empty.png", ""}}),
       of("TextAsMap", "{}/text.exr", {"text.exr"}, {{"text.exr", "no picture"}}),
       of("CutOffMap", "{}/cut.png", {"cut.png"}, {{"cut.png", bumps_png().substr(0, 40)}}),
-      of("MapWithoutNormals", "{}/grey.png", {"no texel of the footprint has a normal"},
-         {{"grey.png", png_text(1, 1, {"\0\x80\x80\x80", 4})}}),
   };
 }
 

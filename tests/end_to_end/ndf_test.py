@@ -78,17 +78,19 @@ class NdfTest(WholeRunTest):
         signed, stored = self.folder / "signed.exr", self.folder / "stored.png"
         for file, color, depth in ((signed, "0.6,0,0.8", "float"), (stored, "0.8,0.5,0.9", "uint16")):
             subprocess.run(["oiiotool", "--pattern", f"constant:color={color}", "8x8", "3", "-d", depth, "-o", file], check=True)
-            document = ndf(self.folder / file.stem, file, "--lobe", "vmf:100", "--size", 32)
+            document = ndf(self.folder / file.stem, file, "--methods", "direct,toksvig,lean", "--lobe", "vmf:100", "--size", 32)
             self.assertEqual(document["texels"]["distinct"], 1)
             for name, method in document["methods"].items():
                 self.assertLess(method["l2"], 1e-3, (file, name))
 
-    def test_an_encoded_exr_is_refused(self):
-        file = self.folder / "encoded.exr"
-        subprocess.run(["oiiotool", "--pattern", "constant:color=0.8,0.5,0.9", "8x8", "3", "-d", "float", "-o", file], check=True)
-        with self.assertRaisesRegex(AssertionError, "exit code 2: .*encoded.exr: .*encoded as 0 to 1"):
-            ndf(self.folder / "refused", file)
-        self.assertFalse((self.folder / "refused").exists())
+    def test_maps_without_unit_normals_are_refused(self):
+        for color, message in (("0.8,0.5,0.9", "encoded as 0 to 1"), ("0,0,0", "no texel of the footprint has a normal")):
+            file = self.folder / "wrong.exr"
+            pattern = f"constant:color={color}"
+            subprocess.run(["oiiotool", "--pattern", pattern, "8x8", "3", "-d", "float", "-o", file], check=True)
+            with self.assertRaisesRegex(AssertionError, f"exit code 2: .*wrong.*{message}"):
+                ndf(self.folder / "refused", file)
+            self.assertFalse((self.folder / "refused").exists())
 
 
 if __name__ == "__main__":

@@ -161,8 +161,8 @@ Image with_inset(const Image& picture, const Crop& inset, double share) {
   const Image large = enlarged(cropped(picture, inset), factor);
   Image result = picture;
   outline(result, part);
-  const int left = std::max(0, picture.width - large.width - 2 * frame_width);
-  const int top = std::max(0, picture.height - large.height - 2 * frame_width);
+  const int left = std::max(0, picture.width - large.width - frame_width);
+  const int top = std::max(0, picture.height - large.height - frame_width);
   for (int y = 0; y < std::min(large.height, picture.height - top); ++y) {
     for (int x = 0; x < std::min(large.width, picture.width - left); ++x) {
       std::ranges::copy(large.at(x, y), result.at(left + x, top + y).begin());

@@ -39,6 +39,7 @@ void run(int argc, const char* const* argv) {
   footprint::add_run_command(app);
   footprint::add_check_command(app);
   footprint::add_explain_command(app);
+  footprint::add_ndf_command(app);
   footprint::add_list_command(app);
   footprint::add_info_command(app);
   try {

@@ -339,6 +339,18 @@ class Comparison {
     results_.reference.filter = filter_name(settings_.filter);
     results_.reference.seed = settings_.seed;
     results_.scene = scene_info(stage_.scene(), chosen_exposure_, results_.reference);
+    add_precompute_notes();
+  }
+
+  void add_precompute_notes() {
+    for (std::size_t m = 0; m < settings_.methods.size(); ++m) {
+      const BakedMethod& baked = method(m).baked();
+      for (std::size_t i = 0; i < baked.materials.size(); ++i) {
+        for (const std::string& note : baked.materials[i].notes)
+          results_.scene.warnings.push_back(
+              fmt::format("{}, material {}: {}", baked.spec.text, stage_.scene().materials[i].name, note));
+      }
+    }
   }
 
   const CompareSettings& settings_;

@@ -10,16 +10,17 @@
 #include "renderer/image/image_io.hpp"
 
 namespace footprint {
-namespace {
-
-// Two pictures of one width and three channels, the first on top.
 Image stacked(const Image& top, const Image& bottom) {
-  Image both(top.width, top.height + bottom.height, top.channels);
-  std::ranges::copy(bottom.texels, std::ranges::copy(top.texels, both.texels.begin()).out);
+  Image both(std::max(top.width, bottom.width), top.height + bottom.height, top.channels);
+  const auto place = [&](const Image& part, int first_row) {
+    for (int y = 0; y < part.height; ++y) {
+      for (int x = 0; x < part.width; ++x) std::ranges::copy(part.at(x, y), both.at(x, first_row + y).begin());
+    }
+  };
+  place(top, 0);
+  place(bottom, top.height);
   return both;
 }
-
-}  // namespace
 
 std::string file_stem(const std::string& text) {
   std::string stem = text;

@@ -18,6 +18,9 @@ namespace footprint {
 /// overwrite each other, and so would one that is called `reference`: such a method has its place added.
 [[nodiscard]] std::string method_stem(std::span<const MethodSpec> methods, std::size_t index);
 
+/// Two pictures of equally many channels, the first on top, both from the left edge on.
+[[nodiscard]] Image stacked(const Image& top, const Image& bottom);
+
 /// Writes FOLDER/images/STEM.exr (linear radiance, coverage in alpha) and STEM.png beside it (exposed, sRGB); returns
 /// "images/STEM.exr".
 std::string write_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,

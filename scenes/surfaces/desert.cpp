@@ -1,0 +1,163 @@
+// desert: dunes with steep lee sides, under wind ripples of several widths down to grains, on sand of uneven colour.
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "scenes/surfaces/height.hpp"
+#include "scenes/surfaces/meshes.hpp"
+#include "scenes/surfaces/noise.hpp"
+#include "scenes/surfaces/texel_grid.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr double tau = 2.0 * std::numbers::pi;
+
+/// A train of ripples across the map: `waves` whole waves along x and `lean` along y, so that the map tiles.
+struct Ripples {
+  double waves, lean;
+  double slope;                    ///< of its steeper side, where it is strongest
+  double bend;                     ///< how far noise moves its crests, in waves
+  int bend_cells, strength_cells;  ///< of the noise that bends it, and of that which strengthens and fades it
+};
+
+/// The ripples of the map, wide to narrow.
+constexpr std::array<Ripples, 3> trains{
+    {{13.0, 2.0, 0.38, 1.1, 5, 4}, {31.0, -3.0, 0.2, 1.3, 7, 6}, {59.0, 5.0, 0.16, 1.5, 11, 9}}};
+
+/// Octaves of grains: cells along the map's width and slope.
+struct Grains {
+  int cells;
+  double slope;
+};
+constexpr std::array<Grains, 3> grains{{{64, 0.05}, {160, 0.07}, {400, 0.09}}};
+
+/// Noise of so many cells along the map's width.
+class MapNoise {
+ public:
+  MapNoise(int cells, std::mt19937_64& random) : cells_(cells), noise_(cells, random) {}
+
+  [[nodiscard]] Height at(const HeightPlace& at) const { return noise_.at(cells_ * at.x, cells_ * at.y); }
+
+ private:
+  double cells_;
+  PeriodicNoise noise_;
+};
+
+/// All that varies over the map.
+class Sand {
+ public:
+  explicit Sand(std::uint32_t seed) {
+    std::mt19937_64 random(seed);
+    for (const Ripples& train : trains) {
+      bends_.emplace_back(train.bend_cells, random);
+      strengths_.emplace_back(train.strength_cells, random);
+    }
+    for (const Grains& octave : grains) grains_.emplace_back(octave.cells, random);
+  }
+
+  /// The height at a place, in map widths.
+  [[nodiscard]] Height height(const HeightPlace& at) const {
+    Height sum{0.0};
+    for (std::size_t i = 0; i < trains.size(); ++i) sum += trains[i].slope / (tau * trains[i].waves) * ripples(at, i);
+    for (std::size_t i = 0; i < grains.size(); ++i) sum += grains[i].slope / grains[i].cells * grains_[i].at(at);
+    return sum;
+  }
+
+  /// 0 for the lightest sand to 1 for the darkest: heavy dark grains stay in the ripples' troughs.
+  [[nodiscard]] double darkness(const HeightPlace& at) const {
+    const double darkness = 0.5 - 0.3 * ripples(at, 0).value() + 0.4 * grains_.front().at(at).value();
+    return glm::clamp(darkness, 0.0, 1.0);
+  }
+
+ private:
+  /// A train's height, -1 to 1: waves that lean with the wind, which comes from -x, each train strong in places only.
+  [[nodiscard]] Height ripples(const HeightPlace& at, std::size_t train) const {
+    const Ripples& kind = trains[train];
+    const Height strength = smooth_step(strengths_[train].at(at), -0.45, 0.25);
+    const Height phase = tau * (kind.waves * at.x + kind.lean * at.y + kind.bend * bends_[train].at(at));
+    return sin(phase + 0.45 * sin(phase)) * strength;
+  }
+
+  std::vector<MapNoise> bends_, strengths_, grains_;
+};
+
+Image normals(const SurfaceSettings& settings) {
+  const Sand sand(settings.seed);
+  const double steepness = settings.parameters.number("steepness");
+  return fill_normals(settings.resolution, [&](const glm::dvec2& place) {
+    return normal_of_slope(steepness * slope_of(sand.height(HeightPlace{place})));
+  });
+}
+
+Image base_color(const SurfaceSettings& settings) {
+  const Sand sand(settings.seed);
+  constexpr glm::dvec3 light{0.62, 0.40, 0.21}, dark{0.50, 0.30, 0.145};
+  return fill_colors(settings.resolution,
+                     [&](const glm::dvec2& place) { return glm::mix(light, dark, sand.darkness(HeightPlace{place})); });
+}
+
+/// The dunes' height over a place, both in sides of the terrain.
+class Dunes {
+ public:
+  explicit Dunes(std::uint32_t seed) : Dunes(std::mt19937_64(seed)) {}
+
+  [[nodiscard]] Height at(const HeightPlace& at) const {
+    const Height wander = 0.55 * warp_.at(2.0 * at.x, 2.0 * at.y) + 0.16 * warp_.at(5.0 * at.x + 0.5, 5.0 * at.y + 0.3);
+    const Height size = 0.35 + 0.65 * smooth_step(size_.at(1.9 * at.x + 0.2, 1.9 * at.y + 0.7), -0.4, 0.35);
+    const Height rolling = 0.035 * size_.at(1.3 * at.x + 2.4, 1.3 * at.y + 3.1);
+    return rolling + 0.055 * size * crest(3.1 * at.x + 0.9 * at.y + wander) +
+           0.012 * crest(8.3 * at.x - 1.7 * at.y + 1.6 * wander);
+  }
+
+ private:
+  explicit Dunes(std::mt19937_64 random) : warp_(8, random), size_(8, random) {}
+
+  /// One dune a period: a long windward side from a flat foot up to the crest, then the short, steep lee side. The
+  /// crest is where the lower of the two takes over, rounded so that the mesh can follow it.
+  [[nodiscard]] static Height crest(const Height& phase) {
+    constexpr double top = 0.72, sharpness = 12.0;
+    const Height t = phase - std::floor(phase.value());
+    const Height up = t / top, down = higher(-1.5, (t - 1.0) / (1.0 - top));
+    const Height windward = up * up * (1.8 - 0.8 * up), lee = down * down * (1.6 + 0.6 * down);
+    return log(exp(-sharpness * windward) + exp(-sharpness * lee)) / -sharpness;
+  }
+
+  PeriodicNoise warp_, size_;
+};
+
+Mesh mesh(const SurfaceSettings& settings) {
+  constexpr int cells = 400;
+  constexpr double side = 60.0;  // metres
+  const Dunes dunes(settings.seed);
+  Mesh mesh = grid_mesh(cells, cells, [&](const glm::dvec2& place) {
+    const Height height = dunes.at(HeightPlace{place});
+    const glm::dvec2 slope = slope_of(height);
+    Vertex vertex;
+    vertex.position = side * glm::dvec3{place - 0.5, height.value()};
+    vertex.normal = normal_of_slope(slope);
+    vertex.tangent = {glm::vec3{glm::normalize(glm::dvec3{1.0, 0.0, slope.x})}, 1.0F};
+    vertex.uv0 = vertex.uv1 = glm::vec2{place.x, 1.0 - place.y};
+    return vertex;
+  });
+  mesh.name = "dunes";
+  return mesh;
+}
+
+}  // namespace
+
+Surface desert_surface() {
+  return {.name = "desert",
+          .summary = "dunes under wind ripples of several widths, down to grains",
+          .parameters = {{.name = "steepness",
+                          .default_value = 1.0,
+                          .minimum = 0,
+                          .maximum = 10,
+                          .meaning = "factor on the slopes of ripples and grains"}},
+          .default_resolution = 1024,
+          .normals = normals,
+          .base_color = base_color,
+          .mesh = mesh};
+}
+
+}  // namespace footprint

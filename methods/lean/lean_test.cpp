@@ -113,6 +113,7 @@ TEST(Lean, KeepsTheEnergyOfTheSumOverTexels) {
     for (const Image& normals : {random_normals(4, 4, 0.4F, 5), v_grooves(0.5F)}) {
       const Material material = material_of(normals, distribution, lobe);
       std::vector<double> exact;
+      exact.reserve(directions.size());
       for (const glm::dvec3& h : directions) exact.push_back(exact_density(material, h));
       const double truth = energy(exact);
       EXPECT_NEAR(energy(probe_ndf(lean(material), directions)) / truth, 1.0, 0.01) << lobe;

@@ -6,13 +6,21 @@
 #include <cstdlib>
 
 #include "app/options.hpp"
-#include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/pipeline/bake_cache.hpp"
 #include "scenes/surfaces/registry.hpp"
 
 namespace footprint {
+namespace {
+
+// What the environment names, or the source tree's own.
+std::filesystem::path folder_of(const char* variable, const char* otherwise) {
+  const char* given = std::getenv(variable);
+  return given != nullptr && *given != '\0' ? given : otherwise;
+}
+
+}  // namespace
 
 void add_backend_options(CLI::App& command, BackendArguments& arguments) {
   command.add_option("--backend", arguments.backend, "OpenGL by auto, egl, egl-device or osmesa")
@@ -73,14 +81,6 @@ std::optional<glm::ivec2> parse_optional_size(const std::string& text) {
   return size;
 }
 
-std::vector<MethodSpec> parse_known_methods(const std::string& text) {
-  std::vector<MethodSpec> methods = parse_methods(text);
-  for (const MethodSpec& method : methods) {
-    (void)Options(find_method(method.name).info().options, method.options, "method " + method.name);
-  }
-  return methods;
-}
-
 MethodSpec parse_known_method(std::string_view option, const std::string& text) {
   if (text == "reference") return {.text = text, .name = text, .options = {}};
   const std::vector<MethodSpec> methods = parse_known_methods(text);
@@ -88,9 +88,10 @@ MethodSpec parse_known_method(std::string_view option, const std::string& text) 
   throw Error(ErrorKind::usage, std::string(option), fmt::format("`{}` is more than one method", text), "name one");
 }
 
+std::filesystem::path experiments_folder() { return folder_of("FOOTPRINT_EXPERIMENTS", FOOTPRINT_EXPERIMENTS_FOLDER); }
+
 SceneLibrary scene_library() {
-  const char* given = std::getenv("FOOTPRINT_SCENES");
-  return {.folder = given != nullptr && *given != '\0' ? given : FOOTPRINT_SCENES_FOLDER, .surfaces = all_surfaces()};
+  return {.folder = folder_of("FOOTPRINT_SCENES", FOOTPRINT_SCENES_FOLDER), .surfaces = all_surfaces()};
 }
 
 }  // namespace footprint

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "renderer/core/options.hpp"
+#include "experiments/runner/known_methods.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/scene/surface.hpp"
 
@@ -57,11 +57,12 @@ void add_quiet_flag(CLI::App& command, bool& quiet);
 /// is more than memory holds, known before anything is loaded.
 [[nodiscard]] std::optional<glm::ivec2> parse_optional_size(const std::string& text);
 
-/// Methods with their options, known to be right before anything is loaded. Errors (usage): unknown method or option.
-[[nodiscard]] std::vector<MethodSpec> parse_known_methods(const std::string& text);
-
 /// The one method that `option` gives; `reference` counts as one. Errors (usage): more than one, or not known.
 [[nodiscard]] MethodSpec parse_known_method(std::string_view option, const std::string& text);
+
+/// Where the experiments that have a name lie: the environment variable FOOTPRINT_EXPERIMENTS, or the source tree's
+/// experiments/.
+[[nodiscard]] std::filesystem::path experiments_folder();
 
 /// Where the scenes that have a name lie (the environment variable FOOTPRINT_SCENES, or the source tree's scenes/), and
 /// the surfaces of this build.

@@ -8,8 +8,12 @@ namespace footprint {
 // Each adds its subcommand to `app`; the work is done when the whole command line has been parsed. Errors are thrown.
 void add_compare_command(CLI::App& app);
 void add_render_command(CLI::App& app);
+void add_run_command(CLI::App& app);
+void add_check_command(CLI::App& app);
+void add_animate_command(CLI::App& app);
 void add_explain_command(CLI::App& app);
 void add_list_command(CLI::App& app);
+void add_ndf_command(CLI::App& app);
 void add_surface_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 

@@ -11,6 +11,7 @@
 #include "app/commands.hpp"
 #include "app/cpu_info.hpp"
 #include "app/options.hpp"
+#include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/standard_output.hpp"
 #include "app/timing_process.hpp"
@@ -104,14 +105,6 @@ CompareSettings settings_from(const Arguments& arguments) {
   return settings;
 }
 
-// An error of a file that is still out of sight, with the place that the file was meant for.
-Error at_final_place(const Error& error, const OutputFolder& folder) {
-  std::string place = error.place();
-  const std::string hidden = folder.path().string();
-  if (place.starts_with(hidden)) place.replace(0, hidden.size(), folder.final_path().string());
-  return {error.kind(), std::move(place), error.message(), error.mend()};
-}
-
 // Everything is written out of sight and moved to its place at the end.
 Results compare_into(OutputFolder& folder, const CompareSettings& settings, int processes, const Progress& progress) {
   constexpr double weight = 10;  // of the main process's work, where a further process's is 1
@@ -132,15 +125,11 @@ void run_compare_command(const Arguments& arguments) {
   if (!arguments.timing_file.empty()) {
     return write_frame_times(arguments.timing_file, time_frames(settings, display.callback()));
   }
-  OutputFolder folder(arguments.output);
-  Results results;
-  try {
-    results = compare_into(folder, settings, arguments.processes, display.callback());
-  } catch (const Error& error) {
-    throw at_final_place(error, folder);
-  }
+  const auto [results, place] = write_whole(arguments.output, [&](OutputFolder& folder) {
+    return compare_into(folder, settings, arguments.processes, display.callback());
+  });
   display.finish();
-  write_output(fmt::format("{}\npage: {}\n", results_table(results), (folder.final_path() / "index.html").string()));
+  write_output(fmt::format("{}\npage: {}\n", results_table(results), (place / "index.html").string()));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// `footprint list`: the methods with their options, the scenes, the surfaces with their parameters, the backends.
+// `footprint list`: the methods with their options, the scenes, the surfaces with their parameters, the experiments,
+// the backends.
 #include <fmt/format.h>
 
 #include <memory>
@@ -13,6 +14,7 @@
 #include "app/commands.hpp"
 #include "app/options.hpp"
 #include "app/standard_output.hpp"
+#include "experiments/runner/experiment.hpp"
 #include "methods/registry.hpp"
 #include "renderer/scene/load_scene.hpp"
 #include "scenes/surfaces/registry.hpp"
@@ -28,7 +30,7 @@ constexpr const char* examples =
     "  footprint list methods                       the methods and their options\n"
     "  footprint list scenes --json                 for programs";
 
-const std::vector<std::string> kinds{"methods", "scenes", "surfaces", "backends"};
+const std::vector<std::string> kinds{"methods", "scenes", "surfaces", "experiments", "backends"};
 
 struct Arguments {
   std::string kind;  // empty: all
@@ -108,6 +110,8 @@ std::string kind_text(const std::string& kind) {
     for (const Method* method : all_methods()) text += method_text(method->info());
   } else if (kind == "scenes") {
     for (const std::string& scene : list_scenes(scene_library().folder)) text += fmt::format("  {}\n", scene);
+  } else if (kind == "experiments") {
+    for (const std::string& name : list_experiments(experiments_folder())) text += fmt::format("  {}\n", name);
   } else if (kind == "surfaces") {
     for (const Surface& surface : all_surfaces()) text += surface_text(surface);
   } else {
@@ -118,6 +122,7 @@ std::string kind_text(const std::string& kind) {
 
 Json kind_json(const std::string& kind) {
   if (kind == "scenes") return list_scenes(scene_library().folder);
+  if (kind == "experiments") return list_experiments(experiments_folder());
   Json json = Json::array();
   if (kind == "methods") {
     for (const Method* method : all_methods()) json.push_back(method_json(method->info()));
@@ -147,9 +152,9 @@ void run_list(const Arguments& arguments) {
 }  // namespace
 
 void add_list_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("list", "List the methods, scenes, surfaces and backends");
+  CLI::App* command = app.add_subcommand("list", "List the methods, scenes, surfaces, experiments and backends");
   const auto arguments = std::make_shared<Arguments>();
-  command->add_option("kind", arguments->kind, "methods, scenes, surfaces or backends; all if not given");
+  command->add_option("kind", arguments->kind, "methods, scenes, surfaces, experiments or backends; all if not given");
   command->add_flag("--json", arguments->json, "Print JSON");
   command->footer(examples);
   command->callback([arguments] { run_list(*arguments); });

@@ -22,6 +22,7 @@ constexpr const char* examples =
     "Examples:\n"
     "  footprint compare model.gltf -o out          the error and fps table, pictures and a page\n"
     "  footprint render model.gltf --method toksvig -o out.exr\n"
+    "  footprint check quick -o out                 an experiment with its claims held\n"
     "  footprint list methods                       the methods and their options\n"
     "\n"
     "Exit codes: 0 fine, 1 a check fell short, 2 the command line or an input is wrong, 3 the machine cannot,\n"
@@ -34,7 +35,11 @@ void run(int argc, const char* const* argv) {
   app.require_subcommand(1);
   footprint::add_compare_command(app);
   footprint::add_render_command(app);
+  footprint::add_animate_command(app);
+  footprint::add_run_command(app);
+  footprint::add_check_command(app);
   footprint::add_explain_command(app);
+  footprint::add_ndf_command(app);
   footprint::add_list_command(app);
   footprint::add_surface_command(app);
   footprint::add_info_command(app);

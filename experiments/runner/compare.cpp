@@ -7,11 +7,14 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
 #include "experiments/runner/exposure.hpp"
 #include "experiments/runner/picture_files.hpp"
+#include "experiments/runner/reference_noise.hpp"
+#include "experiments/runner/run_info.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/timing.hpp"
@@ -23,7 +26,6 @@ namespace {
 
 constexpr std::array curve_counts{1, 2, 4, 8, 16, 32, 64};
 constexpr int curve_samples = 286;  // of its renders and timed draws: what the curve weighs beside the reference
-constexpr double converged_standard_error = 0.5;  // of the mean radiance; above it a warning goes with the results
 constexpr double scale_quantile = 0.99;
 constexpr double smallest_error_scale = 0.01;
 constexpr std::uint64_t curve_seed = 0x9e3779b97f4a7c15;  // keeps the curve's samples apart from the reference's
@@ -57,14 +59,23 @@ std::vector<double> distances_of(const CompareSettings& settings, const Scene& s
   return settings.distances.empty() ? scene.distances : settings.distances;
 }
 
+// Another reference, of another count of samples.
+struct OtherTruth {
+  int spp = 1;
+  Image mean;
+  std::optional<double> noise_floor;
+};
+
 // What is known of one distance besides the methods.
 struct Truth {
+  std::size_t frame = 0;
   double distance = 1;
   View view;
   Supersampled reference;
   std::optional<double> noise_floor;
   std::string reference_file;
   std::vector<SupersamplingPoint> curve;
+  std::vector<OtherTruth> others;
 };
 
 // A record whose error picture waits for the scale that all of them share.
@@ -87,19 +98,23 @@ class Comparison {
   Comparison(const CompareSettings& settings, std::filesystem::path folder, const Progress& progress)
       : settings_(settings),
         folder_(std::move(folder)),
-        stage_(settings.context, load_scene(settings.scene, settings.library), timing_settings(settings), no_progress),
+        whole_(progress, 4),
+        stage_(settings.context, load_scene(settings.scene, settings.library, settings.camera),
+               timing_settings(settings), whole_.next(1, "")),
         distances_(distances_of(settings, stage_.scene())),
-        parts_(progress, static_cast<double>(distances_.size()) * (settings.spp + curve_samples + method_weight())) {
+        parts_(whole_.next(3, ""), static_cast<double>(distances_.size()) *
+                                       (settings.spp + other_samples() + curve_samples + method_weight())) {
     require_pictures(stage_.view(1.0).size, pictures_held(settings.methods.size(), distances_.size()));
   }
 
   Results run(std::span<const FrameTimes> further_times) {
     std::filesystem::create_directories(folder_ / "images");
     for (std::size_t i = 0; i < distances_.size(); ++i) {
-      const Truth truth = find_truth(distances_[i]);
+      Truth truth = find_truth(i);
       results_.supersampling.insert(results_.supersampling.end(), truth.curve.begin(), truth.curve.end());
       for (std::size_t m = 0; m < settings_.methods.size(); ++m) drafts_.push_back(compare_method(truth, m));
       set_times(i, further_times);
+      before_ = std::move(truth.reference);
     }
     finish_error_pictures();
     describe();
@@ -113,6 +128,10 @@ class Comparison {
   }
 
  private:
+  [[nodiscard]] double other_samples() const {
+    return std::accumulate(settings_.other_spp.begin(), settings_.other_spp.end(), 0.0);
+  }
+
   [[nodiscard]] double method_weight() const {
     return static_cast<double>(settings_.methods.size()) * (settings_.spp + settings_.repeats);
   }
@@ -123,54 +142,35 @@ class Comparison {
     return fmt::format("d{}_{}", file_stem(fmt::format("{}", distance)), what);
   }
 
-  // Names that differ only in characters that no file name has would overwrite each other: such a method has its place
-  // added.
-  [[nodiscard]] std::string method_stem(std::size_t index) const {
-    const std::string stem = file_stem(settings_.methods[index].text);
-    const auto same = [&](const MethodSpec& other) { return file_stem(other.text) == stem; };
-    return std::ranges::count_if(settings_.methods, same) > 1 || stem == "reference" ? fmt::format("{}.{}", stem, index)
-                                                                                     : stem;
-  }
-
-  Truth find_truth(double distance) {
+  Truth find_truth(std::size_t frame) {
+    const double distance = distances_[frame];
     const std::string prefix = fmt::format("distance {:g}: ", distance);
-    Truth truth{.distance = distance,
+    Truth truth{.frame = frame,
+                .distance = distance,
                 .view = stage_.view(distance),
                 .reference = {},
                 .noise_floor = {},
                 .reference_file = {},
-                .curve = {}};
+                .curve = {},
+                .others = {}};
     truth.reference = stage_.reference().render(truth.view, settings_.spp, settings_.seed,
                                                 parts_.next(settings_.spp, prefix + "reference, "));
-    set_exposure(truth.reference.mean);
-    if (truth.reference.halves) {
-      const auto difference =
-          normalized_color(truth.reference.halves->first, truth.reference.halves->second, exposure_);
-      if (difference)
-        truth.noise_floor = *difference / 2.0;  // A - B has twice the deviation of the reference's own error
-    }
-    if (results_.records.empty() && drafts_.empty())
+    if (frame == 0) {
+      chosen_exposure_ = choose_exposure(settings_.exposure, stage_.scene(), truth.reference.mean);
+      exposure_ = chosen_exposure_.factor;
       results_.reference.standard_error = relative_standard_error(truth.reference);
+    }
+    truth.noise_floor = noise_floor(truth.reference, exposure_);
     references_.push_back(
         {.caption = fmt::format("reference, {} spp", settings_.spp), .picture = truth.reference.mean, .error = {}});
     truth.reference_file = write_picture(folder_, stem_of(distance, "reference"), truth.reference.mean, exposure_);
     truth.curve = supersampling_curve(truth, prefix);
-    return truth;
-  }
-
-  void set_exposure(const Image& first_reference) {
-    if (exposure_ > 0.0F) return;
-    if (settings_.exposure) {
-      exposure_ = *settings_.exposure;
-      results_.scene.exposure_source = "command line";
-    } else if (stage_.scene().exposure) {
-      exposure_ = *stage_.scene().exposure;
-      results_.scene.exposure_source = "scene";
-    } else {
-      exposure_ = automatic_exposure(first_reference);
-      results_.scene.exposure_source = "automatic";
+    for (const int spp : settings_.other_spp) {
+      const Supersampled other =
+          stage_.reference().render(truth.view, spp, settings_.seed, parts_.next(spp, prefix + "other reference, "));
+      truth.others.push_back({.spp = spp, .mean = other.mean, .noise_floor = noise_floor(other, exposure_)});
     }
-    results_.scene.exposure = exposure_;
+    return truth;
   }
 
   std::vector<SupersamplingPoint> supersampling_curve(const Truth& truth, const std::string& prefix) {
@@ -194,8 +194,9 @@ class Comparison {
   Draft compare_method(const Truth& truth, std::size_t index) {
     const StagedMethod& staged = method(index);
     const std::string prefix = fmt::format("distance {:g}: {}, ", truth.distance, settings_.methods[index].text);
-    Draft draft{
-        .record = new_record(truth, staged), .exhibit = {}, .stem = stem_of(truth.distance, method_stem(index))};
+    Draft draft{.record = new_record(truth, staged),
+                .exhibit = {},
+                .stem = stem_of(truth.distance, method_stem(settings_.methods, index))};
     Image picture = staged.frames().render(truth.view);
     const Supersampled finest = stage_.finest_level(staged).render(
         truth.view, settings_.spp, settings_.seed, parts_.next(settings_.spp, prefix + "finest level, "));
@@ -205,6 +206,7 @@ class Comparison {
     } catch (const Error& error) {
       throw error.within("method " + settings_.methods[index].text);
     }
+    set_flicker(draft.record, truth, picture, index);
     draft.record.images.color = write_picture(folder_, draft.stem, picture, exposure_);
     draft.record.images.reference = truth.reference_file;
     Image error = error_map(picture, truth.reference.mean, exposure_);
@@ -221,6 +223,7 @@ class Comparison {
     record.method = baked.spec.text;
     record.options = {baked.options.all().begin(), baked.options.all().end()};
     record.distance = truth.distance;
+    record.frame = static_cast<int>(truth.frame);
     record.width = truth.view.size.x;
     record.height = truth.view.size.y;
     record.precompute_seconds = baked.seconds;
@@ -252,6 +255,19 @@ class Comparison {
         equivalent_samples(footprint::supersampling_curve(truth.curve, truth.distance), figures->normalized_color);
     record.equivalent_spp = worth.spp;
     record.equivalent_bound = worth.bound;
+    for (const OtherTruth& other : truth.others) {
+      if (const auto error = normalized_color(picture, other.mean, exposure_)) {
+        record.other_references.push_back(
+            {.spp = other.spp, .normalized_color = *error, .noise_floor = other.noise_floor});
+      }
+    }
+  }
+
+  // Against the frame before: the picture of the same method, one round of drafts earlier.
+  void set_flicker(Record& record, const Truth& truth, const Image& picture, std::size_t index) const {
+    if (!settings_.consecutive || truth.frame == 0) return;
+    const Image& before = drafts_[(truth.frame - 1) * settings_.methods.size() + index].exhibit.picture;
+    record.flicker = flicker_between(before, picture, before_, truth.reference, exposure_);
   }
 
   std::vector<std::vector<double>> time_distance(double distance) {
@@ -318,38 +334,36 @@ class Comparison {
   }
 
   void describe() {
-    const Scene& scene = stage_.scene();
-    const gl::ContextInfo& context = stage_.context().info();
-    results_.backend = {.name = std::string(gl::backend_name(context.backend)),
-                        .renderer = context.renderer,
-                        .version = context.version,
-                        .cpu = {}};
-    results_.scene.name = scene.name;
-    results_.scene.source = scene.source;
-    for (const Mesh& mesh : scene.meshes) results_.scene.triangles += mesh.indices.size() / 3;
-    results_.scene.materials = scene.materials.size();
-    results_.scene.lights = scene.lights.size();
-    results_.scene.defaults = scene.defaults;
-    results_.scene.warnings = scene.warnings;
-    if (const auto noise = results_.reference.standard_error; noise && *noise > converged_standard_error) {
-      results_.scene.warnings.push_back(fmt::format(
-          "the reference has not converged: its standard error is {:.2g} of the mean radiance, as happens where lights "
-          "make highlights too sharp for {} samples; raise --spp before small differences are trusted",
-          *noise, settings_.spp));
-    }
+    results_.backend = backend_info(stage_.context().info());
     results_.reference.spp = settings_.spp;
     results_.reference.filter = filter_name(settings_.filter);
     results_.reference.seed = settings_.seed;
+    results_.scene = scene_info(stage_.scene(), chosen_exposure_, results_.reference);
+    add_precompute_notes();
+  }
+
+  void add_precompute_notes() {
+    for (std::size_t m = 0; m < settings_.methods.size(); ++m) {
+      const BakedMethod& baked = method(m).baked();
+      for (std::size_t i = 0; i < baked.materials.size(); ++i) {
+        for (const std::string& note : baked.materials[i].notes)
+          results_.scene.warnings.push_back(
+              fmt::format("{}, material {}: {}", baked.spec.text, stage_.scene().materials[i].name, note));
+      }
+    }
   }
 
   const CompareSettings& settings_;
   std::filesystem::path folder_;
+  ProgressParts whole_;
   Stage stage_;
   std::vector<double> distances_;
   ProgressParts parts_;
-  float exposure_ = 0.0F;  // above 0 once it is known
+  ChosenExposure chosen_exposure_;
+  float exposure_ = 1.0F;  // its factor
   std::vector<Draft> drafts_;
   std::vector<Exhibit> references_;  // one a distance, for the strips
+  Supersampled before_;              // the reference of the frame before
   Results results_;
 };
 

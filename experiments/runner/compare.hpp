@@ -11,6 +11,7 @@
 #include "experiments/runner/stage.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/pipeline/supersample.hpp"
+#include "renderer/scene/scene_settings.hpp"
 #include "renderer/scene/surface.hpp"
 #include "results/report/records.hpp"
 
@@ -23,7 +24,10 @@ struct CompareSettings {
   std::vector<MethodSpec> methods;
   std::vector<double> distances;   ///< factors on the camera's distance; empty: the scene's zoom path
   std::optional<glm::ivec2> size;  ///< none: the scene's own
+  bool consecutive = false;        ///< the distances are frames of a zoom: flicker is measured between them
+  CameraSettings camera;           ///< monostate: the scene's own
   int spp = 64;                    ///< samples a pixel of the reference, 1 to 4096
+  std::vector<int> other_spp;      ///< of further references that errors are measured against
   std::uint64_t seed = 1;
   ReferenceFilter filter = ReferenceFilter::after_shading;
   std::optional<float> exposure;  ///< none: the scene's own, else automatic

@@ -1,6 +1,8 @@
 // See picture_files.hpp.
 #include "experiments/runner/picture_files.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -8,22 +10,29 @@
 #include "renderer/image/image_io.hpp"
 
 namespace footprint {
-namespace {
-
-// Two pictures of one width and three channels, the first on top.
 Image stacked(const Image& top, const Image& bottom) {
-  Image both(top.width, top.height + bottom.height, top.channels);
-  std::ranges::copy(bottom.texels, std::ranges::copy(top.texels, both.texels.begin()).out);
+  Image both(std::max(top.width, bottom.width), top.height + bottom.height, top.channels);
+  const auto place = [&](const Image& part, int first_row) {
+    for (int y = 0; y < part.height; ++y) {
+      for (int x = 0; x < part.width; ++x) std::ranges::copy(part.at(x, y), both.at(x, first_row + y).begin());
+    }
+  };
+  place(top, 0);
+  place(bottom, top.height);
   return both;
 }
-
-}  // namespace
 
 std::string file_stem(const std::string& text) {
   std::string stem = text;
   std::ranges::replace_if(
       stem, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '.' && c != '_'; }, '_');
   return stem;
+}
+
+std::string method_stem(std::span<const MethodSpec> methods, std::size_t index) {
+  const std::string stem = file_stem(methods[index].text);
+  const auto same = [&](const MethodSpec& other) { return file_stem(other.text) == stem; };
+  return std::ranges::count_if(methods, same) > 1 || stem == "reference" ? fmt::format("{}.{}", stem, index) : stem;
 }
 
 std::string write_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,

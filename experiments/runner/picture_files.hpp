@@ -2,15 +2,24 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "renderer/core/options.hpp"
 #include "renderer/image/image.hpp"
 
 namespace footprint {
 
 /// A file name part from any text: letters, digits, '-', '.' and '_' stay, all else becomes '_'.
 [[nodiscard]] std::string file_stem(const std::string& text);
+
+/// Two pictures of equally many channels, the first on top, both from the left edge on.
+[[nodiscard]] Image stacked(const Image& top, const Image& bottom);
+
+/// The file name part of the method at `index`. Names that differ only in characters that no file name has would
+/// overwrite each other, and so would one that is called `reference`: such a method has its place added.
+[[nodiscard]] std::string method_stem(std::span<const MethodSpec> methods, std::size_t index);
 
 /// Writes FOLDER/images/STEM.exr (linear radiance, coverage in alpha) and STEM.png beside it (exposed, sRGB); returns
 /// "images/STEM.exr".

@@ -118,17 +118,16 @@ struct Matching {
 
 }  // namespace
 
-bool cluster_start(const Samples& samples, std::span<Gaussian> mixture) {
+void cluster_start(const Samples& samples, std::span<Gaussian> mixture) {
   std::array<Point, most_components> storage{};
   const std::span<Point> all(storage.data(), mixture.size());
   const std::span<Point> centres = all.first(farthest_first(samples, all));
   std::array<Cluster, most_components> clusters = assigned(samples, centres);
-  const double total = samples.total_weight();
-  const bool distinct = std::ranges::all_of(clusters, [&](const Cluster& c) { return c.square <= same_point * total; });
-  for (int step = 0; step < lloyd_steps && !distinct; ++step) {
+  for (int step = 0; step < lloyd_steps; ++step) {
     move_to_means(centres, clusters);
     clusters = assigned(samples, centres);
   }
+  const double total = samples.total_weight();
   for (std::size_t i = 0; i < mixture.size(); ++i) {
     const Cluster& c = clusters[i];
     mixture[i] = {};
@@ -141,7 +140,6 @@ bool cluster_start(const Samples& samples, std::span<Gaussian> mixture) {
                   .y = static_cast<float>(centres[i].y + dy),
                   .variance = std::max(static_cast<float>(variance), variance_floor)};
   }
-  return distinct;
 }
 
 void dense_start(const Samples& samples, std::span<Gaussian> mixture) {

@@ -8,9 +8,8 @@
 namespace footprint::tan_gmm {
 
 /// Clusters of the samples as components (Tan 2005, section 4.1): centres farthest from one another, then Lloyd's
-/// steps. Where the samples have fewer distinct points than `mixture` components, the others get alpha 0. Returns
-/// whether every sample lies on the mean of its cluster.
-bool cluster_start(const Samples& samples, std::span<Gaussian> mixture);
+/// steps. Where the samples have fewer distinct points than `mixture` components, the others get alpha 0.
+void cluster_start(const Samples& samples, std::span<Gaussian> mixture);
 
 /// Components one less than `mixture` from clusters, and one of variance 1e-4 on the cell of a histogram that holds the
 /// most weight: clusters miss spikes of equal normals inside of a wider spread. Needs two components.

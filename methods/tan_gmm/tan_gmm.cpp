@@ -44,9 +44,10 @@ std::vector<OptionSpec> option_table() {
           "moment", {"corrected", "published"},
           "The stored second moment: alpha (2 sigma^2 + |mu|^2), or the paper's alpha (sigma^2 + |mu|^2), which "
           "counts the spread of the means twice."),
-      word_option("init", {"dense_seed", "kmeans"},
-                  "Where EM starts: the best of clusters, a narrow component on the densest spot and the coarser "
-                  "texel's mixture; or clusters alone, as in the paper."),
+      word_option("init", {"inherit", "dense_seed", "kmeans"},
+                  "Where EM starts: from the coarser texel's mixture (the coarsest, and texels fitted on their own, as "
+                  "dense_seed); from the best of clusters, a narrow component on the densest spot and the coarser "
+                  "texel's mixture; from clusters alone, as in the paper."),
       {.name = "c",
        .default_value = 1.0,
        .minimum = 0.0,
@@ -67,7 +68,8 @@ tan_gmm::FitSettings fit_settings(const Options& options) {
   settings.components = static_cast<std::size_t>(options.number("n"));
   settings.align = options.word("align") == "on";
   settings.m_step = options.word("m_step") == "exact" ? tan_gmm::MStep::exact : tan_gmm::MStep::published;
-  settings.start = options.word("init") == "kmeans" ? tan_gmm::Start::clusters : tan_gmm::Start::dense_seed;
+  if (options.word("init") == "dense_seed") settings.start = tan_gmm::Start::dense_seed;
+  if (options.word("init") == "kmeans") settings.start = tan_gmm::Start::clusters;
   settings.prior_weight = options.number("c");
   return settings;
 }
@@ -107,7 +109,8 @@ class TanGmm final : public Method {
       .paper = "Tan et al. 2005, Multiresolution Reflectance Filtering, Eurographics Symposium on Rendering",
       .options = option_table(),
       .honours = EffectSet{}.set(),
-      .slow_precompute = true};
+      .slow_precompute = true,
+      .exact_lobe = false};
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "methods/tan_gmm/starts.hpp"
@@ -35,31 +36,55 @@ class Trials {
   double greatest_ = -std::numeric_limits<double>::infinity();
 };
 
+// Rounding aside.
+bool are_one_normal(const Samples& samples) {
+  for (std::size_t j = 1; j < samples.size(); ++j) {
+    const float distance = std::hypot(samples.x[j] - samples.x[0], samples.y[j] - samples.y[0]);
+    if (distance > 1e-6F || samples.spread[j] > 0.0F) return false;
+  }
+  return true;
+}
+
+void start_from_clusters(const Samples& samples, const Prior& prior, std::span<Gaussian> mixture) {
+  cluster_start(samples, mixture);
+  match_order(prior, mixture);
+}
+
+void start_from_best(const Samples& samples, const Prior& prior, std::span<const Gaussian> parent,
+                     const FitSettings& settings, std::span<Gaussian> mixture) {
+  std::array<Gaussian, most_components> storage{};
+  const std::span<Gaussian> start(storage.data(), mixture.size());
+  Trials trials(samples, prior, settings, mixture);
+  start_from_clusters(samples, prior, start);
+  trials.take(start);
+  if (mixture.size() > 1 && samples.size() >= fewest_for_histogram) {
+    dense_start(samples, start);
+    match_order(prior, start);
+    trials.take(start);
+  }
+  if (!parent.empty()) {
+    std::ranges::copy(parent, start.begin());
+    trials.take(start);
+  }
+}
+
 }  // namespace
 
 void fit_texel(const Samples& samples, const Prior& prior, std::span<const Gaussian> parent,
                const FitSettings& settings, std::span<Gaussian> mixture) {
   std::ranges::fill(mixture, Gaussian{});
   if (samples.size() == 0) return;
-  std::array<Gaussian, most_components> storage{};
-  const std::span<Gaussian> start(storage.data(), mixture.size());
-  // Where clusters are single points, no other start can be likelier.
-  const bool distinct = cluster_start(samples, start);
-  match_order(prior, start);
-  if (settings.start == Start::clusters || distinct) {
-    std::ranges::copy(start, mixture.begin());
+  const bool inherit = settings.start == Start::inherit && !parent.empty();
+  if (are_one_normal(samples)) {
+    // It goes whole to the component that suits the neighbours: shared among several it would be blended with several.
+    mixture[0] = {.alpha = 1.0F, .x = samples.x[0], .y = samples.y[0], .variance = variance_floor};
+    match_order(prior, mixture);
+  } else if (settings.start == Start::clusters) {
+    start_from_clusters(samples, prior, mixture);
+  } else if (inherit) {
+    std::ranges::copy(parent, mixture.begin());
   } else {
-    Trials trials(samples, prior, settings, mixture);
-    trials.take(start);
-    if (mixture.size() > 1 && samples.size() >= fewest_for_histogram) {
-      dense_start(samples, start);
-      match_order(prior, start);
-      trials.take(start);
-    }
-    if (!parent.empty()) {
-      std::ranges::copy(parent, start.begin());
-      trials.take(start);
-    }
+    start_from_best(samples, prior, parent, settings, mixture);
   }
   iterate(samples, prior, settings.m_step, settings.most_iterations, settings.tolerance, mixture);
 }

@@ -7,15 +7,16 @@
 
 namespace footprint::tan_gmm {
 
-/// clusters: one start, as the paper has it; dense_seed: the best of three: clusters, a seed on the densest spot, and
-/// the coarser texel's mixture where it is known.
-enum class Start { clusters, dense_seed };
+/// Where EM starts. inherit: from the coarser texel's mixture where it is known, so that components keep their meaning
+/// from level to level, else as dense_seed. dense_seed: the best of clusters, a seed on the densest spot and, where it
+/// is known, the coarser texel's mixture. clusters: clusters alone, as the paper has it.
+enum class Start { inherit, dense_seed, clusters };
 
 struct FitSettings {
   std::size_t components = 4;  ///< 1 to most_components
   bool align = true;           ///< neighbours draw the means; else each texel on its own
   MStep m_step = MStep::exact;
-  Start start = Start::dense_seed;
+  Start start = Start::inherit;
   double prior_weight = 1.0;  ///< c of the prior
   int most_iterations = 40;   ///< EM steps from the best start
   int trial_iterations = 4;   ///< EM steps that each start is judged by

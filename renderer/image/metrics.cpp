@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string_view>
+#include <vector>
 
 #include "renderer/core/error.hpp"
 
@@ -17,6 +19,7 @@ namespace {
 using Rgb = std::array<double, 3>;
 
 constexpr double relmse_epsilon_share = 1e-2;  // of the squared mean luminance of the reference
+constexpr double flicker_quantile = 0.99;
 
 // Half of one sample in 4096 may be lost to rounding. NaN counts as covered, so that the check for finite values sees
 // it.
@@ -61,12 +64,13 @@ double squared(double value) { return value * value; }
 
 double luminance(const Rgb& rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }  // Rec. 709
 
-// Sum over the channels of the squared difference of what a display of peak 1 shows.
+// What a display of peak 1 shows.
+double displayed(double value, double exposure) { return std::clamp(exposure * value, 0.0, 1.0); }
+
+// Sum over the channels of the squared difference of what is displayed.
 double displayed_squared_distance(const Rgb& a, const Rgb& b, double exposure) {
   double sum = 0;
-  for (std::size_t c = 0; c < a.size(); ++c) {
-    sum += squared(std::clamp(exposure * a[c], 0.0, 1.0) - std::clamp(exposure * b[c], 0.0, 1.0));
-  }
+  for (std::size_t c = 0; c < a.size(); ++c) sum += squared(displayed(a[c], exposure) - displayed(b[c], exposure));
   return sum;
 }
 
@@ -90,11 +94,11 @@ std::optional<ErrorFigures> compare_images(const Image& picture, const Image& re
   if (pixels == 0) return std::nullopt;
   const double epsilon = relmse_epsilon_share * squared(mean_luminance(reference));
 
-  double distance = 0, displayed = 0, squares = 0, reference_squares = 0, relative = 0, sum = 0, reference_sum = 0;
+  double distance = 0, shown_squares = 0, squares = 0, reference_squares = 0, relative = 0, sum = 0, reference_sum = 0;
   visit_object_pixels(picture, reference, [&](int, int, const Rgb& x, const Rgb& r) {
     const double shown = displayed_squared_distance(x, r, exposure);
     distance += std::sqrt(shown / 3);
-    displayed += shown;
+    shown_squares += shown;
     for (std::size_t c = 0; c < x.size(); ++c) {
       squares += squared(x[c] - r[c]);
       reference_squares += squared(r[c]);
@@ -106,8 +110,32 @@ std::optional<ErrorFigures> compare_images(const Image& picture, const Image& re
   return ErrorFigures{.normalized_color = distance / pixels,
                       .relative_rmse = std::sqrt(ratio(squares, reference_squares)),
                       .relmse = relative / (3 * pixels),
-                      .psnr = -10 * std::log10(displayed / (3 * pixels)),
+                      .psnr = -10 * std::log10(shown_squares / (3 * pixels)),
                       .energy_bias = ratio(sum - reference_sum, reference_sum)};
+}
+
+std::optional<FlickerFigures> compare_changes(const Image& before, const Image& picture, const Image& reference_before,
+                                              const Image& reference, float exposure) {
+  require_comparable(before, reference_before);
+  require_comparable(reference_before, reference);
+  std::vector<double> differences;
+  visit_object_pixels(picture, reference, [&](int column, int row, const Rgb& x, const Rgb& r) {
+    if (!covers_whole_pixel(reference_before.at(column, row))) return;
+    const Rgb old_x = rgb_of(before, column, row, "the picture before");
+    const Rgb old_r = rgb_of(reference_before, column, row, "the reference before");
+    double sum = 0;
+    for (std::size_t c = 0; c < x.size(); ++c) {
+      sum += squared(displayed(x[c], exposure) - displayed(old_x[c], exposure) - displayed(r[c], exposure) +
+                     displayed(old_r[c], exposure));
+    }
+    differences.push_back(std::sqrt(sum / 3));
+  });
+  if (differences.empty()) return std::nullopt;
+  const double count = static_cast<double>(differences.size());
+  const double mean = std::accumulate(differences.begin(), differences.end(), 0.0) / count;
+  const auto rank = static_cast<std::ptrdiff_t>(std::ceil(flicker_quantile * count)) - 1;
+  std::ranges::nth_element(differences, differences.begin() + rank);
+  return FlickerFigures{.mean = mean, .p99 = differences[static_cast<std::size_t>(rank)]};
 }
 
 Image error_map(const Image& picture, const Image& reference, float exposure) {

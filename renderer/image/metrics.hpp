@@ -22,6 +22,18 @@ struct ErrorFigures {
 /// either (naming the pixel).
 [[nodiscard]] std::optional<ErrorFigures> compare_images(const Image& picture, const Image& reference, float exposure);
 
+/// How otherwise a picture changes from the frame before it than the reference does: flicker, docs/metrics.md.
+struct FlickerFigures {
+  double mean = 0;  ///< of |(d(x) - d(x')) - (d(r) - d(r'))| / sqrt(3), ' the frame before; exposed, clamped values
+  double p99 = 0;   ///< its 99th percentile (nearest rank)
+};
+
+/// Compares the change from `before` to `picture` with that of the reference. RGBA pictures of one size, as for
+/// compare_images; the pixels are those which both references cover wholly: empty if there is none. Errors as there.
+[[nodiscard]] std::optional<FlickerFigures> compare_changes(const Image& before, const Image& picture,
+                                                            const Image& reference_before, const Image& reference,
+                                                            float exposure);
+
 /// Per-pixel normalised colour error, one channel, 0 outside the object: what the false-colour picture shows.
 [[nodiscard]] Image error_map(const Image& picture, const Image& reference, float exposure);
 

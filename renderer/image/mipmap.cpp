@@ -5,7 +5,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <utility>
 
@@ -14,25 +13,8 @@
 namespace footprint {
 namespace {
 
-// The fine texels under one coarse texel along one axis, and the share of it that each covers.
-struct Taps {
-  int first = 0;
-  int count = 1;
-  std::array<double, 3> weight{1.0, 0.0, 0.0};
-};
-
-// Coarse texel i of m = floor(n / 2) covers [i n / m, (i + 1) n / m) of n fine ones: two whole ones if n is even; for
-// n = 2m + 1 the shares are ((m - i), m, (1 + i)) / n (Guthe and Heckbert 2005, "Non-power-of-two mipmapping").
-Taps taps_of(int fine_size, int i) {
-  if (fine_size == 1) return {};
-  if (fine_size % 2 == 0) return {2 * i, 2, {0.5, 0.5, 0.0}};
-  const int m = fine_size / 2;
-  const double n = fine_size;
-  return {2 * i, 3, {(m - i) / n, m / n, (1 + i) / n}};
-}
-
 template <typename Visit>  // visit(texel, share of the coarse texel's area)
-void visit_taps(const Image& fine, const Taps& across, const Taps& down, Visit visit) {
+void visit_taps(const Image& fine, const MipTaps& across, const MipTaps& down, Visit visit) {
   for (int j = 0; j < down.count; ++j) {
     for (int i = 0; i < across.count; ++i) {
       visit(fine.at(across.first + i, down.first + j), across.weight[i] * down.weight[j]);
@@ -40,18 +22,18 @@ void visit_taps(const Image& fine, const Taps& across, const Taps& down, Visit v
   }
 }
 
-double mean_of_channel(const Image& fine, const Taps& across, const Taps& down, std::size_t channel) {
+double mean_of_channel(const Image& fine, const MipTaps& across, const MipTaps& down, std::size_t channel) {
   double sum = 0;
   visit_taps(fine, across, down, [&](std::span<const float> texel, double share) { sum += share * texel[channel]; });
   return sum;
 }
 
-void plain_mean(const Image& fine, const Taps& across, const Taps& down, std::span<float> coarse) {
+void plain_mean(const Image& fine, const MipTaps& across, const MipTaps& down, std::span<float> coarse) {
   for (std::size_t c = 0; c < coarse.size(); ++c)
     coarse[c] = static_cast<float>(mean_of_channel(fine, across, down, c));
 }
 
-void weighted_mean(const Image& fine, const Taps& across, const Taps& down, std::span<float> coarse) {
+void weighted_mean(const Image& fine, const MipTaps& across, const MipTaps& down, std::span<float> coarse) {
   const std::size_t last = coarse.size() - 1;
   const double weight = mean_of_channel(fine, across, down, last);
   if (weight <= 0) return plain_mean(fine, across, down, coarse);
@@ -73,8 +55,8 @@ Image reduced(const Image& fine, Reduce reduce) {
   const int rows_per_task = std::max(1, texels_per_task / coarse.width);
   tbb::parallel_for(tbb::blocked_range<int>(0, coarse.height, rows_per_task), [&](const tbb::blocked_range<int>& rows) {
     for (int y = rows.begin(); y < rows.end(); ++y) {
-      const Taps down = taps_of(fine.height, y);
-      for (int x = 0; x < coarse.width; ++x) reduce(fine, taps_of(fine.width, x), down, coarse.at(x, y));
+      const MipTaps down = mip_taps(fine.height, y);
+      for (int x = 0; x < coarse.width; ++x) reduce(fine, mip_taps(fine.width, x), down, coarse.at(x, y));
     }
   });
   return coarse;
@@ -91,6 +73,14 @@ std::vector<Image> chain(Image finest, Reduce reduce) {
 }
 
 }  // namespace
+
+MipTaps mip_taps(int fine_size, int i) {
+  if (fine_size == 1) return {};
+  if (fine_size % 2 == 0) return {2 * i, 2, {0.5, 0.5, 0.0}};
+  const int m = fine_size / 2;
+  const double n = fine_size;
+  return {2 * i, 3, {(m - i) / n, m / n, (1 + i) / n}};
+}
 
 int mip_level_count(int width, int height) {
   return static_cast<int>(std::bit_width(static_cast<unsigned>(std::max({width, height, 1}))));

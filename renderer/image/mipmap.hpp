@@ -1,6 +1,7 @@
 // Exact mip chains for any size, power of two or not.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "renderer/image/image.hpp"
@@ -9,6 +10,18 @@ namespace footprint {
 
 /// Level sizes follow OpenGL: floor(n / 2), at least 1, down to 1 x 1.
 [[nodiscard]] int mip_level_count(int width, int height);
+
+/// The fine texels under one coarse texel along one axis, and the share of it that each covers.
+struct MipTaps {
+  int first = 0;
+  int count = 1;  ///< 1 to 3
+  std::array<double, 3> weight{1.0, 0.0, 0.0};
+};
+
+/// The taps of coarse texel i of m = floor(n / 2), which covers [i n / m, (i + 1) n / m) of n fine ones: two whole ones
+/// if n is even; for n = 2m + 1 the shares are ((m - i), m, (1 + i)) / n (Guthe and Heckbert 2005, "Non-power-of-two
+/// mipmapping"); one where n = 1.
+[[nodiscard]] MipTaps mip_taps(int fine_size, int i);
 
 /// The next coarser level: each coarse texel is the exact mean of the area that it covers of the finer level (for an
 /// odd size n = 2m + 1 the polyphase weights ((m - i), m, (1 + i)) / n per axis), so every channel's mean survives

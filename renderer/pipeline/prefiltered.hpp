@@ -51,6 +51,7 @@ struct PrefilteredTexture {
 struct Prefiltered {
   std::vector<PrefilteredTexture> textures;
   std::map<std::string, float> scalars;  ///< uniform float NAME
+  std::vector<std::string> notes{};      ///< what a user should know of how it went, one sentence each; tables show it
 
   friend bool operator==(const Prefiltered&, const Prefiltered&) = default;
 };

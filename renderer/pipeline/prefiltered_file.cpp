@@ -11,7 +11,7 @@
 namespace footprint {
 namespace {
 
-constexpr std::string_view magic = "footprint bake 1";  // another layout below: another number here
+constexpr std::string_view magic = "footprint bake 2";  // another layout below: another number here
 
 class Writer {
  public:
@@ -132,6 +132,8 @@ std::vector<std::uint8_t> to_bytes(const Prefiltered& prefiltered) {
     out.add_text(name);
     out.add(value);
   }
+  out.add<std::uint64_t>(prefiltered.notes.size());
+  for (const std::string& note : prefiltered.notes) out.add_text(note);
   const std::string sum = checksum(out.bytes());
   std::vector<std::uint8_t> bytes = out.take();
   bytes.insert(bytes.end(), sum.begin(), sum.end());
@@ -150,6 +152,7 @@ std::optional<Prefiltered> from_bytes(std::span<const std::uint8_t> bytes) {
     std::string name = in.get_text();
     prefiltered.scalars[std::move(name)] = in.get<float>();
   }
+  for (std::uint64_t count = in.get_count(1); count > 0; --count) prefiltered.notes.push_back(in.get_text());
   if (!in.finished()) return {};
   return prefiltered;
 }

@@ -11,8 +11,8 @@ namespace footprint {
 
 namespace embedded {
 extern const std::string_view surface_vertex_glsl, surface_fragment_glsl, surface_lights_glsl, common_footprint_glsl,
-    common_lobes_glsl, common_base_brdf_glsl, common_slopes_glsl, beckmann_lambda_glsl, resolve_samples_glsl,
-    screen_vertex_glsl;
+    common_lobes_glsl, common_base_brdf_glsl, common_slopes_glsl, beckmann_lambda_glsl, surface_material_glsl,
+    ndf_fragment_glsl, resolve_samples_glsl, screen_vertex_glsl;
 }
 
 namespace {
@@ -235,22 +235,46 @@ std::string vertex_shader(const ShaderVariant& variant) {
   return std::string(version_line) + select_text(embedded::surface_vertex_glsl, flags, "surface_vertex.glsl");
 }
 
-std::string fragment_shader(const ShaderVariant& variant, std::string_view module, std::string_view module_name,
-                            const Options& options, const Prefiltered& prefiltered) {
+namespace {
+
+struct Module {
+  std::string_view text, name;
+};
+
+// A pass around a method's module, which takes the place of the pass's line `//# module`: what the module reads (its
+// textures, scalars and options, the material's block) and may call stands in front of it. `first` comes before all
+// that.
+std::string method_program(const ShaderVariant& variant, const Module& module, const Options& options,
+                           const Prefiltered& prefiltered, const std::string& first, const std::string& pass) {
   ShaderFlags flags = shader_flags(variant, options);
   flags.merge(texture_flags(prefiltered));
-  std::string text = fmt::format("{}#line {}\n", version_line, first_shared_line);
+  std::string text = fmt::format("{}#line {}\n", version_line, first_shared_line) + first;
   if (variant.max_probes > 1) text += fmt::format("const float max_probes = {}.0;\n", variant.max_probes);
-  text += light_capacities(variant) + number_options(options) + declarations(variant.effects, prefiltered);
-  text += select_text(embedded::surface_lights_glsl, flags, "surface_lights.glsl") + shared_functions(flags);
-  // The module reads the material's block, which the forward pass declares: the block goes in front of it.
-  const std::string forward = select_text(embedded::surface_fragment_glsl, flags, "surface_fragment.glsl");
+  text += number_options(options) + declarations(variant.effects, prefiltered);
+  text += shared_functions(flags) + std::string(embedded::surface_material_glsl);
   constexpr std::string_view split = "//# module\n";
-  const std::size_t place = forward.find(split);
-  text += forward.substr(0, place);
+  const std::size_t place = pass.find(split);
+  text += pass.substr(0, place);
   const auto next_line = first_shared_line + std::ranges::count(text, '\n');
-  return text + select_text(module, flags, module_name, true) + fmt::format("#line {}\n", next_line) +
-         forward.substr(place + split.size());
+  return text + select_text(module.text, flags, module.name, true) + fmt::format("#line {}\n", next_line) +
+         pass.substr(place + split.size());
+}
+
+}  // namespace
+
+std::string fragment_shader(const ShaderVariant& variant, std::string_view module, std::string_view module_name,
+                            const Options& options, const Prefiltered& prefiltered) {
+  const ShaderFlags flags = shader_flags(variant, options);
+  const std::string lights =
+      light_capacities(variant) + select_text(embedded::surface_lights_glsl, flags, "surface_lights.glsl");
+  const std::string forward = select_text(embedded::surface_fragment_glsl, flags, "surface_fragment.glsl");
+  return method_program(variant, {module, module_name}, options, prefiltered, lights, forward);
+}
+
+std::string ndf_shader(const ShaderVariant& variant, std::string_view module, std::string_view module_name,
+                       const Options& options, const Prefiltered& prefiltered) {
+  return method_program(variant, {module, module_name}, options, prefiltered, {},
+                        std::string(embedded::ndf_fragment_glsl));
 }
 
 std::string screen_vertex_shader() { return std::string(version_line) + std::string(embedded::screen_vertex_glsl); }

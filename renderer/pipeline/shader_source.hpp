@@ -63,6 +63,12 @@ inline constexpr int first_shared_line = 10001;
                                           std::string_view module_name, const Options& options,
                                           const Prefiltered& prefiltered);
 
+/// A pass that evaluates the module's `ndf` at listed directions for one footprint; its vertices are
+/// screen_vertex_shader's. The arguments are fragment_shader's.
+[[nodiscard]] std::string ndf_shader(const ShaderVariant& variant, std::string_view module,
+                                     std::string_view module_name, const Options& options,
+                                     const Prefiltered& prefiltered);
+
 /// The stages that add a pass of samples to the reference's sums.
 [[nodiscard]] std::string screen_vertex_shader();
 [[nodiscard]] std::string resolve_shader();

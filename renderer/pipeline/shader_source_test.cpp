@@ -39,7 +39,7 @@ TEST(SelectText, TakesInASharedTextWhereItsFlagIsOn) {
   EXPECT_EQ(select_text(text, {}, "t"), "a\nb\n");
   const std::string taken = select_text(text, {"x"}, "t", true);
   EXPECT_TRUE(taken.starts_with("#line 1\na\n#line 3\n#line 10001\n//")) << taken;
-  EXPECT_TRUE(taken.ends_with("}\n#line 4\n#line 5\nb\n")) << taken;
+  EXPECT_TRUE(taken.ends_with("#endif\n#line 4\n#line 5\nb\n")) << taken;
 }
 
 TEST(ShaderFlags, FollowEffectsTermsAndWordOptions) {

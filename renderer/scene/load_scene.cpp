@@ -8,7 +8,6 @@
 #include "renderer/core/error.hpp"
 #include "renderer/core/suggest.hpp"
 #include "renderer/scene/assemble.hpp"
-#include "renderer/scene/scene_settings.hpp"
 
 namespace footprint {
 namespace {
@@ -29,10 +28,17 @@ std::string lower_extension(const fs::path& path) {
   return extension;
 }
 
-Scene load_settings(const fs::path& file, const std::string& source, std::span<const Surface> surfaces) {
+// `camera` in place of the settings' own, where it says anything.
+void replace_camera(SceneSettings& settings, const CameraSettings& camera) {
+  if (!std::holds_alternative<std::monostate>(camera)) settings.camera = camera;
+}
+
+Scene load_settings(const fs::path& file, const std::string& source, std::span<const Surface> surfaces,
+                    const CameraSettings& camera) {
   const std::string folder = fs::absolute(file).lexically_normal().parent_path().filename().string();
   const std::string stem = file.filename() == settings_name ? folder : file.stem().string();
-  const SceneSettings settings = read_scene_settings(file, surfaces);
+  SceneSettings settings = read_scene_settings(file, surfaces);
+  replace_camera(settings, camera);
   try {
     return assemble_scene(settings, stem, source);
   } catch (const Error& error) {
@@ -40,29 +46,30 @@ Scene load_settings(const fs::path& file, const std::string& source, std::span<c
   }
 }
 
-Scene load_bare(const fs::path& file, const std::string& source) {
+Scene load_bare(const fs::path& file, const std::string& source, const CameraSettings& camera) {
   SceneSettings settings;
+  replace_camera(settings, camera);
   settings.content = ModelSettings{{file}, {}};
   return assemble_scene(settings, file.stem().string(), source);
 }
 
 }  // namespace
 
-Scene load_scene(const std::string& scene, const SceneLibrary& library) {
+Scene load_scene(const std::string& scene, const SceneLibrary& library, const CameraSettings& camera) {
   if (scene.empty()) throw Error(ErrorKind::usage, "scene", "the name is empty", "name a scene or a glTF file");
   const fs::path path = scene;
   const bool plain_name = path == path.filename() && !path.has_extension();
   if (plain_name && is_file(library.folder / path / settings_name)) {
-    return load_settings(library.folder / path / settings_name, scene, library.surfaces);
+    return load_settings(library.folder / path / settings_name, scene, library.surfaces, camera);
   }
   std::error_code error;
   if (fs::is_directory(path, error)) {
-    if (is_file(path / settings_name)) return load_settings(path / settings_name, scene, library.surfaces);
+    if (is_file(path / settings_name)) return load_settings(path / settings_name, scene, library.surfaces, camera);
     throw Error(ErrorKind::usage, scene, "the folder has no scene.toml", "name a folder with one, or a glTF file");
   }
   const std::string extension = lower_extension(path);
-  if (extension == ".toml") return load_settings(path, scene, library.surfaces);
-  if (extension == ".gltf" || extension == ".glb") return load_bare(path, scene);
+  if (extension == ".toml") return load_settings(path, scene, library.surfaces, camera);
+  if (extension == ".gltf" || extension == ".glb") return load_bare(path, scene, camera);
   if (fs::exists(path, error)) {
     throw Error(ErrorKind::usage, scene, "is neither a scene.toml nor a .gltf or .glb file",
                 "export the model as glTF 2.0");

@@ -187,19 +187,6 @@ Camera read_placed_camera(const TomlTable& table) {
   return camera;
 }
 
-CameraSettings read_camera(const TomlTable& table) {
-  const auto framed = table.table("frame_bounds", {"direction", "fov_degrees", "margin"});
-  if (!framed) return read_placed_camera(table);
-  for (const char* key : {"position", "target", "up", "yfov_degrees", "znear", "zfar"}) {
-    if (table.has(key)) throw table.error_at(key, "excludes frame_bounds", "give one or the other");
-  }
-  Framing framing;
-  framing.direction = direction(*framed, "direction").value_or(framing.direction);
-  if (const auto fov = framed->number("fov_degrees", field_of_view)) framing.yfov = radians(*fov);
-  framing.margin = framed->number("margin", {0.01, 1000.0}).value_or(framing.margin);
-  return framing;
-}
-
 /// The parameters of [surface], each checked where it stands.
 std::map<std::string, std::string> read_parameters(const TomlTable& table, const Surface& surface) {
   std::vector<std::string> names;
@@ -272,10 +259,7 @@ void read_lights(const TomlTable& root, SceneSettings& settings) {
 
 void read_view(const TomlTable& root, SceneSettings& settings) {
   if (const auto frame = root.table("frame", {"size", "exposure"})) read_frame(*frame, settings);
-  if (const auto camera =
-          root.table("camera", {"frame_bounds", "position", "target", "up", "yfov_degrees", "znear", "zfar"})) {
-    settings.camera = read_camera(*camera);
-  }
+  if (const auto camera = root.table("camera", camera_keys())) settings.camera = read_camera(*camera);
   if (const auto zoom = root.table("zoom", {"distances"})) {
     if (auto distances = zoom->numbers("distances", 0, {smallest_distance, largest_distance}))
       settings.distances = std::move(*distances);
@@ -283,6 +267,25 @@ void read_view(const TomlTable& root, SceneSettings& settings) {
 }
 
 }  // namespace
+
+const std::vector<std::string>& camera_keys() {
+  static const std::vector<std::string> keys{"frame_bounds", "position", "target", "up",
+                                             "yfov_degrees", "znear",    "zfar"};
+  return keys;
+}
+
+CameraSettings read_camera(const TomlTable& table) {
+  const auto framed = table.table("frame_bounds", {"direction", "fov_degrees", "margin"});
+  if (!framed) return read_placed_camera(table);
+  for (const char* key : {"position", "target", "up", "yfov_degrees", "znear", "zfar"}) {
+    if (table.has(key)) throw table.error_at(key, "excludes frame_bounds", "give one or the other");
+  }
+  Framing framing;
+  framing.direction = direction(*framed, "direction").value_or(framing.direction);
+  if (const auto fov = framed->number("fov_degrees", field_of_view)) framing.yfov = radians(*fov);
+  framing.margin = framed->number("margin", {0.01, 1000.0}).value_or(framing.margin);
+  return framing;
+}
 
 SceneSettings read_scene_settings(const std::filesystem::path& file, std::span<const Surface> surfaces) {
   const toml::table parsed = parse_toml_file(file);

@@ -62,6 +62,14 @@ struct SceneSettings {
   glm::vec2 tiling{1.0F};
 };
 
+class TomlTable;
+
+/// The keys of a [camera] table.
+[[nodiscard]] const std::vector<std::string>& camera_keys();
+
+/// Reads a [camera] table, of a scene.toml or of whatever else places a camera. Errors (usage) as below.
+[[nodiscard]] CameraSettings read_camera(const TomlTable& table);
+
 /// Reads a scene.toml, which may name one of `surfaces`. Relative paths in it start from its folder. Errors (usage)
 /// read "FILE:LINE: ...": not TOML, unknown keys with the nearest right one, wrong types, values out of range, settings
 /// that exclude each other.

@@ -16,20 +16,21 @@ namespace {
 /// NaN comes out as the lower end, which std::clamp would let through.
 float unit_range(float value) { return value > 0.0F ? std::min(value, 1.0F) : 0.0F; }
 
-}  // namespace
+void require_three_channels(const Image& stored) {
+  if (stored.channels >= 3) return;
+  throw Error(ErrorKind::usage, {}, "a normal map needs three channels, this image has fewer",
+              "store the normal's x, y, z in red, green, blue");
+}
 
-NormalMap decode_normal_map(const Image& stored, double scale) {
-  if (stored.channels < 3) {
-    throw Error(ErrorKind::usage, {}, "a normal map needs three channels, this image has fewer",
-                "store the normal's x, y, z in red, green, blue");
-  }
+template <class Decode>
+NormalMap to_normal_map(const Image& stored, Decode decode, double scale) {
   constexpr double smallest_z = 1e-6;
   NormalMap map{Image(stored.width, stored.height, 4), 0, 0};
   for (int y = 0; y < stored.height; ++y) {
     for (int x = 0; x < stored.width; ++x) {
       const auto in = stored.at(x, y);
       const auto out = map.image.at(x, y);
-      glm::dvec3 normal = 2.0 * glm::dvec3{in[0], in[1], in[2]} - 1.0;
+      glm::dvec3 normal = decode(glm::dvec3{in[0], in[1], in[2]});
       const double length = glm::length(normal);
       if (!std::isfinite(length) || length < 1e-3) {
         ++map.invalid;
@@ -47,6 +48,53 @@ NormalMap decode_normal_map(const Image& stored, double scale) {
     }
   }
   return map;
+}
+
+// How many texels hold a unit vector, taken as they are and as an encoding c of 2 c - 1. Texels without any direction
+// (zero, not finite) tell nothing.
+struct UnitCounts {
+  std::size_t texels = 0, as_stored = 0, as_encoded = 0;
+};
+
+UnitCounts count_unit_vectors(const Image& stored) {
+  constexpr double tolerance = 0.02;  // of a length: half floats and bytes that were decoded stay within
+  UnitCounts counts;
+  for (int y = 0; y < stored.height; ++y) {
+    for (int x = 0; x < stored.width; ++x) {
+      const auto in = stored.at(x, y);
+      const glm::dvec3 v(in[0], in[1], in[2]);
+      const double length = glm::length(v);
+      if (!std::isfinite(length) || length < 1e-3) continue;
+      ++counts.texels;
+      if (std::abs(length - 1.0) < tolerance) ++counts.as_stored;
+      if (std::abs(glm::length(2.0 * v - 1.0) - 1.0) < tolerance) ++counts.as_encoded;
+    }
+  }
+  return counts;
+}
+
+}  // namespace
+
+NormalMap decode_normal_map(const Image& stored, double scale) {
+  require_three_channels(stored);
+  return to_normal_map(
+      stored, [&](const glm::dvec3& v) { return 2.0 * v - 1.0; }, scale);
+}
+
+NormalMap decode_unit_normals(const Image& stored) {
+  require_three_channels(stored);
+  const UnitCounts counts = count_unit_vectors(stored);
+  if (2 * counts.as_stored < counts.texels && 2 * counts.as_encoded >= counts.texels) {
+    throw Error(ErrorKind::usage, {}, "its values are normals encoded as 0 to 1, but an EXR holds x, y, z of -1 to 1",
+                "store 2 c - 1, or give the map as PNG");
+  }
+  if (2 * counts.as_stored < counts.texels) {
+    throw Error(ErrorKind::usage, {},
+                fmt::format("{} of {} texels hold no unit vector", counts.texels - counts.as_stored, counts.texels),
+                "store unit normals, x, y, z of -1 to 1 in the first three channels");
+  }
+  return to_normal_map(
+      stored, [](const glm::dvec3& v) { return v; }, 1.0);
 }
 
 std::vector<std::string> describe_faults(const NormalMap& map, const std::string& name) {

@@ -21,6 +21,11 @@ struct NormalMap {
 /// weight 0; z <= 0 becomes a tiny positive z. Errors (usage): fewer than three channels.
 [[nodiscard]] NormalMap decode_normal_map(const Image& stored, double scale);
 
+/// Takes unit normals as they are, x, y, z of -1 to 1, and renormalises them; texels without a direction and inverted
+/// ones as above. Errors (usage): fewer than three channels; most texels hold no unit vector, with a word on values
+/// that are encoded as 0 to 1.
+[[nodiscard]] NormalMap decode_unit_normals(const Image& stored);
+
 /// What is wrong with a normal map, one line each for the output; empty where nothing is.
 [[nodiscard]] std::vector<std::string> describe_faults(const NormalMap& map, const std::string& name);
 

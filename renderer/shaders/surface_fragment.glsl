@@ -8,14 +8,6 @@ in vec2 uv1;
 
 layout(location = 0) out vec4 radiance_coverage;
 
-layout(std140, binding = 0) uniform MaterialBlock {
-  vec4 base_color_factor;
-  vec4 dielectric_specular_metallic;
-  vec4 lobe_cutoff;    // lobe parameter, alpha cutoff
-  vec4 uv_linear[3];   // slots normal, roughness, base_color: columns d/du, d/dv
-  vec4 uv_offset_set[3];
-};
-
 uniform vec3 camera_position;
 //? if orthographic
 uniform vec3 to_camera;

@@ -1,6 +1,7 @@
 // JSON to Results, strictly; results_json.cpp is the way there.
 #include <limits>
 
+#include "results/report/experiment_json.hpp"
 #include "results/report/json_node.hpp"
 #include "results/report/report.hpp"
 #include "results/report/results_document.hpp"
@@ -37,6 +38,24 @@ std::optional<RecordError> parse_error(const JsonNode& node) {
                      .filtering = node["filtering"].number()};
 }
 
+std::vector<OtherReference> parse_other_references(const JsonNode& node) {
+  std::vector<OtherReference> others;
+  for (const JsonNode& other : node.elements()) {
+    other.with_keys({"spp", "normalized_color", "noise_floor"});
+    others.push_back({.spp = other["spp"].whole<int>(1),
+                      .normalized_color = other["normalized_color"].number(),
+                      .noise_floor = other["noise_floor"].optional_number()});
+  }
+  return others;
+}
+
+std::optional<Flicker> parse_flicker(const JsonNode& node) {
+  if (node.is_null()) return std::nullopt;
+  node.with_keys({"mean", "p99", "noise_floor"});
+  return Flicker{
+      .mean = node["mean"].number(), .p99 = node["p99"].number(), .noise_floor = node["noise_floor"].optional_number()};
+}
+
 void parse_time(const JsonNode& node, Record& record) {
   node.with_keys({"frame_ms", "frame_build_ms", "fps", "ratio_to_direct"});
   const JsonNode frame = node["frame_ms"].with_keys({"median", "min", "p90"});
@@ -57,7 +76,7 @@ void parse_size(const JsonNode& node, Record& record) {
 
 Record parse_record(const JsonNode& node) {
   node.with_keys({"scene", "method", "options", "distance", "frame", "size", "error", "equivalent_spp",
-                  "equivalent_bound", "time", "precompute", "effects", "images"});
+                  "equivalent_bound", "other_references", "flicker", "time", "precompute", "effects", "images"});
   Record record;
   record.scene = node["scene"].text();
   record.method = node["method"].text();
@@ -68,6 +87,8 @@ Record parse_record(const JsonNode& node) {
   record.error = parse_error(node["error"]);
   record.equivalent_spp = node["equivalent_spp"].optional_number();
   record.equivalent_bound = node["equivalent_bound"].text();
+  record.other_references = parse_other_references(node["other_references"]);
+  record.flicker = parse_flicker(node["flicker"]);
   parse_time(node["time"], record);
   const JsonNode precompute = node["precompute"].with_keys({"seconds", "bytes", "cached"});
   record.precompute_seconds = precompute["seconds"].number();
@@ -106,7 +127,8 @@ Results parse_document(const JsonNode& node) {
     node["schema"].fail("unknown schema `" + node["schema"].text() + "`",
                         std::string("this version reads `") + results_schema + "`");
   }
-  node.with_keys({"schema", "tool", "backend", "scene", "reference", "error_scale", "supersampling", "records"});
+  node.with_keys(
+      {"schema", "tool", "backend", "scene", "reference", "experiment", "error_scale", "supersampling", "records"});
   Results results;
   const JsonNode tool = node["tool"].with_keys({"name", "version"});
   results.tool = {tool["name"].text(), tool["version"].text()};
@@ -117,6 +139,7 @@ Results parse_document(const JsonNode& node) {
   const JsonNode reference = node["reference"].with_keys({"spp", "filter", "seed", "standard_error"});
   results.reference = {reference["spp"].whole<int>(1), reference["filter"].text(),
                        reference["seed"].whole<std::uint64_t>(), reference["standard_error"].optional_number()};
+  if (!node["experiment"].is_null()) results.experiment = parse_experiment(node["experiment"]);
   results.error_scale = node["error_scale"].number();
   for (const JsonNode& point : node["supersampling"].elements()) {
     results.supersampling.push_back(parse_supersampling(point));

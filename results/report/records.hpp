@@ -8,6 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "results/report/experiment_report.hpp"
+
 namespace footprint {
 
 /// Median with its spread over the repeats of one run.
@@ -32,6 +34,20 @@ struct RecordError {
   double filtering = 0;               ///< normalised colour error against that supersampled finest level
 };
 
+/// How much more or otherwise a picture changes from the frame before than the reference does; docs/metrics.md.
+struct Flicker {
+  double mean = 0;                    ///< over the object's pixels, 0 to 2
+  double p99 = 0;                     ///< 99th percentile over them
+  std::optional<double> noise_floor;  ///< the mean that the references' own noise causes
+};
+
+/// The error against another reference, of another count of samples.
+struct OtherReference {
+  int spp = 1;
+  double normalized_color = 0;
+  std::optional<double> noise_floor;
+};
+
 /// Pictures of one record, as paths relative to the output folder.
 struct RecordImages {
   std::string color;      ///< EXR; a .png of the same stem lies beside it
@@ -47,9 +63,11 @@ struct Record {
   double distance = 1;
   int frame = 0;
   int width = 0, height = 0;
-  std::optional<RecordError> error;      ///< none: the object covers no whole pixel
-  std::optional<double> equivalent_spp;  ///< none: above or below the measured curve, see `equivalent_bound`
-  std::string equivalent_bound;          ///< "", "<1" or ">64" (the ends of the curve), "n/a" without an error
+  std::optional<RecordError> error;              ///< none: the object covers no whole pixel
+  std::optional<double> equivalent_spp;          ///< none: above or below the measured curve, see `equivalent_bound`
+  std::string equivalent_bound;                  ///< "", "<1" or ">64" (the ends of the curve), "n/a" without an error
+  std::vector<OtherReference> other_references;  ///< none where there is no error
+  std::optional<Flicker> flicker;                ///< none: no frame of a zoom, or its first
   FrameTime frame_ms;
   std::optional<double> frame_build_ms;  ///< none: the method rebuilds nothing each frame
   double fps = 0;                        ///< 1000 / frame_ms.median
@@ -107,7 +125,8 @@ struct Results {
   ReferenceInfo reference;
   std::vector<SupersamplingPoint> supersampling;
   std::vector<Record> records;
-  double error_scale = 0;  ///< the normalised colour error at the top of every false-colour picture
+  std::optional<ExperimentReport> experiment;  ///< none: a plain comparison
+  double error_scale = 0;                      ///< the normalised colour error at the top of every false-colour picture
 };
 
 }  // namespace footprint

@@ -3,9 +3,9 @@
 #include <fmt/ranges.h>
 
 #include <array>
-#include <cmath>
 #include <string_view>
 
+#include "results/report/csv_field.hpp"
 #include "results/report/report.hpp"
 
 namespace footprint {
@@ -28,6 +28,8 @@ constexpr std::array columns{"scene",
                              "filtering_error",
                              "equivalent_spp",
                              "equivalent_bound",
+                             "flicker",
+                             "flicker_p99",
                              "frame_median_ms",
                              "frame_min_ms",
                              "frame_p90_ms",
@@ -47,17 +49,6 @@ constexpr std::array columns{"scene",
 
 constexpr std::string_view line_end = "\r\n";
 
-std::string field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string quoted = "\"";
-  for (const char character : text) quoted.append(character == '"' ? 2 : 1, character);
-  return quoted + '"';
-}
-
-std::string field(double value) { return std::isfinite(value) ? fmt::format("{}", value) : std::string(); }
-
-std::string field(const std::optional<double>& value) { return value ? field(*value) : std::string(); }
-
 /// "name=value;name=value", every option in the order of its name.
 std::string options_text(const Record& record) {
   std::vector<std::string> pairs;
@@ -70,37 +61,39 @@ std::string options_text(const Record& record) {
 
 std::array<std::string, 8> error_fields(const std::optional<RecordError>& error) {
   if (!error) return {};
-  return {field(error->normalized_color), field(error->relative_rmse),
-          field(error->relmse),           field(error->psnr),
-          field(error->energy_bias),      field(error->noise_floor),
-          field(error->representation),   field(error->filtering)};
+  return {csv_field(error->normalized_color), csv_field(error->relative_rmse),
+          csv_field(error->relmse),           csv_field(error->psnr),
+          csv_field(error->energy_bias),      csv_field(error->noise_floor),
+          csv_field(error->representation),   csv_field(error->filtering)};
 }
 
 std::string line(const Record& record) {
   const FrameTime& frame = record.frame_ms;
   const TimeRatio& ratio = record.ratio_to_direct;
   const std::array<std::string, columns.size() - 15> after_error{
-      field(record.equivalent_spp),
-      field(record.equivalent_bound),
-      field(frame.median),
-      field(frame.minimum),
-      field(frame.p90),
-      field(record.frame_build_ms),
-      field(record.fps),
-      field(ratio.median),
-      field(ratio.minimum),
-      field(ratio.maximum),
-      field(record.precompute_seconds),
+      csv_field(record.equivalent_spp),
+      csv_field(record.equivalent_bound),
+      csv_field(record.flicker ? std::optional(record.flicker->mean) : std::nullopt),
+      csv_field(record.flicker ? std::optional(record.flicker->p99) : std::nullopt),
+      csv_field(frame.median),
+      csv_field(frame.minimum),
+      csv_field(frame.p90),
+      csv_field(record.frame_build_ms),
+      csv_field(record.fps),
+      csv_field(ratio.median),
+      csv_field(ratio.minimum),
+      csv_field(ratio.maximum),
+      csv_field(record.precompute_seconds),
       fmt::format("{}", record.precompute_bytes),
       record.precompute_cached ? "true" : "false",
-      field(fmt::format("{}", fmt::join(record.effects_on, ";"))),
-      field(fmt::format("{}", fmt::join(record.effects_left_out, ";"))),
-      field(record.images.color),
-      field(record.images.reference),
-      field(record.images.error)};
-  return fmt::format("{},{},{},{},{},{},{},{},{}", field(record.scene), field(record.method),
-                     field(options_text(record)), field(record.distance), record.frame, record.width, record.height,
-                     fmt::join(error_fields(record.error), ","), fmt::join(after_error, ","));
+      csv_field(fmt::format("{}", fmt::join(record.effects_on, ";"))),
+      csv_field(fmt::format("{}", fmt::join(record.effects_left_out, ";"))),
+      csv_field(record.images.color),
+      csv_field(record.images.reference),
+      csv_field(record.images.error)};
+  return fmt::format("{},{},{},{},{},{},{},{},{}", csv_field(record.scene), csv_field(record.method),
+                     csv_field(options_text(record)), csv_field(record.distance), record.frame, record.width,
+                     record.height, fmt::join(error_fields(record.error), ","), fmt::join(after_error, ","));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Results to JSON; parse_results.cpp is the way back.
 #include <cmath>
 
+#include "results/report/experiment_json.hpp"
 #include "results/report/report.hpp"
 #include "results/report/results_document.hpp"
 
@@ -8,10 +9,6 @@ namespace footprint {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
 
 Json options_json(const Record& record) {
   Json options = Json::object();
@@ -23,42 +20,54 @@ Json options_json(const Record& record) {
 
 Json error_json(const std::optional<RecordError>& error) {
   if (!error) return nullptr;
-  return {{"normalized_color", number(error->normalized_color)},
-          {"relative_rmse", number(error->relative_rmse)},
-          {"relmse", number(error->relmse)},
-          {"psnr", number(error->psnr)},
-          {"energy_bias", number(error->energy_bias)},
-          {"noise_floor", number(error->noise_floor)},
-          {"representation", number(error->representation)},
-          {"filtering", number(error->filtering)}};
+  return {{"normalized_color", json_number(error->normalized_color)},
+          {"relative_rmse", json_number(error->relative_rmse)},
+          {"relmse", json_number(error->relmse)},
+          {"psnr", json_number(error->psnr)},
+          {"energy_bias", json_number(error->energy_bias)},
+          {"noise_floor", json_number(error->noise_floor)},
+          {"representation", json_number(error->representation)},
+          {"filtering", json_number(error->filtering)}};
+}
+
+Json other_references_json(const Record& record) {
+  Json others = Json::array();
+  for (const OtherReference& other : record.other_references) {
+    others.push_back({{"spp", other.spp},
+                      {"normalized_color", json_number(other.normalized_color)},
+                      {"noise_floor", json_number(other.noise_floor)}});
+  }
+  return others;
 }
 
 Json time_json(const Record& record) {
   return {{"frame_ms",
-           {{"median", number(record.frame_ms.median)},
-            {"min", number(record.frame_ms.minimum)},
-            {"p90", number(record.frame_ms.p90)}}},
-          {"frame_build_ms", number(record.frame_build_ms)},
-          {"fps", number(record.fps)},
+           {{"median", json_number(record.frame_ms.median)},
+            {"min", json_number(record.frame_ms.minimum)},
+            {"p90", json_number(record.frame_ms.p90)}}},
+          {"frame_build_ms", json_number(record.frame_build_ms)},
+          {"fps", json_number(record.fps)},
           {"ratio_to_direct",
-           {{"median", number(record.ratio_to_direct.median)},
-            {"min", number(record.ratio_to_direct.minimum)},
-            {"max", number(record.ratio_to_direct.maximum)}}}};
+           {{"median", json_number(record.ratio_to_direct.median)},
+            {"min", json_number(record.ratio_to_direct.minimum)},
+            {"max", json_number(record.ratio_to_direct.maximum)}}}};
 }
 
 Json record_json(const Record& record) {
   return {{"scene", record.scene},
           {"method", record.method},
           {"options", options_json(record)},
-          {"distance", number(record.distance)},
+          {"distance", json_number(record.distance)},
           {"frame", record.frame},
           {"size", Json::array({record.width, record.height})},
           {"error", error_json(record.error)},
-          {"equivalent_spp", number(record.equivalent_spp)},
+          {"equivalent_spp", json_number(record.equivalent_spp)},
           {"equivalent_bound", record.equivalent_bound},
+          {"other_references", other_references_json(record)},
+          {"flicker", flicker_json(record.flicker)},
           {"time", time_json(record)},
           {"precompute",
-           {{"seconds", number(record.precompute_seconds)},
+           {{"seconds", json_number(record.precompute_seconds)},
             {"bytes", record.precompute_bytes},
             {"cached", record.precompute_cached}}},
           {"effects", {{"on", record.effects_on}, {"left_out", record.effects_left_out}}},
@@ -67,10 +76,29 @@ Json record_json(const Record& record) {
 }
 
 Json supersampling_json(const SupersamplingPoint& point) {
-  return {{"distance", number(point.distance)},
+  return {{"distance", json_number(point.distance)},
           {"spp", point.spp},
-          {"normalized_color", number(point.normalized_color)},
-          {"ms", number(point.ms)}};
+          {"normalized_color", json_number(point.normalized_color)},
+          {"ms", json_number(point.ms)}};
+}
+
+}  // namespace
+
+Json json_number(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+}
+
+Json flicker_json(const std::optional<Flicker>& flicker) {
+  if (!flicker) return nullptr;
+  return {{"mean", json_number(flicker->mean)},
+          {"p99", json_number(flicker->p99)},
+          {"noise_floor", json_number(flicker->noise_floor)}};
+}
+
+Json tool_json(const ToolInfo& tool) { return {{"name", tool.name}, {"version", tool.version}}; }
+
+Json backend_json(const BackendInfo& backend) {
+  return {{"name", backend.name}, {"renderer", backend.renderer}, {"version", backend.version}, {"cpu", backend.cpu}};
 }
 
 Json scene_json(const SceneInfo& scene) {
@@ -79,13 +107,18 @@ Json scene_json(const SceneInfo& scene) {
           {"triangles", scene.triangles},
           {"materials", scene.materials},
           {"lights", scene.lights},
-          {"exposure", number(scene.exposure)},
+          {"exposure", json_number(scene.exposure)},
           {"exposure_source", scene.exposure_source},
           {"defaults", scene.defaults},
           {"warnings", scene.warnings}};
 }
 
-}  // namespace
+Json reference_json(const ReferenceInfo& reference) {
+  return {{"spp", reference.spp},
+          {"filter", reference.filter},
+          {"seed", reference.seed},
+          {"standard_error", json_number(reference.standard_error)}};
+}
 
 nlohmann::ordered_json results_document(const Results& results) {
   Json supersampling = Json::array();
@@ -93,19 +126,12 @@ nlohmann::ordered_json results_document(const Results& results) {
   Json records = Json::array();
   for (const Record& record : results.records) records.push_back(record_json(record));
   return {{"schema", results_schema},
-          {"tool", {{"name", results.tool.name}, {"version", results.tool.version}}},
-          {"backend",
-           {{"name", results.backend.name},
-            {"renderer", results.backend.renderer},
-            {"version", results.backend.version},
-            {"cpu", results.backend.cpu}}},
+          {"tool", tool_json(results.tool)},
+          {"backend", backend_json(results.backend)},
           {"scene", scene_json(results.scene)},
-          {"reference",
-           {{"spp", results.reference.spp},
-            {"filter", results.reference.filter},
-            {"seed", results.reference.seed},
-            {"standard_error", number(results.reference.standard_error)}}},
-          {"error_scale", number(results.error_scale)},
+          {"reference", reference_json(results.reference)},
+          {"experiment", results.experiment ? experiment_json(*results.experiment) : Json(nullptr)},
+          {"error_scale", json_number(results.error_scale)},
           {"supersampling", std::move(supersampling)},
           {"records", std::move(records)}};
 }

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "renderer/image/false_color.hpp"
+#include "results/report/experiment_section.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/report.hpp"
 #include "results/report/results_document.hpp"
@@ -79,11 +80,13 @@ std::string results_page(const Results& results) {
   const std::string data = page_data(results);
   const std::string title = html_escaped(results.scene.name);
   const std::string table = html_escaped(results_table(results));
+  const std::string experiment = results.experiment ? experiment_html(*results.experiment) : std::string();
   return fill_template(embedded::page_html, {{"title", title},
                                              {"css", embedded::page_css},
                                              {"chart", embedded::chart_js},
                                              {"script", embedded::page_js},
                                              {"table", table},
+                                             {"experiment", experiment},
                                              {"data", data}});
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <span>
 
+#include "results/report/experiment_section.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/markdown_table.hpp"
 #include "results/report/report.hpp"
@@ -97,6 +98,20 @@ std::string preparation_section(const Results& results) {
   return "\n## What each method prepares\n\n" + markdown_table(columns, rows);
 }
 
+/// Flicker between the frames of a zoom.
+std::string flicker_section(const Results& results) {
+  Rows rows;
+  for (const Record& record : results.records) {
+    if (!record.flicker) continue;
+    const Flicker& flicker = *record.flicker;
+    rows.push_back({fmt::format("{}", record.frame), record.method, error_text(flicker.mean), error_text(flicker.p99),
+                    flicker.noise_floor ? error_text(*flicker.noise_floor) : "n/a"});
+  }
+  if (rows.empty()) return {};
+  return "\n## Flicker against the frame before\n\n" +
+         markdown_table({{"Frame"}, {"Method", false}, {"Mean"}, {"99th percentile"}, {"Floor"}}, rows);
+}
+
 /// Frame builds, where a method has one: they are part of its price at that distance.
 std::string frame_build_section(const Results& results) {
   Rows rows;
@@ -162,9 +177,10 @@ std::string results_table(const Results& results) {
   for (const Provenance& line : provenance(results)) {
     text += fmt::format("- {}: {}\n", line.label, markdown_escaped(line.value));
   }
+  if (results.experiment) text += experiment_markdown(*results.experiment);
   for (const double distance : distances_of(results)) text += distance_section(results, distance);
-  return text + preparation_section(results) + frame_build_section(results) + supersampling_section(results) +
-         words_section(results);
+  return text + flicker_section(results) + preparation_section(results) + frame_build_section(results) +
+         supersampling_section(results) + words_section(results);
 }
 
 }  // namespace footprint

@@ -1,0 +1,120 @@
+// `footprint animate`: the frames of a zoom-out, with error and flicker against the reference.
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "app/arguments.hpp"
+#include "app/commands.hpp"
+#include "app/cpu_info.hpp"
+#include "app/options.hpp"
+#include "app/output.hpp"
+#include "app/progress_display.hpp"
+#include "app/standard_output.hpp"
+#include "experiments/runner/animate.hpp"
+#include "renderer/core/files.hpp"
+#include "renderer/core/interrupt.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr const char* examples =
+    "SCENE is a folder of scenes/, a path to a scene.toml, or a .gltf or .glb file. The folder gets "
+    "images/METHOD_NNNN\n"
+    "and images/reference_NNNN, each .exr and .png, animation.json, animation.csv and table.md. A film of them:\n"
+    "  ffmpeg -framerate 30 -i out/images/toksvig_%04d.png -pix_fmt yuv420p toksvig.mp4\n"
+    "\n"
+    "Examples:\n"
+    "  footprint animate model.gltf --method toksvig --frames 60 -o out\n"
+    "  footprint animate ribbed_plane --method direct,toksvig --frames 30 --from 1 --to 16 --spp 64 -o out";
+
+struct Arguments {
+  std::string scene;
+  std::string methods;
+  int frames = 30;
+  std::string from, to;  // empty: the scene's zoom path
+  ReferenceArguments reference;
+  std::string size;  // empty: the scene's
+  std::string exposure = "auto";
+  int anisotropy = 1;
+  BackendArguments backend;
+  std::string output = "out";
+  bool no_cache = false;
+  bool quiet = false;
+};
+
+void add_options(CLI::App& command, Arguments& arguments) {
+  command.add_option("scene", arguments.scene, "What to render")->required();
+  command.add_option("--method,--methods", arguments.methods, "Methods, commas between")->required();
+  command.add_option("--frames", arguments.frames, "Frames of the zoom, at equal ratios of distance")
+      ->check(CLI::Range(2, 10000))
+      ->capture_default_str();
+  command.add_option("--from", arguments.from,
+                     "First factor on the camera's distance; if not given the first of the scene's zoom path");
+  command.add_option("--to", arguments.to,
+                     "Last factor; if not given the last of the scene's zoom path, or 8 times the first");
+  add_reference_options(command, arguments.reference);
+  add_size_option(command, arguments.size);
+  add_anisotropy_option(command, arguments.anisotropy);
+  command.add_option("--exposure", arguments.exposure, "Factor on radiance for display and clamped errors, or auto")
+      ->capture_default_str();
+  add_backend_options(command, arguments.backend);
+  command.add_option("-o,--output", arguments.output, "Folder for animation.json, animation.csv, table.md, images/")
+      ->capture_default_str();
+  add_cache_flag(command, arguments.no_cache);
+  add_quiet_flag(command, arguments.quiet);
+}
+
+std::optional<double> optional_distance(const std::string& text) {
+  return text.empty() ? std::nullopt : std::optional(parse_distance(text));
+}
+
+AnimateSettings settings_from(const Arguments& arguments) {
+  return {.scene = arguments.scene,
+          .library = scene_library(),
+          .stage = {.methods = parse_known_methods(arguments.methods),
+                    .size = parse_optional_size(arguments.size),
+                    .filter = parse_filter(arguments.reference.filter),
+                    .anisotropy = arguments.anisotropy,
+                    .tile = arguments.backend.tile,
+                    .cache = cache_folder(arguments.no_cache)},
+          .from = optional_distance(arguments.from),
+          .to = optional_distance(arguments.to),
+          .frames = arguments.frames,
+          .spp = arguments.reference.spp,
+          .seed = arguments.reference.seed,
+          .exposure = parse_exposure(arguments.exposure),
+          .context = context_request(arguments.backend)};
+}
+
+Animation animate_into(OutputFolder& folder, const AnimateSettings& settings, const Progress& progress) {
+  Animation animation = run_animation(settings, folder.path(), progress);
+  animation.tool.version = FOOTPRINT_VERSION;
+  animation.backend.cpu = describe_cpu();
+  write_animation(animation, folder.path());
+  throw_if_interrupted();
+  folder.commit();
+  return animation;
+}
+
+void run_animate(const Arguments& arguments) {
+  const AnimateSettings settings = settings_from(arguments);
+  ProgressDisplay display(progress_style(arguments.quiet));
+  const auto [animation, place] = write_whole(
+      arguments.output, [&](OutputFolder& folder) { return animate_into(folder, settings, display.callback()); });
+  display.finish();
+  write_output(fmt::format("{}\nframes: {}\n", animation_table(animation), (place / "images").string()));
+}
+
+}  // namespace
+
+void add_animate_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("animate", "Render the frames of a zoom, with error and flicker");
+  const auto arguments = std::make_shared<Arguments>();
+  add_options(*command, *arguments);
+  command->footer(examples);
+  command->callback([arguments] { run_animate(*arguments); });
+}
+
+}  // namespace footprint

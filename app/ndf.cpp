@@ -1,0 +1,152 @@
+// `footprint ndf`: what each method takes the facets under a footprint for, beside what they are.
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "app/arguments.hpp"
+#include "app/commands.hpp"
+#include "app/messages.hpp"
+#include "app/progress_display.hpp"
+#include "app/standard_output.hpp"
+#include "experiments/runner/ndf_inspection.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/core/files.hpp"
+#include "renderer/core/interrupt.hpp"
+#include "renderer/ndf/hemisphere_grid.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr const char* examples =
+    "SCENE is a folder of scenes/, a path to a scene.toml, or a .gltf or .glb file. MAP is an EXR of unit normals\n"
+    "(x, y, z, each -1 to 1) or an ordinary normal-map image (OpenGL convention). The footprint is in the map's "
+    "texture\n"
+    "coordinates, (0, 0) at the top left; without one it is the whole map.\n"
+    "\n"
+    "Examples:\n"
+    "  footprint ndf normals.png -o ndf\n"
+    "  footprint ndf normals.exr --lobe ggx:0.1 --methods toksvig,naive_mip --footprint 0,0,0.25,0.25 -o ndf\n"
+    "  footprint ndf model.gltf --material 2 --texels 256,128,320,192 -o ndf";
+
+struct Arguments {
+  std::string source;
+  std::string material;
+  std::string footprint, texels;
+  std::string lobe;
+  std::string methods;
+  int anisotropy = 1;
+  int resolution = 0;
+  int size = 256;
+  BackendArguments backend;
+  std::string output;
+  bool no_cache = false;
+  bool quiet = false;
+};
+
+FootprintRect parse_rectangle(const std::string& option, const std::string& text) {
+  std::array<double, 4> values{};
+  const char* next = text.data();
+  const char* const end = text.data() + text.size();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto [stop, status] = std::from_chars(next, end, values.at(i));
+    const bool last = i + 1 == values.size();
+    if (status != std::errc{} || (last ? stop != end : stop == end || *stop != ',')) {
+      throw Error(ErrorKind::usage, option, fmt::format("`{}` is no rectangle", text),
+                  "give four numbers u0,v0,u1,v1 with commas between, for example 0,0,0.5,0.5");
+    }
+    next = stop + 1;
+  }
+  return {{values[0], values[1]}, {values[2], values[3]}};
+}
+
+// The footprint in texture coordinates, whichever way it was given.
+FootprintRect footprint_of(const Arguments& arguments, const Material& material) {
+  FootprintRect rect;
+  if (!arguments.footprint.empty()) rect = parse_rectangle("--footprint", arguments.footprint);
+  if (!arguments.texels.empty()) {
+    rect = parse_rectangle("--texels", arguments.texels);
+    const glm::dvec2 size = material.normal_map
+                                ? glm::dvec2(material.normal_map->image->width, material.normal_map->image->height)
+                                : glm::dvec2(1.0);
+    rect = {rect.lower / size, rect.upper / size};
+  }
+  check_footprint(rect, arguments.texels.empty() ? "--footprint" : "--texels");
+  return rect;
+}
+
+void run_ndf(const Arguments& arguments) {
+  NdfSettings settings;
+  if (!arguments.methods.empty()) settings.methods = parse_known_methods(arguments.methods);
+  settings.anisotropy = arguments.anisotropy;
+  settings.resolution = arguments.resolution;
+  settings.picture = arguments.size;
+  settings.tile = arguments.backend.tile;
+  settings.cache = cache_folder(arguments.no_cache);
+  settings.context = context_request(arguments.backend);
+  if (!arguments.footprint.empty()) (void)parse_rectangle("--footprint", arguments.footprint);
+  if (!arguments.texels.empty()) (void)parse_rectangle("--texels", arguments.texels);
+  const std::optional<BaseLobe> lobe =
+      arguments.lobe.empty() ? std::nullopt : std::optional(parse_lobe("--lobe", arguments.lobe));
+  NdfSource source = load_ndf_source(arguments.source, arguments.material, scene_library());
+  if (lobe) source.material = with_lobe(std::move(source.material), *lobe);
+  settings.footprint = footprint_of(arguments, source.material);
+
+  ProgressDisplay display(progress_style(arguments.quiet));
+  OutputFolder folder(arguments.output);
+  std::filesystem::create_directories(folder.path() / "images");
+  NdfResults results = inspect_ndf(source, settings, folder.path(), display.callback());
+  results.version = FOOTPRINT_VERSION;
+  write_file_atomically(folder.path() / "ndf.json", ndf_json(results));
+  throw_if_interrupted();
+  folder.commit();
+  display.finish();
+  for (const std::string& note : results.notes) write_message(note);
+  if (!results.fine_enough) {
+    write_message(
+        fmt::format("the grid of directions is too coarse for {}: the truth's integral is {:.4g}, not {:.4g}; "
+                    "give a larger --resolution",
+                    results.lobe, results.truth.energy, results.truth.expected_energy));
+  }
+  write_output(fmt::format("{}\npictures: {}\n", ndf_table(results), (folder.final_path() / results.strip).string()));
+}
+
+}  // namespace
+
+void add_ndf_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("ndf", "Show the effective NDF of a footprint by each method beside the true one");
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("source", arguments->source, "SCENE or MAP")->required();
+  auto* footprint = command->add_option("--footprint", arguments->footprint,
+                                        "u0,v0,u1,v1 in texture coordinates; if not given the whole map");
+  command->add_option("--texels", arguments->texels, "The same as x0,y0,x1,y1 in texels of the normal map")
+      ->excludes(footprint);
+  command->add_option("--lobe", arguments->lobe,
+                      "blinn_phong:EXPONENT, beckmann:ALPHA, ggx:ALPHA or vmf:KAPPA; if not given the scene's, or "
+                      "blinn_phong:64 for a map");
+  command->add_option("--methods", arguments->methods,
+                      "Methods, commas between; if not given all that take the material");
+  command->add_option("--material", arguments->material,
+                      "Which of the scene's materials: its name, or a number from 0");
+  add_anisotropy_option(*command, arguments->anisotropy);
+  command
+      ->add_option("--resolution", arguments->resolution,
+                   "Rings of directions that the hemisphere is cut into; if not given as the narrowest lobe needs")
+      ->check(CLI::Range(smallest_resolution, largest_resolution));
+  command->add_option("--size", arguments->size, "Side of the pictures, pixels")
+      ->check(CLI::Range(16, 4096))
+      ->capture_default_str();
+  add_cache_flag(*command, arguments->no_cache);
+  add_backend_options(*command, arguments->backend);
+  command->add_option("-o,--output", arguments->output, "Folder for ndf.json, ndf.png, images/")->required();
+  add_quiet_flag(*command, arguments->quiet);
+  command->footer(examples);
+  command->callback([arguments] { run_ndf(*arguments); });
+}
+
+}  // namespace footprint

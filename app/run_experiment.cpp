@@ -1,0 +1,122 @@
+// `footprint run` and `footprint check`: an experiment, its figures beside the published ones, and its claims.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "app/arguments.hpp"
+#include "app/commands.hpp"
+#include "app/cpu_info.hpp"
+#include "app/output.hpp"
+#include "app/progress_display.hpp"
+#include "app/standard_output.hpp"
+#include "experiments/runner/run_experiment.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/core/files.hpp"
+#include "renderer/core/interrupt.hpp"
+#include "results/report/report.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr const char* experiment_words =
+    "EXPERIMENT is a TOML file of experiments/ by its name, or a path to one (docs/experiments.md).\n"
+    "`footprint list experiments` names them.\n"
+    "\n";
+
+constexpr const char* run_examples =
+    "Examples:\n"
+    "  footprint run tan2005_fig4 -o out            the figures beside the published ones, and the claims\n"
+    "  footprint run tan2005_fig4 --quick -o out    a quarter of the size: whether it runs and how it looks\n"
+    "  footprint run mine.toml -o out";
+
+constexpr const char* check_examples =
+    "Exit code 1, with the list of what fell short, where a claim does not come out as its file expects or a\n"
+    "threshold is not held; the report is written all the same.\n"
+    "\n"
+    "Examples:\n"
+    "  footprint check quick -o out                 every method, in seconds\n"
+    "  footprint check experiments/tan2005_fig4.toml -o out";
+
+struct Arguments {
+  std::string experiment;
+  std::string output = "out";
+  bool quick = false;
+  BackendArguments backend;
+  bool no_cache = false;
+  bool quiet = false;
+};
+
+void add_options(CLI::App& command, Arguments& arguments) {
+  command.add_option("experiment", arguments.experiment, "What to run")->required();
+  command
+      .add_option("-o,--output", arguments.output,
+                  "Folder for results.json, results.csv, table.md, index.html, images/")
+      ->capture_default_str();
+  add_backend_options(command, arguments.backend);
+  add_cache_flag(command, arguments.no_cache);
+  add_quiet_flag(command, arguments.quiet);
+}
+
+Results run_into(const Experiment& experiment, const RunSettings& settings, OutputFolder& folder,
+                 const Progress& progress) {
+  Results results = run_experiment(experiment, settings, folder.path(), progress);
+  results.tool.version = FOOTPRINT_VERSION;
+  results.backend.cpu = describe_cpu();
+  write_report(results, folder.path());
+  throw_if_interrupted();
+  folder.commit();
+  return results;
+}
+
+// Runs the experiment, prints its table and gives what fell short.
+std::vector<std::string> run_and_print(const Arguments& arguments) {
+  const Experiment experiment = read_experiment(find_experiment(arguments.experiment, experiments_folder()));
+  const RunSettings settings{.library = scene_library(),
+                             .quick = arguments.quick,
+                             .tile = arguments.backend.tile,
+                             .cache = cache_folder(arguments.no_cache),
+                             .context = context_request(arguments.backend)};
+  ProgressDisplay display(progress_style(arguments.quiet));
+  const auto [results, place] = write_whole(arguments.output, [&](OutputFolder& folder) {
+    return run_into(experiment, settings, folder, display.callback());
+  });
+  display.finish();
+  write_output(fmt::format("{}\npage: {}\n", results_table(results), (place / "index.html").string()));
+  return results.experiment->shortfalls();
+}
+
+void check(const Arguments& arguments) {
+  const std::vector<std::string> shortfalls = run_and_print(arguments);
+  if (shortfalls.empty()) return;
+  std::string list;
+  for (const std::string& line : shortfalls) list += "fell short: " + line + "\n";
+  write_output(list);
+  throw Error(ErrorKind::check, arguments.experiment,
+              fmt::format("{} of its claims and thresholds fell short, the first: {}", shortfalls.size(),
+                          shortfalls.front().substr(0, 300)),
+              "");
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("run", "Run an experiment: measured beside published, and its claims");
+  const auto arguments = std::make_shared<Arguments>();
+  add_options(*command, *arguments);
+  command->add_flag("--quick", arguments->quick, "A quarter of the size and few samples: no measurement");
+  command->footer(std::string(experiment_words) + run_examples);
+  command->callback([arguments] { (void)run_and_print(*arguments); });
+}
+
+void add_check_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("check", "Run an experiment and hold its claims and thresholds");
+  const auto arguments = std::make_shared<Arguments>();
+  add_options(*command, *arguments);
+  command->footer(std::string(experiment_words) + check_examples);
+  command->callback([arguments] { check(*arguments); });
+}
+
+}  // namespace footprint

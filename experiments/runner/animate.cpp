@@ -1,0 +1,138 @@
+// See animate.hpp.
+#include "experiments/runner/animate.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "experiments/runner/exposure.hpp"
+#include "experiments/runner/picture_files.hpp"
+#include "experiments/runner/reference_noise.hpp"
+#include "experiments/runner/run_info.hpp"
+#include "experiments/runner/zoom.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/image/metrics.hpp"
+#include "renderer/scene/load_scene.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr double default_zoom = 8.0;
+constexpr double method_weight = 2.0;  // of a method's frame, in reference samples
+
+std::vector<double> distances_of(const AnimateSettings& settings, const Scene& scene) {
+  const double from = settings.from.value_or(scene.distances.front());
+  const double last = scene.distances.size() > 1 ? scene.distances.back() : default_zoom * from;
+  const double to = settings.to.value_or(last);
+  if (from == to) {
+    throw Error(ErrorKind::usage, "--to", fmt::format("the zoom ends at {:g}, where it starts", to),
+                "let --from and --to differ");
+  }
+  return zoom_distances(from, to, settings.frames);
+}
+
+// A frame as it is held until the next one has been compared with it.
+struct HeldFrame {
+  Supersampled reference;
+  std::vector<Image> pictures;  // one a method
+};
+
+class Animator {
+ public:
+  Animator(const AnimateSettings& settings, std::filesystem::path folder, const Progress& progress)
+      : settings_(settings),
+        folder_(std::move(folder)),
+        whole_(progress, 4),
+        stage_(settings.context, load_scene(settings.scene, settings.library), settings.stage, whole_.next(1, "")),
+        distances_(distances_of(settings, stage_.scene())),
+        parts_(whole_.next(3, ""), static_cast<double>(distances_.size()) * (settings.spp + methods_weight())) {
+    // Two frames are held, each with the reference, its halves and its error; and what is worked on.
+    constexpr int of_the_reference = 8, worked_on = 6;
+    require_pictures(stage_.view(1.0).size,
+                     2 * static_cast<int>(stage_.methods().size()) + of_the_reference + worked_on);
+  }
+
+  Animation run() {
+    std::filesystem::create_directories(folder_ / "images");
+    std::optional<HeldFrame> before;
+    for (std::size_t frame = 0; frame < distances_.size(); ++frame) before = add_frame(frame, before);
+    animation_.backend = backend_info(stage_.context().info());
+    animation_.scene = scene_info(stage_.scene(), exposure_, animation_.reference);
+    const glm::ivec2 size = stage_.view(1.0).size;
+    animation_.width = size.x;
+    animation_.height = size.y;
+    return std::move(animation_);
+  }
+
+ private:
+  [[nodiscard]] double methods_weight() const { return method_weight * static_cast<double>(stage_.methods().size()); }
+
+  HeldFrame add_frame(std::size_t frame, const std::optional<HeldFrame>& before) {
+    const View view = stage_.view(distances_[frame]);
+    const std::string prefix = fmt::format("frame {} of {}: ", frame + 1, distances_.size());
+    HeldFrame now{.reference = stage_.reference().render(view, settings_.spp, settings_.seed,
+                                                         parts_.next(settings_.spp, prefix + "reference, ")),
+                  .pictures = {}};
+    if (frame == 0) describe_reference(now.reference);
+    animation_.reference_images.push_back(
+        write_picture(folder_, fmt::format("reference_{:04}", frame), now.reference.mean, exposure_.factor));
+    const Progress drawing = parts_.next(methods_weight(), prefix);
+    for (std::size_t m = 0; m < stage_.methods().size(); ++m) {
+      drawing(settings_.stage.methods[m].text, static_cast<double>(m) / static_cast<double>(stage_.methods().size()));
+      add_picture(frame, m, view, before, now);
+    }
+    return now;
+  }
+
+  void describe_reference(const Supersampled& first) {
+    exposure_ = choose_exposure(settings_.exposure, stage_.scene(), first.mean);
+    animation_.reference = {.spp = settings_.spp,
+                            .filter = std::string(filter_name(settings_.stage.filter)),
+                            .seed = settings_.seed,
+                            .standard_error = relative_standard_error(first)};
+  }
+
+  void add_picture(std::size_t frame, std::size_t method, const View& view, const std::optional<HeldFrame>& before,
+                   HeldFrame& now) {
+    const std::string& text = settings_.stage.methods[method].text;
+    Image picture = stage_.methods()[method].frames().render(view);
+    stage_.context().check("rendering " + text);
+    AnimationRecord record{.frame = static_cast<int>(frame),
+                           .distance = distances_[frame],
+                           .method = text,
+                           .normalized_color = {},
+                           .noise_floor = {},
+                           .flicker = {},
+                           .image = {}};
+    if (const auto figures = compare_images(picture, now.reference.mean, exposure_.factor)) {
+      record.normalized_color = figures->normalized_color;
+      record.noise_floor = noise_floor(now.reference, exposure_.factor);
+    }
+    if (before) {
+      record.flicker =
+          flicker_between(before->pictures[method], picture, before->reference, now.reference, exposure_.factor);
+    }
+    const std::string stem = method_stem(settings_.stage.methods, method);
+    record.image = write_picture(folder_, fmt::format("{}_{:04}", stem, frame), picture, exposure_.factor);
+    animation_.records.push_back(std::move(record));
+    now.pictures.push_back(std::move(picture));
+  }
+
+  const AnimateSettings& settings_;
+  std::filesystem::path folder_;
+  ProgressParts whole_;
+  Stage stage_;
+  std::vector<double> distances_;
+  ProgressParts parts_;
+  ChosenExposure exposure_;
+  Animation animation_;
+};
+
+}  // namespace
+
+Animation run_animation(const AnimateSettings& settings, const std::filesystem::path& folder,
+                        const Progress& progress) {
+  return Animator(settings, folder, progress).run();
+}
+
+}  // namespace footprint

@@ -1,0 +1,169 @@
+// See composed_figure.hpp.
+#include "experiments/runner/composed_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/runner/picture_files.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/image/false_color.hpp"
+#include "renderer/image/image_io.hpp"
+#include "renderer/image/metrics.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr int smallest_shown = 240;  // pixels a side that a picture is enlarged to, by whole factors
+constexpr int frame_width = 2;
+
+struct Rectangle {
+  int left, top, width, height;
+};
+
+Rectangle rectangle_of(const Image& picture, const Crop& crop) {
+  const auto start = [](double share, int length) {
+    return std::clamp(static_cast<int>(share * length), 0, length - 1);
+  };
+  const int left = start(crop[0], picture.width), top = start(crop[1], picture.height);
+  const auto extent = [](double share, int length, int from) {
+    return std::clamp(static_cast<int>(std::lround(share * length)), from + 1, length) - from;
+  };
+  return {left, top, extent(crop[2], picture.width, left), extent(crop[3], picture.height, top)};
+}
+
+// Each pixel as a square of `factor` pixels: what a method did is not smoothed away.
+Image enlarged(const Image& picture, int factor) {
+  Image large(picture.width * factor, picture.height * factor, picture.channels);
+  for (int y = 0; y < large.height; ++y) {
+    for (int x = 0; x < large.width; ++x) std::ranges::copy(picture.at(x / factor, y / factor), large.at(x, y).begin());
+  }
+  return large;
+}
+
+void fill(Image& picture, const Rectangle& part, float value) {
+  for (int y = std::max(part.top, 0); y < std::min(part.top + part.height, picture.height); ++y) {
+    for (int x = std::max(part.left, 0); x < std::min(part.left + part.width, picture.width); ++x) {
+      std::ranges::fill(picture.at(x, y), value);
+    }
+  }
+}
+
+void outline(Image& picture, const Rectangle& part) {
+  const auto [left, top, width, height] = part;
+  const int line = frame_width;
+  fill(picture, {left - line, top - line, width + 2 * line, line}, 1.0F);
+  fill(picture, {left - line, top + height, width + 2 * line, line}, 1.0F);
+  fill(picture, {left - line, top, line, height}, 1.0F);
+  fill(picture, {left + width, top, line, height}, 1.0F);
+}
+
+Image shown(const Image& display, const FigureLayout& layout) {
+  Image part = cropped(display, layout.crop);
+  const int factor = std::max(1, (smallest_shown + part.width - 1) / std::max(part.width, 1));
+  if (factor > 1) part = enlarged(part, factor);
+  return layout.inset ? with_inset(part, *layout.inset) : part;
+}
+
+Image stacked_rows(const std::vector<Image>& rows) {
+  Image whole = rows.front();
+  for (std::size_t i = 1; i < rows.size(); ++i) whole = stacked(whole, rows[i]);
+  return whole;
+}
+
+class Composer {
+ public:
+  Composer(const FigureLayout& layout, const Experiment& experiment, const Results& results,
+           const std::filesystem::path& folder)
+      : layout_(layout), experiment_(experiment), results_(results), folder_(folder) {}
+
+  std::vector<std::string> write() {
+    std::vector<Image> rows, error_rows;
+    for (const std::vector<FigurePicture>& row : layout_.rows) add_row(row, rows, error_rows);
+    write_png(folder_ / "images/figure.png", stacked_rows(rows));
+    if (error_rows.empty()) return {"images/figure.png"};
+    const int width = std::ranges::max(error_rows, {}, &Image::width).width;
+    error_rows.push_back(false_color_legend(width, 28, static_cast<float>(results_.error_scale)));
+    write_png(folder_ / "images/figure_errors.png", stacked_rows(error_rows));
+    return {"images/figure.png", "images/figure_errors.png"};
+  }
+
+ private:
+  void add_row(const std::vector<FigurePicture>& row, std::vector<Image>& rows, std::vector<Image>& error_rows) const {
+    std::vector<Image> pictures, errors;
+    std::vector<std::string> captions, error_captions;
+    for (const FigurePicture& picture : row) {
+      const Record& record = record_of(picture);
+      const auto exposure = static_cast<float>(results_.scene.exposure);
+      const Image reference = read_image(folder_ / record.images.reference, Transfer::linear);
+      const Image image = picture.method ? read_image(folder_ / record.images.color, Transfer::linear) : reference;
+      captions.push_back(caption(picture, record));
+      pictures.push_back(shown(to_display(image, exposure), layout_));
+      if (!picture.method) continue;
+      error_captions.push_back(captions.back());
+      errors.push_back(
+          shown(false_color(error_map(image, reference, exposure), static_cast<float>(results_.error_scale)), layout_));
+    }
+    rows.push_back(labelled_strip(pictures, captions));
+    if (!errors.empty()) error_rows.push_back(labelled_strip(errors, error_captions));
+  }
+
+  // Records stand frame by frame, in each in the order of the methods.
+  const Record& record_of(const FigurePicture& picture) const {
+    const std::size_t place = picture.frame * experiment_.methods.size() + picture.method.value_or(0);
+    if (place < results_.records.size()) return results_.records[place];
+    throw Error(ErrorKind::usage, experiment_.file.string(), fmt::format("[figure] shows frame {}", picture.frame),
+                "the scene's zoom path is shorter: give [zoom] distances, or show an earlier frame");
+  }
+
+  std::string caption(const FigurePicture& picture, const Record& record) const {
+    const std::string label = picture.label.empty() ? "" : picture.label + " ";
+    if (!picture.method) return fmt::format("{}reference, {} spp", label, results_.reference.spp);
+    const std::string error = record.error ? fmt::format(": {:.3f}", record.error->normalized_color) : "";
+    return label + record.method + error;
+  }
+
+  const FigureLayout& layout_;
+  const Experiment& experiment_;
+  const Results& results_;
+  const std::filesystem::path& folder_;
+};
+
+}  // namespace
+
+Image cropped(const Image& picture, const Crop& crop) {
+  const Rectangle part = rectangle_of(picture, crop);
+  Image result(part.width, part.height, picture.channels);
+  for (int y = 0; y < part.height; ++y) {
+    for (int x = 0; x < part.width; ++x) {
+      std::ranges::copy(picture.at(part.left + x, part.top + y), result.at(x, y).begin());
+    }
+  }
+  return result;
+}
+
+Image with_inset(const Image& picture, const Crop& inset, double share) {
+  const Rectangle part = rectangle_of(picture, inset);
+  const int factor = std::max(1, static_cast<int>(share * picture.width / part.width));
+  const Image large = enlarged(cropped(picture, inset), factor);
+  Image result = picture;
+  outline(result, part);
+  const int left = std::max(0, picture.width - large.width - frame_width);
+  const int top = std::max(0, picture.height - large.height - frame_width);
+  for (int y = 0; y < std::min(large.height, picture.height - top); ++y) {
+    for (int x = 0; x < std::min(large.width, picture.width - left); ++x) {
+      std::ranges::copy(large.at(x, y), result.at(left + x, top + y).begin());
+    }
+  }
+  outline(result, {left, top, large.width, large.height});
+  return result;
+}
+
+std::vector<std::string> write_figures(const FigureLayout& layout, const Experiment& experiment, const Results& results,
+                                       const std::filesystem::path& folder) {
+  if (layout.rows.empty()) return {};
+  return Composer(layout, experiment, results, folder).write();
+}
+
+}  // namespace footprint

@@ -1,0 +1,322 @@
+// See experiment.hpp: from TOML to an Experiment.
+#include "experiments/runner/experiment.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include "experiments/runner/known_methods.hpp"
+#include "experiments/runner/zoom.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/core/suggest.hpp"
+#include "renderer/scene/toml_table.hpp"
+
+namespace footprint {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr NumberRange any_number{-1e300, 1e300};
+constexpr NumberRange whole_positive{1, 4096};
+constexpr NumberRange distance_range{smallest_distance, largest_distance};
+constexpr std::size_t most_frames = 1000;
+
+[[noreturn]] void missing(const TomlTable& table, std::string_view key) {
+  throw table.error_at(key, "is missing", "add it (docs/experiments.md)");
+}
+
+std::string required_word(const TomlTable& table, std::string_view key) {
+  const auto word = table.word(key);
+  if (!word) missing(table, key);
+  if (word->empty()) throw table.error_at(key, "is empty", "fill it in");
+  return *word;
+}
+
+int whole(const TomlTable& table, std::string_view key, double value) {
+  if (value == std::floor(value)) return static_cast<int>(value);
+  throw table.error_at(key, fmt::format("has {:g}", value), "give whole numbers");
+}
+
+int whole_number(const TomlTable& table, std::string_view key, NumberRange range, int otherwise) {
+  const auto value = table.whole_number(key, range);
+  return value ? static_cast<int>(*value) : otherwise;
+}
+
+// What another reader found wrong, at the line of the key that it was reading.
+template <typename Read>
+auto at_key(const TomlTable& table, std::string_view key, Read read) {
+  try {
+    return read();
+  } catch (const Error& error) {
+    const std::string place = error.place().empty() ? "" : error.place() + ": ";
+    throw table.error_at(key, fmt::format("cannot be taken: {}{}", place, error.message()), error.mend());
+  }
+}
+
+std::vector<std::string> texts_of(const std::vector<MethodSpec>& methods) {
+  std::vector<std::string> texts;
+  for (const MethodSpec& method : methods) texts.push_back(method.text);
+  return texts;
+}
+
+std::vector<MethodSpec> read_methods(const TomlTable& table) {
+  if (table.is_word("methods")) {
+    if (*table.word("methods") == "all") return every_method();
+    throw table.error_at("methods", "must be a list of strings, or \"all\"", R"(write it as ["direct", "toksvig"])");
+  }
+  const auto words = table.words("methods");
+  if (!words) missing(table, "methods");
+  for (const std::string& word : *words) {
+    if (word.find(',') != std::string::npos) {
+      throw table.error_at("methods", fmt::format("has `{:.80}`", word), "write each method on its own");
+    }
+  }
+  return at_key(table, "methods", [&] { return parse_known_methods(fmt::format("{}", fmt::join(*words, ","))); });
+}
+
+void read_head(const TomlTable& table, Experiment& experiment) {
+  experiment.title = required_word(table, "title");
+  experiment.description = table.word("description").value_or("");
+  experiment.scene = required_word(table, "scene");
+  const fs::path beside = experiment.file.parent_path() / experiment.scene;
+  std::error_code unknown;
+  if (fs::exists(beside, unknown)) experiment.scene = beside.string();
+  if (const auto size = table.numbers("size", 2, {1, 65536})) {
+    experiment.size = glm::ivec2{whole(table, "size", (*size)[0]), whole(table, "size", (*size)[1])};
+  }
+  experiment.methods = read_methods(table);
+  if (const auto exposure = table.number("exposure", {1e-9, 1e9})) experiment.exposure = static_cast<float>(*exposure);
+  experiment.anisotropy = whole_number(table, "anisotropy", {1, 16}, experiment.anisotropy);
+  experiment.repeats = whole_number(table, "repeats", {1, 10000}, experiment.repeats);
+}
+
+void read_zoom(const TomlTable& table, Experiment& experiment) {
+  if (const auto distances = table.numbers("distances", 0, distance_range)) {
+    for (const char* key : {"from", "to", "frames"}) {
+      if (table.has(key)) throw table.error_at(key, "excludes distances", "give one or the other");
+    }
+    for (std::size_t i = 0; i < distances->size(); ++i) {
+      if (std::count(distances->begin(), distances->end(), (*distances)[i]) > 1)
+        throw table.error_at("distances", fmt::format("has {:g} twice", (*distances)[i]), "give each once");
+    }
+    experiment.distances = *distances;
+    return;
+  }
+  const auto from = table.number("from", distance_range), to = table.number("to", distance_range);
+  if (!from) missing(table, "from");
+  if (!to) missing(table, "to");
+  if (*from == *to) throw table.error_at("to", "is where the zoom starts", "let it differ from `from`");
+  if (!table.has("frames")) missing(table, "frames");
+  const int frames = whole_number(table, "frames", {2, static_cast<double>(most_frames)}, 2);
+  experiment.distances = zoom_distances(*from, *to, frames);
+  experiment.consecutive = true;
+}
+
+void read_reference(const TomlTable& table, Experiment& experiment) {
+  experiment.spp = whole_number(table, "spp", whole_positive, experiment.spp);
+  if (const auto others = table.numbers("other_spp", 0, whole_positive)) {
+    for (const double spp : *others) experiment.other_spp.push_back(whole(table, "other_spp", spp));
+  }
+  experiment.seed =
+      static_cast<std::uint64_t>(whole_number(table, "seed", {0, 2147483647}, static_cast<int>(experiment.seed)));
+  if (const auto filter = table.word("filter")) {
+    experiment.filter = at_key(table, "filter", [&] { return parse_filter(*filter); });
+  }
+}
+
+// Every figure that is asked for must be one that the run will have: known before it starts.
+void check_measures(const Expression& expression, const Experiment& experiment) {
+  const std::vector<std::string> methods = texts_of(experiment.methods);
+  for (const Measure& measure : expression.measures()) {
+    const auto refuse = [&](const std::string& message, const std::string& mend) {
+      throw Error(ErrorKind::usage, measure_text(measure), message, mend);
+    };
+    (void)select_method(measure.method, methods);
+    if (measure.spp && std::ranges::find(experiment.other_spp, *measure.spp) == experiment.other_spp.end()) {
+      refuse(fmt::format("other_spp of [reference] does not have {}", *measure.spp), "add it there, or leave spp out");
+    }
+    if (measure.function.starts_with("flicker") && !experiment.consecutive) {
+      refuse("flicker is measured between frames of a zoom", "give [zoom] from, to and frames");
+    }
+    if (experiment.distances.empty()) continue;  // those of the scene, which is not loaded yet
+    if (measure.frame && static_cast<std::size_t>(*measure.frame) >= experiment.distances.size()) {
+      refuse("there is no such frame", fmt::format("frames are 0 to {}", experiment.distances.size() - 1));
+    }
+    if (measure.distance && std::ranges::find(experiment.distances, *measure.distance) == experiment.distances.end()) {
+      refuse("the experiment has no such distance", fmt::format("it has {}", fmt::join(experiment.distances, ", ")));
+    }
+  }
+}
+
+Expression read_expression(const TomlTable& table, std::string_view key, const std::string& text,
+                           const Experiment& experiment) {
+  return at_key(table, key, [&] {
+    Expression expression(text, fmt::format("`{:.200}`", text));
+    check_measures(expression, experiment);
+    return expression;
+  });
+}
+
+Claim read_claim(const TomlTable& table, const Experiment& experiment) {
+  const std::string text = required_word(table, "inequality");
+  Inequality inequality = at_key(table, "inequality", [&] {
+    Inequality parsed(text, fmt::format("`{:.200}`", text));
+    check_measures(parsed.left(), experiment);
+    check_measures(parsed.right(), experiment);
+    return parsed;
+  });
+  const auto expect = table.choice("expect", {"reproduced", "not_reproduced"});
+  if (!expect) missing(table, "expect");
+  return {.name = required_word(table, "name"),
+          .text = required_word(table, "text"),
+          .inequality = std::move(inequality),
+          .expect_reproduced = *expect == 0,
+          .reason = required_word(table, "reason")};
+}
+
+void read_claims(const TomlTable& root, Experiment& experiment) {
+  for (const TomlTable& table : root.tables("claim", {"name", "text", "inequality", "expect", "reason"})) {
+    Claim claim = read_claim(table, experiment);
+    if (std::ranges::find(experiment.claims, claim.name, &Claim::name) != experiment.claims.end()) {
+      throw table.error_at("name", fmt::format("is `{:.80}` as in another claim", claim.name), "name it otherwise");
+    }
+    experiment.claims.push_back(std::move(claim));
+  }
+}
+
+// The keys of [threshold] are expressions: any key may stand there.
+void read_thresholds(const toml::table& parsed, const TomlTable& root, Experiment& experiment) {
+  std::vector<std::string> keys;
+  if (const toml::table* table = parsed["threshold"].as_table()) {
+    for (const auto& [key, node] : *table) keys.emplace_back(key.str());
+  }
+  const auto table = root.table("threshold", keys);
+  for (const std::string& key : keys) {
+    const Expression written = at_key(*table, key, [&] { return Expression(key, fmt::format("`{:.200}`", key)); });
+    const auto measures = written.measures();
+    const bool each = std::ranges::find(measures, "*", &Measure::method) != measures.end();
+    for (const std::string& method : each ? texts_of(experiment.methods) : std::vector<std::string>{""}) {
+      const Expression measure = written.with_method(method);
+      at_key(*table, key, [&] { check_measures(measure, experiment); });
+      experiment.thresholds.push_back({.measure = measure, .limit = *table->number(key, any_number)});
+    }
+  }
+}
+
+void read_published(const TomlTable& table, Experiment& experiment) {
+  const fs::path file = experiment.file.parent_path() / required_word(table, "file");
+  const auto figures = table.words("figures");
+  if (!figures) missing(table, "figures");
+  const toml::table parsed = parse_toml_file(file);
+  const TomlTable root(parsed, file, "", {"paper", "note", "value"});
+  std::vector<std::string> known;
+  for (const TomlTable& value : root.tables("value", {"figure", "measure", "value", "unit", "note"})) {
+    const std::string figure = required_word(value, "figure");
+    known.push_back(figure);
+    if (std::ranges::find(*figures, figure) == figures->end()) continue;
+    const auto number = value.number("value", any_number);
+    if (!number) missing(value, "value");
+    experiment.published.push_back(
+        {.figure = figure,
+         .measure = read_expression(value, "measure", required_word(value, "measure"), experiment),
+         .value = *number,
+         .unit = value.word("unit").value_or(""),
+         .note = value.word("note").value_or("")});
+  }
+  for (const std::string& figure : *figures) {
+    if (std::ranges::find(known, figure) != known.end()) continue;
+    throw table.error_at("figures", fmt::format("names `{:.80}`, which {} does not have", figure, file.string()),
+                         suggestion(figure, known));
+  }
+}
+
+std::optional<Crop> read_crop(const TomlTable& table, std::string_view key) {
+  const auto sides = table.numbers(key, 4, {0, 1});
+  if (!sides) return std::nullopt;
+  const Crop crop{(*sides)[0], (*sides)[1], (*sides)[2], (*sides)[3]};
+  if (crop[0] >= crop[2] || crop[1] >= crop[3]) {
+    throw table.error_at(key, "holds nothing", "write it as [left, top, right, bottom], shares from 0 to 1");
+  }
+  return crop;
+}
+
+FigurePicture read_picture(const TomlTable& table, const Experiment& experiment) {
+  FigurePicture picture;
+  const std::string method = required_word(table, "method");
+  if (method != "reference") {
+    picture.method = at_key(table, "method", [&] { return select_method(method, texts_of(experiment.methods)); });
+  }
+  picture.frame = static_cast<std::size_t>(whole_number(table, "frame", {0, static_cast<double>(most_frames)}, 0));
+  if (!experiment.distances.empty() && picture.frame >= experiment.distances.size()) {
+    throw table.error_at("frame", "does not exist", fmt::format("frames are 0 to {}", experiment.distances.size() - 1));
+  }
+  picture.label = table.word("label").value_or("");
+  return picture;
+}
+
+void read_figure(const TomlTable& table, Experiment& experiment) {
+  if (const auto crop = read_crop(table, "crop")) experiment.figure.crop = *crop;
+  experiment.figure.inset = read_crop(table, "inset");
+  for (const TomlTable& row : table.tables("row", {"pictures"})) {
+    std::vector<FigurePicture> pictures;
+    for (const TomlTable& picture : row.tables("pictures", {"method", "frame", "label"})) {
+      pictures.push_back(read_picture(picture, experiment));
+    }
+    if (pictures.empty()) missing(row, "pictures");
+    experiment.figure.rows.push_back(std::move(pictures));
+  }
+  if (experiment.figure.rows.empty()) missing(table, "row");
+}
+
+}  // namespace
+
+fs::path find_experiment(const std::string& experiment, const fs::path& folder) {
+  std::vector<fs::path> candidates{experiment, experiment + ".toml"};
+  const bool plain_name = !experiment.empty() && fs::path(experiment) == fs::path(experiment).filename();
+  if (plain_name) candidates.insert(candidates.begin(), folder / (experiment + ".toml"));
+  for (const fs::path& candidate : candidates) {
+    std::error_code unknown;
+    if (fs::is_regular_file(candidate, unknown)) return candidate;
+  }
+  throw Error(ErrorKind::usage, experiment, "no such experiment or file",
+              suggestion(experiment, list_experiments(folder)));
+}
+
+std::vector<std::string> list_experiments(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; entry != end; entry.increment(error)) {
+    if (entry->path().extension() == ".toml") names.push_back(entry->path().stem().string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+Experiment read_experiment(const fs::path& file) {
+  const toml::table parsed = parse_toml_file(file);
+  const TomlTable root(parsed, file, "",
+                       {"experiment", "zoom", "camera", "reference", "published", "claim", "threshold", "figure"});
+  Experiment experiment;
+  experiment.name = file.stem().string();
+  experiment.file = file;
+  const auto head = root.table(
+      "experiment", {"title", "description", "scene", "size", "methods", "exposure", "anisotropy", "repeats"});
+  if (!head) missing(root, "experiment");
+  read_head(*head, experiment);
+  if (const auto zoom = root.table("zoom", {"distances", "from", "to", "frames"})) read_zoom(*zoom, experiment);
+  if (const auto camera = root.table("camera", camera_keys())) experiment.camera = read_camera(*camera);
+  if (const auto reference = root.table("reference", {"spp", "other_spp", "seed", "filter"})) {
+    read_reference(*reference, experiment);
+  }
+  if (const auto published = root.table("published", {"file", "figures"})) read_published(*published, experiment);
+  read_claims(root, experiment);
+  read_thresholds(parsed, root, experiment);
+  if (const auto figure = root.table("figure", {"crop", "inset", "row"})) read_figure(*figure, experiment);
+  return experiment;
+}
+
+}  // namespace footprint

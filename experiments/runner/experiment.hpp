@@ -1,0 +1,93 @@
+// An experiment as a plain value: what its TOML says (docs/experiments.md).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/runner/expression.hpp"
+#include "renderer/core/options.hpp"
+#include "renderer/pipeline/supersample.hpp"
+#include "renderer/scene/scene_settings.hpp"
+
+namespace footprint {
+
+/// What a paper says, as an inequality over the records.
+struct Claim {
+  std::string name, text;
+  Inequality inequality;
+  bool expect_reproduced = true;
+  std::string reason;
+};
+
+/// An upper bound on an expression without `*`.
+struct Threshold {
+  Expression measure;
+  double limit = 0;
+};
+
+/// A figure that a paper prints.
+struct PublishedValue {
+  std::string figure;
+  Expression measure;
+  double value = 0;
+  std::string unit, note;
+};
+
+/// A rectangle of a picture in shares of its width and height, from the top left: left, top, right, bottom.
+using Crop = std::array<double, 4>;
+
+/// One picture of a composed figure.
+struct FigurePicture {
+  std::optional<std::size_t> method;  ///< place in Experiment::methods; none: the reference
+  std::size_t frame = 0;              ///< place in the distances
+  std::string label;                  ///< "(a)", or any words; may be empty
+};
+
+/// A figure composed of pictures of the run as the paper composes its own.
+struct FigureLayout {
+  Crop crop{0, 0, 1, 1};                         ///< what is shown of each picture
+  std::optional<Crop> inset;                     ///< shown enlarged in the picture's lower right corner
+  std::vector<std::vector<FigurePicture>> rows;  ///< each with one picture or more
+};
+
+struct Experiment {
+  std::string name;  ///< the file's stem
+  std::filesystem::path file;
+  std::string title, description;
+  std::string scene;  ///< as load_scene takes it
+  std::optional<glm::ivec2> size;
+  std::vector<MethodSpec> methods;
+  std::vector<double> distances;  ///< empty: the scene's
+  bool consecutive = false;       ///< the distances are frames of a zoom: flicker is measured
+  CameraSettings camera;          ///< monostate: the scene's
+  std::optional<float> exposure;  ///< none: the scene's, else automatic
+  int spp = 64;
+  std::vector<int> other_spp;
+  std::uint64_t seed = 1;
+  ReferenceFilter filter = ReferenceFilter::after_shading;
+  int anisotropy = 1;
+  int repeats = 9;
+  std::vector<PublishedValue> published;
+  std::vector<Claim> claims;
+  std::vector<Threshold> thresholds;
+  FigureLayout figure;  ///< no rows: none is composed
+};
+
+/// The file that EXPERIMENT names: NAME.toml in `folder`, or a path to a TOML file, with or without its ending.
+/// Errors (usage): there is none, with the nearest name.
+[[nodiscard]] std::filesystem::path find_experiment(const std::string& experiment, const std::filesystem::path& folder);
+
+/// The names of the TOML files in `folder`, sorted.
+[[nodiscard]] std::vector<std::string> list_experiments(const std::filesystem::path& folder);
+
+/// Reads an experiment, and the published figures that it names. Errors (usage) read "FILE:LINE: ...": not TOML,
+/// unknown keys with the nearest right one, wrong types, values out of range, methods, functions and selectors that do
+/// not exist.
+[[nodiscard]] Experiment read_experiment(const std::filesystem::path& file);
+
+}  // namespace footprint

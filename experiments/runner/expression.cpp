@@ -1,0 +1,369 @@
+// See expression.hpp: a recursive-descent parser and its tree.
+#include "experiments/runner/expression.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "renderer/core/error.hpp"
+#include "renderer/core/suggest.hpp"
+
+namespace footprint {
+
+struct Expression::Node {
+  enum class Kind { number, call, negate, absolute, binary };
+  Kind kind = Kind::number;
+  double number = 0;
+  Measure measure;            // of a call
+  char operation = '+';       // of a binary: + - * /
+  std::vector<Node> parts{};  // operands
+};
+
+namespace {
+
+using Node = Expression::Node;
+using Kind = Node::Kind;
+
+constexpr std::size_t longest_text = 4096;
+constexpr int deepest_nesting = 100;
+constexpr std::array<std::string_view, 4> relations{"<=", ">=", "<", ">"};
+
+class Parser {
+ public:
+  Parser(std::string_view text, std::string place) : text_(text), place_(std::move(place)) {
+    if (text.size() > longest_text) fail("is longer than 4096 characters", "shorten it");
+  }
+
+  Node sum() {
+    Node left = product();
+    while (const char operation = take_one_of("+-")) left = binary(operation, std::move(left), product());
+    return left;
+  }
+
+  std::string relation() {
+    skip_blanks();
+    for (const std::string_view candidate : relations) {
+      if (!text_.substr(at_).starts_with(candidate)) continue;
+      at_ += candidate.size();
+      return std::string(candidate);
+    }
+    fail("one of < <= > >= is missing", "write an inequality such as error(a) < error(b)");
+  }
+
+  void end() {
+    skip_blanks();
+    if (at_ < text_.size()) fail(fmt::format("`{}` does not belong here", text_[at_]), "remove it, or add an operator");
+  }
+
+ private:
+  Node product() {
+    Node left = unary();
+    while (const char operation = take_one_of("*/")) left = binary(operation, std::move(left), unary());
+    return left;
+  }
+
+  Node unary() {
+    if (++depth_ > deepest_nesting) fail("is nested too deeply", "simplify it");
+    Node node;
+    if (take_one_of("-") != 0) {
+      node.kind = Kind::negate;
+      node.parts.push_back(unary());
+    } else {
+      node = primary();
+    }
+    --depth_;
+    return node;
+  }
+
+  Node primary() {
+    skip_blanks();
+    if (take_one_of("(") != 0) {
+      Node inner = sum();
+      expect(')');
+      return inner;
+    }
+    if (at_ < text_.size() && is_letter(text_[at_])) return call();
+    return number();
+  }
+
+  Node number() {
+    Node node;
+    const char* const first = text_.data() + at_;
+    const auto parsed = std::from_chars(first, text_.data() + text_.size(), node.number);
+    if (parsed.ec != std::errc() || !std::isfinite(node.number)) {
+      fail("a number, a call or a parenthesis is missing", "write an expression such as 0.5 * error(toksvig)");
+    }
+    at_ += static_cast<std::size_t>(parsed.ptr - first);
+    return node;
+  }
+
+  Node call() {
+    const std::size_t start = at_;
+    while (at_ < text_.size() && (is_letter(text_[at_]) || is_digit(text_[at_]))) ++at_;
+    const std::string name(text_.substr(start, at_ - start));
+    Node node;
+    if (name == "abs") {
+      expect('(');
+      node.kind = Kind::absolute;
+      node.parts.push_back(sum());
+      expect(')');
+      return node;
+    }
+    if (std::ranges::find(measure_functions(), name) == measure_functions().end()) {
+      std::vector<std::string> known = measure_functions();
+      known.emplace_back("abs");
+      at_ = start;
+      fail(fmt::format("there is no function `{:.80}`", name), suggestion(name, known));
+    }
+    expect('(');
+    node.kind = Kind::call;
+    node.measure.function = name;
+    node.measure.method = argument("a method");
+    while (take_one_of(",") != 0) selector(node.measure);
+    expect(')');
+    return node;
+  }
+
+  void selector(Measure& measure) {
+    skip_blanks();
+    const std::size_t start = at_;
+    const std::string text = argument("distance=, frame= or spp=");
+    const std::size_t sign = text.find('=');
+    const std::string key = text.substr(0, sign);
+    const std::vector<std::string> known{"distance", "frame", "spp"};
+    const auto found = std::ranges::find(known, key);
+    if (found == known.end() || sign == std::string::npos) {
+      at_ = start;
+      fail(fmt::format("`{:.80}` selects nothing", text), suggestion(key, known));
+    }
+    const std::string value = text.substr(sign + 1);
+    bool right = false;
+    if (*found == "distance") right = read(value, measure.distance);
+    if (*found == "frame") right = read(value, measure.frame) && *measure.frame >= 0;
+    if (*found == "spp") right = takes_spp(measure.function) && read(value, measure.spp) && *measure.spp > 0;
+    if (right) return;
+    at_ = start;
+    if (*found == "spp" && !takes_spp(measure.function)) {
+      fail(fmt::format("`{}` is measured against one reference only", measure.function), "leave spp out");
+    }
+    fail(fmt::format("`{:.80}` is no value of {}, or its second one", value, key), "write it once, as a number");
+  }
+
+  // Whether `text` is a number of T and nothing else; a value that is there already is not written twice.
+  template <typename T>
+  static bool read(const std::string& text, std::optional<T>& value) {
+    if (value) return false;
+    T number{};
+    const auto parsed = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size()) return false;
+    value = number;
+    return true;
+  }
+
+  // Up to the next comma or parenthesis, without blanks around it.
+  std::string argument(const std::string& what) {
+    skip_blanks();
+    const std::size_t stop = std::min(text_.find_first_of(",()", at_), text_.size());
+    std::string_view found = text_.substr(at_, stop - at_);
+    while (!found.empty() && is_blank(found.back())) found.remove_suffix(1);
+    if (found.empty()) fail(what + " is missing", "write a call such as error(toksvig, distance=4)");
+    at_ = stop;
+    return std::string(found);
+  }
+
+  static Node binary(char operation, Node left, Node right) {
+    Node node;
+    node.kind = Kind::binary;
+    node.operation = operation;
+    node.parts = {std::move(left), std::move(right)};
+    return node;
+  }
+
+  char take_one_of(std::string_view characters) {
+    skip_blanks();
+    if (at_ >= text_.size() || characters.find(text_[at_]) == std::string_view::npos) return 0;
+    return text_[at_++];
+  }
+
+  void expect(char character) {
+    if (take_one_of(std::string_view(&character, 1)) == 0) {
+      fail(fmt::format("`{}` is missing", character), "add it");
+    }
+  }
+
+  void skip_blanks() {
+    while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
+  }
+
+  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+  static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || c == '_'; }
+  static bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+  [[noreturn]] void fail(const std::string& message, const std::string& mend) const {
+    throw Error(ErrorKind::usage, fmt::format("{}, column {}", place_, at_ + 1), message, mend);
+  }
+
+  std::string_view text_;
+  std::string place_;
+  std::size_t at_ = 0;
+  int depth_ = 0;
+};
+
+void collect(const Node& node, std::vector<Measure>& measures) {
+  if (node.kind == Kind::call) measures.push_back(node.measure);
+  for (const Node& part : node.parts) collect(part, measures);
+}
+
+void fill_in(Node& node, const std::string& method) {
+  if (node.kind == Kind::call && node.measure.method == "*") node.measure.method = method;
+  for (Node& part : node.parts) fill_in(part, method);
+}
+
+std::string text_of(const Node& node) {
+  switch (node.kind) {
+    case Kind::number:
+      return fmt::format("{}", node.number);
+    case Kind::call:
+      return measure_text(node.measure);
+    case Kind::negate:
+      return "-" + text_of(node.parts[0]);
+    case Kind::absolute:
+      return "abs(" + text_of(node.parts[0]) + ")";
+    case Kind::binary:
+      break;
+  }
+  const auto operand = [&](const Node& part) {
+    return part.kind == Kind::binary ? "(" + text_of(part) + ")" : text_of(part);
+  };
+  return fmt::format("{} {} {}", operand(node.parts[0]), node.operation, operand(node.parts[1]));
+}
+
+class Evaluator {
+ public:
+  explicit Evaluator(const Results& results) : results_(&results) {}
+
+  Evaluation run(const Node& node) {
+    found_.value = value(node);
+    if (!found_.problem.empty()) found_.value.reset();
+    if (found_.value && std::isnan(*found_.value)) {
+      found_.value.reset();
+      found_.problem = "the value is not a number";
+    }
+    return std::move(found_);
+  }
+
+ private:
+  // 0 where there is a problem: it is told, and the value is not used.
+  double value(const Node& node) {
+    switch (node.kind) {
+      case Kind::number:
+        return node.number;
+      case Kind::call:
+        return call(node.measure);
+      case Kind::negate:
+        return -value(node.parts[0]);
+      case Kind::absolute:
+        return std::abs(value(node.parts[0]));
+      case Kind::binary:
+        break;
+    }
+    const double left = value(node.parts[0]), right = value(node.parts[1]);
+    switch (node.operation) {
+      case '+':
+        return left + right;
+      case '-':
+        return left - right;
+      case '*':
+        return left * right;
+      default:
+        break;
+    }
+    if (right == 0) return trouble(text_of(node) + ": division by 0");
+    return left / right;
+  }
+
+  double call(const Measure& measure) {
+    const Measured answer = measured(measure, *results_);
+    if (!answer.value) return trouble(measure_text(measure) + ": " + answer.problem);
+    const std::string text = measure_text(measure);
+    if (std::ranges::find(found_.calls, text, &MeasuredCall::text) == found_.calls.end()) {
+      found_.calls.push_back({.text = text, .value = *answer.value, .at_noise_floor = answer.at_noise_floor});
+    }
+    return *answer.value;
+  }
+
+  double trouble(const std::string& problem) {
+    if (found_.problem.empty()) found_.problem = problem;
+    return 0;
+  }
+
+  const Results* results_;
+  Evaluation found_;
+};
+
+}  // namespace
+
+Expression::Expression(const std::string& text, const std::string& place) {
+  Parser parser(text, place);
+  root_.push_back(parser.sum());
+  parser.end();
+}
+
+Expression::Expression(const Node& root) : root_{root} {}
+Expression::Expression(const Expression&) = default;
+Expression::Expression(Expression&&) noexcept = default;
+Expression::~Expression() = default;
+
+std::vector<Measure> Expression::measures() const {
+  std::vector<Measure> found;
+  collect(root_.front(), found);
+  return found;
+}
+
+Expression Expression::with_method(const std::string& method) const {
+  Node root = root_.front();
+  fill_in(root, method);
+  return Expression(root);
+}
+
+std::string Expression::text() const { return text_of(root_.front()); }
+
+Evaluation Expression::evaluate(const Results& results) const { return Evaluator(results).run(root_.front()); }
+
+struct Inequality::Parts {
+  Expression left;
+  std::string relation;
+  Expression right;
+
+  static Parts parse(const std::string& text, const std::string& place) {
+    Parser parser(text, place);
+    const Expression left(parser.sum());
+    std::string relation = parser.relation();
+    const Expression right(parser.sum());
+    parser.end();
+    return {left, std::move(relation), right};
+  }
+};
+
+Inequality::Inequality(const std::string& text, const std::string& place)
+    : Inequality(text, Parts::parse(text, place)) {}
+
+Inequality::Inequality(std::string text, Parts parts)
+    : text_(std::move(text)),
+      relation_(std::move(parts.relation)),
+      left_(std::move(parts.left)),
+      right_(std::move(parts.right)) {}
+
+bool Inequality::holds(double left, double right) const {
+  if (relation_ == "<") return left < right;
+  if (relation_ == "<=") return left <= right;
+  if (relation_ == ">") return left > right;
+  return left >= right;
+}
+
+}  // namespace footprint

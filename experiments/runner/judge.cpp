@@ -1,0 +1,72 @@
+// See judge.hpp.
+#include "experiments/runner/judge.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace footprint {
+namespace {
+
+constexpr const char* reproduced = "reproduced";
+constexpr const char* not_reproduced = "not_reproduced";
+
+void add_figures(const Evaluation& evaluation, std::vector<ClaimFigure>& figures) {
+  for (const MeasuredCall& call : evaluation.calls) {
+    if (std::ranges::find(figures, call.text, &ClaimFigure::measure) != figures.end()) continue;
+    figures.push_back({.measure = call.text, .value = call.value, .at_noise_floor = call.at_noise_floor});
+  }
+}
+
+ClaimOutcome outcome_of(const Claim& claim, const Results& results) {
+  const Evaluation left = claim.inequality.left().evaluate(results);
+  const Evaluation right = claim.inequality.right().evaluate(results);
+  ClaimOutcome outcome{.name = claim.name,
+                       .text = claim.text,
+                       .inequality = claim.inequality.text(),
+                       .expect = claim.expect_reproduced ? reproduced : not_reproduced,
+                       .outcome = "undecided",
+                       .reason = claim.reason,
+                       .problem = left.problem.empty() ? right.problem : left.problem,
+                       .left = left.value,
+                       .right = right.value,
+                       .figures = {}};
+  add_figures(left, outcome.figures);
+  add_figures(right, outcome.figures);
+  if (left.value && right.value) {
+    outcome.outcome = claim.inequality.holds(*left.value, *right.value) ? reproduced : not_reproduced;
+  }
+  return outcome;
+}
+
+}  // namespace
+
+ExperimentReport judge(const Experiment& experiment, const Results& results) {
+  ExperimentReport report{.name = experiment.name,
+                          .title = experiment.title,
+                          .description = experiment.description,
+                          .file = experiment.file.string(),
+                          .published = {},
+                          .claims = {},
+                          .thresholds = {},
+                          .pictures = {}};
+  for (const PublishedValue& published : experiment.published) {
+    const Evaluation measured = published.measure.evaluate(results);
+    report.published.push_back({.figure = published.figure,
+                                .measure = published.measure.text(),
+                                .unit = published.unit,
+                                .published = published.value,
+                                .measured = measured.value,
+                                .note = measured.value ? published.note : measured.problem});
+  }
+  for (const Claim& claim : experiment.claims) report.claims.push_back(outcome_of(claim, results));
+  for (const Threshold& threshold : experiment.thresholds) {
+    Evaluation measured = threshold.measure.evaluate(results);
+    report.thresholds.push_back({.measure = threshold.measure.text(),
+                                 .limit = threshold.limit,
+                                 .measured = measured.value,
+                                 .problem = std::move(measured.problem)});
+  }
+  return report;
+}
+
+}  // namespace footprint

@@ -1,0 +1,152 @@
+// See measure.hpp.
+#include "experiments/runner/measure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <functional>
+
+#include "renderer/core/error.hpp"
+#include "renderer/core/suggest.hpp"
+
+namespace footprint {
+namespace {
+
+using Figure = std::optional<double>;
+
+struct Function {
+  std::string name;
+  std::function<Figure(const Record&)> figure;
+};
+
+Function of_error(const char* name, double RecordError::*member) {
+  return {name, [member](const Record& r) { return r.error ? Figure((*r.error).*member) : Figure(); }};
+}
+
+// A bound of the measured curve counts as its end: "<1" as 1, ">64" as 64.
+Figure equivalent_count(const Record& record) {
+  if (record.equivalent_spp) return record.equivalent_spp;
+  const std::string& bound = record.equivalent_bound;
+  if (bound.empty() || (bound.front() != '<' && bound.front() != '>')) return std::nullopt;
+  double end = 0;
+  const auto parsed = std::from_chars(bound.data() + 1, bound.data() + bound.size(), end);
+  return parsed.ec == std::errc() ? Figure(end) : Figure();
+}
+
+const std::vector<Function>& functions() {
+  static const std::vector<Function> table{
+      of_error("error", &RecordError::normalized_color),
+      of_error("relative_rmse", &RecordError::relative_rmse),
+      of_error("relmse", &RecordError::relmse),
+      of_error("psnr", &RecordError::psnr),
+      of_error("energy_bias", &RecordError::energy_bias),
+      of_error("representation", &RecordError::representation),
+      of_error("filtering", &RecordError::filtering),
+      {"noise_floor", [](const Record& r) { return r.error ? r.error->noise_floor : Figure(); }},
+      {"equivalent_spp", equivalent_count},
+      {"flicker", [](const Record& r) { return r.flicker ? Figure(r.flicker->mean) : Figure(); }},
+      {"flicker_p99", [](const Record& r) { return r.flicker ? Figure(r.flicker->p99) : Figure(); }},
+      {"time", [](const Record& r) { return Figure(r.frame_ms.median); }},
+      {"ratio", [](const Record& r) { return Figure(r.ratio_to_direct.median); }},
+      {"fps", [](const Record& r) { return Figure(r.fps); }},
+      {"precompute", [](const Record& r) { return r.precompute_cached ? Figure() : Figure(r.precompute_seconds); }},
+      {"bytes", [](const Record& r) { return Figure(static_cast<double>(r.precompute_bytes)); }}};
+  return table;
+}
+
+struct Sample {
+  Figure value;
+  bool at_noise_floor = false;
+};
+
+Sample sample(const Measure& measure, const Function& function, const Record& record) {
+  if (!measure.spp) {
+    const bool noisy = measure.function == "error" && record.error && record.error->noise_floor &&
+                       record.error->normalized_color <= *record.error->noise_floor;
+    return {function.figure(record), noisy};
+  }
+  const auto other = std::ranges::find(record.other_references, *measure.spp, &OtherReference::spp);
+  if (other == record.other_references.end()) return {};
+  return {other->normalized_color, other->noise_floor && other->normalized_color <= *other->noise_floor};
+}
+
+bool matches(const Measure& measure, const std::string& method, const Record& record) {
+  return record.method == method && (!measure.distance || record.distance == *measure.distance) &&
+         (!measure.frame || record.frame == *measure.frame);
+}
+
+std::vector<std::string> methods_of(const Results& results) {
+  std::vector<std::string> methods;
+  for (const Record& record : results.records) {
+    if (std::ranges::find(methods, record.method) == methods.end()) methods.push_back(record.method);
+  }
+  return methods;
+}
+
+}  // namespace
+
+const std::vector<std::string>& measure_functions() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const Function& function : functions()) all.push_back(function.name);
+    return all;
+  }();
+  return names;
+}
+
+bool takes_spp(const std::string& function) { return function == "error"; }
+
+std::string measure_text(const Measure& measure) {
+  std::string text = fmt::format("{}({}", measure.function, measure.method);
+  if (measure.distance) text += fmt::format(", distance={}", *measure.distance);
+  if (measure.frame) text += fmt::format(", frame={}", *measure.frame);
+  if (measure.spp) text += fmt::format(", spp={}", *measure.spp);
+  return text + ")";
+}
+
+std::size_t select_method(const std::string& wanted, std::span<const std::string> methods) {
+  std::vector<std::size_t> of_name;
+  std::vector<std::string> known(methods.begin(), methods.end());
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    if (methods[i] == wanted) return i;
+    const std::string name = methods[i].substr(0, methods[i].find(':'));
+    if (name == wanted) of_name.push_back(i);
+    if (std::ranges::find(known, name) == known.end()) known.push_back(name);
+  }
+  if (of_name.size() == 1) return of_name.front();
+  if (of_name.empty()) {
+    throw Error(ErrorKind::usage, "", fmt::format("the experiment has no method `{:.80}`", wanted),
+                suggestion(wanted, known));
+  }
+  throw Error(ErrorKind::usage, "", fmt::format("`{}` is {} of the experiment's methods", wanted, of_name.size()),
+              "write it with its options, as in the experiment");
+}
+
+Measured measured(const Measure& measure, const Results& results) {
+  const std::vector<std::string> methods = methods_of(results);
+  const std::string& method = methods[select_method(measure.method, methods)];
+  const auto function = std::ranges::find(functions(), measure.function, &Function::name);
+  double sum = 0;
+  std::size_t count = 0, noisy = 0, matching = 0;
+  for (const Record& record : results.records) {
+    if (!matches(measure, method, record)) continue;
+    ++matching;
+    const Sample found = sample(measure, *function, record);
+    if (!found.value) continue;
+    sum += *found.value;
+    ++count;
+    noisy += found.at_noise_floor ? 1 : 0;
+  }
+  if (matching == 0) return {.value = {}, .problem = "the run has no such record"};
+  if (count == 0 && measure.function == "precompute") {
+    return {.value = {}, .problem = "the bake came from the cache (give --no-cache)"};
+  }
+  if (count == 0) return {.value = {}, .problem = "no record has this figure"};
+  const double mean = sum / static_cast<double>(count);
+  if (std::isnan(mean)) return {.value = {}, .problem = "the figure is not a number"};
+  return {.value = mean, .problem = {}, .at_noise_floor = noisy == count};
+}
+
+}  // namespace footprint

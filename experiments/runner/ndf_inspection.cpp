@@ -1,0 +1,162 @@
+// See ndf_inspection.hpp.
+#include "experiments/runner/ndf_inspection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/runner/ndf_pictures.hpp"
+#include "experiments/runner/picture_files.hpp"
+#include "methods/registry.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/core/memory.hpp"
+#include "renderer/ndf/method_ndf.hpp"
+#include "renderer/ndf/ndf_figures.hpp"
+#include "renderer/ndf/true_ndf.hpp"
+
+namespace footprint {
+namespace {
+
+// Pictures are of facets merged within this part of the narrowest lobe's width: within 1e-3 of a lobe's peak.
+constexpr double part_in_pictures = 1.0 / 16.0;
+// What lies below the horizon needs no more than this.
+constexpr double part_in_energy = 1.0 / 8.0;
+
+// What is evaluated, and the truth there.
+struct Grid {
+  HemisphereGrid hemisphere;
+  std::vector<glm::vec3> disc;
+  std::vector<double> truth;   // at the hemisphere's directions, exact
+  std::vector<float> picture;  // at the disc's
+};
+
+void require_grid_memory(int resolution, int picture) {
+  // Directions, solid angles, truth and one method's densities, and the growth of vectors.
+  constexpr std::uint64_t bytes_a_direction = 2 * (sizeof(glm::vec3) + 2 * sizeof(double) + sizeof(float));
+  const double directions = std::max(direction_count(resolution), static_cast<double>(picture) * picture);
+  require_memory(frame_bytes(static_cast<std::uint64_t>(directions), 1, bytes_a_direction),
+                 fmt::format("{:.0f} directions", directions), "give a smaller --resolution or --size");
+}
+
+Grid take_truth(const Material& material, const NdfSettings& settings, const FootprintTexels& texels,
+                NdfResults& results, const Progress& progress) {
+  ProgressParts parts(progress, 2);
+  const NormalDistribution distribution = material.brdf.distribution;
+  const TrueNdf exact(distribution, texels.facets);
+  const BaseLobe narrowest = exact.narrowest();
+  const auto merged = [&](double part) {
+    return TrueNdf(distribution, merged_facets(texels.facets, part * lobe_width(narrowest)));
+  };
+  results.lobe = lobe_text(narrowest);
+  results.resolution = settings.resolution > 0 ? settings.resolution : resolution_for(narrowest);
+  require_grid_memory(results.resolution, settings.picture);
+  Grid grid{hemisphere_grid(results.resolution), disc_directions(settings.picture), {}, {}};
+  grid.truth = exact.densities(grid.hemisphere.directions, parts.next(1, ""));
+  const std::vector<double> picture = merged(part_in_pictures).densities(grid.disc, parts.next(1, ""));
+  grid.picture.assign(picture.begin(), picture.end());
+  const NdfTotals totals = ndf_totals(grid.hemisphere, grid.truth);
+  results.directions = grid.hemisphere.directions.size();
+  results.truth.energy = totals.energy;
+  results.truth.peak = std::max(totals.peak, largest_density(grid.picture));
+  results.truth.expected_energy = merged(part_in_energy).expected_energy();
+  results.fine_enough =
+      std::abs(totals.energy - results.truth.expected_energy) <= ndf_energy_tolerance * results.truth.expected_energy;
+  return grid;
+}
+
+NdfResults described(const NdfSource& source, const NdfSettings& settings, const FootprintTexels& texels) {
+  const FootprintRect& rect = settings.footprint;
+  NdfResults results;
+  results.source = source.path;
+  results.kind = source.is_map ? "map" : "scene";
+  results.material = source.material.name;
+  if (source.material.normal_map) {
+    const Image& map = *source.material.normal_map->image;
+    results.map_size = {map.width, map.height};
+  }
+  results.lobe_varies = texels.facets.front().parameter != texels.facets.back().parameter;  // sorted by it
+  results.footprint = {rect.lower.x, rect.lower.y, rect.upper.x, rect.upper.y};
+  results.texels = texels.texels;
+  results.valid_share = texels.valid_share;
+  results.facets = texels.facets.size();
+  results.level = footprint_level(source.material, rect);
+  results.anisotropy = settings.anisotropy;
+  results.notes = source.notes;
+  return results;
+}
+
+// The methods asked for, or all of them.
+std::vector<MethodSpec> methods_of(const NdfSettings& settings) {
+  if (!settings.methods.empty()) return settings.methods;
+  std::vector<MethodSpec> all;
+  for (const Method* method : all_methods()) all.push_back({method->info().name, method->info().name, {}});
+  return all;
+}
+
+// One material on the GPU, by whichever method.
+class Bench {
+ public:
+  Bench(const NdfSettings& settings, const Material& material)
+      : settings_(settings),
+        scene_(scene_of_facets(material)),
+        context_(settings.context),
+        effects_(effects_on(derive_effects(scene_))),
+        gpu_scene_(context_.info(), scene_, effects_) {
+    if (settings.cache) cache_.emplace(*settings.cache);
+  }
+
+  // Adds the figures of a method to `results` and gives its picture.
+  NdfPicture inspect(const MethodSpec& spec, const Grid& grid, NdfResults& results, const Progress& progress) {
+    const Method& method = find_method(spec.name);
+    const BakedMethod baked = bake(method, spec, scene_, effects_, progress, cache_ ? &*cache_ : nullptr);
+    const MethodNdf ndf(context_.info(), gpu_scene_, baked, scene_.materials.front(), settings_.anisotropy,
+                        settings_.tile);
+    const std::vector<float> densities = ndf.densities(settings_.footprint, grid.hemisphere.directions);
+    const NdfFigures figures = compare_ndfs(grid.hemisphere, densities, grid.truth);
+    NdfRecord record{spec.text, {}, figures.l2, figures.energy, figures.peak, method.lobe_count(baked.options), {}};
+    for (const auto& [name, value] : baked.options.all()) record.options[name] = value;
+    results.records.push_back(std::move(record));
+    NdfPicture picture{file_stem(spec.text), fmt::format("{}  L2 {:.3g}", spec.text, figures.l2),
+                       ndf.densities(settings_.footprint, grid.disc)};
+    context_.check("evaluating the NDF of " + spec.text);
+    const double peak = largest_density(picture.densities);
+    results.records.back().peak = std::isfinite(peak) ? figures.peak + std::max(peak - figures.peak, 0.0) : peak;
+    return picture;
+  }
+
+ private:
+  const NdfSettings& settings_;
+  Scene scene_;
+  gl::Context context_;
+  EffectSet effects_;
+  GpuScene gpu_scene_;
+  std::optional<BakeCache> cache_;
+};
+
+}  // namespace
+
+NdfResults inspect_ndf(const NdfSource& source, const NdfSettings& settings, const std::filesystem::path& folder,
+                       const Progress& progress) {
+  check_footprint(settings.footprint, "--footprint");
+  const std::vector<MethodSpec> methods = methods_of(settings);
+  ProgressParts parts(progress, static_cast<double>(methods.size() + 2));
+  const FootprintTexels texels = texels_under(source.material, settings.footprint);
+  NdfResults results = described(source, settings, texels);
+  Bench bench(settings, source.material);
+  const Grid grid = take_truth(source.material, settings, texels, results, parts.next(2, ""));
+  std::vector<NdfPicture> pictures;
+  for (const MethodSpec& spec : methods) {
+    try {
+      pictures.push_back(bench.inspect(spec, grid, results, parts.next(1, "")));
+    } catch (const Error& error) {
+      if (!settings.methods.empty() || error.kind() != ErrorKind::usage) throw;
+      results.notes.push_back(fmt::format("{} is left out: {}", spec.text, error.what()));
+    }
+  }
+  const NdfPicture truth{"truth", "truth", grid.picture};
+  write_ndf_pictures(folder, settings.picture, truth, pictures, results);
+  return results;
+}
+
+}  // namespace footprint

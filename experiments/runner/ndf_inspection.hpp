@@ -1,0 +1,52 @@
+// The NDF inspector: the effective NDF of one footprint by several methods beside the exact one.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/core/options.hpp"
+#include "renderer/core/progress.hpp"
+#include "renderer/gl/context.hpp"
+#include "renderer/ndf/footprint_texels.hpp"
+#include "renderer/scene/material.hpp"
+#include "renderer/scene/surface.hpp"
+#include "results/report/ndf_report.hpp"
+
+namespace footprint {
+
+/// A material to look into, and what a reader should know of it.
+struct NdfSource {
+  std::string path;  ///< as given
+  bool is_map = false;
+  Material material;
+  std::vector<std::string> notes;  ///< warnings of the loader, one line each
+};
+
+/// Reads SCENE|MAP: an image file as a normal map (EXR: unit normals, x, y, z of -1 to 1; any other: 2 c - 1, as glTF
+/// has it) under the lobe blinn_phong:64, anything else as a scene, of which `material` (a name or a number from 0;
+/// empty: the only one) is taken. Errors (usage): what the loaders refuse; no such material, or several and none named.
+[[nodiscard]] NdfSource load_ndf_source(const std::string& path, const std::string& material,
+                                        const SceneLibrary& library);
+
+/// The material with `lobe` in place of its own distribution and roughness.
+[[nodiscard]] Material with_lobe(Material material, const BaseLobe& lobe);
+
+struct NdfSettings {
+  FootprintRect footprint;
+  std::vector<MethodSpec> methods;  ///< empty: every method of the registry that takes the material
+  int anisotropy = 1;               ///< probes, at most
+  int resolution = 0;               ///< rings of directions; 0: from the narrowest lobe
+  int picture = 256;                ///< side of the pictures, pixels
+  int tile = 0;                     ///< side of the square of directions evaluated at once; 0: 1024
+  gl::ContextRequest context;
+  std::optional<std::filesystem::path> cache;  ///< folder where slow precomputes are kept; none: they are not
+};
+
+/// Takes the figures, and writes ndf.png and images/ below `folder`. Errors (usage): an empty footprint, no normal
+/// under it, a named method that refuses the material; (machine): no GL, memory; (interrupted) by `progress`.
+[[nodiscard]] NdfResults inspect_ndf(const NdfSource& source, const NdfSettings& settings,
+                                     const std::filesystem::path& folder, const Progress& progress);
+
+}  // namespace footprint

@@ -1,0 +1,106 @@
+// The material that the NDF inspector looks into; see ndf_inspection.hpp.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <fstream>
+
+#include "experiments/runner/ndf_inspection.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/core/suggest.hpp"
+#include "renderer/image/image_io.hpp"
+#include "renderer/scene/load_scene.hpp"
+#include "renderer/scene/surface_maps.hpp"
+
+namespace footprint {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 3> scene_extensions{".toml", ".gltf", ".glb"};
+constexpr std::array<std::string_view, 10> map_extensions{".exr",  ".png", ".jpg",  ".jpeg", ".tif",
+                                                          ".tiff", ".bmp", ".webp", ".hdr",  ".tga"};
+constexpr double default_exponent = 64.0;
+
+std::string extension_of(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+// By its name, or, where that tells nothing, because it is a file and no scene.
+bool names_a_map(const std::string& path) {
+  const std::string extension = extension_of(path);
+  if (std::ranges::find(map_extensions, extension) != map_extensions.end()) return true;
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored) && std::ranges::find(scene_extensions, extension) == scene_extensions.end();
+}
+
+bool is_exr(const fs::path& file) {
+  constexpr std::array<char, 4> magic{'\x76', '\x2f', '\x31', '\x01'};
+  std::array<char, 4> first{};
+  std::ifstream(file, std::ios::binary).read(first.data(), first.size());
+  return first == magic;
+}
+
+NdfSource load_map(const std::string& path) {
+  const Image stored = read_image(path, Transfer::linear);
+  NormalMap map;
+  try {
+    map = is_exr(path) ? decode_unit_normals(stored) : decode_normal_map(stored, 1.0);
+  } catch (const Error& error) {
+    throw error.within(path);
+  }
+  NdfSource source{path, true, {}, describe_faults(map, fs::path(path).filename().string())};
+  source.material.name = fs::path(path).stem().string();
+  source.material.brdf = {NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, false};
+  source.material.normal_map = {
+      fs::path(path).filename().string(), std::make_shared<const Image>(std::move(map.image)), {}};
+  source.material = with_lobe(std::move(source.material), {NormalDistribution::blinn_phong, default_exponent});
+  return source;
+}
+
+std::vector<std::string> material_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Material& material : scene.materials) names.push_back(material.name);
+  return names;
+}
+
+std::size_t material_index(const Scene& scene, const std::string& wanted) {
+  const std::vector<std::string> names = material_names(scene);
+  if (wanted.empty() && names.size() == 1) return 0;
+  if (wanted.empty()) {
+    throw Error(ErrorKind::usage, scene.source, fmt::format("it has {} materials", names.size()),
+                fmt::format("name one with --material: {}, or a number from 0", fmt::join(names, ", ")));
+  }
+  if (const auto named = std::ranges::find(names, wanted); named != names.end()) {
+    return static_cast<std::size_t>(named - names.begin());
+  }
+  std::size_t index = 0;
+  const char* const end = wanted.data() + wanted.size();
+  const auto [stop, status] = std::from_chars(wanted.data(), end, index);
+  if (status == std::errc{} && stop == end && index < names.size()) return index;
+  throw Error(ErrorKind::usage, "--material", fmt::format("{} has no material `{}`", scene.source, wanted),
+              suggestion(wanted, names));
+}
+
+}  // namespace
+
+Material with_lobe(Material material, const BaseLobe& lobe) {
+  material.brdf.distribution = lobe.distribution;
+  material.lobe_parameter = static_cast<float>(lobe.parameter);
+  return material;
+}
+
+NdfSource load_ndf_source(const std::string& path, const std::string& material, const SceneLibrary& library) {
+  if (names_a_map(path)) {
+    if (material.empty()) return load_map(path);
+    throw Error(ErrorKind::usage, "--material", fmt::format("{} is a map and has no materials", path), "leave it out");
+  }
+  const Scene scene = load_scene(path, library);
+  return {path, false, scene.materials.at(material_index(scene, material)), scene.warnings};
+}
+
+}  // namespace footprint

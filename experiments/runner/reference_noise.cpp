@@ -1,0 +1,34 @@
+// See reference_noise.hpp.
+#include "experiments/runner/reference_noise.hpp"
+
+#include "renderer/image/metrics.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr double halves_over_whole = 2.0;  // A - B has twice the deviation of the reference's own error
+
+}  // namespace
+
+std::optional<double> noise_floor(const Supersampled& reference, float exposure) {
+  if (!reference.halves) return std::nullopt;
+  const auto difference = compare_images(reference.halves->first, reference.halves->second, exposure);
+  if (!difference) return std::nullopt;
+  return difference->normalized_color / halves_over_whole;
+}
+
+std::optional<Flicker> flicker_between(const Image& before, const Image& picture, const Supersampled& reference_before,
+                                       const Supersampled& reference, float exposure) {
+  const auto figures = compare_changes(before, picture, reference_before.mean, reference.mean, exposure);
+  if (!figures) return std::nullopt;
+  Flicker flicker{.mean = figures->mean, .p99 = figures->p99, .noise_floor = {}};
+  if (!reference_before.halves || !reference.halves) return flicker;
+  const auto& [old_even, old_odd] = *reference_before.halves;
+  const auto& [even, odd] = *reference.halves;
+  if (const auto noise = compare_changes(old_even, even, old_odd, odd, exposure)) {
+    flicker.noise_floor = noise->mean / halves_over_whole;
+  }
+  return flicker;
+}
+
+}  // namespace footprint

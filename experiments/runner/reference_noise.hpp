@@ -1,0 +1,21 @@
+// What the reference's own noise does to the figures that are measured against it (docs/metrics.md).
+#pragma once
+
+#include <optional>
+
+#include "renderer/pipeline/supersample.hpp"
+#include "results/report/records.hpp"
+
+namespace footprint {
+
+/// The normalised colour error that the reference's noise alone causes; none with fewer than two passes, or where the
+/// object covers no whole pixel.
+[[nodiscard]] std::optional<double> noise_floor(const Supersampled& reference, float exposure);
+
+/// The flicker from the frame `before` to `picture`, with that which the references' noise alone causes. None where no
+/// pixel is covered wholly in both.
+[[nodiscard]] std::optional<Flicker> flicker_between(const Image& before, const Image& picture,
+                                                     const Supersampled& reference_before,
+                                                     const Supersampled& reference, float exposure);
+
+}  // namespace footprint

@@ -1,0 +1,28 @@
+// Runs an experiment: the comparison, its figures, and what became of its claims.
+#pragma once
+
+#include <filesystem>
+
+#include "experiments/runner/compare.hpp"
+#include "experiments/runner/experiment.hpp"
+
+namespace footprint {
+
+/// What does not stand in the experiment's file.
+struct RunSettings {
+  SceneLibrary library;
+  bool quick = false;  ///< a quarter of the size, few samples: to see whether it runs and how it looks
+  int tile = 0;
+  std::optional<std::filesystem::path> cache;  ///< where slow precomputes are kept; none: they are not
+  gl::ContextRequest context;
+};
+
+/// The comparison that an experiment asks for.
+[[nodiscard]] CompareSettings compare_settings(const Experiment& experiment, const RunSettings& settings);
+
+/// Runs it and writes its pictures into FOLDER/images; the results hold its report. Errors: those of run_compare, and
+/// of the figures.
+[[nodiscard]] Results run_experiment(const Experiment& experiment, const RunSettings& settings,
+                                     const std::filesystem::path& folder, const Progress& progress);
+
+}  // namespace footprint

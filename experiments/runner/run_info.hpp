@@ -1,0 +1,17 @@
+// What every report says of where it was made and of its scene.
+#pragma once
+
+#include "experiments/runner/exposure.hpp"
+#include "renderer/gl/context.hpp"
+#include "renderer/scene/scene.hpp"
+#include "results/report/records.hpp"
+
+namespace footprint {
+
+/// The backend; the processor is left to the program, which knows it.
+[[nodiscard]] BackendInfo backend_info(const gl::ContextInfo& context);
+
+/// The scene with its exposure; a reference that has not converged is one of its warnings.
+[[nodiscard]] SceneInfo scene_info(const Scene& scene, const ChosenExposure& exposure, const ReferenceInfo& reference);
+
+}  // namespace footprint

@@ -1,0 +1,108 @@
+// `fournier`: a few Phong peaks a texel at every mip level, fitted to the distribution of normals; all peaks of the
+// footprint's texels are summed. Fournier 1992, "Normal distribution functions and multiple surfaces".
+#include <fmt/format.h>
+
+#include <span>
+
+#include "methods/fournier/peak_chain.hpp"
+#include "renderer/pipeline/base_surface.hpp"
+#include "renderer/pipeline/normal_chain.hpp"
+
+namespace footprint {
+
+namespace embedded {
+extern const std::string_view fournier_glsl;
+}
+
+namespace {
+
+// The lobe that is fitted with; where the roughness varies, that of the mean variance.
+double base_variance(const Material& material) {
+  const NormalDistribution distribution = material.brdf.distribution;
+  const Image roughness = roughness_map_of(material);
+  if (roughness.texel_count() == 1) return lobe_variance(distribution, lobe_parameter(material));
+  const double deviation = lobe_deviation_chain(material).back().texels.front();
+  return deviation * deviation;
+}
+
+OptionSpec peak_storage_option() {
+  OptionSpec option = storage_option();
+  option.choices = {"fp32", "fp16"};
+  option.meaning = "How the baked textures are stored: 32-bit floats or 16-bit floats.";
+  return option;
+}
+
+std::string note_on(const fournier::FitStatistics& statistics) {
+  return fmt::format(
+      "{} of {} fits of peaks stopped before they converged; the mean error of all is {:.2g} of the distribution's "
+      "norm",
+      statistics.not_converged, statistics.fits, statistics.mean_error);
+}
+
+class Fournier final : public Method {
+ public:
+  [[nodiscard]] const MethodInfo& info() const override { return info_; }
+
+  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                                       const Progress& progress) const override {
+    const Storage storage = parse_storage(options.word("storage"));
+    Prefiltered out;
+    if (has(effects, Effect::normal_variation)) {
+      add_peaks(material, static_cast<std::size_t>(options.number("peaks")), storage, progress, out);
+      if (has(effects, Effect::diffuse)) {
+        out.textures.push_back(
+            make_texture("fournier_mean", mean_normal_chain(material), storage, normal_coordinates(material)));
+      }
+    }
+    if (has(effects, Effect::roughness_variation)) {
+      out.textures.push_back(
+          make_texture("fournier_deviation", lobe_deviation_chain(material), storage, roughness_coordinates(material)));
+    }
+    return out;
+  }
+
+  [[nodiscard]] int lobe_count(const Options& options) const override {
+    return 8 * static_cast<int>(options.number("peaks"));
+  }
+
+  [[nodiscard]] std::string_view shader() const override { return embedded::fournier_glsl; }
+
+ private:
+  static void add_peaks(const Material& material, std::size_t count, Storage storage, const Progress& progress,
+                        Prefiltered& out) {
+    const fournier::PeakChain chain =
+        fournier::fit_peak_chain(normal_map_of(material), base_variance(material), count, progress);
+    if (chain.statistics.not_converged > 0) out.notes.push_back(note_on(chain.statistics));
+    const TextureCoordinates coordinates = normal_coordinates(material);
+    out.textures.push_back(
+        make_array_texture("fournier_first", std::span(&chain.first, 1), storage, coordinates, TextureFilter::nearest));
+    out.textures.push_back(
+        make_array_texture("fournier_rest", chain.rest, storage, coordinates, TextureFilter::nearest));
+  }
+
+  MethodInfo info_{
+      .name = "fournier",
+      .summary = "Phong peaks fitted to every texel's distribution of normals; those of eight texels are summed.",
+      .paper = "Fournier 1992, Normal Distribution Functions and Multiple Surfaces (as Tan 2005 compares with it)",
+      .options = {{.name = "peaks",
+                   .default_value = 7.0,
+                   .minimum = 1.0,
+                   .maximum = 8.0,
+                   .choices = {},
+                   .meaning =
+                       "Peaks a texel above the finest level: 7 as Fournier has them, 4 in Tan 2005, figure 7. A "
+                       "pixel sums up to 8 times as many.",
+                   .integer = true},
+                  peak_storage_option()},
+      .honours = EffectSet{}.set(),
+      .slow_precompute = true};
+};
+
+}  // namespace
+
+const Method& fournier_method() {
+  static const Fournier method;
+  return method;
+}
+
+}  // namespace footprint

@@ -1,0 +1,86 @@
+// Fournier 1992: every texel of the mip chain holds Phong peaks fitted to its distribution of normals. Peaks of
+// neighbouring texels have nothing to do with each other, so none is blended: the peaks of all texels of the footprint are
+// scaled by the texels' weights and summed, 8 times as many as a texel has, again for every light.
+struct Effective {
+  Footprint footprint;
+  float variance;  // the base lobe's slope variance per axis
+  vec3 mean;       // of the normals, for the diffuse term
+};
+
+Effective effective(Footprints f) {
+  Effective e;
+  e.footprint = f.normal;
+  e.mean = vec3(0.0, 0.0, 1.0);
+//? if normal_variation
+//? if diffuse
+  e.mean = fetch(fournier_mean, f.normal).xyz;
+//? end
+//? end
+//? if roughness_variation
+  float deviation = fetch(fournier_deviation, f.roughness).r;
+  e.variance = deviation * deviation;
+//? else
+  e.variance = lobeVariance(lobe_cutoff.x);
+//? end
+  return e;
+}
+
+//? if normal_variation
+// Lambert's azimuthal equal-area map from the disc of radius 2 to the sphere.
+vec3 directionFromDisc(vec2 p) {
+  float quarter = min(0.25 * dot(p, p), 1.0);
+  return vec3(p * sqrt(1.0 - quarter), 1.0 - 2.0 * quarter);
+}
+
+// Axis on the disc, root of the spread, weight. The finest level has one peak a texel, so the others start at the next.
+vec4 peakOf(FootprintTexel texel, int i) {
+  if (i == 0) return fetchTexel(fournier_first, 0, texel);
+  texel.level -= 1.0;
+  return fetchTexel(fournier_rest, i - 1, texel);
+}
+//? end
+
+float reflectedDensity(float variance, vec3 n, vec3 h, bool with_geometry, vec3 wi, vec3 wo) {
+  float lobe = lobeFromVariance(variance);
+  float density = lobeDensity(lobe, n, h);
+  return with_geometry ? density * geometryFactor(lobe, n, h, wi, wo) : density;
+}
+
+// The sum over all peaks of their densities at h, each times its geometry factor or not.
+float sumOfPeaks(Effective e, vec3 h, bool with_geometry, vec3 wi, vec3 wo) {
+//? if normal_variation
+  float sum = 0.0;
+  float total = 0.0;  // below 1 where texels have no normal
+  int texels = footprintTexelCount(fournier_first, e.footprint);
+  for (int t = 0; t < texels; ++t) {
+    FootprintTexel texel = footprintTexel(fournier_first, e.footprint, t);
+    int peaks = texel.weight <= 0.0 ? 0 : texel.level < 0.5 ? 1 : int(option_peaks);
+    for (int i = 0; i < peaks; ++i) {
+      vec4 peak = peakOf(texel, i);
+      if (peak.w <= 0.0) break;  // heaviest first: the others have none either
+      float weight = texel.weight * peak.w;
+      float variance = e.variance + peak.z * peak.z;
+      sum += weight * reflectedDensity(variance, directionFromDisc(peak.xy), h, with_geometry, wi, wo);
+      total += weight;
+    }
+  }
+  if (total > 0.0) return sum / total;
+//? end
+  return reflectedDensity(e.variance, vec3(0.0, 0.0, 1.0), h, with_geometry, wi, wo);
+}
+
+vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
+  if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
+  return fresnelTerm(f0, wi, wo) * sumOfPeaks(e, halfVector(wi, wo), true, wi, wo);
+}
+
+//? if diffuse
+// The mean normal's dot product is the mean of the facets' own while all of them face the light.
+vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
+  float size = length(e.mean);
+  vec3 n = size > 1e-6 ? e.mean / size : vec3(0.0, 0.0, 1.0);
+  return lambert(n, albedo, f0, wi, wo) * min(size, 1.0);
+}
+//? end
+
+float ndf(Effective e, vec3 h) { return sumOfPeaks(e, h, false, h, h); }

@@ -1,0 +1,179 @@
+// See peak_chain.hpp.
+#include "methods/fournier/peak_chain.hpp"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "methods/fournier/normal_bins.hpp"
+#include "methods/fournier/peak_fit.hpp"
+#include "renderer/image/mipmap.hpp"
+
+namespace footprint::fournier {
+namespace {
+
+constexpr int channels = 4;
+constexpr float shortest_normal = 1e-3F;
+constexpr std::size_t texels_per_report = 256;
+
+void store(const Peak& peak, std::span<float> texel) {
+  const Eigen::Vector2d place = disc_from_direction(peak.axis);
+  texel[0] = static_cast<float>(place.x());
+  texel[1] = static_cast<float>(place.y());
+  texel[2] = static_cast<float>(std::sqrt(peak.spread));
+  texel[3] = static_cast<float>(peak.weight);
+}
+
+Peak stored(std::span<const float> texel) {
+  const double deviation = texel[2];
+  return {texel[3], direction_from_disc({texel[0], texel[1]}), deviation * deviation};
+}
+
+// What one texel's fit came to.
+struct Outcome {
+  bool fitted = false;
+  bool converged = true;
+  double error = 0.0;
+};
+
+class ChainBuilder {
+ public:
+  ChainBuilder(const Image& normals, double base_variance, std::size_t count, const Progress& progress)
+      : base_variance_(base_variance), cells_(base_variance), count_(count), progress_(&progress) {
+    chain_.rest.resize(std::max<std::size_t>(count, 2) - 1);
+    add_finest_level(normals);
+  }
+
+  PeakChain build() {
+    while (chain_.first.back().texel_count() > 1) add_level();
+    if (chain_.first.size() == 1)
+      for (std::vector<Image>& layer : chain_.rest) layer.emplace_back(1, 1, channels);
+    if (fitted_area_ > 0.0) chain_.statistics.mean_error = error_by_area_ / fitted_area_;
+    return std::move(chain_);
+  }
+
+ private:
+  void add_finest_level(const Image& normals) {
+    Image& level = chain_.first.emplace_back(normals.width, normals.height, channels);
+    for (std::size_t i = 0; i < level.texels.size(); i += channels) {
+      const Eigen::Vector3d normal = Eigen::Map<const Eigen::Vector3f>(&normals.texels[i]).cast<double>();
+      const bool is_valid = normals.texels[i + 3] > 0.0F && normal.norm() >= shortest_normal;
+      if (is_valid) store({1.0, normal.normalized(), 0.0}, std::span(level.texels).subspan(i, channels));
+    }
+    levels_ = mip_level_count(normals.width, normals.height);
+  }
+
+  void add_level() {
+    const Image& fine = chain_.first.back();
+    Image coarse(std::max(fine.width / 2, 1), std::max(fine.height / 2, 1), channels);
+    for (std::vector<Image>& layer : chain_.rest) layer.emplace_back(coarse.width, coarse.height, channels);
+    std::vector<NormalBins> bins(coarse.texel_count());
+    std::vector<Outcome> outcomes(coarse.texel_count());
+    const std::string what = fmt::format("fitting peaks of {}x{} texels", coarse.width, coarse.height);
+    for (std::size_t begin = 0; begin < bins.size(); begin += texels_per_report) {
+      const double part = static_cast<double>(begin) / static_cast<double>(bins.size());
+      (*progress_)(what, (static_cast<double>(chain_.first.size() - 1) + part) / levels_);
+      const std::size_t end = std::min(begin + texels_per_report, bins.size());
+      tbb::parallel_for(begin, end, [&](std::size_t i) { outcomes[i] = make_texel(i, coarse, bins[i]); });
+    }
+    count_outcomes(outcomes);
+    chain_.first.push_back(std::move(coarse));
+    bins_ = std::move(bins);
+  }
+
+  // Texel i of the next level.
+  Outcome make_texel(std::size_t i, Image& coarse, NormalBins& bins) {
+    const auto width = static_cast<std::size_t>(coarse.width);
+    const int x = static_cast<int>(i % width);
+    const int y = static_cast<int>(i / width);
+    std::vector<Moments> children;
+    gather(x, y, children, bins);
+    unite_cells(bins);
+    Outcome outcome;
+    std::vector<Peak> peaks = target_of(bins);
+    if (peaks.size() > count_) {
+      Fit fit = fit_peaks(peaks, merged_peaks(std::move(children), count_), base_variance_);
+      outcome = {.fitted = true, .converged = fit.converged, .error = fit.error};
+      peaks = std::move(fit.peaks);
+    } else {
+      std::ranges::stable_sort(peaks, std::greater{}, &Peak::weight);
+    }
+    for (std::size_t k = 0; k < peaks.size(); ++k)
+      store(peaks[k], k == 0 ? coarse.at(x, y) : chain_.rest[k - 1].back().at(x, y));
+    return outcome;
+  }
+
+  // The peaks and bins of the finer level under texel (x, y), by the area that they have in it.
+  void gather(int x, int y, std::vector<Moments>& children, NormalBins& bins) const {
+    const Image& fine = chain_.first.back();
+    const MipTaps across = mip_taps(fine.width, x);
+    const MipTaps down = mip_taps(fine.height, y);
+    for (int j = 0; j < down.count; ++j) {
+      for (int i = 0; i < across.count; ++i) {
+        const double share = across.weight[static_cast<std::size_t>(i)] * down.weight[static_cast<std::size_t>(j)];
+        add_peaks(across.first + i, down.first + j, share, children);
+        add_bins(across.first + i, down.first + j, share, bins);
+      }
+    }
+  }
+
+  void add_peaks(int x, int y, double share, std::vector<Moments>& children) const {
+    const auto add = [&](std::span<const float> texel) {
+      Moments scaled;
+      scaled.add(moments_of(stored(texel)), share);
+      children.push_back(scaled);
+    };
+    add(chain_.first.back().at(x, y));
+    if (chain_.first.size() == 1) return;
+    const std::size_t level = chain_.first.size() - 2;
+    for (const std::vector<Image>& layer : chain_.rest) add(layer[level].at(x, y));
+  }
+
+  void add_bins(int x, int y, double share, NormalBins& bins) const {
+    const Image& fine = chain_.first.back();
+    if (bins_.empty()) {  // the finest level: each texel is one normal
+      const Peak peak = stored(fine.at(x, y));
+      if (peak.weight > 0.0) bins.push_back({cells_.cell_of(peak.axis), {share, share * peak.axis}});
+      return;
+    }
+    const auto index = static_cast<std::size_t>(y) * static_cast<std::size_t>(fine.width) + static_cast<std::size_t>(x);
+    for (const NormalBin& bin : bins_[index]) {
+      NormalBin& added = bins.emplace_back();
+      added.cell = bin.cell;
+      added.moments.add(bin.moments, share);
+    }
+  }
+
+  void count_outcomes(const std::vector<Outcome>& outcomes) {
+    const double area = 1.0 / static_cast<double>(outcomes.size());
+    for (const Outcome& outcome : outcomes) {
+      if (!outcome.fitted) continue;
+      ++chain_.statistics.fits;
+      chain_.statistics.not_converged += outcome.converged ? 0 : 1;
+      fitted_area_ += area;
+      error_by_area_ += area * outcome.error;
+    }
+  }
+
+  double base_variance_;
+  NormalCells cells_;
+  std::size_t count_;
+  const Progress* progress_;
+  int levels_ = 1;
+  PeakChain chain_;
+  std::vector<NormalBins> bins_;  // of the level that is done last; empty for the finest
+  double fitted_area_ = 0.0;
+  double error_by_area_ = 0.0;
+};
+
+}  // namespace
+
+PeakChain fit_peak_chain(const Image& normals, double base_variance, std::size_t count, const Progress& progress) {
+  return ChainBuilder(normals, base_variance, count, progress).build();
+}
+
+}  // namespace footprint::fournier

@@ -1,0 +1,269 @@
+// See peak_fit.hpp.
+//
+// The residual, peaks minus target, is a function on the sphere, and so are its derivatives J by the parameters. What
+// Levenberg-Marquardt needs of them are inner products: G = J^T J, c = J^T r and Q = |r|^2, which are sums of products
+// of lobes in closed form; no direction is sampled, and lobes may be as narrow as they like. The library takes a matrix
+// and a vector. Any isometry of the residual's space leaves its steps as they are, so it is handed the coordinates in
+// an orthonormal basis of the span of J, L^T of G = L L^T and L^{-1} c, and the length of what lies outside of that
+// span.
+#include "methods/fournier/peak_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <unsupported/Eigen/LevenbergMarquardt>
+
+#include "methods/fournier/lobe_products.hpp"
+
+namespace footprint::fournier {
+namespace {
+
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+
+constexpr int parameters_per_peak = 4;      // root of the weight, deviation, two of the axis
+constexpr double smallest_variance = 5e-7;  // the narrowest lobe of the shaders
+constexpr double largest_variance = 100.0;  // wider ones differ from the uniform one by 1%
+constexpr double ridge = 1e-10;             // relative; keeps G's factor where peaks coincide or have no weight
+constexpr double negligible = 1e-6;         // of Q over the target's norm: an error of a thousandth is none
+constexpr double least_deviation = 0.05;    // of the base lobe's: at 0 the derivative is 0 and a peak could not widen
+constexpr double tolerance = 1e-3;          // relative change of Q, or of the parameters, at which a fit has converged
+constexpr int most_evaluations = 100;
+
+double bounded(double variance) { return std::clamp(variance, smallest_variance, largest_variance); }
+
+Lobe lobe_of(const Peak& peak, double base_variance) {
+  Lobe lobe;
+  lobe.axis = peak.axis;
+  lobe.kappa = 1.0 / bounded(base_variance + peak.spread);
+  return lobe;
+}
+
+// Two unit vectors across an axis.
+std::pair<Eigen::Vector3d, Eigen::Vector3d> tangents(const Eigen::Vector3d& axis) {
+  const Eigen::Vector3d s = axis.unitOrthogonal();
+  return {s, axis.cross(s)};
+}
+
+// Q of given lobes and its derivatives, by the parameters of `Objective::peaks_at`.
+struct Evaluation {
+  double q = 0.0;
+  Vector gradient;  // c
+  Matrix gram;      // G
+};
+
+// Everything at a point of parameter space.
+struct Point {
+  Vector weights;     // sum to one
+  Vector roots;       // weights = roots^2 / sum roots^2
+  Vector deviations;  // spread = deviation^2
+  std::vector<Lobe> lobes;
+};
+
+// Q as a function of the parameters. Weights are relative to the target's whole weight.
+class Objective {
+ public:
+  Objective(std::span<const Peak> target, std::span<const Peak> start, double base_variance)
+      : base_variance_(bounded(base_variance)) {
+    for (const Peak& peak : target) total_ += peak.weight;
+    for (const Peak& peak : target) {
+      target_.push_back(lobe_of(peak, base_variance_));
+      target_weights_.push_back(peak.weight / total_);
+    }
+    for (const Peak& peak : start) {
+      centres_.push_back(peak.axis);
+      tangents_.push_back(tangents(peak.axis));
+    }
+    target_norm_ = norm_of_target();
+  }
+
+  [[nodiscard]] Eigen::Index size() const { return parameters_per_peak * static_cast<Eigen::Index>(centres_.size()); }
+  [[nodiscard]] double target_norm() const { return target_norm_; }
+
+  [[nodiscard]] Vector parameters_of(std::span<const Peak> peaks) const {
+    Vector x(size());
+    const double least = least_deviation * std::sqrt(base_variance_);
+    for (std::size_t i = 0; i < peaks.size(); ++i) {
+      const double deviation = std::max(std::sqrt(peaks[i].spread), least);
+      x.segment<parameters_per_peak>(first(i)) << std::sqrt(peaks[i].weight / total_), deviation, 0.0, 0.0;
+    }
+    return x;
+  }
+
+  [[nodiscard]] std::vector<Peak> peaks_at(const Vector& x) const {
+    const Point point = point_at(x);
+    std::vector<Peak> peaks;
+    for (std::size_t i = 0; i < point.lobes.size(); ++i) {
+      const auto index = static_cast<Eigen::Index>(i);
+      const double deviation = point.deviations[index];
+      peaks.push_back(
+          {total_ * point.weights[index], point.lobes[i].axis, std::min(deviation * deviation, largest_spread)});
+    }
+    std::ranges::stable_sort(peaks, std::greater{}, &Peak::weight);
+    return peaks;
+  }
+
+  [[nodiscard]] Evaluation evaluate(const Vector& x) const {
+    const Point point = point_at(x);
+    const Matrix products = products_of_peaks(point);
+    const Vector with_target = products_with_target(point);
+    const Matrix chain = chain_rule(point);
+    Vector amplitudes = Vector::Zero(size());
+    for (std::size_t i = 0; i < point.lobes.size(); ++i)
+      amplitudes[first(i)] = point.weights[static_cast<Eigen::Index>(i)];
+    const Vector residual = products * amplitudes - with_target;
+    return {.q = std::max(amplitudes.dot(residual) - amplitudes.dot(with_target) + target_norm_, 0.0),
+            .gradient = chain * residual,
+            .gram = chain * products * chain.transpose()};
+  }
+
+ private:
+  static Eigen::Index first(std::size_t i) { return parameters_per_peak * static_cast<Eigen::Index>(i); }
+
+  [[nodiscard]] double norm_of_target() const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < target_.size(); ++i) {
+      double row = 0.5 * target_weights_[i] * product(target_[i], target_[i]);
+      for (std::size_t j = 0; j < i; ++j) row += target_weights_[j] * product(target_[i], target_[j]);
+      sum += 2.0 * target_weights_[i] * row;
+    }
+    return sum;
+  }
+
+  [[nodiscard]] Point point_at(const Vector& x) const {
+    const auto count = static_cast<Eigen::Index>(centres_.size());
+    const Eigen::Map<const Vector, 0, Eigen::InnerStride<parameters_per_peak>> roots(x.data(), count);
+    const Eigen::Map<const Vector, 0, Eigen::InnerStride<parameters_per_peak>> deviations(x.data() + 1, count);
+    Point point{.weights = roots.cwiseAbs2() / std::max(roots.squaredNorm(), 1e-300),
+                .roots = roots,
+                .deviations = deviations,
+                .lobes = {}};
+    for (std::size_t i = 0; i < centres_.size(); ++i) {
+      const auto& [s, t] = tangents_[i];
+      const Eigen::Vector3d off = centres_[i] + x[first(i) + 2] * s + x[first(i) + 3] * t;
+      const double length = off.norm();
+      const Eigen::Vector3d axis = off / length;
+      const double deviation = x[first(i) + 1];
+      point.lobes.push_back({.axis = axis,
+                             .kappa = 1.0 / bounded(base_variance_ + deviation * deviation),
+                             .axis_by_s = (s - axis * axis.dot(s)) / length,
+                             .axis_by_t = (t - axis * axis.dot(t)) / length});
+    }
+    return point;
+  }
+
+  // Products of each lobe and its derivatives with those of each other, 4 x 4 blocks.
+  [[nodiscard]] Matrix products_of_peaks(const Point& point) const {
+    Matrix products(size(), size());
+    for (std::size_t i = 0; i < point.lobes.size(); ++i) {
+      for (std::size_t j = 0; j <= i; ++j) {
+        const Eigen::Matrix4d block = products_of_derivatives(point.lobes[i], point.lobes[j]);
+        products.block<4, 4>(first(i), first(j)) = block;
+        products.block<4, 4>(first(j), first(i)) = block.transpose();
+      }
+    }
+    return products;
+  }
+
+  [[nodiscard]] Vector products_with_target(const Point& point) const {
+    Vector products = Vector::Zero(size());
+    for (std::size_t i = 0; i < point.lobes.size(); ++i) {
+      for (std::size_t j = 0; j < target_.size(); ++j)
+        products.segment<4>(first(i)) += target_weights_[j] * products_with_derivatives(point.lobes[i], target_[j]);
+    }
+    return products;
+  }
+
+  // The derivatives of sum_i w_i L_i by the parameters (rows) over the lobes and their own derivatives (columns).
+  [[nodiscard]] Matrix chain_rule(const Point& point) const {
+    Matrix chain = Matrix::Zero(size(), size());
+    const double sum = std::max(point.roots.squaredNorm(), 1e-300);
+    for (std::size_t i = 0; i < point.lobes.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      const double by_root = 2.0 * point.roots[row] / sum;
+      for (std::size_t k = 0; k < point.lobes.size(); ++k) {
+        const double weight = point.weights[static_cast<Eigen::Index>(k)];
+        chain(first(i), first(k)) = by_root * ((i == k ? 1.0 : 0.0) - weight);
+      }
+      const double kappa = point.lobes[i].kappa;
+      const double deviation = point.deviations[row];
+      const bool is_free = base_variance_ + deviation * deviation < largest_variance;
+      chain(first(i) + 1, first(i) + 1) = is_free ? point.weights[row] * -2.0 * deviation * kappa * kappa : 0.0;
+      chain(first(i) + 2, first(i) + 2) = chain(first(i) + 3, first(i) + 3) = point.weights[row];
+    }
+    return chain;
+  }
+
+  double base_variance_;
+  double total_ = 0.0;
+  std::vector<Lobe> target_;
+  std::vector<double> target_weights_;
+  std::vector<Eigen::Vector3d> centres_;
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> tangents_;
+  double target_norm_ = 0.0;
+};
+
+// What Eigen's Levenberg-Marquardt minimises: see the top of this file.
+class Residual : public Eigen::DenseFunctor<double> {
+ public:
+  explicit Residual(const Objective& objective)
+      : DenseFunctor(static_cast<int>(objective.size()), static_cast<int>(objective.size()) + 1),
+        objective_(&objective) {}
+
+  int operator()(const Vector& x, Vector& residual) {
+    const Evaluation at = objective_->evaluate(x);
+    const Vector scale = at.gram.diagonal().cwiseMax(1e-300).cwiseSqrt();
+    Matrix scaled = scale.cwiseInverse().asDiagonal() * at.gram * scale.cwiseInverse().asDiagonal();
+    scaled.diagonal().setConstant(1.0 + ridge);
+    const Eigen::LLT<Matrix> factor(scaled);
+    if (factor.info() != Eigen::Success) return -1;
+    const Eigen::Index n = objective_->size();
+    jacobian_.setZero(n + 1, n);
+    jacobian_.topRows(n) = factor.matrixU() * Matrix(scale.asDiagonal());
+    residual.resize(n + 1);
+    residual.head(n) = factor.matrixL().solve(at.gradient.cwiseQuotient(scale));
+    residual[n] =
+        std::sqrt(std::max(at.q - residual.head(n).squaredNorm(), 0.0) + negligible * objective_->target_norm());
+    x_ = x;
+    return 0;
+  }
+
+  // The library asks for the derivatives at a point it has taken, which may not be the last that it tried.
+  int df(const Vector& x, Matrix& jacobian) {
+    if (x_.size() != x.size() || x_ != x) {
+      Vector residual;
+      if ((*this)(x, residual) < 0) return -1;
+    }
+    jacobian = jacobian_;
+    return 0;
+  }
+
+ private:
+  const Objective* objective_;
+  Vector x_;
+  Matrix jacobian_;
+};
+
+}  // namespace
+
+Fit fit_peaks(std::span<const Peak> target, std::span<const Peak> start, double base_variance) {
+  const Objective objective(target, start, base_variance);
+  const auto relative_error = [&](double q) { return std::sqrt(q / objective.target_norm()); };
+  Vector x = objective.parameters_of(start);
+  Fit fit;
+  fit.start_error = relative_error(objective.evaluate(x).q);
+  Residual residual(objective);
+  Eigen::LevenbergMarquardt<Residual> solver(residual);
+  solver.setFtol(tolerance);
+  solver.setXtol(tolerance);
+  solver.setMaxfev(most_evaluations);
+  const Eigen::LevenbergMarquardtSpace::Status status = solver.minimize(x);
+  using enum Eigen::LevenbergMarquardtSpace::Status;
+  fit.converged = status != TooManyFunctionEvaluation && status != UserAsked && status != ImproperInputParameters;
+  fit.peaks = objective.peaks_at(x);
+  fit.error = relative_error(objective.evaluate(x).q);
+  return fit;
+}
+
+}  // namespace footprint::fournier

@@ -1,0 +1,28 @@
+// The least-squares fit of peaks to a distribution of normals.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "methods/fournier/peaks.hpp"
+
+namespace footprint::fournier {
+
+/// The outcome of one fit. Errors are L2 distances over the sphere between the peaks and the target, relative to the
+/// target's own norm.
+struct Fit {
+  std::vector<Peak> peaks;  ///< weights sum to the target's; heaviest first
+  double start_error = 0.0;
+  double error = 0.0;  ///< never above start_error
+  bool converged = true;
+};
+
+/// Moves `start` to the nearest minimum of
+///   Q = integral over the sphere of (sum_i w_i L(n_i, base_variance + spread_i) - T)^2,
+///   T = sum_j b_j L(m_j, base_variance + spread_j),  w_i >= 0, sum w_i = sum b_j, spread_i >= 0,
+/// where L(n, v) is the von Mises-Fisher lobe of unit energy and kappa = 1/v, the Blinn-Phong lobe of exponent 1/v to
+/// O(v) (for Beckmann and GGX the lobe of the same slope variance). Levenberg-Marquardt over all w, n and spread at
+/// once. Neither may be empty; base_variance > 0.
+[[nodiscard]] Fit fit_peaks(std::span<const Peak> target, std::span<const Peak> start, double base_variance);
+
+}  // namespace footprint::fournier

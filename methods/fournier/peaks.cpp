@@ -1,0 +1,90 @@
+// See peaks.hpp.
+#include "methods/fournier/peaks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace footprint::fournier {
+namespace {
+
+// What the union of two sets adds to the variance about the means, from the difference of the means: it does not
+// cancel.
+double cost_of_union(const Moments& a, const Moments& b) {
+  const double shared = a.weight * b.weight / (a.weight + b.weight);
+  return shared * (a.sum / a.weight - b.sum / b.weight).squaredNorm();
+}
+
+struct Partner {
+  double cost = std::numeric_limits<double>::infinity();
+  std::size_t index = 0;
+};
+
+// The cheapest partner of set i among those after it.
+Partner cheapest_after(const std::vector<Moments>& sets, std::size_t i) {
+  Partner best;
+  for (std::size_t j = i + 1; j < sets.size(); ++j) {
+    if (sets[j].weight <= 0.0) continue;
+    const double cost = cost_of_union(sets[i], sets[j]);
+    if (cost < best.cost) best = {cost, j};
+  }
+  return best;
+}
+
+// Makes one set of the cheapest pair, leaves the other at weight 0, and mends the partners of those before them.
+void merge_cheapest_pair(std::vector<Moments>& sets, std::vector<Partner>& partners) {
+  const auto i = static_cast<std::size_t>(std::ranges::min_element(partners, {}, &Partner::cost) - partners.begin());
+  const std::size_t gone = partners[i].index;
+  sets[i].add(sets[gone]);
+  sets[gone] = {};
+  partners[gone] = {};
+  for (std::size_t k = 0; k < gone; ++k) {
+    if (sets[k].weight <= 0.0) continue;
+    if (k == i || partners[k].index == i || partners[k].index == gone) {
+      partners[k] = cheapest_after(sets, k);
+    } else if (k < i) {
+      const double cost = cost_of_union(sets[k], sets[i]);
+      if (cost < partners[k].cost) partners[k] = {cost, i};
+    }
+  }
+}
+
+}  // namespace
+
+Moments moments_of(const Peak& peak) { return {peak.weight, peak.axis * (peak.weight / (1.0 + peak.spread))}; }
+
+Peak peak_of(const Moments& moments) {
+  const double length = moments.sum.norm();
+  if (length * (1.0 + largest_spread) <= moments.weight) return {moments.weight, {0.0, 0.0, 1.0}, largest_spread};
+  return {moments.weight, moments.sum / length, std::max(moments.weight - length, 0.0) / length};
+}
+
+std::vector<Peak> merged_peaks(std::vector<Moments> sets, std::size_t count) {
+  const auto is_empty = [](const Moments& set) { return set.weight <= 0.0; };
+  std::erase_if(sets, is_empty);
+  if (sets.size() > count) {
+    std::vector<Partner> partners;
+    for (std::size_t i = 0; i < sets.size(); ++i) partners.push_back(cheapest_after(sets, i));
+    for (std::size_t left = sets.size(); left > count; --left) merge_cheapest_pair(sets, partners);
+    std::erase_if(sets, is_empty);
+  }
+  std::vector<Peak> peaks;
+  peaks.reserve(sets.size());
+  for (const Moments& set : sets) peaks.push_back(peak_of(set));
+  std::ranges::stable_sort(peaks, std::greater{}, &Peak::weight);
+  return peaks;
+}
+
+Eigen::Vector2d disc_from_direction(const Eigen::Vector3d& direction) {
+  const double below = 1.0 + direction.z();
+  if (below < 1e-12) return {2.0, 0.0};
+  return direction.head<2>() * std::sqrt(2.0 / below);
+}
+
+Eigen::Vector3d direction_from_disc(const Eigen::Vector2d& point) {
+  const double quarter = std::min(0.25 * point.squaredNorm(), 1.0);
+  const double scale = std::sqrt(1.0 - quarter);
+  return {point.x() * scale, point.y() * scale, 1.0 - 2.0 * quarter};
+}
+
+}  // namespace footprint::fournier

@@ -1,0 +1,52 @@
+// `leadr`: the moments of slope as one off-centre anisotropic lobe, with masking and shadowing by the same slopes.
+// Dupuy et al. 2013, "Linear Efficient Antialiased Displacement and Reflectance Mapping".
+#include "renderer/pipeline/slope_moments.hpp"
+
+#include "renderer/pipeline/method.hpp"
+
+namespace footprint {
+
+namespace embedded {
+extern const std::string_view leadr_glsl;
+}
+
+namespace {
+
+class Leadr final : public Method {
+ public:
+  [[nodiscard]] const MethodInfo& info() const override { return info_; }
+
+  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                                       const Progress& /*progress*/) const override {
+    return bake_slopes(material, options, effects, SlopeVariant::full);
+  }
+
+  [[nodiscard]] std::string_view shader() const override { return embedded::leadr_glsl; }
+
+ private:
+  MethodInfo info_{.name = "leadr",
+                   .summary = "The lobe of the footprint's slopes, masked and shadowed by those slopes.",
+                   .paper =
+                       "Dupuy et al. 2013, Linear Efficient Antialiased Displacement and Reflectance Mapping, "
+                       "ACM TOG 32(6)",
+                   .options = {slope_storage_option(),
+                               slope_roughness_option(),
+                               {.name = "weighting",
+                                .default_value = std::string("bump"),
+                                .minimum = 0,
+                                .maximum = 0,
+                                .choices = {"bump", "displacement"},
+                                .meaning = "What a texel counts for: all the same, as in a normal map, or its true and "
+                                           "visible area, as on a displaced surface.",
+                                .integer = false}},
+                   .honours = EffectSet{}.set()};
+};
+
+}  // namespace
+
+const Method& leadr_method() {
+  static const Leadr method;
+  return method;
+}
+
+}  // namespace footprint

@@ -1,0 +1,151 @@
+// Dupuy et al. 2013 (LEADR): the footprint's slopes as one off-centre lobe, and the masking, shadowing and diffuse
+// reflection of a surface that has those slopes.
+//? include common_slopes.glsl
+
+//? if masking_shadowing
+//? if geometry_smith
+#define OWN_SMITH
+//? end
+//? end
+//? if weighting_displacement
+#define DISPLACED
+//? end
+
+#if defined(OWN_SMITH) || defined(DISPLACED)
+//? include beckmann_lambda.glsl
+#endif
+
+struct Effective {
+  SlopeLobe lobe;
+  float round_lobe;  // parameter of the round base lobe of the same breadth, for terms other than Smith's
+//? if diffuse
+  mat2 root;  // of the covariance, symmetric
+//? end
+};
+
+Effective effective(Footprints f) {
+  Effective e;
+  e.lobe = footprintLobe(f);
+  e.round_lobe = lobeFromVariance(e.lobe.breadth);
+//? if diffuse
+  mat2 c = e.lobe.spread;
+  float s = sqrt(determinantOfCovariance(c));
+  e.root = (c + mat2(s)) / max(sqrt(c[0][0] + c[1][1] + 2.0 * s), 1e-12);
+//? end
+  return e;
+}
+
+// (w.n) / n_z of the mean slope: the area of the mean surface seen along w, per area of the plane.
+float meanProjectedArea(SlopeLobe lobe, vec3 w) { return max(dot(lobe.axis, w), 1e-4) * lobe.secant; }
+
+#if defined(OWN_SMITH) || defined(DISPLACED)
+// Smith's Lambda of slopes whose component towards w has a mean and a variance: it depends on
+// a = (cot + mean) / (sqrt(2) deviation) alone (Dupuy 2013, section 4). Both are taken times the sine, which may be 0.
+float offCentreLambda(float projected_area, float variance) {
+  float inverse_a2 = 2.0 * variance / (projected_area * projected_area);
+//? if distribution_ggx
+//? if roughness_stretched
+  // The same a of an elliptical GGX (Heitz 2014, equation 72), in the form that does not cancel.
+  return 0.5 * inverse_a2 / (1.0 + sqrt(1.0 + inverse_a2));
+//? else
+  return beckmannLambda(1.0 / max(sqrt(inverse_a2), 1e-6));
+//? end
+//? else
+  return beckmannLambda(1.0 / max(sqrt(inverse_a2), 1e-6));
+//? end
+}
+
+// Of the texels' slopes alone.
+float spreadLambda(SlopeLobe lobe, vec3 w) {
+  return offCentreLambda(meanProjectedArea(lobe, w), max(dot(w.xy, lobe.spread * w.xy), 0.0));
+}
+#endif
+
+#ifdef OWN_SMITH
+// Of the texels' slopes and the base lobe's. A stretched base lobe stands on the mean normal, where 1 / a^2 is
+// 2 v tan^2: that share makes it so, and a flat map has the base BRDF's own Lambda whatever its tilt.
+float lobeLambda(SlopeLobe lobe, vec3 w) {
+//? if roughness_stretched
+  vec3 sine = lobe.secant * cross(lobe.axis, w);
+  float base = lobe.base * dot(sine, sine);
+//? else
+  float base = lobe.base * dot(w.xy, w.xy);
+//? end
+  return offCentreLambda(meanProjectedArea(lobe, w), max(dot(w.xy, lobe.spread * w.xy), 0.0) + base);
+}
+#endif
+
+#ifdef DISPLACED
+// The mean normal of the texels that reflect about h: of two independent Gaussian parts of a slope, texel's and base
+// lobe's, the texel's given their sum.
+vec3 texelNormal(SlopeLobe lobe, vec3 h) {
+  vec2 offset = -h.xy / max(h.z, smallest_slope_cosine) - lobe.mean;
+//? if roughness_stretched
+  return normalOfSlope(lobe.mean + offset - lobe.shape * (lobe.shape * offset));  // 1 - W (S + W)^-1 = 1 - shape^2
+//? else
+  return normalOfSlope(lobe.mean + lobe.spread * (lobe.shape * offset));
+//? end
+}
+#endif
+
+// Bump: every texel weighs the same. Displacement: a texel weighs by its true area 1 / n_z, relative to the mean's.
+float ndf(Effective e, vec3 h) {
+#ifdef DISPLACED
+  return slopeDensity(e.lobe, h) * e.lobe.axis.z / texelNormal(e.lobe, h).z;
+#else
+  return slopeDensity(e.lobe, h);
+#endif
+}
+
+// What stands beside F D in f * cos.
+float factor(Effective e, vec3 h, vec3 wi, vec3 wo) {
+#ifdef OWN_SMITH
+  // G2 / (4 n.v), height-correlated. A displaced texel's visible area (n.v) cancels against its own 1 / (n.v), and the
+  // mean's stays.
+  if (dot(e.lobe.axis, wi) <= 0.0) return 0.0;
+  return 0.25 / ((1.0 + lobeLambda(e.lobe, wo) + lobeLambda(e.lobe, wi)) * max(dot(e.lobe.axis, wo), 1e-4));
+#else
+#ifdef DISPLACED
+  // The base BRDF has no masking, but a displaced texel counts by its visible area.
+  vec3 n = texelNormal(e.lobe, h);
+  float visible = max(dot(n, wo), 0.0) / (meanProjectedArea(e.lobe, wo) * (1.0 + spreadLambda(e.lobe, wo)));
+  return visible * e.lobe.secant * geometryFactor(e.round_lobe, n, h, wi, wo);
+#else
+  return geometryFactor(e.round_lobe, e.lobe.axis, h, wi, wo);
+#endif
+#endif
+}
+
+vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
+  if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
+  vec3 h = halfVector(wi, wo);
+  return fresnelTerm(f0, wi, wo) * (ndf(e, h) * factor(e, h, wi, wo));
+}
+
+//? if diffuse
+// The mean of max(n.l, 0) over the texels, by 3 x 3 points of Gauss and Hermite (exact to degree 5 in the slopes);
+// displaced texels weigh by their visible area, and those that see the viewer may be in shadow.
+vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
+  float lit = 0.0;
+  float seen = 0.0;
+  for (int i = -1; i <= 1; ++i) {
+    for (int j = -1; j <= 1; ++j) {
+      vec3 n = normalOfSlope(e.lobe.mean + e.root * (1.7320508 * vec2(i, j)));
+      float weight = (i == 0 ? 4.0 : 1.0) * (j == 0 ? 4.0 : 1.0);
+#ifdef DISPLACED
+      weight *= max(dot(n, wo), 0.0) / n.z;
+#endif
+      lit += weight * max(dot(n, wi), 0.0);
+      seen += weight;
+    }
+  }
+  float mean = lit / max(seen, 1e-6);
+#ifdef OWN_SMITH
+#ifdef DISPLACED
+  float masked = 1.0 + spreadLambda(e.lobe, wo);
+  mean *= masked / (masked + spreadLambda(e.lobe, wi));
+#endif
+#endif
+  return lambert(mean * wi, albedo, f0, wi, wo);
+}
+//? end

@@ -1,0 +1,258 @@
+// See footprint_texels.hpp.
+#include "renderer/ndf/footprint_texels.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <tuple>
+#include <utility>
+
+#include "renderer/core/error.hpp"
+#include "renderer/core/memory.hpp"
+#include "renderer/pipeline/base_surface.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr double shortest_normal = 1e-3;  // as the loader of normal maps has it
+
+// A stretch of one axis over which both maps stay in one texel.
+struct Stretch {
+  int normal = 0, roughness = 0;  // column or row of each map
+  double length = 0.0;            // in maps
+};
+
+// One axis of a map: its texels, how it wraps, and where a coordinate of the normal map lies on it.
+struct Axis {
+  int size = 1;
+  Wrap wrap = Wrap::repeat;
+  double scale = 1.0, offset = 0.0;
+
+  [[nodiscard]] double texel_at(double u) const { return (scale * u + offset) * size; }
+  [[nodiscard]] int index(double u) const {
+    const double texel = std::floor(texel_at(u));
+    const double period = texel - size * std::floor(texel / size);
+    switch (wrap) {
+      case Wrap::repeat:
+        return static_cast<int>(period);
+      case Wrap::mirrored_repeat: {
+        const bool mirrored = std::fmod(std::abs(std::floor(texel / size)), 2.0) == 1.0;
+        return mirrored ? size - 1 - static_cast<int>(period) : static_cast<int>(period);
+      }
+      case Wrap::clamp_to_edge:
+        break;
+    }
+    return static_cast<int>(std::clamp(texel, 0.0, static_cast<double>(size - 1)));
+  }
+  // The coordinates of the normal map at which this map's texels end, between two such.
+  void add_borders(double lower, double upper, std::vector<double>& borders) const {
+    if (scale == 0.0) return;
+    const auto [first, last] = std::minmax({texel_at(lower), texel_at(upper)});
+    for (double k = std::ceil(first); k <= last; k += 1.0) borders.push_back((k / size - offset) / scale);
+  }
+};
+
+std::vector<Stretch> stretches(const Axis& normal, const Axis& roughness, double lower, double upper) {
+  std::vector<double> borders{lower, upper};
+  normal.add_borders(lower, upper, borders);
+  roughness.add_borders(lower, upper, borders);
+  std::ranges::sort(borders);
+  std::map<std::pair<int, int>, double> lengths;
+  for (std::size_t i = 1; i < borders.size(); ++i) {
+    const double from = std::max(borders[i - 1], lower);
+    const double to = std::min(borders[i], upper);
+    if (!(to > from)) continue;
+    const double middle = 0.5 * (from + to);
+    lengths[{normal.index(middle), roughness.index(middle)}] += to - from;
+  }
+  std::vector<Stretch> out;
+  for (const auto& [texels, length] : lengths) out.push_back({texels.first, texels.second, length});
+  return out;
+}
+
+// From coordinates of the normal map to those of the roughness map: a scale and an offset per axis.
+struct Alignment {
+  glm::dvec2 scale{0.0}, offset{0.0};
+};
+
+bool roughness_is_mapped(const Material& material) {
+  return material.metallic_roughness_map && !material.lobe_parameter;
+}
+
+glm::dmat3 as_matrix(const glm::mat3x2& transform) {
+  return {glm::dvec3(glm::dvec2(transform[0]), 0.0), glm::dvec3(glm::dvec2(transform[1]), 0.0),
+          glm::dvec3(glm::dvec2(transform[2]), 1.0)};
+}
+
+Alignment alignment(const Material& material) {
+  if (!roughness_is_mapped(material)) return {};
+  const TextureCoordinates normal = normal_coordinates(material);
+  const TextureCoordinates roughness = roughness_coordinates(material);
+  const auto refuse = [&](const std::string& message) {
+    return Error(ErrorKind::usage, fmt::format("material {}", material.name), message,
+                 "give --lobe, which takes the place of the roughness map");
+  };
+  if (material.normal_map && normal.set != roughness.set) {
+    throw refuse("its normal and roughness maps use different texture coordinates");
+  }
+  const glm::dmat3 from_normal = material.normal_map ? as_matrix(normal.transform) : as_matrix(roughness.transform);
+  const glm::dmat3 relation = as_matrix(roughness.transform) * glm::inverse(from_normal);
+  const double turned = std::abs(relation[0][1]) + std::abs(relation[1][0]);
+  if (!(turned < 1e-6 * (std::abs(relation[0][0]) + std::abs(relation[1][1])))) {
+    throw refuse("its roughness map is turned against its normal map");
+  }
+  return {{relation[0][0], relation[1][1]}, glm::dvec2(relation[2])};
+}
+
+// The maps of a material, looked at as facets.
+class Facets {
+ public:
+  explicit Facets(const Material& material)
+      : distribution_(material.brdf.distribution),
+        normals_(material.normal_map ? material.normal_map->image
+                                     : std::make_shared<const Image>(normal_map_of(material))),
+        roughness_(roughness_map_of(material)),
+        parameter_(lobe_parameter(material)),
+        mapped_(roughness_is_mapped(material)) {}
+
+  [[nodiscard]] const Image& normals() const { return *normals_; }
+  [[nodiscard]] const Image& roughness() const { return roughness_; }
+
+  /// No share where the texel has no normal.
+  [[nodiscard]] WeightedFacet facet(const Stretch& column, const Stretch& row, double area) const {
+    const auto texel = normals_->at(column.normal, row.normal);
+    const glm::dvec3 normal(texel[0], texel[1], texel[2]);
+    const double length = glm::length(normal);
+    const bool valid = texel[3] >= 0.5F && std::isfinite(length) && length >= shortest_normal;
+    if (!valid) return {};
+    return {normal / length, parameter_at(column, row), column.length * row.length / area};
+  }
+
+ private:
+  [[nodiscard]] double parameter_at(const Stretch& column, const Stretch& row) const {
+    if (!mapped_) return parameter_;
+    const float r = roughness_.at(column.roughness, row.roughness)[0];
+    return lobe_from_alpha(distribution_, r * r);
+  }
+
+  NormalDistribution distribution_;
+  std::shared_ptr<const Image> normals_;
+  Image roughness_;
+  double parameter_;
+  bool mapped_;
+};
+
+auto order_of(const WeightedFacet& f) { return std::tie(f.parameter, f.normal.x, f.normal.y, f.normal.z); }
+
+// Equal facets become one. The sort is total but for equal facets, whose shares are added in order of size: the sum
+// does not depend on threads.
+void unite_equal(std::vector<WeightedFacet>& facets) {
+  tbb::parallel_sort(facets.begin(), facets.end(), [](const WeightedFacet& a, const WeightedFacet& b) {
+    return std::tuple_cat(order_of(a), std::tie(a.share)) < std::tuple_cat(order_of(b), std::tie(b.share));
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 1; i < facets.size(); ++i) {
+    if (order_of(facets[i]) == order_of(facets[kept])) {
+      facets[kept].share += facets[i].share;
+    } else {
+      facets[++kept] = facets[i];
+    }
+  }
+  facets.resize(std::min(kept + 1, facets.size()));
+}
+
+}  // namespace
+
+void check_footprint(const FootprintRect& rect, const std::string& place) {
+  const auto refuse = [&](const std::string& message, const std::string& mend) {
+    throw Error(ErrorKind::usage, place,
+                fmt::format("{},{},{},{} {}", rect.lower.x, rect.lower.y, rect.upper.x, rect.upper.y, message), mend);
+  };
+  for (const double value : {rect.lower.x, rect.lower.y, rect.upper.x, rect.upper.y}) {
+    if (!std::isfinite(value)) refuse("is not finite", "give u0,v0,u1,v1, for example 0,0,0.5,0.5");
+    if (std::abs(value) > farthest_footprint) {
+      refuse(fmt::format("reaches farther than {} maps", farthest_footprint), "the map is the unit square");
+    }
+  }
+  if (rect.upper.x < rect.lower.x || rect.upper.y < rect.lower.y) {
+    refuse("is reversed", "give the smaller coordinates first: u0,v0,u1,v1");
+  }
+  // Narrower than rounding leaves of a texel's number in the largest map.
+  constexpr double narrowest = 1e-9;
+  if (rect.size().x < narrowest || rect.size().y < narrowest) refuse("is empty", "give u0 < u1 and v0 < v1");
+}
+
+FootprintTexels texels_under(const Material& material, const FootprintRect& rect) {
+  const Facets maps(material);
+  const Alignment aligned = alignment(material);
+  const std::array<Wrap, 2> normal_wrap = normal_coordinates(material).wrap;
+  const std::array<Wrap, 2> roughness_wrap = roughness_coordinates(material).wrap;
+  const auto axis = [&](int i) {
+    const int size = i == 0 ? maps.normals().width : maps.normals().height;
+    const int rough = i == 0 ? maps.roughness().width : maps.roughness().height;
+    const auto k = static_cast<std::size_t>(i);
+    return stretches({size, normal_wrap[k], 1.0, 0.0}, {rough, roughness_wrap[k], aligned.scale[i], aligned.offset[i]},
+                     rect.lower[i], rect.upper[i]);
+  };
+  const std::vector<Stretch> columns = axis(0);
+  const std::vector<Stretch> rows = axis(1);
+  require_memory(frame_bytes(columns.size(), rows.size(), sizeof(WeightedFacet)),
+                 fmt::format("a footprint of {} x {} texels", columns.size(), rows.size()),
+                 "give a smaller --footprint, or free memory");
+  const double area = rect.size().x * rect.size().y;
+  FootprintTexels out{area * static_cast<double>(maps.normals().texel_count()), 0.0, {}};
+  out.facets.reserve(columns.size() * rows.size());
+  for (const Stretch& row : rows) {
+    for (const Stretch& column : columns) {
+      const WeightedFacet facet = maps.facet(column, row, area);
+      if (facet.share > 0.0) out.facets.push_back(facet);
+    }
+  }
+  unite_equal(out.facets);
+  for (const WeightedFacet& facet : out.facets) out.valid_share += facet.share;
+  if (out.facets.empty()) {
+    throw Error(ErrorKind::usage, fmt::format("material {}", material.name), "no texel of the footprint has a normal",
+                "give a --footprint where the map has some");
+  }
+  for (WeightedFacet& facet : out.facets) facet.share /= out.valid_share;
+  return out;
+}
+
+MappedFootprint roughness_footprint(const Material& material, const FootprintRect& rect) {
+  if (!roughness_is_mapped(material)) return {rect.centre(), {rect.size().x, 0.0}, {0.0, rect.size().y}};
+  const Alignment aligned = alignment(material);
+  const glm::dvec2 size = aligned.scale * rect.size();
+  return {aligned.scale * rect.centre() + aligned.offset, {size.x, 0.0}, {0.0, size.y}};
+}
+
+std::vector<WeightedFacet> merged_facets(const std::vector<WeightedFacet>& facets, double spacing) {
+  using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
+  const auto cell_of = [&](const WeightedFacet& f) {
+    constexpr double buckets_an_octave = 16.0;
+    // Lambert's disc stretches no distance by more than 2.
+    const glm::dvec2 place = glm::dvec2(f.normal) / std::sqrt(std::max(1.0 + f.normal.z, 1e-6));
+    const glm::dvec2 cell = glm::floor(place * (2.0 / spacing));
+    return Cell(std::floor(buckets_an_octave * std::log2(f.parameter)), cell.x, cell.y);
+  };
+  std::vector<std::pair<Cell, std::size_t>> order(facets.size());
+  for (std::size_t i = 0; i < facets.size(); ++i) order[i] = {cell_of(facets[i]), i};
+  tbb::parallel_sort(order.begin(), order.end());
+  std::vector<WeightedFacet> out;
+  for (std::size_t i = 0; i < order.size();) {
+    WeightedFacet sum{glm::dvec3(0.0), 0.0, 0.0};
+    for (const Cell cell = order[i].first; i < order.size() && order[i].first == cell; ++i) {
+      const WeightedFacet& facet = facets[order[i].second];
+      sum.normal += facet.share * facet.normal;
+      sum.parameter += facet.share * facet.parameter;
+      sum.share += facet.share;
+    }
+    out.push_back({sum.normal / sum.share, sum.parameter / sum.share, sum.share});
+  }
+  return out;
+}
+
+}  // namespace footprint

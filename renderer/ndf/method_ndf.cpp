@@ -1,0 +1,128 @@
+// See method_ndf.hpp.
+#include "renderer/ndf/method_ndf.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "renderer/pipeline/base_surface.hpp"
+#include "renderer/scene/plane.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr int largest_edge = 1024;  // of the square of directions that is evaluated at once
+constexpr GLuint material_binding = 0;
+constexpr std::array<GLenum, 1> density_format{GL_R32F};
+
+ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, int probes) {
+  ShaderVariant variant;
+  variant.effects = scene.effects() & baked.method->info().honours;
+  variant.brdf = scene.brdf();
+  variant.max_probes = probes;
+  return variant;
+}
+
+gl::Program program_of(const GpuScene& scene, const BakedMethod& baked, int probes) {
+  return {fmt::format("ndf of {} (lines below {} are of {}.glsl)", baked.spec.text, first_shared_line, baked.spec.name),
+          screen_vertex_shader(),
+          ndf_shader(variant_of(scene, baked, probes), baked.method->shader(), baked.spec.name, baked.options,
+                     baked.materials.front())};
+}
+
+}  // namespace
+
+Scene scene_of_facets(const Material& material) {
+  Scene scene;
+  scene.name = material.name;
+  scene.source = material.name;
+  scene.materials.push_back(material);
+  Material& bare = scene.materials.front();
+  bare.base_color_map.reset();
+  bare.alpha_cutoff.reset();
+  bare.double_sided = false;
+  scene.meshes.push_back(make_plane({1.0F, 1.0F}, {1.0F, 1.0F}));
+  return scene;
+}
+
+double footprint_level(const Material& material, const FootprintRect& rect) {
+  if (!material.normal_map) return 0.0;
+  const Image& map = *material.normal_map->image;
+  return std::log2(std::max(rect.size().x * map.width, rect.size().y * map.height));
+}
+
+MethodNdf::MethodNdf(const gl::ContextInfo& context, GpuScene& scene, const BakedMethod& baked,
+                     const Material& material, int probes, int tile)
+    : scene_(&scene),
+      material_(&material),
+      gpu_(scene, baked),
+      directions_unit_(static_cast<GLuint>(scene.batches().front().shared_textures.size() +
+                                           baked.materials.front().textures.size())),
+      edge_(std::min({tile > 0 ? tile : largest_edge, context.max_framebuffer_size, context.max_texture_size})),
+      program_(program_of(scene, baked, probes)) {
+  GLuint name = 0;
+  gl::api().CreateVertexArrays(1, &name);
+  no_vertices_ = gl::VertexArray(name);
+}
+
+void MethodNdf::set_footprint(const FootprintRect& rect) const {
+  const MappedFootprint roughness = roughness_footprint(*material_, rect);
+  const glm::dvec2 size = rect.size();
+  const std::array<MappedFootprint, 3> slots{
+      {{rect.centre(), {size.x, 0.0}, {0.0, size.y}}, roughness, {rect.centre(), {size.x, 0.0}, {0.0, size.y}}}};
+  std::array<glm::vec2, 3> centres{}, along_u{}, along_v{};
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    centres.at(i) = slots.at(i).centre;
+    along_u.at(i) = slots.at(i).along_u;
+    along_v.at(i) = slots.at(i).along_v;
+  }
+  const auto set = [&](const char* name, const std::array<glm::vec2, 3>& values) {
+    const GLint place = program_.uniform(name);
+    if (place >= 0) gl::api().ProgramUniform2fv(program_.name(), place, 3, &values.front().x);
+  };
+  set("footprint_uv", centres);
+  set("footprint_dx", along_u);
+  set("footprint_dy", along_v);
+}
+
+void MethodNdf::draw(const gl::RenderTarget& target, const gl::Texture& directions) const {
+  const GpuBatch& batch = scene_->batches().front();
+  gl::api().BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
+  gl::api().Viewport(0, 0, target.width(), target.height());
+  gl::api().Disable(GL_DEPTH_TEST);
+  gl::api().Disable(GL_CULL_FACE);
+  gl::api().UseProgram(program_.name());
+  gl::api().BindBufferBase(GL_UNIFORM_BUFFER, material_binding, batch.material_block.name());
+  gpu_.bind(batch, *scene_, Lookup::trilinear);
+  gl::api().BindTextureUnit(directions_unit_, directions.name());
+  gl::api().BindSampler(directions_unit_, 0);
+  gl::api().Uniform1i(program_.uniform("ndf_directions"), static_cast<GLint>(directions_unit_));
+  gl::api().BindVertexArray(no_vertices_.name());
+  gl::api().DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+std::vector<float> MethodNdf::densities(const FootprintRect& rect, std::span<const glm::vec3> directions) const {
+  set_footprint(rect);
+  const auto row = static_cast<std::size_t>(edge_);
+  const std::size_t rows = std::min((directions.size() + row - 1) / row, row);
+  const std::size_t at_once = rows * row;
+  const gl::RenderTarget target(edge_, static_cast<int>(rows), density_format, false);
+  gl::Texture listed(GL_RGBA32F, edge_, static_cast<int>(rows));
+  std::vector<glm::vec4> block(at_once);
+  std::vector<float> out, read(at_once);
+  out.reserve(directions.size());
+  while (out.size() < directions.size()) {
+    const std::size_t count = std::min(at_once, directions.size() - out.size());
+    std::ranges::fill(block, glm::vec4(0.0F));
+    for (std::size_t i = 0; i < count; ++i) block[i] = glm::vec4(directions[out.size() + i], 0.0F);
+    listed.upload(0, edge_, static_cast<int>(rows), GL_RGBA, GL_FLOAT, block.data());
+    draw(target, listed);
+    target.read(0, 1, read);
+    out.insert(out.end(), read.begin(), read.begin() + static_cast<std::ptrdiff_t>(count));
+  }
+  return out;
+}
+
+}  // namespace footprint

@@ -1,0 +1,107 @@
+// See true_ndf.hpp.
+#include "renderer/ndf/true_ndf.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace footprint {
+namespace {
+
+constexpr int cells_across = 96;  // of Lambert's disc
+constexpr std::size_t chunk = 1 << 11;
+
+int cell_of(const glm::dvec3& n) {
+  const glm::dvec2 place = glm::dvec2(n) / std::sqrt(std::max(1.0 + n.z, 1e-6));
+  const glm::dvec2 cell = glm::clamp(glm::floor((place + 1.0) * (0.5 * cells_across)), 0.0, cells_across - 1.0);
+  return static_cast<int>(cell.y) * cells_across + static_cast<int>(cell.x);
+}
+
+}  // namespace
+
+TrueNdf::TrueNdf(NormalDistribution distribution, const std::vector<WeightedFacet>& facets)
+    : distribution_(distribution) {
+  std::vector<std::pair<int, std::size_t>> order(facets.size());
+  for (std::size_t i = 0; i < facets.size(); ++i) order[i] = {cell_of(facets[i].normal), i};
+  std::ranges::sort(order);
+  facets_.reserve(facets.size());
+  for (std::size_t i = 0; i < order.size();) {
+    const int place = order[i].first;
+    Cell cell{glm::dvec3(0.0), 0.0, 0.0, i, i};
+    double support = 0.0;
+    for (; i < order.size() && order[i].first == place; ++i) {
+      const WeightedFacet& f = facets[order[i].second];
+      const BaseLobe lobe{distribution, f.parameter};
+      facets_.push_back(
+          {f.normal, 0.5 * std::max(1.0 - glm::dot(f.normal, f.normal), 0.0), f.parameter, f.share * lobe_peak(lobe)});
+      support = std::max(support, lobe_support(lobe));
+      cell.centre += f.normal;
+    }
+    cell.last = i;
+    cell.centre /= static_cast<double>(cell.last - cell.first);
+    for (std::size_t k = cell.first; k < cell.last; ++k) {
+      cell.radius = std::max(cell.radius, glm::distance(facets_[k].normal, cell.centre));
+    }
+    cell.reach = std::sqrt(2.0 * support);
+    cells_.push_back(cell);
+  }
+  const auto is_first = [&](const Facet& f) { return f.parameter == facets_.front().parameter; };
+  if (std::ranges::all_of(facets_, is_first)) profile_.emplace(BaseLobe{distribution, facets_.front().parameter});
+}
+
+template <class Shape>
+double TrueNdf::density(const glm::dvec3& direction, const Shape& shape) const {
+  double sum = 0.0;
+  for (const Cell& cell : cells_) {
+    const glm::dvec3 from_centre = direction - cell.centre;
+    const double reach = cell.radius + cell.reach;
+    if (glm::dot(from_centre, from_centre) > reach * reach) continue;
+    for (std::size_t i = cell.first; i < cell.last; ++i) {
+      const glm::dvec3 d = direction - facets_[i].normal;
+      sum += facets_[i].amplitude * shape(facets_[i], 0.5 * glm::dot(d, d) + facets_[i].slack);
+    }
+  }
+  return sum;
+}
+
+std::vector<double> TrueNdf::densities(std::span<const glm::vec3> directions, const Progress& progress) const {
+  const auto shared_lobe = [this](const Facet& /*facet*/, double u) { return (*profile_)(u); };
+  const auto own_lobe = [this](const Facet& facet, double u) {
+    return lobe_shape({distribution_, facet.parameter}, u);
+  };
+  std::vector<double> out(directions.size());
+  for (std::size_t first = 0; first < directions.size(); first += chunk) {
+    progress("exact sum over the texels", static_cast<double>(first) / static_cast<double>(directions.size()));
+    tbb::parallel_for(first, std::min(first + chunk, directions.size()), [&](std::size_t i) {
+      if (directions[i] == glm::vec3(0.0F)) return;
+      const glm::dvec3 h = glm::normalize(glm::dvec3(directions[i]));
+      out[i] = profile_ ? density(h, shared_lobe) : density(h, own_lobe);
+    });
+  }
+  return out;
+}
+
+double TrueNdf::expected_energy() const {
+  const auto energy_of = [&](const Facet& f) {
+    const BaseLobe lobe{distribution_, f.parameter};
+    return f.amplitude / lobe_peak(lobe) * lobe_energy(lobe, f.normal.z);
+  };
+  return tbb::parallel_deterministic_reduce(
+      tbb::blocked_range<std::size_t>(0, facets_.size(), 256), 0.0,
+      [&](const tbb::blocked_range<std::size_t>& part, double sum) {
+        for (std::size_t i = part.begin(); i < part.end(); ++i) sum += energy_of(facets_[i]);
+        return sum;
+      },
+      [](double a, double b) { return a + b; });
+}
+
+BaseLobe TrueNdf::narrowest() const {
+  const auto width = [&](const Facet& f) { return lobe_width({distribution_, f.parameter}); };
+  return {distribution_, std::ranges::min_element(facets_, {}, width)->parameter};
+}
+
+}  // namespace footprint

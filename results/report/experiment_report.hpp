@@ -1,0 +1,64 @@
+// What became of an experiment: its figures beside the published ones, its claims and thresholds (docs/experiments.md).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace footprint {
+
+/// A figure that a paper prints, and the one that was measured.
+struct PublishedFigure {
+  std::string figure;   ///< where it is printed: "Figure 4"
+  std::string measure;  ///< the expression that was measured: "error(tan_gmm, spp=16)"
+  std::string unit;     ///< "fps", "s"; empty for errors and ratios
+  double published = 0;
+  std::optional<double> measured;
+  std::string note;  ///< how the paper measured, or why there is no figure here
+};
+
+/// A figure that a claim was decided by.
+struct ClaimFigure {
+  std::string measure;
+  double value = 0;
+  bool at_noise_floor = false;  ///< an error that the reference's own noise explains
+};
+
+/// How an inequality came out.
+struct ClaimOutcome {
+  std::string name, text, inequality;
+  std::string expect;   ///< "reproduced" or "not_reproduced"
+  std::string outcome;  ///< likewise, or "undecided": a figure is missing
+  std::string reason;   ///< why that is expected
+  std::string problem;  ///< of an undecided one
+  std::optional<double> left, right;
+  std::vector<ClaimFigure> figures;
+
+  [[nodiscard]] bool as_expected() const { return outcome == expect; }
+};
+
+/// An upper bound and what was measured.
+struct ThresholdOutcome {
+  std::string measure;
+  double limit = 0;
+  std::optional<double> measured;
+  std::string problem;  ///< why there is no figure, or empty
+
+  [[nodiscard]] bool held() const { return measured && *measured <= limit; }
+};
+
+/// The part of results.json that an experiment adds.
+struct ExperimentReport {
+  std::string name, title, description;
+  std::string file;    ///< the TOML, as given
+  bool quick = false;  ///< smaller than the file says: the figures are no measurement
+  std::vector<PublishedFigure> published;
+  std::vector<ClaimOutcome> claims;
+  std::vector<ThresholdOutcome> thresholds;
+  std::vector<std::string> pictures;  ///< composed figures, paths from the output folder
+
+  /// Claims and thresholds that did not come out as they should, one line each.
+  [[nodiscard]] std::vector<std::string> shortfalls() const;
+};
+
+}  // namespace footprint

@@ -1,0 +1,174 @@
+// See experiment_section.hpp.
+#include "results/report/experiment_section.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "results/report/figures.hpp"
+#include "results/report/markdown_table.hpp"
+#include "results/report/text_template.hpp"
+
+namespace footprint {
+namespace {
+
+// A table of either kind of report.
+struct Table {
+  std::string heading;
+  std::vector<MarkdownColumn> columns;
+  std::vector<std::vector<std::string>> rows;
+};
+
+constexpr const char* floor_mark = " *";
+
+// Three figures: errors with as many decimals as they need.
+std::string figure_text(const std::optional<double>& value) {
+  if (!value) return "n/a";
+  return std::abs(*value) < 1 ? error_text(*value) : three_figures(*value);
+}
+
+std::string with_unit(const std::optional<double>& value, const std::string& unit) {
+  const std::string text = figure_text(value);
+  return value && !unit.empty() ? text + " " + unit : text;
+}
+
+Table published_table(const ExperimentReport& report) {
+  Table table{.heading = "Measured beside published",
+              .columns = {{"Printed in", false}, {"Measure", false}, {"Published"}, {"Measured"}, {"Note", false}},
+              .rows = {}};
+  for (const PublishedFigure& figure : report.published) {
+    table.rows.push_back({figure.figure, figure.measure, with_unit(figure.published, figure.unit),
+                          with_unit(figure.measured, figure.unit), figure.note});
+  }
+  return table;
+}
+
+// "not reproduced" as people write it.
+std::string in_words(std::string outcome) {
+  if (const auto at = outcome.find('_'); at != std::string::npos) outcome[at] = ' ';
+  return outcome;
+}
+
+std::string outcome_text(const ClaimOutcome& claim) {
+  return in_words(claim.outcome) + (claim.as_expected() ? "" : ", expected " + in_words(claim.expect));
+}
+
+std::string figures_text(const ClaimOutcome& claim) {
+  std::vector<std::string> parts;
+  for (const ClaimFigure& figure : claim.figures) {
+    parts.push_back(
+        fmt::format("{} = {}{}", figure.measure, figure_text(figure.value), figure.at_noise_floor ? floor_mark : ""));
+  }
+  if (!claim.problem.empty()) parts.push_back(claim.problem);
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+Table claims_table(const ExperimentReport& report) {
+  Table table{.heading = "Claims",
+              .columns = {{"Claim", false}, {"Inequality", false}, {"Left"}, {"Right"}, {"Outcome", false}},
+              .rows = {}};
+  for (const ClaimOutcome& claim : report.claims) {
+    table.rows.push_back(
+        {claim.name, claim.inequality, figure_text(claim.left), figure_text(claim.right), outcome_text(claim)});
+  }
+  return table;
+}
+
+Table thresholds_table(const ExperimentReport& report) {
+  Table table{
+      .heading = "Thresholds", .columns = {{"Measure", false}, {"At most"}, {"Measured"}, {"", false}}, .rows = {}};
+  for (const ThresholdOutcome& threshold : report.thresholds) {
+    table.rows.push_back({threshold.measure, figure_text(threshold.limit),
+                          threshold.problem.empty() ? figure_text(threshold.measured) : threshold.problem,
+                          threshold.held() ? "held" : "not held"});
+  }
+  return table;
+}
+
+// What a claim says, what it was decided by, and why it is expected to come out so.
+std::string claim_sentence(const ClaimOutcome& claim) {
+  return fmt::format("{}: {} {} Figures: {}. Expected to be {}: {}", claim.name, claim.text,
+                     claim.as_expected() ? "" : "NOT AS EXPECTED.", figures_text(claim), in_words(claim.expect),
+                     claim.reason);
+}
+
+std::string summary(const ExperimentReport& report) {
+  const std::size_t fell_short = report.shortfalls().size();
+  const std::size_t checks = report.claims.size() + report.thresholds.size();
+  std::string text = fell_short == 0 ? fmt::format("All {} claims and thresholds came out as expected.", checks)
+                                     : fmt::format("{} of {} claims and thresholds fell short.", fell_short, checks);
+  if (report.quick) text += " Quick: smaller than the experiment says, so these figures are no measurement.";
+  return text;
+}
+
+std::string html_table(const Table& table) {
+  if (table.rows.empty()) return {};
+  std::string html = fmt::format("<h3>{}</h3>\n<div class=\"scroll\"><table><thead><tr>", html_escaped(table.heading));
+  const auto cell = [&](const char* tag, std::size_t column, const std::string& text) {
+    return fmt::format("<{0}{1}>{2}</{0}>", tag, table.columns[column].numeric ? "" : " class=\"words-column\"",
+                       html_escaped(text));
+  };
+  for (std::size_t i = 0; i < table.columns.size(); ++i) html += cell("th", i, table.columns[i].title);
+  html += "</tr></thead><tbody>\n";
+  for (const std::vector<std::string>& row : table.rows) {
+    html += "<tr>";
+    for (std::size_t i = 0; i < row.size(); ++i) html += cell("td", i, row[i]);
+    html += "</tr>\n";
+  }
+  return html + "</tbody></table></div>\n";
+}
+
+}  // namespace
+
+std::vector<std::string> ExperimentReport::shortfalls() const {
+  std::vector<std::string> lines;
+  for (const ClaimOutcome& claim : claims) {
+    if (claim.as_expected()) continue;
+    lines.push_back(
+        fmt::format("claim {}: {}: {} ({})", claim.name, outcome_text(claim), claim.inequality, figures_text(claim)));
+  }
+  for (const ThresholdOutcome& threshold : thresholds) {
+    if (threshold.held()) continue;
+    lines.push_back(fmt::format("threshold {}: at most {}, measured {}", threshold.measure,
+                                figure_text(threshold.limit),
+                                threshold.problem.empty() ? figure_text(threshold.measured) : threshold.problem));
+  }
+  return lines;
+}
+
+std::string experiment_markdown(const ExperimentReport& report) {
+  std::string text = fmt::format("\n## Experiment {}\n\n{}\n\n{}\n", markdown_escaped(report.name),
+                                 markdown_escaped(report.title), summary(report));
+  for (const Table& table : {published_table(report), claims_table(report), thresholds_table(report)}) {
+    if (table.rows.empty()) continue;
+    text += fmt::format("\n### {}\n\n{}", table.heading, markdown_table(table.columns, table.rows));
+    if (table.heading != "Claims") continue;
+    text += "\n";
+    for (const ClaimOutcome& claim : report.claims)
+      text += fmt::format("- {}\n", markdown_escaped(claim_sentence(claim)));
+  }
+  for (const std::string& line : report.shortfalls())
+    text += fmt::format("\n**Fell short:** {}\n", markdown_escaped(line));
+  return text;
+}
+
+std::string experiment_html(const ExperimentReport& report) {
+  std::string html = fmt::format(
+      "<section aria-labelledby=\"experiment-title\" id=\"experiment\">\n<h2 "
+      "id=\"experiment-title\">{}</h2>\n<p>{}</p>\n"
+      "<p class=\"{}\">{}</p>\n",
+      html_escaped(report.title), html_escaped(report.description), report.shortfalls().empty() ? "note" : "warning",
+      html_escaped(summary(report)));
+  for (const std::string& picture : report.pictures) {
+    html += fmt::format("<p><img class=\"figure\" src=\"{0}\" alt=\"{0}\"></p>\n", html_escaped(picture));
+  }
+  html += html_table(published_table(report)) + html_table(claims_table(report));
+  if (!report.claims.empty()) html += "<ul>\n";
+  for (const ClaimOutcome& claim : report.claims)
+    html += fmt::format("<li>{}</li>\n", html_escaped(claim_sentence(claim)));
+  if (!report.claims.empty()) html += "</ul>\n";
+  return html + html_table(thresholds_table(report)) + "</section>\n";
+}
+
+}  // namespace footprint

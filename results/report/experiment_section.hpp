@@ -1,0 +1,16 @@
+// What became of an experiment, for readers: measured beside published, claims, thresholds.
+#pragma once
+
+#include <string>
+
+#include "results/report/experiment_report.hpp"
+
+namespace footprint {
+
+/// The sections of table.md that an experiment adds, each with its heading.
+[[nodiscard]] std::string experiment_markdown(const ExperimentReport& report);
+
+/// The same for index.html: a <section> with the composed figures, every text escaped.
+[[nodiscard]] std::string experiment_html(const ExperimentReport& report);
+
+}  // namespace footprint

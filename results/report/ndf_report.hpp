@@ -1,0 +1,74 @@
+// What one run of the NDF inspector found, as JSON (docs/ndf.schema.json) and as a table.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace footprint {
+
+inline constexpr std::string_view ndf_schema = "footprint-ndf/1";
+
+/// Paths below the output folder.
+struct NdfImages {
+  std::string density;     ///< EXR, per solid angle, over the x-y disc
+  std::string picture;     ///< PNG of the same in false colour
+  std::string difference;  ///< PNG of |method - truth| on the same scale; empty for the truth
+};
+
+/// One method's effective NDF beside the true one. Figures that are not finite were not to be had.
+struct NdfRecord {
+  std::string method;  ///< as written
+  std::map<std::string, std::variant<double, std::string>, std::less<>> options;
+  double l2 = 0.0;      ///< relative L2 error over solid angle
+  double energy = 0.0;  ///< over the truth's
+  double peak = 0.0;    ///< largest density, per steradian
+  int lobes = 0;        ///< evaluated a pixel
+  NdfImages images;
+};
+
+/// The truth, and what it was taken of.
+struct NdfTruth {
+  double energy = 0.0;           ///< its integral over the grid
+  double expected_energy = 0.0;  ///< the same from the lobes' own integrals
+  double peak = 0.0;
+  NdfImages images;
+};
+
+struct NdfResults {
+  std::string version;   ///< of the program
+  std::string source;    ///< SCENE or MAP as given
+  std::string kind;      ///< scene or map
+  std::string material;  ///< its name
+  std::array<int, 2> map_size{1, 1};
+  std::string lobe;                   ///< blinn_phong:64; the narrowest where the roughness varies
+  bool lobe_varies = false;           ///< over the footprint
+  std::array<double, 4> footprint{};  ///< u0, v0, u1, v1
+  double texels = 0.0;                ///< the footprint's area in texels of the normal map
+  double valid_share = 1.0;           ///< of that area
+  std::size_t facets = 0;             ///< different ones among them
+  double level = 0.0;                 ///< that an isotropic trilinear fetch takes
+  int anisotropy = 1;                 ///< most probes
+  int resolution = 0;                 ///< rings of directions
+  std::size_t directions = 0;         ///< in all
+  bool fine_enough = true;            ///< energy and expected_energy agree to `ndf_energy_tolerance`
+  double scale = 0.0;                 ///< density at the light end of the false-colour scale
+  std::string strip;                  ///< the picture of all
+  NdfTruth truth;
+  std::vector<NdfRecord> records;
+  std::vector<std::string> notes;  ///< what was left out or supplied, one line each
+};
+
+/// How far the grid's integral of the truth may be from the lobes' own before the grid counts as too coarse.
+inline constexpr double ndf_energy_tolerance = 0.005;
+
+[[nodiscard]] std::string ndf_json(const NdfResults& results);
+
+/// One row a method, and the truth's.
+[[nodiscard]] std::string ndf_table(const NdfResults& results);
+
+}  // namespace footprint

@@ -117,7 +117,7 @@ Vertex plate_vertex(const glm::dvec2& place) {
 }
 
 Mesh mesh(const SurfaceSettings& /*settings*/) {
-  Mesh mesh = grid_mesh(160, 160, plate_vertex);
+  Mesh mesh = grid_mesh(80, 80, plate_vertex);
   mesh.name = "breast_plate";
   return mesh;
 }

@@ -1,4 +1,4 @@
-// footprint_bench: what frames, the reference, start-up, mip chains and baking cost (docs/performance.md).
+// footprint_bench: what frames, the reference, start-up, mip chains, mixtures and baking cost (docs/performance.md).
 #include <benchmark/benchmark.h>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +10,7 @@
 #include "bench/frame_benchmarks.hpp"
 #include "bench/mip_benchmarks.hpp"
 #include "bench/ratios.hpp"
+#include "bench/tan_gmm_benchmarks.hpp"
 #include "renderer/core/error.hpp"
 
 namespace {
@@ -37,6 +38,7 @@ void run(int argc, char** argv) {
     footprint::bench::register_start_up_benchmarks(*subject);
   }
   footprint::bench::register_mip_benchmarks();
+  footprint::bench::register_tan_gmm_benchmarks();
   benchmark::RunSpecifiedBenchmarks();
 }
 

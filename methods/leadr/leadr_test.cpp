@@ -9,8 +9,11 @@
 #include <random>
 #include <vector>
 
+#include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/slope_moments.hpp"
+#include "renderer/scene/camera.hpp"
 #include "tests/support/method_probe.hpp"
+#include "tests/support/rendering.hpp"
 #include "tests/support/slope_twin.hpp"
 #include "tests/support/test_scenes.hpp"
 
@@ -314,6 +317,25 @@ TEST(Leadr, DiffuseMeetsTheSumOverTexels) {
     EXPECT_NEAR(out[i].x, bump[i], 0.015 / pi) << i;
     EXPECT_NEAR(out_displaced[i].x, displaced[i], 0.015 / pi) << i;
   }
+}
+
+// Grooves that run away from the viewer: probes along the long side of a pixel's footprint leave the short side sharp.
+TEST(Leadr, ProbesSharpenAnObliqueView) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> slope(-0.4F, 0.4F);
+  Image normals(64, 64, 4, 1.0F);
+  for (int x = 0; x < 64; ++x) {
+    const glm::vec3 n = glm::normalize(glm::vec3(slope(random), 0.0F, 1.0F));
+    for (int y = 0; y < 64; ++y) std::copy_n(&n.x, 3, normals.at(x, y).begin());
+  }
+  Scene scene = square_scene(normals, {});
+  scene.camera.world = look_at({0.0, -2.5, 0.5}, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
+  TestRenderer renderer(scene);
+  const Image truth = renderer.reference(256).mean;
+  const auto error = [&](int probes) {
+    return compare_images(renderer.frame(leadr_method(), {}, probes), truth, 1.0F).value().relative_rmse;
+  };
+  EXPECT_LT(error(8), 0.6 * error(1));
 }
 
 // Hard cases 13, 17, 18 and 28: flat tilted mirrors, grazing and opposite directions, normals at the horizon.

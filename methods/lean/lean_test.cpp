@@ -12,6 +12,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/slope_moments.hpp"
+#include "renderer/scene/camera.hpp"
 #include "tests/support/method_probe.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/slope_twin.hpp"
@@ -106,7 +107,7 @@ TEST(Lean, GlslMeetsItsTwin) {
       const auto stretched = probe_ndf(lean(material), directions);
       const auto gaussian = probe_ndf(lean(material, {{"roughness", "shading"}}), directions);
       for (std::size_t i = 0; i < directions.size(); ++i) {
-        const glm::dvec3 h(glm::vec3(directions[i]));
+        const glm::dvec3 h{glm::vec3(directions[i])};
         EXPECT_NEAR(stretched[i], twin.stretched(h), 1e-5 * peak) << tilt << " " << i;
         EXPECT_NEAR(gaussian[i], twin.gaussian(h), 1e-5 * peak) << tilt << " " << i;
       }
@@ -216,6 +217,25 @@ TEST(Lean, FollowsTheReferenceFarAway) {
   for (const char* const text : {"lean", "lean:roughness=shading", "lean:roughness=moments:storage=fp16"}) {
     EXPECT_LT(compare_images(renderer.frame(lean_method(), text), truth, 1.0F).value().relative_rmse, 0.1) << text;
   }
+}
+
+// Grooves that run away from the viewer: probes along the long side of a pixel's footprint leave the short side sharp.
+TEST(Lean, ProbesSharpenAnObliqueView) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> slope(-0.4F, 0.4F);
+  Image normals(64, 64, 4, 1.0F);
+  for (int x = 0; x < 64; ++x) {
+    const glm::vec3 n = glm::normalize(glm::vec3(slope(random), 0.0F, 1.0F));
+    for (int y = 0; y < 64; ++y) std::copy_n(&n.x, 3, normals.at(x, y).begin());
+  }
+  Scene scene = square_scene(normals, {});
+  scene.camera.world = look_at({0.0, -2.5, 0.5}, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
+  TestRenderer renderer(scene);
+  const Image truth = renderer.reference(256).mean;
+  const auto error = [&](int probes) {
+    return compare_images(renderer.frame(lean_method(), {}, probes), truth, 1.0F).value().relative_rmse;
+  };
+  EXPECT_LT(error(8), 0.6 * error(1));
 }
 
 // A roughness that varies, in the moments or beside them: one Gaussian.

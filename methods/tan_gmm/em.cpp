@@ -16,6 +16,10 @@ using Column = Eigen::Array<float, Eigen::Dynamic, 1, Eigen::ColMajor, block_siz
 using Table = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, block_size, most_components>;
 using Points = Eigen::Map<const Eigen::ArrayXf>;
 
+// e^-60 is no responsibility to speak of; far below it products are subnormal, which processors take a hundred times as
+// long for.
+constexpr float least_exponent = -60.0F;
+
 // log(alpha / (2 pi sigma^2)) - r^2 / (2 sigma^2), the terms of a component's log density.
 struct LogDensity {
   float constant, factor;
@@ -47,7 +51,7 @@ void add_block(const Points& x, const Points& y, const Points& spread, const Poi
   }
   Column total = Column::Zero(x.size());
   for (Eigen::Index i = 0; i < count; ++i) {
-    share.col(i) = (share.col(i) - peak).exp();
+    share.col(i) = (share.col(i) - peak).max(least_exponent).exp();
     total += share.col(i);
   }
   log_likelihood += static_cast<double>((weight * (peak + total.log())).sum());

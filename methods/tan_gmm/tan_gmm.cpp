@@ -109,7 +109,8 @@ class TanGmm final : public Method {
       .paper = "Tan et al. 2005, Multiresolution Reflectance Filtering, Eurographics Symposium on Rendering",
       .options = option_table(),
       .honours = EffectSet{}.set(),
-      .slow_precompute = true};
+      .slow_precompute = true,
+      .exact_lobe = false};
 };
 
 }  // namespace

@@ -75,9 +75,11 @@ void fit_texel(const Samples& samples, const Prior& prior, std::span<const Gauss
   std::ranges::fill(mixture, Gaussian{});
   if (samples.size() == 0) return;
   const bool inherit = settings.start == Start::inherit && !parent.empty();
-  if (settings.start == Start::clusters || are_one_normal(samples)) {
-    // A single normal goes whole to the component that suits the neighbours: shared among several it would be drawn to
-    // different neighbours at once.
+  if (are_one_normal(samples)) {
+    // It goes whole to the component that suits the neighbours: shared among several it would be blended with several.
+    mixture[0] = {.alpha = 1.0F, .x = samples.x[0], .y = samples.y[0], .variance = variance_floor};
+    match_order(prior, mixture);
+  } else if (settings.start == Start::clusters) {
     start_from_clusters(samples, prior, mixture);
   } else if (inherit) {
     std::ranges::copy(parent, mixture.begin());

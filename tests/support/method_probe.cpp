@@ -30,6 +30,7 @@ std::vector<glm::vec4> probe_method(const ProbedMethod& probed, const std::strin
   variant.effects = probed.effects;
   const Prefiltered baked = probed.method->precompute(*probed.material, options, variant.effects, no_progress);
   std::vector<GpuTexture> textures;
+  textures.reserve(baked.textures.size());
   SamplerCache samplers;
   std::string text;
   for (const PrefilteredTexture& texture : baked.textures) {

@@ -15,7 +15,7 @@
 namespace footprint {
 namespace {
 
-constexpr int smallest_shown = 240;  // pixels a side that a picture is enlarged to, by whole factors
+constexpr int smallest_shown = 300;  // pixels a side that a picture is enlarged to, by whole factors
 constexpr int frame_width = 2;
 
 struct Rectangle {
@@ -59,11 +59,23 @@ void outline(Image& picture, const Rectangle& part) {
   fill(picture, {left + width, top, line, height}, 1.0F);
 }
 
-Image shown(const Image& display, const FigureLayout& layout) {
-  Image part = cropped(display, layout.crop);
+Image shown(const Image& display, const FigurePicture& picture, const FigureLayout& layout) {
+  Image part = cropped(display, picture.crop.value_or(layout.crop));
   const int factor = std::max(1, (smallest_shown + part.width - 1) / std::max(part.width, 1));
   if (factor > 1) part = enlarged(part, factor);
   return layout.inset ? with_inset(part, *layout.inset) : part;
+}
+
+// On black, all as high as the highest: a row has one height.
+void pad_to_one_height(std::vector<Image>& pictures) {
+  if (pictures.empty()) return;
+  const int height = std::ranges::max(pictures, {}, &Image::height).height;
+  for (Image& picture : pictures) {
+    if (picture.height == height) continue;
+    Image above(picture.width, (height - picture.height) / 2, picture.channels);
+    Image below(picture.width, height - picture.height - above.height, picture.channels);
+    picture = stacked(stacked(above, picture), below);
+  }
 }
 
 Image stacked_rows(const std::vector<Image>& rows) {
@@ -99,12 +111,15 @@ class Composer {
       const Image reference = read_image(folder_ / record.images.reference, Transfer::linear);
       const Image image = picture.method ? read_image(folder_ / record.images.color, Transfer::linear) : reference;
       captions.push_back(caption(picture, record));
-      pictures.push_back(shown(to_display(image, exposure), layout_));
+      pictures.push_back(shown(to_display(image, exposure), picture, layout_));
       if (!picture.method) continue;
       error_captions.push_back(captions.back());
       errors.push_back(
-          shown(false_color(error_map(image, reference, exposure), static_cast<float>(results_.error_scale)), layout_));
+          shown(false_color(error_map(image, reference, exposure), static_cast<float>(results_.error_scale)), picture,
+                layout_));
     }
+    pad_to_one_height(pictures);
+    pad_to_one_height(errors);
     rows.push_back(labelled_strip(pictures, captions));
     if (!errors.empty()) error_rows.push_back(labelled_strip(errors, error_captions));
   }

@@ -255,6 +255,7 @@ FigurePicture read_picture(const TomlTable& table, const Experiment& experiment)
     throw table.error_at("frame", "does not exist", fmt::format("frames are 0 to {}", experiment.distances.size() - 1));
   }
   picture.label = table.word("label").value_or("");
+  picture.crop = read_crop(table, "crop");
   return picture;
 }
 
@@ -263,7 +264,7 @@ void read_figure(const TomlTable& table, Experiment& experiment) {
   experiment.figure.inset = read_crop(table, "inset");
   for (const TomlTable& row : table.tables("row", {"pictures"})) {
     std::vector<FigurePicture> pictures;
-    for (const TomlTable& picture : row.tables("pictures", {"method", "frame", "label"})) {
+    for (const TomlTable& picture : row.tables("pictures", {"method", "frame", "label", "crop"})) {
       pictures.push_back(read_picture(picture, experiment));
     }
     if (pictures.empty()) missing(row, "pictures");

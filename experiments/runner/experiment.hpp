@@ -46,6 +46,7 @@ struct FigurePicture {
   std::optional<std::size_t> method;  ///< place in Experiment::methods; none: the reference
   std::size_t frame = 0;              ///< place in the distances
   std::string label;                  ///< "(a)", or any words; may be empty
+  std::optional<Crop> crop;           ///< what is shown of it; none: as of every picture
 };
 
 /// A figure composed of pictures of the run as the paper composes its own.

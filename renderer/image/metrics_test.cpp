@@ -189,5 +189,60 @@ TEST(Metrics, PicturesOfAnotherSizeAreRefused) {
   EXPECT_NE(error_text([] { (void)compare_images(Image(2, 2, 3, 1), Image(2, 2, 4, 1), 1.0F); }), "no error");
 }
 
+TEST(Flicker, HandComputedFigures) {
+  // The picture jumps by 0.5 and by 0 where the reference moves by 0.2 and by 0, in red alone; the third pixel is no
+  // object pixel in the frame before.
+  const Image before = pixels({{0.1F, 0, 0, 1}, {0.3F, 0, 0, 1}, {0, 0, 0, 1}});
+  const Image picture = pixels({{0.6F, 0, 0, 1}, {0.3F, 0, 0, 1}, {1, 1, 1, 1}});
+  const Image reference_before = pixels({{0.2F, 0, 0, 1}, {0.9F, 0, 0, 1}, {0, 0, 0, 0.5F}});
+  const Image reference = pixels({{0.4F, 0, 0, 1}, {0.9F, 0, 0, 1}, {0, 0, 0, 1}});
+  const auto found = compare_changes(before, picture, reference_before, reference, 1.0F);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->mean, 0.3 / std::sqrt(3.0) / 2.0, 1e-7);
+  EXPECT_NEAR(found->p99, 0.3 / std::sqrt(3.0), 1e-7);
+}
+
+TEST(Flicker, AConstantErrorDoesNotFlicker) {
+  const Image reference_before = noise(1, 0.5F), reference = noise(2, 0.5F);
+  const auto lighter = [](Image image) {
+    for (std::size_t i = 0; i < image.texels.size(); ++i) image.texels[i] += i % 4 != 3 ? 0.25F : 0.0F;
+    return image;
+  };
+  const auto found = compare_changes(lighter(reference_before), lighter(reference), reference_before, reference, 1.0F);
+  EXPECT_NEAR(found->mean, 0.0, 1e-7);
+  EXPECT_GT(compare_images(lighter(reference), reference, 1.0F)->normalized_color, 0.2);
+}
+
+TEST(Flicker, IsOnExposedClampedValues) {
+  const Image dark = pixels({{0, 0, 0, 1}}), bright = pixels({{8, 8, 8, 1}});
+  EXPECT_NEAR(compare_changes(dark, bright, dark, dark, 1.0F)->mean, 1.0, 1e-12);
+  EXPECT_NEAR(compare_changes(dark, bright, bright, dark, 1.0F)->mean, 2.0, 1e-12);
+  EXPECT_NEAR(compare_changes(dark, bright, dark, dark, 0.0625F)->mean, 0.5, 1e-12);
+}
+
+TEST(Flicker, ThePercentileIsTheNearestRank) {
+  std::vector<std::array<float, 4>> values;
+  for (int i = 1; i <= 100; ++i) values.push_back({static_cast<float>(i) / 100, 0, 0, 1});
+  const Image ramp = pixels(values), black(100, 1, 4, 0.0F);
+  Image covered = black;
+  for (int x = 0; x < 100; ++x) covered.at(x, 0)[3] = 1.0F;
+  EXPECT_NEAR(compare_changes(covered, ramp, covered, covered, 1.0F)->p99, 0.99 / std::sqrt(3.0), 1e-7);
+}
+
+TEST(Flicker, NoPixelCoveredInBothFramesNoFigures) {
+  const Image left = pixels({{0, 0, 0, 1}, {0, 0, 0, 0}}), right = pixels({{0, 0, 0, 0}, {0, 0, 0, 1}});
+  EXPECT_FALSE(compare_changes(left, right, left, right, 1.0F));
+}
+
+TEST(Flicker, WhatIsNoNumberIsNamed) {
+  Image broken = noise(3);
+  broken.at(2, 1)[0] = std::numeric_limits<float>::quiet_NaN();
+  const Image good = noise(4);
+  EXPECT_NE(
+      error_text([&] { (void)compare_changes(broken, good, good, good, 1.0F); }).find("picture before, pixel (2, 1)"),
+      std::string::npos);
+  EXPECT_NE(error_text([&] { (void)compare_changes(good, good, Image(1, 1, 4), good, 1.0F); }), "no error");
+}
+
 }  // namespace
 }  // namespace footprint

@@ -32,7 +32,7 @@ struct Animation {
   std::vector<AnimationRecord> records;       ///< frame by frame, in each in the order of the methods
 };
 
-/// The document of docs/animation.md, "schema": "footprint-animation/1".
+/// The document of docs/results.md, "schema": "footprint-animation/1".
 [[nodiscard]] std::string animation_json(const Animation& animation);
 
 /// One line a record, RFC 4180.

@@ -51,6 +51,51 @@ Record example_record(const Results& results, const Behaviour& behaviour, double
   return record;
 }
 
+/// Every kind of outcome; `text` stands wherever a file or a paper may have put its own.
+ExperimentReport example_experiment(const std::string& text) {
+  return {.name = "example",
+          .title = "A made-up experiment" + text,
+          .description = "Shows every kind of outcome." + text,
+          .file = "experiments/example.toml",
+          .quick = true,
+          .published = {{.figure = "Figure 4" + text,
+                         .measure = "fps(toksvig)",
+                         .unit = "fps",
+                         .published = 125,
+                         .measured = 400.5,
+                         .note = text},
+                        {.figure = "Figure 5",
+                         .measure = "precompute(toksvig)",
+                         .unit = "s",
+                         .published = 300,
+                         .measured = {},
+                         .note = "from the cache"}},
+          .claims = {{.name = "holds",
+                      .text = "It holds." + text,
+                      .inequality = "error(toksvig) < error(direct)",
+                      .expect = "reproduced",
+                      .outcome = "reproduced",
+                      .reason = "as it should" + text,
+                      .problem = {},
+                      .left = 0.011,
+                      .right = 0.021,
+                      .figures = {{"error(toksvig)", 0.011, true}, {"error(direct)", 0.021, false}}},
+                     {.name = "undecided",
+                      .text = "Nobody knows.",
+                      .inequality = "precompute(toksvig) < 300",
+                      .expect = "not_reproduced",
+                      .outcome = "undecided",
+                      .reason = "no reason",
+                      .problem = "the bake came from the cache",
+                      .left = {},
+                      .right = 300,
+                      .figures = {}}},
+          .thresholds = {{.measure = "error(toksvig)", .limit = 0.02, .measured = 0.011, .problem = {}},
+                         {.measure = "error(direct)", .limit = 0.02, .measured = 0.021, .problem = {}},
+                         {.measure = "flicker(direct)", .limit = 0.02, .measured = {}, .problem = "no figure" + text}},
+          .pictures = {"images/figure.png"}};
+}
+
 }  // namespace
 
 Results example_results() {
@@ -81,6 +126,10 @@ Results example_results() {
   results.records[2].error->normalized_color = 0.0006;  // below the noise floor
   results.records[3].frame_build_ms = 0.31;
   results.records[3].precompute_cached = true;
+  results.records[0].other_references = {{16, 0.0223, 0.0029}, {36, 0.0217, {}}};
+  results.records[4].flicker = Flicker{.mean = 0.031, .p99 = 0.4, .noise_floor = 0.002};
+  results.records[5].flicker = Flicker{.mean = 0.013, .p99 = 1.1, .noise_floor = {}};
+  results.experiment = example_experiment("");
   return results;
 }
 
@@ -90,6 +139,7 @@ Results hostile_results() {
   results.scene.source = "a,b\r\n\"c\".gltf";
   results.scene.warnings = {"not UTF-8: \xff\xfe, and <!-- a comment"};
   results.backend.cpu = "| pipe `tick` [link](javascript:alert(1)) *star*";
+  results.experiment = example_experiment("<script>document.title='broken'</script> | `\xff` *");
   for (Record& record : results.records) record.scene = results.scene.name;
   Record& named = results.records[1];
   named.method = "<img src=x onerror=\"document.title='broken'\">' , #?%";

@@ -54,6 +54,11 @@ TEST(ResultsJson, HasThePublishedFields) {
                             "/records/0/error/representation",
                             "/records/0/error/filtering",
                             "/records/0/equivalent_spp",
+                            "/records/0/other_references/0/spp",
+                            "/records/4/flicker/p99",
+                            "/experiment/claims/0/as_expected",
+                            "/experiment/published/1/measured",
+                            "/experiment/thresholds/2/held",
                             "/records/0/time/frame_ms/median",
                             "/records/0/time/frame_ms/min",
                             "/records/0/time/frame_ms/p90",
@@ -104,6 +109,11 @@ TEST(ResultsJson, RoundTripKeepsTheValues) {
   EXPECT_EQ(found.records[0].error->normalized_color, expected.records[0].error->normalized_color);
   EXPECT_EQ(found.records[0].frame_ms.p90, expected.records[0].frame_ms.p90);
   EXPECT_EQ(found.records[1].precompute_bytes, expected.records[1].precompute_bytes);
+  EXPECT_EQ(found.records[0].other_references.at(1).normalized_color, 0.0217);
+  EXPECT_EQ(found.records[4].flicker->p99, 0.4);
+  EXPECT_FALSE(found.records[5].flicker->noise_floor.has_value());
+  EXPECT_EQ(found.experiment->shortfalls().size(), 3U);
+  EXPECT_TRUE(found.experiment->quick);
 }
 
 TEST(ResultsJson, AnEmptyRunIsWritten) {
@@ -122,6 +132,10 @@ TEST(ResultsJson, ErrorsNameFilePlaceAndNearestKey) {
             "run/results.json, /supersampling/2/ms: must be a number");
   EXPECT_EQ(complaint([](json& d) { d["records"][0]["options"]["probes"] = true; }),
             "run/results.json, /records/0/options/probes: must be a number");
+  EXPECT_EQ(complaint([](json& d) { d["experiment"]["claims"][1]["as_expected"] = true; }),
+            "run/results.json, /experiment/claims/1/as_expected: contradicts expect and outcome");
+  EXPECT_EQ(complaint([](json& d) { d["experiment"]["thresholds"][0]["held"] = false; }),
+            "run/results.json, /experiment/thresholds/0/held: contradicts limit and measured");
   EXPECT_EQ(complaint([](json& d) { d["schema"] = "footprint-results/2"; }),
             "run/results.json, /schema: unknown schema `footprint-results/2` (this version reads "
             "`footprint-results/1`)");

@@ -1,0 +1,47 @@
+// An experiment's outcome as people read it, and what fell short of it.
+#include "results/report/experiment_section.hpp"
+
+#include <gtest/gtest.h>
+
+#include "results/report/example_results.hpp"
+
+namespace footprint {
+namespace {
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(ExperimentSection, WhatFellShortIsListedWithItsFigures) {
+  const std::vector<std::string> lines = example_results().experiment->shortfalls();
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(lines[0],
+            "claim undecided: undecided, expected not reproduced: precompute(toksvig) < 300 (the bake came from the "
+            "cache)");
+  EXPECT_EQ(lines[1], "threshold error(direct): at most 0.02000, measured 0.02100");
+  EXPECT_EQ(lines[2], "threshold flicker(direct): at most 0.02000, measured no figure");
+}
+
+TEST(ExperimentSection, MeasuredStandsBesidePublished) {
+  const std::string text = experiment_markdown(*example_results().experiment);
+  EXPECT_TRUE(holds(text, "| Figure 4   | fps(toksvig)        |   125 fps |  400 fps |")) << text;
+  EXPECT_TRUE(holds(text, "300 s |      n/a | from the cache")) << text;
+  EXPECT_TRUE(holds(text, "3 of 5 claims and thresholds fell short. Quick")) << text;
+  EXPECT_TRUE(holds(text, "error(toksvig) = 0.01100 \\*; error(direct) = 0.02100")) << text;
+}
+
+TEST(ExperimentSection, TextOfOthersIsEscaped) {
+  const ExperimentReport report = *hostile_results().experiment;
+  EXPECT_FALSE(holds(experiment_html(report), "<script>"));
+  EXPECT_FALSE(holds(experiment_markdown(report), "<script>"));
+  EXPECT_TRUE(holds(experiment_html(report), "&lt;script&gt;"));
+}
+
+TEST(ExperimentSection, AnExperimentWithoutChecksSaysNothingOfThem) {
+  ExperimentReport report;
+  report.name = report.title = "bare";
+  EXPECT_TRUE(report.shortfalls().empty());
+  EXPECT_FALSE(holds(experiment_markdown(report), "###"));
+  EXPECT_FALSE(holds(experiment_html(report), "<table"));
+}
+
+}  // namespace
+}  // namespace footprint

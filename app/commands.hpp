@@ -14,6 +14,7 @@ void add_animate_command(CLI::App& app);
 void add_explain_command(CLI::App& app);
 void add_list_command(CLI::App& app);
 void add_ndf_command(CLI::App& app);
+void add_surface_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 
 }  // namespace footprint

@@ -41,6 +41,7 @@ void run(int argc, const char* const* argv) {
   footprint::add_explain_command(app);
   footprint::add_ndf_command(app);
   footprint::add_list_command(app);
+  footprint::add_surface_command(app);
   footprint::add_info_command(app);
   try {
     app.parse(argc, argv);

@@ -85,6 +85,7 @@ void run_ndf(const Arguments& arguments) {
   settings.anisotropy = arguments.anisotropy;
   settings.resolution = arguments.resolution;
   settings.picture = arguments.size;
+  settings.tile = arguments.backend.tile;
   settings.cache = cache_folder(arguments.no_cache);
   settings.context = context_request(arguments.backend);
   if (!arguments.footprint.empty()) (void)parse_rectangle("--footprint", arguments.footprint);
@@ -135,7 +136,7 @@ void add_ndf_command(CLI::App& app) {
   add_anisotropy_option(*command, arguments->anisotropy);
   command
       ->add_option("--resolution", arguments->resolution,
-                   "Cells across the disc of directions; if not given as the narrowest lobe needs")
+                   "Rings of directions that the hemisphere is cut into; if not given as the narrowest lobe needs")
       ->check(CLI::Range(smallest_resolution, largest_resolution));
   command->add_option("--size", arguments->size, "Side of the pictures, pixels")
       ->check(CLI::Range(16, 4096))

@@ -34,7 +34,7 @@ configure() {
 list_sources() {
   (
     cd -- "$footprint_root" || exit
-    [ $# -gt 0 ] || set -- app bench experiments methods renderer results tests
+    [ $# -gt 0 ] || set -- app bench experiments methods renderer results scenes tests
     if git rev-parse --is-inside-work-tree >/dev/null 2>&1; then
       git ls-files -z -- "$@"
     else

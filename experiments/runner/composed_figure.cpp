@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/runner/picture_files.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/false_color.hpp"
 #include "renderer/image/image_io.hpp"
@@ -65,22 +66,9 @@ Image shown(const Image& display, const FigureLayout& layout) {
   return layout.inset ? with_inset(part, *layout.inset) : part;
 }
 
-// RGB over black, so that rows stack.
 Image stacked_rows(const std::vector<Image>& rows) {
-  int width = 0, height = 0;
-  for (const Image& row : rows) {
-    width = std::max(width, row.width);
-    height += row.height;
-  }
-  Image whole(width, height, 3);
-  int top = 0;
-  for (const Image& row : rows) {
-    const int left = (width - row.width) / 2;
-    for (int y = 0; y < row.height; ++y) {
-      for (int x = 0; x < row.width; ++x) std::ranges::copy(row.at(x, y), whole.at(left + x, top + y).begin());
-    }
-    top += row.height;
-  }
+  Image whole = rows.front();
+  for (std::size_t i = 1; i < rows.size(); ++i) whole = stacked(whole, rows[i]);
   return whole;
 }
 
@@ -161,8 +149,8 @@ Image with_inset(const Image& picture, const Crop& inset, double share) {
   const Image large = enlarged(cropped(picture, inset), factor);
   Image result = picture;
   outline(result, part);
-  const int left = std::max(0, picture.width - large.width - 2 * frame_width);
-  const int top = std::max(0, picture.height - large.height - 2 * frame_width);
+  const int left = std::max(0, picture.width - large.width - frame_width);
+  const int top = std::max(0, picture.height - large.height - frame_width);
   for (int y = 0; y < std::min(large.height, picture.height - top); ++y) {
     for (int x = 0; x < std::min(large.width, picture.width - left); ++x) {
       std::ranges::copy(large.at(x, y), result.at(left + x, top + y).begin());

@@ -108,14 +108,17 @@ std::string measure_text(const Measure& measure) {
 
 std::size_t select_method(const std::string& wanted, std::span<const std::string> methods) {
   std::vector<std::size_t> of_name;
+  std::vector<std::string> known(methods.begin(), methods.end());
   for (std::size_t i = 0; i < methods.size(); ++i) {
     if (methods[i] == wanted) return i;
-    if (methods[i].substr(0, methods[i].find(':')) == wanted) of_name.push_back(i);
+    const std::string name = methods[i].substr(0, methods[i].find(':'));
+    if (name == wanted) of_name.push_back(i);
+    if (std::ranges::find(known, name) == known.end()) known.push_back(name);
   }
   if (of_name.size() == 1) return of_name.front();
   if (of_name.empty()) {
     throw Error(ErrorKind::usage, "", fmt::format("the experiment has no method `{:.80}`", wanted),
-                suggestion(wanted, methods));
+                suggestion(wanted, known));
   }
   throw Error(ErrorKind::usage, "", fmt::format("`{}` is {} of the experiment's methods", wanted, of_name.size()),
               "write it with its options, as in the experiment");

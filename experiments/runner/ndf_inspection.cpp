@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "experiments/runner/ndf_pictures.hpp"
@@ -17,8 +18,10 @@
 namespace footprint {
 namespace {
 
-// Pictures are of facets merged within this part of the narrowest lobe's width: within 2.5e-4 of a lobe's peak.
-constexpr double merged_part = 1.0 / 32.0;
+// Pictures are of facets merged within this part of the narrowest lobe's width: within 1e-3 of a lobe's peak.
+constexpr double part_in_pictures = 1.0 / 16.0;
+// What lies below the horizon needs no more than this.
+constexpr double part_in_energy = 1.0 / 8.0;
 
 // What is evaluated, and the truth there.
 struct Grid {
@@ -31,9 +34,9 @@ struct Grid {
 void require_grid_memory(int resolution, int picture) {
   // Directions, solid angles, truth and one method's densities, and the growth of vectors.
   constexpr std::uint64_t bytes_a_direction = 2 * (sizeof(glm::vec3) + 2 * sizeof(double) + sizeof(float));
-  const auto side = static_cast<std::uint64_t>(std::max(resolution, picture));
-  require_memory(frame_bytes(side, side, bytes_a_direction), fmt::format("a grid of {0} x {0} directions", side),
-                 "give a smaller --resolution or --size");
+  const double directions = std::max(direction_count(resolution), static_cast<double>(picture) * picture);
+  require_memory(frame_bytes(static_cast<std::uint64_t>(directions), 1, bytes_a_direction),
+                 fmt::format("{:.0f} directions", directions), "give a smaller --resolution or --size");
 }
 
 Grid take_truth(const Material& material, const NdfSettings& settings, const FootprintTexels& texels,
@@ -42,19 +45,21 @@ Grid take_truth(const Material& material, const NdfSettings& settings, const Foo
   const NormalDistribution distribution = material.brdf.distribution;
   const TrueNdf exact(distribution, texels.facets);
   const BaseLobe narrowest = exact.narrowest();
-  const TrueNdf merged(distribution, merged_facets(texels.facets, merged_part * lobe_width(narrowest)));
+  const auto merged = [&](double part) {
+    return TrueNdf(distribution, merged_facets(texels.facets, part * lobe_width(narrowest)));
+  };
   results.lobe = lobe_text(narrowest);
   results.resolution = settings.resolution > 0 ? settings.resolution : resolution_for(narrowest);
   require_grid_memory(results.resolution, settings.picture);
   Grid grid{hemisphere_grid(results.resolution), disc_directions(settings.picture), {}, {}};
   grid.truth = exact.densities(grid.hemisphere.directions, parts.next(1, ""));
-  const std::vector<double> picture = merged.densities(grid.disc, parts.next(1, ""));
+  const std::vector<double> picture = merged(part_in_pictures).densities(grid.disc, parts.next(1, ""));
   grid.picture.assign(picture.begin(), picture.end());
   const NdfTotals totals = ndf_totals(grid.hemisphere, grid.truth);
   results.directions = grid.hemisphere.directions.size();
   results.truth.energy = totals.energy;
-  results.truth.peak = totals.peak;
-  results.truth.expected_energy = merged.expected_energy();
+  results.truth.peak = std::max(totals.peak, largest_density(grid.picture));
+  results.truth.expected_energy = merged(part_in_energy).expected_energy();
   results.fine_enough =
       std::abs(totals.energy - results.truth.expected_energy) <= ndf_energy_tolerance * results.truth.expected_energy;
   return grid;
@@ -105,7 +110,8 @@ class Bench {
   NdfPicture inspect(const MethodSpec& spec, const Grid& grid, NdfResults& results, const Progress& progress) {
     const Method& method = find_method(spec.name);
     const BakedMethod baked = bake(method, spec, scene_, effects_, progress, cache_ ? &*cache_ : nullptr);
-    const MethodNdf ndf(context_.info(), gpu_scene_, baked, scene_.materials.front(), settings_.anisotropy);
+    const MethodNdf ndf(context_.info(), gpu_scene_, baked, scene_.materials.front(), settings_.anisotropy,
+                        settings_.tile);
     const std::vector<float> densities = ndf.densities(settings_.footprint, grid.hemisphere.directions);
     const NdfFigures figures = compare_ndfs(grid.hemisphere, densities, grid.truth);
     NdfRecord record{spec.text, {}, figures.l2, figures.energy, figures.peak, method.lobe_count(baked.options), {}};
@@ -114,6 +120,8 @@ class Bench {
     NdfPicture picture{file_stem(spec.text), fmt::format("{}  L2 {:.3g}", spec.text, figures.l2),
                        ndf.densities(settings_.footprint, grid.disc)};
     context_.check("evaluating the NDF of " + spec.text);
+    const double peak = largest_density(picture.densities);
+    results.records.back().peak = std::isfinite(peak) ? figures.peak + std::max(peak - figures.peak, 0.0) : peak;
     return picture;
   }
 

@@ -37,8 +37,9 @@ struct NdfSettings {
   FootprintRect footprint;
   std::vector<MethodSpec> methods;  ///< empty: every method of the registry that takes the material
   int anisotropy = 1;               ///< probes, at most
-  int resolution = 0;               ///< cells across the disc of directions; 0: from the narrowest lobe
+  int resolution = 0;               ///< rings of directions; 0: from the narrowest lobe
   int picture = 256;                ///< side of the pictures, pixels
+  int tile = 0;                     ///< side of the square of directions evaluated at once; 0: 1024
   gl::ContextRequest context;
   std::optional<std::filesystem::path> cache;  ///< folder where slow precomputes are kept; none: they are not
 };

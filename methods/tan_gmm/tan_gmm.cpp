@@ -57,10 +57,15 @@ std::vector<OptionSpec> option_table() {
        .meaning = "Weight of the prior that aligns the means, in samples; the paper's is 1.",
        .integer = false},
       word_option("storage", {"fp32", "fp16"}, "How the mixtures are stored: 32-bit or 16-bit floats."),
+      word_option("lobe", {"base", "gaussian"},
+                  "What a component reflects with: the scene's base lobe, widened by the component's spread, or the "
+                  "paper's Gaussian over the disc, which the base lobe enters by its variance alone."),
       word_option("foreshorten", {"on", "off"},
-                  "Whether the base lobe's variance over the disc shrinks with the cosine of the component's tilt."),
+                  "lobe=gaussian: whether the base lobe's variance over the disc shrinks with the cosine of the "
+                  "component's tilt."),
       word_option("rim", {"normalized", "cut"},
-                  "What becomes of a Gaussian that reaches beyond the disc: scaled so that no energy is lost, or cut "
+                  "lobe=gaussian: what becomes of a Gaussian that reaches beyond the disc: scaled so that no energy is "
+                  "lost, or cut "
                   "off there, as in the paper.")};
 }
 

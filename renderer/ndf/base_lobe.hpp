@@ -38,7 +38,7 @@ inline constexpr double lobe_cutoff = 1e-12;
 [[nodiscard]] double lobe_width(const BaseLobe& lobe);
 
 /// The lobe's integral over the directions above the surface, about a normal with cosine `n_z` to the surface's own:
-/// rings about the normal, each counted by the share of it that lies above the horizon. To 1e-4.
+/// rings about the normal, each counted by the share of it that lies above the horizon. To 1e-3.
 [[nodiscard]] double lobe_energy(const BaseLobe& lobe, double n_z);
 
 }  // namespace footprint

@@ -3,65 +3,64 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 namespace footprint {
 namespace {
 
-// The part of a square cell that is inside of the unit disc, and the centre of that part.
-struct Part {
-  double share = 0.0;
-  glm::dvec2 centre{0.0};
+using std::numbers::pi;
+
+// The farthest that neighbouring nodes in z are apart as angles, times their number: pi sqrt(z / (1 + z)) at z = 1.
+constexpr double ring_spacing = pi / std::numbers::sqrt2;
+
+struct Node {
+  double place, weight;
 };
 
-Part part_inside(const glm::dvec2& centre, double side) {
-  constexpr int steps = 32;
-  const glm::dvec2 far = glm::abs(centre) + 0.5 * side;
-  if (glm::dot(far, far) <= 1.0) return {1.0, centre};
-  const glm::dvec2 near = glm::max(glm::abs(centre) - 0.5 * side, 0.0);
-  if (glm::dot(near, near) >= 1.0) return {};
-  int inside = 0;
-  glm::dvec2 sum(0.0);
-  for (int y = 0; y < steps; ++y) {
-    for (int x = 0; x < steps; ++x) {
-      const glm::dvec2 p = centre + side * ((glm::dvec2(x, y) + 0.5) / static_cast<double>(steps) - 0.5);
-      if (glm::dot(p, p) >= 1.0) continue;
-      ++inside;
-      sum += p;
+// Node `i` of the Gauss-Legendre rule with n nodes on [0, 1], by Newton's method on Legendre's polynomial.
+Node legendre_node(int i, int n) {
+  constexpr int rounds = 8;
+  double x = std::cos(pi * (i + 0.75) / (n + 0.5));
+  double slope = 0.0;
+  for (int round = 0; round < rounds; ++round) {
+    double value = x, before = 1.0;
+    for (int k = 2; k <= n; ++k) {
+      const double next = ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k;
+      before = std::exchange(value, next);
     }
+    slope = n * (x * value - before) / (x * x - 1.0);
+    x -= value / slope;
   }
-  if (inside == 0) return {};
-  return {static_cast<double>(inside) / (steps * steps), sum / static_cast<double>(inside)};
-}
-
-glm::vec3 direction_of(const glm::dvec2& p) {
-  const double r2 = glm::dot(p, p);
-  return {p * std::sqrt(std::max(2.0 - r2, 0.0)), std::max(1.0 - r2, 0.0)};
+  return {0.5 * (1.0 + x), 1.0 / ((1.0 - x * x) * slope * slope)};
 }
 
 }  // namespace
 
 HemisphereGrid hemisphere_grid(int resolution) {
+  constexpr double fewest_on_a_ring = 8.0;  // around the pole
   HemisphereGrid grid{resolution, {}, {}};
-  const double side = 2.0 / resolution;
-  for (int y = 0; y < resolution; ++y) {
-    for (int x = 0; x < resolution; ++x) {
-      const Part part = part_inside((glm::dvec2(x, y) + 0.5) * side - 1.0, side);
-      if (part.share <= 0.0) continue;
-      grid.directions.push_back(direction_of(part.centre));
-      grid.solid_angles.push_back(2.0 * side * side * part.share);  // d(omega) = 2 dX dY
+  for (int i = 0; i < resolution; ++i) {
+    const Node node = legendre_node(i, resolution);
+    const double sine = std::sqrt(1.0 - node.place * node.place);
+    const double count = std::ceil(2.0 * pi * sine * resolution / ring_spacing) + fewest_on_a_ring;
+    for (double k = 0.5; k < count; k += 1.0) {
+      const double azimuth = 2.0 * pi * k / count;
+      grid.directions.emplace_back(sine * std::cos(azimuth), sine * std::sin(azimuth), node.place);
+      grid.solid_angles.push_back(2.0 * pi * node.weight / count);
     }
   }
   return grid;
 }
 
 int resolution_for(const BaseLobe& narrowest) {
-  // A Gaussian's square at a spacing of 0.85 of its own deviation: exp(-2 pi^2 / (2 * 0.85^2)) = 1e-6. A GGX lobe's
-  // core has the transform of an exponential, which takes a finer grid.
-  const double spacing = lobe_width(narrowest) * (narrowest.distribution == NormalDistribution::ggx ? 0.5 : 0.85);
   constexpr double least = 64.0;
-  constexpr double largest_distance_between_neighbours = 4.0;  // times 1 / resolution
-  return static_cast<int>(std::ceil(
-      std::clamp(largest_distance_between_neighbours / spacing, least, static_cast<double>(largest_resolution))));
+  const double rings = ring_spacing / (0.5 * lobe_width(narrowest));
+  return static_cast<int>(std::ceil(std::clamp(rings, least, static_cast<double>(largest_resolution))));
+}
+
+double direction_count(int resolution) {
+  return resolution * (2.0 * pi * resolution / ring_spacing + 8.0);  // no ring has more than the horizon's
 }
 
 std::vector<glm::vec3> disc_directions(int size) {

@@ -54,13 +54,13 @@ double footprint_level(const Material& material, const FootprintRect& rect) {
 }
 
 MethodNdf::MethodNdf(const gl::ContextInfo& context, GpuScene& scene, const BakedMethod& baked,
-                     const Material& material, int probes)
+                     const Material& material, int probes, int tile)
     : scene_(&scene),
       material_(&material),
       gpu_(scene, baked),
       directions_unit_(static_cast<GLuint>(scene.batches().front().shared_textures.size() +
                                            baked.materials.front().textures.size())),
-      edge_(std::min({largest_edge, context.max_framebuffer_size, context.max_texture_size})),
+      edge_(std::min({tile > 0 ? tile : largest_edge, context.max_framebuffer_size, context.max_texture_size})),
       program_(program_of(scene, baked, probes)) {
   GLuint name = 0;
   gl::api().CreateVertexArrays(1, &name);

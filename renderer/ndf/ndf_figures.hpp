@@ -18,6 +18,9 @@ struct NdfFigures {
 [[nodiscard]] NdfFigures compare_ndfs(const HemisphereGrid& grid, std::span<const float> densities,
                                       std::span<const double> truth);
 
+/// The largest of some densities; not a number where one is not finite.
+[[nodiscard]] double largest_density(std::span<const float> densities);
+
 /// The integral over the hemisphere, and the largest density.
 struct NdfTotals {
   double energy = 0.0, peak = 0.0;

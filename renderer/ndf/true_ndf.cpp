@@ -49,35 +49,38 @@ TrueNdf::TrueNdf(NormalDistribution distribution, const std::vector<WeightedFace
     cell.reach = std::sqrt(2.0 * support);
     cells_.push_back(cell);
   }
+  const auto is_first = [&](const Facet& f) { return f.parameter == facets_.front().parameter; };
+  if (std::ranges::all_of(facets_, is_first)) profile_.emplace(BaseLobe{distribution, facets_.front().parameter});
 }
 
-double TrueNdf::cell_density(const Cell& cell, const glm::dvec3& direction) const {
-  double sum = 0.0;
-  for (std::size_t i = cell.first; i < cell.last; ++i) {
-    const Facet& f = facets_[i];
-    const glm::dvec3 d = direction - f.normal;
-    sum += f.amplitude * lobe_shape({distribution_, f.parameter}, 0.5 * glm::dot(d, d) + f.slack);
-  }
-  return sum;
-}
-
-double TrueNdf::density(const glm::dvec3& direction) const {
-  if (glm::dot(direction, direction) == 0.0) return 0.0;
+template <class Shape>
+double TrueNdf::density(const glm::dvec3& direction, const Shape& shape) const {
   double sum = 0.0;
   for (const Cell& cell : cells_) {
-    const glm::dvec3 d = direction - cell.centre;
+    const glm::dvec3 from_centre = direction - cell.centre;
     const double reach = cell.radius + cell.reach;
-    if (glm::dot(d, d) <= reach * reach) sum += cell_density(cell, direction);
+    if (glm::dot(from_centre, from_centre) > reach * reach) continue;
+    for (std::size_t i = cell.first; i < cell.last; ++i) {
+      const glm::dvec3 d = direction - facets_[i].normal;
+      sum += facets_[i].amplitude * shape(facets_[i], 0.5 * glm::dot(d, d) + facets_[i].slack);
+    }
   }
   return sum;
 }
 
 std::vector<double> TrueNdf::densities(std::span<const glm::vec3> directions, const Progress& progress) const {
+  const auto shared_lobe = [this](const Facet& /*facet*/, double u) { return (*profile_)(u); };
+  const auto own_lobe = [this](const Facet& facet, double u) {
+    return lobe_shape({distribution_, facet.parameter}, u);
+  };
   std::vector<double> out(directions.size());
   for (std::size_t first = 0; first < directions.size(); first += chunk) {
     progress("exact sum over the texels", static_cast<double>(first) / static_cast<double>(directions.size()));
-    tbb::parallel_for(first, std::min(first + chunk, directions.size()),
-                      [&](std::size_t i) { out[i] = density(glm::normalize(glm::dvec3(directions[i]))); });
+    tbb::parallel_for(first, std::min(first + chunk, directions.size()), [&](std::size_t i) {
+      if (directions[i] == glm::vec3(0.0F)) return;
+      const glm::dvec3 h = glm::normalize(glm::dvec3(directions[i]));
+      out[i] = profile_ ? density(h, shared_lobe) : density(h, own_lobe);
+    });
   }
   return out;
 }

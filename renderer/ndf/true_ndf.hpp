@@ -1,11 +1,13 @@
 // The exact NDF of a footprint: the mean of the base lobe about every facet, a density over solid angle.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "renderer/core/progress.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
+#include "renderer/ndf/lobe_profile.hpp"
 
 namespace footprint {
 
@@ -17,7 +19,8 @@ class TrueNdf {
   TrueNdf(NormalDistribution distribution, const std::vector<WeightedFacet>& facets);
 
   /// The density at each direction. A facet farther from a direction than its lobe's support does not enter: what is
-  /// left out is below `lobe_cutoff` of the lobe's peak. Directions of length 0 give 0. Errors: those of `progress`.
+  /// left out is below `lobe_cutoff` of the lobe's peak, and what stays is within 2e-9 of it. Directions of length 0
+  /// give 0. Errors: those of `progress`.
   [[nodiscard]] std::vector<double> densities(std::span<const glm::vec3> directions, const Progress& progress) const;
 
   /// The integral over the upper hemisphere that the lobes' own integrals give (`lobe_energy`): one, but for what lies
@@ -40,12 +43,13 @@ class TrueNdf {
     double radius, reach;
     std::size_t first, last;
   };
-  [[nodiscard]] double density(const glm::dvec3& direction) const;
-  [[nodiscard]] double cell_density(const Cell& cell, const glm::dvec3& direction) const;
+  template <class Shape>
+  [[nodiscard]] double density(const glm::dvec3& direction, const Shape& shape) const;
 
   NormalDistribution distribution_;
   std::vector<Facet> facets_;
   std::vector<Cell> cells_;
+  std::optional<LobeProfile> profile_;  // of the lobe, where all facets have the same
 };
 
 }  // namespace footprint

@@ -47,6 +47,34 @@ TEST(SurfaceMaps, TexelsPointingInwardsAreLaidFlat) {
   EXPECT_EQ(describe_faults(map, "n.png").size(), 1U);
 }
 
+// An EXR of unit normals: taken as it is, renormalised, faults as ever.
+TEST(SurfaceMaps, UnitNormalsAreTakenAsTheyAre) {
+  Image stored(5, 1, 3);
+  stored.texels = {0.6F, 0, 0.8F, 0, -0.601F, 0.799F, 0, 0, 0, -1, 0, 0, 0, 0, 1};
+  const NormalMap map = decode_unit_normals(stored);
+  EXPECT_EQ(map.image.at(0, 0)[0], 0.6F);
+  const auto second = map.image.at(1, 0);
+  EXPECT_NEAR(std::hypot(second[1], second[2]), 1.0F, 1e-6F);
+  EXPECT_EQ(map.image.at(2, 0)[3], 0.0F);
+  EXPECT_EQ(map.invalid, 1U);
+  EXPECT_EQ(map.inverted, 1U);
+}
+
+TEST(SurfaceMaps, UnitNormalsThatAreNoneAreRefused) {
+  const auto refusal = [](const Image& stored) -> std::string {
+    try {
+      (void)decode_unit_normals(stored);
+    } catch (const Error& error) {
+      return error.message();
+    }
+    return "none";
+  };
+  EXPECT_NE(refusal(one_texel({0.8F, 0.5F, 0.9F})).find("encoded as 0 to 1"), std::string::npos);
+  EXPECT_NE(refusal(one_texel({3.0F, 4.0F, 0.0F})).find("no unit vector"), std::string::npos);
+  EXPECT_NE(refusal(one_texel({0.0F, 1.0F})).find("three channels"), std::string::npos);
+  EXPECT_EQ(refusal(one_texel({0.0F, 0.0F, 0.0F})), "none");  // tells nothing: no weight
+}
+
 TEST(SurfaceMaps, NormalMapsNeedThreeChannels) {
   EXPECT_THROW((void)decode_normal_map(Image(2, 2, 1, 0.5F), 1.0), Error);
 }

@@ -1,6 +1,6 @@
 // A footprint's normals as slopes, b = -n_xy / n_z, with mean B and covariance S, and the lobe over them: what methods
-// that keep moments of slope share. A module takes it in by `//? include common_slopes.glsl`; its textures and its option
-// `roughness` are those of renderer/pipeline/slope_moments.hpp.
+// that keep moments of slope share. A module takes it in by `//? include common_slopes.glsl`; its textures and its
+// option `roughness` are those of renderer/pipeline/slope_moments.hpp.
 
 const float smallest_slope_cosine = 1e-3;  // hard stop of slopes at the horizon
 
@@ -43,8 +43,9 @@ struct SlopeLobe {
 
 //? if roughness_stretched
 // The base lobe about `axis`, stretched by the linear map of slopes that takes its covariance W = v J J^T to the
-// footprint's S + W. `shape` is that map's inverse, J X^-1/2 J^-1 with X = 1 + J^-1 S J^-1 / v. The root of a 2 x 2 matrix is
-// X^1/2 = (X + s) / t, s^2 = det X, t^2 = tr X + 2 s; det X = 1 + tr + det of the rest is a sum that cannot cancel.
+// footprint's S + W. `shape` is that map's inverse, J X^-1/2 J^-1 with X = 1 + J^-1 S J^-1 / v. The root of a 2 x 2
+// matrix is X^1/2 = (X + s) / t, s^2 = det X, t^2 = tr X + 2 s; det X = 1 + tr + det of the rest is a sum that cannot
+// cancel.
 SlopeLobe slopeLobe(vec2 mean, mat2 spread, float variance) {
   float q = sqrt(1.0 + dot(mean, mean));
   mat2 inverse_jacobian = inverseSlopeJacobian(mean, q);

@@ -53,7 +53,7 @@ struct NdfResults {
   std::size_t facets = 0;             ///< different ones among them
   double level = 0.0;                 ///< that an isotropic trilinear fetch takes
   int anisotropy = 1;                 ///< most probes
-  int resolution = 0;                 ///< cells across the disc of directions
+  int resolution = 0;                 ///< rings of directions
   std::size_t directions = 0;         ///< in all
   bool fine_enough = true;            ///< energy and expected_energy agree to `ndf_energy_tolerance`
   double scale = 0.0;                 ///< density at the light end of the false-colour scale

@@ -103,15 +103,15 @@ class Dunes {
   explicit Dunes(std::uint32_t seed) : Dunes(std::mt19937_64(seed)) {}
 
   [[nodiscard]] Height at(const HeightPlace& at) const {
-    const Height wander = 0.55 * warp_.at(2.0 * at.x, 2.0 * at.y) + 0.16 * warp_.at(5.0 * at.x + 0.5, 5.0 * at.y + 0.3);
-    const Height size = 0.35 + 0.65 * smooth_step(size_.at(1.9 * at.x + 0.2, 1.9 * at.y + 0.7), -0.4, 0.35);
-    const Height rolling = 0.035 * size_.at(1.3 * at.x + 2.4, 1.3 * at.y + 3.1);
-    return rolling + 0.055 * size * crest(3.1 * at.x + 0.9 * at.y + wander) +
-           0.012 * crest(8.3 * at.x - 1.7 * at.y + 1.6 * wander);
+    const Height wander = 0.55 * warp_.at(4.0 * at.x, 4.0 * at.y) + 0.16 * warp_.at(10.0 * at.x, 10.0 * at.y);
+    const Height size = 0.35 + 0.65 * smooth_step(size_.at(3.8 * at.x, 3.8 * at.y), -0.4, 0.35);
+    const Height rolling = 0.018 * size_.at(2.6 * at.x, 2.6 * at.y);
+    return rolling + 0.028 * size * crest(6.2 * at.x + 1.8 * at.y + wander) +
+           0.006 * crest(16.6 * at.x - 3.4 * at.y + 1.6 * wander);
   }
 
  private:
-  explicit Dunes(std::mt19937_64 random) : warp_(8, random), size_(8, random) {}
+  explicit Dunes(std::mt19937_64 random) : warp_(10, random), size_(4, random) {}
 
   /// One dune a period: a long windward side from a flat foot up to the crest, then the short, steep lee side. The
   /// crest is where the lower of the two takes over, rounded so that the mesh can follow it.
@@ -127,8 +127,8 @@ class Dunes {
 };
 
 Mesh mesh(const SurfaceSettings& settings) {
-  constexpr int cells = 400;
-  constexpr double side = 60.0;  // metres
+  constexpr int cells = 480;
+  constexpr double side = 120.0;  // metres
   const Dunes dunes(settings.seed);
   Mesh mesh = grid_mesh(cells, cells, [&](const glm::dvec2& place) {
     const Height height = dunes.at(HeightPlace{place});

@@ -16,10 +16,10 @@ namespace {
 constexpr double scale_radius = 0.6;
 
 /// Where the dome of a scale is highest: in the middle of what is seen of it, below the disc's centre.
-constexpr double dome_drop = 0.17;
+constexpr double dome_drop = 0.24;
 
 /// From there, within this radius, lies all that is seen.
-constexpr double dome_radius = 0.66;
+constexpr double dome_radius = 0.56;
 
 /// The outer share of the disc that is bent down to an edge.
 constexpr double lip = 0.9;

@@ -1,0 +1,108 @@
+// `footprint surface`: the normal map of a procedural surface as a file, for other tools.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "app/standard_output.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/core/interrupt.hpp"
+#include "renderer/core/memory.hpp"
+#include "renderer/image/image_io.hpp"
+#include "scenes/surfaces/registry.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr const char* examples =
+    "`footprint list surfaces` names the surfaces and their parameters. EXR holds unit normals as they are, x to the\n"
+    "right, y upwards, z out of the surface, each -1 to 1, 32-bit float. PNG holds (n + 1) / 2 in 8 bits, as glTF's\n"
+    "normal textures do, green up.\n"
+    "\n"
+    "Examples:\n"
+    "  footprint surface v_grooves -o grooves.exr\n"
+    "  footprint surface scales --resolution 1024 --seed 7 --parameter count=16 --parameter fill=0.8 -o scales.exr\n"
+    "  footprint surface desert --resolution 2048 -o desert.png";
+
+struct Arguments {
+  std::string surface;
+  int resolution = 0;  // 0: the surface's own
+  std::uint32_t seed = 1;
+  std::vector<std::string> parameters;  // NAME=VALUE
+  std::string output;
+};
+
+std::map<std::string, std::string> parse_parameters(const std::vector<std::string>& words) {
+  std::map<std::string, std::string> parameters;
+  for (const std::string& word : words) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw Error(ErrorKind::usage, "--parameter", fmt::format("`{}` is not NAME=VALUE", word), "write it as count=16");
+    }
+    if (!parameters.emplace(word.substr(0, equals), word.substr(equals + 1)).second) {
+      throw Error(ErrorKind::usage, "--parameter", fmt::format("`{}` is given twice", word.substr(0, equals)),
+                  "give it once");
+    }
+  }
+  return parameters;
+}
+
+/// x, y and z alone: the weight is 1 everywhere.
+Image normals_only(const Image& map) {
+  Image normals(map.width, map.height, 3);
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) std::ranges::copy(map.at(x, y).first(3), normals.at(x, y).begin());
+  }
+  return normals;
+}
+
+void save(const std::filesystem::path& path, Image normals) {
+  throw_if_interrupted();
+  if (path.extension() == ".exr") return write_exr(path, normals);
+  for (float& value : normals.texels) value = 0.5F * value + 0.5F;
+  write_png(path, normals);
+}
+
+void run_surface(const Arguments& arguments) {
+  const std::filesystem::path path = arguments.output;
+  if (path.extension() != ".exr" && path.extension() != ".png") {
+    throw Error(ErrorKind::usage, "--output", fmt::format("`{}` names no picture", arguments.output),
+                "end it in .exr for float normals, or .png for 8 bits");
+  }
+  const Surface& surface = find_surface(all_surfaces(), arguments.surface);
+  SurfaceSettings settings = surface_settings(surface, parse_parameters(arguments.parameters));
+  if (arguments.resolution != 0) settings.resolution = arguments.resolution;
+  settings.seed = arguments.seed;
+  const auto side = static_cast<std::uint64_t>(settings.resolution);
+  constexpr std::uint64_t texel_bytes = (4 + 3) * sizeof(float);  // the map, and what of it is written
+  require_memory(frame_bytes(side, side, texel_bytes), fmt::format("a map of {} x {} texels", side, side),
+                 "ask for a smaller --resolution, or free memory");
+  Image normals = normals_only(surface_normals(surface, settings));
+  save(path, std::move(normals));
+  write_output(fmt::format("{}\n", path.string()));
+}
+
+}  // namespace
+
+void add_surface_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("surface", "Write the normal map of a procedural surface");
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("name", arguments->surface, "Which surface")->required();
+  command->add_option("-o,--output", arguments->output, "The map, .exr or .png")->required();
+  command->add_option("--resolution", arguments->resolution, "Texels a side; if not given the surface's own")
+      ->check(CLI::Range(1, largest_surface_resolution));
+  command->add_option("--seed", arguments->seed, "Same seed, same bytes")->capture_default_str();
+  command->add_option("--parameter", arguments->parameters, "NAME=VALUE, one of the surface's own; may be repeated")
+      ->allow_extra_args(false);
+  command->footer(examples);
+  command->callback([arguments] { run_surface(*arguments); });
+}
+
+}  // namespace footprint

@@ -1,0 +1,267 @@
+// Experiments as files: what is read from them, and the one error that a wrong one gives.
+#include "experiments/runner/experiment.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "experiments/runner/judge.hpp"
+#include "experiments/runner/zoom.hpp"
+#include "methods/registry.hpp"
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* head = R"([experiment]
+title = "A title"
+scene = "ribbed_plane"
+methods = ["direct", "toksvig:storage=fp16"]
+)";
+
+class ExperimentFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(::testing::TempDir()) / "footprint_experiment_test";
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    write("paper.toml",
+          "[[value]]\nfigure = \"Figure 1\"\nmeasure = \"error(toksvig)\"\nvalue = 0.5\n"
+          "[[value]]\nfigure = \"Figure 2\"\nmeasure = \"fps(nobody)\"\nvalue = 7\n");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+
+  Experiment read(const std::string& text) const { return read_experiment(write("mine.toml", text)); }
+
+  std::string complaint(const std::string& text) const {
+    try {
+      (void)read(text);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+      return error.what();
+    }
+    ADD_FAILURE() << "was taken:\n" << text;
+    return {};
+  }
+
+  void expect_complaint(const std::string& text, const std::string& part) const {
+    const std::string found = complaint(text);
+    EXPECT_NE(found.find("mine.toml:"), std::string::npos) << found;
+    EXPECT_NE(found.find(part), std::string::npos) << found;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(ExperimentFile, DefaultsAreThoseOfACompare) {
+  const Experiment experiment = read(head);
+  EXPECT_EQ(experiment.name, "mine");
+  EXPECT_EQ(experiment.scene, "ribbed_plane");
+  ASSERT_EQ(experiment.methods.size(), 2U);
+  EXPECT_EQ(experiment.methods[1].options.at("storage"), "fp16");
+  EXPECT_TRUE(experiment.distances.empty());
+  EXPECT_FALSE(experiment.consecutive);
+  EXPECT_EQ(experiment.spp, 64);
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(experiment.camera));
+}
+
+constexpr const char* every_key = R"toml(
+description = "words"
+size = [500, 400]
+exposure = 0.25
+anisotropy = 8
+repeats = 3
+[zoom]
+from = 1
+to = 4
+frames = 3
+[camera]
+position = [0, 0, 2]
+target = [0, 0, 0]
+[reference]
+spp = 256
+other_spp = [16, 36]
+seed = 7
+filter = "nearest"
+[published]
+file = "paper.toml"
+figures = ["Figure 1"]
+[[claim]]
+name = "less"
+text = "It is less."
+inequality = "error(toksvig, spp=16) < error(direct, frame=2)"
+expect = "not_reproduced"
+reason = "because"
+[threshold]
+"error(*)" = 0.5
+"flicker(direct)" = 0.1
+[figure]
+crop = [0.25, 0.25, 0.75, 0.75]
+inset = [0, 0, 0.1, 0.1]
+[[figure.row]]
+pictures = [{ method = "toksvig", frame = 1, label = "(a)" }, { method = "reference" }]
+)toml";
+
+TEST_F(ExperimentFile, EveryKeyIsRead) {
+  const Experiment experiment = read(std::string(head) + every_key);
+  EXPECT_EQ(*experiment.size, glm::ivec2(500, 400));
+  EXPECT_EQ(experiment.distances, (std::vector<double>{1, 2, 4}));
+  EXPECT_TRUE(experiment.consecutive);
+  EXPECT_TRUE(std::holds_alternative<Camera>(experiment.camera));
+  EXPECT_EQ(experiment.other_spp, (std::vector<int>{16, 36}));
+  EXPECT_EQ(experiment.filter, ReferenceFilter::nearest);
+  ASSERT_EQ(experiment.published.size(), 1U);  // that of figure 2 names a method that is not here, and is not asked for
+  EXPECT_EQ(experiment.published[0].value, 0.5);
+  ASSERT_EQ(experiment.claims.size(), 1U);
+  EXPECT_FALSE(experiment.claims[0].expect_reproduced);
+  ASSERT_EQ(experiment.thresholds.size(), 3U);
+  EXPECT_EQ(experiment.thresholds[0].measure.text(), "error(direct)");
+  EXPECT_EQ(experiment.thresholds[1].measure.text(), "error(toksvig:storage=fp16)");
+  ASSERT_EQ(experiment.figure.rows.size(), 1U);
+  EXPECT_EQ(experiment.figure.rows[0][0].method, 1U);
+  EXPECT_FALSE(experiment.figure.rows[0][1].method);
+}
+
+TEST_F(ExperimentFile, AllStandsForEveryMethod) {
+  const Experiment experiment = read("[experiment]\ntitle = \"t\"\nscene = \"s\"\nmethods = \"all\"\n");
+  EXPECT_EQ(experiment.methods.size(), all_methods().size());
+}
+
+TEST_F(ExperimentFile, ASceneBesideTheFileIsTheOneThatIsMeant) {
+  write("own.gltf", "{}");
+  const Experiment experiment = read("[experiment]\ntitle = \"t\"\nscene = \"own.gltf\"\nmethods = [\"direct\"]\n");
+  EXPECT_EQ(experiment.scene, (folder_ / "own.gltf").string());
+}
+
+TEST_F(ExperimentFile, WrongFilesAreRefusedAtTheirLine) {
+  const std::string good = head;
+  expect_complaint("[experimnt]\n", "did you mean `experiment`");
+  expect_complaint("title = ", "not valid TOML");
+  expect_complaint("[zoom]\ndistances = [1]\n", "`experiment` is missing");
+  expect_complaint("[experiment]\nscene = \"s\"\n", "`title` in [experiment] is missing");
+  expect_complaint(good + "sizes = [1, 2]\n", "mine.toml:5: unknown key `sizes` in [experiment]");
+  expect_complaint(good + "size = [0, 2]\n", "not within 1");
+  expect_complaint(good + "size = [1.5, 2]\n", "whole numbers");
+  expect_complaint("[experiment]\ntitle = \"t\"\nscene = \"s\"\nmethods = [\"toksvg\"]\n", "did you mean `toksvig`");
+  expect_complaint("[experiment]\ntitle = \"t\"\nscene = \"s\"\nmethods = [\"toksvig:storag=fp16\"]\n", "storage");
+  expect_complaint("[experiment]\ntitle = \"t\"\nscene = \"s\"\nmethods = [\"direct,toksvig\"]\n", "on its own");
+  expect_complaint("[experiment]\ntitle = \"t\"\nscene = \"s\"\nmethods = \"some\"\n", "\"all\"");
+  expect_complaint(good + "[zoom]\nfrom = 1\nto = 1\nframes = 3\n", "where the zoom starts");
+  expect_complaint(good + "[zoom]\nfrom = 1\nto = 2\n", "`frames` in [zoom] is missing");
+  expect_complaint(good + "[zoom]\ndistances = [1, 2]\nfrom = 1\n", "excludes");
+  expect_complaint(good + "[zoom]\ndistances = [1, 1]\n", "twice");
+  expect_complaint(good + "[zoom]\nfrom = 1\nto = 2\nframes = 1\n", "not within 2");
+  expect_complaint(good + "[reference]\nspp = 5000\n", "4096");
+  expect_complaint(good + "[reference]\nfilter = \"neerest\"\n", "did you mean `nearest`");
+  expect_complaint(good + "[published]\nfile = \"paper.toml\"\nfigures = [\"Figure 3\"]\n", "`Figure 3`");
+  expect_complaint(good + "[threshold]\n\"eror(direct)\" = 1\n", "did you mean `error`");
+  expect_complaint(good + "[threshold]\n\"error(direct)\" = \"low\"\n", "must be a number");
+  expect_complaint(good + "[threshold]\n\"flicker(direct)\" = 1\n", "frames of a zoom");
+  expect_complaint(good + "[threshold]\n\"error(direct, spp=16)\" = 1\n", "other_spp");
+  expect_complaint(good + "[figure]\ncrop = [0, 0, 0, 1]\n", "holds nothing");
+  expect_complaint(good + "[figure]\n", "`row` in [figure] is missing");
+  expect_complaint(good + "[[figure.row]]\npictures = [{ method = \"tan\" }]\n", "no method `tan`");
+}
+
+TEST_F(ExperimentFile, ClaimsAreHeldAgainstTheExperiment) {
+  const auto claim = [&](const std::string& inequality, const std::string& expect) {
+    return std::string(head) + "[zoom]\ndistances = [1, 4]\n[[claim]]\nname = \"n\"\ntext = \"t\"\nreason = \"r\"\n" +
+           "expect = \"" + expect + "\"\ninequality = \"" + inequality + "\"\n";
+  };
+  EXPECT_EQ(read(claim("error(toksvig) < error(direct, distance=4)", "reproduced")).claims.size(), 1U);
+  expect_complaint(claim("error(toksvg) < 1", "reproduced"), "did you mean `toksvig");
+  expect_complaint(claim("error(direct, distance=2) < 1", "reproduced"), "it has 1, 4");
+  expect_complaint(claim("error(direct, frame=2) < 1", "reproduced"), "frames are 0 to 1");
+  expect_complaint(claim("error(direct)", "reproduced"), "one of < <= > >= is missing");
+  expect_complaint(claim("error(*) < 1", "reproduced"), "no method `*`");
+  expect_complaint(claim("1 < 2", "maybe"), "`maybe`");
+}
+
+TEST_F(ExperimentFile, IsFoundByItsNameOrItsPath) {
+  const fs::path file = write("mine.toml", head);
+  EXPECT_EQ(find_experiment("mine", folder_), file);
+  EXPECT_EQ(find_experiment(file.string(), "/nowhere"), file);
+  EXPECT_EQ(find_experiment((folder_ / "mine").string(), "/nowhere"), file);
+  EXPECT_EQ(list_experiments(folder_), (std::vector<std::string>{"mine", "paper"}));
+  try {
+    (void)find_experiment("mien", folder_);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean `mine`"), std::string::npos) << error.what();
+  }
+}
+
+constexpr const char* every_outcome = R"toml(
+[threshold]
+"error(direct)" = 0.3
+"error(toksvig)" = 0.3
+"fps(direct) / 0" = 1
+[[claim]]
+name = "holds"
+text = "t"
+inequality = "error(toksvig) < error(direct)"
+expect = "reproduced"
+reason = "r"
+[[claim]]
+name = "holds_unexpectedly"
+text = "t"
+inequality = "error(toksvig) < error(direct)"
+expect = "not_reproduced"
+reason = "r"
+[[claim]]
+name = "fails"
+text = "t"
+inequality = "error(toksvig) > error(direct)"
+expect = "reproduced"
+reason = "r"
+[[claim]]
+name = "fails_as_expected"
+text = "t"
+inequality = "error(toksvig) > error(direct)"
+expect = "not_reproduced"
+reason = "r"
+[[claim]]
+name = "undecided"
+text = "t"
+inequality = "precompute(toksvig) > 1"
+expect = "not_reproduced"
+reason = "r"
+)toml";
+
+// Each outcome against each expectation: what falls short, and what does not.
+TEST_F(ExperimentFile, JudgingGoesEitherWay) {
+  const Experiment experiment = read(std::string(head) + every_outcome);
+  Results results;
+  for (const char* method : {"direct", "toksvig:storage=fp16"}) {
+    Record& record = results.records.emplace_back();
+    record.method = method;
+    record.error.emplace().normalized_color = record.method == "direct" ? 0.4 : 0.2;
+    record.precompute_cached = true;
+  }
+  const std::vector<std::string> lines = judge(experiment, results).shortfalls();
+  ASSERT_EQ(lines.size(), 5U);
+  EXPECT_NE(lines[0].find("claim holds_unexpectedly: reproduced, expected not reproduced"), std::string::npos);
+  EXPECT_NE(lines[0].find("error(toksvig) = 0.20000; error(direct) = 0.40000"), std::string::npos) << lines[0];
+  EXPECT_NE(lines[1].find("claim fails: not reproduced, expected reproduced"), std::string::npos);
+  EXPECT_NE(lines[2].find("claim undecided: undecided"), std::string::npos);
+  EXPECT_NE(lines[3].find("threshold error(direct): at most 0.30000, measured 0.40000"), std::string::npos) << lines[3];
+  EXPECT_NE(lines[4].find("division by 0"), std::string::npos);
+}
+
+TEST(Zoom, StepsAreEqualRatiosBetweenExactEnds) {
+  EXPECT_EQ(zoom_distances(1, 8, 4), (std::vector<double>{1, 2, 4, 8}));
+  EXPECT_EQ(zoom_distances(0.1, 0.7, 2), (std::vector<double>{0.1, 0.7}));
+  const auto inward = zoom_distances(6, 1.5, 5);
+  for (std::size_t i = 1; i < inward.size(); ++i) EXPECT_NEAR(inward[i] / inward[i - 1], std::sqrt(0.5), 1e-8);
+}
+
+}  // namespace
+}  // namespace footprint

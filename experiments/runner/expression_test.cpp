@@ -1,0 +1,182 @@
+// Claims as text: what parses, what it comes to by hand, and how anything else is refused.
+#include "experiments/runner/expression.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+namespace {
+
+Record record_of(const std::string& method, int frame, double distance, double error, double ms) {
+  Record record;
+  record.method = method;
+  record.frame = frame;
+  record.distance = distance;
+  record.error.emplace().normalized_color = error;
+  record.error->psnr = 30;
+  record.error->noise_floor = 0.01;
+  record.other_references = {{.spp = 16, .normalized_color = 2 * error, .noise_floor = {}}};
+  record.frame_ms.median = ms;
+  record.precompute_bytes = 1024;
+  record.equivalent_bound = ">64";
+  if (frame > 0) record.flicker = Flicker{.mean = error / 2, .p99 = 3 * error, .noise_floor = {}};
+  return record;
+}
+
+/// Two frames of two methods; `a` once more with an option.
+Results two_frames() {
+  Results results;
+  results.records = {record_of("a", 0, 1, 0.1, 2),     record_of("b", 0, 1, 0.3, 3),
+                     record_of("b:x=1", 0, 1, 0.5, 4), record_of("a", 1, 2.5, 0.2, 10),
+                     record_of("b", 1, 2.5, 0.5, 5),   record_of("b:x=1", 1, 2.5, 0.7, 6)};
+  return results;
+}
+
+double value_of(const std::string& text) {
+  const Evaluation found = Expression(text, "here").evaluate(two_frames());
+  EXPECT_TRUE(found.value) << text << ": " << found.problem;
+  return found.value.value_or(std::nan(""));
+}
+
+std::string complaint(const std::string& text) {
+  try {
+    const Expression expression(text, "here");
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    return error.what();
+  }
+  ADD_FAILURE() << "`" << text << "` was taken";
+  return {};
+}
+
+TEST(Expression, ArithmeticBindsAsItDoesOnPaper) {
+  EXPECT_DOUBLE_EQ(value_of("1 + 2 * 3 - 4 / 2"), 5);
+  EXPECT_DOUBLE_EQ(value_of("(1 + 2) * -3"), -9);
+  EXPECT_DOUBLE_EQ(value_of("8 / 4 / 2"), 1);
+  EXPECT_DOUBLE_EQ(value_of("10 - 4 - 3"), 3);
+  EXPECT_DOUBLE_EQ(value_of("--2.5e-1"), 0.25);
+  EXPECT_DOUBLE_EQ(value_of("abs(1 - 3)"), 2);
+}
+
+TEST(Expression, ACallIsTheMeanOverTheRecordsThatItSelects) {
+  EXPECT_DOUBLE_EQ(value_of("error(a)"), 0.15);
+  EXPECT_DOUBLE_EQ(value_of(" error( b ,  distance=2.5 ) "), 0.5);
+  EXPECT_DOUBLE_EQ(value_of("error(b, frame=0)"), 0.3);
+  EXPECT_DOUBLE_EQ(value_of("error(b:x=1)"), 0.6);
+  EXPECT_DOUBLE_EQ(value_of("error(a, spp=16)"), 0.3);
+  EXPECT_DOUBLE_EQ(value_of("error(a, frame=1, spp=16)"), 0.4);
+  EXPECT_DOUBLE_EQ(value_of("time(a) / time(b)"), 1.5);
+  EXPECT_DOUBLE_EQ(value_of("bytes(a)"), 1024);
+  EXPECT_DOUBLE_EQ(value_of("psnr(a)"), 30);
+}
+
+TEST(Expression, RecordsWithoutTheFigureDoNotCount) {
+  EXPECT_DOUBLE_EQ(value_of("flicker(a)"), 0.1);
+  EXPECT_DOUBLE_EQ(value_of("flicker_p99(a)"), 0.6);
+  EXPECT_EQ(Expression("flicker(a, frame=0)", "").evaluate(two_frames()).problem,
+            "flicker(a, frame=0): no record has this figure");
+  EXPECT_EQ(Expression("error(a, distance=7)", "").evaluate(two_frames()).problem,
+            "error(a, distance=7): the run has no such record");
+}
+
+TEST(Expression, ABoundOfTheCurveCountsAsItsEnd) { EXPECT_DOUBLE_EQ(value_of("equivalent_spp(a)"), 64); }
+
+TEST(Expression, ABakeFromTheCacheHasNoTime) {
+  Results results = two_frames();
+  for (Record& record : results.records) record.precompute_cached = true;
+  EXPECT_NE(Expression("precompute(a)", "").evaluate(results).problem.find("--no-cache"), std::string::npos);
+}
+
+TEST(Expression, DivisionByZeroIsAProblemNotAFigure) {
+  const Evaluation found = Expression("1 / (error(a) - error(a))", "").evaluate(two_frames());
+  EXPECT_FALSE(found.value);
+  EXPECT_NE(found.problem.find("division by 0"), std::string::npos);
+}
+
+TEST(Expression, AtTheNoiseFloorIsTold) {
+  Results results = two_frames();
+  for (Record& record : results.records) record.error->normalized_color = 0.005;
+  EXPECT_TRUE(Expression("error(a)", "").evaluate(results).calls.at(0).at_noise_floor);
+  results.records[3].error->normalized_color = 0.5;  // one frame of `a` that stands out
+  EXPECT_FALSE(Expression("error(a)", "").evaluate(results).calls.at(0).at_noise_floor);
+}
+
+TEST(Expression, TheStarStandsForAMethod) {
+  EXPECT_EQ(Expression("abs(error(*) - error(a))", "").with_method("b").text(), "abs(error(b) - error(a))");
+}
+
+TEST(Expression, WhatIsWrongIsNamedWithItsColumn) {
+  EXPECT_NE(complaint("eror(a)").find("here, column 1: there is no function `eror` (did you mean `error`?"),
+            std::string::npos);
+  EXPECT_NE(complaint("1 + ").find("column 5"), std::string::npos);
+  EXPECT_NE(complaint("1 + (2 * 3").find("`)` is missing"), std::string::npos);
+  EXPECT_NE(complaint("error(a) error(b)").find("column 10"), std::string::npos);
+  EXPECT_NE(complaint("error()").find("a method is missing"), std::string::npos);
+  EXPECT_NE(complaint("error(a, distanse=1)").find("did you mean `distance`"), std::string::npos);
+  EXPECT_NE(complaint("error(a, distance=near)").find("`near`"), std::string::npos);
+  EXPECT_NE(complaint("error(a, distance=1, distance=2)").find("second"), std::string::npos);
+  EXPECT_NE(complaint("error(a, spp=0)").find("`0`"), std::string::npos);
+  EXPECT_NE(complaint("psnr(a, spp=16)").find("leave spp out"), std::string::npos);
+  EXPECT_NE(complaint("error(a) < 1").find("`<` does not belong here"), std::string::npos);
+  EXPECT_NE(complaint("1e999").find("a number"), std::string::npos);
+  EXPECT_NE(complaint(std::string(300, '(')).find("nested too deeply"), std::string::npos);
+  EXPECT_NE(complaint(std::string(300, '-') + "1").find("nested too deeply"), std::string::npos);
+  EXPECT_NE(complaint(std::string(5000, ' ')).find("longer than"), std::string::npos);
+}
+
+TEST(Expression, AMethodIsTakenByItsTextElseByItsNameWhereThatIsClear) {
+  const std::vector<std::string> methods{"a", "b:x=1", "b:x=2", "c:y=3"};
+  EXPECT_EQ(select_method("a", methods), 0U);
+  EXPECT_EQ(select_method("c", methods), 3U);
+  EXPECT_EQ(select_method("b:x=2", methods), 2U);
+  EXPECT_THROW((void)select_method("b", methods), Error);
+  try {
+    (void)select_method("b:x=3", methods);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean `b:x="), std::string::npos) << error.what();
+  }
+}
+
+TEST(Inequality, ComparesItsSides) {
+  const Inequality claim("error(a) <= 0.5 * error(b)", "here");
+  EXPECT_DOUBLE_EQ(claim.left().evaluate(two_frames()).value.value(), 0.15);
+  EXPECT_DOUBLE_EQ(claim.right().evaluate(two_frames()).value.value(), 0.2);
+  EXPECT_TRUE(claim.holds(1, 1));
+  EXPECT_FALSE(claim.holds(2, 1));
+  EXPECT_FALSE(Inequality("1 < 1", "").holds(1, 1));
+  EXPECT_TRUE(Inequality("1 >= 1", "").holds(1, 1));
+  EXPECT_FALSE(Inequality("1 > 1", "").holds(1, 1));
+  EXPECT_THROW(Inequality("error(a)", "here"), Error);
+  EXPECT_THROW(Inequality("1 < 2 < 3", "here"), Error);
+}
+
+// Whatever stands there, the parser ends with a tree or with one error.
+TEST(Expression, RandomTextIsTakenOrRefused) {
+  std::mt19937 random(1);
+  const std::vector<std::string> pieces{"error", "(",    ")",  "a",       ",",         "spp=",   "16", "+",
+                                        "-",     "*",    "/",  "<",       "1e5",       "=",      ".",  " ",
+                                        "abs",   "\xff", "\0", "frame=1", "distance=", "time(a)"};
+  std::uniform_int_distribution<std::size_t> piece(0, pieces.size() - 1);
+  std::uniform_int_distribution<int> length(0, 12);
+  int taken = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::string text;
+    for (int left = length(random); left > 0; --left) text += pieces[piece(random)];
+    try {
+      const Expression expression(text, "random");
+      (void)Expression(expression.text(), "again");
+      ++taken;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage) << text;
+    }
+  }
+  EXPECT_GT(taken, 100);
+}
+
+}  // namespace
+}  // namespace footprint

@@ -1,0 +1,153 @@
+// The effective NDF of every method, by its own shader, beside the exact one: equal over a constant map, finite at the
+// limits, and in the order that is known of them over grooves.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <tuple>
+
+#include "methods/registry.hpp"
+#include "renderer/ndf/method_ndf.hpp"
+#include "renderer/ndf/ndf_figures.hpp"
+#include "renderer/ndf/true_ndf.hpp"
+#include "scenes/surfaces/registry.hpp"
+#include "tests/support/rendering.hpp"
+#include "tests/support/test_scenes.hpp"
+
+namespace footprint::testing {
+namespace {
+
+using enum NormalDistribution;
+
+constexpr FootprintRect whole_map{};
+
+Material material_of(Image normals, const BaseLobe& lobe) {
+  Material material;
+  material.name = "test";
+  material.brdf = {lobe.distribution, GeometryTerm::none, FresnelTerm::none, false};
+  material.lobe_parameter = static_cast<float>(lobe.parameter);
+  material.normal_map = TextureMap{"normals", std::make_shared<const Image>(std::move(normals)), {}};
+  return material;
+}
+
+// A footprint's truth on a grid that its lobe needs, and any method against it.
+class Inspection {
+ public:
+  explicit Inspection(Material material, const FootprintRect& rect = whole_map)
+      : rect_(rect), scene_(scene_of_facets(material)), gpu_(shared_context().info(), scene_, effects()) {
+    const TrueNdf truth(material.brdf.distribution, texels_under(material, rect).facets);
+    grid_ = hemisphere_grid(resolution_for(truth.narrowest()));
+    truth_ = truth.densities(grid_.directions, no_progress);
+  }
+
+  [[nodiscard]] std::vector<float> densities(const std::string& text, int probes = 1) {
+    const MethodSpec spec = parse_methods(text).front();
+    const BakedMethod baked = bake(find_method(spec.name), spec, scene_, effects(), no_progress);
+    const MethodNdf ndf(shared_context().info(), gpu_, baked, scene_.materials.front(), probes);
+    std::vector<float> out = ndf.densities(rect_, grid_.directions);
+    shared_context().check("evaluating an NDF");
+    return out;
+  }
+
+  [[nodiscard]] NdfFigures figures(const std::string& text, int probes = 1) {
+    return compare_ndfs(grid_, densities(text, probes), truth_);
+  }
+
+ private:
+  [[nodiscard]] EffectSet effects() const { return effects_on(derive_effects(scene_)); }
+
+  FootprintRect rect_;
+  Scene scene_;
+  GpuScene gpu_;
+  HemisphereGrid grid_;
+  std::vector<double> truth_;
+};
+
+class EveryMethodsNdf : public ::testing::TestWithParam<const Method*> {
+ protected:
+  static const std::string& name() { return GetParam()->info().name; }
+};
+
+const std::vector<BaseLobe> lobes{{blinn_phong, 64}, {blinn_phong, 512}, {beckmann, 0.2}, {ggx, 0.2}, {vmf, 200}};
+
+TEST_P(EveryMethodsNdf, IsTheLobeOverAConstantMap) {
+  for (const BaseLobe& lobe : lobes) {
+    for (const glm::vec3& normal : {glm::vec3(0, 0, 1), glm::vec3(0.28F, 0, 0.96F)}) {
+      const NdfFigures figures = Inspection(material_of(constant_normals(16, 16, normal), lobe)).figures(name());
+      EXPECT_LT(figures.l2, 1e-3) << lobe_text(lobe) << ", x = " << normal.x;
+      EXPECT_NEAR(figures.energy, 1.0, 0.01) << lobe_text(lobe) << ", x = " << normal.x;
+    }
+  }
+}
+
+// Hard cases 5, 6, 25, 28: narrow lobes, directions far from every lobe, texels without a normal, normals on the
+// horizon, sizes that are no power of two, footprints within a texel.
+TEST_P(EveryMethodsNdf, IsFiniteAndNotNegativeAtTheLimits) {
+  Image hard = random_normals(13, 7, 0.999F, 8);
+  std::ranges::copy(std::vector{1.0F, 0.0F, 1e-6F, 1.0F}, hard.at(3, 2).begin());
+  std::ranges::copy(std::vector{0.0F, 0.0F, 1.0F, 0.0F}, hard.at(4, 2).begin());
+  for (const BaseLobe& lobe : {BaseLobe{blinn_phong, 1e-3}, {blinn_phong, 1e4}, {ggx, 0.05}}) {
+    for (const FootprintRect& rect : {whole_map, FootprintRect{{0.3, 0.3}, {0.31, 0.32}}, {{-1.5, 0.2}, {2.5, 0.3}}}) {
+      for (const float d : Inspection(material_of(hard, lobe), rect).densities(name())) {
+        ASSERT_TRUE(std::isfinite(d) && d >= 0.0F) << lobe_text(lobe);
+      }
+    }
+  }
+}
+
+TEST_P(EveryMethodsNdf, TakesAnisotropicProbes) {
+  Inspection inspection(material_of(random_normals(32, 32, 0.5F, 6), {blinn_phong, 64}), {{0, 0.4}, {1, 0.6}});
+  EXPECT_TRUE(std::isfinite(inspection.figures(name(), 8).l2));
+}
+
+// The four plain surfaces at a size that is quick to precompute, under one exponent.
+class SurfaceNdfs : public ::testing::TestWithParam<std::tuple<std::string, double>> {
+ protected:
+  static Inspection inspection() {
+    const auto& [name, exponent] = GetParam();
+    const Surface& surface = find_surface(all_surfaces(), name);
+    SurfaceSettings settings = surface_settings(surface, {});
+    settings.resolution = 128;
+    return Inspection(material_of(surface_normals(surface, settings), {blinn_phong, exponent}));
+  }
+};
+
+// Every method's density integrates to what the truth's does, within 1%: also Tan's, which is one over the projected
+// disc and taken to solid angle.
+TEST_P(SurfaceNdfs, KeepTheTruthsEnergy) {
+  Inspection inspected = inspection();
+  for (const Method* method : all_methods()) {
+    const NdfFigures figures = inspected.figures(method->info().name);
+    EXPECT_NEAR(figures.energy, 1.0, 0.01) << method->info().name << ", L2 " << figures.l2;
+  }
+}
+
+TEST_P(SurfaceNdfs, ComeInTheKnownOrder) {
+  const std::string& surface = std::get<0>(GetParam());
+  Inspection inspected = inspection();
+  const double naive = inspected.figures("naive_mip").l2;
+  const double toksvig = inspected.figures("toksvig").l2;
+  const double lean = inspected.figures("lean").l2;
+  const double tan = inspected.figures("tan_gmm").l2;
+  EXPECT_LT(tan, 0.5 * naive);
+  if (surface == "scratches") return;  // mostly flat: the unwidened lobe is then nearer than one wide enough for all
+  EXPECT_LT(toksvig, 0.75 * naive);
+  EXPECT_LT(lean, 0.75 * naive);
+  if (surface != "v_grooves") return;
+  EXPECT_LT(tan, 0.2 * lean);
+  EXPECT_LT(lean, toksvig);
+}
+
+INSTANTIATE_TEST_SUITE_P(Surfaces, SurfaceNdfs,
+                         ::testing::Combine(::testing::Values("bumps", "v_grooves", "scales", "scratches"),
+                                            ::testing::Values(64.0, 512.0)),
+                         [](const auto& test) {
+                           return std::get<0>(test.param) + std::to_string(static_cast<int>(std::get<1>(test.param)));
+                         });
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryMethodsNdf, ::testing::ValuesIn(all_methods().begin(), all_methods().end()),
+                         [](const auto& test) { return test.param->info().name; });
+
+}  // namespace
+}  // namespace footprint::testing

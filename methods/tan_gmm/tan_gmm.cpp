@@ -15,12 +15,13 @@ extern const std::string_view tan_gmm_glsl;
 
 namespace {
 
-OptionSpec word_option(std::string name, std::vector<std::string> choices, std::string meaning) {
+// The first choice is the default.
+OptionSpec word_option(std::string name, const std::vector<std::string>& choices, std::string meaning) {
   return {.name = std::move(name),
           .default_value = choices.front(),
           .minimum = 0,
           .maximum = 0,
-          .choices = std::move(choices),
+          .choices = choices,
           .meaning = std::move(meaning),
           .integer = false};
 }

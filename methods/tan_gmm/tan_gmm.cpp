@@ -65,8 +65,7 @@ std::vector<OptionSpec> option_table() {
                   "component's tilt."),
       word_option("rim", {"normalized", "cut"},
                   "lobe=gaussian: what becomes of a Gaussian that reaches beyond the disc: scaled so that no energy is "
-                  "lost, or cut "
-                  "off there, as in the paper.")};
+                  "lost, or cut off there, as in the paper.")};
 }
 
 tan_gmm::FitSettings fit_settings(const Options& options) {

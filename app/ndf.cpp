@@ -138,7 +138,7 @@ void add_ndf_command(CLI::App& app) {
       ->add_option("--resolution", arguments->resolution,
                    "Rings of directions that the hemisphere is cut into; if not given as the narrowest lobe needs")
       ->check(CLI::Range(smallest_resolution, largest_resolution));
-  command->add_option("--size", arguments->size, "Side of the pictures, pixels")
+  command->add_option("--picture-size", arguments->size, "Side of the pictures, pixels")
       ->check(CLI::Range(16, 4096))
       ->capture_default_str();
   add_cache_flag(*command, arguments->no_cache);

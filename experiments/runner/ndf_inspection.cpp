@@ -36,7 +36,7 @@ void require_grid_memory(int resolution, int picture) {
   constexpr std::uint64_t bytes_a_direction = 2 * (sizeof(glm::vec3) + 2 * sizeof(double) + sizeof(float));
   const double directions = std::max(direction_count(resolution), static_cast<double>(picture) * picture);
   require_memory(frame_bytes(static_cast<std::uint64_t>(directions), 1, bytes_a_direction),
-                 fmt::format("{:.0f} directions", directions), "give a smaller --resolution or --size");
+                 fmt::format("{:.0f} directions", directions), "give a smaller --resolution or --picture-size");
 }
 
 Grid take_truth(const Material& material, const NdfSettings& settings, const FootprintTexels& texels,

@@ -6,12 +6,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <vector>
 
 #include "renderer/image/metrics.hpp"
-#include "renderer/pipeline/slope_moments.hpp"
-#include "renderer/scene/camera.hpp"
 #include "tests/support/method_probe.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/slope_twin.hpp"
@@ -40,29 +37,8 @@ ProbedMethod leadr(const Material& material, const Words& options = {}) {
   return {.method = &leadr_method(), .material = &material, .options = options};
 }
 
-// Correlated slopes off the centre: mean (-0.1, 0.15), deviations `spread` times 1 and about 0.54.
-Image gaussian_slopes(int size, float spread, glm::vec2 mean = {-0.1F, 0.15F}) {
-  std::mt19937 random(9);
-  std::normal_distribution<float> normal;
-  Image image(size, size, 4, 1.0F);
-  for (std::size_t i = 0; i < image.texels.size(); i += 4) {
-    const float a = spread * normal(random);
-    const float b = spread * normal(random);
-    const glm::vec3 n = glm::normalize(glm::vec3(-mean.x - a, -mean.y - 0.5F * a - 0.2F * b, 1.0F));
-    std::copy_n(&n.x, 3, &image.texels[i]);
-  }
-  return image;
-}
-
 glm::dvec3 texel_normal(const Image& map, std::size_t i) {
   return glm::normalize(glm::dvec3(map.texels[4 * i], map.texels[4 * i + 1], map.texels[4 * i + 2]));
-}
-
-SlopeTwin twin_of(const Material& material) {
-  const Image top = slope_moment_chain(*material.normal_map->image, Image(1, 1, 1, 0.0F)).back();
-  const auto t = top.at(0, 0);
-  const SlopeMoments m{{t[slope_x], t[slope_y]}, {t[slope_xx], t[slope_xy], t[slope_xy], t[slope_yy]}};
-  return {m.mean, covariance(m), material.brdf.distribution, *material.lobe_parameter};
 }
 
 glm::dvec3 direction(double theta, double phi) {
@@ -102,8 +78,8 @@ double masking_by_integration(const glm::dvec2& mean, const glm::dmat2& covarian
 
 TEST(Leadr, SmithTermMeetsItsIntegral) {
   for (const float spread : {0.1F, 0.4F, 1.0F}) {
-    const Material material = material_of(gaussian_slopes(16, spread), beckmann, 0.2F);
-    const SlopeTwin twin = twin_of(material);
+    const Material material = material_of(gaussian_slope_normals(16, spread), beckmann, 0.2F);
+    const SlopeTwin twin = slope_twin_of(material);
     Inputs inputs;
     std::vector<double> expected;
     for (const glm::dvec3& w : directions_to(1.35)) {
@@ -178,10 +154,10 @@ TEST(Leadr, GlslMeetsItsTwin) {
   for (const auto& [distribution, lobe] :
        {std::pair{beckmann, 0.3F}, std::pair{ggx, 0.25F}, std::pair{blinn_phong, 40.0F}}) {
     for (const GeometryTerm geometry : {GeometryTerm::smith, GeometryTerm::none}) {
-      const Material material = material_of(gaussian_slopes(16, 0.3F), distribution, lobe, geometry);
+      const Material material = material_of(gaussian_slope_normals(16, 0.3F), distribution, lobe, geometry);
       for (const bool stretched : {true, false}) {
         for (const bool displaced : {true, false}) {
-          const Twin twin{twin_of(material), stretched, displaced, geometry};
+          const Twin twin{slope_twin_of(material), stretched, displaced, geometry};
           const Words words{{"roughness", stretched ? "stretched" : "shading"},
                             {"weighting", displaced ? "displacement" : "bump"}};
           const auto out =
@@ -211,9 +187,9 @@ TEST(Leadr, KeepsTheEnergyOfTheSumOverTexels) {
   const std::vector<glm::dvec3> directions = hemisphere_grid(150, 200);
   for (const auto& [distribution, lobe] :
        {std::pair{blinn_phong, 64.0F}, std::pair{beckmann, 0.2F}, std::pair{ggx, 0.1F}}) {
-    const Image normals = gaussian_slopes(6, 0.3F);
+    const Image normals = gaussian_slope_normals(6, 0.3F);
     const Material material = material_of(normals, distribution, lobe);
-    const double mean_z = twin_of(material).axis().z;
+    const double mean_z = slope_twin_of(material).axis().z;
     std::vector<double> bump;
     std::vector<double> displaced;
     for (const glm::dvec3& h : directions) {
@@ -237,7 +213,7 @@ TEST(Leadr, KeepsTheEnergyOfTheSumOverTexels) {
 // Many texels of Gaussian slopes, each with its own lobe, weighed by the area that the viewer sees of it: what that
 // changes against equal weights.
 TEST(Leadr, DisplacementWeighsTexelsByTheirVisibleArea) {
-  const Image normals = gaussian_slopes(128, 0.3F);
+  const Image normals = gaussian_slope_normals(128, 0.3F);
   const float exponent = 100.0F;
   const Material material = material_of(normals, blinn_phong, exponent, GeometryTerm::none);
   Inputs inputs;
@@ -271,7 +247,7 @@ TEST(Leadr, DisplacementWeighsTexelsByTheirVisibleArea) {
 TEST(Leadr, MaskedSurfacesReflectNoMoreThanTheyGet) {
   const std::vector<glm::dvec3> lights = hemisphere_grid(100, 100);
   for (const float spread : {0.05F, 0.3F, 0.8F}) {
-    const Material material = material_of(gaussian_slopes(16, spread), beckmann, 0.3F);
+    const Material material = material_of(gaussian_slope_normals(16, spread), beckmann, 0.3F);
     for (const double theta : {0.0, 0.7, 1.2, 1.5}) {
       Inputs inputs;
       for (const glm::dvec3& wi : lights)
@@ -289,7 +265,7 @@ TEST(Leadr, MaskedSurfacesReflectNoMoreThanTheyGet) {
 
 // Facets that face away from the light reflect none of it: the mean of max(n.l, 0), not the maximum of a mean.
 TEST(Leadr, DiffuseMeetsTheSumOverTexels) {
-  const Image normals = gaussian_slopes(64, 0.4F);
+  const Image normals = gaussian_slope_normals(64, 0.4F);
   const Material material = material_of(normals, beckmann, 0.3F, GeometryTerm::none);
   Inputs inputs;
   std::vector<double> bump;
@@ -321,16 +297,7 @@ TEST(Leadr, DiffuseMeetsTheSumOverTexels) {
 
 // Grooves that run away from the viewer: probes along the long side of a pixel's footprint leave the short side sharp.
 TEST(Leadr, ProbesSharpenAnObliqueView) {
-  std::mt19937 random(4);
-  std::uniform_real_distribution<float> slope(-0.4F, 0.4F);
-  Image normals(64, 64, 4, 1.0F);
-  for (int x = 0; x < 64; ++x) {
-    const glm::vec3 n = glm::normalize(glm::vec3(slope(random), 0.0F, 1.0F));
-    for (int y = 0; y < 64; ++y) std::copy_n(&n.x, 3, normals.at(x, y).begin());
-  }
-  Scene scene = square_scene(normals, {});
-  scene.camera.world = look_at({0.0, -2.5, 0.5}, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
-  TestRenderer renderer(scene);
+  TestRenderer renderer(receding_grooves());
   const Image truth = renderer.reference(256).mean;
   const auto error = [&](int probes) {
     return compare_images(renderer.frame(leadr_method(), {}, probes), truth, 1.0F).value().relative_rmse;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -169,8 +170,10 @@ TEST(TanSamples, PoolingLeavesTheFit) {
   const auto fitted = [](const Samples& s) {
     std::array<Gaussian, 4> mixture{};
     fit_texel(s, Prior(1.0), {}, {}, mixture);
-    std::vector<Recovered> out;
-    for (const Gaussian& g : mixture) out.push_back({g.alpha, g.x, g.y, g.variance});
+    std::vector<Recovered> out(mixture.size());
+    std::ranges::transform(mixture, out.begin(), [](const Gaussian& g) {
+      return Recovered{g.alpha, g.x, g.y, g.variance};
+    });
     return out;
   };
   const std::vector<Recovered> exact = fitted(samples);

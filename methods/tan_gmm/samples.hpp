@@ -47,7 +47,7 @@ class NormalField {
 class CellPool {
  public:
   /// Texels of fewer samples are left as they are.
-  static constexpr std::size_t fewest = 1024;
+  static constexpr std::size_t fewest = 256;
 
   CellPool();
   void pool(Samples& samples);

@@ -92,12 +92,15 @@ void move_to_means(std::span<Point> centres, std::span<const Cluster> clusters) 
 
 // The centre of the densest cell of a histogram over the disc, as a component.
 Gaussian densest_spot(const Samples& samples) {
-  constexpr int across = 64;
+  constexpr std::size_t across = 64;
   constexpr float seed_variance = 1e-4F;
-  std::vector<Cluster> cells(static_cast<std::size_t>(across) * across);
-  const auto cell = [](float v) { return std::clamp(static_cast<int>((v + 1.0F) * (0.5F * across)), 0, across - 1); };
+  std::vector<Cluster> cells(across * across);
+  const auto cell = [](float v) {
+    constexpr auto last = static_cast<int>(across) - 1;
+    return static_cast<std::size_t>(std::clamp(static_cast<int>((v + 1.0F) * (0.5F * across)), 0, last));
+  };
   for (std::size_t j = 0; j < samples.size(); ++j) {
-    Cluster& c = cells[static_cast<std::size_t>(cell(samples.y[j]) * across + cell(samples.x[j]))];
+    Cluster& c = cells[cell(samples.y[j]) * across + cell(samples.x[j])];
     const double w = samples.weight[j];
     c.weight += w;
     c.dx += w * samples.x[j];

@@ -15,12 +15,13 @@ extern const std::string_view tan_gmm_glsl;
 
 namespace {
 
-OptionSpec word_option(std::string name, std::vector<std::string> choices, std::string meaning) {
+// The first choice is the default.
+OptionSpec word_option(std::string name, const std::vector<std::string>& choices, std::string meaning) {
   return {.name = std::move(name),
           .default_value = choices.front(),
           .minimum = 0,
           .maximum = 0,
-          .choices = std::move(choices),
+          .choices = choices,
           .meaning = std::move(meaning),
           .integer = false};
 }
@@ -56,11 +57,15 @@ std::vector<OptionSpec> option_table() {
        .meaning = "Weight of the prior that aligns the means, in samples; the paper's is 1.",
        .integer = false},
       word_option("storage", {"fp32", "fp16"}, "How the mixtures are stored: 32-bit or 16-bit floats."),
+      word_option("lobe", {"base", "gaussian"},
+                  "What a component reflects with: the scene's base lobe, widened by the component's spread, or the "
+                  "paper's Gaussian over the disc, which the base lobe enters by its variance alone."),
       word_option("foreshorten", {"on", "off"},
-                  "Whether the base lobe's variance over the disc shrinks with the cosine of the component's tilt."),
+                  "lobe=gaussian: whether the base lobe's variance over the disc shrinks with the cosine of the "
+                  "component's tilt."),
       word_option("rim", {"normalized", "cut"},
-                  "What becomes of a Gaussian that reaches beyond the disc: scaled so that no energy is lost, or cut "
-                  "off there, as in the paper.")};
+                  "lobe=gaussian: what becomes of a Gaussian that reaches beyond the disc: scaled so that no energy is "
+                  "lost, or cut off there, as in the paper.")};
 }
 
 tan_gmm::FitSettings fit_settings(const Options& options) {
@@ -109,8 +114,7 @@ class TanGmm final : public Method {
       .paper = "Tan et al. 2005, Multiresolution Reflectance Filtering, Eurographics Symposium on Rendering",
       .options = option_table(),
       .honours = EffectSet{}.set(),
-      .slow_precompute = true,
-      .exact_lobe = false};
+      .slow_precompute = true};
 };
 
 }  // namespace

@@ -7,13 +7,15 @@ const int components = int(option_n);
 const int components = 1;
 //? end
 
-// Components: `amount` is the share of the energy over the density's norm; 0 where a component is not there.
+// Components. Gaussian: `amount` is the share of the energy over the density's norm, `width` the variance per axis of the
+// disc, normals and base lobe together. Else `amount` is the share and `width` the parameter of the widened base lobe. An
+// amount of 0: the component is not there.
 struct Effective {
   vec3 mean[components];
   float share[components];
   float amount[components];
-  float variance[components];  // per axis of the disc, normals and base lobe together
-  float lobe;                  // of a single facet
+  float width[components];
+  float lobe;  // of a single facet
 };
 
 // One Gaussian over the disc.
@@ -39,6 +41,7 @@ Component recovered(vec4 filtered) {
 // The height of the hemisphere over a point of the disc.
 float heightOver(vec2 mean) { return sqrt(max(1.0 - dot(mean, mean), 0.0)); }
 
+//? if lobe_gaussian
 // The base lobe's variance over the disc. Seen from above, a solid angle shrinks by the cosine; a lobe on the rim still
 // reaches its own width above it.
 float baseOverDisc(float variance, float height) {
@@ -78,6 +81,31 @@ float rimFactor(vec2 mean, float variance, float height, float base_variance) {
 //? end
 }
 
+// The Gaussian over the disc that stands for normals and base lobe together (Tan 2005, section 3).
+void setLobe(inout Effective e, int i, float share, vec2 mean, float height, float spread) {
+  float base = clamp(lobeVariance(e.lobe), 1e-6, 4.0);
+  e.width[i] = clamp(spread + baseOverDisc(base, height), 1e-6, 4.0);
+  e.amount[i] = share * rimFactor(mean, e.width[i], height, base) / (2.0 * pi * e.width[i]);
+}
+
+// Over solid angle: an area of the disc is h_z times the solid angle above it.
+float componentDensity(Effective e, int i, vec3 h) {
+  vec2 d = h.xy - e.mean[i].xy;
+  return e.amount[i] * exp(-0.5 * dot(d, d) / e.width[i]) * max(h.z, 0.0);
+}
+//? else
+// The base lobe about the component's mean, widened by the component's spread. An area of the disc is the cosine times its
+// solid angle, so that the round lobe of the same area has the spread over the cosine; on the rim over its own width.
+void setLobe(inout Effective e, int i, float share, vec2 mean, float height, float spread) {
+  e.width[i] = spread <= 0.0 ? e.lobe : lobeFromVariance(lobeVariance(e.lobe) + spread / max(height, sqrt(spread)));
+  e.amount[i] = share;
+}
+
+float componentDensity(Effective e, int i, vec3 h) {
+  return e.amount[i] <= 0.0 ? 0.0 : e.amount[i] * lobeDensity(e.width[i], e.mean[i], h);
+}
+//? end
+
 float baseLobe(Footprints f) {
 //? if roughness_variation
   float deviation = fetch(tan_gmm_deviation, f.roughness).r;
@@ -91,12 +119,11 @@ void setComponent(inout Effective e, int i, Component c) {
   float size = length(c.mean);
   vec2 mean = size > 1.0 ? c.mean / size : c.mean;  // by rounding
   float height = heightOver(mean);
-  float base = clamp(lobeVariance(e.lobe), 1e-6, 4.0);
-  float variance = clamp(c.spread + baseOverDisc(base, height), 1e-6, 4.0);
   e.mean[i] = vec3(mean, height);
   e.share[i] = c.share;
-  e.variance[i] = variance;
-  e.amount[i] = c.share <= 0.0 ? 0.0 : c.share * rimFactor(mean, variance, height, base) / (2.0 * pi * variance);
+  e.amount[i] = 0.0;
+  e.width[i] = e.lobe;
+  if (c.share > 0.0) setLobe(e, i, c.share, mean, height, c.spread);
 }
 
 Effective effective(Footprints f) {
@@ -121,12 +148,6 @@ Effective effective(Footprints f) {
   setComponent(e, 0, Component(1.0, vec2(0.0), 0.0));
 //? end
   return e;
-}
-
-// Over solid angle: an area of the disc is h_z times the solid angle above it.
-float componentDensity(Effective e, int i, vec3 h) {
-  vec2 d = h.xy - e.mean[i].xy;
-  return e.amount[i] * exp(-0.5 * dot(d, d) / e.variance[i]) * max(h.z, 0.0);
 }
 
 vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {

@@ -62,15 +62,8 @@ Recovered recovered(const Material& material, const std::map<std::string, std::s
   return {out[0].x, out[0].y, glm::vec3(out[1])};
 }
 
-Image four_texels() {
-  Image image(2, 2, 4, 1.0F);
-  const std::array<glm::vec3, 4> normals{{{0, 0, 1}, {0.6F, 0, 0.8F}, {0, -0.6F, 0.8F}, {-0.28F, 0, 0.96F}}};
-  for (std::size_t i = 0; i < 4; ++i) std::copy_n(&normals[i].x, 3, &image.texels[4 * i]);
-  return image;
-}
-
 TEST(Toksvig, FourTexelsMeetTheGoldenExponent) {
-  const Recovered r = recovered(material_of(four_texels(), 100));
+  const Recovered r = recovered(material_of(four_texel_normals(), 100));
   EXPECT_NEAR(r.consistency, 0.9060905032059435, 1e-6);
   EXPECT_NEAR(r.lobe, 8.799523815941214, 1e-4);
   EXPECT_NEAR(r.axis.x, 0.08829140104321008, 1e-6);

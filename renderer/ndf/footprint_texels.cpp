@@ -70,6 +70,7 @@ std::vector<Stretch> stretches(const Axis& normal, const Axis& roughness, double
     lengths[{normal.index(middle), roughness.index(middle)}] += to - from;
   }
   std::vector<Stretch> out;
+  out.reserve(lengths.size());
   for (const auto& [texels, length] : lengths) out.push_back({texels.first, texels.second, length});
   return out;
 }

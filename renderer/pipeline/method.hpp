@@ -21,7 +21,6 @@ struct MethodInfo {
   std::vector<OptionSpec> options;
   EffectSet honours;             ///< effects that it can simulate; others are left out, and the table says so
   bool slow_precompute = false;  ///< seconds, not milliseconds: kept on disk between runs (bake_cache.hpp)
-  bool exact_lobe = true;  ///< over one normal its NDF is the base lobe; false: a lobe of another shape stands for that
 };
 
 /// A prefiltering method: a pure precompute and a GLSL module (docs/adding-a-method.md). Stateless.

@@ -25,18 +25,11 @@ SlopeMoments moments_at(const Image& level, int x = 0, int y = 0) {
   return {{t[slope_x], t[slope_y]}, {t[slope_xx], t[slope_xy], t[slope_xy], t[slope_yy]}};
 }
 
-Image four_texels() {
-  Image image(2, 2, 4, 1.0F);
-  const std::array<glm::vec3, 4> normals{{{0, 0, 1}, {0.6F, 0, 0.8F}, {0, -0.6F, 0.8F}, {-0.28F, 0, 0.96F}}};
-  for (std::size_t i = 0; i < 4; ++i) std::copy_n(&normals[i].x, 3, &image.texels[4 * i]);
-  return image;
-}
-
 // Golden: B, Sigma + 1/s and its determinant for exponent 100, the roughness in the moments or added to the covariance.
 TEST(SlopeMoments, FourTexelsMeetTheGoldenVector) {
   for (const bool in_moments : {false, true}) {
     const Image variance(1, 1, 1, in_moments ? 0.01F : 0.0F);
-    const SlopeMoments m = moments_at(slope_moment_chain(four_texels(), variance).back());
+    const SlopeMoments m = moments_at(slope_moment_chain(four_texel_normals(), variance).back());
     const glm::dmat2 sigma = covariance(m) + glm::dmat2(in_moments ? 0.0 : 0.01);
     EXPECT_NEAR(m.mean.x, -0.1145833333333333, 1e-7);
     EXPECT_NEAR(m.mean.y, 0.18749999999999997, 1e-7);

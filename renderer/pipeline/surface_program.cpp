@@ -14,8 +14,16 @@ namespace {
 constexpr GLuint material_binding = 0;
 constexpr GLuint method_binding = 1;
 
+// What the program simulates: what the method honours, and the maps that the pipeline reads itself, whose units come first.
+EffectSet effects_of(const GpuScene& scene, const Method& method) {
+  EffectSet shared;
+  shared.set(static_cast<std::size_t>(Effect::base_color_variation));
+  shared.set(static_cast<std::size_t>(Effect::metallic_variation));
+  return scene.effects() & (method.info().honours | shared);
+}
+
 ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings) {
-  return {.effects = scene.effects() & baked.method->info().honours,
+  return {.effects = effects_of(scene, *baked.method),
           .brdf = scene.brdf(),
           .sampling = settings.sampling,
           .max_probes = settings.max_probes,

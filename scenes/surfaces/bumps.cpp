@@ -4,15 +4,18 @@
 #include "renderer/core/random.hpp"
 #include "scenes/surfaces/meshes.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
+#include "scenes/surfaces/wrapped_grid.hpp"
 
 namespace footprint {
 namespace {
 
 /// A bump of height top - sharpness r^2. Lengths along the map are in cells; heights are those of steepness 1.
 struct Bump {
-  glm::dvec2 centre;
+  glm::dvec2 centre;  ///< from its cell's lower left corner
   double top = 0.0, sharpness = 0.0;
 };
+
+using Bumps = WrappedGrid<Bump>;
 
 /// How fast one bump takes over from the next: the height field is log(sum exp(blend h)) / blend, a rounded maximum.
 constexpr double blend = 10.0;
@@ -21,32 +24,28 @@ constexpr double blend = 10.0;
 /// sum.
 constexpr int reach = 2;
 
-/// One bump a cell of a count x count grid, row by row, within 0.3 of its cell's centre.
-std::vector<Bump> scatter(int count, std::uint32_t seed) {
+/// One bump a cell of a count x count grid, within 0.3 of its cell's centre.
+Bumps scatter(int count, std::uint32_t seed) {
   std::mt19937_64 random(seed);
-  const auto cells = static_cast<std::size_t>(count);
-  std::vector<Bump> bumps(cells * cells);
-  for (std::size_t i = 0; i < bumps.size(); ++i) {
-    const glm::dvec2 cell{static_cast<double>(i % cells), static_cast<double>(i / cells)};
+  Bumps bumps(count, count);
+  for (Bump& bump : bumps) {
     const double x = uniform(random), y = uniform(random);
-    bumps[i].centre = cell + 0.5 + 0.6 * (glm::dvec2{x, y} - 0.5);
-    bumps[i].top = 0.2 * uniform(random);
-    bumps[i].sharpness = 0.7 + 0.6 * uniform(random);
+    bump.centre = 0.5 + 0.6 * (glm::dvec2{x, y} - 0.5);
+    bump.top = 0.2 * uniform(random);
+    bump.sharpness = 0.7 + 0.6 * uniform(random);
   }
   return bumps;
 }
 
 /// The slope at `place`, in cells, for steepness 1: the bumps' slopes weighed by exp(blend h).
-glm::dvec2 slope_at(const std::vector<Bump>& bumps, int count, const glm::dvec2& place) {
+glm::dvec2 slope_at(const Bumps& bumps, const glm::dvec2& place) {
   glm::dvec2 sum{0.0};
   double weights = 0.0;
   const int column = static_cast<int>(place.x), row = static_cast<int>(place.y);
-  const auto wrap = [count](int index) { return (index % count + count) % count; };
   for (int y = row - reach; y <= row + reach; ++y) {
     for (int x = column - reach; x <= column + reach; ++x) {
-      const int wrapped_x = wrap(x), wrapped_y = wrap(y);
-      const Bump& bump = bumps[static_cast<std::size_t>(wrapped_y * count + wrapped_x)];
-      const glm::dvec2 offset = place - bump.centre - glm::dvec2{x - wrapped_x, y - wrapped_y};
+      const Bump& bump = bumps.at(x, y);
+      const glm::dvec2 offset = place - glm::dvec2{x, y} - bump.centre;
       const double weight = std::exp(blend * (bump.top - bump.sharpness * glm::dot(offset, offset)));
       sum -= 2.0 * weight * bump.sharpness * offset;
       weights += weight;
@@ -58,9 +57,9 @@ glm::dvec2 slope_at(const std::vector<Bump>& bumps, int count, const glm::dvec2&
 Image normals(const SurfaceSettings& settings) {
   const int count = static_cast<int>(settings.parameters.number("count"));
   const double steepness = settings.parameters.number("steepness");
-  const std::vector<Bump> bumps = scatter(count, settings.seed);
+  const Bumps bumps = scatter(count, settings.seed);
   return fill_normals(settings.resolution, [&](const glm::dvec2& place) {
-    return normal_of_slope(steepness * slope_at(bumps, count, place * static_cast<double>(count)));
+    return normal_of_slope(steepness * slope_at(bumps, place * static_cast<double>(count)));
   });
 }
 

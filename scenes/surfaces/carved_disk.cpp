@@ -11,6 +11,7 @@
 #include "scenes/surfaces/meshes.hpp"
 #include "scenes/surfaces/noise.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
+#include "scenes/surfaces/wrapped_grid.hpp"
 
 namespace footprint {
 namespace {
@@ -32,7 +33,7 @@ struct Sector {
 Sector sector_of(const Height& angle, int count, double shift = 0.0) {
   const double width = tau / count;
   const double nearest = std::round(angle.value() / width - shift);
-  const int index = (static_cast<int>(nearest) % count + count) % count;
+  const int index = wrap(static_cast<int>(nearest), count);
   return {static_cast<std::size_t>(index), angle - (nearest + shift) * width, 0.5 * width};
 }
 

@@ -8,17 +8,12 @@
 
 #include "renderer/scene/load_scene.hpp"
 #include "scenes/surfaces/noise.hpp"
-#include "scenes/surfaces/registry.hpp"
+#include "scenes/surfaces/test_maps.hpp"
 
 namespace footprint {
 namespace {
 
-Image make(const std::string& name, int resolution, const std::map<std::string, std::string>& parameters = {}) {
-  const Surface& surface = find_surface(all_surfaces(), name);
-  SurfaceSettings settings = surface_settings(surface, parameters);
-  settings.resolution = resolution;
-  return surface_normals(surface, settings);
-}
+using testing::make_map;
 
 // Against differences of its own values, which know nothing of the formula for the gradient.
 TEST(PeriodicNoise, HasTheGradientOfItsValues) {
@@ -74,12 +69,13 @@ double share_without_curl(const Image& map, double tolerance) {
   return static_cast<double>(good) / all;
 }
 
-TEST(CarvedDisk, IsAHeightField) { EXPECT_GT(share_without_curl(make("carved_disk", 1536), 2e-3), 0.8); }
+TEST(CarvedDisk, IsAHeightField) { EXPECT_GT(share_without_curl(make_map("carved_disk", 1536), 2e-3), 0.8); }
 
 TEST(CarvedDisk, IsFlatBeyondTheRimAndWithoutDepth) {
-  const Image map = make("carved_disk", 64);
+  const Image map = make_map("carved_disk", 64);
   for (const auto& [x, y] : {std::pair{0, 0}, {63, 0}, {0, 63}, {63, 63}}) EXPECT_EQ(map.at(x, y)[2], 1.0F);
-  for (const float z : {make("carved_disk", 33, {{"depth", "0"}}).at(16, 16)[2], make("carved_disk", 1).at(0, 0)[2]}) {
+  for (const float z :
+       {make_map("carved_disk", 33, {{"depth", "0"}}).at(16, 16)[2], make_map("carved_disk", 1).at(0, 0)[2]}) {
     EXPECT_EQ(z, 1.0F);
   }
 }
@@ -97,12 +93,12 @@ TEST(CarvedDisk, RepeatsAroundTheMiddleButForTheHand) {
     }
     return static_cast<double>(differing) / static_cast<double>(map.texel_count());
   };
-  EXPECT_LT(share_differing(make("carved_disk", 201, {{"unevenness", "0"}})), 0.01);
-  EXPECT_GT(share_differing(make("carved_disk", 201)), 0.5);
+  EXPECT_LT(share_differing(make_map("carved_disk", 201, {{"unevenness", "0"}})), 0.01);
+  EXPECT_GT(share_differing(make_map("carved_disk", 201)), 0.5);
 }
 
 TEST(GoldenArmor, ScalesAreRoundedAllOver) {
-  const Image map = make("golden_armor", 512, {{"unevenness", "0"}});
+  const Image map = make_map("golden_armor", 512, {{"unevenness", "0"}});
   double lowest = 1.0, up = 0.0;
   int flat = 0;
   for (int y = 0; y < map.height; ++y) {
@@ -119,7 +115,7 @@ TEST(GoldenArmor, ScalesAreRoundedAllOver) {
 
 // The whole pattern moved by a part of the map that it repeats after is the pattern itself: so does the map's border.
 TEST(GoldenArmor, Tiles) {
-  const Image map = make("golden_armor", 256, {{"unevenness", "0"}, {"count", "4"}});
+  const Image map = make_map("golden_armor", 256, {{"unevenness", "0"}, {"count", "4"}});
   double worst = 0.0;
   for (int y = 0; y < 256; ++y) {
     for (int x = 0; x < 256; ++x) {
@@ -134,7 +130,7 @@ TEST(GoldenArmor, Tiles) {
 
 // Smooth ground: a step over the border is no larger than the steps on both sides of it.
 TEST(Desert, Tiles) {
-  const Image map = make("desert", 1024);
+  const Image map = make_map("desert", 1024);
   const auto step = [&](int x0, int y0, int x1, int y1) {
     return std::hypot(map.at(x0, y0)[0] - map.at(x1, y1)[0], map.at(x0, y0)[1] - map.at(x1, y1)[1]);
   };

@@ -116,7 +116,7 @@ class Dunes {
   /// One dune a period: a long windward side from a flat foot up to the crest, then the short, steep lee side. The
   /// crest is where the lower of the two takes over, rounded so that the mesh can follow it.
   [[nodiscard]] static Height crest(const Height& phase) {
-    constexpr double top = 0.72, sharpness = 12.0;
+    constexpr double top = 0.72, sharpness = 8.0;
     const Height t = phase - std::floor(phase.value());
     const Height up = t / top, down = higher(-1.5, (t - 1.0) / (1.0 - top));
     const Height windward = up * up * (1.8 - 0.8 * up), lee = down * down * (1.6 + 0.6 * down);
@@ -127,7 +127,7 @@ class Dunes {
 };
 
 Mesh mesh(const SurfaceSettings& settings) {
-  constexpr int cells = 480;
+  constexpr int cells = 240;
   constexpr double side = 120.0;  // metres
   const Dunes dunes(settings.seed);
   Mesh mesh = grid_mesh(cells, cells, [&](const glm::dvec2& place) {

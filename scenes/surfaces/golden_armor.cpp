@@ -7,6 +7,7 @@
 #include "scenes/surfaces/height.hpp"
 #include "scenes/surfaces/meshes.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
+#include "scenes/surfaces/wrapped_grid.hpp"
 
 namespace footprint {
 namespace {
@@ -24,12 +25,12 @@ constexpr double dome_radius = 0.56;
 /// The outer share of the disc that is bent down to an edge.
 constexpr double lip = 0.9;
 
-/// What one scale's hammering left: its tilt, as the x and y of its normal.
-using Tilts = std::vector<glm::dvec2>;
+/// What hammering left on each scale: its tilt, as the x and y of its normal. Rows are twice as many as columns.
+using Tilts = WrappedGrid<glm::dvec2>;
 
-Tilts hammer(int count, double unevenness, std::uint32_t seed) {
+Tilts hammer(int columns, double unevenness, std::uint32_t seed) {
   std::mt19937_64 random(seed);
-  Tilts tilts(2 * static_cast<std::size_t>(count) * static_cast<std::size_t>(count));
+  Tilts tilts(columns, 2 * columns);
   for (glm::dvec2& tilt : tilts) {
     const double angle = 2.0 * std::numbers::pi * uniform(random), amount = std::sqrt(uniform(random));
     tilt = unevenness * amount * glm::dvec2{std::cos(angle), std::sin(angle)};
@@ -47,20 +48,18 @@ glm::dvec2 lean_of(const glm::dvec2& offset, double edge) {
   return lean * std::min(1.0, 0.98 / std::max(glm::length(lean), 1e-9));
 }
 
-/// The normal at `place`, in columns of scales, of a map of `count` columns and twice as many rows.
-glm::dvec3 normal_at(const glm::dvec2& place, int count, double edge, const Tilts& tilts) {
-  const int rows = 2 * count;
+/// The normal at `place`, in columns of scales.
+glm::dvec3 normal_at(const glm::dvec2& place, double edge, const Tilts& tilts) {
   // From the highest row that can reach the place downwards: the first scale found lies on top.
   const int top = static_cast<int>(std::floor(2.0 * (place.y + scale_radius)));
   for (int row = top;; --row) {
-    const double shift = (row % 2 + 2) % 2 == 0 ? 0.0 : 0.5;
+    const double shift = row % 2 == 0 ? 0.0 : 0.5;
     const double column = std::round(place.x - shift);
     const glm::dvec2 offset = place - glm::dvec2{column + shift, 0.5 * row};
     if (glm::dot(offset, offset) > scale_radius * scale_radius) continue;
-    const int x = (static_cast<int>(column) % count + count) % count, y = (row % rows + rows) % rows;
     const glm::dvec2 lean = lean_of(offset, edge);
     const glm::dvec3 normal{lean, std::sqrt(1.0 - glm::dot(lean, lean))};
-    return glm::normalize(normal + glm::dvec3{tilts[static_cast<std::size_t>(y * count + x)], 0.0});
+    return glm::normalize(normal + glm::dvec3{tilts.at(static_cast<int>(column), row), 0.0});
   }
 }
 
@@ -70,7 +69,7 @@ Image normals(const SurfaceSettings& settings) {
   const double edge = std::sin(glm::radians(parameters.number("edge_degrees")));
   const Tilts tilts = hammer(count, parameters.number("unevenness"), settings.seed);
   return fill_normals(settings.resolution, [&](const glm::dvec2& place) {
-    return normal_at(static_cast<double>(count) * place, count, edge, tilts);
+    return normal_at(static_cast<double>(count) * place, edge, tilts);
   });
 }
 
@@ -118,7 +117,7 @@ Vertex plate_vertex(const glm::dvec2& place) {
 }
 
 Mesh mesh(const SurfaceSettings& /*settings*/) {
-  Mesh mesh = grid_mesh(160, 160, plate_vertex);
+  Mesh mesh = grid_mesh(80, 80, plate_vertex);
   mesh.name = "breast_plate";
   return mesh;
 }

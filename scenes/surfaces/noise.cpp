@@ -15,24 +15,18 @@ double fade_slope(double t) { return 30.0 * t * t * (t - 1.0) * (t - 1.0); }
 
 }  // namespace
 
-PeriodicNoise::PeriodicNoise(int period, std::mt19937_64& random)
-    : period_(period), corners_(static_cast<std::size_t>(period) * static_cast<std::size_t>(period)) {
+PeriodicNoise::PeriodicNoise(int period, std::mt19937_64& random) : corners_(period, period) {
   for (glm::dvec2& gradient : corners_) {
     const double angle = 2.0 * std::numbers::pi * uniform(random);
     gradient = {std::cos(angle), std::sin(angle)};
   }
 }
 
-const glm::dvec2& PeriodicNoise::corner(int column, int row) const {
-  const auto wrap = [this](int index) { return static_cast<std::size_t>((index % period_ + period_) % period_); };
-  return corners_[wrap(row) * static_cast<std::size_t>(period_) + wrap(column)];
-}
-
 Height PeriodicNoise::at(const Height& x, const Height& y) const {
   const int column = static_cast<int>(std::floor(x.value())), row = static_cast<int>(std::floor(y.value()));
   const glm::dvec2 t{x.value() - column, y.value() - row};
-  const glm::dvec2 &g00 = corner(column, row), &g10 = corner(column + 1, row);
-  const glm::dvec2 &g01 = corner(column, row + 1), &g11 = corner(column + 1, row + 1);
+  const glm::dvec2 &g00 = corners_.at(column, row), &g10 = corners_.at(column + 1, row);
+  const glm::dvec2 &g01 = corners_.at(column, row + 1), &g11 = corners_.at(column + 1, row + 1);
   const double v00 = glm::dot(g00, t), v10 = glm::dot(g10, t - glm::dvec2{1.0, 0.0});
   const double v01 = glm::dot(g01, t - glm::dvec2{0.0, 1.0}), v11 = glm::dot(g11, t - glm::dvec2{1.0, 1.0});
   const double a = fade(t.x), b = fade(t.y);

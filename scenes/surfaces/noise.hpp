@@ -3,9 +3,9 @@
 
 #include <glm/glm.hpp>
 #include <random>
-#include <vector>
 
 #include "scenes/surfaces/height.hpp"
+#include "scenes/surfaces/wrapped_grid.hpp"
 
 namespace footprint {
 
@@ -19,10 +19,7 @@ class PeriodicNoise {
   [[nodiscard]] Height at(const Height& x, const Height& y) const;
 
  private:
-  [[nodiscard]] const glm::dvec2& corner(int column, int row) const;
-
-  int period_;
-  std::vector<glm::dvec2> corners_;  // unit
+  WrappedGrid<glm::dvec2> corners_;  ///< unit gradients
 };
 
 }  // namespace footprint

@@ -7,6 +7,7 @@
 #include "renderer/core/random.hpp"
 #include "scenes/surfaces/meshes.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
+#include "scenes/surfaces/wrapped_grid.hpp"
 
 namespace footprint {
 namespace {
@@ -16,15 +17,15 @@ struct Scale {
   double radius = 0.0;
 };
 
-/// `columns` x `rows` scales, each odd row moved by half a column. Lengths are in map widths.
+/// Rows of scales, each odd row moved by half a column. Lengths are in map widths.
 class Lattice {
  public:
+  /// The number of rows is even, so that the map tiles, and makes the lattice as nearly hexagonal as it can be.
   Lattice(int columns, double fill, double variation, std::uint32_t seed)
-      : columns_(columns), rows_(2 * std::max(1, static_cast<int>(std::lround(columns / std::numbers::sqrt3)))) {
-    const double across = 1.0 / columns_, up = 1.0 / rows_;
+      : scales_(columns, 2 * std::max(1, static_cast<int>(std::lround(columns / std::numbers::sqrt3)))) {
+    const double across = 1.0 / scales_.columns(), up = 1.0 / scales_.rows();
     const double room = 0.5 * std::min({across, std::hypot(0.5 * across, up), 2.0 * up});  // radius of touching discs
     std::mt19937_64 random(seed);
-    scales_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
     for (Scale& scale : scales_) {
       scale.radius = fill * room * (1.0 - variation * uniform(random));
       const double angle = 2.0 * std::numbers::pi * uniform(random);
@@ -34,12 +35,12 @@ class Lattice {
 
   /// From the centre of the scale that covers `place`, as a share of its radius; zero on the ground.
   [[nodiscard]] glm::dvec2 offset_at(const glm::dvec2& place) const {
-    const int row = static_cast<int>(place.y * rows_), column = static_cast<int>(place.x * columns_);
+    const int row = static_cast<int>(place.y * scales_.rows()), column = static_cast<int>(place.x * scales_.columns());
     for (int y = row - 1; y <= row + 1; ++y) {
       for (int x = column - 1; x <= column + 1; ++x) {
-        const Scale& scale = scales_[static_cast<std::size_t>(wrap(y, rows_) * columns_ + wrap(x, columns_))];
-        const double shift = wrap(y, 2) == 0 ? 0.25 : 0.75;  // of a column
-        const glm::dvec2 centre{(x + shift) / columns_, (y + 0.5) / rows_};
+        const Scale& scale = scales_.at(x, y);
+        const double shift = y % 2 == 0 ? 0.25 : 0.75;  // of a column
+        const glm::dvec2 centre{(x + shift) / scales_.columns(), (y + 0.5) / scales_.rows()};
         const glm::dvec2 offset = (place - centre - scale.offset) / scale.radius;
         if (glm::dot(offset, offset) < 1.0) return offset;
       }
@@ -48,10 +49,7 @@ class Lattice {
   }
 
  private:
-  static int wrap(int index, int count) { return (index + count) % count; }
-
-  int columns_, rows_;  // rows: even, so that the map tiles
-  std::vector<Scale> scales_;
+  WrappedGrid<Scale> scales_;
 };
 
 Image normals(const SurfaceSettings& settings) {

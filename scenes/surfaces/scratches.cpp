@@ -6,6 +6,7 @@
 #include "renderer/core/random.hpp"
 #include "scenes/surfaces/meshes.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
+#include "scenes/surfaces/wrapped_grid.hpp"
 
 namespace footprint {
 namespace {
@@ -53,7 +54,7 @@ Cut cut_at(const Scratch& scratch, const glm::dvec2& place) {
 /// Which scratches may reach each cell of a grid over the map, so that a texel asks few of them.
 class ScratchGrid {
  public:
-  explicit ScratchGrid(const std::vector<Scratch>& scratches) : cells_(static_cast<std::size_t>(side * side)) {
+  explicit ScratchGrid(const std::vector<Scratch>& scratches) {
     for (const Scratch& scratch : scratches) {
       for (int x = -1; x <= 1; ++x) {
         for (int y = -1; y <= 1; ++y) add(scratch, glm::dvec2{x, y});
@@ -64,7 +65,7 @@ class ScratchGrid {
   /// The deepest cut at `place`.
   [[nodiscard]] Cut at(const glm::dvec2& place) const {
     Cut deepest;
-    for (const Scratch& scratch : cells_[cell_of(static_cast<int>(place.x * side), static_cast<int>(place.y * side))]) {
+    for (const Scratch& scratch : cells_.at(static_cast<int>(place.x * side), static_cast<int>(place.y * side))) {
       const Cut cut = cut_at(scratch, place);
       if (cut.depth > deepest.depth) deepest = cut;
     }
@@ -73,8 +74,6 @@ class ScratchGrid {
 
  private:
   static constexpr int side = 64;
-
-  static std::size_t cell_of(int x, int y) { return static_cast<std::size_t>(y * side + x); }
 
   /// Adds the scratch's copy on the next tile, `shift` away, to the cells of this tile that it may reach.
   void add(Scratch scratch, const glm::dvec2& shift) {
@@ -88,12 +87,12 @@ class ScratchGrid {
       for (int x = first(low.x); x < last(high.x); ++x) {
         const glm::dvec2 offset = (glm::dvec2{x, y} + 0.5) / static_cast<double>(side) - scratch.centre;
         const double across = scratch.direction.x * offset.y - scratch.direction.y * offset.x;
-        if (std::abs(across) <= reach) cells_[cell_of(x, y)].push_back(scratch);
+        if (std::abs(across) <= reach) cells_.at(x, y).push_back(scratch);
       }
     }
   }
 
-  std::vector<std::vector<Scratch>> cells_;
+  WrappedGrid<std::vector<Scratch>> cells_{side, side};
 };
 
 Image normals(const SurfaceSettings& settings) {

@@ -5,17 +5,12 @@
 #include <cmath>
 #include <functional>
 
-#include "scenes/surfaces/registry.hpp"
+#include "scenes/surfaces/test_maps.hpp"
 
 namespace footprint {
 namespace {
 
-Image make(const std::string& name, int resolution, const std::map<std::string, std::string>& parameters = {}) {
-  const Surface& surface = find_surface(all_surfaces(), name);
-  SurfaceSettings settings = surface_settings(surface, parameters);
-  settings.resolution = resolution;
-  return surface_normals(surface, settings);
-}
+using testing::make_map;
 
 /// The share of texels for which `holds`.
 double share(const Image& map, const std::function<bool(const glm::dvec3&)>& holds) {
@@ -34,7 +29,7 @@ bool is_flat(const glm::dvec3& normal) { return normal == glm::dvec3{0.0, 0.0, 1
 // Texels on both sides of the map's border differ no more than those of some other two rows or columns that meet.
 TEST(FlatSurfaces, Tile) {
   for (const std::string name : {"bumps", "scales"}) {
-    const Image map = make(name, 512);
+    const Image map = make_map(name, 512);
     const auto difference = [&](int x0, int y0, int x1, int y1) {
       double squares = 0.0;
       for (std::size_t c = 0; c < 3; ++c) squares += std::pow(map.at(x0, y0)[c] - map.at(x1, y1)[c], 2);
@@ -59,7 +54,7 @@ TEST(FlatSurfaces, Tile) {
 
 // A scratch over the border goes on at the other side: as many texels are cut along the border as elsewhere.
 TEST(Scratches, GoOnOverTheBorder) {
-  const Image map = make("scratches", 512, {{"count", "400"}});
+  const Image map = make_map("scratches", 512, {{"count", "400"}});
   const auto cut = [&](int row) {
     int count = 0;
     for (int x = 0; x < map.width; ++x) count += map.at(x, row)[2] < 1.0F ? 1 : 0;
@@ -84,7 +79,7 @@ TEST(VGrooves, HaveTwoNormalsAndNoOther) {
     return [=](const glm::dvec3& normal) { return glm::length(normal - glm::dvec3{x, 0.0, cosine}) < 1e-7; };
   };
   for (const int resolution : {256, 383, 512, 1024}) {
-    const Image map = make("v_grooves", resolution, {{"tilt_degrees", "30"}});
+    const Image map = make_map("v_grooves", resolution, {{"tilt_degrees", "30"}});
     EXPECT_NEAR(share(map, is(sine)), 0.5, 16.0 / resolution);
     EXPECT_EQ(share(map, is(sine)) + share(map, is(-sine)), 1.0);
   }
@@ -93,7 +88,7 @@ TEST(VGrooves, HaveTwoNormalsAndNoOther) {
 // Archimedes: the area of a hemisphere over a piece of its shadow is inverse to its z, so the shadow sees every (x, y)
 // of the disc evenly: the share within radius r of the disc is r^2, in every direction alike.
 TEST(Scales, AreHemispheres) {
-  const Image map = make("scales", 1024);
+  const Image map = make_map("scales", 1024);
   const double ground = share(map, is_flat), scales = 1.0 - ground;
   EXPECT_GT(ground, 0.15);
   EXPECT_LT(ground, 0.45);
@@ -111,14 +106,14 @@ TEST(Scales, AreHemispheres) {
 }
 
 TEST(Scales, CoverWhatTheirRadiiSay) {
-  const Image map = make("scales", 2048, {{"count", "4"}, {"fill", "1"}, {"variation", "0"}});
+  const Image map = make_map("scales", 2048, {{"count", "4"}, {"fill", "1"}, {"variation", "0"}});
   // Four columns, four rows: discs of diameter 1/4 in rows 1/4 apart, moved by 1/8, touch their neighbours in the row.
   EXPECT_NEAR(1.0 - share(map, is_flat), 16 * glm::radians(180.0) / 64.0, 1e-3);
 }
 
 TEST(Scratches, AreThinLinesOnFlatGround) {
   for (const int resolution : {256, 512, 1024}) {
-    const Image map = make("scratches", resolution);
+    const Image map = make_map("scratches", resolution);
     EXPECT_GT(share(map, is_flat), 0.8);
     EXPECT_LT(share(map, is_flat), 0.95);
     const auto steeper = [&](double degrees) {
@@ -127,12 +122,12 @@ TEST(Scratches, AreThinLinesOnFlatGround) {
     EXPECT_EQ(steeper(45.01), 0.0);
     EXPECT_GT(steeper(20.0), 0.005);
   }
-  EXPECT_EQ(share(make("scratches", 64, {{"count", "0"}}), is_flat), 1.0);
+  EXPECT_EQ(share(make_map("scratches", 64, {{"count", "0"}}), is_flat), 1.0);
 }
 
 // A height field of round bumps has no flat ground and leans to no side.
 TEST(Bumps, LeaveNoGroundFlat) {
-  const Image map = make("bumps", 512);
+  const Image map = make_map("bumps", 512);
   EXPECT_LT(share(map, [](const glm::dvec3& n) { return n.z > std::cos(glm::radians(1.0)); }), 0.005);
   EXPECT_GT(share(map, [](const glm::dvec3& n) { return n.z < std::cos(glm::radians(20.0)); }), 0.3);
   for (int axis = 0; axis < 2; ++axis) {
@@ -142,7 +137,7 @@ TEST(Bumps, LeaveNoGroundFlat) {
 
 // Neighbouring texels' normals must belong to one height field: the slopes around any square of texels sum to zero.
 TEST(Bumps, AreAHeightField) {
-  const Image map = make("bumps", 1024, {{"count", "8"}});
+  const Image map = make_map("bumps", 1024, {{"count", "8"}});
   const auto slope = [&](int x, int y, std::size_t axis) {
     return -static_cast<double>(map.at(x, y)[axis]) / map.at(x, y)[2];
   };

@@ -42,7 +42,7 @@ std::vector<Case> words() {
       row("NdfOfWrongMethodOption", {"--methods", "toksvig:spred=2"}, {"did you mean `spread`?"}),
       row("MaterialOfAMap", {"--material", "0"}, {"--material", "is a map"}),
       row("NoRings", {"--resolution", "0"}, {"--resolution", "16"}),
-      row("NoPicture", {"--size", "0"}, {"--size", "16"}),
+      row("NoPicture", {"--picture-size", "0"}, {"--picture-size", "16"}),
   };
 }
 
@@ -66,11 +66,12 @@ std::vector<Case> sources() {
 }
 
 std::vector<Case> good() {
-  Case map = row("NdfOfAMap", {"--methods", "toksvig,naive_mip:storage=fp16", "--size", "32"}, {});
+  Case map = row("NdfOfAMap", {"--methods", "toksvig,naive_mip:storage=fp16", "--picture-size", "32"}, {});
   map.exit_code = 0;
   map.output_has = {"toksvig", "naive_mip:storage=fp16", "energy", "lobes"};
   map.leaves = {"out/ndf.json", "out/ndf.png", "out/images/truth.exr", "out/images/toksvig_difference.png"};
-  Case wrapped = row("NdfBeyondTheMap", {"--methods", "direct", "--footprint", "-1.5,0.5,0.25,2", "--size", "32"}, {});
+  Case wrapped =
+      row("NdfBeyondTheMap", {"--methods", "direct", "--footprint", "-1.5,0.5,0.25,2", "--picture-size", "32"}, {});
   wrapped.exit_code = 0;
   wrapped.leaves = {"out/ndf.json"};
   Case coarse = row("NdfOfACoarseGrid", {"--methods", "direct", "--lobe", "vmf:1e5", "--resolution", "16"}, {});

@@ -24,7 +24,9 @@ const std::vector<Case> help_cases{
 
 const std::vector<Case> listing_cases{
     {.name = "ListMethods", .arguments = {"list", "methods"}, .output_has = {"direct", "naive_mip", "toksvig"}},
-    {.name = "ListEverything", .arguments = {"list"}, .output_has = {"methods\n", "scenes\n", "surfaces\n", "backends\n"}},
+    {.name = "ListEverything",
+     .arguments = {"list"},
+     .output_has = {"methods\n", "scenes\n", "surfaces\n", "backends\n"}},
     {.name = "ListAsJson", .arguments = {"list", "methods", "--json"}, .output_has = {"\"methods\"", "\"options\""}},
     {.name = "Info", .arguments = {"info"}, .output_has = {"backends\n", "OpenGL 4.5", "processor", "memory"}},
 };

@@ -29,7 +29,7 @@ class NdfTest(WholeRunTest):
     def setUpClass(cls):
         super().setUpClass()
         cls.ndf_folder = cls.folder / "ndf"
-        cls.document = ndf(cls.ndf_folder, "ribbed_plane", "--methods", ",".join(METHODS), "--size", 64)
+        cls.document = ndf(cls.ndf_folder, "ribbed_plane", "--methods", ",".join(METHODS), "--picture-size", 64)
 
     def test_document_holds_to_its_schema(self):
         schema = json.loads((SOURCE / "docs" / "ndf.schema.json").read_text(encoding="utf-8"))
@@ -69,7 +69,7 @@ class NdfTest(WholeRunTest):
 
     def test_runs_are_the_same_to_the_last_byte(self):
         again = self.folder / "again"
-        self.assertEqual(ndf(again, "ribbed_plane", "--methods", ",".join(METHODS), "--size", 64), self.document)
+        self.assertEqual(ndf(again, "ribbed_plane", "--methods", ",".join(METHODS), "--picture-size", 64), self.document)
         for file in self.ndf_folder.rglob("*.png"):
             self.assertEqual(file.read_bytes(), (again / file.relative_to(self.ndf_folder)).read_bytes(), file)
 
@@ -78,7 +78,7 @@ class NdfTest(WholeRunTest):
         signed, stored = self.folder / "signed.exr", self.folder / "stored.png"
         for file, color, depth in ((signed, "0.6,0,0.8", "float"), (stored, "0.8,0.5,0.9", "uint16")):
             subprocess.run(["oiiotool", "--pattern", f"constant:color={color}", "8x8", "3", "-d", depth, "-o", file], check=True)
-            document = ndf(self.folder / file.stem, file, "--methods", "direct,toksvig,lean", "--lobe", "vmf:100", "--size", 32)
+            document = ndf(self.folder / file.stem, file, "--methods", "direct,toksvig,lean", "--lobe", "vmf:100", "--picture-size", 32)
             self.assertEqual(document["texels"]["distinct"], 1)
             for name, method in document["methods"].items():
                 self.assertLess(method["l2"], 1e-3, (file, name))

@@ -53,6 +53,7 @@ std::vector<glm::vec4> probe_method(const ProbedMethod& probed, const std::strin
 
 std::vector<double> probe_ndf(const ProbedMethod& probed, const std::vector<glm::dvec3>& directions) {
   std::vector<std::array<glm::vec4, 3>> inputs;
+  inputs.reserve(directions.size());
   for (const glm::dvec3& h : directions) inputs.push_back({glm::vec4(glm::vec3(h), 0), glm::vec4(0), glm::vec4(0)});
   std::vector<double> out;
   for (const glm::vec4& v : probe_method(probed, "return vec4(ndf(e, a.xyz));", inputs)) out.push_back(v.x);

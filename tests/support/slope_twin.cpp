@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "renderer/pipeline/base_surface.hpp"
+#include "renderer/pipeline/slope_moments.hpp"
 
 namespace footprint::testing {
 namespace {
@@ -73,6 +74,13 @@ double SlopeTwin::gaussian(const glm::dvec3& h) const {
   const glm::dvec2 offset = -glm::dvec2(h) / cosine - mean;
   return std::exp(-0.5 * glm::dot(offset, glm::inverse(covariance) * offset)) /
          (2.0 * pi * std::sqrt(glm::determinant(covariance)) * std::pow(cosine, 3.0));
+}
+
+SlopeTwin slope_twin_of(const Material& material) {
+  const Image top = slope_moment_chain(*material.normal_map->image, Image(1, 1, 1, 0.0F)).back();
+  const auto t = top.at(0, 0);
+  const SlopeMoments m{{t[slope_x], t[slope_y]}, {t[slope_xx], t[slope_xy], t[slope_xy], t[slope_yy]}};
+  return {m.mean, covariance(m), material.brdf.distribution, *material.lobe_parameter};
 }
 
 }  // namespace footprint::testing

@@ -27,4 +27,7 @@ struct SlopeTwin {
   [[nodiscard]] double gaussian(const glm::dvec3& h) const;
 };
 
+/// Of all texels of a material that has a normal map and a lobe parameter.
+[[nodiscard]] SlopeTwin slope_twin_of(const Material& material);
+
 }  // namespace footprint::testing

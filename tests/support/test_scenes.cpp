@@ -1,10 +1,13 @@
 // See test_scenes.hpp.
 #include "tests/support/test_scenes.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
+#include "renderer/scene/camera.hpp"
 #include "renderer/scene/plane.hpp"
 
 namespace footprint::testing {
@@ -32,6 +35,26 @@ Image constant_normals(int width, int height, const glm::vec3& normal) {
   return image;
 }
 
+Image four_texel_normals() {
+  Image image(2, 2, 4, 1.0F);
+  const std::array<glm::vec3, 4> normals{{{0, 0, 1}, {0.6F, 0, 0.8F}, {0, -0.6F, 0.8F}, {-0.28F, 0, 0.96F}}};
+  for (std::size_t i = 0; i < 4; ++i) std::copy_n(&normals[i].x, 3, &image.texels[4 * i]);
+  return image;
+}
+
+Image gaussian_slope_normals(int size, float spread) {
+  std::mt19937 random(9);
+  std::normal_distribution<float> normal;
+  Image image(size, size, 4, 1.0F);
+  for (std::size_t i = 0; i < image.texels.size(); i += 4) {
+    const float a = spread * normal(random);
+    const float b = spread * normal(random);
+    const glm::vec3 n = glm::normalize(glm::vec3(0.1F - a, -0.15F - 0.5F * a - 0.2F * b, 1.0F));
+    std::copy_n(&n.x, 3, &image.texels[i]);
+  }
+  return image;
+}
+
 Scene square_scene(const Image& normals, const SquareMaterial& settings) {
   constexpr float side = 2.0F;
   constexpr float camera_height = 3.0F;
@@ -52,6 +75,19 @@ Scene square_scene(const Image& normals, const SquareMaterial& settings) {
   scene.camera.yfov = 2.0F * std::atan(0.5F * side / camera_height);
   scene.bounds = {{-1.0F, -1.0F, 0.0F}, {1.0F, 1.0F, 0.0F}};
   scene.exposure = 1.0F;
+  return scene;
+}
+
+Scene receding_grooves() {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> slope(-0.4F, 0.4F);
+  Image normals(64, 64, 4, 1.0F);
+  for (int x = 0; x < normals.width; ++x) {
+    const glm::vec3 n = glm::normalize(glm::vec3(slope(random), 0.0F, 1.0F));
+    for (int y = 0; y < normals.height; ++y) std::copy_n(&n.x, 3, normals.at(x, y).begin());
+  }
+  Scene scene = square_scene(normals, {});
+  scene.camera.world = look_at({0.0, -2.5, 0.5}, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
   return scene;
 }
 

@@ -13,6 +13,12 @@ namespace footprint::testing {
 /// A map of one normal.
 [[nodiscard]] Image constant_normals(int width, int height, const glm::vec3& normal);
 
+/// The four normals of the golden `four_texel_vector`, 2 x 2.
+[[nodiscard]] Image four_texel_normals();
+
+/// Normals of correlated Gaussian slopes: mean (-0.1, 0.15), deviation `spread` along x and 0.54 `spread` along y.
+[[nodiscard]] Image gaussian_slope_normals(int size, float spread);
+
 /// The base BRDF and colours of the square.
 struct SquareMaterial {
   BaseBrdf brdf;
@@ -26,5 +32,9 @@ struct SquareMaterial {
 /// none (the square fills the frame), and one point light at (0.4, 0.3, 1.5) of 4 candela. No normal map where
 /// `normals` is empty. Exposure 1.
 [[nodiscard]] Scene square_scene(const Image& normals, const SquareMaterial& settings);
+
+/// That square with random grooves along y, 64 across, seen obliquely along them: pixels are long where nothing
+/// changes.
+[[nodiscard]] Scene receding_grooves();
 
 }  // namespace footprint::testing

@@ -1,0 +1,109 @@
+// Surfaces as the loader meets them: a library of two made-up ones, named in scene.toml.
+#include "renderer/scene/surface.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "renderer/scene/gltf_test_builder.hpp"
+#include "renderer/scene/load_scene.hpp"
+#include "renderer/scene/plane.hpp"
+
+namespace footprint {
+namespace {
+
+Mesh square(const SurfaceSettings& /*settings*/) { return make_plane({2.0F, 2.0F}, {1.0F, 1.0F}); }
+
+/// Flat but for x, which holds the seed and a parameter for the test to see.
+Image marked(const SurfaceSettings& settings) {
+  Image map(settings.resolution, settings.resolution, 4, 1.0F);
+  map.at(0, 0)[0] = static_cast<float>(settings.seed);
+  map.at(0, 0)[1] = static_cast<float>(settings.parameters.number("height"));
+  map.at(0, 0)[2] = settings.parameters.word("kind") == "round" ? 0.5F : 0.25F;
+  return map;
+}
+
+Image green(const SurfaceSettings& settings) { return {settings.resolution, settings.resolution, 4, 0.5F}; }
+
+std::vector<Surface> made_up_surfaces() {
+  const std::vector<OptionSpec> parameters{
+      {.name = "height", .default_value = 2.0, .minimum = 0, .maximum = 10, .meaning = "a number"},
+      {.name = "count", .default_value = 3.0, .minimum = 1, .maximum = 9, .meaning = "a whole number", .integer = true},
+      {.name = "kind", .default_value = "sharp", .choices = {"sharp", "round"}, .meaning = "a word"}};
+  return {{.name = "hills",
+           .summary = "",
+           .parameters = parameters,
+           .default_resolution = 8,
+           .normals = marked,
+           .mesh = square},
+          {.name = "lawn",
+           .summary = "",
+           .parameters = parameters,
+           .default_resolution = 4,
+           .normals = marked,
+           .base_color = green,
+           .mesh = square}};
+}
+
+Scene load(const std::string& settings) {
+  static const std::vector<Surface> surfaces = made_up_surfaces();
+  return load_scene(test::write_file("made/scene.toml", settings).string(), {.folder = {}, .surfaces = surfaces});
+}
+
+TEST(SurfaceInScene, ComesWithMapMeshAndMaterial) {
+  const Scene scene = load("[surface]\nname = \"hills\"\n[tiling]\nuv = [3, 5]\n");
+  ASSERT_EQ(scene.materials.size(), 1U);
+  const Material& material = scene.materials.front();
+  EXPECT_EQ(material.name, "hills");
+  EXPECT_EQ(material.metallic, 0.0F);
+  EXPECT_FALSE(material.base_color_map);
+  ASSERT_TRUE(material.normal_map);
+  EXPECT_EQ(material.normal_map->image->width, 8);
+  EXPECT_EQ(material.normal_map->image->at(0, 0)[0], 1.0F);
+  EXPECT_EQ(material.normal_map->image->at(0, 0)[1], 2.0F);
+  EXPECT_EQ(material.normal_map->image->at(0, 0)[2], 0.25F);
+  EXPECT_EQ(material.normal_map->coordinates.transform * glm::vec3(1, 1, 1), glm::vec2(3, 5));
+  EXPECT_EQ(scene.meshes.front().vertices.size(), 4U);
+  EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(SurfaceInScene, EverySettingIsRead) {
+  const Scene scene = load(
+      "[surface]\nname = \"lawn\"\nresolution = 33\nseed = 4294967295\n"
+      "[surface.parameters]\nheight = 0.75\ncount = 9\nkind = \"round\"\n");
+  const Image& map = *scene.materials.front().normal_map->image;
+  EXPECT_EQ(map.width, 33);
+  EXPECT_EQ(map.at(0, 0)[0], 4294967295.0F);
+  EXPECT_EQ(map.at(0, 0)[1], 0.75F);
+  EXPECT_EQ(map.at(0, 0)[2], 0.5F);
+  ASSERT_TRUE(scene.materials.front().base_color_map);
+  EXPECT_EQ(scene.materials.front().base_color_map->image->width, 33);
+}
+
+TEST(SurfaceInScene, OwnColoursGiveWayToTheScenes) {
+  const Scene scene = load("[surface]\nname = \"lawn\"\n[brdf]\nbase_color = [1, 0, 0]\n");
+  EXPECT_FALSE(scene.materials.front().base_color_map);
+  EXPECT_EQ(scene.materials.front().base_color, glm::vec4(1, 0, 0, 1));
+}
+
+TEST(SurfaceInScene, MistakesAreNamedWithTheirLine) {
+  const auto expect_error = [](const std::string& text, const std::vector<std::string>& wanted) {
+    const std::string error = test::usage_error([&] { return load(text); });
+    for (const std::string& words : wanted) EXPECT_NE(error.find(words), std::string::npos) << words << "\n" << error;
+  };
+  const std::string hills = "[surface]\nname = \"hills\"\n";
+  expect_error("[surface]\nname = \"hils\"\n", {"scene.toml:2", "did you mean `hills`"});
+  expect_error("[surface]\n", {"scene.toml:1", "`name` in [surface] is missing"});
+  expect_error(hills + "sead = 3\n", {"scene.toml:3", "did you mean `seed`"});
+  expect_error(hills + "resolution = 0\n", {"scene.toml:3", "1 to 16384"});
+  expect_error(hills + "resolution = 2.5\n", {"scene.toml:3", "whole number"});
+  expect_error(hills + "seed = 4294967296\n", {"scene.toml:3", "`seed`"});
+  expect_error(hills + "[surface.parameters]\nheigth = 1\n", {"scene.toml:4", "did you mean `height`"});
+  expect_error(hills + "[surface.parameters]\nheight = 11\n", {"scene.toml:4", "0 to 10"});
+  expect_error(hills + "[surface.parameters]\nkind = \"rund\"\n", {"scene.toml:4", "did you mean `round`"});
+  expect_error(hills + "[surface.parameters]\ncount = 1.5\n", {"scene.toml:4", "whole number"});
+  expect_error(hills + "[plane]\n", {"only one"});
+}
+
+}  // namespace
+}  // namespace footprint

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "experiments/runner/known_methods.hpp"
+#include "experiments/runner/picture_files.hpp"
 #include "experiments/runner/zoom.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/suggest.hpp"
@@ -136,6 +137,13 @@ void check_measures(const Expression& expression, const Experiment& experiment) 
       throw Error(ErrorKind::usage, measure_text(measure), message, mend);
     };
     (void)select_method(measure.method, methods);
+    if (is_of_ndf(measure.function) && experiment.footprints.empty()) {
+      refuse("no footprint is looked into", "add [[ndf]] with a name and a footprint");
+    }
+    if (measure.footprint && std::ranges::find(experiment.footprints, *measure.footprint, &NamedFootprint::name) ==
+                                 experiment.footprints.end()) {
+      refuse(fmt::format("there is no footprint `{:.80}`", *measure.footprint), "use the name of one of [[ndf]]");
+    }
     if (measure.spp && std::ranges::find(experiment.other_spp, *measure.spp) == experiment.other_spp.end()) {
       refuse(fmt::format("other_spp of [reference] does not have {}", *measure.spp), "add it there, or leave spp out");
     }
@@ -234,6 +242,23 @@ void read_published(const TomlTable& table, Experiment& experiment) {
   }
 }
 
+void read_footprints(const TomlTable& root, Experiment& experiment) {
+  for (const TomlTable& table : root.tables("ndf", {"name", "footprint"})) {
+    const std::string name = required_word(table, "name");
+    if (name != file_stem(name) || name.front() == '.') {
+      throw table.error_at("name", fmt::format("is `{:.80}`, which names no folder", name), "use letters and digits");
+    }
+    if (std::ranges::find(experiment.footprints, name, &NamedFootprint::name) != experiment.footprints.end()) {
+      throw table.error_at("name", fmt::format("is `{:.80}` as of another footprint", name), "name it otherwise");
+    }
+    const auto sides = table.numbers("footprint", 4, {-1e6, 1e6});
+    if (!sides) missing(table, "footprint");
+    const FootprintRect rect{{(*sides)[0], (*sides)[1]}, {(*sides)[2], (*sides)[3]}};
+    at_key(table, "footprint", [&] { check_footprint(rect, ""); });
+    experiment.footprints.push_back({.name = name, .rect = rect});
+  }
+}
+
 std::optional<Crop> read_crop(const TomlTable& table, std::string_view key) {
   const auto sides = table.numbers(key, 4, {0, 1});
   if (!sides) return std::nullopt;
@@ -299,8 +324,9 @@ std::vector<std::string> list_experiments(const fs::path& folder) {
 
 Experiment read_experiment(const fs::path& file) {
   const toml::table parsed = parse_toml_file(file);
-  const TomlTable root(parsed, file, "",
-                       {"experiment", "zoom", "camera", "reference", "published", "claim", "threshold", "figure"});
+  const TomlTable root(
+      parsed, file, "",
+      {"experiment", "zoom", "camera", "reference", "ndf", "published", "claim", "threshold", "figure"});
   Experiment experiment;
   experiment.name = file.stem().string();
   experiment.file = file;
@@ -313,6 +339,7 @@ Experiment read_experiment(const fs::path& file) {
   if (const auto reference = root.table("reference", {"spp", "other_spp", "seed", "filter"})) {
     read_reference(*reference, experiment);
   }
+  read_footprints(root, experiment);
   if (const auto published = root.table("published", {"file", "figures"})) read_published(*published, experiment);
   read_claims(root, experiment);
   read_thresholds(parsed, root, experiment);

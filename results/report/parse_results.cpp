@@ -103,6 +103,17 @@ Record parse_record(const JsonNode& node) {
   return record;
 }
 
+NdfFigures parse_ndf(const JsonNode& node) {
+  node.with_keys({"footprint", "method", "l2", "energy", "peak", "lobes", "picture"});
+  return {.footprint = node["footprint"].text(),
+          .method = node["method"].text(),
+          .l2 = node["l2"].number_or(not_a_number),
+          .energy = node["energy"].number_or(not_a_number),
+          .peak = node["peak"].number_or(not_a_number),
+          .lobes = node["lobes"].whole<int>(),
+          .picture = node["picture"].text()};
+}
+
 SupersamplingPoint parse_supersampling(const JsonNode& node) {
   node.with_keys({"distance", "spp", "normalized_color", "ms"});
   return {node["distance"].number(), node["spp"].whole<int>(1), node["normalized_color"].optional_number(),
@@ -128,8 +139,8 @@ Results parse_document(const JsonNode& node) {
     node["schema"].fail("unknown schema `" + node["schema"].text() + "`",
                         std::string("this version reads `") + results_schema + "`");
   }
-  node.with_keys(
-      {"schema", "tool", "backend", "scene", "reference", "experiment", "error_scale", "supersampling", "records"});
+  node.with_keys({"schema", "tool", "backend", "scene", "reference", "experiment", "error_scale", "supersampling",
+                  "records", "ndf"});
   Results results;
   const JsonNode tool = node["tool"].with_keys({"name", "version"});
   results.tool = {tool["name"].text(), tool["version"].text()};
@@ -146,6 +157,7 @@ Results parse_document(const JsonNode& node) {
     results.supersampling.push_back(parse_supersampling(point));
   }
   for (const JsonNode& record : node["records"].elements()) results.records.push_back(parse_record(record));
+  for (const JsonNode& figures : node["ndf"].elements()) results.ndf.push_back(parse_ndf(figures));
   return results;
 }
 

@@ -116,6 +116,18 @@ std::string flicker_section(const Results& results) {
          markdown_table({{"Frame"}, {"Method", false}, {"Mean"}, {"99th percentile"}, {"Floor"}}, rows);
 }
 
+/// Effective NDFs of the footprints that were looked into.
+std::string ndf_section(const Results& results) {
+  if (results.ndf.empty()) return {};
+  Rows rows;
+  for (const NdfFigures& figures : results.ndf) {
+    rows.push_back({figures.footprint, figures.method, three_figures(figures.l2), three_figures(figures.energy),
+                    three_figures(figures.peak), fmt::format("{}", figures.lobes)});
+  }
+  return "\n## Effective NDFs\n\n" +
+         markdown_table({{"Footprint", false}, {"Method", false}, {"Rel. L2"}, {"Energy"}, {"Peak"}, {"Lobes"}}, rows);
+}
+
 /// Frame builds, where a method has one: they are part of its price at that distance.
 std::string frame_build_section(const Results& results) {
   Rows rows;
@@ -183,8 +195,8 @@ std::string results_table(const Results& results) {
   }
   if (results.experiment) text += experiment_markdown(*results.experiment);
   for (const double distance : distances_of(results)) text += distance_section(results, distance);
-  return text + flicker_section(results) + preparation_section(results) + frame_build_section(results) +
-         supersampling_section(results) + words_section(results);
+  return text + flicker_section(results) + ndf_section(results) + preparation_section(results) +
+         frame_build_section(results) + supersampling_section(results) + words_section(results);
 }
 
 }  // namespace footprint

@@ -43,6 +43,7 @@ Record example_record(const Results& results, const Behaviour& behaviour, double
   const double ratio = behaviour.milliseconds / behaviours[0].milliseconds;
   record.ratio_to_direct = {ratio, ratio * 0.97, ratio * 1.05};
   record.precompute_bytes = behaviour.bytes;
+  if (behaviour.bytes != 0) record.precompute_bytes_per_texel = 16.0;
   record.precompute_seconds = static_cast<double>(behaviour.bytes) * 2e-8;
   record.effects_on = {"diffuse", "fresnel", "normal_variation"};
   if (behaviour.bytes != 0) record.effects_left_out = {"roughness_variation"};

@@ -90,9 +90,10 @@ Record parse_record(const JsonNode& node) {
   record.other_references = parse_other_references(node["other_references"]);
   record.flicker = parse_flicker(node["flicker"]);
   parse_time(node["time"], record);
-  const JsonNode precompute = node["precompute"].with_keys({"seconds", "bytes", "cached"});
+  const JsonNode precompute = node["precompute"].with_keys({"seconds", "bytes", "bytes_per_texel", "cached"});
   record.precompute_seconds = precompute["seconds"].number();
   record.precompute_bytes = precompute["bytes"].whole<std::uint64_t>();
+  record.precompute_bytes_per_texel = precompute["bytes_per_texel"].optional_number();
   record.precompute_cached = precompute["cached"].flag();
   const JsonNode effects = node["effects"].with_keys({"on", "left_out"});
   record.effects_on = effects["on"].texts();

@@ -74,6 +74,7 @@ struct Record {
   TimeRatio ratio_to_direct;
   double precompute_seconds = 0;
   std::uint64_t precompute_bytes = 0;
+  std::optional<double> precompute_bytes_per_texel;  ///< over the finest level's texels; none: no texture
   bool precompute_cached = false;
   std::vector<std::string> effects_on;
   std::vector<std::string> effects_left_out;

@@ -69,6 +69,7 @@ Json record_json(const Record& record) {
           {"precompute",
            {{"seconds", json_number(record.precompute_seconds)},
             {"bytes", record.precompute_bytes},
+            {"bytes_per_texel", json_number(record.precompute_bytes_per_texel)},
             {"cached", record.precompute_cached}}},
           {"effects", {{"on", record.effects_on}, {"left_out", record.effects_left_out}}},
           {"images",

@@ -179,11 +179,14 @@ Claim read_claim(const TomlTable& table, const Experiment& experiment) {
   });
   const auto expect = table.choice("expect", {"reproduced", "not_reproduced"});
   if (!expect) missing(table, "expect");
-  return {.name = required_word(table, "name"),
-          .text = required_word(table, "text"),
+  std::string name = required_word(table, "name");
+  std::string words = required_word(table, "text");
+  std::string reason = required_word(table, "reason");
+  return {.name = std::move(name),
+          .text = std::move(words),
           .inequality = std::move(inequality),
           .expect_reproduced = *expect == 0,
-          .reason = required_word(table, "reason")};
+          .reason = std::move(reason)};
 }
 
 void read_claims(const TomlTable& root, Experiment& experiment) {
@@ -207,10 +210,11 @@ void read_thresholds(const toml::table& parsed, const TomlTable& root, Experimen
     const Expression written = at_key(*table, key, [&] { return Expression(key, fmt::format("`{:.200}`", key)); });
     const auto measures = written.measures();
     const bool each = std::ranges::find(measures, "*", &Measure::method) != measures.end();
+    const double limit = *table->number(key, any_number);
     for (const std::string& method : each ? texts_of(experiment.methods) : std::vector<std::string>{""}) {
       const Expression measure = written.with_method(method);
       at_key(*table, key, [&] { check_measures(measure, experiment); });
-      experiment.thresholds.push_back({.measure = measure, .limit = *table->number(key, any_number)});
+      experiment.thresholds.push_back({.measure = measure, .limit = limit});
     }
   }
 }
@@ -228,12 +232,13 @@ void read_published(const TomlTable& table, Experiment& experiment) {
     if (std::ranges::find(*figures, figure) == figures->end()) continue;
     const auto number = value.number("value", any_number);
     if (!number) missing(value, "value");
-    experiment.published.push_back(
-        {.figure = figure,
-         .measure = read_expression(value, "measure", required_word(value, "measure"), experiment),
-         .value = *number,
-         .unit = value.word("unit").value_or(""),
-         .note = value.word("note").value_or("")});
+    Expression measure = read_expression(value, "measure", required_word(value, "measure"), experiment);
+    std::string unit = value.word("unit").value_or(""), note = value.word("note").value_or("");
+    experiment.published.push_back({.figure = figure,
+                                    .measure = std::move(measure),
+                                    .value = *number,
+                                    .unit = std::move(unit),
+                                    .note = std::move(note)});
   }
   for (const std::string& figure : *figures) {
     if (std::ranges::find(known, figure) != known.end()) continue;

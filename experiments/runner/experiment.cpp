@@ -60,6 +60,7 @@ auto at_key(const TomlTable& table, std::string_view key, Read read) {
 
 std::vector<std::string> texts_of(const std::vector<MethodSpec>& methods) {
   std::vector<std::string> texts;
+  texts.reserve(methods.size());
   for (const MethodSpec& method : methods) texts.push_back(method.text);
   return texts;
 }

@@ -75,11 +75,12 @@ std::vector<TextureUse> texture_uses(const BakedMethod& baked) {
 }
 
 Explanation explain(const Arguments& arguments, const Progress& progress) {
-  const StageSettings settings{.methods = {parse_known_method("--method", arguments.method)},
-                               .size = parse_optional_size(arguments.size),
-                               .anisotropy = arguments.anisotropy,
-                               .tile = arguments.backend.tile,
-                               .cache = cache_folder(arguments.no_cache)};
+  StageSettings settings;
+  settings.methods = {parse_known_method("--method", arguments.method)};
+  settings.size = parse_optional_size(arguments.size);
+  settings.anisotropy = arguments.anisotropy;
+  settings.tile = arguments.backend.tile;
+  settings.cache = cache_folder(arguments.no_cache);
   const gl::ContextRequest request = context_request(arguments.backend);
   ProgressParts parts(progress, arguments.cost ? 3 : 1);
   const Stage stage(request, load_scene(arguments.scene, scene_library()), settings, parts.next(1, ""));

@@ -85,12 +85,12 @@ void run_render(const Arguments& arguments) {
   const MethodSpec method = parse_known_method("--method", arguments.method);
   const std::optional<float> exposure = parse_exposure(arguments.exposure);
   const double given_distance = parse_distance(arguments.distance);
-  StageSettings settings{.methods = {},
-                         .size = parse_optional_size(arguments.size),
-                         .filter = parse_filter(arguments.reference.filter),
-                         .anisotropy = arguments.anisotropy,
-                         .tile = arguments.backend.tile,
-                         .cache = cache_folder(arguments.no_cache)};
+  StageSettings settings;
+  settings.size = parse_optional_size(arguments.size);
+  settings.filter = parse_filter(arguments.reference.filter);
+  settings.anisotropy = arguments.anisotropy;
+  settings.tile = arguments.backend.tile;
+  settings.cache = cache_folder(arguments.no_cache);
   if (is_reference(method)) {
     settings.pictures = reference_pictures;
   } else {

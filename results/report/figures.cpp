@@ -65,6 +65,10 @@ std::string bytes_text(std::uint64_t bytes) {
   return fmt::format("{} {}", three_figures(size), units[unit]);
 }
 
+std::string bytes_per_texel_text(const Record& record) {
+  return record.precompute_bytes_per_texel ? three_figures(*record.precompute_bytes_per_texel) : "n/a";
+}
+
 std::string equivalent_text(const Record& record) {
   if (!record.equivalent_spp) return record.equivalent_bound.empty() ? "n/a" : record.equivalent_bound;
   const double spp = *record.equivalent_spp;

@@ -21,6 +21,9 @@ namespace footprint {
 /// "0 B", "640 B", "1.50 KiB", "12.3 MiB"; binary multiples.
 [[nodiscard]] std::string bytes_text(std::uint64_t bytes);
 
+/// Bytes that the baked maps take a texel: "16.0", "n/a" without a map.
+[[nodiscard]] std::string bytes_per_texel_text(const Record& record);
+
 /// "41", "1.5", or the bound "<1", ">64", "n/a".
 [[nodiscard]] std::string equivalent_text(const Record& record);
 

@@ -39,6 +39,8 @@ const columns = [
   {title: 'Bake s', text: 'precompute', value: (r) => r.precompute.seconds,
    meaning: 'What the method bakes once, in seconds.'},
   {title: 'Maps', text: 'bytes', value: (r) => r.precompute.bytes, meaning: 'Memory that the baked maps take.'},
+  {title: 'B/texel', text: 'bytes_per_texel', value: (r) => r.precompute.bytes_per_texel,
+   meaning: 'That memory, in bytes, over the texels of the finest level.'},
   {title: 'Left out', words: true, text: 'left_out', value: (r) => r.effects.left_out.join(),
    meaning: 'Effects that the scene calls for and the method cannot show.'},
 ];

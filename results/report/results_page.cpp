@@ -57,6 +57,7 @@ Json display(const Record& record) {
           {"build", record.frame_build_ms ? three_figures(*record.frame_build_ms) : "none"},
           {"precompute", three_figures(record.precompute_seconds)},
           {"bytes", bytes_text(record.precompute_bytes)},
+          {"bytes_per_texel", bytes_per_texel_text(record)},
           {"left_out", list_text(record.effects_left_out, "none")},
           {"reading", reading(record)}};
 }

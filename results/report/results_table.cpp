@@ -84,19 +84,18 @@ std::string distance_section(const Results& results, double distance) {
                      any_marked ? "\n\\* at the noise floor: the reference's own noise explains this error.\n" : "");
 }
 
-std::string per_texel_text(const Record& record) {
-  return record.precompute_bytes_per_texel ? three_figures(*record.precompute_bytes_per_texel) : "n/a";
-}
-
 /// What does not depend on the distance: one line a method, more only where its figures differ.
 std::string preparation_section(const Results& results) {
   const std::vector<MarkdownColumn> columns{{"Method", false}, {"Precompute s"},  {"Maps"},
                                             {"B/texel"},       {"Cached", false}, {"Effects left out", false}};
   Rows rows;
   for (const Record& record : results.records) {
-    std::vector<std::string> row{
-        record.method,          three_figures(record.precompute_seconds), bytes_text(record.precompute_bytes),
-        per_texel_text(record), record.precompute_cached ? "yes" : "no",  list_text(record.effects_left_out, "none")};
+    std::vector<std::string> row{record.method,
+                                 three_figures(record.precompute_seconds),
+                                 bytes_text(record.precompute_bytes),
+                                 bytes_per_texel_text(record),
+                                 record.precompute_cached ? "yes" : "no",
+                                 list_text(record.effects_left_out, "none")};
     if (std::ranges::find(rows, row) == rows.end()) rows.push_back(std::move(row));
   }
   return "\n## What each method prepares\n\n" + markdown_table(columns, rows);

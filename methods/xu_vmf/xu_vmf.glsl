@@ -10,7 +10,11 @@ float lobeOfKappa(float kappa);
 //? if j_1
 const int most_lobes = 1;
 //? else
+//? if j_4
+const int most_lobes = 4;
+//? else
 const int most_lobes = 8;
+//? end
 //? end
 
 // Lobes 0 to count - 1.
@@ -62,8 +66,9 @@ void addFlat(inout Effective e) {
   e.count = 1;
 }
 
-// The lobe of a part (w r, w), w at least least_share.
+// The lobe of a part (w r, w).
 void addLobe(inout Effective e, vec4 part) {
+  if (part.w < least_share) return;
   vec3 r = part.xyz / part.w;
   float size = length(r);
   int i = e.count++;
@@ -82,15 +87,20 @@ void addLobe(inout Effective e, vec4 part) {
 bool concentrated(vec4 part, float threshold) { return length(part.xyz) > threshold * part.w; }
 
 //? if normal_variation
+int layerCount() { return textureSize(xu_vmf_map, 0).z; }
 vec4 partOf(int layer, Footprints f) { return fetch(xu_vmf_map, layer, f.normal); }
 //? else
 //? if roughness_variation
+int layerCount() { return textureSize(xu_vmf_map, 0).z; }
 vec4 partOf(int layer, Footprints f) { return fetch(xu_vmf_map, layer, f.roughness); }
 //? else
+int layerCount() { return 0; }
 vec4 partOf(int layer, Footprints f) { return vec4(0.0); }
 //? end
 //? end
 
+// Loops run over the layers that the map has: a count that the compiler does not know, so that it unrolls nothing and
+// compiles in a fraction of the time.
 void addParts(inout Effective e, Footprints f) {
 //? if j_adaptive
   // Algorithm 1. A coarse cell is the sum of its two fine ones, so that it needs no layer of its own.
@@ -100,32 +110,20 @@ void addParts(inout Effective e, Footprints f) {
     addLobe(e, whole);
     return;
   }
-  for (int i = 0; i < 4; ++i) {
-    vec4 first = partOf(1 + 2 * i, f);
-    vec4 second = partOf(2 + 2 * i, f);
-    vec4 cell = first + second;
-    if (cell.w < least_share) continue;
-    if (concentrated(cell, option_eps1)) {
-      addLobe(e, cell);
-    } else {
-      if (first.w >= least_share) addLobe(e, first);
-      if (second.w >= least_share) addLobe(e, second);
+  int layers = layerCount();
+  for (int i = 1; i < layers; i += 2) {
+    vec4 first = partOf(i, f);
+    vec4 second = partOf(i + 1, f);
+    if (concentrated(first + second, option_eps1)) {
+      first += second;
+      second = vec4(0.0);
     }
+    addLobe(e, first);
+    addLobe(e, second);
   }
 //? else
-//? if j_1
-  const int layers = 1;
-//? end
-//? if j_4
-  const int layers = 4;
-//? end
-//? if j_8
-  const int layers = 8;
-//? end
-  for (int i = 0; i < layers; ++i) {
-    vec4 part = partOf(i, f);
-    if (part.w >= least_share) addLobe(e, part);
-  }
+  int layers = layerCount();
+  for (int i = 0; i < layers; ++i) addLobe(e, partOf(i, f));
 //? end
 }
 

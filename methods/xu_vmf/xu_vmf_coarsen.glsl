@@ -20,11 +20,11 @@ void main() {
   ivec2 size = textureSize(map, fine_level).xy;
   vec3 across = sharesOf(place.x, size.x);
   vec3 down = sharesOf(place.y, size.y);
+  ivec2 taps = min(size, 2 + size % 2);
   vec4 sum = vec4(0.0);
-  for (int j = 0; j < 3; ++j) {
-    for (int i = 0; i < 3; ++i) {
-      float share = across[i] * down[j];
-      if (share > 0.0) sum += share * texelFetch(map, ivec3(2 * place.xy + ivec2(i, j), place.z), fine_level);
+  for (int j = 0; j < taps.y; ++j) {
+    for (int i = 0; i < taps.x; ++i) {
+      sum += across[i] * down[j] * texelFetch(map, ivec3(2 * place.xy + ivec2(i, j), place.z), fine_level);
     }
   }
   imageStore(coarse, place, sum);

@@ -71,21 +71,23 @@ std::optional<double> optional_distance(const std::string& text) {
 }
 
 AnimateSettings settings_from(const Arguments& arguments) {
-  return {.scene = arguments.scene,
-          .library = scene_library(),
-          .stage = {.methods = parse_known_methods(arguments.methods),
-                    .size = parse_optional_size(arguments.size),
-                    .filter = parse_filter(arguments.reference.filter),
-                    .anisotropy = arguments.anisotropy,
-                    .tile = arguments.backend.tile,
-                    .cache = cache_folder(arguments.no_cache)},
-          .from = optional_distance(arguments.from),
-          .to = optional_distance(arguments.to),
-          .frames = arguments.frames,
-          .spp = arguments.reference.spp,
-          .seed = arguments.reference.seed,
-          .exposure = parse_exposure(arguments.exposure),
-          .context = context_request(arguments.backend)};
+  AnimateSettings settings;
+  settings.scene = arguments.scene;
+  settings.library = scene_library();
+  settings.stage.methods = parse_known_methods(arguments.methods);
+  settings.stage.size = parse_optional_size(arguments.size);
+  settings.stage.filter = parse_filter(arguments.reference.filter);
+  settings.stage.anisotropy = arguments.anisotropy;
+  settings.stage.tile = arguments.backend.tile;
+  settings.stage.cache = cache_folder(arguments.no_cache);
+  settings.from = optional_distance(arguments.from);
+  settings.to = optional_distance(arguments.to);
+  settings.frames = arguments.frames;
+  settings.spp = arguments.reference.spp;
+  settings.seed = arguments.reference.seed;
+  settings.exposure = parse_exposure(arguments.exposure);
+  settings.context = context_request(arguments.backend);
+  return settings;
 }
 
 Animation animate_into(OutputFolder& folder, const AnimateSettings& settings, const Progress& progress) {

@@ -74,11 +74,12 @@ Results run_into(const Experiment& experiment, const RunSettings& settings, Outp
 // Runs the experiment, prints its table and gives what fell short.
 std::vector<std::string> run_and_print(const Arguments& arguments) {
   const Experiment experiment = read_experiment(find_experiment(arguments.experiment, experiments_folder()));
-  const RunSettings settings{.library = scene_library(),
-                             .quick = arguments.quick,
-                             .tile = arguments.backend.tile,
-                             .cache = cache_folder(arguments.no_cache),
-                             .context = context_request(arguments.backend)};
+  RunSettings settings;
+  settings.library = scene_library();
+  settings.quick = arguments.quick;
+  settings.tile = arguments.backend.tile;
+  settings.cache = cache_folder(arguments.no_cache);
+  settings.context = context_request(arguments.backend);
   ProgressDisplay display(progress_style(arguments.quiet));
   const auto [results, place] = write_whole(arguments.output, [&](OutputFolder& folder) {
     return run_into(experiment, settings, folder, display.callback());

@@ -1,33 +1,44 @@
 // See bench_scene.hpp.
 #include "bench/bench_scene.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 
 #include "methods/registry.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/pipeline/bake_cache.hpp"
 #include "renderer/scene/load_scene.hpp"
+#include "scenes/surfaces/registry.hpp"
 
 namespace footprint::bench {
 
-std::optional<Scene> load_bench_scene() {
-  if (std::filesystem::exists(FOOTPRINT_BENCH_MODEL)) return load_scene(FOOTPRINT_BENCH_MODEL, {});
+std::optional<Scene> load_bench_scene(const std::string& name) {
+  const SceneLibrary library{.folder = FOOTPRINT_SCENES_FOLDER, .surfaces = all_surfaces()};
+  if (!name.empty()) return load_scene(name, library);
+  if (std::filesystem::exists(FOOTPRINT_BENCH_MODEL)) return load_scene(FOOTPRINT_BENCH_MODEL, library);
   (void)std::fprintf(stderr, "footprint_bench: no frames are timed: %s is not there (install assimp-testmodels)\n",
                      FOOTPRINT_BENCH_MODEL);
   return {};
 }
 
-StageSettings bench_settings() {
+StageSettings bench_settings(const std::string& methods) {
   StageSettings settings{.methods = {}, .size = frame_pixels};
+  settings.cache = default_cache_folder();
+  if (!methods.empty()) settings.methods = parse_methods(methods);
   for (const Method* method : all_methods()) {
-    settings.methods.push_back({.text = method->info().name, .name = method->info().name, .options = {}});
+    const MethodInfo& info = method->info();
+    if (methods.empty() && !info.slow_precompute)
+      settings.methods.push_back({.text = info.name, .name = info.name, .options = {}});
   }
+  if (std::ranges::find(settings.methods, "direct", &MethodSpec::text) == settings.methods.end())
+    settings.methods.insert(settings.methods.begin(), {.text = "direct", .name = "direct", .options = {}});
   return settings;
 }
 
-BenchScene::BenchScene(Scene scene)
-    : stage_(gl::ContextRequest{}, std::move(scene), bench_settings(), no_progress),
+BenchScene::BenchScene(Scene scene, const StageSettings& settings)
+    : stage_(gl::ContextRequest{}, std::move(scene), settings, no_progress),
       view_(stage_.view(1.0)),
       bare_(stage_.scene(), stage_.gpu_scene(), view_.size) {
   stage_.context().check("setting up the benchmark");
@@ -35,11 +46,12 @@ BenchScene::BenchScene(Scene scene)
 
 void BenchScene::draw_reference() const { stage_.reference().draw(view_, reference_spp, reference_seed); }
 
-const StagedMethod& BenchScene::method(std::string_view name) const {
+const StagedMethod& BenchScene::method(const std::string& text) const {
   for (const StagedMethod& method : stage_.methods()) {
-    if (method.baked().spec.name == name) return method;
+    if (method.baked().spec.text == text) return method;
   }
-  throw std::logic_error("no such method: " + std::string(name));
+  throw Error(ErrorKind::usage, "--over", "`" + text + "` is none of the methods that are drawn",
+              "add it to --methods");
 }
 
 }  // namespace footprint::bench

@@ -1,8 +1,9 @@
-// What frame times are taken on: every method over Khronos' ClearCoatTest at 512 x 512, on one context.
+// What frame times are taken on: methods over Khronos' ClearCoatTest, or another scene, at 512 x 512, on one context.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "bench/bare_frame.hpp"
@@ -14,17 +15,19 @@ inline constexpr glm::ivec2 frame_pixels{512, 512};
 inline constexpr int reference_spp = 64;
 inline constexpr std::uint64_t reference_seed = 1;
 
-/// The model; none where its package (assimp-testmodels) is not installed, after a line on stderr that says so.
-[[nodiscard]] std::optional<Scene> load_bench_scene();
+/// The scene of a name or path; ClearCoatTest where `name` is empty: none where its package (assimp-testmodels) is not
+/// installed, after a line on stderr that says so. Errors: those of load_scene.
+[[nodiscard]] std::optional<Scene> load_bench_scene(const std::string& name);
 
-/// What footprint_bench draws with: all methods of the registry at 512 x 512.
-[[nodiscard]] StageSettings bench_settings();
+/// What footprint_bench draws with at 512 x 512: `direct` and the methods of a list, commas between; of an empty one
+/// all whose precompute takes no seconds. Errors (usage): unknown method or option.
+[[nodiscard]] StageSettings bench_settings(const std::string& methods);
 
 /// The scene, its methods, its reference and the bare yardstick, ready to draw at the camera's own distance.
 class BenchScene {
  public:
   /// Errors: those of Stage.
-  explicit BenchScene(Scene scene);
+  BenchScene(Scene scene, const StageSettings& settings);
 
   [[nodiscard]] const Stage& stage() const { return stage_; }
   [[nodiscard]] const View& view() const { return view_; }
@@ -33,8 +36,8 @@ class BenchScene {
   void draw(const StagedMethod& method) const { method.frames().draw(view_); }
   /// The reference at 64 samples a pixel, not read back.
   void draw_reference() const;
-  /// The staged method of a name. Errors: std::logic_error where the registry has none.
-  [[nodiscard]] const StagedMethod& method(std::string_view name) const;
+  /// The staged method as written, options included. Errors (usage): it is none of those staged.
+  [[nodiscard]] const StagedMethod& method(const std::string& text) const;
 
  private:
   Stage stage_;

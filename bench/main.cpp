@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <exception>
 #include <optional>
+#include <string>
 
 #include "bench/frame_benchmarks.hpp"
 #include "bench/mip_benchmarks.hpp"
@@ -21,16 +22,22 @@ void run(int argc, char** argv) {
   int repeats = 0;
   app.add_option("--ratios", repeats, "Print ratios of interleaved frame times over this many rounds, and nothing else")
       ->check(CLI::Range(1, 100000));
+  std::string scene_name;
+  app.add_option("--scene", scene_name, "What to draw: as `footprint compare` takes it; if not given, ClearCoatTest");
+  std::string methods;
+  app.add_option("--methods", methods, "Methods to draw by; if not given, all whose precompute takes no seconds");
+  std::string over = "direct";
+  app.add_option("--over", over, "The method that --ratios takes every other to")->capture_default_str();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     std::exit(app.exit(error));
   }
-  std::optional<footprint::Scene> scene = footprint::bench::load_bench_scene();
+  std::optional<footprint::Scene> scene = footprint::bench::load_bench_scene(scene_name);
   std::optional<footprint::bench::BenchScene> subject;
-  if (scene) subject.emplace(std::move(*scene));
+  if (scene) subject.emplace(std::move(*scene), footprint::bench::bench_settings(methods));
   if (repeats > 0) {
-    if (subject) (void)std::fputs(footprint::bench::ratio_table(*subject, repeats).c_str(), stdout);
+    if (subject) (void)std::fputs(footprint::bench::ratio_table(*subject, over, repeats).c_str(), stdout);
     return;
   }
   if (subject) {

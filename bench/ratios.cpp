@@ -50,17 +50,20 @@ std::string rows(const std::string& name, const WallAndCpu& times, std::size_t a
 }
 
 // The bare shader first, then the methods in the order of the registry.
-std::string frame_rows(const BenchScene& scene, int repeats) {
+std::string frame_rows(const BenchScene& scene, const std::string& over, int repeats) {
   std::vector<DrawFrame> candidates{[&scene] { scene.draw_bare(); }};
   std::size_t direct = 0;
+  std::size_t base = 0;
   for (const StagedMethod& method : scene.stage().methods()) {
     if (&method == &scene.method("direct")) direct = candidates.size();
+    if (&method == &scene.method(over)) base = candidates.size();
     candidates.emplace_back([&scene, &method] { scene.draw(method); });
   }
   const WallAndCpu times = measure(scene, candidates, repeats);
   std::string text = rows("direct / bare", times, direct, 0);
   for (std::size_t i = 1; i < candidates.size(); ++i) {
-    if (i != direct) text += rows(scene.stage().methods()[i - 1].baked().spec.name + " / direct", times, i, direct);
+    if (i == base) continue;
+    text += rows(fmt::format("{} / {}", scene.stage().methods()[i - 1].baked().spec.text, over), times, i, base);
   }
   return text;
 }
@@ -76,10 +79,10 @@ std::string reference_rows(const BenchScene& scene, int repeats) {
 
 }  // namespace
 
-std::string ratio_table(const BenchScene& scene, int repeats) {
+std::string ratio_table(const BenchScene& scene, const std::string& over, int repeats) {
   std::string text = fmt::format("{:<28} {:>8} {:>8} {:>8} {:>8} {:>8} {:>11} {:>11}\n", "a / b, in the same round",
                                  "median", "min", "p10", "p90", "max", "a, ms", "b, ms");
-  text += frame_rows(scene, repeats) + reference_rows(scene, std::max(5, repeats / 10));
+  text += frame_rows(scene, over, repeats) + reference_rows(scene, std::max(5, repeats / 10));
   scene.stage().context().check("timing frames");
   return text;
 }

@@ -7,9 +7,9 @@
 
 namespace footprint::bench {
 
-/// A table with median, min, max and the middle 80% of each ratio: every method and the bare shader against `direct`,
-/// and the 64-sample reference against 64 frames of `direct`. `repeats` pairs of frames; a tenth of them, at least 5,
-/// for the reference.
-[[nodiscard]] std::string ratio_table(const BenchScene& scene, int repeats);
+/// A table with median, min, max and the middle 80% of each ratio: `direct` against the bare shader, every method
+/// against the one called `over`, and the 64-sample reference against 64 frames of `direct`. `repeats` pairs of frames;
+/// a tenth of them, at least 5, for the reference. Errors (usage): `over` is none of the scene's methods.
+[[nodiscard]] std::string ratio_table(const BenchScene& scene, const std::string& over, int repeats);
 
 }  // namespace footprint::bench

@@ -228,6 +228,8 @@ class Comparison {
     record.height = truth.view.size.y;
     record.precompute_seconds = baked.seconds;
     record.precompute_bytes = baked.bytes;
+    if (baked.texels > 0)
+      record.precompute_bytes_per_texel = static_cast<double>(baked.bytes) / static_cast<double>(baked.texels);
     record.precompute_cached = baked.cached;
     record.effects_on = effect_names(stage_.effects() & honours);
     record.effects_left_out = effect_names(stage_.effects() & ~honours);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "experiments/runner/known_methods.hpp"
+#include "experiments/runner/picture_files.hpp"
 #include "experiments/runner/zoom.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/suggest.hpp"
@@ -59,6 +60,7 @@ auto at_key(const TomlTable& table, std::string_view key, Read read) {
 
 std::vector<std::string> texts_of(const std::vector<MethodSpec>& methods) {
   std::vector<std::string> texts;
+  texts.reserve(methods.size());
   for (const MethodSpec& method : methods) texts.push_back(method.text);
   return texts;
 }
@@ -136,6 +138,13 @@ void check_measures(const Expression& expression, const Experiment& experiment) 
       throw Error(ErrorKind::usage, measure_text(measure), message, mend);
     };
     (void)select_method(measure.method, methods);
+    if (is_of_ndf(measure.function) && experiment.footprints.empty()) {
+      refuse("no footprint is looked into", "add [[ndf]] with a name and a footprint");
+    }
+    if (measure.footprint && std::ranges::find(experiment.footprints, *measure.footprint, &NamedFootprint::name) ==
+                                 experiment.footprints.end()) {
+      refuse(fmt::format("there is no footprint `{:.80}`", *measure.footprint), "use the name of one of [[ndf]]");
+    }
     if (measure.spp && std::ranges::find(experiment.other_spp, *measure.spp) == experiment.other_spp.end()) {
       refuse(fmt::format("other_spp of [reference] does not have {}", *measure.spp), "add it there, or leave spp out");
     }
@@ -171,11 +180,14 @@ Claim read_claim(const TomlTable& table, const Experiment& experiment) {
   });
   const auto expect = table.choice("expect", {"reproduced", "not_reproduced"});
   if (!expect) missing(table, "expect");
-  return {.name = required_word(table, "name"),
-          .text = required_word(table, "text"),
+  std::string name = required_word(table, "name");
+  std::string words = required_word(table, "text");
+  std::string reason = required_word(table, "reason");
+  return {.name = std::move(name),
+          .text = std::move(words),
           .inequality = std::move(inequality),
           .expect_reproduced = *expect == 0,
-          .reason = required_word(table, "reason")};
+          .reason = std::move(reason)};
 }
 
 void read_claims(const TomlTable& root, Experiment& experiment) {
@@ -199,10 +211,11 @@ void read_thresholds(const toml::table& parsed, const TomlTable& root, Experimen
     const Expression written = at_key(*table, key, [&] { return Expression(key, fmt::format("`{:.200}`", key)); });
     const auto measures = written.measures();
     const bool each = std::ranges::find(measures, "*", &Measure::method) != measures.end();
+    const double limit = *table->number(key, any_number);
     for (const std::string& method : each ? texts_of(experiment.methods) : std::vector<std::string>{""}) {
       const Expression measure = written.with_method(method);
       at_key(*table, key, [&] { check_measures(measure, experiment); });
-      experiment.thresholds.push_back({.measure = measure, .limit = *table->number(key, any_number)});
+      experiment.thresholds.push_back({.measure = measure, .limit = limit});
     }
   }
 }
@@ -220,17 +233,35 @@ void read_published(const TomlTable& table, Experiment& experiment) {
     if (std::ranges::find(*figures, figure) == figures->end()) continue;
     const auto number = value.number("value", any_number);
     if (!number) missing(value, "value");
-    experiment.published.push_back(
-        {.figure = figure,
-         .measure = read_expression(value, "measure", required_word(value, "measure"), experiment),
-         .value = *number,
-         .unit = value.word("unit").value_or(""),
-         .note = value.word("note").value_or("")});
+    Expression measure = read_expression(value, "measure", required_word(value, "measure"), experiment);
+    std::string unit = value.word("unit").value_or(""), note = value.word("note").value_or("");
+    experiment.published.push_back({.figure = figure,
+                                    .measure = std::move(measure),
+                                    .value = *number,
+                                    .unit = std::move(unit),
+                                    .note = std::move(note)});
   }
   for (const std::string& figure : *figures) {
     if (std::ranges::find(known, figure) != known.end()) continue;
     throw table.error_at("figures", fmt::format("names `{:.80}`, which {} does not have", figure, file.string()),
                          suggestion(figure, known));
+  }
+}
+
+void read_footprints(const TomlTable& root, Experiment& experiment) {
+  for (const TomlTable& table : root.tables("ndf", {"name", "footprint"})) {
+    const std::string name = required_word(table, "name");
+    if (name != file_stem(name) || name.front() == '.') {
+      throw table.error_at("name", fmt::format("is `{:.80}`, which names no folder", name), "use letters and digits");
+    }
+    if (std::ranges::find(experiment.footprints, name, &NamedFootprint::name) != experiment.footprints.end()) {
+      throw table.error_at("name", fmt::format("is `{:.80}` as of another footprint", name), "name it otherwise");
+    }
+    const auto sides = table.numbers("footprint", 4, {-1e6, 1e6});
+    if (!sides) missing(table, "footprint");
+    const FootprintRect rect{{(*sides)[0], (*sides)[1]}, {(*sides)[2], (*sides)[3]}};
+    at_key(table, "footprint", [&] { check_footprint(rect, ""); });
+    experiment.footprints.push_back({.name = name, .rect = rect});
   }
 }
 
@@ -299,8 +330,9 @@ std::vector<std::string> list_experiments(const fs::path& folder) {
 
 Experiment read_experiment(const fs::path& file) {
   const toml::table parsed = parse_toml_file(file);
-  const TomlTable root(parsed, file, "",
-                       {"experiment", "zoom", "camera", "reference", "published", "claim", "threshold", "figure"});
+  const TomlTable root(
+      parsed, file, "",
+      {"experiment", "zoom", "camera", "reference", "ndf", "published", "claim", "threshold", "figure"});
   Experiment experiment;
   experiment.name = file.stem().string();
   experiment.file = file;
@@ -313,6 +345,7 @@ Experiment read_experiment(const fs::path& file) {
   if (const auto reference = root.table("reference", {"spp", "other_spp", "seed", "filter"})) {
     read_reference(*reference, experiment);
   }
+  read_footprints(root, experiment);
   if (const auto published = root.table("published", {"file", "figures"})) read_published(*published, experiment);
   read_claims(root, experiment);
   read_thresholds(parsed, root, experiment);

@@ -11,6 +11,7 @@
 
 #include "experiments/runner/expression.hpp"
 #include "renderer/core/options.hpp"
+#include "renderer/ndf/footprint_texels.hpp"
 #include "renderer/pipeline/supersample.hpp"
 #include "renderer/scene/scene_settings.hpp"
 
@@ -36,6 +37,12 @@ struct PublishedValue {
   Expression measure;
   double value = 0;
   std::string unit, note;
+};
+
+/// A footprint whose effective NDF is looked into.
+struct NamedFootprint {
+  std::string name;    ///< letters, digits, `_`, `-`: a folder is called so
+  FootprintRect rect;  ///< texture coordinates
 };
 
 /// A rectangle of a picture in shares of its width and height, from the top left: left, top, right, bottom.
@@ -76,6 +83,7 @@ struct Experiment {
   std::vector<PublishedValue> published;
   std::vector<Claim> claims;
   std::vector<Threshold> thresholds;
+  std::vector<NamedFootprint> footprints;
   FigureLayout figure;  ///< no rows: none is composed
 };
 

@@ -94,6 +94,9 @@ filter = "nearest"
 [published]
 file = "paper.toml"
 figures = ["Figure 1"]
+[[ndf]]
+name = "corner"
+footprint = [0, 0, 0.25, 0.5]
 [[claim]]
 name = "less"
 text = "It is less."
@@ -120,6 +123,8 @@ TEST_F(ExperimentFile, EveryKeyIsRead) {
   EXPECT_EQ(experiment.filter, ReferenceFilter::nearest);
   ASSERT_EQ(experiment.published.size(), 1U);  // that of figure 2 names a method that is not here, and is not asked for
   EXPECT_EQ(experiment.published[0].value, 0.5);
+  ASSERT_EQ(experiment.footprints.size(), 1U);
+  EXPECT_EQ(experiment.footprints[0].rect.upper, glm::dvec2(0.25, 0.5));
   ASSERT_EQ(experiment.claims.size(), 1U);
   EXPECT_FALSE(experiment.claims[0].expect_reproduced);
   ASSERT_EQ(experiment.thresholds.size(), 3U);
@@ -166,6 +171,12 @@ TEST_F(ExperimentFile, WrongFilesAreRefusedAtTheirLine) {
   expect_complaint(good + "[threshold]\n\"error(direct)\" = \"low\"\n", "must be a number");
   expect_complaint(good + "[threshold]\n\"flicker(direct)\" = 1\n", "frames of a zoom");
   expect_complaint(good + "[threshold]\n\"error(direct, spp=16)\" = 1\n", "other_spp");
+  expect_complaint(good + "[threshold]\n\"ndf_l2(direct)\" = 1\n", "add [[ndf]]");
+  expect_complaint(good + "[[ndf]]\nname = \"../a\"\nfootprint = [0, 0, 1, 1]\n", "names no folder");
+  expect_complaint(good + "[[ndf]]\nname = \"a\"\nfootprint = [0, 0, 0, 1]\n", "`footprint` in [[ndf]]");
+  expect_complaint(
+      good + "[[ndf]]\nname = \"a\"\nfootprint = [0, 0, 1, 1]\n[threshold]\n\"ndf_l2(direct, footprint=b)\" = 1\n",
+      "no footprint `b`");
   expect_complaint(good + "[figure]\ncrop = [0, 0, 0, 1]\n", "holds nothing");
   expect_complaint(good + "[figure]\n", "`row` in [figure] is missing");
   expect_complaint(good + "[[figure.row]]\npictures = [{ method = \"tan\" }]\n", "no method `tan`");

@@ -132,26 +132,32 @@ class Parser {
   void selector(Measure& measure) {
     skip_blanks();
     const std::size_t start = at_;
-    const std::string text = argument("distance=, frame= or spp=");
+    const std::string text = argument("a selector");
     const std::size_t sign = text.find('=');
     const std::string key = text.substr(0, sign);
-    const std::vector<std::string> known{"distance", "frame", "spp"};
+    const std::vector<std::string> known = selectors_of(measure.function);
     const auto found = std::ranges::find(known, key);
-    if (found == known.end() || sign == std::string::npos) {
-      at_ = start;
-      fail(fmt::format("`{:.80}` selects nothing", text), suggestion(key, known));
-    }
-    const std::string value = text.substr(sign + 1);
-    bool right = false;
-    if (*found == "distance") right = read(value, measure.distance);
-    if (*found == "frame") right = read(value, measure.frame) && *measure.frame >= 0;
-    if (*found == "spp") right = takes_spp(measure.function) && read(value, measure.spp) && *measure.spp > 0;
-    if (right) return;
+    const bool is_known = found != known.end() && sign != std::string::npos;
+    if (is_known && select(measure, key, text.substr(sign + 1))) return;
     at_ = start;
-    if (*found == "spp" && !takes_spp(measure.function)) {
-      fail(fmt::format("`{}` is measured against one reference only", measure.function), "leave spp out");
-    }
-    fail(fmt::format("`{:.80}` is no value of {}, or its second one", value, key), "write it once, as a number");
+    if (!is_known) fail(fmt::format("`{:.80}` selects nothing of {}", text, measure.function), suggestion(key, known));
+    fail(fmt::format("`{:.80}` is no value, or the second one", text), "write each selector once");
+  }
+
+  static std::vector<std::string> selectors_of(const std::string& function) {
+    if (is_of_ndf(function)) return {"footprint"};
+    if (takes_spp(function)) return {"distance", "frame", "spp"};
+    return {"distance", "frame"};
+  }
+
+  // Whether the value is one of the selector's, and its first.
+  static bool select(Measure& measure, const std::string& key, const std::string& value) {
+    if (key == "distance") return read(value, measure.distance);
+    if (key == "frame") return read(value, measure.frame) && *measure.frame >= 0;
+    if (key == "spp") return read(value, measure.spp) && *measure.spp > 0;
+    if (measure.footprint || value.empty()) return false;
+    measure.footprint = value;
+    return true;
   }
 
   // Whether `text` is a number of T and nothing else; a value that is there already is not written twice.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <functional>
@@ -56,6 +57,36 @@ const std::vector<Function>& functions() {
   return table;
 }
 
+struct NdfFunction {
+  std::string name;
+  double NdfFigures::*figure;
+};
+
+const std::array<NdfFunction, 3>& ndf_functions() {
+  static const std::array<NdfFunction, 3> table{
+      {{"ndf_l2", &NdfFigures::l2}, {"ndf_energy", &NdfFigures::energy}, {"ndf_peak", &NdfFigures::peak}}};
+  return table;
+}
+
+Measured mean_of(double sum, std::size_t count) {
+  const double mean = sum / static_cast<double>(count);
+  if (std::isnan(mean)) return {.value = {}, .problem = "the figure is not a number"};
+  return {.value = mean, .problem = {}};
+}
+
+// The mean over the footprints.
+Measured measured_ndf(const Measure& measure, const std::string& method, const Results& results) {
+  const auto function = std::ranges::find(ndf_functions(), measure.function, &NdfFunction::name);
+  double sum = 0;
+  std::size_t count = 0;
+  for (const NdfFigures& figures : results.ndf) {
+    if (figures.method != method || (measure.footprint && figures.footprint != *measure.footprint)) continue;
+    sum += figures.*function->figure;
+    ++count;
+  }
+  return count > 0 ? mean_of(sum, count) : Measured{.value = {}, .problem = "no such footprint was looked into"};
+}
+
 struct Sample {
   Figure value;
   bool at_noise_floor = false;
@@ -91,6 +122,7 @@ const std::vector<std::string>& measure_functions() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
     for (const Function& function : functions()) all.push_back(function.name);
+    for (const NdfFunction& function : ndf_functions()) all.push_back(function.name);
     return all;
   }();
   return names;
@@ -98,10 +130,15 @@ const std::vector<std::string>& measure_functions() {
 
 bool takes_spp(const std::string& function) { return function == "error"; }
 
+bool is_of_ndf(const std::string& function) {
+  return std::ranges::find(ndf_functions(), function, &NdfFunction::name) != ndf_functions().end();
+}
+
 std::string measure_text(const Measure& measure) {
   std::string text = fmt::format("{}({}", measure.function, measure.method);
   if (measure.distance) text += fmt::format(", distance={}", *measure.distance);
   if (measure.frame) text += fmt::format(", frame={}", *measure.frame);
+  if (measure.footprint) text += fmt::format(", footprint={}", *measure.footprint);
   if (measure.spp) text += fmt::format(", spp={}", *measure.spp);
   return text + ")";
 }
@@ -127,6 +164,7 @@ std::size_t select_method(const std::string& wanted, std::span<const std::string
 Measured measured(const Measure& measure, const Results& results) {
   const std::vector<std::string> methods = methods_of(results);
   const std::string& method = methods[select_method(measure.method, methods)];
+  if (is_of_ndf(measure.function)) return measured_ndf(measure, method, results);
   const auto function = std::ranges::find(functions(), measure.function, &Function::name);
   double sum = 0;
   std::size_t count = 0, noisy = 0, matching = 0;
@@ -144,9 +182,9 @@ Measured measured(const Measure& measure, const Results& results) {
     return {.value = {}, .problem = "the bake came from the cache (give --no-cache)"};
   }
   if (count == 0) return {.value = {}, .problem = "no record has this figure"};
-  const double mean = sum / static_cast<double>(count);
-  if (std::isnan(mean)) return {.value = {}, .problem = "the figure is not a number"};
-  return {.value = mean, .problem = {}, .at_noise_floor = noisy == count};
+  Measured mean = mean_of(sum, count);
+  mean.at_noise_floor = noisy == count;
+  return mean;
 }
 
 }  // namespace footprint

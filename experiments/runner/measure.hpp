@@ -16,6 +16,7 @@ struct Measure {
   std::string method;    ///< a method as the experiment writes it, its name alone where only one has it, or `*`
   std::optional<double> distance;
   std::optional<int> frame;
+  std::optional<std::string> footprint;  ///< of the NDF's functions alone
   std::optional<int> spp;  ///< `error` alone: against the reference of so many samples; none: the experiment's own
 };
 
@@ -24,6 +25,9 @@ struct Measure {
 
 /// Whether a function takes `spp`.
 [[nodiscard]] bool takes_spp(const std::string& function);
+
+/// Whether a function is one of a footprint's NDF: it takes `footprint`, and no other selector.
+[[nodiscard]] bool is_of_ndf(const std::string& function);
 
 /// "error(toksvig:storage=fp16, distance=4)".
 [[nodiscard]] std::string measure_text(const Measure& measure);

@@ -2,9 +2,11 @@
 #include "experiments/runner/run_experiment.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "experiments/runner/composed_figure.hpp"
 #include "experiments/runner/judge.hpp"
+#include "experiments/runner/ndf_inspection.hpp"
 
 namespace footprint {
 namespace {
@@ -18,6 +20,43 @@ void make_quick(CompareSettings& settings) {
   settings.spp = std::min(settings.spp, quick_spp);
   settings.repeats = std::min(settings.repeats, quick_repeats);
   settings.size = settings.size ? glm::max(*settings.size / quick_divisor, glm::ivec2(1)) : glm::ivec2(quick_default);
+}
+
+// Looks into the footprints, each in a folder NDF/NAME of its own, and adds the figures to the results.
+void inspect_footprints(const Experiment& experiment, const RunSettings& settings, const std::filesystem::path& folder,
+                        Results& results, const Progress& progress) {
+  if (experiment.footprints.empty()) return;
+  const NdfSource source = load_ndf_source(experiment.scene, "", settings.library);
+  ProgressParts parts(progress, static_cast<double>(experiment.footprints.size()));
+  for (const NamedFootprint& footprint : experiment.footprints) {
+    const std::string place = "ndf/" + footprint.name;
+    std::filesystem::create_directories(folder / place / "images");
+    NdfSettings wanted{.footprint = footprint.rect,
+                       .methods = experiment.methods,
+                       .anisotropy = experiment.anisotropy,
+                       .context = settings.context,
+                       .cache = settings.cache};
+    const NdfResults found =
+        inspect_ndf(source, wanted, folder / place, parts.next(1, "footprint " + footprint.name + ": "));
+    for (const NdfRecord& record : found.records) {
+      results.ndf.push_back({.footprint = footprint.name,
+                             .method = record.method,
+                             .l2 = record.l2,
+                             .energy = record.energy,
+                             .peak = record.peak,
+                             .lobes = record.lobes,
+                             .picture = place + "/" + found.strip});
+    }
+  }
+}
+
+// The pictures of all footprints, each once.
+std::vector<std::string> ndf_pictures(const Results& results) {
+  std::vector<std::string> pictures;
+  for (const NdfFigures& figures : results.ndf) {
+    if (pictures.empty() || pictures.back() != figures.picture) pictures.push_back(figures.picture);
+  }
+  return pictures;
 }
 
 }  // namespace
@@ -47,10 +86,13 @@ CompareSettings compare_settings(const Experiment& experiment, const RunSettings
 
 Results run_experiment(const Experiment& experiment, const RunSettings& settings, const std::filesystem::path& folder,
                        const Progress& progress) {
-  Results results = run_compare(compare_settings(experiment, settings), folder, {}, progress);
+  ProgressParts parts(progress, experiment.footprints.empty() ? 4 : 5);
+  Results results = run_compare(compare_settings(experiment, settings), folder, {}, parts.next(4, ""));
+  inspect_footprints(experiment, settings, folder, results, parts.next(1, ""));
   results.experiment = judge(experiment, results);
   results.experiment->quick = settings.quick;
   results.experiment->pictures = write_figures(experiment.figure, experiment, results, folder);
+  std::ranges::copy(ndf_pictures(results), std::back_inserter(results.experiment->pictures));
   return results;
 }
 

@@ -2,6 +2,7 @@
 #include "experiments/runner/zoom.hpp"
 
 #include <cmath>
+#include <cstddef>
 
 namespace footprint {
 
@@ -17,6 +18,7 @@ double rounded(double value) {
 
 std::vector<double> zoom_distances(double from, double to, int frames) {
   std::vector<double> distances;
+  distances.reserve(static_cast<std::size_t>(frames));
   for (int i = 0; i < frames; ++i) {
     distances.push_back(rounded(from * std::pow(to / from, static_cast<double>(i) / (frames - 1))));
   }

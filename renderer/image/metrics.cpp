@@ -131,7 +131,7 @@ std::optional<FlickerFigures> compare_changes(const Image& before, const Image& 
     differences.push_back(std::sqrt(sum / 3));
   });
   if (differences.empty()) return std::nullopt;
-  const double count = static_cast<double>(differences.size());
+  const auto count = static_cast<double>(differences.size());
   const double mean = std::accumulate(differences.begin(), differences.end(), 0.0) / count;
   const auto rank = static_cast<std::ptrdiff_t>(std::ceil(flicker_quantile * count)) - 1;
   std::ranges::nth_element(differences, differences.begin() + rank);

@@ -121,6 +121,15 @@ std::size_t byte_count(const Prefiltered& prefiltered) {
   return bytes;
 }
 
+std::size_t finest_texels(const Prefiltered& prefiltered) {
+  std::size_t most = 0;
+  for (const PrefilteredTexture& texture : prefiltered.textures) {
+    const TextureLevel& finest = texture.levels.front();
+    most = std::max(most, static_cast<std::size_t>(finest.width) * static_cast<std::size_t>(finest.height));
+  }
+  return most;
+}
+
 PrefilteredTexture make_texture(std::string name, const std::vector<Image>& chain, Storage storage,
                                 const TextureCoordinates& coordinates, bool signed_range) {
   std::vector<TextureLevel> levels = encode_levels(name, std::span(&chain, 1), storage, signed_range);

@@ -63,6 +63,9 @@ struct Prefiltered {
 /// Bytes of all textures and scalars as stored on the GPU.
 [[nodiscard]] std::size_t byte_count(const Prefiltered& prefiltered);
 
+/// Texels of the finest level of its largest texture: what a figure per texel refers to. 0 without textures.
+[[nodiscard]] std::size_t finest_texels(const Prefiltered& prefiltered);
+
 /// Encodes a mip chain: fp16 and unorm8 round to nearest; unorm8 maps [-1,1] to 0..255 where `signed_range` (a
 /// normal), else [0,1]. fp16 clamps to +-65504. Values must be finite.
 [[nodiscard]] PrefilteredTexture make_texture(std::string name, const std::vector<Image>& chain, Storage storage,

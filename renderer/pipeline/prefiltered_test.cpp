@@ -55,6 +55,15 @@ TEST(ByteCount, IsWhatTheGpuHolds) {
   EXPECT_EQ(byte_count(p), (8U + 2U + 1U) * 3U * 2U + 4U);
 }
 
+TEST(FinestTexels, AreThoseOfTheLargestTexture) {
+  EXPECT_EQ(finest_texels({}), 0U);
+  const Prefiltered p{
+      .textures = {make_texture("a", {Image(4, 2, 1), Image(2, 1, 1), Image(1, 1, 1)}, Storage::fp32, {}),
+                   make_texture("b", {Image(3, 3, 1), Image(1, 1, 1)}, Storage::fp32, {})},
+      .scalars = {}};
+  EXPECT_EQ(finest_texels(p), 9U);
+}
+
 TEST(Storage, WordsAreChecked) {
   EXPECT_EQ(parse_storage("fp16"), Storage::fp16);
   EXPECT_EQ(storage_name(Storage::unorm8), "unorm8");

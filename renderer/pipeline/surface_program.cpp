@@ -76,6 +76,7 @@ BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scen
                     .materials = {},
                     .seconds = 0,
                     .bytes = 0,
+                    .texels = 0,
                     .cached = cache != nullptr && method.info().slow_precompute};
   const auto count = static_cast<double>(scene.materials.size());
   for (const Material& material : scene.materials) {
@@ -90,6 +91,7 @@ BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scen
       throw error.within(fmt::format("{}, material {}, method {}", scene.source, material.name, spec.text));
     }
     baked.bytes += byte_count(baked.materials.back());
+    baked.texels += finest_texels(baked.materials.back());
   }
   baked.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return baked;

@@ -22,6 +22,7 @@ struct BakedMethod {
   std::vector<Prefiltered> materials;  ///< one for each material of the scene
   double seconds = 0;
   std::size_t bytes = 0;
+  std::size_t texels = 0;  ///< of the finest levels, over all materials (`finest_texels`)
   bool cached = false;  ///< every material came from the disk: `seconds` is what reading took
 };
 

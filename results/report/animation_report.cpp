@@ -93,6 +93,7 @@ std::string animation_table(const Animation& animation) {
     if (std::ranges::find(methods, record.method) == methods.end()) methods.push_back(record.method);
   }
   std::vector<std::vector<std::string>> rows;
+  rows.reserve(methods.size());
   for (const std::string& method : methods) rows.push_back(table_row(animation, method));
   return fmt::format("# {}, {} frames\n\n", markdown_escaped(animation.scene.name), animation.reference_images.size()) +
          markdown_table(

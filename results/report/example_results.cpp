@@ -43,6 +43,7 @@ Record example_record(const Results& results, const Behaviour& behaviour, double
   const double ratio = behaviour.milliseconds / behaviours[0].milliseconds;
   record.ratio_to_direct = {ratio, ratio * 0.97, ratio * 1.05};
   record.precompute_bytes = behaviour.bytes;
+  if (behaviour.bytes != 0) record.precompute_bytes_per_texel = 16.0;
   record.precompute_seconds = static_cast<double>(behaviour.bytes) * 2e-8;
   record.effects_on = {"diffuse", "fresnel", "normal_variation"};
   if (behaviour.bytes != 0) record.effects_left_out = {"roughness_variation"};
@@ -129,6 +130,7 @@ Results example_results() {
   results.records[0].other_references = {{16, 0.0223, 0.0029}, {36, 0.0217, {}}};
   results.records[4].flicker = Flicker{.mean = 0.031, .p99 = 0.4, .noise_floor = 0.002};
   results.records[5].flicker = Flicker{.mean = 0.013, .p99 = 1.1, .noise_floor = {}};
+  results.ndf = {{"groove", "toksvig", 0.41, 1.002, 3.4, 1, "ndf/groove/ndf.png"}};
   results.experiment = example_experiment("");
   return results;
 }

@@ -31,7 +31,8 @@ TEST(ExperimentSection, MeasuredStandsBesidePublished) {
 TEST(ExperimentSection, TextOfOthersIsEscaped) {
   const ExperimentReport report = *hostile_results().experiment;
   EXPECT_FALSE(holds(experiment_html(report), "<script>"));
-  EXPECT_FALSE(holds(experiment_markdown(report), "<script>"));
+  EXPECT_TRUE(holds(experiment_markdown(report), "\\<script"));
+  EXPECT_FALSE(holds(experiment_markdown(report), " <script"));
   EXPECT_TRUE(holds(experiment_html(report), "&lt;script&gt;"));
 }
 

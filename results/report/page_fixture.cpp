@@ -51,6 +51,8 @@ void write_pictures(const Results& results, const std::filesystem::path& folder)
     const auto top = static_cast<float>(results.error_scale);
     write_png(folder / record.images.error, false_color(error_map(picture, reference, 1), top));
   }
+  if (!results.experiment) return;
+  for (const std::string& name : results.experiment->pictures) write_png(folder / name, to_display(ball(64, 1), 1));
 }
 
 void write_fixture(const std::filesystem::path& folder, std::string_view kind) {

@@ -90,9 +90,10 @@ Record parse_record(const JsonNode& node) {
   record.other_references = parse_other_references(node["other_references"]);
   record.flicker = parse_flicker(node["flicker"]);
   parse_time(node["time"], record);
-  const JsonNode precompute = node["precompute"].with_keys({"seconds", "bytes", "cached"});
+  const JsonNode precompute = node["precompute"].with_keys({"seconds", "bytes", "bytes_per_texel", "cached"});
   record.precompute_seconds = precompute["seconds"].number();
   record.precompute_bytes = precompute["bytes"].whole<std::uint64_t>();
+  record.precompute_bytes_per_texel = precompute["bytes_per_texel"].optional_number();
   record.precompute_cached = precompute["cached"].flag();
   const JsonNode effects = node["effects"].with_keys({"on", "left_out"});
   record.effects_on = effects["on"].texts();
@@ -100,6 +101,17 @@ Record parse_record(const JsonNode& node) {
   const JsonNode images = node["images"].with_keys({"color", "reference", "error"});
   record.images = {images["color"].text(), images["reference"].text(), images["error"].text()};
   return record;
+}
+
+NdfFigures parse_ndf(const JsonNode& node) {
+  node.with_keys({"footprint", "method", "l2", "energy", "peak", "lobes", "picture"});
+  return {.footprint = node["footprint"].text(),
+          .method = node["method"].text(),
+          .l2 = node["l2"].number_or(not_a_number),
+          .energy = node["energy"].number_or(not_a_number),
+          .peak = node["peak"].number_or(not_a_number),
+          .lobes = node["lobes"].whole<int>(),
+          .picture = node["picture"].text()};
 }
 
 SupersamplingPoint parse_supersampling(const JsonNode& node) {
@@ -127,8 +139,8 @@ Results parse_document(const JsonNode& node) {
     node["schema"].fail("unknown schema `" + node["schema"].text() + "`",
                         std::string("this version reads `") + results_schema + "`");
   }
-  node.with_keys(
-      {"schema", "tool", "backend", "scene", "reference", "experiment", "error_scale", "supersampling", "records"});
+  node.with_keys({"schema", "tool", "backend", "scene", "reference", "experiment", "error_scale", "supersampling",
+                  "records", "ndf"});
   Results results;
   const JsonNode tool = node["tool"].with_keys({"name", "version"});
   results.tool = {tool["name"].text(), tool["version"].text()};
@@ -145,6 +157,7 @@ Results parse_document(const JsonNode& node) {
     results.supersampling.push_back(parse_supersampling(point));
   }
   for (const JsonNode& record : node["records"].elements()) results.records.push_back(parse_record(record));
+  for (const JsonNode& figures : node["ndf"].elements()) results.ndf.push_back(parse_ndf(figures));
   return results;
 }
 

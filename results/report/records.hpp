@@ -74,6 +74,7 @@ struct Record {
   TimeRatio ratio_to_direct;
   double precompute_seconds = 0;
   std::uint64_t precompute_bytes = 0;
+  std::optional<double> precompute_bytes_per_texel;  ///< over the finest level's texels; none: no texture
   bool precompute_cached = false;
   std::vector<std::string> effects_on;
   std::vector<std::string> effects_left_out;
@@ -86,6 +87,17 @@ struct SupersamplingPoint {
   int spp = 1;
   std::optional<double> normalized_color;
   double ms = 0;
+};
+
+/// The effective NDF of one footprint by one method, beside the exact one (renderer/ndf).
+struct NdfFigures {
+  std::string footprint;  ///< its name
+  std::string method;     ///< as written
+  double l2 = 0;          ///< relative L2 error over solid angle
+  double energy = 0;      ///< over the truth's
+  double peak = 0;        ///< largest density, per steradian
+  int lobes = 0;          ///< evaluated a pixel
+  std::string picture;    ///< of all methods and the truth, PNG, from the output folder
 };
 
 struct ToolInfo {
@@ -125,6 +137,7 @@ struct Results {
   ReferenceInfo reference;
   std::vector<SupersamplingPoint> supersampling;
   std::vector<Record> records;
+  std::vector<NdfFigures> ndf;                 ///< empty where no footprint was looked into
   std::optional<ExperimentReport> experiment;  ///< none: a plain comparison
   double error_scale = 0;                      ///< the normalised colour error at the top of every false-colour picture
 };

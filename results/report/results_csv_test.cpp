@@ -62,6 +62,7 @@ TEST(ResultsCsv, FiguresStandUnderTheirColumn) {
   EXPECT_EQ(std::stod(value(lines, 4, "ratio_to_direct_max")), record.ratio_to_direct.maximum);
   EXPECT_EQ(value(lines, 4, "frame_build_ms"), "0.31");
   EXPECT_EQ(value(lines, 4, "precompute_bytes"), "4194304");
+  EXPECT_EQ(value(lines, 4, "precompute_bytes_per_texel"), "16");
   EXPECT_EQ(value(lines, 4, "precompute_cached"), "true");
   EXPECT_EQ(value(lines, 4, "effects_on"), "diffuse;fresnel;normal_variation");
   EXPECT_EQ(value(lines, 4, "options"), "probes=1;storage=fp32");

@@ -69,10 +69,18 @@ Json record_json(const Record& record) {
           {"precompute",
            {{"seconds", json_number(record.precompute_seconds)},
             {"bytes", record.precompute_bytes},
+            {"bytes_per_texel", json_number(record.precompute_bytes_per_texel)},
             {"cached", record.precompute_cached}}},
           {"effects", {{"on", record.effects_on}, {"left_out", record.effects_left_out}}},
           {"images",
            {{"color", record.images.color}, {"reference", record.images.reference}, {"error", record.images.error}}}};
+}
+
+Json ndf_json(const NdfFigures& figures) {
+  return {{"footprint", figures.footprint},    {"method", figures.method},
+          {"l2", json_number(figures.l2)},     {"energy", json_number(figures.energy)},
+          {"peak", json_number(figures.peak)}, {"lobes", figures.lobes},
+          {"picture", figures.picture}};
 }
 
 Json supersampling_json(const SupersamplingPoint& point) {
@@ -125,6 +133,8 @@ nlohmann::ordered_json results_document(const Results& results) {
   for (const SupersamplingPoint& point : results.supersampling) supersampling.push_back(supersampling_json(point));
   Json records = Json::array();
   for (const Record& record : results.records) records.push_back(record_json(record));
+  Json ndf = Json::array();
+  for (const NdfFigures& figures : results.ndf) ndf.push_back(ndf_json(figures));
   return {{"schema", results_schema},
           {"tool", tool_json(results.tool)},
           {"backend", backend_json(results.backend)},
@@ -133,7 +143,8 @@ nlohmann::ordered_json results_document(const Results& results) {
           {"experiment", results.experiment ? experiment_json(*results.experiment) : Json(nullptr)},
           {"error_scale", json_number(results.error_scale)},
           {"supersampling", std::move(supersampling)},
-          {"records", std::move(records)}};
+          {"records", std::move(records)},
+          {"ndf", std::move(ndf)}};
 }
 
 std::string json_text(const nlohmann::ordered_json& document, int indent) {

@@ -84,15 +84,19 @@ std::string distance_section(const Results& results, double distance) {
                      any_marked ? "\n\\* at the noise floor: the reference's own noise explains this error.\n" : "");
 }
 
+std::string per_texel_text(const Record& record) {
+  return record.precompute_bytes_per_texel ? three_figures(*record.precompute_bytes_per_texel) : "n/a";
+}
+
 /// What does not depend on the distance: one line a method, more only where its figures differ.
 std::string preparation_section(const Results& results) {
-  const std::vector<MarkdownColumn> columns{
-      {"Method", false}, {"Precompute s"}, {"Maps"}, {"Cached", false}, {"Effects left out", false}};
+  const std::vector<MarkdownColumn> columns{{"Method", false}, {"Precompute s"},  {"Maps"},
+                                            {"B/texel"},       {"Cached", false}, {"Effects left out", false}};
   Rows rows;
   for (const Record& record : results.records) {
-    std::vector<std::string> row{record.method, three_figures(record.precompute_seconds),
-                                 bytes_text(record.precompute_bytes), record.precompute_cached ? "yes" : "no",
-                                 list_text(record.effects_left_out, "none")};
+    std::vector<std::string> row{
+        record.method,          three_figures(record.precompute_seconds), bytes_text(record.precompute_bytes),
+        per_texel_text(record), record.precompute_cached ? "yes" : "no",  list_text(record.effects_left_out, "none")};
     if (std::ranges::find(rows, row) == rows.end()) rows.push_back(std::move(row));
   }
   return "\n## What each method prepares\n\n" + markdown_table(columns, rows);
@@ -110,6 +114,18 @@ std::string flicker_section(const Results& results) {
   if (rows.empty()) return {};
   return "\n## Flicker against the frame before\n\n" +
          markdown_table({{"Frame"}, {"Method", false}, {"Mean"}, {"99th percentile"}, {"Floor"}}, rows);
+}
+
+/// Effective NDFs of the footprints that were looked into.
+std::string ndf_section(const Results& results) {
+  if (results.ndf.empty()) return {};
+  Rows rows;
+  for (const NdfFigures& figures : results.ndf) {
+    rows.push_back({figures.footprint, figures.method, three_figures(figures.l2), three_figures(figures.energy),
+                    three_figures(figures.peak), fmt::format("{}", figures.lobes)});
+  }
+  return "\n## Effective NDFs\n\n" +
+         markdown_table({{"Footprint", false}, {"Method", false}, {"Rel. L2"}, {"Energy"}, {"Peak"}, {"Lobes"}}, rows);
 }
 
 /// Frame builds, where a method has one: they are part of its price at that distance.
@@ -179,8 +195,8 @@ std::string results_table(const Results& results) {
   }
   if (results.experiment) text += experiment_markdown(*results.experiment);
   for (const double distance : distances_of(results)) text += distance_section(results, distance);
-  return text + flicker_section(results) + preparation_section(results) + frame_build_section(results) +
-         supersampling_section(results) + words_section(results);
+  return text + flicker_section(results) + ndf_section(results) + preparation_section(results) +
+         frame_build_section(results) + supersampling_section(results) + words_section(results);
 }
 
 }  // namespace footprint

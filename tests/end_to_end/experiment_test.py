@@ -1,0 +1,211 @@
+"""Experiments as users and continuous integration run them: every method held, and each gate seen to fall."""
+
+import csv
+import json
+import re
+import subprocess
+import unittest
+
+from whole_runs import PROGRAM, SOURCE, WholeRunTest, largest_difference, picture_facts, results_of, run
+
+HEAD = """[experiment]
+title = "A small one"
+scene = "ribbed_plane"
+size = [32, 32]
+methods = ["direct", "toksvig"]
+repeats = 1
+[reference]
+spp = 16
+other_spp = [4]
+"""
+CLAIM = """[[claim]]
+name = "the_claim"
+text = "t"
+inequality = "{}"
+expect = "{}"
+reason = "r"
+"""
+
+
+class Experiments(WholeRunTest):
+    def execute(self, name, content, command="check"):
+        """Exit code, standard output, standard error and folder of an experiment of its own."""
+        file = self.folder / f"{name}.toml"
+        file.write_text(content, encoding="utf-8")
+        out = self.folder / f"{name}_out"
+        arguments = [PROGRAM, command, file, "--quiet", "-o", out]
+        done = subprocess.run([*map(str, arguments)], capture_output=True, text=True, check=False)
+        return done.returncode, done.stdout, done.stderr, out
+
+    def assert_falls_short(self, name, content, *parts):
+        code, output, errors, out = self.execute(name, content)
+        self.assertEqual(code, 1, errors)
+        short = [line for line in output.splitlines() if line.startswith("fell short: ")]
+        self.assertEqual(len(short), 1, output)
+        for part in parts:
+            self.assertIn(part, short[0])
+        self.assertRegex(errors, r"^footprint: .*1 of its claims and thresholds fell short")
+        self.assertTrue((out / "index.html").is_file(), "the report is written all the same")
+
+    # What continuous integration holds.
+
+    def test_every_method_holds_the_quick_check(self):
+        out = self.folder / "quick"
+        run("check", "quick", "--quiet", "-o", out)
+        results = results_of(out)
+        listed = json.loads(run("list", "methods", "--json"))["methods"]
+        self.assertEqual({r["method"] for r in results["records"]}, {m["name"] for m in listed})
+        bounded = " ".join(t["measure"] for t in results["experiment"]["thresholds"])
+        for method in listed:
+            self.assertIn(f"error({method['name']})", bounded)
+        self.assert_holds_to_schema(out)
+
+    def assert_holds_to_schema(self, out):
+        validator = SOURCE / "results" / "report" / "schema_test.py"
+        command = ["/usr/bin/python3", "-B", validator, SOURCE / "docs" / "results.schema.json", out / "results.json"]
+        done = subprocess.run([*map(str, command)], capture_output=True, text=True, check=False)
+        self.assertIn(done.returncode, (0, 77), done.stderr)
+
+    # Each gate must be able to fall.
+
+    def test_a_threshold_that_is_too_low_falls(self):
+        content = HEAD + '[threshold]\n"error(toksvig)" = 0.001\n"error(direct)" = 1\n'
+        self.assert_falls_short("low", content, "threshold error(toksvig): at most 0.00100, measured 0.")
+
+    def test_a_threshold_without_a_figure_falls(self):
+        content = HEAD + '[zoom]\ndistances = [1000000]\n[threshold]\n"error(toksvig)" = 1\n'
+        self.assert_falls_short("without", content, "no record has this figure")
+
+    def test_a_threshold_of_each_method_falls_for_the_one_that_exceeds_it(self):
+        limit = 0.3  # between the two
+        self.assert_falls_short("each", HEAD + f'[threshold]\n"error(*)" = {limit}\n', "error(direct)")
+
+    def test_a_claim_that_does_not_hold_falls(self):
+        content = HEAD + CLAIM.format("error(direct) < error(toksvig)", "reproduced")
+        self.assert_falls_short("fails", content, "the_claim: not reproduced, expected reproduced", "error(direct) = 0.")
+
+    def test_a_claim_that_holds_unexpectedly_falls(self):
+        content = HEAD + CLAIM.format("error(toksvig) < error(direct)", "not_reproduced")
+        self.assert_falls_short("holds", content, "the_claim: reproduced, expected not reproduced")
+
+    def test_claims_that_come_out_as_expected_hold(self):
+        content = HEAD + CLAIM.format("error(direct, spp=4) < error(toksvig)", "not_reproduced")
+        content += '[threshold]\n"error(*)" = 1\n"-psnr(*)" = 0\n'
+        code, output, errors, out = self.execute("expected", content)
+        self.assertEqual((code, errors), (0, ""))
+        self.assertIn("All 5 claims and thresholds came out as expected", output)
+        self.assertTrue(results_of(out)["experiment"]["claims"][0]["as_expected"])
+
+    def test_run_reports_what_check_refuses(self):
+        content = HEAD + '[threshold]\n"error(toksvig)" = 0.001\n'
+        code, output, _, out = self.execute("report", content, "run")
+        self.assertEqual(code, 0)
+        self.assertIn("Fell short:", output)
+        self.assertFalse(results_of(out)["experiment"]["thresholds"][0]["held"])
+
+    # What a run writes.
+
+    def test_measured_stands_beside_published_and_the_figure_is_composed(self):
+        (self.folder / "paper.toml").write_text(
+            '[[value]]\nfigure = "Figure 1"\nmeasure = "error(toksvig, spp=4)"\nvalue = 0.25\n', encoding="utf-8")
+        content = HEAD + """
+[zoom]
+from = 1
+to = 2
+frames = 2
+[published]
+file = "paper.toml"
+figures = ["Figure 1"]
+[figure]
+crop = [0.25, 0.25, 0.75, 0.75]
+inset = [0, 0, 0.25, 0.25]
+[[figure.row]]
+pictures = [{ method = "direct", label = "(a)" }, { method = "toksvig", frame = 1 }, { method = "reference" }]
+[[figure.row]]
+pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
+"""
+        code, output, errors, out = self.execute("figure", content)
+        self.assertEqual(code, 0, errors)
+        results = results_of(out)
+        of_method = [r for r in results["records"] if r["method"] == "toksvig"]
+        mean = sum(r["other_references"][0]["normalized_color"] for r in of_method) / len(of_method)
+        published = results["experiment"]["published"][0]
+        self.assertAlmostEqual(published["measured"], mean, 12)
+        self.assertEqual(published["published"], 0.25)
+        self.assertRegex(output, r"\| Figure 1 +\| error\(toksvig, spp=4\) \| +0.25000 \| +0\.\d+ \|")
+        self.assertEqual([r["flicker"] is None for r in results["records"]], [True, True, False, False])
+        page = (out / "index.html").read_text(encoding="utf-8")
+        for picture in results["experiment"]["pictures"]:
+            self.assertTrue((out / picture).is_file())
+            self.assertIn(f'src="{picture}"', page)
+        self.assertEqual(results["experiment"]["pictures"], ["images/figure.png", "images/figure_errors.png"])
+        width, height = picture_facts([str(out / "images/figure.png")])[str(out / "images/figure.png")]["size"]
+        self.assertGreater(width, 3 * 300)  # 16 pixels a side, enlarged by whole factors
+        self.assertGreater(height, 300 + 600)
+        self.assert_holds_to_schema(out)
+
+    def test_quick_says_that_it_is_no_measurement(self):
+        file = self.folder / "quick_of_small.toml"
+        file.write_text(HEAD, encoding="utf-8")
+        output = run("run", file, "--quick", "--quiet", "-o", self.folder / "quick_of_small")
+        self.assertIn("no measurement", output)
+        self.assertEqual(results_of(self.folder / "quick_of_small")["records"][0]["size"], [8, 8])
+
+    def test_every_experiment_of_the_tree_is_readable(self):
+        for name in json.loads(run("list", "experiments", "--json"))["experiments"]:
+            content = (SOURCE / "experiments" / f"{name}.toml").read_text(encoding="utf-8")
+            self.assertNotIn('reason = ""', content)
+            # An output that cannot be: what the file says is found right before anything is rendered.
+            arguments = [PROGRAM, "run", name, "--quick", "--quiet", "-o", "/dev/null"]
+            done = subprocess.run(arguments, capture_output=True, text=True, check=False)
+            self.assertIn("/dev/null", done.stderr, name)
+
+    # animate.
+
+    def test_the_frames_of_an_animation_and_their_figures(self):
+        out = self.folder / "zoom"
+        run("animate", "ribbed_plane", "--methods", "direct,toksvig", "--frames", 3, "--from", 1, "--to", 4, "--size",
+            "32x32", "--spp", 16, "--quiet", "-o", out)
+        document = json.loads((out / "animation.json").read_text(encoding="utf-8"))
+        self.assertEqual([r["distance"] for r in document["records"]], [1, 1, 2, 2, 4, 4])
+        for record in document["records"]:
+            self.assertEqual(record["flicker"] is None, record["frame"] == 0)
+            self.assertTrue((out / record["image"]).is_file())
+            self.assertTrue((out / record["image"]).with_suffix(".png").is_file())
+        with (out / "animation.csv").open(encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file, strict=True))
+        self.assertEqual([float(r["normalized_color_error"]) for r in rows],
+                         [r["normalized_color"] for r in document["records"]])
+        # A frame is the picture that `render` makes, and its error the one that `compare` finds.
+        still = self.render("still", "ribbed_plane", "--method", "toksvig", "--distance", 2, "--size", "32x32")
+        self.assertEqual(largest_difference(still, out / "images" / "toksvig_0001.exr"), 0.0)
+        compared = self.compare("compared", "ribbed_plane", "--methods", "toksvig", "--distance", "2", "--size", "32x32",
+                                "--spp", "16")
+        self.assertEqual(results_of(compared)["records"][0]["error"]["normalized_color"],
+                         document["records"][3]["normalized_color"])
+
+    def test_the_flicker_of_an_animation_by_hand(self):
+        out = self.folder / "by_hand"
+        run("animate", "ribbed_plane", "--method", "direct", "--frames", 2, "--to", 1.5, "--size", "32x32", "--spp", 4, "--exposure", 1,
+            "--quiet", "-o", out)
+
+        def pixels(name):
+            done = subprocess.run(["oiiotool", "--dumpdata", str(out / "images" / f"{name}.exr")], capture_output=True,
+                                  text=True, check=True)
+            rows = re.findall(r"\): *(\S+) +(\S+) +(\S+) +(\S+)", done.stdout)
+            return [[float(value) for value in row] for row in rows]
+
+        frames = [pixels(f"{who}_000{i}") for who in ("direct", "reference") for i in (0, 1)]
+        sums = []
+        for old, new, old_truth, truth in zip(*frames, strict=True):
+            if old_truth[3] < 1 or truth[3] < 1:
+                continue
+            shown = [[min(max(value, 0), 1) for value in pixel[:3]] for pixel in (old, new, old_truth, truth)]
+            sums.append(sum((b - a - d + c) ** 2 for a, b, c, d in zip(*shown, strict=True)) ** 0.5 / 3 ** 0.5)
+        flicker = json.loads((out / "animation.json").read_text(encoding="utf-8"))["records"][1]["flicker"]
+        self.assertGreater(len(sums), 100)
+        self.assertAlmostEqual(flicker["mean"], sum(sums) / len(sums), 5)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -91,6 +91,7 @@ class InstantMap final : public FrameBuild {
   void run(const GpuBatch& batch, std::span<const GpuTexture> textures) const override {
     const gl::Texture& map = textures.front().texture;
     bind_inputs(batch, textures.subspan(1));
+    gl::api().ClearTexImage(map.name(), 0, GL_RGBA, GL_FLOAT, nullptr);  // a texel is written to its own part alone
     dispatch(join_, map, 0, 1);
     const int levels = mip_level_count(map.width(), map.height());
     bind(0, map);
@@ -140,7 +141,7 @@ class XuVmf final : public Method {
     const bool roughness_varies = has(effects, Effect::roughness_variation);
     Prefiltered out;
     if (!normals_vary && !roughness_varies) return out;
-    const Image normals = normal_map_of(material);
+    const Image normals = normals_vary ? normal_map_of(material) : Image(1, 1, 4);
     Image variances = roughness_varies ? lobe_variance_map(material) : Image(1, 1, 1);
     if (normals_vary && roughness_varies && !can_join(material)) {
       variances = mip_chain(std::move(variances)).back();
@@ -149,7 +150,7 @@ class XuVmf final : public Method {
           "variance stands in");
     }
     const TextureCoordinates place =
-        material.normal_map ? normal_coordinates(material) : roughness_coordinates(material);
+        normals_vary && material.normal_map ? normal_coordinates(material) : roughness_coordinates(material);
     out.textures.push_back(make_built_texture("xu_vmf_map", std::max(normals.width, variances.width),
                                               std::max(normals.height, variances.height), layer_count(options),
                                               Storage::fp32, place));

@@ -1,5 +1,5 @@
 // First pass of the frame build: the base BRDF and the normal map joined into one lobe a texel (Xu 2017, section 4). A texel
-// is (r, 1) in the layers whose part of the hemisphere its normal lies in, and nothing in the others, so that means of
+// is (r, 1) in the layer whose part of the hemisphere its normal lies in, and in the others 0, as they were cleared: means of
 // texels are (w r, w): the share of the footprint that a part covers, and its lobes' mean.
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -23,18 +23,19 @@ int cellOf(vec3 n) {
 int cellOf(vec3 n) { return 2 * min(int(4.0 * length(n.xy)), 3) + (n.x >= 0.0 ? 0 : 1); }
 //? end
 
-bool holds(int layer, int cell) {
+// The layer of a cell's part.
+int layerOf(int cell) {
 //? if j_adaptive
-  return layer == 0 || layer == 1 + cell;
+  return 1 + cell;  // layer 0 has the whole hemisphere
 //? end
 //? if j_1
-  return true;
+  return 0;
 //? end
 //? if j_4
-  return layer == cell / 2;
+  return cell / 2;
 //? end
 //? if j_8
-  return layer == cell;
+  return cell;
 //? end
 }
 
@@ -42,23 +43,23 @@ bool holds(int layer, int cell) {
 ivec2 under(ivec2 texel, ivec2 size, ivec2 map_size) { return texel * map_size / size; }
 
 void main() {
-  ivec3 size = imageSize(finest);
+  ivec2 size = imageSize(finest).xy;
   ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(texel, size.xy))) return;
+  if (any(greaterThanEqual(texel, size))) return;
   vec4 normal = vec4(0.0, 0.0, 1.0, 1.0);
 //? if normal_variation
-  normal = texelFetch(normals, under(texel, size.xy, textureSize(normals, 0)), 0);
+  normal = texelFetch(normals, under(texel, size, textureSize(normals, 0)), 0);
 //? end
   float lobe = lobe_cutoff.x;
 //? if roughness_variation
-  lobe = lobeFromVariance(texelFetch(variances, under(texel, size.xy, textureSize(variances, 0)), 0).r);
+  lobe = lobeFromVariance(texelFetch(variances, under(texel, size, textureSize(variances, 0)), 0).r);
 //? end
   float height = length(normal.xyz);  // decoded bytes are up to 0.6% too long or short
-  bool valid = normal.w >= 0.5 && height >= 1e-3;
-  vec3 n = valid ? normal.xyz / height : vec3(0.0, 0.0, 1.0);
+  if (normal.w < 0.5 || height < 1e-3) return;
+  vec3 n = normal.xyz / height;
   vec4 value = vec4((1.0 - shortfallOf(kappaOfLobe(lobe))) * n, 1.0);
-  int cell = cellOf(n);
-  for (int layer = 0; layer < size.z; ++layer) {
-    imageStore(finest, ivec3(texel, layer), valid && holds(layer, cell) ? value : vec4(0.0));
-  }
+  imageStore(finest, ivec3(texel, layerOf(cellOf(n))), value);
+//? if j_adaptive
+  imageStore(finest, ivec3(texel, 0), value);
+//? end
 }

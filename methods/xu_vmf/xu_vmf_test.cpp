@@ -76,8 +76,10 @@ class BuiltMap {
 
   // Builds once more, with the material block of `batch`.
   void run(const GpuBatch& batch) const {
+    constexpr GLbitfield whole = GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT;
+    gl::api().MemoryBarrier(whole);
     build_->run(batch, textures_);
-    gl::api().MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    gl::api().MemoryBarrier(whole | GL_TEXTURE_FETCH_BARRIER_BIT);
   }
 
   [[nodiscard]] const GpuBatch& batch() const { return scene_.batches().front(); }

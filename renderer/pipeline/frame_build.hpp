@@ -19,7 +19,8 @@ class FrameBuild {
   virtual ~FrameBuild() = default;
 
   /// Issues the passes for one material. `textures` are those of the precompute, in its order, as they lie on the GPU;
-  /// `batch` has the material's block and triangles. Whoever calls it puts the memory barrier behind it.
+  /// `batch` has the material's block and triangles. Whoever calls it puts memory barriers before and
+  /// behind it.
   virtual void run(const GpuBatch& batch, std::span<const GpuTexture> textures) const = 0;
 };
 

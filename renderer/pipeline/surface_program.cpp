@@ -115,6 +115,8 @@ GpuMethod::GpuMethod(const GpuScene& scene, const BakedMethod& baked)
 
 void GpuMethod::build_frame() const {
   if (!build_) return;
+  // Not before what was drawn from the textures, or built into them, is done.
+  gl::api().MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
   for (std::size_t i = 0; i < batches_.size(); ++i) build_->run(scene_batches_[i], batches_[i].textures);
   gl::api().MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }

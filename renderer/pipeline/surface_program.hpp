@@ -23,7 +23,7 @@ struct BakedMethod {
   double seconds = 0;
   std::size_t bytes = 0;
   std::size_t texels = 0;  ///< of the finest levels, over all materials (`finest_texels`)
-  bool cached = false;  ///< every material came from the disk: `seconds` is what reading took
+  bool cached = false;     ///< every material came from the disk: `seconds` is what reading took
 };
 
 /// Runs the precompute of `spec` for every material, or reads it from `cache` where that is given and has it.

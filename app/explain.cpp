@@ -68,7 +68,7 @@ std::vector<TextureUse> texture_uses(const BakedMethod& baked) {
     for (const PrefilteredTexture& texture : material.textures) {
       auto use = std::ranges::find(uses, texture.name, &TextureUse::name);
       if (use == uses.end()) use = uses.insert(uses.end(), {.name = texture.name});
-      for (const TextureLevel& level : texture.levels) use->bytes += level.bytes.size();
+      use->bytes += byte_count(texture);
     }
   }
   return uses;

@@ -277,9 +277,23 @@ class Comparison {
     std::vector<DrawFrame> draws;
     for (const StagedMethod& staged : stage_.methods())
       draws.emplace_back([&staged, &view] { staged.frames().draw(view); });
+    for (const StagedMethod& staged : stage_.methods()) {
+      if (staged.gpu().builds_each_frame()) draws.emplace_back([&staged] { staged.gpu().build_frame(); });
+    }
     const double weight = static_cast<double>(settings_.methods.size()) * settings_.repeats;
     return interleaved_times(stage_.context().info(), draws, settings_.repeats,
                              parts_.next(weight, fmt::format("distance {:g}: ", distance)));
+  }
+
+  // The times of one candidate at one distance, over all processes.
+  static std::vector<double> pooled(std::span<const FrameTimes> processes, std::size_t distance,
+                                    std::size_t candidate) {
+    std::vector<double> times;
+    for (const FrameTimes& process : processes) {
+      const auto& own = process.at(distance).at(candidate);
+      times.insert(times.end(), own.begin(), own.end());
+    }
+    return times;
   }
 
   // Fills in the times of the drafts of one distance, the last ones made.
@@ -288,21 +302,19 @@ class Comparison {
     processes.emplace_back(distances_.size());
     processes.back()[distance] = time_distance(distances_[distance]);
     const std::size_t count = settings_.methods.size();
+    const std::vector<double> direct = pooled(processes, distance, 0);
+    std::size_t build = count + 1;  // the candidate that is the next method's frame build
     for (std::size_t m = 0; m < count; ++m) {
-      std::vector<double> times;
-      std::vector<double> ratios;
-      for (const FrameTimes& process : processes) {
-        const auto& own = process.at(distance).at(m + 1);
-        const std::vector<double> paired = paired_ratios(own, process.at(distance).front());
-        times.insert(times.end(), own.begin(), own.end());
-        ratios.insert(ratios.end(), paired.begin(), paired.end());
-      }
+      const std::vector<double> times = pooled(processes, distance, m + 1);
+      const std::vector<double> ratios = paired_ratios(times, direct);
       Record& record = drafts_[drafts_.size() - count + m].record;
       record.frame_ms = {
           .median = quantile(times, 0.5), .minimum = std::ranges::min(times), .p90 = quantile(times, 0.9)};
       record.fps = 1000.0 / record.frame_ms.median;
       record.ratio_to_direct = {
           .median = quantile(ratios, 0.5), .minimum = std::ranges::min(ratios), .maximum = std::ranges::max(ratios)};
+      if (method(m).gpu().builds_each_frame())
+        record.frame_build_ms = quantile(pooled(processes, distance, build++), 0.5);
     }
   }
 

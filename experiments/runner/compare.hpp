@@ -40,7 +40,7 @@ struct CompareSettings {
 };
 
 /// Frame times of one process: [distance][candidate][repeat], milliseconds; candidate 0 is `direct`, then the methods
-/// in the order of the settings.
+/// in the order of the settings (whole frames), then the frame builds alone of those that have one, in the same order.
 using FrameTimes = std::vector<std::vector<std::vector<double>>>;
 
 /// Times frames and does nothing else: what each further process of `--processes` runs.

@@ -12,10 +12,11 @@ class FrameRenderer {
   FrameRenderer(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method, const glm::ivec2& size,
                 const ProgramSettings& settings, int tile_edge = 0);
 
-  /// Draws a view; the pixels stay on the GPU. What a frame costs is the time of this call up to glFinish.
+  /// Runs the method's frame build and draws a view; the pixels stay on the GPU. What a frame costs is the time of this
+  /// call up to glFinish.
   void draw(const View& view) const;
 
-  /// Draws a view and reads it: RGBA, linear radiance and coverage, row 0 at the top.
+  /// Builds, draws and reads: RGBA, linear radiance and coverage, row 0 at the top.
   [[nodiscard]] Image render(const View& view) const;
 
   [[nodiscard]] const SurfaceProgram& program() const { return program_; }

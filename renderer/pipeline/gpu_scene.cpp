@@ -172,7 +172,7 @@ GpuTexture upload(const PrefilteredTexture& texture) {
   GpuTexture out{gl::Texture(format.internal, finest.width, finest.height, static_cast<int>(texture.levels.size()),
                              texture.layers),
                  texture.coordinates, texture.filter};
-  for (std::size_t i = 0; i < texture.levels.size(); ++i) {
+  for (std::size_t i = 0; i < texture.levels.size() && !texture.built; ++i) {
     const TextureLevel& level = texture.levels[i];
     out.texture.upload(static_cast<int>(i), level.width, level.height, format.format, format.type, level.bytes.data());
   }

@@ -41,7 +41,8 @@ struct GpuTexture {
   }
 };
 
-/// Uploads a prefiltered texture with its whole chain. Errors (machine): over the GL limits, out of memory.
+/// Uploads a prefiltered texture with its whole chain; of a built one it makes the storage alone. Errors (machine):
+/// over the GL limits, out of memory.
 [[nodiscard]] GpuTexture upload(const PrefilteredTexture& texture);
 
 /// The triangles of one material, and what is constant over it.

@@ -1,6 +1,7 @@
 // How a prefiltering method plugs in. The pipeline knows nothing more of a method than this interface.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,10 +9,13 @@
 #include "renderer/core/options.hpp"
 #include "renderer/core/progress.hpp"
 #include "renderer/effects/effects.hpp"
+#include "renderer/pipeline/frame_build.hpp"
 #include "renderer/pipeline/prefiltered.hpp"
 #include "renderer/scene/material.hpp"
 
 namespace footprint {
+
+struct ShaderVariant;
 
 /// What a method says of itself: one table that feeds `list`, --help, the reports and the docs.
 struct MethodInfo {
@@ -23,7 +27,8 @@ struct MethodInfo {
   bool slow_precompute = false;  ///< seconds, not milliseconds: kept on disk between runs (bake_cache.hpp)
 };
 
-/// A prefiltering method: a pure precompute and a GLSL module (docs/adding-a-method.md). Stateless.
+/// A prefiltering method: a pure precompute, a GLSL module and, where it has one, a frame build
+/// (docs/adding-a-method.md). Stateless.
 class Method {
  public:
   Method() = default;
@@ -39,6 +44,13 @@ class Method {
   /// effects alone, so that one program serves every material of a scene.
   [[nodiscard]] virtual Prefiltered precompute(const Material& material, const Options& options,
                                                const EffectSet& effects, const Progress& progress) const = 0;
+
+  /// The passes that are repeated each frame, for a scene whose effects (those that the method honours) and base BRDF
+  /// `variant` has; null: there are none. A context is current. Errors (machine): a pass does not compile.
+  [[nodiscard]] virtual std::unique_ptr<FrameBuild> frame_build(const ShaderVariant& /*variant*/,
+                                                                const Options& /*options*/) const {
+    return nullptr;
+  }
 
   /// Lobes of the effective NDF that the shader evaluates for a pixel, with isotropic filtering.
   [[nodiscard]] virtual int lobe_count(const Options& /*options*/) const { return 1; }

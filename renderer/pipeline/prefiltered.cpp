@@ -13,6 +13,7 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/suggest.hpp"
+#include "renderer/image/mipmap.hpp"
 
 namespace footprint {
 namespace {
@@ -105,11 +106,18 @@ Storage parse_storage(std::string_view word) {
   throw Error(ErrorKind::usage, "storage", fmt::format("unknown storage `{}`", word), suggestion(word, names));
 }
 
+std::size_t byte_count(const PrefilteredTexture& texture) {
+  const std::size_t texel_bytes = channel_bytes(texture.storage) * static_cast<std::size_t>(texture.channels) *
+                                  static_cast<std::size_t>(std::max(texture.layers, 1));
+  std::size_t bytes = 0;
+  for (const TextureLevel& level : texture.levels)
+    bytes += texel_bytes * static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height);
+  return bytes;
+}
+
 std::size_t byte_count(const Prefiltered& prefiltered) {
   std::size_t bytes = prefiltered.scalars.size() * sizeof(float);
-  for (const PrefilteredTexture& texture : prefiltered.textures) {
-    for (const TextureLevel& level : texture.levels) bytes += level.bytes.size();
-  }
+  for (const PrefilteredTexture& texture : prefiltered.textures) bytes += byte_count(texture);
   return bytes;
 }
 
@@ -146,7 +154,25 @@ PrefilteredTexture make_array_texture(std::string name, std::span<const std::vec
           .levels = std::move(levels)};
 }
 
+PrefilteredTexture make_built_texture(std::string name, int width, int height, int layers, Storage storage,
+                                      const TextureCoordinates& coordinates) {
+  PrefilteredTexture texture;
+  texture.name = std::move(name);
+  texture.storage = storage;
+  texture.layers = layers;
+  texture.coordinates = coordinates;
+  texture.built = true;
+  const int count = mip_level_count(width, height);
+  for (int level = 0; level < count; ++level) {
+    texture.levels.push_back(
+        {.width = std::max(width >> level, 1), .height = std::max(height >> level, 1), .bytes = {}});
+  }
+  return texture;
+}
+
 Image decode_level(const PrefilteredTexture& texture, std::size_t index, int layer) {
+  if (texture.built)
+    throw std::logic_error("texture " + texture.name + " is built on the GPU: there is nothing to decode");
   const TextureLevel& level = texture.levels.at(index);
   Image image(level.width, level.height, texture.channels);
   const std::size_t layer_bytes = image.texels.size() * channel_bytes(texture.storage);

@@ -43,6 +43,7 @@ struct PrefilteredTexture {
   TextureFilter filter = TextureFilter::trilinear;
   TextureCoordinates coordinates;    ///< those of the map that it prefilters
   std::vector<TextureLevel> levels;  ///< finest first, 1 x 1 last
+  bool built = false;                ///< a frame build writes the texels: levels have their sizes and no bytes
 
   friend bool operator==(const PrefilteredTexture&, const PrefilteredTexture&) = default;
 };
@@ -55,6 +56,9 @@ struct Prefiltered {
 
   friend bool operator==(const Prefiltered&, const Prefiltered&) = default;
 };
+
+/// Bytes of a texture as stored on the GPU, whether baked or built.
+[[nodiscard]] std::size_t byte_count(const PrefilteredTexture& texture);
 
 /// Bytes of all textures and scalars as stored on the GPU.
 [[nodiscard]] std::size_t byte_count(const Prefiltered& prefiltered);
@@ -72,7 +76,13 @@ struct Prefiltered {
                                                     Storage storage, const TextureCoordinates& coordinates,
                                                     TextureFilter filter = TextureFilter::trilinear);
 
-/// The floats that the shader reads from a level of a layer, before any decoding of a signed range.
+/// Declares an array texture of 4 channels with the whole chain of sizes, whose texels a frame build writes
+/// (frame_build.hpp).
+[[nodiscard]] PrefilteredTexture make_built_texture(std::string name, int width, int height, int layers,
+                                                    Storage storage, const TextureCoordinates& coordinates);
+
+/// The floats that the shader reads from a level of a layer, before any decoding of a signed range. Errors:
+/// std::logic_error for a texture that a frame build writes.
 [[nodiscard]] Image decode_level(const PrefilteredTexture& texture, std::size_t index, int layer = 0);
 
 }  // namespace footprint

@@ -11,7 +11,7 @@
 namespace footprint {
 namespace {
 
-constexpr std::string_view magic = "footprint bake 2";  // another layout below: another number here
+constexpr std::string_view magic = "footprint bake 3";  // another layout below: another number here
 
 class Writer {
  public:
@@ -78,6 +78,7 @@ void add_texture(Writer& out, const PrefilteredTexture& texture) {
   out.add(texture.channels);
   out.add(texture.layers);
   out.add(texture.filter);
+  out.add(texture.built);
   out.add(texture.coordinates.set);
   out.add(texture.coordinates.transform);
   out.add(texture.coordinates.wrap);
@@ -96,6 +97,7 @@ PrefilteredTexture get_texture(Reader& in) {
   texture.channels = in.get<int>();
   texture.layers = in.get<int>();
   texture.filter = in.get<TextureFilter>();
+  texture.built = in.get<bool>();
   texture.coordinates.set = in.get<int>();
   texture.coordinates.transform = in.get<glm::mat3x2>();
   texture.coordinates.wrap = in.get<std::array<Wrap, 2>>();

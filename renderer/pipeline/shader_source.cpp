@@ -12,7 +12,7 @@ namespace footprint {
 namespace embedded {
 extern const std::string_view surface_vertex_glsl, surface_fragment_glsl, surface_lights_glsl, common_footprint_glsl,
     common_lobes_glsl, common_base_brdf_glsl, common_slopes_glsl, beckmann_lambda_glsl, surface_material_glsl,
-    ndf_fragment_glsl, resolve_samples_glsl, screen_vertex_glsl;
+    ndf_fragment_glsl, resolve_samples_glsl, screen_vertex_glsl, vmf_density_glsl;
 }
 
 namespace {
@@ -24,6 +24,7 @@ constexpr std::string_view version_line = "#version 450 core\n";
 std::optional<std::string_view> optional_text(std::string_view file) {
   if (file == "common_slopes.glsl") return embedded::common_slopes_glsl;
   if (file == "beckmann_lambda.glsl") return embedded::beckmann_lambda_glsl;
+  if (file == "vmf_density.glsl") return embedded::vmf_density_glsl;
   return std::nullopt;
 }
 
@@ -275,6 +276,14 @@ std::string ndf_shader(const ShaderVariant& variant, std::string_view module, st
                        const Options& options, const Prefiltered& prefiltered) {
   return method_program(variant, {module, module_name}, options, prefiltered, {},
                         std::string(embedded::ndf_fragment_glsl));
+}
+
+std::string frame_build_shader(const ShaderVariant& variant, std::string_view pass, std::string_view pass_name,
+                               const Options& options) {
+  const ShaderFlags flags = shader_flags(variant, options);
+  return fmt::format("{}#line {}\n", version_line, first_shared_line) + number_options(options) +
+         shared_functions(flags) + std::string(embedded::surface_material_glsl) +
+         select_text(pass, flags, pass_name, true);
 }
 
 std::string screen_vertex_shader() { return std::string(version_line) + std::string(embedded::screen_vertex_glsl); }

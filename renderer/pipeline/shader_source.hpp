@@ -69,6 +69,11 @@ inline constexpr int first_shared_line = 10001;
                                      std::string_view module_name, const Options& options,
                                      const Prefiltered& prefiltered);
 
+/// A compute pass of a frame build: `pass` has the local size and `main`; in front of it stand the lobes and base BRDF
+/// terms, the number options and the material's block, and the flags are fragment_shader's.
+[[nodiscard]] std::string frame_build_shader(const ShaderVariant& variant, std::string_view pass,
+                                             std::string_view pass_name, const Options& options);
+
 /// The stages that add a pass of samples to the reference's sums.
 [[nodiscard]] std::string screen_vertex_shader();
 [[nodiscard]] std::string resolve_shader();

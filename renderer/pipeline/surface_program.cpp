@@ -14,7 +14,8 @@ namespace {
 constexpr GLuint material_binding = 0;
 constexpr GLuint method_binding = 1;
 
-// What the program simulates: what the method honours, and the maps that the pipeline reads itself, whose units come first.
+// What the program simulates: what the method honours, and the maps that the pipeline reads itself, whose units come
+// first.
 EffectSet effects_of(const GpuScene& scene, const Method& method) {
   EffectSet shared;
   shared.set(static_cast<std::size_t>(Effect::base_color_variation));
@@ -96,7 +97,11 @@ BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scen
   return baked;
 }
 
-GpuMethod::GpuMethod(const GpuScene& scene, const BakedMethod& baked) : baked_(&baked), first_(scene.batches().data()) {
+GpuMethod::GpuMethod(const GpuScene& scene, const BakedMethod& baked)
+    : baked_(&baked),
+      scene_batches_(scene.batches()),
+      build_(baked.method->frame_build(
+          {.effects = scene.effects() & baked.method->info().honours, .brdf = scene.brdf()}, baked.options)) {
   for (const GpuBatch& batch : scene.batches()) {
     const Prefiltered& prefiltered = baked.materials.at(batch.material);
     PerBatch part;
@@ -105,10 +110,19 @@ GpuMethod::GpuMethod(const GpuScene& scene, const BakedMethod& baked) : baked_(&
     if (!scalars.empty()) part.scalars = gl::Buffer(std::as_bytes(std::span(scalars)));
     batches_.push_back(std::move(part));
   }
+  build_frame();
+}
+
+void GpuMethod::build_frame() const {
+  if (!build_) return;
+  // Not before what was drawn from the textures, or built into them, is done.
+  gl::api().MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+  for (std::size_t i = 0; i < batches_.size(); ++i) build_->run(scene_batches_[i], batches_[i].textures);
+  gl::api().MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 void GpuMethod::bind(const GpuBatch& batch, GpuScene& scene, Lookup lookup) const {
-  const PerBatch& part = batches_.at(static_cast<std::size_t>(&batch - first_));
+  const PerBatch& part = batches_.at(static_cast<std::size_t>(&batch - scene_batches_.data()));
   auto unit = static_cast<GLuint>(batch.shared_textures.size());
   for (const GpuTexture& texture : part.textures) bind_texture(unit++, texture, scene, lookup);
   if (part.scalars.name() != 0) gl::api().BindBufferBase(GL_UNIFORM_BUFFER, method_binding, part.scalars.name());

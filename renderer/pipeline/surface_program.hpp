@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,7 @@ struct BakedMethod {
   double seconds = 0;
   std::size_t bytes = 0;
   std::size_t texels = 0;  ///< of the finest levels, over all materials (`finest_texels`)
-  bool cached = false;  ///< every material came from the disk: `seconds` is what reading took
+  bool cached = false;     ///< every material came from the disk: `seconds` is what reading took
 };
 
 /// Runs the precompute of `spec` for every material, or reads it from `cache` where that is given and has it.
@@ -33,7 +34,14 @@ struct BakedMethod {
 /// A baked method's textures and scalars on the GPU, shared by its programs.
 class GpuMethod {
  public:
+  /// Uploads what was baked and, where the method has a frame build, runs it once: what is bound is whole from the
+  /// start.
   GpuMethod(const GpuScene& scene, const BakedMethod& baked);
+  /// Whether the method rebuilds something each frame.
+  [[nodiscard]] bool builds_each_frame() const { return build_ != nullptr; }
+  /// Runs the frame build of every material, if there is one. Leaves framebuffer, viewport, depth, culling and blending
+  /// as they are.
+  void build_frame() const;
   /// Binds textures (after the shared ones) and scalars of a batch.
   void bind(const GpuBatch& batch, GpuScene& scene, Lookup lookup) const;
   [[nodiscard]] const BakedMethod& baked() const { return *baked_; }
@@ -44,8 +52,9 @@ class GpuMethod {
     gl::Buffer scalars;
   };
   const BakedMethod* baked_;
-  const GpuBatch* first_;
+  std::span<const GpuBatch> scene_batches_;
   std::vector<PerBatch> batches_;
+  std::unique_ptr<FrameBuild> build_;
 };
 
 /// How a program samples, and what the scene's camera asks of it.

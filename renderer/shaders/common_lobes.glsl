@@ -34,13 +34,8 @@ float lobeAlpha(float s) { return sqrt(2.0 / (s + 2.0)); }
 //? end
 
 //? if distribution_vmf
-// kappa / (2 pi (1 - e^{-2 kappa})) e^{kappa (n.h - 1)} (Xu 2017, equation 6, in the form that does not overflow).
-float lobeDensity(float kappa, vec3 n, vec3 h) {
-  float u = oneMinusDot(n, h);
-  if (kappa < 1e-4) return (1.0 + kappa * (1.0 - u)) / (4.0 * pi);
-  float mass = kappa < 0.01 ? 2.0 * kappa * (1.0 - kappa) : 1.0 - exp(-2.0 * kappa);
-  return kappa / (2.0 * pi * mass) * exp(-kappa * u);
-}
+//? include vmf_density.glsl
+float lobeDensity(float kappa, vec3 n, vec3 h) { return vmfDensity(kappa, n, h); }
 float lobeFromAlpha(float alpha) { return 2.0 / max(alpha * alpha, smallest_alpha * smallest_alpha); }
 float lobeVariance(float kappa) { return 1.0 / max(kappa, 1e-6); }
 float lobeFromVariance(float variance) { return min(1.0 / max(variance, 1e-12), largest_exponent); }

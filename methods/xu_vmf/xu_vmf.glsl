@@ -1,5 +1,5 @@
-// Xu, Wang, Zhao, Bao 2017: the effective BRDF is a mixture of von Mises-Fisher lobes, one for each part of the hemisphere
-// of normals; each is recovered from its characteristic vector, which the texture filter averages.
+// Xu, Wang, Zhao, Bao 2017: the effective BRDF is a mixture of von Mises-Fisher lobes, one for each part of the
+// hemisphere of normals; each is recovered from its characteristic vector, which the texture filter averages.
 
 // xu_vmf_conversion.glsl, behind this text.
 float shortfallOf(float kappa);

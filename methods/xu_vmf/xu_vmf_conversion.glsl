@@ -1,8 +1,8 @@
-// A von Mises-Fisher lobe as the characteristic vector r = |r| mu, which averages linearly (Xu 2017, section 3.2), and the
-// base lobe of the same width. |r| is near 1 for narrow lobes: what is computed is q = 1 - |r|, which keeps its digits.
+// A von Mises-Fisher lobe as the characteristic vector r = |r| mu, which averages linearly (Xu 2017, section 3.2), and
+// the base lobe of the same width. |r| is near 1 for narrow lobes: what is computed is q = 1 - |r|, which keeps its digits.
 
-// q of kappa: the root in (0, 1] of q^3 + (kappa - 3) q^2 - 2 kappa q + 2 = 0, which is equation 9 in q, by two steps of
-// Newton. The closed form with an arc cosine has lost kappa = 1000 in 32 bits.
+// q of kappa: the root in (0, 1] of q^3 + (kappa - 3) q^2 - 2 kappa q + 2 = 0, which is equation 9 in q, by two steps
+// of Newton. The closed form with an arc cosine has lost kappa = 1000 in 32 bits.
 float shortfallOf(float kappa) {
   float q = kappa >= 1.0 ? 1.0 / (kappa + 0.5) : 1.0 / (1.0 + kappa / 3.0);
   for (int i = 0; i < 2; ++i) {

@@ -1,6 +1,6 @@
-// First pass of the frame build: the base BRDF and the normal map joined into one lobe a texel (Xu 2017, section 4). A texel
-// is (r, 1) in the layer whose part of the hemisphere its normal lies in, and in the others 0, as they were cleared: means of
-// texels are (w r, w): the share of the footprint that a part covers, and its lobes' mean.
+// First pass of the frame build: the base BRDF and the normal map joined into one lobe a texel (Xu 2017, section 4). A
+// texel is (r, 1) in the layer whose part of the hemisphere its normal lies in, and in the others 0, as they were
+// cleared: means of texels are (w r, w): the share of the footprint that a part covers, and its lobes' mean.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 0, rgba32f) writeonly uniform image2DArray finest;
@@ -12,8 +12,8 @@ layout(binding = 1) uniform sampler2D variances;  // of the base lobe
 //? end
 
 //? if partition_azimuth
-// Four sectors about the axes, so that grooves along an axis fall whole into opposite ones; each is cut at the middle of
-// the disc's radius.
+// Four sectors about the axes, so that grooves along an axis fall whole into opposite ones; each is cut at the middle
+// of the disc's radius.
 int cellOf(vec3 n) {
   int sector = abs(n.x) >= abs(n.y) ? (n.x >= 0.0 ? 0 : 2) : (n.y > 0.0 ? 1 : 3);
   return 2 * sector + (length(n.xy) >= 0.5 ? 1 : 0);

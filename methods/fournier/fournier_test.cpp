@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <random>
 #include <string>
@@ -267,6 +268,19 @@ TEST(Fournier, FinestLevelIsTheBaseSurface) {
     const Image finest = renderer.supersampled(fournier_method(), 16, 3).mean;
     EXPECT_LT(compare_images(finest, truth, 1.0F).value().relative_rmse, 1e-4);
   }
+}
+
+// A roughness of its own in every texel: the peaks keep the spread of normals alone, and the base lobe comes from its
+// map.
+TEST(Fournier, FinestLevelTakesTheTexelsOwnRoughness) {
+  Scene scene = square_scene(random_normals(32, 32, 0.5F, 5), {});
+  auto roughness = std::make_shared<Image>(32, 32, 2);
+  for (std::size_t i = 0; i < roughness->texels.size(); i += 2) roughness->texels[i] = i % 4 == 0 ? 0.25F : 0.7F;
+  scene.materials[0].metallic_roughness_map = TextureMap{.name = "stripes", .image = roughness, .coordinates = {}};
+  TestRenderer renderer(scene);
+  const Image truth = renderer.reference(16, 3).mean;
+  const Image finest = renderer.supersampled(fournier_method(), 16, 3).mean;
+  EXPECT_LT(compare_images(finest, truth, 1.0F).value().relative_rmse, 1e-4);
 }
 
 TEST(Fournier, NormalsOfNoLengthWeighNothing) {

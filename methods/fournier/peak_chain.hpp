@@ -25,9 +25,9 @@ struct PeakChain {
 };
 
 /// Fits `count` peaks to every texel above the finest level, whose only peak is its normal. `normals`: xyz and a weight
-/// of 0 or 1; weights of 0 leave a texel without peaks. `base_variance`: of the lobe about each normal. `rest` has
-/// count
-/// - 1 chains, at least one. Progress is called from this thread alone. The same at any number of threads.
+/// of 0 or 1; weights of 0 leave a texel without peaks. `base_variance`: of the lobe about each normal. `rest` has one
+/// chain less than `count`, but at least one. Progress is called from this thread alone. The same at any number of
+/// threads.
 [[nodiscard]] PeakChain fit_peak_chain(const Image& normals, double base_variance, std::size_t count,
                                        const Progress& progress);
 

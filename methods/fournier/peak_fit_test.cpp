@@ -53,6 +53,7 @@ std::vector<Peak> random_target(std::uint32_t seed, int count, double most_tilt)
 
 std::vector<Peak> start_of(const std::vector<Peak>& target, std::size_t count) {
   std::vector<Moments> sets;
+  sets.reserve(target.size());
   for (const Peak& peak : target) sets.push_back(moments_of(peak));
   return merged_peaks(sets, count);
 }

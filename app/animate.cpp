@@ -73,7 +73,7 @@ std::optional<double> optional_distance(const std::string& text) {
 AnimateSettings settings_from(const Arguments& arguments) {
   AnimateSettings settings;
   settings.scene = arguments.scene;
-  settings.library = scene_library();
+  settings.scene_library = scene_library();
   settings.stage.methods = parse_known_methods(arguments.methods);
   settings.stage.size = parse_optional_size(arguments.size);
   settings.stage.filter = parse_filter(arguments.reference.filter);

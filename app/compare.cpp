@@ -88,7 +88,7 @@ bool parse_effects(const std::string& word) {
 CompareSettings settings_from(const Arguments& arguments) {
   CompareSettings settings;
   settings.scene = arguments.scene;
-  settings.library = scene_library();
+  settings.scene_library = scene_library();
   settings.methods = parse_known_methods(arguments.methods);
   if (!arguments.distances.empty()) settings.distances = parse_distances(arguments.distances);
   settings.size = parse_optional_size(arguments.size);

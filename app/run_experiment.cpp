@@ -75,7 +75,7 @@ Results run_into(const Experiment& experiment, const RunSettings& settings, Outp
 std::vector<std::string> run_and_print(const Arguments& arguments) {
   const Experiment experiment = read_experiment(find_experiment(arguments.experiment, experiments_folder()));
   RunSettings settings;
-  settings.library = scene_library();
+  settings.scene_library = scene_library();
   settings.quick = arguments.quick;
   settings.tile = arguments.backend.tile;
   settings.cache = cache_folder(arguments.no_cache);

@@ -43,7 +43,8 @@ class Animator {
       : settings_(settings),
         folder_(std::move(folder)),
         whole_(progress, 4),
-        stage_(settings.context, load_scene(settings.scene, settings.library), settings.stage, whole_.next(1, "")),
+        stage_(settings.context, load_scene(settings.scene, settings.scene_library), settings.stage,
+               whole_.next(1, "")),
         distances_(distances_of(settings, stage_.scene())),
         parts_(whole_.next(3, ""), static_cast<double>(distances_.size()) * (settings.spp + methods_weight())) {
     // Two frames are held, each with the reference, its halves and its error; and what is worked on.

@@ -15,7 +15,7 @@ namespace footprint {
 /// What `footprint animate` is asked for.
 struct AnimateSettings {
   std::string scene;  ///< as load_scene takes it
-  SceneLibrary library;
+  SceneLibrary scene_library;
   StageSettings stage;         ///< with one method or more
   std::optional<double> from;  ///< factor on the camera's distance; none: the first of the scene's zoom path
   std::optional<double> to;    ///< none: the last of it; 8 times `from` where it has one only

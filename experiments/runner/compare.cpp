@@ -99,7 +99,7 @@ class Comparison {
       : settings_(settings),
         folder_(std::move(folder)),
         whole_(progress, 4),
-        stage_(settings.context, load_scene(settings.scene, settings.library, settings.camera),
+        stage_(settings.context, load_scene(settings.scene, settings.scene_library, settings.camera),
                timing_settings(settings), whole_.next(1, "")),
         distances_(distances_of(settings, stage_.scene())),
         parts_(whole_.next(3, ""), static_cast<double>(distances_.size()) *

@@ -19,8 +19,8 @@ namespace footprint {
 
 /// What `footprint compare` is asked for.
 struct CompareSettings {
-  std::string scene;     ///< as load_scene takes it
-  SceneLibrary library;  ///< what it may name
+  std::string scene;           ///< as load_scene takes it
+  SceneLibrary scene_library;  ///< what it may name
   std::vector<MethodSpec> methods;
   std::vector<double> distances;   ///< factors on the camera's distance; empty: the scene's zoom path
   std::optional<glm::ivec2> size;  ///< none: the scene's own

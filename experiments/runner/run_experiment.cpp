@@ -26,7 +26,7 @@ void make_quick(CompareSettings& settings) {
 void inspect_footprints(const Experiment& experiment, const RunSettings& settings, const std::filesystem::path& folder,
                         Results& results, const Progress& progress) {
   if (experiment.footprints.empty()) return;
-  const NdfSource source = load_ndf_source(experiment.scene, "", settings.library);
+  const NdfSource source = load_ndf_source(experiment.scene, "", settings.scene_library);
   ProgressParts parts(progress, static_cast<double>(experiment.footprints.size()));
   for (const NamedFootprint& footprint : experiment.footprints) {
     const std::string place = "ndf/" + footprint.name;
@@ -64,7 +64,7 @@ std::vector<std::string> ndf_pictures(const Results& results) {
 CompareSettings compare_settings(const Experiment& experiment, const RunSettings& settings) {
   CompareSettings compare;
   compare.scene = experiment.scene;
-  compare.library = settings.library;
+  compare.scene_library = settings.scene_library;
   compare.methods = experiment.methods;
   compare.distances = experiment.distances;
   compare.consecutive = experiment.consecutive;

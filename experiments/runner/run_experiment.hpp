@@ -10,7 +10,7 @@ namespace footprint {
 
 /// What does not stand in the experiment's file.
 struct RunSettings {
-  SceneLibrary library;
+  SceneLibrary scene_library;
   bool quick = false;  ///< a quarter of the size, few samples: to see whether it runs and how it looks
   int tile = 0;
   std::optional<std::filesystem::path> cache;  ///< where slow precomputes are kept; none: they are not

@@ -29,16 +29,10 @@ class Leadr final : public Method {
                    .paper =
                        "Dupuy et al. 2013, Linear Efficient Antialiased Displacement and Reflectance Mapping, "
                        "ACM TOG 32(6)",
-                   .options = {slope_storage_option(),
-                               slope_roughness_option(),
-                               {.name = "weighting",
-                                .default_value = std::string("bump"),
-                                .minimum = 0,
-                                .maximum = 0,
-                                .choices = {"bump", "displacement"},
-                                .meaning = "What a texel counts for: all the same, as in a normal map, or its true and "
-                                           "visible area, as on a displaced surface.",
-                                .integer = false}},
+                   .options = {slope_storage_option(), slope_roughness_option(),
+                               word_option("weighting", {"bump", "displacement"},
+                                           "What a texel counts for: all the same, as in a normal map, or its true and "
+                                           "visible area, as on a displaced surface.")},
                    .honours = EffectSet{}.set()};
 };
 

@@ -33,16 +33,10 @@ class Lean final : public Method {
   MethodInfo info_{.name = "lean",
                    .summary = "One anisotropic lobe over the mean and the covariance of the footprint's slopes.",
                    .paper = "Olano and Baker 2010, LEAN Mapping, I3D",
-                   .options = {slope_storage_option(),
-                               slope_roughness_option(),
-                               {.name = "variant",
-                                .default_value = std::string("lean"),
-                                .minimum = 0,
-                                .maximum = 0,
-                                .choices = {"lean", "clean"},
-                                .meaning = "The whole covariance of slopes, or its trace alone (CLEAN): a round lobe "
-                                           "and three channels instead of five.",
-                                .integer = false}},
+                   .options = {slope_storage_option(), slope_roughness_option(),
+                               word_option("variant", {"lean", "clean"},
+                                           "The whole covariance of slopes, or its trace alone (CLEAN): a round lobe "
+                                           "and three channels instead of five.")},
                    .honours = EffectSet{}.set()};
 };
 

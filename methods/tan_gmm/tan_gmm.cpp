@@ -15,17 +15,6 @@ extern const std::string_view tan_gmm_glsl;
 
 namespace {
 
-// The first choice is the default.
-OptionSpec word_option(std::string name, const std::vector<std::string>& choices, std::string meaning) {
-  return {.name = std::move(name),
-          .default_value = choices.front(),
-          .minimum = 0,
-          .maximum = 0,
-          .choices = choices,
-          .meaning = std::move(meaning),
-          .integer = false};
-}
-
 std::vector<OptionSpec> option_table() {
   return {
       {.name = "n",

@@ -47,15 +47,10 @@ class Toksvig final : public Method {
                        "Factor on the spread (1 - |Na|) / |Na| before it is added to the lobe's slope variance per "
                        "axis; 1 is Toksvig's. Engines' recipes for alpha^2 differ: alpha^2 += 2 spread / kappa.",
                    .integer = false},
-                  {.name = "diffuse",
-                   .default_value = std::string("mean"),
-                   .minimum = 0,
-                   .maximum = 0,
-                   .choices = {"mean", "normalized"},
-                   .meaning =
-                       "The diffuse term's normal: the mean normal, whose dot product is the mean of the facets' "
-                       "own while all face the light, or the renormalised one.",
-                   .integer = false}},
+                  word_option(
+                      "diffuse", {"mean", "normalized"},
+                      "The diffuse term's normal: the mean normal, whose dot product is the mean of the facets' "
+                      "own while all face the light, or the renormalised one.")},
       .honours = EffectSet{}.set()};
 };
 

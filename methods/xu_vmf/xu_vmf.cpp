@@ -23,17 +23,6 @@ namespace {
 constexpr GLuint material_binding = 0;
 constexpr GLuint group_edge = 8;  // local size of the passes
 
-// The first choice is the default.
-OptionSpec word_option(std::string name, const std::vector<std::string>& choices, std::string meaning) {
-  return {.name = std::move(name),
-          .default_value = choices.front(),
-          .minimum = 0,
-          .maximum = 0,
-          .choices = choices,
-          .meaning = std::move(meaning),
-          .integer = false};
-}
-
 OptionSpec threshold_option(std::string name, double value, std::string meaning) {
   return {.name = std::move(name),
           .default_value = value,

@@ -65,6 +65,16 @@ MethodSpec parse_method(std::string_view text) {
 
 }  // namespace
 
+OptionSpec word_option(std::string name, const std::vector<std::string>& choices, std::string meaning) {
+  return {.name = std::move(name),
+          .default_value = choices.front(),
+          .minimum = 0,
+          .maximum = 0,
+          .choices = choices,
+          .meaning = std::move(meaning),
+          .integer = false};
+}
+
 Options::Options(const std::vector<OptionSpec>& specs, const std::map<std::string, std::string>& given,
                  std::string_view owner) {
   std::vector<std::string> names;

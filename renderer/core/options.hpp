@@ -19,6 +19,9 @@ struct OptionSpec {
   bool integer = false;                 ///< numbers only: whole numbers
 };
 
+/// An option with words for values, of which the first is the default.
+[[nodiscard]] OptionSpec word_option(std::string name, const std::vector<std::string>& choices, std::string meaning);
+
 /// Values for a table of options: every option present, defaults filled in.
 class Options {
  public:

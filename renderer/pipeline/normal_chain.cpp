@@ -54,13 +54,8 @@ std::vector<Image> lobe_deviation_chain(const Material& material) {
 }
 
 OptionSpec storage_option() {
-  return {.name = "storage",
-          .default_value = std::string("fp32"),
-          .minimum = 0,
-          .maximum = 0,
-          .choices = {"fp32", "fp16", "unorm8"},
-          .meaning = "How the baked textures are stored: 32-bit floats, 16-bit floats or 8-bit fixed point.",
-          .integer = false};
+  return word_option("storage", {"fp32", "fp16", "unorm8"},
+                     "How the baked textures are stored: 32-bit floats, 16-bit floats or 8-bit fixed point.");
 }
 
 }  // namespace footprint

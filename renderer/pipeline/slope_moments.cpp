@@ -114,25 +114,14 @@ std::vector<Image> channels_of(const std::vector<Image>& chain, std::initializer
 }
 
 OptionSpec slope_storage_option() {
-  return {.name = "storage",
-          .default_value = std::string("fp32"),
-          .minimum = 0,
-          .maximum = 0,
-          .choices = {"fp32", "fp16"},
-          .meaning = "How the baked textures are stored: 32-bit floats or 16-bit floats.",
-          .integer = false};
+  return word_option("storage", {"fp32", "fp16"}, "How the baked textures are stored: 32-bit floats or 16-bit floats.");
 }
 
 OptionSpec slope_roughness_option() {
-  return {.name = "roughness",
-          .default_value = std::string("stretched"),
-          .minimum = 0,
-          .maximum = 0,
-          .choices = {"stretched", "shading", "moments"},
-          .meaning =
-              "Where the base lobe joins the slopes: the base lobe itself, stretched to the covariance of slopes; its "
-              "variance alone, added to a Gaussian of slopes when shading; or added to the moments when baking.",
-          .integer = false};
+  return word_option(
+      "roughness", {"stretched", "shading", "moments"},
+      "Where the base lobe joins the slopes: the base lobe itself, stretched to the covariance of slopes; its variance "
+      "alone, added to a Gaussian of slopes when shading; or added to the moments when baking.");
 }
 
 Prefiltered bake_slopes(const Material& material, const Options& options, const EffectSet& effects,

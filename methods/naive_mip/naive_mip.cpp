@@ -39,7 +39,7 @@ class NaiveMip final : public Method {
       .summary = "Mip maps of normal and roughness: the mean normal, renormalised, and the mean roughness.",
       .paper = "Williams 1983, Pyramidal Parametrics (the mip map itself)",
       .options = {storage_option()},
-      .honours = EffectSet{}.set()};
+      .honours = effects_of_maps()};
 };
 
 }  // namespace

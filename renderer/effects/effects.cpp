@@ -7,6 +7,8 @@
 #include <cmath>
 #include <ranges>
 
+#include "renderer/microgeometry/microgeometry.hpp"
+
 namespace footprint {
 namespace {
 
@@ -21,7 +23,9 @@ constexpr std::array<std::string_view, effect_count> names{"diffuse",
                                                            "double_sided",
                                                            "point_light",
                                                            "spot_light",
-                                                           "directional_light"};
+                                                           "directional_light",
+                                                           "microgeometry_visibility",
+                                                           "microgeometry_colour"};
 
 // Smaller than any step of an 8-bit map; larger than what decoding one leaves in 32 bits.
 constexpr float constant_tolerance = 1e-5F;
@@ -94,6 +98,7 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
   const auto metallic_varies = [](const Material& m) {
     return m.metallic_roughness_map && channel_varies(*m.metallic_roughness_map->image, 1);
   };
+  const auto coloured = [](const Material& m) { return m.microgeometry && has_colors(m.microgeometry->patch); };
   return {
       decide(Effect::diffuse, scene, reflects_diffusely, "a Lambert term with an albedo above 0",
              "no material reflects diffusely"),
@@ -120,7 +125,19 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
       lights<PointLight>(Effect::point_light, scene, "point"),
       lights<SpotLight>(Effect::spot_light, scene, "spot"),
       lights<DirectionalLight>(Effect::directional_light, scene, "directional"),
+      decide(
+          Effect::microgeometry_visibility, scene, [](const Material& m) { return m.microgeometry != nullptr; },
+          "a patch of small-scale geometry", "no small-scale geometry"),
+      decide(Effect::microgeometry_colour, scene, coloured, "a patch of several colours",
+             "no small-scale geometry of several colours"),
   };
+}
+
+EffectSet effects_of_maps() {
+  return EffectSet{}
+      .set()
+      .reset(static_cast<std::size_t>(Effect::microgeometry_visibility))
+      .reset(static_cast<std::size_t>(Effect::microgeometry_colour));
 }
 
 EffectSet effects_on(const std::vector<EffectDecision>& decisions) {

@@ -26,9 +26,11 @@ enum class Effect : std::size_t {
   point_light,
   spot_light,
   directional_light,
+  microgeometry_visibility,  ///< small-scale geometry whose facets hide and shadow each other
+  microgeometry_colour,      ///< small-scale geometry of several colours
 };
 
-inline constexpr std::size_t effect_count = 12;
+inline constexpr std::size_t effect_count = 14;
 using EffectSet = std::bitset<effect_count>;
 
 /// The name of an effect as shaders, tables and `explain` write it.
@@ -54,6 +56,9 @@ struct EffectDecision {
 
 /// Every effect with its decision, in the order of the enumeration. Pure: looks at the scene's values alone.
 [[nodiscard]] std::vector<EffectDecision> derive_effects(const Scene& scene);
+
+/// All effects but those of small-scale geometry: what a method can honour that knows a surface by its maps alone.
+[[nodiscard]] EffectSet effects_of_maps();
 
 /// The effects that are on.
 [[nodiscard]] EffectSet effects_on(const std::vector<EffectDecision>& decisions);

@@ -1,81 +1,19 @@
 // Visibility over the tiled patch against rays that Embree traces through explicit copies of it.
 #include "renderer/microgeometry/facet_visibility.hpp"
 
-#include <embree3/rtcore.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
-#include <limits>
-#include <memory>
-#include <type_traits>
 
 #include "renderer/core/error.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "renderer/microgeometry/patch_kinds.hpp"
+#include "renderer/microgeometry/ray_traced_tiling.hpp"
 
 namespace footprint {
 namespace {
 
-struct ReleaseDevice {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct ReleaseScene {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-
-/// A patch with `copies` copies on each side, for brute force.
-class RayTracedTiling {
- public:
-  RayTracedTiling(const Patch& patch, int copies) : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_.get())) {
-    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
-    const auto tiles = static_cast<std::size_t>((2 * copies + 1) * (2 * copies + 1));
-    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                 12, patch.vertices.size() * tiles));
-    auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, patch.triangles.size() * tiles));
-    std::uint32_t base = 0;
-    for (int y = -copies; y <= copies; ++y) {
-      for (int x = -copies; x <= copies; ++x) {
-        for (const glm::vec3& v : patch.vertices) {
-          *vertices++ = v.x + static_cast<float>(x) * patch.period.x;
-          *vertices++ = v.y + static_cast<float>(y) * patch.period.y;
-          *vertices++ = v.z;
-        }
-        for (const glm::uvec3& t : patch.triangles) {
-          for (int i = 0; i < 3; ++i) *indices++ = base + t[i];
-        }
-        base += static_cast<std::uint32_t>(patch.vertices.size());
-      }
-    }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_.get(), geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene_.get());
-  }
-
-  [[nodiscard]] bool sees(const glm::vec3& position, const glm::dvec3& direction) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRay ray{};
-    ray.org_x = position.x;
-    ray.org_y = position.y;
-    ray.org_z = position.z;
-    ray.dir_x = static_cast<float>(direction.x);
-    ray.dir_y = static_cast<float>(direction.y);
-    ray.dir_z = static_cast<float>(direction.z);
-    ray.tnear = 2e-5F;
-    ray.tfar = std::numeric_limits<float>::infinity();
-    ray.mask = ~0U;
-    rtcOccluded1(scene_.get(), &context, &ray);
-    return ray.tfar > 0.0F;
-  }
-
- private:
-  std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice> device_;
-  std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene> scene_;
-};
+using testing::RayTracedTiling;
 
 struct Agreement {
   std::size_t different = 0, all = 0, visible = 0;

@@ -10,6 +10,7 @@
 #include "methods/iwasaki_sg/spherical_gaussian.hpp"
 #include "renderer/core/progress.hpp"
 #include "renderer/microgeometry/facet_visibility.hpp"
+#include "renderer/pipeline/patch_facets.hpp"
 
 namespace footprint::iwasaki_sg {
 
@@ -36,11 +37,6 @@ struct Bvndf {
 /// With what the specular term weighs a facet beside its visibility. base: (n.wo), since the scene's base BRDF
 /// is given as f cos; published: (n.wi)(n.wo), Eq. 5.
 enum class Cosines { base, published };
-
-/// What a paint of the patch multiplies the two terms by.
-struct PaintFactors {
-  glm::vec3 specular{1.0F}, diffuse{1.0F};
-};
 
 /// Sums over the discretised normals for every pair of directions, wi-major; `channels` is 1 or, in
 /// colour, 3. Not yet divided by a_v.

@@ -12,6 +12,7 @@
 #include "renderer/microgeometry/microgeometry.hpp"
 #include "renderer/pipeline/base_surface.hpp"
 #include "renderer/pipeline/method.hpp"
+#include "renderer/pipeline/patch_facets.hpp"
 
 namespace footprint {
 
@@ -49,24 +50,6 @@ std::vector<OptionSpec> option_table() {
                       "Whether the amplitudes are scaled to hold what the visible facets hold; least squares alone, as "
                       "in the paper, does not."),
           word_option("storage", {"fp32", "fp16"}, "How the amplitudes are stored: 32-bit or 16-bit floats.")};
-}
-
-// What the base BRDF reflects at normal incidence.
-glm::vec3 reflectance(const Material& material, const glm::vec3& base_color) {
-  return glm::mix(material.dielectric_specular, base_color, material.metallic);
-}
-
-// A paint multiplies the base colour, whose mean over the patch the material's own factor has in it.
-std::vector<PaintFactors> paint_factors(const Material& material) {
-  std::vector<PaintFactors> factors;
-  if (!material.microgeometry) return {{}};
-  const glm::vec3 base(material.base_color);
-  const glm::vec3 mean = glm::max(material.microgeometry->mean_color, glm::vec3(1e-6F));
-  const glm::vec3 own = glm::max(reflectance(material, base), glm::vec3(1e-6F));
-  for (const glm::vec3& paint : material.microgeometry->patch.palette) {
-    factors.push_back({reflectance(material, base * paint / mean) / own, paint / mean});
-  }
-  return factors;
 }
 
 TableSettings table_settings(const Material& material, const Options& options, const EffectSet& effects) {
@@ -175,7 +158,12 @@ class IwasakiSg final : public Method {
                         100.0 * table.visible_share)};
   }
 
-  static EffectSet honoured() { return EffectSet{}.set().reset(static_cast<std::size_t>(Effect::roughness_variation)); }
+  static EffectSet honoured() {
+    return EffectSet{}
+        .set()
+        .reset(static_cast<std::size_t>(Effect::roughness_variation))
+        .reset(static_cast<std::size_t>(Effect::multi_lobe));
+  }
 
   MethodInfo info_{.name = "iwasaki_sg",
                    .summary =
@@ -185,7 +173,8 @@ class IwasakiSg final : public Method {
                        "Iwasaki, Dobashi and Nishita 2012, Interactive Bi-scale Editing of Highly Glossy Materials, "
                        "ACM Transactions on Graphics 31(6)",
                    .options = option_table(),
-                   .honours = honoured()};
+                   .honours = honoured(),
+                   .resolves_texels = false};
   std::string shader_ = std::string(embedded::iwasaki_sg_glsl).append(embedded::iwasaki_sg_lobes_glsl);
 };
 

@@ -6,7 +6,6 @@
 float sgIntegral(float eta);
 float sgConvolution(vec3 axis1, float eta1, vec3 axis2, float eta2);
 float sgApproximateConvolution(vec3 axis1, float eta1, vec3 axis2, float eta2);
-vec2 hemisphereToSquare(vec3 w);
 
 // Nothing that a pixel fetches: the tables hold for the whole material.
 struct Effective {
@@ -33,6 +32,8 @@ float shareOf(int j) { return 1.0; }
 Effective effective(Footprints f) { return Effective(lobeCount()); }
 
 //? if microgeometry_visibility
+//? include direction_grid.glsl
+
 // Where a pair of directions lies in the table: a tile for each cell of wo, in it a texel for each cell of wi. Between
 // the cells of wi the sampler interpolates, between those of wo the four tiles do.
 struct TablePlace {

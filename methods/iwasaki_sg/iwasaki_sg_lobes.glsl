@@ -1,5 +1,4 @@
-// Spherical Gaussians of unit amplitude, e^{eta (w.axis - 1)}, and the square of directions: twins of
-// spherical_gaussian.cpp and direction_grid.cpp.
+// Spherical Gaussians of unit amplitude, e^{eta (w.axis - 1)}: twins of spherical_gaussian.cpp.
 
 // 1 - e^{-2 x} for x >= 0: a series where the difference would cancel.
 float oneMinusExp2(float x) { return x < 0.02 ? 2.0 * x * (1.0 - x * (1.0 - x * (2.0 / 3.0 - x / 3.0))) : 1.0 - exp(-2.0 * x); }
@@ -20,15 +19,4 @@ float sgConvolution(vec3 axis1, float eta1, vec3 axis2, float eta2) {
 float sgApproximateConvolution(vec3 axis1, float eta1, vec3 axis2, float eta2) {
   float sum = eta1 + eta2;
   return 2.0 * pi / sum * exp(-eta1 * (eta2 / sum) * oneMinusDot(axis1, axis2));
-}
-
-// The concentric map of Shirley and Chiu 1997, from the hemisphere to [0, 1]^2; below the horizon: the rim.
-vec2 hemisphereToSquare(vec3 w) {
-  float sine2 = dot(w.xy, w.xy);
-  if (sine2 == 0.0) return vec2(0.5);
-  float radius = w.z > 0.0 ? min(sqrt(sine2 / (1.0 + w.z)), 1.0) : 1.0;
-  bool wide = abs(w.x) > abs(w.y);
-  float lead = (wide ? w.x : w.y) < 0.0 ? -radius : radius;
-  float other = lead * atan(wide ? w.y / w.x : w.x / w.y) * (4.0 / pi);
-  return 0.5 * (wide ? vec2(lead, other) : vec2(other, lead)) + 0.5;
 }

@@ -16,7 +16,7 @@
 #include "tests/support/shader_probe.hpp"
 
 namespace footprint::embedded {
-extern const std::string_view iwasaki_sg_lobes_glsl;
+extern const std::string_view direction_grid_glsl, iwasaki_sg_lobes_glsl;
 }
 
 namespace footprint::iwasaki_sg {
@@ -136,7 +136,7 @@ TEST(SphericalGaussian, ErrorOfTheSgFormFallsWithTheSquareOfTheSharpness) {
 std::string functions() {
   return "float oneMinusDot(vec3 n, vec3 h) { vec3 d = h - n; return 0.5 * dot(d, d); }\n"
          "const float pi = 3.14159265358979;\n" +
-         std::string(embedded::iwasaki_sg_lobes_glsl);
+         std::string(embedded::iwasaki_sg_lobes_glsl) + std::string(embedded::direction_grid_glsl);
 }
 
 // The software rasteriser's exp is good to 7e-6.

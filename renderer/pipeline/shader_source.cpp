@@ -12,7 +12,8 @@ namespace footprint {
 namespace embedded {
 extern const std::string_view surface_vertex_glsl, surface_fragment_glsl, surface_lights_glsl, common_footprint_glsl,
     common_lobes_glsl, common_base_brdf_glsl, common_slopes_glsl, beckmann_lambda_glsl, facet_lobes_glsl,
-    surface_material_glsl, ndf_fragment_glsl, resolve_samples_glsl, screen_vertex_glsl, vmf_density_glsl;
+    direction_grid_glsl, patch_facets_glsl, surface_material_glsl, ndf_fragment_glsl, resolve_samples_glsl,
+    screen_vertex_glsl, vmf_density_glsl;
 }
 
 namespace {
@@ -24,6 +25,8 @@ constexpr std::string_view version_line = "#version 450 core\n";
 std::optional<std::string_view> optional_text(std::string_view file) {
   if (file == "common_slopes.glsl") return embedded::common_slopes_glsl;
   if (file == "beckmann_lambda.glsl") return embedded::beckmann_lambda_glsl;
+  if (file == "direction_grid.glsl") return embedded::direction_grid_glsl;
+  if (file == "patch_facets.glsl") return embedded::patch_facets_glsl;
   if (file == "facet_lobes.glsl") return embedded::facet_lobes_glsl;
   if (file == "vmf_density.glsl") return embedded::vmf_density_glsl;
   return std::nullopt;
@@ -200,6 +203,9 @@ ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options) {
   flags.emplace(geometry_flag(variant.brdf.geometry));
   if (variant.brdf.fresnel == FresnelTerm::schlick) flags.emplace("fresnel_schlick");
   flags.emplace(sampling_flag(variant.sampling));
+  // What is drawn at random: a texel of the maps, or facets of a patch whichever way the maps are sampled.
+  const bool facets = has(variant.effects, Effect::microgeometry_visibility) && variant.sampling == Sampling::point;
+  if (variant.sampling == Sampling::texel || facets) flags.emplace("sample_draws");
   if (variant.max_probes > 1) flags.emplace("anisotropic");
   if (variant.orthographic) flags.emplace("orthographic");
   if (variant.shared_coordinates) flags.emplace("shared_coordinates");

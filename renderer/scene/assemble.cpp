@@ -11,6 +11,7 @@
 #include "renderer/scene/camera.hpp"
 #include "renderer/scene/gltf_model.hpp"
 #include "renderer/scene/light_rig.hpp"
+#include "renderer/scene/microgeometry_content.hpp"
 #include "renderer/scene/model.hpp"
 #include "renderer/scene/plane.hpp"
 #include "renderer/scene/surface_maps.hpp"
@@ -265,8 +266,11 @@ Scene assemble_scene(const SceneSettings& settings, const std::string& name, con
   scene.materials = std::move(model.materials);
   scene.warnings = std::move(model.warnings);
   const LaidMaps maps = load_maps(settings);
+  std::optional<MicrogeometryContent> microgeometry;
+  if (settings.microgeometry) microgeometry = load_microgeometry(*settings.microgeometry);
   for (Material& material : scene.materials) {
     apply(settings.brdf, settings.maps, material);
+    if (microgeometry) apply(*microgeometry, material);
     tile(settings.tiling, material);
     lay(maps, settings.brdf, material);
   }

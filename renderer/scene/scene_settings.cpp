@@ -262,14 +262,14 @@ Camera read_placed_camera(const TomlTable& table) {
   return camera;
 }
 
-/// The parameters of [surface], each checked where it stands.
-std::map<std::string, std::string> read_parameters(const TomlTable& table, const Surface& surface) {
+/// The key `parameters`, each number and word checked where it stands.
+std::map<std::string, std::string> read_parameters(const TomlTable& table, const std::vector<OptionSpec>& specs) {
   std::vector<std::string> names;
-  for (const OptionSpec& spec : surface.parameters) names.push_back(spec.name);
+  for (const OptionSpec& spec : specs) names.push_back(spec.name);
   std::map<std::string, std::string> given;
   const auto parameters = table.table("parameters", names);
   if (!parameters) return given;
-  for (const OptionSpec& spec : surface.parameters) {
+  for (const OptionSpec& spec : specs) {
     if (!spec.choices.empty()) {
       if (const auto i = parameters->choice(spec.name, spec.choices)) given[spec.name] = spec.choices[*i];
     } else if (spec.integer) {
@@ -289,7 +289,7 @@ SurfaceContent read_surface(const TomlTable& table, std::span<const Surface> sur
   const auto place = table.choice("name", names);
   if (!place) missing(table, "name");
   const Surface& surface = surfaces[*place];
-  SurfaceSettings settings = surface_settings(surface, read_parameters(table, surface));
+  SurfaceSettings settings = surface_settings(surface, read_parameters(table, surface.parameters));
   if (const auto resolution = table.whole_number("resolution", {1.0, largest_surface_resolution})) {
     settings.resolution = static_cast<int>(*resolution);
   }
@@ -297,6 +297,33 @@ SurfaceContent read_surface(const TomlTable& table, std::span<const Surface> sur
     settings.seed = static_cast<std::uint32_t>(*seed);
   }
   return {&surface, std::move(settings)};
+}
+
+MicrogeometrySettings read_microgeometry(const TomlTable& table, const std::filesystem::path& folder) {
+  if (table.has("kind") == table.has("model")) {
+    throw table.error_at("kind", "or `model` must be given, and only one of them", "add kind = \"weave\"");
+  }
+  MicrogeometrySettings settings;
+  std::vector<std::string> names;
+  for (const PatchKind& kind : patch_kinds()) names.push_back(kind.name);
+  if (const auto place = table.choice("kind", names)) {
+    settings.kind = &patch_kinds()[*place];
+    settings.parameters = read_parameters(table, settings.kind->parameters);
+  } else {
+    settings.model = folder / *table.word("model");
+    if (table.has("parameters")) throw table.error_at("parameters", "belongs to a kind", "leave it out");
+  }
+  if (const auto period = table.numbers("period", 2, length)) {
+    if (settings.kind != nullptr) throw table.error_at("period", "belongs to a model", "leave it out");
+    settings.period = glm::vec2{(*period)[0], (*period)[1]};
+  }
+  if (const auto seed = table.whole_number("seed", {0.0, std::numeric_limits<std::uint32_t>::max()})) {
+    settings.seed = static_cast<std::uint64_t>(*seed);
+  }
+  if (const auto resolution = table.whole_number("resolution", {1.0, 4096.0})) {
+    settings.resolution = static_cast<int>(*resolution);
+  }
+  return settings;
 }
 
 /// What is drawn: exactly one of the three.
@@ -319,6 +346,10 @@ void read_content(const TomlTable& root, const std::filesystem::path& folder, st
   }
   if (const auto maps = root.table("maps", {"roughness", "exponent", "alpha", "kappa", "specular", "diffuse"})) {
     settings.maps = read_maps(*maps, settings.brdf, folder);
+  }
+  if (const auto microgeometry =
+          root.table("microgeometry", {"kind", "model", "period", "seed", "resolution", "parameters"})) {
+    settings.microgeometry = read_microgeometry(*microgeometry, folder);
   }
   if (const auto tiling = root.table("tiling", {"uv"})) {
     if (const auto uv = tiling->numbers("uv", 2, repeats)) settings.tiling = {(*uv)[0], (*uv)[1]};
@@ -371,9 +402,9 @@ CameraSettings read_camera(const TomlTable& table) {
 
 SceneSettings read_scene_settings(const std::filesystem::path& file, std::span<const Surface> surfaces) {
   const toml::table parsed = parse_toml_file(file);
-  const TomlTable root(
-      parsed, file, "",
-      {"scene", "model", "plane", "surface", "brdf", "maps", "frame", "light", "lights", "camera", "zoom", "tiling"});
+  const TomlTable root(parsed, file, "",
+                       {"scene", "model", "plane", "surface", "brdf", "microgeometry", "maps", "frame", "light",
+                        "lights", "camera", "zoom", "tiling"});
   SceneSettings settings;
   if (const auto scene = root.table("scene", {"name", "description"})) {
     settings.name = scene->word("name");

@@ -1,12 +1,15 @@
 // scene.toml as a plain value; docs/scenes.md is its reference.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "renderer/microgeometry/patch_kinds.hpp"
 #include "renderer/scene/camera.hpp"
 #include "renderer/scene/scene.hpp"
 #include "renderer/scene/surface.hpp"
@@ -56,6 +59,16 @@ struct MapSettings {
   std::optional<MapFile> roughness, lobe_parameter, specular, diffuse;  ///< at most one of the first two
 };
 
+/// The small-scale geometry of every material: a patch of a kind, or a model's triangles.
+struct MicrogeometrySettings {
+  const PatchKind* kind = nullptr;                ///< null: `model`
+  std::map<std::string, std::string> parameters;  ///< of the kind, those that are given
+  std::filesystem::path model;                    ///< glTF file; its y axis points out of the surface
+  std::optional<glm::vec2> period;                ///< of the model's tiles; else its bounds
+  std::uint64_t seed = 1;
+  int resolution = 256;  ///< texels a side of the normal map that methods see which know no patches
+};
+
 /// Where the camera stands: the model's own (or framed, where it has none), framed, or as given.
 using CameraSettings = std::variant<std::monostate, Framing, Camera>;
 
@@ -65,6 +78,7 @@ struct SceneSettings {
   std::string description;          ///< for people who list scenes
   std::variant<ModelSettings, PlaneSettings, SurfaceContent> content;
   BrdfSettings brdf;
+  std::optional<MicrogeometrySettings> microgeometry;
   MapSettings maps;
   std::optional<glm::ivec2> frame_size;
   std::optional<float> exposure;

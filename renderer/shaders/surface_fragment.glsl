@@ -42,7 +42,7 @@ Footprints pixelFootprints() {
   return f;
 }
 
-//? if sampling_texel
+//? if sample_draws
 // PCG3D (Jarzynski and Olano 2020): independent numbers for each sample of the picture, whatever the tile.
 uvec3 hashed(uvec3 v) {
   v = v * 1664525u + 1013904223u;
@@ -123,7 +123,7 @@ vec3 lit(SurfacePoint p) {
 
 void main() {
   Footprints f = pixelFootprints();
-//? if sampling_texel
+//? if sample_draws
   texel_draw = drawTexelOffsets();
 //? end
   vec4 base_color = base_color_factor;

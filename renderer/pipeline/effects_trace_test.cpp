@@ -7,6 +7,7 @@
 
 #include "renderer/pipeline/base_surface.hpp"
 #include "tests/support/rendering.hpp"
+#include "tests/support/shadow_scenes.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint::testing {
@@ -53,6 +54,11 @@ const auto cases = std::to_array<EffectCase>({
        map.texels = {0.4F, 0.0F, 0.8F, 0.0F};
        s.materials[0].metallic_roughness_map = map_of(std::move(map));
      }},
+    {Effect::multi_lobe, "facet_lobe",
+     [](Scene& s) {
+       s.materials[0].lobes = {{.axis = {0.6F, 0.0F, 0.8F}, .parameter = 0.4F, .weight = 0.5F},
+                               {.axis = {-0.6F, 0.0F, 0.8F}, .parameter = 0.3F, .weight = 0.5F}};
+     }},
     {Effect::base_color_variation, "base_color_map",
      [](Scene& s) {
        s.materials[0].metallic = 1.0F;
@@ -63,6 +69,8 @@ const auto cases = std::to_array<EffectCase>({
        s.materials[0].base_color = {1.0F, 0.0F, 0.0F, 1.0F};
        s.materials[0].metallic_roughness_map = map_of(halves(2, 0.5F, 0.9F));
      }},
+    {Effect::specular_variation, "specular_map",
+     [](Scene& s) { s.materials[0].specular_map = map_of(halves(3, 1.0F, 0.25F)); }},
     {Effect::alpha_mask, "discard",
      [](Scene& s) {
        s.materials[0].base_color.a = 0.3F;
@@ -81,6 +89,11 @@ const auto cases = std::to_array<EffectCase>({
     {Effect::directional_light, "DirectionalLight",
      [](Scene& s) {
        s.lights.emplace_back(DirectionalLight{.direction = {0, 0, -1}, .illuminance = glm::vec3(1.0F)});
+     }},
+    {Effect::cast_shadow, "shadow_maps",
+     [](Scene& s) {
+       s.meshes.push_back(box_mesh({-0.2F, -0.2F, 0.1F}, {0.2F, 0.2F, 0.3F}));
+       fit_bounds(s);
      }},
 });
 
@@ -145,6 +158,7 @@ TEST(EffectTrace, TexturesAndBytesFollow) {
   EXPECT_EQ(bytes(scene), 8U * 8U * 16U);
   scene.materials[0].base_color_map = map_of(Image(2, 2, 4, 1.0F));
   EXPECT_EQ(TestRenderer(scene).gpu_scene().shared_bytes(), (4U + 1U) * 16U);
+  EXPECT_FALSE(TestRenderer(scene).gpu_scene().shadow_maps());
 }
 
 // An effect that a method cannot honour is left out of its picture; all else stays.

@@ -4,26 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <glm/gtc/type_ptr.hpp>
 #include <limits>
 #include <span>
 
 #include "renderer/core/error.hpp"
 #include "renderer/image/mipmap.hpp"
 #include "renderer/pipeline/base_surface.hpp"
-#include "renderer/pipeline/light_blocks.hpp"
+#include "renderer/pipeline/facet_lobes.hpp"
 #include "renderer/scene/geometry.hpp"
 
 namespace footprint {
 namespace {
-
-// std140 twin of MaterialBlock in surface_fragment.glsl.
-struct MaterialBlock {
-  glm::vec4 base_color_factor;
-  glm::vec4 dielectric_specular_metallic;
-  glm::vec4 lobe_cutoff;
-  std::array<glm::vec4, 3> uv_linear;
-  std::array<glm::vec4, 3> uv_offset_set;
-};
 
 constexpr float never_cut = -1.0F;  // no alpha lies below it
 
@@ -54,18 +46,30 @@ GlFormat gl_format(Storage storage, int channels) {
   return {internals.at(s).at(c), formats.at(c), types.at(s)};
 }
 
-MaterialBlock material_block(const Material& material) {
-  MaterialBlock block{};
-  block.base_color_factor = material.base_color;
-  block.dielectric_specular_metallic =
-      glm::vec4(material.dielectric_specular, metallic_map_of(material).texels.front());
-  block.lobe_cutoff = {lobe_parameter(material), material.alpha_cutoff.value_or(never_cut), 0.0F, 0.0F};
+glm::vec4 linear_part(const TextureCoordinates& c) { return {c.transform[0], c.transform[1]}; }
+
+glm::vec4 offset_and_set(const TextureCoordinates& c) { return {c.transform[2], static_cast<float>(c.set), 0.0F}; }
+
+// The std140 members of MaterialBlock in surface_material.glsl. What multi_lobe adds comes last: a program whose method
+// leaves it out has a block without it.
+std::vector<glm::vec4> material_block(const Material& material, const EffectSet& effects) {
+  const bool specular_varies = has(effects, Effect::specular_variation);
+  glm::vec3 specular = material.dielectric_specular;
+  if (!specular_varies) specular *= glm::make_vec3(specular_map_of(material).texels.data());
+  std::vector<glm::vec4> block{
+      material.base_color, glm::vec4(specular, metallic_map_of(material).texels.front()),
+      glm::vec4(lobe_parameter(material), material.alpha_cutoff.value_or(never_cut), 0.0F, 0.0F)};
   const std::array slots{normal_coordinates(material), roughness_coordinates(material),
                          base_color_coordinates(material)};
-  for (std::size_t i = 0; i < slots.size(); ++i) {
-    const glm::mat3x2& t = slots[i].transform;
-    block.uv_linear[i] = {t[0], t[1]};
-    block.uv_offset_set[i] = {t[2], static_cast<float>(slots[i].set), 0.0F};
+  for (const TextureCoordinates& slot : slots) block.push_back(linear_part(slot));
+  for (const TextureCoordinates& slot : slots) block.push_back(offset_and_set(slot));
+  if (specular_varies) {
+    block.push_back(linear_part(specular_coordinates(material)));
+    block.push_back(offset_and_set(specular_coordinates(material)));
+  }
+  if (has(effects, Effect::multi_lobe)) {
+    const std::vector<glm::vec4> lobes = facet_lobe_block(material);
+    block.insert(block.end(), lobes.begin(), lobes.end());
   }
   return block;
 }
@@ -77,8 +81,9 @@ bool same_place(const TextureCoordinates& a, const TextureCoordinates& b) {
 bool maps_share_coordinates(const Material& m) {
   std::vector<TextureCoordinates> used;
   if (m.normal_map) used.push_back(m.normal_map->coordinates);
-  if (m.metallic_roughness_map) used.push_back(m.metallic_roughness_map->coordinates);
+  if (m.metallic_roughness_map || m.lobe_parameter_map) used.push_back(roughness_coordinates(m));
   if (m.base_color_map) used.push_back(m.base_color_map->coordinates);
+  if (m.specular_map) used.push_back(m.specular_map->coordinates);
   // Slot 0 serves every map: a material without a normal map has the default there.
   const TextureCoordinates first = normal_coordinates(m);
   return std::ranges::all_of(used, [&](const TextureCoordinates& c) { return same_place(c, first); });
@@ -100,7 +105,7 @@ void add_attribute(GLuint array, GLuint location, GLint size, std::size_t offset
 void count_in(std::uint64_t& hash, std::span<const std::byte> bytes) { hash = fnv1a(bytes, hash); }
 
 // All triangles of a material in one draw call, counted into `content`.
-GpuBatch batch_of(const Scene& scene, std::size_t material, SceneContent& content) {
+GpuBatch batch_of(const Scene& scene, std::size_t material, const EffectSet& effects, SceneContent& content) {
   const auto [vertices, indices] = triangles_of(scene, material);
   if (indices.empty()) return {};
   if (indices.size() > static_cast<std::size_t>(std::numeric_limits<GLsizei>::max())) {
@@ -114,10 +119,10 @@ GpuBatch batch_of(const Scene& scene, std::size_t material, SceneContent& conten
   batch.vertex_count = vertices.size();
   batch.material = material;
   batch.double_sided = scene.materials[material].double_sided;
-  const MaterialBlock block = material_block(scene.materials[material]);
-  batch.material_block = gl::Buffer(std::as_bytes(std::span(&block, 1)), gl::Buffer::Content::changing);
+  const std::vector<glm::vec4> block = material_block(scene.materials[material], effects);
+  batch.material_block = gl::Buffer(std::as_bytes(std::span(block)), gl::Buffer::Content::changing);
   count_in(content.geometry, std::as_bytes(std::span(vertices)));
-  count_in(content.materials, std::as_bytes(std::span(&block, 1)));
+  count_in(content.materials, std::as_bytes(std::span(block)));
   return batch;
 }
 
@@ -131,6 +136,10 @@ std::vector<PrefilteredTexture> shared_textures(const Material& material, const 
   if (has(effects, Effect::metallic_variation)) {
     textures.push_back(make_texture("metallic_map", mip_chain(metallic_map_of(material)), Storage::fp32,
                                     roughness_coordinates(material)));
+  }
+  if (has(effects, Effect::specular_variation)) {
+    textures.push_back(make_texture("specular_map", mip_chain(specular_map_of(material)), Storage::fp32,
+                                    specular_coordinates(material)));
   }
   return textures;
 }
@@ -185,7 +194,7 @@ GpuTexture upload(const PrefilteredTexture& texture) {
 }
 
 GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects)
-    : effects_(effects), brdf_(scene.materials.front().brdf) {
+    : context_(&context), effects_(effects), brdf_(scene.materials.front().brdf) {
   for (const Material& material : scene.materials) {
     if (material.brdf != brdf_) {
       throw Error(ErrorKind::usage, scene.source,
@@ -195,7 +204,7 @@ GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const Eff
     shared_coordinates_ = shared_coordinates_ && maps_share_coordinates(material);
   }
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    GpuBatch batch = batch_of(scene, i, content_);
+    GpuBatch batch = batch_of(scene, i, effects, content_);
     if (batch.index_count == 0) continue;
     for (const PrefilteredTexture& texture : shared_textures(scene.materials[i], effects)) {
       shared_bytes_ += byte_count({.textures = {texture}, .scalars = {}});
@@ -203,13 +212,26 @@ GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const Eff
     }
     batches_.push_back(std::move(batch));
   }
-  const LightBlocks blocks = light_blocks(scene.lights);
+  make_lights(context, scene);
+}
+
+LightBlocks GpuScene::blocks_of(std::span<const Light> lights) const {
+  return light_blocks(lights, shadow_maps_ ? std::span<const int>(shadow_maps_->views().first) : std::span<const int>());
+}
+
+void GpuScene::make_lights(const gl::ContextInfo& context, const Scene& scene) {
+  if (has(effects_, Effect::cast_shadow)) {
+    shadow_maps_.emplace(context, scene, effects_, batches_, samplers_);
+    shared_bytes_ += shadow_maps_->bytes();
+  }
+  const LightBlocks blocks = blocks_of(scene.lights);
   require_capacity(context, std::max({blocks.point.size(), blocks.spot.size(), blocks.directional.size()}),
                    scene.source);
   point_lights_ = light_buffer(blocks.point);
   spot_lights_ = light_buffer(blocks.spot);
   directional_lights_ = light_buffer(blocks.directional);
-  light_counts_ = {blocks.point.size() / 2, blocks.spot.size() / 4, blocks.directional.size() / 2};
+  light_counts_ = {blocks.point.size() / 2, blocks.spot.size() / 4, blocks.directional.size() / 2,
+                   shadow_maps_ ? shadow_maps_->views().views.size() : 0};
   for (const auto* block : {&blocks.point, &blocks.spot, &blocks.directional})
     count_in(content_.lights, std::as_bytes(std::span(*block)));
 }
@@ -226,13 +248,17 @@ void GpuScene::update(const Scene& scene) {
     const TriangleSoup triangles = triangles_of(scene, batch.material);
     require(triangles.vertices.size() == batch.vertex_count, "vertices");
     const auto vertices = std::as_bytes(std::span(triangles.vertices));
-    const MaterialBlock block = material_block(scene.materials[batch.material]);
+    const std::vector<glm::vec4> block = material_block(scene.materials[batch.material], effects_);
     batch.vertices.write(vertices);
-    batch.material_block.write(std::as_bytes(std::span(&block, 1)));
+    batch.material_block.write(std::as_bytes(std::span(block)));
     count_in(content.geometry, vertices);
-    count_in(content.materials, std::as_bytes(std::span(&block, 1)));
+    count_in(content.materials, std::as_bytes(std::span(block)));
   }
-  const LightBlocks blocks = light_blocks(scene.lights);
+  if (shadow_maps_) {
+    shadow_maps_.emplace(*context_, scene, effects_, batches_, samplers_);
+    require(shadow_maps_->views().views.size() == light_counts_.shadow_maps, "lights");
+  }
+  const LightBlocks blocks = blocks_of(scene.lights);
   const auto write = [&](const gl::Buffer& buffer, std::span<const glm::vec4> values, std::size_t count) {
     require(values.size() == count, "lights");
     if (count > 0) buffer.write(std::as_bytes(values));
@@ -254,6 +280,7 @@ void GpuScene::bind_lights(const gl::Program& program) const {
   bind(Effect::point_light, 2, point_lights_, "point_light_count", light_counts_.point);
   bind(Effect::spot_light, 3, spot_lights_, "spot_light_count", light_counts_.spot);
   bind(Effect::directional_light, 4, directional_lights_, "directional_light_count", light_counts_.directional);
+  if (shadow_maps_) shadow_maps_->bind();
 }
 
 }  // namespace footprint

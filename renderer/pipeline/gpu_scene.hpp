@@ -1,6 +1,7 @@
 // A scene on the GPU: triangles, lights and the textures that every method shares.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,9 @@
 #include "renderer/effects/effects.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/gl/objects.hpp"
+#include "renderer/pipeline/light_blocks.hpp"
 #include "renderer/pipeline/prefiltered.hpp"
+#include "renderer/pipeline/shadow_maps.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace footprint {
@@ -66,7 +69,7 @@ struct GpuBatch {
   std::size_t vertex_count = 0;
   std::size_t material = 0;
   bool double_sided = false;
-  std::vector<GpuTexture> shared_textures;  ///< base_color_map, metallic_map: those whose effect is on
+  std::vector<GpuTexture> shared_textures;  ///< base_color_map, metallic_map, specular_map: those whose effect is on
 };
 
 /// The whole scene. Needs the context that made it to be current, also when destroyed.
@@ -85,18 +88,23 @@ class GpuScene {
   [[nodiscard]] const BaseBrdf& brdf() const { return brdf_; }
   /// Every map of every material is looked up at the same place.
   [[nodiscard]] bool shared_coordinates() const { return shared_coordinates_; }
+  /// Of textures that every method reads: maps of the materials and of shadows.
   [[nodiscard]] std::size_t shared_bytes() const { return shared_bytes_; }
+  /// None where the effect is off.
+  [[nodiscard]] const std::optional<ShadowMaps>& shadow_maps() const { return shadow_maps_; }
   [[nodiscard]] SamplerCache& samplers() { return samplers_; }
 
-  /// Binds the light blocks and sets the light counts of `program`.
+  /// Binds the light blocks, their shadow maps, and sets the light counts of `program`.
   void bind_lights(const gl::Program& program) const;
 
   struct LightCounts {
     std::size_t point = 0, spot = 0, directional = 0;
+    std::size_t shadow_maps = 0;
   };
   [[nodiscard]] const LightCounts& light_counts() const { return light_counts_; }
 
  private:
+  const gl::ContextInfo* context_;
   EffectSet effects_;
   BaseBrdf brdf_;
   bool shared_coordinates_ = true;
@@ -106,6 +114,10 @@ class GpuScene {
   LightCounts light_counts_;
   SamplerCache samplers_;
   SceneContent content_;
+  std::optional<ShadowMaps> shadow_maps_;
+
+  [[nodiscard]] LightBlocks blocks_of(std::span<const Light> lights) const;
+  void make_lights(const gl::ContextInfo& context, const Scene& scene);
 };
 
 }  // namespace footprint

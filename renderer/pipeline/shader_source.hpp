@@ -31,6 +31,7 @@ struct ShaderVariant {
   bool shared_coordinates = false;  ///< every map of the scene is looked up at one place
   bool surface_coordinates = false;  ///< the method has coordinates of its own (Prefiltered::surface_coordinates)
   std::size_t point_lights = 0, spot_lights = 0, directional_lights = 0;
+  std::size_t shadow_maps = 0;
 };
 
 using ShaderFlags = std::set<std::string, std::less<>>;
@@ -54,6 +55,9 @@ inline constexpr int first_shared_line = 10001;
 /// The textures of a program, in the order of their units: the shared ones, then the method's.
 [[nodiscard]] std::vector<std::string> texture_names(const EffectSet& effects, const Prefiltered& prefiltered);
 
+/// The material's uniform block, in front of the shared functions: with `multi_lobe` they read it.
+[[nodiscard]] std::string material_block(const ShaderFlags& flags);
+
 /// The lobes, base BRDF terms and footprint functions alone, for programs that evaluate a module outside of a frame.
 [[nodiscard]] std::string shared_functions(const ShaderFlags& flags);
 
@@ -76,6 +80,10 @@ inline constexpr int first_shared_line = 10001;
 [[nodiscard]] std::string frame_build_shader(const ShaderVariant& variant, std::string_view pass,
                                              std::string_view pass_name, const Options& options,
                                              const ShaderFlags& own = {});
+
+/// The stages that draw a shadow map.
+[[nodiscard]] std::string shadow_vertex_shader(const EffectSet& effects);
+[[nodiscard]] std::string shadow_fragment_shader(const EffectSet& effects);
 
 /// A vertex stage that covers the whole viewport by 3 vertices, without attributes.
 [[nodiscard]] std::string screen_vertex_shader();

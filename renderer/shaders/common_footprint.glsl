@@ -12,6 +12,9 @@ struct Footprints {
   Footprint normal;
   Footprint roughness;
   Footprint base_color;
+//? if specular_variation
+  Footprint specular;
+//? end
 //? if surface_coordinates
   Footprint surface;  // on textures that show each point of the surface once
 //? end

@@ -12,7 +12,8 @@ namespace footprint {
 namespace embedded {
 extern const std::string_view surface_vertex_glsl, surface_fragment_glsl, surface_lights_glsl, common_footprint_glsl,
     common_lobes_glsl, common_base_brdf_glsl, common_slopes_glsl, beckmann_lambda_glsl, facet_lobes_glsl,
-    surface_material_glsl, ndf_fragment_glsl, resolve_samples_glsl, screen_vertex_glsl, vmf_density_glsl;
+    facets_module_glsl, mean_normal_glsl, surface_material_glsl, ndf_fragment_glsl, resolve_samples_glsl,
+    screen_vertex_glsl, vmf_density_glsl;
 }
 
 namespace {
@@ -25,6 +26,8 @@ std::optional<std::string_view> optional_text(std::string_view file) {
   if (file == "common_slopes.glsl") return embedded::common_slopes_glsl;
   if (file == "beckmann_lambda.glsl") return embedded::beckmann_lambda_glsl;
   if (file == "facet_lobes.glsl") return embedded::facet_lobes_glsl;
+  if (file == "facets_module.glsl") return embedded::facets_module_glsl;
+  if (file == "mean_normal.glsl") return embedded::mean_normal_glsl;
   if (file == "vmf_density.glsl") return embedded::vmf_density_glsl;
   return std::nullopt;
 }

@@ -93,6 +93,15 @@ Sampler nearest_sampler(GLenum wrap_s, GLenum wrap_t) {
   return make_sampler(GL_NEAREST, GL_NEAREST_MIPMAP_NEAREST, wrap_s, wrap_t);
 }
 
+Sampler comparing_sampler() {
+  constexpr std::array<float, 4> furthest{1.0F, 1.0F, 1.0F, 1.0F};
+  Sampler sampler = make_sampler(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_BORDER, GL_CLAMP_TO_BORDER);
+  api().SamplerParameterfv(sampler.name(), GL_TEXTURE_BORDER_COLOR, furthest.data());
+  api().SamplerParameteri(sampler.name(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  api().SamplerParameteri(sampler.name(), GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  return sampler;
+}
+
 Buffer::Buffer(std::span<const std::byte> bytes) {
   static constexpr std::array<std::byte, 16> zeros{};
   const std::span<const std::byte> content = bytes.empty() ? std::span<const std::byte>(zeros) : bytes;

@@ -55,6 +55,10 @@ using Framebuffer = Handle<delete_framebuffer>;
 /// Looks up the nearest texel of the nearest level.
 [[nodiscard]] Sampler nearest_sampler(GLenum wrap_s, GLenum wrap_t);
 
+/// Compares a reference with the four nearest texels of a depth texture (1 where it is not greater) and blends what
+/// comes out; what lies beyond the edge counts as 1.
+[[nodiscard]] Sampler comparing_sampler();
+
 /// An immutable buffer.
 class Buffer {
  public:

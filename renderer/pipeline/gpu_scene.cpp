@@ -208,13 +208,23 @@ GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const Eff
     }
     batches_.push_back(std::move(batch));
   }
-  const LightBlocks blocks = light_blocks(scene.lights);
+  make_lights(context, scene);
+}
+
+void GpuScene::make_lights(const gl::ContextInfo& context, const Scene& scene) {
+  if (has(effects_, Effect::cast_shadow)) {
+    shadow_maps_.emplace(context, scene, effects_, batches_, samplers_);
+    shared_bytes_ += shadow_maps_->bytes();
+  }
+  const LightBlocks blocks = light_blocks(
+      scene.lights, shadow_maps_ ? std::span<const int>(shadow_maps_->views().first) : std::span<const int>());
   require_capacity(context, std::max({blocks.point.size(), blocks.spot.size(), blocks.directional.size()}),
                    scene.source);
   point_lights_ = light_buffer(blocks.point);
   spot_lights_ = light_buffer(blocks.spot);
   directional_lights_ = light_buffer(blocks.directional);
-  light_counts_ = {blocks.point.size() / 2, blocks.spot.size() / 4, blocks.directional.size() / 2};
+  light_counts_ = {blocks.point.size() / 2, blocks.spot.size() / 4, blocks.directional.size() / 2,
+                   shadow_maps_ ? shadow_maps_->views().views.size() : 0};
 }
 
 void GpuScene::bind_lights(const gl::Program& program) const {
@@ -227,6 +237,7 @@ void GpuScene::bind_lights(const gl::Program& program) const {
   bind(Effect::point_light, 2, point_lights_, "point_light_count", light_counts_.point);
   bind(Effect::spot_light, 3, spot_lights_, "spot_light_count", light_counts_.spot);
   bind(Effect::directional_light, 4, directional_lights_, "directional_light_count", light_counts_.directional);
+  if (shadow_maps_) shadow_maps_->bind();
 }
 
 }  // namespace footprint

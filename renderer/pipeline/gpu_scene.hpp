@@ -1,6 +1,7 @@
 // A scene on the GPU: triangles, lights and the textures that every method shares.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "renderer/gl/context.hpp"
 #include "renderer/gl/objects.hpp"
 #include "renderer/pipeline/prefiltered.hpp"
+#include "renderer/pipeline/shadow_maps.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace footprint {
@@ -66,14 +68,18 @@ class GpuScene {
   [[nodiscard]] const BaseBrdf& brdf() const { return brdf_; }
   /// Every map of every material is looked up at the same place.
   [[nodiscard]] bool shared_coordinates() const { return shared_coordinates_; }
+  /// Of textures that every method reads: maps of the materials and of shadows.
   [[nodiscard]] std::size_t shared_bytes() const { return shared_bytes_; }
+  /// None where the effect is off.
+  [[nodiscard]] const std::optional<ShadowMaps>& shadow_maps() const { return shadow_maps_; }
   [[nodiscard]] SamplerCache& samplers() { return samplers_; }
 
-  /// Binds the light blocks and sets the light counts of `program`.
+  /// Binds the light blocks, their shadow maps, and sets the light counts of `program`.
   void bind_lights(const gl::Program& program) const;
 
   struct LightCounts {
     std::size_t point = 0, spot = 0, directional = 0;
+    std::size_t shadow_maps = 0;
   };
   [[nodiscard]] const LightCounts& light_counts() const { return light_counts_; }
 
@@ -86,6 +92,9 @@ class GpuScene {
   gl::Buffer point_lights_, spot_lights_, directional_lights_;
   LightCounts light_counts_;
   SamplerCache samplers_;
+  std::optional<ShadowMaps> shadow_maps_;
+
+  void make_lights(const gl::ContextInfo& context, const Scene& scene);
 };
 
 }  // namespace footprint

@@ -13,7 +13,7 @@ namespace embedded {
 extern const std::string_view surface_vertex_glsl, surface_fragment_glsl, surface_lights_glsl, common_footprint_glsl,
     common_lobes_glsl, common_base_brdf_glsl, common_slopes_glsl, beckmann_lambda_glsl, facet_lobes_glsl,
     facets_module_glsl, mean_normal_glsl, surface_material_glsl, ndf_fragment_glsl, resolve_samples_glsl,
-    screen_vertex_glsl, vmf_density_glsl;
+    screen_vertex_glsl, shadow_fragment_glsl, shadow_vertex_glsl, surface_shadows_glsl, vmf_density_glsl;
 }
 
 namespace {
@@ -158,6 +158,7 @@ std::string light_capacities(const ShaderVariant& v) {
   capacity(Effect::point_light, "point_light", v.point_lights);
   capacity(Effect::spot_light, "spot_light", v.spot_lights);
   capacity(Effect::directional_light, "directional_light", v.directional_lights);
+  capacity(Effect::cast_shadow, "shadow_view", v.shadow_maps);
   return text;
 }
 
@@ -275,8 +276,9 @@ std::string method_program(const ShaderVariant& variant, const Module& module, c
 std::string fragment_shader(const ShaderVariant& variant, std::string_view module, std::string_view module_name,
                             const Options& options, const Prefiltered& prefiltered) {
   const ShaderFlags flags = shader_flags(variant, options);
-  const std::string lights =
+  std::string lights =
       light_capacities(variant) + select_text(embedded::surface_lights_glsl, flags, "surface_lights.glsl");
+  if (has(variant.effects, Effect::cast_shadow)) lights += embedded::surface_shadows_glsl;
   const std::string forward = select_text(embedded::surface_fragment_glsl, flags, "surface_fragment.glsl");
   return method_program(variant, {module, module_name}, options, prefiltered, lights, forward);
 }
@@ -292,6 +294,21 @@ std::string frame_build_shader(const ShaderVariant& variant, std::string_view pa
   const ShaderFlags flags = shader_flags(variant, options);
   return fmt::format("{}#line {}\n", version_line, first_shared_line) + number_options(options) +
          material_block(flags) + shared_functions(flags) + select_text(pass, flags, pass_name, true);
+}
+
+std::string shadow_vertex_shader(const EffectSet& effects) {
+  const ShaderFlags flags = shader_flags({.effects = effects, .brdf = {}}, Options({}, {}, "shadow maps"));
+  return std::string(version_line) + select_text(embedded::shadow_vertex_glsl, flags, "shadow_vertex.glsl");
+}
+
+std::string shadow_fragment_shader(const EffectSet& effects) {
+  const ShaderFlags flags = shader_flags({.effects = effects, .brdf = {}}, Options({}, {}, "shadow maps"));
+  std::string text(version_line);
+  if (has(effects, Effect::alpha_mask)) {
+    if (has(effects, Effect::base_color_variation)) text += "layout(binding = 0) uniform sampler2D base_color_map;\n";
+    text += material_block(flags);
+  }
+  return text + select_text(embedded::shadow_fragment_glsl, flags, "shadow_fragment.glsl");
 }
 
 std::string screen_vertex_shader() { return std::string(version_line) + std::string(embedded::screen_vertex_glsl); }

@@ -30,6 +30,7 @@ struct ShaderVariant {
   bool orthographic = false;
   bool shared_coordinates = false;  ///< every map of the scene is looked up at one place
   std::size_t point_lights = 0, spot_lights = 0, directional_lights = 0;
+  std::size_t shadow_maps = 0;
 };
 
 using ShaderFlags = std::set<std::string, std::less<>>;
@@ -76,6 +77,10 @@ inline constexpr int first_shared_line = 10001;
 /// terms, the number options and the material's block, and the flags are fragment_shader's.
 [[nodiscard]] std::string frame_build_shader(const ShaderVariant& variant, std::string_view pass,
                                              std::string_view pass_name, const Options& options);
+
+/// The stages that draw a shadow map.
+[[nodiscard]] std::string shadow_vertex_shader(const EffectSet& effects);
+[[nodiscard]] std::string shadow_fragment_shader(const EffectSet& effects);
 
 /// The stages that add a pass of samples to the reference's sums.
 [[nodiscard]] std::string screen_vertex_shader();

@@ -14,13 +14,14 @@ namespace {
 constexpr GLuint material_binding = 0;
 constexpr GLuint method_binding = 1;
 
-// What the program simulates: what the method honours, and the maps that the pipeline reads itself, whose units come
-// first.
+// What the program simulates: what the method honours, the maps that the pipeline reads itself, whose units come
+// first, and visibility, which is the same for every method.
 EffectSet effects_of(const GpuScene& scene, const Method& method) {
   EffectSet shared;
   shared.set(static_cast<std::size_t>(Effect::base_color_variation));
   shared.set(static_cast<std::size_t>(Effect::metallic_variation));
   shared.set(static_cast<std::size_t>(Effect::specular_variation));
+  shared.set(static_cast<std::size_t>(Effect::cast_shadow));
   return scene.effects() & (method.info().honours | shared);
 }
 
@@ -33,7 +34,8 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
           .shared_coordinates = scene.shared_coordinates(),
           .point_lights = scene.light_counts().point,
           .spot_lights = scene.light_counts().spot,
-          .directional_lights = scene.light_counts().directional};
+          .directional_lights = scene.light_counts().directional,
+          .shadow_maps = scene.light_counts().shadow_maps};
 }
 
 std::vector<float> scalar_block(const Prefiltered& prefiltered) {

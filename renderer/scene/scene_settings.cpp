@@ -18,7 +18,8 @@ constexpr NumberRange length{1e-6, 1e6};          // metres, above 0
 constexpr NumberRange coordinate{-1e9, 1e9};      // metres
 constexpr NumberRange intensity{0.0, 1e12};       // candela or lux
 constexpr NumberRange field_of_view{0.1, 170.0};  // degrees
-constexpr NumberRange repeats{1e-3, 1e4};         // of a map along u or v
+constexpr NumberRange shadow_resolution{smallest_shadow_map, largest_shadow_map};
+constexpr NumberRange repeats{1e-3, 1e4};  // of a map along u or v
 constexpr NumberRange lobe_weight{1e-6, 1e3};
 
 constexpr double lowest_axis = 1e-3;  // a lobe on the horizon would lie below it half of the time
@@ -335,6 +336,12 @@ void read_lights(const TomlTable& root, SceneSettings& settings) {
   if (const auto lights = root.table("lights", {"keep"})) {
     settings.keep_model_lights = lights->boolean("keep").value_or(true);
   }
+  if (const auto shadows = root.table("shadows", {"cast", "resolution"})) {
+    settings.shadows.cast = shadows->boolean("cast");
+    if (const auto texels = shadows->whole_number("resolution", shadow_resolution)) {
+      settings.shadows.resolution = static_cast<int>(*texels);
+    }
+  }
 }
 
 void read_view(const TomlTable& root, SceneSettings& settings) {
@@ -373,9 +380,9 @@ CameraSettings read_camera(const TomlTable& table) {
 
 SceneSettings read_scene_settings(const std::filesystem::path& file, std::span<const Surface> surfaces) {
   const toml::table parsed = parse_toml_file(file);
-  const TomlTable root(
-      parsed, file, "",
-      {"scene", "model", "plane", "surface", "brdf", "maps", "frame", "light", "lights", "camera", "zoom", "tiling"});
+  const TomlTable root(parsed, file, "",
+                       {"scene", "model", "plane", "surface", "brdf", "maps", "frame", "light", "lights", "shadows",
+                        "camera", "zoom", "tiling"});
   SceneSettings settings;
   if (const auto scene = root.table("scene", {"name", "description"})) {
     settings.name = scene->word("name");

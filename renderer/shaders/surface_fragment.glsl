@@ -80,6 +80,9 @@ struct SurfacePoint {
   vec3 f0;
   mat3 frame;
   vec3 wo;  // tangent frame
+//? if cast_shadow
+  vec3 facet;  // the triangle's own normal, on the side that is seen
+//? end
 };
 
 // One light's share. A light below the surface's own horizon does not reach it.
@@ -93,6 +96,15 @@ vec3 reflected(SurfacePoint p, vec3 to_light, vec3 irradiance_at_normal) {
   return f_cos * irradiance_at_normal;
 }
 
+//? if cast_shadow
+// The triangle's normal on the side of the camera; zero where the pixel sees it edge-on.
+vec3 facetNormal(vec3 along_x, vec3 along_y, vec3 to_viewer) {
+  vec3 n = cross(along_x, along_y);
+  float size = length(n);
+  return size > 0.0 ? n * (sign(dot(n, to_viewer)) / size) : vec3(0.0);
+}
+
+//? end
 vec3 lit(SurfacePoint p) {
   vec3 radiance = vec3(0.0);
 //? if point_light
@@ -100,6 +112,9 @@ vec3 lit(SurfacePoint p) {
     vec3 d = point_lights[i].position_range.xyz - world_position;
     float d2 = dot(d, d);
     float attenuation = distanceAttenuation(d2, point_lights[i].position_range.w);
+//? if cast_shadow
+    attenuation *= clearOfShadow(point_lights[i].intensity.w, world_position, p.facet, -d);
+//? end
     radiance += reflected(p, d * inversesqrt(max(d2, 1e-24)), point_lights[i].intensity.rgb * attenuation);
   }
 //? end
@@ -110,12 +125,19 @@ vec3 lit(SurfacePoint p) {
     vec3 to_light = d * inversesqrt(max(d2, 1e-24));
     float angular = clamp(-dot(spot_lights[i].direction.xyz, to_light) * spot_lights[i].cone.x + spot_lights[i].cone.y, 0.0, 1.0);
     float attenuation = distanceAttenuation(d2, spot_lights[i].position_range.w) * angular * angular;
+//? if cast_shadow
+    attenuation *= clearOfShadow(spot_lights[i].intensity.w, world_position, p.facet, -d);
+//? end
     radiance += reflected(p, to_light, spot_lights[i].intensity.rgb * attenuation);
   }
 //? end
 //? if directional_light
   for (int i = 0; i < directional_light_count; ++i) {
-    radiance += reflected(p, directional_lights[i].to_light.xyz, directional_lights[i].illuminance.rgb);
+    vec3 irradiance = directional_lights[i].illuminance.rgb;
+//? if cast_shadow
+    irradiance *= clearOfShadow(directional_lights[i].illuminance.w, world_position, p.facet, vec3(0.0));
+//? end
+    radiance += reflected(p, directional_lights[i].to_light.xyz, irradiance);
   }
 //? end
   return radiance;
@@ -123,6 +145,10 @@ vec3 lit(SurfacePoint p) {
 
 void main() {
   Footprints f = pixelFootprints();
+//? if cast_shadow
+  vec3 along_x = dFdx(world_position);  // before any pixel is discarded
+  vec3 along_y = dFdy(world_position);
+//? end
 //? if sampling_texel
   texel_draw = drawTexelOffsets();
 //? end
@@ -147,9 +173,13 @@ void main() {
   p.f0 = mix(dielectric_specular, base_color.rgb, metallic);
   p.frame = tangentFrame();
 //? if orthographic
-  p.wo = to_camera * p.frame;
+  vec3 to_viewer = to_camera;
 //? else
-  p.wo = normalize(camera_position - world_position) * p.frame;
+  vec3 to_viewer = normalize(camera_position - world_position);
+//? end
+  p.wo = to_viewer * p.frame;
+//? if cast_shadow
+  p.facet = facetNormal(along_x, along_y, to_viewer);
 //? end
   radiance_coverage = vec4(lit(p), 1.0);
 }

@@ -129,8 +129,10 @@ std::vector<FacetLobe> read_lobes(const TomlTable& brdf, std::optional<NormalDis
   std::vector<FacetLobe> lobes;
   const auto tables = brdf.tables("lobe", {"axis", "exponent", "alpha", "kappa", "weight"});
   if (tables.size() > most_facet_lobes) {
-    throw brdf.error_at("lobe", fmt::format("are {}, more than the {} there may be", tables.size(), most_facet_lobes),
-                        "leave out the weakest");
+    throw brdf.error_at(
+        "lobe",
+        fmt::format("stands {} times, more often than the {} lobes there may be", tables.size(), most_facet_lobes),
+        "leave out the weakest");
   }
   for (const TomlTable& table : tables) {
     const auto parameter = read_lobe(table, distribution);

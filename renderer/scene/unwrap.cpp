@@ -22,20 +22,21 @@ namespace {
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 /// The least cosine between a triangle's normal and its chart's axis.
-constexpr double least_facing = 1.0 / 3.0;
+constexpr double least_facing = 0.5;
 
 /// The gap around a chart, as a share of the packed square's side.
 constexpr double gap = 1.0 / 512.0;
 
 using FlatTriangle = std::array<glm::dvec2, 3>;
 
-/// Whether the insides of two triangles share a point: no edge of either has the other wholly on its far side.
+/// Whether the insides of two triangles share a point: no edge of either has the other wholly on its far side, but for
+/// what rounding of positions and cracks between patches of a mesh amount to.
 bool overlap(const FlatTriangle& a, const FlatTriangle& b) {
   const auto is_apart = [](const FlatTriangle& from, const FlatTriangle& other) {
     for (std::size_t i = 0; i < 3; ++i) {
       const glm::dvec2 edge = from[(i + 1) % 3] - from[i],
                        normal{edge.y, -edge.x};  // outwards of a triangle that turns left
-      const double tolerance = 1e-12 * glm::dot(edge, edge);
+      const double tolerance = 1e-5 * glm::dot(edge, edge);
       const bool beyond = std::ranges::all_of(
           other, [&](const glm::dvec2& corner) { return glm::dot(corner - from[i], normal) >= -tolerance; });
       if (beyond) return true;

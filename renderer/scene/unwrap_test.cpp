@@ -135,7 +135,7 @@ TEST(Unwrap, KeepsOneScaleWithinTheForeshorteningOfAChart) {
     shortest = std::min(shortest, ratio);
     longest = std::max(longest, ratio);
   }
-  EXPECT_LT(longest, 3.01 * shortest);
+  EXPECT_LT(longest, 2.01 * shortest);
 }
 
 TEST(Unwrap, LeavesAFlatSquareInOnePieceUpright) {

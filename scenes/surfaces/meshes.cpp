@@ -37,10 +37,4 @@ Mesh grid_mesh(int columns, int rows, const std::function<Vertex(const glm::dvec
   return mesh;
 }
 
-void append(Mesh& mesh, const Mesh& part) {
-  const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), part.vertices.begin(), part.vertices.end());
-  for (const std::uint32_t index : part.indices) mesh.indices.push_back(base + index);
-}
-
 }  // namespace footprint

@@ -24,7 +24,4 @@ struct BentPoint {
 /// the right and t upwards as seen from outside. Vertices that are not finite are a fault of the caller.
 [[nodiscard]] Mesh grid_mesh(int columns, int rows, const std::function<Vertex(const glm::dvec2& place)>& vertex_at);
 
-/// Adds the triangles of `part` to `mesh`.
-void append(Mesh& mesh, const Mesh& part);
-
 }  // namespace footprint

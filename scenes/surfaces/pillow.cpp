@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "renderer/scene/geometry.hpp"
 #include "scenes/surfaces/height.hpp"
 #include "scenes/surfaces/jacquard.hpp"
 #include "scenes/surfaces/meshes.hpp"
@@ -28,17 +29,26 @@ Image normals(const SurfaceSettings& settings) {
 /// Darker at a thread's edges, where it dives under its neighbours.
 Image base_color(const SurfaceSettings& settings) {
   const Jacquard silk = cloth(settings);
-  return fill_colors(settings.resolution, [&](const glm::dvec2& place) {
+  return fill_colors(glm::ivec2{settings.resolution}, [&](const glm::dvec2& place) {
     const Thread thread = silk.at(place);
     const double shade = (1.0 - 0.45 * thread.across * thread.across) * (0.8 + 0.4 * thread.uneven);
     return glm::min(shade * (thread.weft ? weft_color : warp_color), 1.0);
   });
 }
 
-[[maybe_unused]] Image specular(const SurfaceSettings& settings) {
+Image specular(const SurfaceSettings& settings) {
   const Jacquard silk = cloth(settings);
-  return fill_colors(settings.resolution, [&](const glm::dvec2& place) {
+  return fill_rgb(glm::ivec2{settings.resolution}, [&](const glm::dvec2& place) {
     return silk.at(place).weft ? glm::dvec3{0.55, 0.38, 0.14} : glm::dvec3{0.10, 0.055, 0.06};
+  });
+}
+
+/// Silk is glossy along the weft's long floats and dull where a thread has been worked harder.
+Image exponents(const SurfaceSettings& settings) {
+  const Jacquard silk = cloth(settings);
+  return fill_values(glm::ivec2{settings.resolution}, [&](const glm::dvec2& place) {
+    const Thread thread = silk.at(place);
+    return (thread.weft ? 220.0 : 14.0) * std::exp2(2.0 * thread.uneven - 1.0);
   });
 }
 
@@ -113,6 +123,9 @@ Surface pillow_surface() {
           .default_resolution = 1024,
           .normals = normals,
           .base_color = base_color,
+          .specular = specular,
+          .lobe_parameter = exponents,
+          .distribution = NormalDistribution::blinn_phong,
           .mesh = mesh};
 }
 

@@ -46,12 +46,20 @@ Image normals(const SurfaceSettings& settings) {
 
 Image base_color(const SurfaceSettings& settings) {
   const DomeLattice lattice = studs(settings);
-  return fill_colors(settings.resolution, [&](const glm::dvec2& place) { return stuff_at(lattice, place).albedo; });
+  return fill_colors(glm::ivec2{settings.resolution},
+                     [&](const glm::dvec2& place) { return stuff_at(lattice, place).albedo; });
 }
 
-[[maybe_unused]] Image specular(const SurfaceSettings& settings) {
+Image specular(const SurfaceSettings& settings) {
   const DomeLattice lattice = studs(settings);
-  return fill_colors(settings.resolution, [&](const glm::dvec2& place) { return stuff_at(lattice, place).specular; });
+  return fill_rgb(glm::ivec2{settings.resolution},
+                  [&](const glm::dvec2& place) { return stuff_at(lattice, place).specular; });
+}
+
+Image exponents(const SurfaceSettings& settings) {
+  const DomeLattice lattice = studs(settings);
+  return fill_values(glm::ivec2{settings.resolution},
+                     [&](const glm::dvec2& place) { return stuff_at(lattice, place).exponent; });
 }
 
 }  // namespace
@@ -78,6 +86,9 @@ Surface studs_surface() {
           .default_resolution = 1024,
           .normals = normals,
           .base_color = base_color,
+          .specular = specular,
+          .lobe_parameter = exponents,
+          .distribution = NormalDistribution::blinn_phong,
           .mesh = square_mesh};
 }
 

@@ -5,6 +5,7 @@
 #include "scenes/surfaces/height.hpp"
 #include "scenes/surfaces/meshes.hpp"
 #include "scenes/surfaces/noise.hpp"
+#include "scenes/surfaces/octaves.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
 
 namespace footprint {
@@ -17,26 +18,15 @@ constexpr double half_side = 0.75, table_radius = 0.5, table_height = 0.74;
 constexpr double rim = 0.025;
 constexpr double rim_length = rim * std::numbers::pi / 2.0;
 
-/// Octaves of the normal map: cells along its width, and slope.
-struct Octave {
-  int cells;
-  double slope;
-};
+/// Of the normal map: cells along its width, and slope.
 constexpr std::array<Octave, 5> octaves{{{10, 0.04}, {27, 0.05}, {71, 0.08}, {170, 0.18}, {340, 0.3}}};
 
 Image normals(const SurfaceSettings& settings) {
   std::mt19937_64 random(settings.seed);
-  std::vector<PeriodicNoise> noises;
-  for (const Octave& octave : octaves) noises.emplace_back(octave.cells, random);
+  const OctaveNoise creases(octaves, random);
   const double steepness = settings.parameters.number("steepness");
   return fill_normals(settings.resolution, [&](const glm::dvec2& place) {
-    const HeightPlace at{place};
-    Height sum{0.0};
-    for (std::size_t i = 0; i < octaves.size(); ++i) {
-      const auto [cells, slope] = octaves[i];
-      sum += slope / cells * noises[i].at(static_cast<double>(cells) * at.x, static_cast<double>(cells) * at.y);
-    }
-    return normal_of_slope(steepness * slope_of(sum));
+    return normal_of_slope(steepness * slope_of(creases.relief(HeightPlace{place})));
   });
 }
 
@@ -56,7 +46,7 @@ class Drape {
       down = rim - rim * cos(length / rim);
     }
     const Height folds = this->folds(at, radius) * smooth_step(length, 0.0, 0.3);
-    out += (0.02 + 0.42 * length) * folds;
+    out += (0.02 + 0.38 * length) * folds;
     down = down * (1.0 - 0.1 * folds);
     const Height drop = table_height - down;
     return {out * at.x / radius, drop, -1.0 * out * at.y / radius};

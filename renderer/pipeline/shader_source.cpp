@@ -13,7 +13,7 @@ namespace embedded {
 extern const std::string_view surface_vertex_glsl, surface_fragment_glsl, surface_lights_glsl, common_footprint_glsl,
     common_lobes_glsl, common_base_brdf_glsl, common_slopes_glsl, beckmann_lambda_glsl, facet_lobes_glsl,
     surface_material_glsl, ndf_fragment_glsl, resolve_samples_glsl, screen_vertex_glsl, shadow_fragment_glsl,
-    shadow_vertex_glsl, surface_shadows_glsl, vmf_density_glsl;
+    shadow_vertex_glsl, surface_shadows_glsl, tangent_frame_glsl, vmf_density_glsl;
 }
 
 namespace {
@@ -27,6 +27,7 @@ std::optional<std::string_view> optional_text(std::string_view file) {
   if (file == "beckmann_lambda.glsl") return embedded::beckmann_lambda_glsl;
   if (file == "facet_lobes.glsl") return embedded::facet_lobes_glsl;
   if (file == "vmf_density.glsl") return embedded::vmf_density_glsl;
+  if (file == "tangent_frame.glsl") return embedded::tangent_frame_glsl;
   return std::nullopt;
 }
 
@@ -205,6 +206,7 @@ ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options) {
   if (variant.max_probes > 1) flags.emplace("anisotropic");
   if (variant.orthographic) flags.emplace("orthographic");
   if (variant.shared_coordinates) flags.emplace("shared_coordinates");
+  if (variant.surface_coordinates) flags.emplace("surface_coordinates");
   for (const auto& [name, value] : options.all()) {
     if (const auto* word = std::get_if<std::string>(&value)) flags.insert(name + "_" + *word);
   }
@@ -283,13 +285,15 @@ std::string fragment_shader(const ShaderVariant& variant, std::string_view modul
 
 std::string ndf_shader(const ShaderVariant& variant, std::string_view module, std::string_view module_name,
                        const Options& options, const Prefiltered& prefiltered) {
+  const ShaderFlags flags = shader_flags(variant, options);
   return method_program(variant, {module, module_name}, options, prefiltered, {},
-                        std::string(embedded::ndf_fragment_glsl));
+                        select_text(embedded::ndf_fragment_glsl, flags, "ndf_fragment.glsl"));
 }
 
 std::string frame_build_shader(const ShaderVariant& variant, std::string_view pass, std::string_view pass_name,
-                               const Options& options) {
-  const ShaderFlags flags = shader_flags(variant, options);
+                               const Options& options, const ShaderFlags& own) {
+  ShaderFlags flags = shader_flags(variant, options);
+  flags.insert(own.begin(), own.end());
   return fmt::format("{}#line {}\n", version_line, first_shared_line) + number_options(options) +
          material_block(flags) + shared_functions(flags) + select_text(pass, flags, pass_name, true);
 }

@@ -61,6 +61,8 @@ struct Camera {
   float znear = 0.01F;
   std::optional<float> zfar;    ///< none: infinite (perspective only)
   std::optional<float> aspect;  ///< width / height where the file gives one; sets the default frame shape
+
+  friend bool operator==(const Camera&, const Camera&) = default;
 };
 
 /// Axis-aligned bounds of all vertices.

@@ -5,10 +5,16 @@ in vec3 world_normal;
 in vec4 world_tangent;
 in vec2 uv0;
 in vec2 uv1;
+//? if surface_coordinates
+in vec2 surface_uv;
+//? end
 
 layout(location = 0) out vec4 radiance_coverage;
 
 uniform vec3 camera_position;
+//? if surface_coordinates
+uniform mat3 world_to_camera;
+//? end
 //? if orthographic
 uniform vec3 to_camera;
 //? end
@@ -39,6 +45,9 @@ Footprints pixelFootprints() {
   f.specular = footprintOf(specular_uv_linear, specular_uv_offset_set);
 //? end
 //? end
+//? if surface_coordinates
+  f.surface = Footprint(surface_uv, dFdx(surface_uv), dFdy(surface_uv));
+//? end
   return f;
 }
 
@@ -63,16 +72,7 @@ vec2 drawTexelOffsets() {
 }
 //? end
 
-// The tangent frame, right-handed or not as the mesh says; columns tangent, bitangent, normal.
-mat3 tangentFrame() {
-  vec3 n = world_normal / max(length(world_normal), 1e-20);  // opposite normals of a vertex pair meet at zero: unlit, not NaN
-//? if double_sided
-  if (!gl_FrontFacing) n = -n;
-//? end
-  vec3 t = world_tangent.xyz - n * dot(n, world_tangent.xyz);
-  t /= max(length(t), 1e-12);
-  return mat3(t, cross(n, t) * world_tangent.w, n);
-}
+//? include tangent_frame.glsl
 
 struct SurfacePoint {
   Effective effective;
@@ -168,10 +168,17 @@ void main() {
   dielectric_specular *= fetch(specular_map, f.specular).rgb;
 //? end
   SurfacePoint p;
+//? if double_sided
+  p.frame = tangentFrame(gl_FrontFacing ? world_normal : -world_normal, world_tangent);
+//? else
+  p.frame = tangentFrame(world_normal, world_tangent);
+//? end
+//? if surface_coordinates
+  tangent_to_camera = world_to_camera * p.frame;
+//? end
   p.effective = effective(f);
   p.albedo = base_color.rgb * (1.0 - metallic);
   p.f0 = mix(dielectric_specular, base_color.rgb, metallic);
-  p.frame = tangentFrame();
 //? if orthographic
   vec3 to_viewer = to_camera;
 //? else

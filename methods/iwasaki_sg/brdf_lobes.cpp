@@ -25,6 +25,32 @@ double tangent_squared(double u) {
   return u * (2.0 - u) / (c * c);
 }
 
+std::vector<BrdfLobe> without_empty(std::vector<BrdfLobe> lobes) {
+  std::erase_if(lobes, [](const BrdfLobe& lobe) { return !(lobe.amplitude > 0.0); });
+  return lobes;
+}
+
+// The mean over theta_d up to 45 degrees and all phi_d, of each cell of theta_h; the last that have values only below
+// the horizon take what comes before them.
+std::vector<glm::dvec3> half_angle_profile(const TabulatedBrdf& brdf) {
+  std::vector<glm::dvec3> profile;
+  constexpr int d_cells = TabulatedBrdf::theta_d_cells, p_cells = TabulatedBrdf::phi_d_cells;
+  for (int h = 0; h < TabulatedBrdf::theta_h_cells; ++h) {
+    glm::dvec3 sum(0.0);
+    int count = 0;
+    for (int d = 0; d < d_cells / 2; ++d) {
+      for (int p = 0; p < p_cells; ++p) {
+        const glm::vec3& value = brdf.values[static_cast<std::size_t>((h * d_cells + d) * p_cells + p)];
+        if (value == glm::vec3(0.0F)) continue;  // not measured, or below the horizon
+        sum += glm::dvec3(value);
+        ++count;
+      }
+    }
+    profile.push_back(count > 0 ? sum / static_cast<double>(count) : (h > 0 ? profile.back() : glm::dvec3(0.0)));
+  }
+  return profile;
+}
+
 }  // namespace
 
 std::vector<BrdfLobe> fit_lobes(const std::function<double(double)>& value_at, double width) {
@@ -52,7 +78,7 @@ std::vector<BrdfLobe> fit_lobes(const std::function<double(double)>& value_at, d
   std::vector<BrdfLobe> lobes;
   for (int i = 0; i < candidates; ++i) {
     const double eta = sharpness[static_cast<std::size_t>(i)];
-    if (x[i] > 1e-9 * x.maxCoeff()) lobes.push_back({eta, x[i] * std::sqrt(2.0 * eta)});
+    lobes.push_back({eta, x[i] > 1e-9 * x.maxCoeff() ? x[i] * std::sqrt(2.0 * eta) : 0.0});
   }
   return lobes;
 }
@@ -65,27 +91,49 @@ std::vector<BrdfLobe> lobes_of(NormalDistribution distribution, double parameter
     case NormalDistribution::vmf:
       return {{p, 1.0 / integral(p)}};
     case NormalDistribution::beckmann:
-      return fit_lobes(
+      return without_empty(fit_lobes(
           [p2](double u) {
             const double c2 = (1.0 - u) * (1.0 - u);
             return c2 < 1e-6 ? 0.0 : std::exp(-tangent_squared(u) / p2) / (pi * p2 * c2 * c2);
           },
-          p2);
+          p2));
     case NormalDistribution::ggx:
       break;
   }
-  return fit_lobes(
+  return without_empty(fit_lobes(
       [p2](double u) {
         const double d = p2 * (1.0 - u) * (1.0 - u) + u * (2.0 - u);
         return p2 / (pi * d * d);
       },
-      p2);
+      p2));
 }
 
-std::vector<BrdfLobe> ward_lobes(double alpha) {
-  const double a2 = alpha * alpha;
-  return fit_lobes([a2](double u) { return u >= 1.0 ? 0.0 : std::exp(-tangent_squared(u) / a2) / (4.0 * pi * a2); },
-                   a2);
+std::vector<ColorLobe> lobes_of(const TabulatedBrdf& brdf) {
+  const std::vector<glm::dvec3> profile = half_angle_profile(brdf);
+  glm::dvec3 diffuse = profile.front();
+  for (const glm::dvec3& value : profile) diffuse = glm::min(diffuse, value);
+  const auto at = [&](double u) {
+    const double root = std::sqrt(std::acos(std::clamp(1.0 - u, 0.0, 1.0)) / (0.5 * pi));
+    const double place =
+        std::clamp(root * TabulatedBrdf::theta_h_cells - 0.5, 0.0, static_cast<double>(profile.size() - 1));
+    const auto low = std::min(static_cast<std::size_t>(place), profile.size() - 2);
+    return glm::mix(profile[low], profile[low + 1], place - static_cast<double>(low)) - diffuse;
+  };
+  // The core's width: where the sum of the channels has fallen to 1/e.
+  const auto gray = [&](double u) { return at(u).x + at(u).y + at(u).z; };
+  double width = 1e-6;
+  while (width < 0.5 && gray(width) > gray(0.0) / std::numbers::e) width *= 1.1;
+  std::vector<ColorLobe> lobes{{0.0, glm::vec3(diffuse)}};
+  for (int c = 0; c < 3; ++c) {
+    const std::vector<BrdfLobe> fitted = fit_lobes([&](double u) { return at(u)[c]; }, width);
+    lobes.resize(1 + fitted.size(), {0.0, glm::vec3(0.0F)});
+    for (std::size_t i = 0; i < fitted.size(); ++i) {
+      lobes[1 + i].sharpness = fitted[i].sharpness;
+      lobes[1 + i].amplitude[c] = static_cast<float>(fitted[i].amplitude);
+    }
+  }
+  std::erase_if(lobes, [](const ColorLobe& lobe) { return lobe.sharpness > 0.0 && lobe.amplitude == glm::vec3(0.0F); });
+  return lobes;
 }
 
 double value(const std::vector<BrdfLobe>& lobes, double u) {

@@ -52,14 +52,17 @@ std::vector<OptionSpec> option_table() {
           word_option("storage", {"fp32", "fp16"}, "How the amplitudes are stored: 32-bit or 16-bit floats.")};
 }
 
+bool is_tabulated(const Material& material) { return material.microgeometry && material.microgeometry->brdf; }
+
 TableSettings table_settings(const Material& material, const Options& options, const EffectSet& effects) {
-  return {.lobes = static_cast<int>(options.number("j")),
-          .side = static_cast<int>(options.number("directions")),
-          .facets = static_cast<std::size_t>(options.number("facets")),
-          .cosines = options.word("cosines") == "base" ? Cosines::base : Cosines::published,
-          .energy = options.word("energy") == "conserved" ? Energy::conserved : Energy::published,
-          .channels = has(effects, Effect::microgeometry_colour) ? std::size_t{3} : std::size_t{1},
-          .paints = paint_factors(material)};
+  return {
+      .lobes = static_cast<int>(options.number("j")),
+      .side = static_cast<int>(options.number("directions")),
+      .facets = static_cast<std::size_t>(options.number("facets")),
+      .cosines = options.word("cosines") == "published" || is_tabulated(material) ? Cosines::published : Cosines::base,
+      .energy = options.word("energy") == "conserved" ? Energy::conserved : Energy::published,
+      .channels = has(effects, Effect::microgeometry_colour) ? std::size_t{3} : std::size_t{1},
+      .paints = paint_factors(material)};
 }
 
 // Row 0: axis and sharpness of each lobe. Row 1: its share of the normals.
@@ -117,6 +120,18 @@ PrefilteredTexture brdf_texture(const Material& material) {
   return make_texture("iwasaki_brdf", {image}, Storage::fp32, {});
 }
 
+// Sharpness and colour of each lobe of the facets' own BRDF.
+PrefilteredTexture table_texture(const Material& material) {
+  std::vector<ColorLobe> lobes{{0.0, glm::vec3(0.0F)}};
+  if (is_tabulated(material)) lobes = lobes_of(*material.microgeometry->brdf);
+  Image image(static_cast<int>(lobes.size()), 1, 4);
+  for (std::size_t i = 0; i < lobes.size(); ++i) {
+    const glm::vec4 texel(static_cast<float>(lobes[i].sharpness), lobes[i].amplitude);
+    std::copy_n(&texel.x, 4, image.at(static_cast<int>(i), 0).begin());
+  }
+  return make_texture("iwasaki_table", {image}, Storage::fp32, {});
+}
+
 class IwasakiSg final : public Method {
  public:
   [[nodiscard]] const MethodInfo& info() const override { return info_; }
@@ -137,6 +152,10 @@ class IwasakiSg final : public Method {
       out.notes = notes(material, table);
     }
     if (options.word("lobe") == "sg") out.textures.push_back(brdf_texture(material));
+    if (has(effects, Effect::tabulated_brdf)) {
+      out.textures.push_back(table_texture(material));
+      out.scalars["iwasaki_tabulated"] = is_tabulated(material) ? 1.0F : 0.0F;
+    }
     return out;
   }
 

@@ -13,23 +13,23 @@ struct Effective {
 };
 
 //? if microgeometry_visibility
-int lobeCount() { return textureSize(iwasaki_lobes, 0).x; }
+int tableLobes() { return textureSize(iwasaki_lobes, 0).x; }
 vec4 lobeOf(int j) { return texelFetch(iwasaki_lobes, ivec2(j, 0), 0); }   // axis, sharpness
 float shareOf(int j) { return texelFetch(iwasaki_lobes, ivec2(j, 1), 0).x; }
 //? else
 //? if normal_variation
-int lobeCount() { return textureSize(iwasaki_lobes, 0).x; }
+int tableLobes() { return textureSize(iwasaki_lobes, 0).x; }
 vec4 lobeOf(int j) { return texelFetch(iwasaki_lobes, ivec2(j, 0), 0); }
 float shareOf(int j) { return texelFetch(iwasaki_lobes, ivec2(j, 1), 0).x; }
 //? else
 const float flat_sharpness = 1e6;  // `sharpest` of ndf_fit.hpp
-int lobeCount() { return 1; }
+int tableLobes() { return 1; }
 vec4 lobeOf(int j) { return vec4(0.0, 0.0, 1.0, flat_sharpness); }
 float shareOf(int j) { return 1.0; }
 //? end
 //? end
 
-Effective effective(Footprints f) { return Effective(lobeCount()); }
+Effective effective(Footprints f) { return Effective(tableLobes()); }
 
 //? if microgeometry_visibility
 //? include direction_grid.glsl
@@ -103,7 +103,32 @@ float smoothFactor(vec4 lobe, vec3 h, vec3 wi, vec3 wo) {
 //? end
 }
 
+//? if tabulated_brdf
+// Facets that reflect by lobes of their own, in colour; that of sharpness 0 is diffuse (equations 9 and 15 in one). The
+// table has the facets' cosine to the light over that of the surface.
+vec3 tabulatedReflection(Effective e, vec3 wi, vec3 wo) {
+  if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
+  vec3 h = halfVector(wi, wo);
+  TablePlace place = placeOf(wi, wo);
+  int count = textureSize(iwasaki_table, 0).x;
+  vec3 sum = vec3(0.0);
+  for (int j = 0; j < e.count; ++j) {
+    vec4 lobe = lobeOf(j);
+    vec3 reflected = vec3(0.0);
+    for (int s = 0; s < count; ++s) {
+      vec4 brdf = texelFetch(iwasaki_table, ivec2(s, 0), 0);
+      reflected += brdf.yzw * sgConvolution(lobe.xyz, lobe.w, h, brdf.x);
+    }
+    sum += tableAt(j, place) * reflected / sgIntegral(lobe.w);
+  }
+  return sum * max(wi.z, 0.0);
+}
+//? end
+
 vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
+//? if tabulated_brdf
+  if (iwasaki_tabulated > 0.5) return tabulatedReflection(e, wi, wo);
+//? end
   if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
   vec3 h = halfVector(wi, wo);
 //? if microgeometry_visibility
@@ -124,6 +149,9 @@ vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
 
 //? if diffuse
 vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
+//? if tabulated_brdf
+  if (iwasaki_tabulated > 0.5) return vec3(0.0);  // tabulatedReflection has it
+//? end
 //? if microgeometry_visibility
   // The table has the facets' cosines over that of the surface as a whole.
   return lambert(vec3(0.0, 0.0, 1.0), albedo, f0, wi, wo) * tableAt(e.count, placeOf(wi, wo));

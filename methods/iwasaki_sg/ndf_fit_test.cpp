@@ -112,8 +112,8 @@ double fit_error(const std::vector<BrdfLobe>& lobes, const std::function<double(
   return std::sqrt(difference / square);
 }
 
-// Beckmann's and Ward's lobes fall faster than any exponential, the more so the wider they are: no sum of them with
-// positive weights follows.
+// Beckmann's lobe falls faster than any exponential, the more so the wider it is: no sum of them with positive weights
+// follows.
 TEST(BrdfLobes, FollowTheBaseLobes) {
   using std::numbers::pi;
   for (const double alpha : {0.05, 0.15, 0.4}) {
@@ -133,13 +133,26 @@ TEST(BrdfLobes, FollowTheBaseLobes) {
                         }),
               std::max(0.02, 0.5 * alpha * alpha))
         << alpha;
-    EXPECT_LT(fit_error(ward_lobes(alpha),
-                        [a2](double u) {
-                          const double c2 = (1 - u) * (1 - u);
-                          return c2 < 1e-6 ? 0.0 : std::exp(-(1.0 / c2 - 1.0) / a2) / (4.0 * pi * a2);
-                        }),
-              std::max(0.02, 0.5 * alpha * alpha))
-        << alpha;
+  }
+}
+
+// Ward's BRDF from its table: the diffuse term is a lobe of sharpness 0, the rest follows the lobe near normal
+// incidence.
+TEST(BrdfLobes, OfATableFollowIt) {
+  const glm::vec3 diffuse(0.3F, 0.1F, 0.2F), specular(0.2F, 0.5F, 0.0F);
+  constexpr double alpha = 0.2;
+  const TabulatedBrdf table = ward_brdf(diffuse, specular, alpha);
+  const std::vector<ColorLobe> lobes = lobes_of(table);
+  ASSERT_EQ(lobes.front().sharpness, 0.0);
+  EXPECT_NEAR(lobes.front().amplitude.r, diffuse.r / std::numbers::pi, 1e-3);
+  for (const double theta_h : {0.0, 0.05, 0.1, 0.2, 0.3}) {
+    glm::dvec3 sum(0.0);
+    for (const ColorLobe& lobe : lobes) {
+      sum += glm::dvec3(lobe.amplitude) * std::exp(-lobe.sharpness * (1.0 - std::cos(theta_h)));
+    }
+    const glm::dvec3 truth(table.at(theta_h, 0.3, 1.5));
+    const double peak = table.at(0.0, 0.3, 1.5).g;
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], truth[c], 0.1 * peak) << theta_h << " " << c;
   }
 }
 

@@ -28,11 +28,13 @@ enum class Effect : std::size_t {
   point_light,
   spot_light,
   directional_light,
+  cast_shadow,               ///< parts of the scene that stand between others and a light
   microgeometry_visibility,  ///< small-scale geometry whose facets hide and shadow each other
   microgeometry_colour,      ///< small-scale geometry of several colours
+  tabulated_brdf,            ///< facets that reflect as a table says, in place of the base BRDF
 };
 
-inline constexpr std::size_t effect_count = 16;
+inline constexpr std::size_t effect_count = static_cast<std::size_t>(Effect::tabulated_brdf) + 1;
 using EffectSet = std::bitset<effect_count>;
 
 /// The name of an effect as shaders, tables and `explain` write it.
@@ -56,10 +58,12 @@ struct EffectDecision {
   std::string reason;
 };
 
-/// Every effect with its decision, in the order of the enumeration. Pure: looks at the scene's values alone.
+/// Every effect with its decision, in the order of the enumeration. Pure: looks at the scene's values alone. Takes a
+/// moment where rays have to tell whether anything casts a shadow. Errors (machine): memory is out.
 [[nodiscard]] std::vector<EffectDecision> derive_effects(const Scene& scene);
 
-/// All effects but those of small-scale geometry: what a method can honour that knows a surface by its maps alone.
+/// All effects but those of small-scale geometry and its BRDF: what a method can honour that knows a surface by its
+/// maps alone.
 [[nodiscard]] EffectSet effects_of_maps();
 
 /// The effects that are on.

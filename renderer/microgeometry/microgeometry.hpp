@@ -2,9 +2,11 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <memory>
 
 #include "renderer/image/image.hpp"
 #include "renderer/microgeometry/patch.hpp"
+#include "renderer/microgeometry/tabulated_brdf.hpp"
 
 namespace footprint {
 
@@ -12,7 +14,8 @@ namespace footprint {
 /// the patch's colours out has the right mean.
 struct Microgeometry {
   Patch patch;
-  glm::vec3 mean_color{1.0F};  ///< of what is seen from straight above
+  glm::vec3 mean_color{1.0F};                   ///< of what is seen from straight above
+  std::shared_ptr<const TabulatedBrdf> brdf{};  ///< of the facets, diffuse light and all; null: the material's own
 };
 
 /// A patch as it is seen from straight above, size x size texels over its period.

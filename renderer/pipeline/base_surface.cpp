@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "renderer/microgeometry/microgeometry.hpp"
 #include "renderer/pipeline/patch_facets.hpp"
 
 namespace footprint {
@@ -48,6 +49,10 @@ class BaseSurface final : public Method {
       std::ranges::move(patch_facet_textures(material, progress), std::back_inserter(out.textures));
       out.scalars["base_has_patch"] = material.microgeometry ? 1.0F : 0.0F;
     }
+    if (has(effects, Effect::tabulated_brdf)) {
+      out.textures.push_back(tabulated_brdf_texture(material));
+      out.scalars["base_has_table"] = material.microgeometry && material.microgeometry->brdf ? 1.0F : 0.0F;
+    }
     return out;
   }
 
@@ -87,6 +92,16 @@ Image roughness_map_of(const Material& material) {
   }
   const bool own_lobe = material.lobe_parameter || !material.lobes.empty();
   return Image(1, 1, 1, own_lobe ? roughness_from_lobe(distribution, lobe_parameter(material)) : material.roughness);
+}
+
+Image lobe_parameter_map_of(const Material& material) {
+  if (width_map(material) == nullptr) return Image(1, 1, 1, lobe_parameter(material));
+  if (material.lobe_parameter_map) return *material.lobe_parameter_map->image;
+  Image lobes = roughness_map_of(material);
+  std::ranges::transform(lobes.texels, lobes.texels.begin(), [&](float roughness) {
+    return lobe_from_alpha(material.brdf.distribution, roughness * roughness);
+  });
+  return lobes;
 }
 
 Image metallic_map_of(const Material& material) {

@@ -115,6 +115,10 @@ std::vector<PaintFactors> paint_factors(const Material& material) {
   const glm::vec3 own = glm::max(reflectance(material, base), least);
   std::vector<PaintFactors> factors;
   for (const glm::vec3& paint : material.microgeometry->patch.palette) {
+    if (material.microgeometry->brdf) {
+      factors.push_back({paint, paint});
+      continue;
+    }
     factors.push_back({reflectance(material, base * paint / mean) / own, paint / mean});
   }
   return factors;
@@ -138,6 +142,25 @@ std::vector<PrefilteredTexture> patch_facet_textures(const Material& material, c
       make_texture("base_paints", {paint_image(paint_factors(material))}, Storage::fp32, {})};
   textures[2].filter = TextureFilter::linear;
   return textures;
+}
+
+PrefilteredTexture tabulated_brdf_texture(const Material& material) {
+  std::vector<std::vector<Image>> layers;
+  if (material.microgeometry && material.microgeometry->brdf) {
+    const std::vector<glm::vec3>& values = material.microgeometry->brdf->values;
+    constexpr int width = TabulatedBrdf::theta_d_cells, height = TabulatedBrdf::theta_h_cells;
+    for (int p = 0; p < TabulatedBrdf::phi_d_cells; ++p) {
+      Image image(width, height, 3);
+      for (int i = 0; i < width * height; ++i) {
+        const glm::vec3& value = values[static_cast<std::size_t>(i * TabulatedBrdf::phi_d_cells + p)];
+        std::copy_n(&value.x, 3, image.texels.begin() + static_cast<std::ptrdiff_t>(3 * i));
+      }
+      layers.push_back({std::move(image)});
+    }
+  } else {
+    layers.push_back({Image(1, 1, 3)});
+  }
+  return make_array_texture("base_table", layers, Storage::fp32, {});
 }
 
 }  // namespace footprint

@@ -7,6 +7,7 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/scene/gltf_model.hpp"
+#include "renderer/scene/merl_file.hpp"
 
 namespace footprint {
 namespace {
@@ -40,6 +41,14 @@ Patch patch_of_model(const MicrogeometrySettings& settings) {
   return patch;
 }
 
+// What the facets reflect by, where it is not the material's base BRDF.
+std::shared_ptr<const TabulatedBrdf> brdf_of(const MicrogeometrySettings& settings) {
+  if (settings.measured) return std::make_shared<const TabulatedBrdf>(read_merl(*settings.measured));
+  if (!settings.ward) return nullptr;
+  const WardSettings& ward = *settings.ward;
+  return std::make_shared<const TabulatedBrdf>(ward_brdf(ward.diffuse, ward.specular, ward.alpha));
+}
+
 }  // namespace
 
 MicrogeometryContent load_microgeometry(const MicrogeometrySettings& settings) {
@@ -47,7 +56,7 @@ MicrogeometryContent load_microgeometry(const MicrogeometrySettings& settings) {
                                          : patch_of_model(settings);
   check_patch(patch, settings.kind != nullptr ? "[microgeometry]" : settings.model.string());
   PatchMaps maps = patch_maps(patch, settings.resolution);
-  return {std::make_shared<const Microgeometry>(Microgeometry{std::move(patch), maps.mean_color}),
+  return {std::make_shared<const Microgeometry>(Microgeometry{std::move(patch), maps.mean_color, brdf_of(settings)}),
           std::make_shared<const Image>(std::move(maps.normals))};
 }
 

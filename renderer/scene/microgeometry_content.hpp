@@ -5,7 +5,7 @@
 
 #include "renderer/microgeometry/microgeometry.hpp"
 #include "renderer/scene/material.hpp"
-#include "renderer/scene/scene_settings.hpp"
+#include "renderer/scene/part_settings.hpp"
 
 namespace footprint {
 

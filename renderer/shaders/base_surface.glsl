@@ -1,16 +1,11 @@
 // The base BRDF itself: what the reference averages, and `direct` shades once a pixel.
 //? if microgeometry_visibility
 //? include patch_facets.glsl
+//? else
+//? include facets_module.glsl
 //? end
 
-struct Effective {
-  Facets facets;
-//? if microgeometry_visibility
-  FacetDraw draw;
-//? end
-};
-
-Facets texelFacets(Footprints f) {
+Effective effective(Footprints f) {
 //? if normal_variation
   vec4 texel = fetchFinest(base_normal, f.normal);
 //? if not sampling_frame
@@ -29,36 +24,9 @@ Facets texelFacets(Footprints f) {
 //? else
   float lobe = lobe_cutoff.x;
 //? end
-  return evenFacets(normal, lobe);
-}
-
-Effective effective(Footprints f) {
-  Effective e;
-  e.facets = texelFacets(f);
 //? if microgeometry_visibility
-//? if sample_draws
-  e.draw = FacetDraw(texel_draw);
+  return Effective(evenFacets(normal, lobe), drawnFacets());
 //? else
-  e.draw = FacetDraw(vec2(0.5));
+  return Effective(evenFacets(normal, lobe));
 //? end
-//? end
-  return e;
 }
-
-vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
-//? if microgeometry_visibility
-  if (base_has_patch > 0.5) return patchSpecular(e.draw, f0, wi, wo);
-//? end
-  return facetSpecular(e.facets, f0, wi, wo);
-}
-
-//? if diffuse
-vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
-//? if microgeometry_visibility
-  if (base_has_patch > 0.5) return patchDiffuse(e.draw, albedo, f0, wi, wo);
-//? end
-  return lambert(e.facets.normal, albedo, f0, wi, wo);
-}
-//? end
-
-float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }

@@ -13,6 +13,14 @@ struct FacetDraw {
   vec2 random;
 };
 
+FacetDraw drawnFacets() {
+//? if sample_draws
+  return FacetDraw(texel_draw);
+//? else
+  return FacetDraw(vec2(0.5));
+//? end
+}
+
 int drawnFacet(FacetDraw draw, int k) {
   ivec2 size = textureSize(base_facets, 0);
   int share = size.x * size.y / facets_per_sample;
@@ -50,6 +58,24 @@ float visibleArea(vec3 wo) {
 
 const float least_visible_area = 1e-6;
 
+//? if tabulated_brdf
+const float largest_cell_shift = 0.99999;
+
+// The cell of a MERL table (Matusik et al. 2003) about a normal: twin of TabulatedBrdf::at.
+vec3 tabulatedBrdf(vec3 n, vec3 wi, vec3 wo) {
+  if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
+  vec3 h = halfVector(wi, wo);
+  vec3 up = n - h * dot(n, h);
+  vec3 side = wi - h * dot(wi, h);
+  float theta_h = atan(length(cross(n, h)), dot(n, h));
+  float theta_d = atan(length(side), dot(wi, h));
+  float lengths = length(up) * length(side);
+  float phi_d = lengths > 1e-12 ? acos(clamp(-dot(up, side) / lengths, -1.0, 1.0)) : 0.0;
+  vec3 share = vec3(theta_d / (0.5 * pi), sqrt(max(theta_h, 0.0) / (0.5 * pi)), phi_d / pi);
+  return texelFetch(base_table, ivec3(min(share, largest_cell_shift) * vec3(textureSize(base_table, 0))), 0).rgb;
+}
+//? end
+
 vec3 patchSpecular(FacetDraw draw, vec3 f0, vec3 wi, vec3 wo) {
   float area = visibleArea(wo);
   if (area < least_visible_area) return vec3(0.0);
@@ -58,7 +84,14 @@ vec3 patchSpecular(FacetDraw draw, vec3 f0, vec3 wi, vec3 wo) {
     float paint;
     vec4 normal = drawnNormal(draw, k, wi, wo, paint);
     if (normal.w == 0.0) continue;
-    vec3 own = f0 * texelFetch(base_paints, ivec2(int(paint), 0), 0).rgb;
+    vec3 factor = texelFetch(base_paints, ivec2(int(paint), 0), 0).rgb;
+//? if tabulated_brdf
+    if (base_has_table > 0.5) {
+      sum += normal.w * dot(normal.xyz, wi) * factor * tabulatedBrdf(normal.xyz, wi, wo);
+      continue;
+    }
+//? end
+    vec3 own = f0 * factor;
     sum += normal.w * facetSpecular(evenFacets(normal.xyz, lobe_cutoff.x), own, wi, wo);
   }
   return sum / (float(facets_per_sample) * area);
@@ -66,6 +99,9 @@ vec3 patchSpecular(FacetDraw draw, vec3 f0, vec3 wi, vec3 wo) {
 
 //? if diffuse
 vec3 patchDiffuse(FacetDraw draw, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
+//? if tabulated_brdf
+  if (base_has_table > 0.5) return vec3(0.0);  // the table has it
+//? end
   float area = visibleArea(wo);
   if (area < least_visible_area) return vec3(0.0);
   vec3 sum = vec3(0.0);
@@ -79,3 +115,22 @@ vec3 patchDiffuse(FacetDraw draw, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
   return sum / (float(facets_per_sample) * area);
 }
 //? end
+
+// A material of the scene may have no patch: its facets are those of a texel.
+struct Effective {
+  Facets facets;
+  FacetDraw draw;
+};
+
+vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
+  return base_has_patch > 0.5 ? patchSpecular(e.draw, f0, wi, wo) : facetSpecular(e.facets, f0, wi, wo);
+}
+
+//? if diffuse
+vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
+  if (base_has_patch > 0.5) return patchDiffuse(e.draw, albedo, f0, wi, wo);
+  return lambert(e.facets.normal, albedo, f0, wi, wo);
+}
+//? end
+
+float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }

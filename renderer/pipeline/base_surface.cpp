@@ -26,6 +26,18 @@ Image one_channel(const Image& image, int channel) {
   return out;
 }
 
+// Slope variance per axis of all lobes together, about the facet's normal: each lobe's own, and what its axis leans by.
+float variance_about_normal(const Material& material) {
+  float weight = 0.0F;
+  float variance = 0.0F;
+  for (const FacetLobe& lobe : material.lobes) {
+    const float leaning = 0.5F * glm::dot(glm::vec2(lobe.axis), glm::vec2(lobe.axis)) / (lobe.axis.z * lobe.axis.z);
+    weight += lobe.weight;
+    variance += lobe.weight * (lobe_variance(material.brdf.distribution, lobe.parameter) + leaning);
+  }
+  return variance / weight;
+}
+
 class BaseSurface final : public Method {
  public:
   [[nodiscard]] const MethodInfo& info() const override { return info_; }
@@ -121,15 +133,7 @@ TextureCoordinates specular_coordinates(const Material& material) {
 float lobe_parameter(const Material& material) {
   const NormalDistribution distribution = material.brdf.distribution;
   if (material.lobe_parameter) return *material.lobe_parameter;
-  if (!material.lobes.empty()) {
-    float weight = 0.0F;
-    float variance = 0.0F;
-    for (const FacetLobe& lobe : material.lobes) {
-      weight += lobe.weight;
-      variance += lobe.weight * lobe_variance(distribution, lobe.parameter);
-    }
-    return lobe_from_variance(distribution, variance / weight);
-  }
+  if (!material.lobes.empty()) return lobe_from_variance(distribution, variance_about_normal(material));
   const TextureMap* const map = width_map(material);
   if (map != nullptr && material.lobe_parameter_map) return map->image->texels.front();
   const float roughness = map != nullptr ? map->image->texels.front() : material.roughness;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -78,18 +79,24 @@ class BuiltMap {
   void run(const GpuBatch& batch) const {
     constexpr GLbitfield whole = GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT;
     gl::api().MemoryBarrier(whole);
-    build_->run(batch, textures_);
+    const View view{};
+    build_->run({.batch = batch,
+                 .vertex_array = batch.vertex_array.name(),
+                 .baked = baked_,
+                 .textures = textures_,
+                 .view = view});
     gl::api().MemoryBarrier(whole | GL_TEXTURE_FETCH_BARRIER_BIT);
   }
 
   [[nodiscard]] const GpuBatch& batch() const { return scene_.batches().front(); }
   [[nodiscard]] const Prefiltered& baked() const { return baked_; }
 
-  // One level of all layers, layer after layer below each other.
-  [[nodiscard]] Image level(std::size_t index) const {
-    const PrefilteredTexture& map = baked_.textures.front();
-    Image out(map.levels.at(index).width, map.levels.at(index).height * map.layers, 4);
-    gl::api().GetTextureImage(textures_.front().texture.name(), static_cast<GLint>(index), GL_RGBA, GL_FLOAT,
+  // One level of all layers of a texture, layer after layer below each other.
+  [[nodiscard]] Image level(std::string_view name, std::size_t index) const {
+    const auto found = std::ranges::find(baked_.textures, name, &PrefilteredTexture::name);
+    Image out(found->levels.at(index).width, found->levels.at(index).height * found->layers, found->channels);
+    gl::api().GetTextureImage(textures_.at(static_cast<std::size_t>(found - baked_.textures.begin())).texture.name(),
+                              static_cast<GLint>(index), found->channels == 4 ? GL_RGBA : GL_RED, GL_FLOAT,
                               static_cast<GLsizei>(out.texels.size() * sizeof(float)), out.texels.data());
     shared_context().check("reading a map");
     return out;
@@ -277,46 +284,70 @@ struct MapCase {
 
 class XuMap : public ::testing::TestWithParam<MapCase> {};
 
-// Every level of every layer of a map of odd sizes with holes and a roughness map: the mean of (r, 1) over the texels
-// under it, so that (xyz / w) is the mean of the covered ones.
-TEST_P(XuMap, HoldsTheMeansOfTheCoveredTexels) {
-  const auto& [j, azimuth] = GetParam();
+Image checked_normals() {
   Image normals = random_normals(13, 7, 0.9F, 11);
   for (int x = 0; x < 5; ++x) normals.at(x, 3)[3] = 0.0F;
   std::ranges::fill(normals.at(6, 2), 0.0F);
-  Image roughness(13, 7, 1);
-  for (std::size_t i = 0; i < roughness.texels.size(); ++i)
-    roughness.texels[i] = 0.2F + 0.7F * static_cast<float>(i % 9) / 9.0F;
-  const Material material = material_with_roughness(normals, roughness);
-  const BuiltMap map(material, {{"j", j}, {"partition", azimuth ? "azimuth" : "latitude"}});
-  const int layers = map.baked().textures.front().layers;
-  std::vector<Image> finest(static_cast<std::size_t>(layers), Image(13, 7, 4, 0.0F));
-  for (int y = 0; y < 7; ++y) {
-    for (int x = 0; x < 13; ++x) {
+  return normals;
+}
+
+// (r, 1) of the texels of a map with a roughness map: of all, and of those whose lobes lie in each of 8 cells.
+std::vector<Image> finest_twin(const Image& normals, const Image& roughness, bool azimuth) {
+  std::vector<Image> out(9, Image(normals.width, normals.height, 4, 0.0F));
+  for (int y = 0; y < normals.height; ++y) {
+    for (int x = 0; x < normals.width; ++x) {
       const auto texel = normals.at(x, y);
       if (texel[3] < 0.5F) continue;
       const glm::dvec3 n = glm::normalize(glm::dvec3(texel[0], texel[1], texel[2]));
       const double alpha = std::pow(roughness.at(x, y)[0], 2.0);
       const glm::dvec3 r = (1.0 - shortfall_twin(2.0 / (alpha * alpha) - 1.0)) * n;  // kappa = s + 1
-      const int cell = cell_twin(n, azimuth);
-      for (int layer = 0; layer < layers; ++layer) {
-        const bool in = layers == 9 ? layer == 0 || layer == 1 + cell : cell * layers / 8 == layer;
-        if (!in) continue;
-        const auto out = finest[static_cast<std::size_t>(layer)].at(x, y);
-        for (int c = 0; c < 3; ++c) out[static_cast<std::size_t>(c)] = static_cast<float>(r[c]);
-        out[3] = 1.0F;
+      for (const std::size_t layer : {0, 1 + cell_twin(n, azimuth)}) {
+        const auto value = out[layer].at(x, y);
+        for (int c = 0; c < 3; ++c) value[static_cast<std::size_t>(c)] = static_cast<float>(r[c]);
+        value[3] = 1.0F;
       }
     }
   }
-  for (int layer = 0; layer < layers; ++layer) {
-    const std::vector<Image> expected = mip_chain(finest[static_cast<std::size_t>(layer)]);
-    for (std::size_t level = 0; level < expected.size(); ++level) {
-      const Image got = map.level(level);
-      const Image& want = expected[level];
+  return out;
+}
+
+void expect_levels(const BuiltMap& map, std::string_view name, const std::vector<Image>& layers, std::size_t first,
+                   float tolerance) {
+  for (std::size_t layer = 0; layer < layers.size(); ++layer) {
+    const std::vector<Image> chain = mip_chain(layers[layer]);
+    for (std::size_t level = first; level < chain.size(); ++level) {
+      const Image got = map.level(name, level - first);
+      const Image& want = chain[level];
       for (std::size_t i = 0; i < want.texels.size(); ++i)
-        EXPECT_NEAR(got.texels[static_cast<std::size_t>(layer) * want.texels.size() + i], want.texels[i], 1e-5F)
-            << layer << ", " << level;
+        EXPECT_NEAR(got.texels[layer * want.texels.size() + i], want.texels[i], tolerance) << layer << ", " << level;
     }
+  }
+}
+
+// Every level of every layer of a map of odd sizes with holes and a roughness map: the mean of (r, 1) over the texels
+// under it, so that (xyz / w) is the mean of the covered ones.
+TEST_P(XuMap, HoldsTheMeansOfTheCoveredTexels) {
+  const auto& [j, azimuth] = GetParam();
+  const Image normals = checked_normals();
+  Image roughness(13, 7, 1);
+  for (std::size_t i = 0; i < roughness.texels.size(); ++i)
+    roughness.texels[i] = 0.2F + 0.7F * static_cast<float>(i % 9) / 9.0F;
+  const Words words{{"j", j}, {"partition", azimuth ? "azimuth" : "latitude"}};
+  const std::vector<Image> finest = finest_twin(normals, roughness, azimuth);
+  std::vector<Image> parts(finest.begin() + 1, finest.end());
+  if (j == "4") {
+    for (std::size_t i = 0; i < 4; ++i) {
+      std::ranges::transform(parts[2 * i].texels, parts[2 * i + 1].texels, parts[i].texels.begin(), std::plus());
+    }
+    parts.resize(4);
+  }
+  for (const bool half : {false, true}) {
+    Words stored = words;
+    if (half) stored["storage"] = "fp16";
+    const BuiltMap map(material_with_roughness(normals, roughness), stored);
+    const float tolerance = half ? 1e-3F : 1e-5F;  // rounded to half floats at each of 3 levels
+    if (j == "1" || j == "adaptive") expect_levels(map, "xu_vmf_whole", {finest[0]}, 0, tolerance);
+    if (j != "1") expect_levels(map, "xu_vmf_parts", parts, 1, tolerance);
   }
 }
 
@@ -408,10 +439,10 @@ TEST(XuFrameBuild, AChangedBrdfGivesTheMapOfAColdStart) {
   const Image normals = random_normals(9, 6, 0.5F, 13);
   const BuiltMap sharp(material_of(normals, 400));
   const BuiltMap broad(material_of(normals, 20));
-  const Image cold = sharp.level(2);
-  EXPECT_NE(broad.level(2), cold);
+  const Image cold = sharp.level("xu_vmf_parts", 1);
+  EXPECT_NE(broad.level("xu_vmf_parts", 1), cold);
   broad.run(sharp.batch());
-  EXPECT_EQ(broad.level(2), cold);
+  EXPECT_EQ(broad.level("xu_vmf_parts", 1), cold);
 }
 
 TEST(XuFrameBuild, JoinsMapsOfDifferentSizesAndSaysWhereItCannot) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <ranges>
 
+#include "renderer/visibility/cast_shadows.hpp"
+
 namespace footprint {
 namespace {
 
@@ -23,7 +25,8 @@ constexpr std::array<std::string_view, effect_count> names{"diffuse",
                                                            "double_sided",
                                                            "point_light",
                                                            "spot_light",
-                                                           "directional_light"};
+                                                           "directional_light",
+                                                           "cast_shadow"};
 
 // Smaller than any step of an 8-bit map; larger than what decoding one leaves in 32 bits.
 constexpr float constant_tolerance = 1e-5F;
@@ -85,6 +88,23 @@ EffectDecision lights(Effect effect, const Scene& scene, std::string_view word) 
           n > 0 ? fmt::format("{} {} light{}", n, word, n == 1 ? "" : "s") : fmt::format("no {} light", word)};
 }
 
+EffectDecision cast_shadow(const Scene& scene) {
+  const auto off = [](std::string_view reason) {
+    return EffectDecision{Effect::cast_shadow, false, std::string(reason)};
+  };
+  if (scene.lights.empty()) return off("no light that could cast one");
+  if (scene.shadows.cast) {
+    return *scene.shadows.cast ? EffectDecision{Effect::cast_shadow, true, "switched on by the scene"}
+                               : off("switched off by the scene");
+  }
+  const std::vector<bool> casting = lights_casting_shadows(scene, Occluders(scene));
+  const auto n = std::ranges::count(casting, true);
+  if (n == 0) return off("nothing stands between a surface and a light");
+  return {Effect::cast_shadow, true,
+          fmt::format("{} of {} light{}: something stands before a surface", n, casting.size(),
+                      casting.size() == 1 ? "" : "s")};
+}
+
 }  // namespace
 
 std::string_view effect_name(Effect effect) { return names.at(static_cast<std::size_t>(effect)); }
@@ -132,6 +152,7 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
       lights<PointLight>(Effect::point_light, scene, "point"),
       lights<SpotLight>(Effect::spot_light, scene, "spot"),
       lights<DirectionalLight>(Effect::directional_light, scene, "directional"),
+      cast_shadow(scene),
   };
 }
 

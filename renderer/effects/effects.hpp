@@ -28,9 +28,10 @@ enum class Effect : std::size_t {
   point_light,
   spot_light,
   directional_light,
+  cast_shadow,  ///< parts of the scene that stand between others and a light
 };
 
-inline constexpr std::size_t effect_count = 14;
+inline constexpr std::size_t effect_count = static_cast<std::size_t>(Effect::cast_shadow) + 1;
 using EffectSet = std::bitset<effect_count>;
 
 /// The name of an effect as shaders, tables and `explain` write it.
@@ -54,7 +55,8 @@ struct EffectDecision {
   std::string reason;
 };
 
-/// Every effect with its decision, in the order of the enumeration. Pure: looks at the scene's values alone.
+/// Every effect with its decision, in the order of the enumeration. Pure: looks at the scene's values alone. Takes a
+/// moment where rays have to tell whether anything casts a shadow. Errors (machine): memory is out.
 [[nodiscard]] std::vector<EffectDecision> derive_effects(const Scene& scene);
 
 /// The effects that are on.

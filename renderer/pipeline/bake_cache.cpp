@@ -156,7 +156,7 @@ std::optional<fs::path> default_cache_folder() {
     if (value == nullptr || *value == '\0') return {};
     return fs::path(value);
   };
-  if (const auto own = variable("FOOTPRINT_CACHE")) return own;
+  if (auto own = variable("FOOTPRINT_CACHE")) return own;
   if (const auto shared = variable("XDG_CACHE_HOME")) return *shared / "footprint";
   if (const auto home = variable("HOME")) return *home / ".cache" / "footprint";
   return {};

@@ -83,6 +83,7 @@ Scene assemble_scene(const SceneSettings& settings, const std::string& name, con
   scene.bounds = bounds_of(scene.meshes);
   scene.frame_size = settings.frame_size;
   scene.distances = settings.distances;
+  scene.shadows = settings.shadows;
   set_camera(settings, model.camera, scene);
   set_lights(settings, std::move(model.lights), scene);
   return scene;

@@ -73,22 +73,23 @@ Model load_content(const PlaneSettings& settings) {
 bool has_own_lobes(const Material& material) { return material.lobe_parameter_map || !material.lobes.empty(); }
 
 Material surface_material(const SurfaceContent& content) {
-  const auto& [surface, settings] = content;
+  const Surface& surface = *content.surface;
+  const SurfaceSettings& settings = content.settings;
   Material material;
-  material.name = surface->name;
+  material.name = surface.name;
   material.roughness = 0.5F;
   material.metallic = 0.0F;
-  material.normal_map = make_map(surface->name, surface_normals(*surface, settings));
-  const glm::vec2 uv = surface->map_tiling != nullptr ? surface->map_tiling(settings) : glm::vec2(1.0F);
+  material.normal_map = make_map(surface.name, surface_normals(surface, settings));
+  const glm::vec2 uv = surface.map_tiling != nullptr ? surface.map_tiling(settings) : glm::vec2(1.0F);
   const auto lay = [&](std::optional<TextureMap>& map, Image image) {
-    if (!image.empty()) map = make_map(surface->name, std::move(image), uv);
+    if (!image.empty()) map = make_map(surface.name, std::move(image), uv);
   };
-  lay(material.base_color_map, surface_base_color(*surface, settings));
-  lay(material.specular_map, surface_specular(*surface, settings));
+  lay(material.base_color_map, surface_base_color(surface, settings));
+  lay(material.specular_map, surface_specular(surface, settings));
   if (material.specular_map) material.dielectric_specular = glm::vec3(1.0F);
-  lay(material.lobe_parameter_map, surface_lobe_parameter(*surface, settings));
-  if (surface->lobes != nullptr) material.lobes = surface->lobes(settings);
-  if (has_own_lobes(material)) material.brdf.distribution = surface->distribution;
+  lay(material.lobe_parameter_map, surface_lobe_parameter(surface, settings));
+  if (surface.lobes != nullptr) material.lobes = surface.lobes(settings);
+  if (has_own_lobes(material)) material.brdf.distribution = surface.distribution;
   return material;
 }
 

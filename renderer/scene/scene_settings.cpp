@@ -16,6 +16,7 @@ namespace {
 
 constexpr NumberRange intensity{0.0, 1e12};       // candela or lux
 constexpr NumberRange field_of_view{0.1, 170.0};  // degrees
+constexpr NumberRange shadow_resolution{smallest_shadow_map, largest_shadow_map};
 
 const std::vector<std::string> light_types{"point", "spot", "directional"};
 
@@ -103,6 +104,12 @@ void read_lights(const TomlTable& root, SceneSettings& settings) {
   if (const auto lights = root.table("lights", {"keep"})) {
     settings.keep_model_lights = lights->boolean("keep").value_or(true);
   }
+  if (const auto shadows = root.table("shadows", {"cast", "resolution"})) {
+    settings.shadows.cast = shadows->boolean("cast");
+    if (const auto texels = shadows->whole_number("resolution", shadow_resolution)) {
+      settings.shadows.resolution = static_cast<int>(*texels);
+    }
+  }
 }
 
 void read_view(const TomlTable& root, SceneSettings& settings) {
@@ -137,7 +144,7 @@ CameraSettings read_camera(const TomlTable& table) {
 
 SceneSettings read_scene_settings(const std::filesystem::path& file, std::span<const Surface> surfaces) {
   const toml::table parsed = parse_toml_file(file);
-  std::vector<std::string> known{"scene", "frame", "light", "lights", "camera", "zoom"};
+  std::vector<std::string> known{"scene", "frame", "light", "lights", "shadows", "camera", "zoom"};
   known.insert(known.end(), part_root_keys().begin(), part_root_keys().end());
   const TomlTable root(parsed, file, "", known);
   SceneSettings settings;

@@ -27,6 +27,7 @@ struct SceneSettings {
   bool automatic_exposure = false;  ///< asked for by name, also with the supplied lights
   std::vector<Light> lights;
   bool keep_model_lights = true;
+  ShadowSettings shadows;
   CameraSettings camera;
   std::vector<double> distances{1.0};
 };

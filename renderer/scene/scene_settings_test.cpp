@@ -60,6 +60,9 @@ outer_cone_degrees = 90
 [[light]]
 type = "directional"
 direction = [0, -3, 0]
+[shadows]
+cast = false
+resolution = 512
 [camera]
 frame_bounds = { direction = [0, 0, 2], fov_degrees = 90, margin = 2 }
 [zoom]
@@ -95,6 +98,8 @@ uv = [2, 3]
   EXPECT_FLOAT_EQ(spot.inner_cone_angle, std::numbers::pi_v<float> / 18.0F);
   EXPECT_FLOAT_EQ(spot.outer_cone_angle, std::numbers::pi_v<float> / 2.0F);
   EXPECT_EQ(std::get<DirectionalLight>(settings.lights[2]).direction, glm::vec3(0, -1, 0));
+  EXPECT_EQ(settings.shadows.cast, false);
+  EXPECT_EQ(settings.shadows.resolution, 512);
   const auto& framing = std::get<Framing>(settings.camera);
   EXPECT_EQ(framing.direction, glm::dvec3(0, 0, 1));
   EXPECT_FLOAT_EQ(static_cast<float>(framing.yfov), std::numbers::pi_v<float> / 2.0F);
@@ -115,6 +120,17 @@ TEST(SceneSettings, PlacedCameraAndAutomaticExposure) {
   EXPECT_FLOAT_EQ(camera.yfov, std::numbers::pi_v<float> / 3.0F);
   EXPECT_EQ(camera.znear, 0.5F);
   EXPECT_EQ(camera.zfar, 20.0F);
+}
+
+TEST(SceneSettings, ShadowsAreDerivedUnlessTold) {
+  EXPECT_FALSE(read("[plane]\n").shadows.cast);
+  EXPECT_FALSE(read("[plane]\n[shadows]\n").shadows.cast);
+  EXPECT_EQ(read("[plane]\n[shadows]\ncast = true\n").shadows.cast, true);
+  expect_error("[plane]\n[shadows]\ncast = \"on\"\n", {"scene.toml:3", "cast"});
+  expect_error("[plane]\n[shadows]\ncasts = true\n", {"scene.toml:3", "unknown key `casts`", "`cast`"});
+  expect_error("[plane]\n[shadows]\nresolution = 15\n", {"scene.toml:3", "resolution", "16"});
+  expect_error("[plane]\n[shadows]\nresolution = 100000\n", {"scene.toml:3", "resolution", "16384"});
+  expect_error("[plane]\n[shadows]\nresolution = 64.5\n", {"scene.toml:3", "resolution"});
 }
 
 TEST(SceneSettings, UnknownKeysNameLineAndNeighbour) {

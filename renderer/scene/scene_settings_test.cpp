@@ -168,7 +168,7 @@ TEST(SceneSettings, WrongTypesAndRangesNameTheirLine) {
 TEST(SceneSettings, WhatExcludesOrNeedsEachOther) {
   const std::string plane = "[plane]\n";
   expect_error("[zoom]\ndistances = [1]\n", {"`model` or `plane`"});
-  expect_error("[plane]\n[model]\nfile = \"a.gltf\"\n", {"only one"});
+  expect_error("[plane]\n[model]\nfile = \"a.gltf\"\n", {"excludes `model`"});
   expect_error("[model]\n", {"scene.toml:1", "`files`"});
   expect_error("[model]\nfile = \"a.gltf\"\nfiles = [\"b.gltf\"]\n", {"only one"});
   expect_error("[model]\nfiles = [1]\n", {"scene.toml:2", "list of strings"});

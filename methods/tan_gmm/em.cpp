@@ -11,19 +11,24 @@
 namespace footprint::tan_gmm {
 namespace {
 
-// The terms of the log densities. A component of no weight is far below any density of a sample: its share is 0.
-Terms terms_of(std::span<const Gaussian> mixture) {
-  constexpr float never = -1e9F;
+// The components that have weight, in their order; the others have no share in any sample.
+struct Present {
   Terms terms;
-  for (std::size_t i = 0; i < mixture.size(); ++i) {
-    const Gaussian& g = mixture[i];
-    terms.x[i] = g.x;
-    terms.y[i] = g.y;
-    terms.constant[i] = g.alpha > 0.0F ? std::log(g.alpha / (2.0F * std::numbers::pi_v<float> * g.variance)) : never;
-    terms.factor[i] = 0.5F / g.variance;
+  std::array<std::size_t, most_components> index{};  // in the mixture
+  std::size_t count = 0;
+
+  explicit Present(std::span<const Gaussian> mixture) {
+    for (std::size_t i = 0; i < mixture.size(); ++i) {
+      const Gaussian& g = mixture[i];
+      if (g.alpha <= 0.0F) continue;
+      terms.x[count] = g.x;
+      terms.y[count] = g.y;
+      terms.constant[count] = std::log(g.alpha / (2.0F * std::numbers::pi_v<float> * g.variance));
+      terms.factor[count] = 0.5F / g.variance;
+      index[count++] = i;
+    }
   }
-  return terms;
-}
+};
 
 }  // namespace
 
@@ -45,18 +50,20 @@ double Prior::log_density(std::size_t i, double x, double y) const {
 }
 
 Expectation expectation(const Samples& samples, std::span<const Gaussian> mixture) {
-  const Sums sums = sums_over(samples, terms_of(mixture), mixture.size());
+  const Present present(mixture);
   Expectation e;
+  if (present.count == 0) return e;
+  const Sums sums = sums_over(samples, present.terms, present.count);
   e.log_likelihood = sums.log_likelihood;
-  for (std::size_t i = 0; i < mixture.size(); ++i) {
-    Moments& m = e.moments[i];
-    m.weight = sums.weight[i];
-    if (m.weight <= 0) continue;
-    const double dx = sums.dx[i] / m.weight;
-    const double dy = sums.dy[i] / m.weight;
-    m.x = mixture[i].x + dx;
-    m.y = mixture[i].y + dy;
-    m.scatter = std::max(sums.square[i] - m.weight * (dx * dx + dy * dy), 0.0);
+  for (std::size_t k = 0; k < present.count; ++k) {
+    if (sums.weight[k] <= 0) continue;
+    const Gaussian& g = mixture[present.index[k]];
+    const double dx = sums.dx[k] / sums.weight[k];
+    const double dy = sums.dy[k] / sums.weight[k];
+    e.moments[present.index[k]] = {.weight = sums.weight[k],
+                                   .x = g.x + dx,
+                                   .y = g.y + dy,
+                                   .scatter = std::max(sums.square[k] - sums.weight[k] * (dx * dx + dy * dy), 0.0)};
   }
   return e;
 }

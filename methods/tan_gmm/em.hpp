@@ -60,8 +60,9 @@ struct Expectation {
   double log_likelihood = 0;  ///< of the mixture that the responsibilities are taken from
 };
 
-/// The E-step, with responsibilities by log-sum-exp. `samples` and `mixture` are not empty. A sample with a spread
-/// counts as its points would with the mean of their log densities (Verbeek, Nunnink, Vlassis 2006).
+/// The E-step, with responsibilities by log-sum-exp. `samples` is not empty, and a component has an alpha above 0. A
+/// sample with a spread counts as its points would with the mean of their log densities (Verbeek, Nunnink, Vlassis
+/// 2006).
 [[nodiscard]] Expectation expectation(const Samples& samples, std::span<const Gaussian> mixture);
 
 /// The M-step. alpha = sum / M; mu with the variance before the step; then sigma^2 per axis about the new mean, with

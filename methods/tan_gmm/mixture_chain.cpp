@@ -64,18 +64,30 @@ class LevelFit {
   }
 
  private:
-  // A texel needs its neighbours W, NW, N and NE. Those with equal x + 2 y need none of one another, so that a front of
-  // them runs in parallel and every texel still sees what scanline order would have shown it.
+  // A texel needs its neighbours W, NW, N and NE. In the coordinates u = x + y and y all of them lie at no greater u
+  // and no greater y, so that square blocks over (u, y) whose indices have equal sums need none of one another: a front
+  // of them runs in parallel and every texel still sees what scanline order would have shown it.
   void run_wavefront(const std::function<void(double)>& report) const {
-    const int fronts = level_->width() + 2 * (level_->height() - 1);
+    const int side = std::clamp(level_->width() / 32, 1, 16);
+    const int rows = (level_->height() + side - 1) / side;
+    const int reach = (level_->width() + side - 2) / side;  // row r has the blocks r to r + reach
+    const int fronts = 2 * (rows - 1) + reach + 1;
     for (int front = 0; front < fronts; ++front) {
-      const int first = std::max(0, (front - level_->width() + 2) / 2);
-      const int last = std::min(level_->height() - 1, front / 2);
-      tbb::parallel_for(tbb::blocked_range<int>(first, last + 1), [&](const tbb::blocked_range<int>& rows) {
+      const int first = std::max(0, (front - reach + 1) / 2);
+      const int last = std::min(rows - 1, front / 2);
+      tbb::parallel_for(tbb::blocked_range<int>(first, last + 1), [&](const tbb::blocked_range<int>& range) {
         Workspace& workspace = workspaces_->local();
-        for (int y = rows.begin(); y < rows.end(); ++y) fit(front - 2 * y, y, workspace);
+        for (int row = range.begin(); row < range.end(); ++row) fit_block(front - row, row, side, workspace);
       });
       report((front + 1.0) / fronts);
+    }
+  }
+
+  void fit_block(int column, int row, int side, Workspace& workspace) const {
+    const int past = std::min((row + 1) * side, level_->height());
+    for (int y = row * side; y < past; ++y) {
+      const int end = std::min((column + 1) * side - y, level_->width());
+      for (int x = std::max(column * side - y, 0); x < end; ++x) fit(x, y, workspace);
     }
   }
 

@@ -51,8 +51,8 @@ class BlockSums {
 
   void add(const Points& p) {
     const Lanes lanes;
-    Vector square[components];
-    Vector share[components];
+    Vectors square;
+    Vectors share;
     Vector peak = hn::Set(lanes, std::numeric_limits<float>::lowest());
     for (std::size_t i = 0; i < components; ++i) {
       const Vector dx = hn::Sub(p.x, hn::Set(lanes, terms_->x[i]));
@@ -88,10 +88,12 @@ class BlockSums {
   }
 
  private:
+  using Vectors = std::array<Vector, components>;
+
   static double over_lanes(const Vector& v) { return static_cast<double>(hn::GetLane(hn::SumOfLanes(Lanes(), v))); }
 
   const Terms* terms_;
-  Vector weight_[components], dx_[components], dy_[components], square_[components];
+  Vectors weight_, dx_, dy_, square_;
   Vector log_likelihood_;
 };
 
@@ -108,7 +110,6 @@ void sum(const Samples& samples, const Terms& terms, Sums& sums) {
 
 }  // namespace
 
-// NOLINTNEXTLINE(readability-function-size): one call for each number of components.
 void sum_for_target(const Samples& samples, const Terms& terms, std::size_t components, Sums& sums) {
   const auto call = [&]<std::size_t... count>(std::index_sequence<count...>) {
     ((components == count + 1 ? sum<count + 1>(samples, terms, sums) : void()), ...);

@@ -34,6 +34,19 @@ struct Span {
   }
 };
 
+// In their order.
+void remove_weightless(Samples& samples) {
+  if (std::ranges::find(samples.weight, 0.0F) == samples.weight.end()) return;
+  std::size_t kept = 0;
+  for (std::size_t j = 0; j < samples.size(); ++j) {
+    if (samples.weight[j] <= 0.0F) continue;
+    for (std::vector<float>* column : {&samples.x, &samples.y, &samples.spread, &samples.weight})
+      (*column)[kept] = (*column)[j];
+    ++kept;
+  }
+  samples.resize(kept);
+}
+
 }  // namespace
 
 double Samples::total_weight() const { return std::accumulate(weight.begin(), weight.end(), 0.0); }
@@ -45,8 +58,10 @@ void Samples::add(float x_, float y_, float spread_, float weight_) {
   weight.push_back(weight_);
 }
 
-void Samples::clear() {
-  for (std::vector<float>* column : {&x, &y, &spread, &weight}) column->clear();
+void Samples::clear() { resize(0); }
+
+void Samples::resize(std::size_t size) {
+  for (std::vector<float>* column : {&x, &y, &spread, &weight}) column->resize(size);
 }
 
 NormalField::NormalField(const Image& normals)
@@ -67,18 +82,25 @@ NormalField::NormalField(const Image& normals)
 }
 
 void NormalField::gather(int level_width, int level_height, int column, int row, Samples& out) const {
-  out.clear();
   const Span across(width_, level_width, column);
   const Span down(height_, level_height, row);
-  for (int j = down.first(); j < down.past(); ++j) {
-    const double share = down.share(j);
-    const std::size_t start = static_cast<std::size_t>(j) * static_cast<std::size_t>(width_);
-    for (int i = across.first(); i < across.past(); ++i) {
-      const std::size_t texel = start + static_cast<std::size_t>(i);
-      if (weight_[texel] <= 0.0F) continue;
-      out.add(x_[texel], y_[texel], 0.0F, static_cast<float>(share * across.share(i)) * weight_[texel]);
-    }
+  const int first = across.first();
+  const auto columns = static_cast<std::size_t>(across.past() - first);
+  const auto share_first = static_cast<float>(across.share(first));
+  const auto share_last = static_cast<float>(across.share(across.past() - 1));
+  out.resize(columns * static_cast<std::size_t>(down.past() - down.first()));
+  std::ranges::fill(out.spread, 0.0F);
+  std::size_t to = 0;
+  for (int j = down.first(); j < down.past(); ++j, to += columns) {
+    const std::size_t from = static_cast<std::size_t>(j) * static_cast<std::size_t>(width_) + first;
+    const auto share = static_cast<float>(down.share(j));
+    std::copy_n(&x_[from], columns, &out.x[to]);
+    std::copy_n(&y_[from], columns, &out.y[to]);
+    for (std::size_t i = 0; i < columns; ++i) out.weight[to + i] = share * weight_[from + i];
+    out.weight[to] *= share_first;
+    if (columns > 1) out.weight[to + columns - 1] *= share_last;
   }
+  remove_weightless(out);
 }
 
 double NormalField::coverage(int level_width, int level_height, const Samples& samples) const {

@@ -18,6 +18,7 @@ struct Samples {
   [[nodiscard]] double total_weight() const;
   void add(float x_, float y_, float spread_, float weight_);
   void clear();
+  void resize(std::size_t size);  ///< new ones are all 0 until they are set
 };
 
 /// A normal map projected to the disc: normals renormalised, those that are invalid (weight 0, shorter than 1e-3, not

@@ -39,8 +39,9 @@ class Trials {
 // Rounding aside.
 bool are_one_normal(const Samples& samples) {
   for (std::size_t j = 1; j < samples.size(); ++j) {
-    const float distance = std::hypot(samples.x[j] - samples.x[0], samples.y[j] - samples.y[0]);
-    if (distance > 1e-6F || samples.spread[j] > 0.0F) return false;
+    const float dx = samples.x[j] - samples.x[0];
+    const float dy = samples.y[j] - samples.y[0];
+    if (dx * dx + dy * dy > 1e-12F || samples.spread[j] > 0.0F) return false;
   }
   return true;
 }

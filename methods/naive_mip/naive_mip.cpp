@@ -24,6 +24,10 @@ class NaiveMip final : public Method {
       out.textures.push_back(
           make_texture("naive_normal", mean_normal_chain(material), storage, normal_coordinates(material), true));
     }
+    if (has(effects, Effect::normal_layers)) {
+      out.textures.push_back(make_texture("naive_layer", mean_normal_chain(layer_map_of(material)), storage,
+                                          layer_coordinates(material), true));
+    }
     if (has(effects, Effect::roughness_variation)) {
       out.textures.push_back(make_texture("naive_roughness", mip_chain(roughness_map_of(material)), storage,
                                           roughness_coordinates(material)));

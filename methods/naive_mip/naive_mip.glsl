@@ -1,20 +1,30 @@
 // The mean normal, renormalised, with the mean roughness: one lobe, as wide as a facet's own.
+//? if normal_layers
+//? include normal_layers.glsl
+//? end
 struct Effective {
   vec3 normal;
   float lobe;
 };
 
-Effective effective(Footprints f) {
-  Effective e;
-//? if normal_variation
-  vec3 mean = fetch(naive_normal, f.normal).xyz;
+// Of a stored mean.
+vec3 meanNormal(vec3 mean) {
 //? if storage_unorm8
   mean = 2.0 * mean - 1.0;
 //? end
   float size = length(mean);
-  e.normal = size > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0);
+  return size > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0);
+}
+
+Effective effective(Footprints f) {
+  Effective e;
+//? if normal_variation
+  e.normal = meanNormal(fetch(naive_normal, f.normal).xyz);
 //? else
   e.normal = vec3(0.0, 0.0, 1.0);
+//? end
+//? if normal_layers
+  e.normal = withSlopesAdded(e.normal, meanNormal(fetch(naive_layer, f.layer).xyz));
 //? end
 //? if roughness_variation
   e.lobe = lobeFromRoughness(fetch(naive_roughness, f.roughness).r);

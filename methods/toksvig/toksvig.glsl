@@ -3,6 +3,9 @@
 //   1 / s' = 1 / s + (1 - |Na|) / |Na|,
 // is a sum of slope variances per axis, which serves every distribution: alpha^2 / 2 takes the place of 1 / s for
 // Beckmann and GGX (Walter 2007, section 5.2), 1 / kappa for vMF.
+//? if normal_layers
+//? include normal_layers.glsl
+//? end
 struct Effective {
   vec3 normal;
   float lobe;
@@ -18,21 +21,40 @@ float baseVariance(Footprints f) {
 //? end
 }
 
-Effective effective(Footprints f) {
-  Effective e;
-  float variance = baseVariance(f);
-//? if normal_variation
-  vec3 mean = fetch(toksvig_normal, f.normal).xyz;
+// What a stored mean normal tells: its direction, and |Na|.
+struct MeanNormal {
+  vec3 direction;
+  float consistency;
+};
+
+MeanNormal meanNormal(vec3 mean) {
 //? if storage_unorm8
   mean = 2.0 * mean - 1.0;
 //? end
   float size = length(mean);
-  e.consistency = min(size, 1.0);  // rounding of the storage leaves |Na| > 1 on flat maps: a negative variance
-  e.normal = size > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0);
-  variance += option_spread * (1.0 - e.consistency) / max(e.consistency, 1e-6);
-//? else
+  // Rounding of the storage leaves |Na| > 1 on flat maps: a negative variance.
+  return MeanNormal(size > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0), min(size, 1.0));
+}
+
+float spreadOf(float consistency) { return option_spread * (1.0 - consistency) / max(consistency, 1e-6); }
+
+Effective effective(Footprints f) {
+  Effective e;
+  float variance = baseVariance(f);
   e.consistency = 1.0;
   e.normal = vec3(0.0, 0.0, 1.0);
+//? if normal_variation
+  MeanNormal own = meanNormal(fetch(toksvig_normal, f.normal).xyz);
+  e.normal = own.direction;
+  e.consistency = own.consistency;
+  variance += spreadOf(own.consistency);
+//? end
+//? if normal_layers
+  // The spread is a slope variance per axis: those of independent layers add.
+  MeanNormal layer = meanNormal(fetch(toksvig_layer, f.layer).xyz);
+  e.normal = withSlopesAdded(e.normal, layer.direction);
+  e.consistency *= layer.consistency;
+  variance += spreadOf(layer.consistency);
 //? end
   e.lobe = lobeFromVariance(variance);
   return e;

@@ -18,6 +18,7 @@ enum class Effect : std::size_t {
   fresnel,               ///< Schlick's term over F0
   masking_shadowing,     ///< the geometry term of the base BRDF
   normal_variation,      ///< a normal map that is not flat
+  normal_layers,         ///< a detail layer over the normal map
   roughness_variation,   ///< a roughness map that is not constant
   base_color_variation,  ///< a base-colour map
   metallic_variation,    ///< a metallic map that is not constant
@@ -28,7 +29,7 @@ enum class Effect : std::size_t {
   directional_light,
 };
 
-inline constexpr std::size_t effect_count = 12;
+inline constexpr std::size_t effect_count = 13;
 using EffectSet = std::bitset<effect_count>;
 
 /// The name of an effect as shaders, tables and `explain` write it.

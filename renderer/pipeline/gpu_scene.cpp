@@ -15,13 +15,14 @@
 namespace footprint {
 namespace {
 
-// std140 twin of MaterialBlock in surface_fragment.glsl.
+// std140 twin of MaterialBlock in surface_material.glsl.
 struct MaterialBlock {
   glm::vec4 base_color_factor;
   glm::vec4 dielectric_specular_metallic;
   glm::vec4 lobe_cutoff;
   std::array<glm::vec4, 3> uv_linear;
   std::array<glm::vec4, 3> uv_offset_set;
+  glm::vec4 layer_uv_linear, layer_uv_offset_set;
 };
 
 constexpr float never_cut = -1.0F;  // no alpha lies below it
@@ -66,6 +67,9 @@ MaterialBlock material_block(const Material& material) {
     block.uv_linear[i] = {t[0], t[1]};
     block.uv_offset_set[i] = {t[2], static_cast<float>(slots[i].set), 0.0F};
   }
+  const TextureCoordinates layer = layer_coordinates(material);
+  block.layer_uv_linear = {layer.transform[0], layer.transform[1]};
+  block.layer_uv_offset_set = {layer.transform[2], static_cast<float>(layer.set), 0.0F};
   return block;
 }
 

@@ -28,8 +28,9 @@ Image without_weight(const Image& weighted) {
 
 }  // namespace
 
-std::vector<Image> mean_normal_chain(const Material& material) {
-  Image normals = normal_map_of(material);
+std::vector<Image> mean_normal_chain(const Material& material) { return mean_normal_chain(normal_map_of(material)); }
+
+std::vector<Image> mean_normal_chain(Image normals) {
   renormalise(normals);
   std::vector<Image> chain;
   for (const Image& level : weighted_mip_chain(std::move(normals))) chain.push_back(without_weight(level));

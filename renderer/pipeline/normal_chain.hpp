@@ -9,8 +9,11 @@
 
 namespace footprint {
 
-/// The mip chain of a material's normal map: 3 channels, the mean of the unit normals, not renormalised, so that its
-/// length tells their spread. Normals enter renormalised in 32 bits; invalid ones (weight 0) do not enter.
+/// The mip chain of a normal map (as Material::normal_map): 3 channels, the mean of the unit normals, not renormalised,
+/// so that its length tells their spread. Normals enter renormalised in 32 bits; invalid ones (weight 0) do not enter.
+[[nodiscard]] std::vector<Image> mean_normal_chain(Image normals);
+
+/// That of the material's own normal map.
 [[nodiscard]] std::vector<Image> mean_normal_chain(const Material& material);
 
 /// Slope variance per axis of the base lobe at every texel of the roughness map (1 x 1 where it has none), one channel.

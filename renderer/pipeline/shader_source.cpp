@@ -12,7 +12,7 @@ namespace footprint {
 namespace embedded {
 extern const std::string_view surface_vertex_glsl, surface_fragment_glsl, surface_lights_glsl, common_footprint_glsl,
     common_lobes_glsl, common_base_brdf_glsl, common_slopes_glsl, beckmann_lambda_glsl, surface_material_glsl,
-    ndf_fragment_glsl, resolve_samples_glsl, screen_vertex_glsl, vmf_density_glsl;
+    ndf_fragment_glsl, normal_layers_glsl, resolve_samples_glsl, screen_vertex_glsl, vmf_density_glsl;
 }
 
 namespace {
@@ -24,6 +24,7 @@ constexpr std::string_view version_line = "#version 450 core\n";
 std::optional<std::string_view> optional_text(std::string_view file) {
   if (file == "common_slopes.glsl") return embedded::common_slopes_glsl;
   if (file == "beckmann_lambda.glsl") return embedded::beckmann_lambda_glsl;
+  if (file == "normal_layers.glsl") return embedded::normal_layers_glsl;
   if (file == "vmf_density.glsl") return embedded::vmf_density_glsl;
   return std::nullopt;
 }
@@ -252,7 +253,7 @@ std::string method_program(const ShaderVariant& variant, const Module& module, c
   std::string text = fmt::format("{}#line {}\n", version_line, first_shared_line) + first;
   if (variant.max_probes > 1) text += fmt::format("const float max_probes = {}.0;\n", variant.max_probes);
   text += number_options(options) + declarations(variant.effects, prefiltered);
-  text += shared_functions(flags) + std::string(embedded::surface_material_glsl);
+  text += shared_functions(flags) + select_text(embedded::surface_material_glsl, flags, "surface_material.glsl");
   constexpr std::string_view split = "//# module\n";
   const std::size_t place = pass.find(split);
   text += pass.substr(0, place);
@@ -282,7 +283,7 @@ std::string frame_build_shader(const ShaderVariant& variant, std::string_view pa
                                const Options& options) {
   const ShaderFlags flags = shader_flags(variant, options);
   return fmt::format("{}#line {}\n", version_line, first_shared_line) + number_options(options) +
-         shared_functions(flags) + std::string(embedded::surface_material_glsl) +
+         shared_functions(flags) + select_text(embedded::surface_material_glsl, flags, "surface_material.glsl") +
          select_text(pass, flags, pass_name, true);
 }
 

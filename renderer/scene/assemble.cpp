@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <memory>
 
 #include "renderer/core/error.hpp"
@@ -79,6 +81,26 @@ Model load_content(const SurfaceContent& content) {
   model.materials.push_back(std::move(material));
   model.meshes.push_back(surface->mesh(settings));
   return model;
+}
+
+TextureMap load_layer(const LayerFile& file, double strength, std::vector<std::string>& warnings) {
+  const Image stored = read_image(file.path, Transfer::linear);
+  NormalMap map = file.heights ? normals_of_heights(stored, strength) : decode_normal_map(stored, strength);
+  std::ranges::move(describe_faults(map, file.path.filename().string()), std::back_inserter(warnings));
+  return make_map(file.path, std::move(map.image));
+}
+
+TextureMap load_layer(const SurfaceContent& content, double strength, std::vector<std::string>& /*warnings*/) {
+  Image normals = surface_normals(*content.surface, content.settings);
+  scale_slopes(normals, strength);
+  return make_map(content.surface->name, std::move(normals));
+}
+
+TextureMap load_layer(const LayerSettings& settings, std::vector<std::string>& warnings) {
+  const auto load = [&](const auto& content) { return load_layer(content, settings.strength, warnings); };
+  TextureMap map = std::visit(load, settings.content);
+  map.coordinates.transform = glm::mat3x2{settings.uv.x, 0.0F, 0.0F, settings.uv.y, 0.0F, 0.0F};
+  return map;
 }
 
 void apply(const BrdfSettings& settings, Material& material) {
@@ -170,9 +192,12 @@ Scene assemble_scene(const SceneSettings& settings, const std::string& name, con
   scene.meshes = std::move(model.meshes);
   scene.materials = std::move(model.materials);
   scene.warnings = std::move(model.warnings);
+  std::optional<TextureMap> layer;
+  if (settings.layer) layer = load_layer(*settings.layer, scene.warnings);
   for (Material& material : scene.materials) {
     apply(settings.brdf, material);
     tile(settings.tiling, material);
+    material.layer_map = layer;
   }
   scene.bounds = bounds_of(scene.meshes);
   scene.frame_size = settings.frame_size;

@@ -60,6 +60,7 @@ struct Material {
   std::optional<TextureMap>
       metallic_roughness_map;            ///< 2 channels: roughness, metallic (0..1), already times the factors
   std::optional<TextureMap> normal_map;  ///< 4 channels: unit normal xyz (z > 0 out of the surface), weight 0 or 1
+  std::optional<TextureMap> layer_map;   ///< detail over the normal map, of the same kind: their slopes add
 
   std::optional<float> alpha_cutoff;  ///< MASK: a point with alpha below it is not there
   bool double_sided = false;

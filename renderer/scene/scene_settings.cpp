@@ -19,6 +19,7 @@ constexpr NumberRange coordinate{-1e9, 1e9};      // metres
 constexpr NumberRange intensity{0.0, 1e12};       // candela or lux
 constexpr NumberRange field_of_view{0.1, 170.0};  // degrees
 
+const std::vector<std::string> surface_keys{"name", "resolution", "seed", "parameters"};
 const std::vector<std::string> light_types{"point", "spot", "directional"};
 
 float radians(double degrees) { return static_cast<float>(degrees * std::numbers::pi / 180.0); }
@@ -224,13 +225,33 @@ SurfaceContent read_surface(const TomlTable& table, std::span<const Surface> sur
   return {&surface, std::move(settings)};
 }
 
+LayerSettings read_layer(const TomlTable& table, const std::filesystem::path& folder,
+                         std::span<const Surface> surfaces) {
+  const auto surface = table.table("surface", surface_keys);
+  if (table.has("bump_map") + table.has("normal_map") + surface.has_value() != 1) {
+    throw table.error_at("bump_map", "or `normal_map` or `surface` must be given, and only one of them",
+                         "name the file of heights or of normals, or a surface");
+  }
+  LayerSettings layer;
+  if (surface) layer.content = read_surface(*surface, surfaces);
+  if (const auto name = table.word("normal_map")) layer.content = LayerFile{folder / *name, false};
+  if (const auto name = table.word("bump_map")) {
+    layer.content = LayerFile{folder / *name, true};
+    // No default suits heights: between a scratch and a mountain lie four powers of ten.
+    if (!table.has("strength")) missing(table, "strength");
+  }
+  if (const auto uv = table.numbers("uv", 2, {1e-3, 1e4})) layer.uv = {(*uv)[0], (*uv)[1]};
+  layer.strength = table.number("strength", {-100.0, 100.0}).value_or(layer.strength);
+  return layer;
+}
+
 /// What is drawn: exactly one of the three.
 void read_content(const TomlTable& root, const std::filesystem::path& folder, std::span<const Surface> surfaces,
                   SceneSettings& settings) {
   const auto model = root.table("model", {"file", "files", "package"});
   const auto plane = root.table("plane", {"size", "normal_map", "normal_scale", "base_color_map",
                                           "metallic_roughness_map", "roughness", "metallic"});
-  const auto surface = root.table("surface", {"name", "resolution", "seed", "parameters"});
+  const auto surface = root.table("surface", surface_keys);
   if (model.has_value() + plane.has_value() + surface.has_value() != 1) {
     throw root.error_at("model", "or `plane` or `surface` must be given, and only one of them",
                         "add [model] file = \"NAME.gltf\"");
@@ -242,6 +263,8 @@ void read_content(const TomlTable& root, const std::filesystem::path& folder, st
                                             "kappa", "specular", "base_color"})) {
     settings.brdf = read_brdf(*brdf);
   }
+  if (const auto layer = root.table("layer", {"bump_map", "normal_map", "surface", "uv", "strength"}))
+    settings.layer = read_layer(*layer, folder, surfaces);
   if (const auto tiling = root.table("tiling", {"uv"})) {
     if (const auto uv = tiling->numbers("uv", 2, {1e-3, 1e4})) settings.tiling = {(*uv)[0], (*uv)[1]};
   }
@@ -291,7 +314,7 @@ SceneSettings read_scene_settings(const std::filesystem::path& file, std::span<c
   const toml::table parsed = parse_toml_file(file);
   const TomlTable root(
       parsed, file, "",
-      {"scene", "model", "plane", "surface", "brdf", "frame", "light", "lights", "camera", "zoom", "tiling"});
+      {"scene", "model", "plane", "surface", "layer", "brdf", "frame", "light", "lights", "camera", "zoom", "tiling"});
   SceneSettings settings;
   if (const auto scene = root.table("scene", {"name", "description"})) {
     settings.name = scene->word("name");

@@ -33,6 +33,19 @@ struct SurfaceContent {
   SurfaceSettings settings;
 };
 
+/// An image file of heights, or of normals.
+struct LayerFile {
+  std::filesystem::path path;
+  bool heights = false;
+};
+
+/// A detail layer over the normal map of every material.
+struct LayerSettings {
+  std::variant<LayerFile, SurfaceContent> content;
+  glm::vec2 uv{1.0F};     ///< tiles over the mesh's first texture coordinates
+  double strength = 1.0;  ///< factor on the slopes; of heights, the height of 1 over 0 in widths of the map
+};
+
 /// What [brdf] changes in every material.
 struct BrdfSettings {
   std::optional<NormalDistribution> distribution;
@@ -51,6 +64,7 @@ struct SceneSettings {
   std::optional<std::string> name;  ///< else the folder's
   std::string description;          ///< for people who list scenes
   std::variant<ModelSettings, PlaneSettings, SurfaceContent> content;
+  std::optional<LayerSettings> layer;
   BrdfSettings brdf;
   std::optional<glm::ivec2> frame_size;
   std::optional<float> exposure;

@@ -1,4 +1,7 @@
 // The base BRDF itself: what the reference averages, and `direct` shades once a pixel.
+//? if normal_layers
+//? include normal_layers.glsl
+//? end
 struct Effective {
   vec3 normal;
   float lobe;
@@ -14,6 +17,13 @@ Effective effective(Footprints f) {
   e.normal = normalize(texel.xyz);
 //? else
   e.normal = vec3(0.0, 0.0, 1.0);
+//? end
+//? if normal_layers
+  vec4 layer = fetchFinest(base_layer, f.layer);
+//? if not sampling_frame
+  if (layer.w < 0.5) discard;
+//? end
+  e.normal = withSlopesAdded(e.normal, layer.xyz);
 //? end
 //? if roughness_variation
   e.lobe = lobeFromRoughness(fetchFinest(base_roughness, f.roughness).r);

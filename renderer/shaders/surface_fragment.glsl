@@ -18,20 +18,26 @@ uniform uvec2 sample_seed;    // seed and pass
 //? end
 
 //# module
-Footprint footprintOf(int slot) {
-  vec2 uv = uv_offset_set[slot].z < 0.5 ? uv0 : uv1;
-  mat2 linear = mat2(uv_linear[slot].xy, uv_linear[slot].zw);
-  vec2 mapped = linear * uv + uv_offset_set[slot].xy;
+Footprint footprintOf(vec4 linear, vec4 offset_set) {
+  vec2 uv = offset_set.z < 0.5 ? uv0 : uv1;
+  vec2 mapped = mat2(linear.xy, linear.zw) * uv + offset_set.xy;
   return Footprint(mapped, dFdx(mapped), dFdy(mapped));
 }
 
 Footprints pixelFootprints() {
+  Footprints f;
+  f.normal = footprintOf(uv_linear[0], uv_offset_set[0]);
 //? if shared_coordinates
-  Footprint f = footprintOf(0);
-  return Footprints(f, f, f);
+  f.roughness = f.normal;
+  f.base_color = f.normal;
 //? else
-  return Footprints(footprintOf(0), footprintOf(1), footprintOf(2));
+  f.roughness = footprintOf(uv_linear[1], uv_offset_set[1]);
+  f.base_color = footprintOf(uv_linear[2], uv_offset_set[2]);
 //? end
+//? if normal_layers
+  f.layer = footprintOf(layer_uv_linear, layer_uv_offset_set);
+//? end
+  return f;
 }
 
 //? if sampling_texel

@@ -94,7 +94,10 @@ class Fournier final : public Method {
                        "pixel sums up to 8 times as many.",
                    .integer = true},
                   peak_storage_option()},
-      .honours = EffectSet{}.set().reset(static_cast<std::size_t>(Effect::normal_layers)),
+      .honours = EffectSet{}
+                     .set()
+                     .reset(static_cast<std::size_t>(Effect::multi_lobe))
+                     .reset(static_cast<std::size_t>(Effect::normal_layers)),
       .slow_precompute = true};
 };
 

@@ -3,8 +3,7 @@
 //? include normal_layers.glsl
 //? end
 struct Effective {
-  vec3 normal;
-  float lobe;
+  Facets facets;
 };
 
 // Of a stored mean.
@@ -17,27 +16,28 @@ vec3 meanNormal(vec3 mean) {
 }
 
 Effective effective(Footprints f) {
-  Effective e;
 //? if normal_variation
-  e.normal = meanNormal(fetch(naive_normal, f.normal).xyz);
+  vec3 normal = meanNormal(fetch(naive_normal, f.normal).xyz);
 //? else
-  e.normal = vec3(0.0, 0.0, 1.0);
+  vec3 normal = vec3(0.0, 0.0, 1.0);
 //? end
 //? if normal_layers
-  e.normal = withSlopesAdded(e.normal, meanNormal(fetch(naive_layer, f.layer).xyz));
+  normal = withSlopesAdded(normal, meanNormal(fetch(naive_layer, f.layer).xyz));
 //? end
 //? if roughness_variation
-  e.lobe = lobeFromRoughness(fetch(naive_roughness, f.roughness).r);
+  float lobe = lobeFromRoughness(fetch(naive_roughness, f.roughness).r);
 //? else
-  e.lobe = lobe_cutoff.x;
+  float lobe = lobe_cutoff.x;
 //? end
-  return e;
+  return Effective(evenFacets(normal, lobe));
 }
 
-vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) { return lobeSpecular(e.lobe, e.normal, f0, wi, wo); }
+vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) { return facetSpecular(e.facets, f0, wi, wo); }
 
 //? if diffuse
-vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) { return lambert(e.normal, albedo, f0, wi, wo); }
+vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
+  return lambert(e.facets.normal, albedo, f0, wi, wo);
+}
 //? end
 
-float ndf(Effective e, vec3 h) { return lobeDensity(e.lobe, e.normal, h); }
+float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }

@@ -49,9 +49,11 @@ struct Workspace {
 // Fits the texels of one level; the coarser one, if any, is done.
 class LevelFit {
  public:
-  LevelFit(const NormalField& normals, const FitSettings& settings, Moment moment, const Level* coarser, Level& level,
-           std::span<Image> stored, tbb::enumerable_thread_specific<Workspace>& workspaces)
+  LevelFit(const NormalField& normals, const PooledTiles& tiles, const FitSettings& settings, Moment moment,
+           const Level* coarser, Level& level, std::span<Image> stored,
+           tbb::enumerable_thread_specific<Workspace>& workspaces)
       : normals_(&normals),
+        tiles_(&tiles),
         settings_(&settings),
         moment_(moment),
         coarser_(coarser),
@@ -120,7 +122,7 @@ class LevelFit {
 
   void fit(int x, int y, Workspace& workspace) const {
     Samples& samples = workspace.samples;
-    normals_->gather(level_->width(), level_->height(), x, y, samples);
+    tiles_->gather(level_->width(), level_->height(), x, y, samples);
     const double coverage = normals_->coverage(level_->width(), level_->height(), samples);
     workspace.cells.pool(samples);
     const std::span<Gaussian> mixture = level_->at(x, y);
@@ -140,6 +142,7 @@ class LevelFit {
   }
 
   const NormalField* normals_;
+  const PooledTiles* tiles_;
   const FitSettings* settings_;
   Moment moment_;
   const Level* coarser_;
@@ -154,6 +157,7 @@ MixtureChain mixture_chain(const NormalField& normals, const FitSettings& settin
                            const Progress& progress) {
   const int levels = mip_level_count(normals.width(), normals.height());
   MixtureChain chain(settings.components, std::vector<Image>(static_cast<std::size_t>(levels)));
+  const PooledTiles tiles(normals);
   tbb::enumerable_thread_specific<Workspace> workspaces;
   Level coarser(0, 0, settings.components);
   for (int index = levels - 1; index >= 0; --index) {
@@ -161,7 +165,8 @@ MixtureChain mixture_chain(const NormalField& normals, const FitSettings& settin
     const int height = std::max(normals.height() >> index, 1);
     Level level(width, height, settings.components);
     std::vector<Image> stored(settings.components, Image(width, height, 4));
-    const LevelFit fit(normals, settings, moment, index == levels - 1 ? nullptr : &coarser, level, stored, workspaces);
+    const LevelFit fit(normals, tiles, settings, moment, index == levels - 1 ? nullptr : &coarser, level, stored,
+                       workspaces);
     const std::string what = fmt::format("fitting mixtures, {} x {}", width, height);
     const int done = levels - 1 - index;  // every level visits every normal, so that each takes about as long
     fit.run([&](double fraction) { progress(what, (done + fraction) / levels); });

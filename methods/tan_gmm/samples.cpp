@@ -1,6 +1,9 @@
 // See samples.hpp.
 #include "methods/tan_gmm/samples.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -56,6 +59,13 @@ void Samples::add(float x_, float y_, float spread_, float weight_) {
   y.push_back(y_);
   spread.push_back(spread_);
   weight.push_back(weight_);
+}
+
+void Samples::append(const Samples& others) {
+  x.insert(x.end(), others.x.begin(), others.x.end());
+  y.insert(y.end(), others.y.begin(), others.y.end());
+  spread.insert(spread.end(), others.spread.begin(), others.spread.end());
+  weight.insert(weight.end(), others.weight.begin(), others.weight.end());
 }
 
 void Samples::clear() { resize(0); }
@@ -136,6 +146,41 @@ void CellPool::pool(Samples& samples) {
                 static_cast<float>(y + centre_of(static_cast<int>(index / cells_across))), static_cast<float>(spread),
                 static_cast<float>(cell.weight));
     cell = {};
+  }
+}
+
+PooledTiles::PooledTiles(const NormalField& normals)
+    : normals_(&normals), across_(normals.width() / side), down_(normals.height() / side) {
+  if (!fit(across_, down_)) return;
+  tiles_.resize(static_cast<std::size_t>(across_) * static_cast<std::size_t>(down_));
+  tbb::parallel_for(tbb::blocked_range<int>(0, down_), [&](const tbb::blocked_range<int>& rows) {
+    CellPool cells;
+    Samples samples;
+    for (int row = rows.begin(); row < rows.end(); ++row) {
+      for (int column = 0; column < across_; ++column) {
+        normals_->gather(across_, down_, column, row, samples);
+        cells.pool(samples);
+        tiles_[static_cast<std::size_t>(row) * static_cast<std::size_t>(across_) + static_cast<std::size_t>(column)] =
+            samples;
+      }
+    }
+  });
+}
+
+bool PooledTiles::fit(int level_width, int level_height) const {
+  return level_width > 0 && level_height > 0 && normals_->width() % (level_width * side) == 0 &&
+         normals_->height() % (level_height * side) == 0;
+}
+
+void PooledTiles::gather(int level_width, int level_height, int column, int row, Samples& out) const {
+  if (!fit(level_width, level_height)) return normals_->gather(level_width, level_height, column, row, out);
+  out.clear();
+  const int columns = across_ / level_width;
+  const int rows = down_ / level_height;
+  for (int j = row * rows; j < (row + 1) * rows; ++j) {
+    for (int i = column * columns; i < (column + 1) * columns; ++i) {
+      out.append(tiles_[static_cast<std::size_t>(j) * static_cast<std::size_t>(across_) + static_cast<std::size_t>(i)]);
+    }
   }
 }
 

@@ -7,8 +7,7 @@
 //? include normal_layers.glsl
 //? end
 struct Effective {
-  vec3 normal;
-  float lobe;
+  Facets facets;
   float consistency;  // |Na|, 1 where all normals agree
 };
 
@@ -40,31 +39,31 @@ float spreadOf(float consistency) { return option_spread * (1.0 - consistency) /
 
 Effective effective(Footprints f) {
   Effective e;
-  float variance = baseVariance(f);
   e.consistency = 1.0;
-  e.normal = vec3(0.0, 0.0, 1.0);
+  vec3 normal = vec3(0.0, 0.0, 1.0);
+  float spread = 0.0;
 //? if normal_variation
   MeanNormal own = meanNormal(fetch(toksvig_normal, f.normal).xyz);
-  e.normal = own.direction;
+  normal = own.direction;
   e.consistency = own.consistency;
-  variance += spreadOf(own.consistency);
+  spread = spreadOf(own.consistency);
 //? end
 //? if normal_layers
   // The spread is a slope variance per axis: those of independent layers add.
   MeanNormal layer = meanNormal(fetch(toksvig_layer, f.layer).xyz);
-  e.normal = withSlopesAdded(e.normal, layer.direction);
+  normal = withSlopesAdded(normal, layer.direction);
   e.consistency *= layer.consistency;
-  variance += spreadOf(layer.consistency);
+  spread += spreadOf(layer.consistency);
 //? end
-  e.lobe = lobeFromVariance(variance);
+  e.facets = spreadFacets(normal, baseVariance(f), spread);
   return e;
 }
 
-vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) { return lobeSpecular(e.lobe, e.normal, f0, wi, wo); }
+vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) { return facetSpecular(e.facets, f0, wi, wo); }
 
 //? if diffuse
 vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
-  vec3 reflected = lambert(e.normal, albedo, f0, wi, wo);
+  vec3 reflected = lambert(e.facets.normal, albedo, f0, wi, wo);
 //? if diffuse_mean
   reflected *= e.consistency;
 //? end
@@ -72,4 +71,4 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
 }
 //? end
 
-float ndf(Effective e, vec3 h) { return lobeDensity(e.lobe, e.normal, h); }
+float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }

@@ -53,6 +53,9 @@ inline constexpr int first_shared_line = 10001;
 /// The textures of a program, in the order of their units: the shared ones, then the method's.
 [[nodiscard]] std::vector<std::string> texture_names(const EffectSet& effects, const Prefiltered& prefiltered);
 
+/// The material's uniform block, in front of the shared functions: with `multi_lobe` they read it.
+[[nodiscard]] std::string material_block(const ShaderFlags& flags);
+
 /// The lobes, base BRDF terms and footprint functions alone, for programs that evaluate a module outside of a frame.
 [[nodiscard]] std::string shared_functions(const ShaderFlags& flags);
 

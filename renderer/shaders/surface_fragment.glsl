@@ -19,8 +19,7 @@ uniform uvec2 sample_seed;    // seed and pass
 
 //# module
 Footprint footprintOf(vec4 linear, vec4 offset_set) {
-  vec2 uv = offset_set.z < 0.5 ? uv0 : uv1;
-  vec2 mapped = mat2(linear.xy, linear.zw) * uv + offset_set.xy;
+  vec2 mapped = mat2(linear.xy, linear.zw) * (offset_set.z < 0.5 ? uv0 : uv1) + offset_set.xy;
   return Footprint(mapped, dFdx(mapped), dFdy(mapped));
 }
 
@@ -30,12 +29,18 @@ Footprints pixelFootprints() {
 //? if shared_coordinates
   f.roughness = f.normal;
   f.base_color = f.normal;
+//? if specular_variation
+  f.specular = f.normal;
+//? end
 //? else
   f.roughness = footprintOf(uv_linear[1], uv_offset_set[1]);
   f.base_color = footprintOf(uv_linear[2], uv_offset_set[2]);
+//? if specular_variation
+  f.specular = footprintOf(specular_uv_linear, specular_uv_offset_set);
+//? end
 //? end
 //? if normal_layers
-  f.layer = footprintOf(layer_uv_linear, layer_uv_offset_set);
+  f.layer = footprintOf(uv_linear[3], uv_offset_set[3]);
 //? end
   return f;
 }
@@ -135,10 +140,14 @@ void main() {
 //? if metallic_variation
   metallic = fetch(metallic_map, f.roughness).r;
 //? end
+  vec3 dielectric_specular = dielectric_specular_metallic.rgb;
+//? if specular_variation
+  dielectric_specular *= fetch(specular_map, f.specular).rgb;
+//? end
   SurfacePoint p;
   p.effective = effective(f);
   p.albedo = base_color.rgb * (1.0 - metallic);
-  p.f0 = mix(dielectric_specular_metallic.rgb, base_color.rgb, metallic);
+  p.f0 = mix(dielectric_specular, base_color.rgb, metallic);
   p.frame = tangentFrame();
 //? if orthographic
   p.wo = to_camera * p.frame;

@@ -30,6 +30,22 @@ struct Present {
   }
 };
 
+// A component alone takes every sample whole.
+Sums sums_of_one(const Samples& samples, const Terms& terms) {
+  Sums sums;
+  for (std::size_t j = 0; j < samples.size(); ++j) {
+    const double weight = samples.weight[j];
+    const double dx = static_cast<double>(samples.x[j]) - terms.x[0];
+    const double dy = static_cast<double>(samples.y[j]) - terms.y[0];
+    sums.weight[0] += weight;
+    sums.dx[0] += weight * dx;
+    sums.dy[0] += weight * dy;
+    sums.square[0] += weight * (dx * dx + dy * dy + samples.spread[j]);
+  }
+  sums.log_likelihood = terms.constant[0] * sums.weight[0] - terms.factor[0] * sums.square[0];
+  return sums;
+}
+
 }  // namespace
 
 void Prior::add(std::span<const Gaussian> neighbour) {
@@ -53,7 +69,8 @@ Expectation expectation(const Samples& samples, std::span<const Gaussian> mixtur
   const Present present(mixture);
   Expectation e;
   if (present.count == 0) return e;
-  const Sums sums = sums_over(samples, present.terms, present.count);
+  const Sums sums =
+      present.count == 1 ? sums_of_one(samples, present.terms) : sums_over(samples, present.terms, present.count);
   e.log_likelihood = sums.log_likelihood;
   for (std::size_t k = 0; k < present.count; ++k) {
     if (sums.weight[k] <= 0) continue;

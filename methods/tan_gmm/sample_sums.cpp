@@ -112,9 +112,9 @@ void sum(const Samples& samples, const Terms& terms, Sums& sums) {
 
 void sum_for_target(const Samples& samples, const Terms& terms, std::size_t components, Sums& sums) {
   const auto call = [&]<std::size_t... count>(std::index_sequence<count...>) {
-    ((components == count + 1 ? sum<count + 1>(samples, terms, sums) : void()), ...);
+    ((components == count + 2 ? sum<count + 2>(samples, terms, sums) : void()), ...);
   };
-  call(std::make_index_sequence<most_components>());
+  call(std::make_index_sequence<most_components - 1>());
 }
 
 }  // namespace footprint::tan_gmm::HWY_NAMESPACE

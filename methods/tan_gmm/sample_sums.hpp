@@ -22,7 +22,7 @@ struct Sums {
   double log_likelihood = 0;
 };
 
-/// Over all samples, for the first `components` (1 to most_components) of `terms`. Responsibilities in 32 bits by
+/// Over all samples, for the first `components` (2 to most_components) of `terms`. Responsibilities in 32 bits by
 /// log-sum-exp, sums of 256 samples in 32 bits, then in 64. The last bits depend on the processor's vector
 /// instructions, never on the number of threads.
 [[nodiscard]] Sums sums_over(const Samples& samples, const Terms& terms, std::size_t components);

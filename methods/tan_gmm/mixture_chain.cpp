@@ -124,6 +124,7 @@ class LevelFit {
     Samples& samples = workspace.samples;
     tiles_->gather(level_->width(), level_->height(), x, y, samples);
     const double coverage = normals_->coverage(level_->width(), level_->height(), samples);
+    merge_repeats(samples);
     workspace.cells.pool(samples);
     const std::span<Gaussian> mixture = level_->at(x, y);
     fit_texel(samples, prior(x, y), parent(x, y), *settings_, mixture);

@@ -2,11 +2,13 @@
 #include "methods/tan_gmm/samples.hpp"
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace footprint::tan_gmm {
 namespace {
@@ -104,9 +106,11 @@ void NormalField::gather(int level_width, int level_height, int column, int row,
   for (int j = down.first(); j < down.past(); ++j, to += columns) {
     const std::size_t from = static_cast<std::size_t>(j) * static_cast<std::size_t>(width_) + first;
     const auto share = static_cast<float>(down.share(j));
-    std::copy_n(&x_[from], columns, &out.x[to]);
-    std::copy_n(&y_[from], columns, &out.y[to]);
-    for (std::size_t i = 0; i < columns; ++i) out.weight[to + i] = share * weight_[from + i];
+    for (std::size_t i = 0; i < columns; ++i) {
+      out.x[to + i] = x_[from + i];
+      out.y[to + i] = y_[from + i];
+      out.weight[to + i] = share * weight_[from + i];
+    }
     out.weight[to] *= share_first;
     if (columns > 1) out.weight[to + columns - 1] *= share_last;
   }
@@ -116,6 +120,21 @@ void NormalField::gather(int level_width, int level_height, int column, int row,
 double NormalField::coverage(int level_width, int level_height, const Samples& samples) const {
   const double area = static_cast<double>(width_) / level_width * height_ / level_height;
   return std::min(samples.total_weight() / area, 1.0);
+}
+
+void merge_repeats(Samples& samples) {
+  std::size_t last = 0;
+  for (std::size_t j = 1; j < samples.size(); ++j) {
+    if (samples.x[j] == samples.x[last] && samples.y[j] == samples.y[last] &&
+        samples.spread[j] == samples.spread[last]) {
+      samples.weight[last] += samples.weight[j];
+      continue;
+    }
+    ++last;
+    for (std::vector<float>* column : {&samples.x, &samples.y, &samples.spread, &samples.weight})
+      (*column)[last] = (*column)[j];
+  }
+  samples.resize(std::min(last + 1, samples.size()));
 }
 
 CellPool::CellPool() : cells_(static_cast<std::size_t>(cells_across) * cells_across) {}
@@ -153,9 +172,9 @@ PooledTiles::PooledTiles(const NormalField& normals)
     : normals_(&normals), across_(normals.width() / side), down_(normals.height() / side) {
   if (!fit(across_, down_)) return;
   tiles_.resize(static_cast<std::size_t>(across_) * static_cast<std::size_t>(down_));
+  tbb::enumerable_thread_specific<std::pair<CellPool, Samples>> workspaces;
   tbb::parallel_for(tbb::blocked_range<int>(0, down_), [&](const tbb::blocked_range<int>& rows) {
-    CellPool cells;
-    Samples samples;
+    auto& [cells, samples] = workspaces.local();
     for (int row = rows.begin(); row < rows.end(); ++row) {
       for (int column = 0; column < across_; ++column) {
         normals_->gather(across_, down_, column, row, samples);

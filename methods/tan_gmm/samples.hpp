@@ -44,6 +44,9 @@ class NormalField {
   std::vector<float> x_, y_, weight_;
 };
 
+/// Samples that repeat the one before them become one with their weight.
+void merge_repeats(Samples& samples);
+
 /// Pools the samples of large texels in the cells of a grid over the disc, each to its centroid and spread, so that
 /// first and second moments are kept exactly. Cells are 1/128 wide.
 class CellPool {

@@ -73,7 +73,10 @@ class IndependentTexels final : public Method {
                                 .meaning = "Factor on the spread that is added to the lobe's slope variance per axis; "
                                            "0 leaves the base lobe as it is.",
                                 .integer = false}},
-                   .honours = EffectSet{}.set().reset(static_cast<std::size_t>(Effect::roughness_variation))};
+                   .honours = EffectSet{}
+                                  .set()
+                                  .reset(static_cast<std::size_t>(Effect::normal_layers))
+                                  .reset(static_cast<std::size_t>(Effect::roughness_variation))};
 };
 
 }  // namespace

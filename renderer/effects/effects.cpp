@@ -16,6 +16,7 @@ constexpr std::array<std::string_view, effect_count> names{"diffuse",
                                                            "fresnel",
                                                            "masking_shadowing",
                                                            "normal_variation",
+                                                           "normal_layers",
                                                            "roughness_variation",
                                                            "multi_lobe",
                                                            "base_color_variation",
@@ -81,6 +82,13 @@ EffectDecision normal_variation(const Scene& scene) {
                 mapped.holding == 0 ? "no normal map" : "every normal map is flat");
 }
 
+EffectDecision normal_layers(const Scene& scene) {
+  const Count layered = count_materials(scene, [](const Material& m) { return m.layer_map.has_value(); });
+  const auto rough = [](const Material& m) { return m.layer_map && !is_flat(*m.layer_map->image); };
+  return decide(Effect::normal_layers, scene, rough, "a detail layer that is not flat",
+                layered.holding == 0 ? "no detail layer" : "every detail layer is flat");
+}
+
 template <class Kind>
 EffectDecision lights(Effect effect, const Scene& scene, std::string_view word) {
   const auto n = std::ranges::count_if(scene.lights, [](const Light& l) { return std::holds_alternative<Kind>(l); });
@@ -131,6 +139,7 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
           Effect::masking_shadowing, scene, [](const Material& m) { return m.brdf.geometry != GeometryTerm::none; },
           "the base BRDF has a geometry term", "the base BRDF has no geometry term"),
       normal_variation(scene),
+      normal_layers(scene),
       decide(Effect::roughness_variation, scene, roughness_varies, "a roughness map that varies",
              "roughness is constant over each material"),
       decide(

@@ -18,6 +18,7 @@ enum class Effect : std::size_t {
   fresnel,               ///< Schlick's term over F0
   masking_shadowing,     ///< the geometry term of the base BRDF
   normal_variation,      ///< a normal map that is not flat
+  normal_layers,         ///< a detail layer over the normal map
   roughness_variation,   ///< a map of roughness or of lobe parameters that is not constant
   multi_lobe,            ///< facets with several lobes, or one whose axis is not their normal
   base_color_variation,  ///< a base-colour map

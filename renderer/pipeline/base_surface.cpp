@@ -38,6 +38,13 @@ float variance_about_normal(const Material& material) {
   return variance / weight;
 }
 
+Image normals_or_flat(const std::optional<TextureMap>& map) {
+  if (map) return *map->image;
+  Image flat(1, 1, 4);
+  flat.texels = {0.0F, 0.0F, 1.0F, 1.0F};
+  return flat;
+}
+
 class BaseSurface final : public Method {
  public:
   [[nodiscard]] const MethodInfo& info() const override { return info_; }
@@ -48,6 +55,10 @@ class BaseSurface final : public Method {
     if (has(effects, Effect::normal_variation)) {
       out.textures.push_back(
           make_texture("base_normal", {normal_map_of(material)}, Storage::fp32, normal_coordinates(material)));
+    }
+    if (has(effects, Effect::normal_layers)) {
+      out.textures.push_back(
+          make_texture("base_layer", {layer_map_of(material)}, Storage::fp32, layer_coordinates(material)));
     }
     if (has(effects, Effect::roughness_variation)) {
       out.textures.push_back(
@@ -73,12 +84,9 @@ const Method& base_surface() {
   return method;
 }
 
-Image normal_map_of(const Material& material) {
-  if (material.normal_map) return *material.normal_map->image;
-  Image flat(1, 1, 4);
-  flat.texels = {0.0F, 0.0F, 1.0F, 1.0F};
-  return flat;
-}
+Image normal_map_of(const Material& material) { return normals_or_flat(material.normal_map); }
+
+Image layer_map_of(const Material& material) { return normals_or_flat(material.layer_map); }
 
 Image roughness_map_of(const Material& material) {
   const NormalDistribution distribution = material.brdf.distribution;
@@ -115,6 +123,10 @@ Image specular_map_of(const Material& material) {
 
 TextureCoordinates normal_coordinates(const Material& material) {
   return material.normal_map ? material.normal_map->coordinates : TextureCoordinates{};
+}
+
+TextureCoordinates layer_coordinates(const Material& material) {
+  return material.layer_map ? material.layer_map->coordinates : TextureCoordinates{};
 }
 
 TextureCoordinates roughness_coordinates(const Material& material) {

@@ -47,6 +47,10 @@ const auto cases = std::to_array<EffectCase>({
      [](Scene& s) {
        s.materials[0].normal_map = map_of(constant_normals(2, 2, {0.6F, 0.0F, 0.8F}));
      }},
+    {Effect::normal_layers, "base_layer",
+     [](Scene& s) {
+       s.materials[0].layer_map = map_of(constant_normals(2, 2, {0.6F, 0.0F, 0.8F}));
+     }},
     {Effect::roughness_variation, "base_roughness",
      [](Scene& s) {
        s.materials[0].metallic = 0.0F;

@@ -19,6 +19,7 @@ extern const std::string_view facet_lobes_glsl;
 extern const std::string_view facets_module_glsl;
 extern const std::string_view mean_normal_glsl;
 extern const std::string_view ndf_fragment_glsl;
+extern const std::string_view normal_layers_glsl;
 extern const std::string_view resolve_samples_glsl;
 extern const std::string_view screen_vertex_glsl;
 extern const std::string_view shadow_fragment_glsl;
@@ -30,7 +31,7 @@ extern const std::string_view surface_shadows_glsl;
 extern const std::string_view surface_vertex_glsl;
 extern const std::string_view tangent_frame_glsl;
 extern const std::string_view vmf_density_glsl;
-}
+}  // namespace embedded
 
 namespace {
 
@@ -44,6 +45,7 @@ std::optional<std::string_view> optional_text(std::string_view file) {
   if (file == "facet_lobes.glsl") return embedded::facet_lobes_glsl;
   if (file == "facets_module.glsl") return embedded::facets_module_glsl;
   if (file == "mean_normal.glsl") return embedded::mean_normal_glsl;
+  if (file == "normal_layers.glsl") return embedded::normal_layers_glsl;
   if (file == "vmf_density.glsl") return embedded::vmf_density_glsl;
   if (file == "tangent_frame.glsl") return embedded::tangent_frame_glsl;
   return std::nullopt;

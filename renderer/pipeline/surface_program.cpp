@@ -141,8 +141,8 @@ BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scen
 GpuMethod::GpuMethod(const GpuScene& scene, const BakedMethod& baked)
     : baked_(&baked),
       scene_(&scene),
-      build_(baked.method->frame_build(
-          {.effects = effects_of(scene, *baked.method), .brdf = scene.brdf()}, baked.options)) {
+      build_(baked.method->frame_build({.effects = effects_of(scene, *baked.method), .brdf = scene.brdf()},
+                                       baked.options)) {
   for (const GpuBatch& batch : scene.batches()) {
     const Prefiltered& prefiltered = baked.materials.at(batch.material);
     PerBatch part;

@@ -18,6 +18,9 @@ struct Footprints {
 //? if surface_coordinates
   Footprint surface;  // on textures that show each point of the surface once
 //? end
+//? if normal_layers
+  Footprint layer;
+//? end
 };
 
 //? if surface_coordinates

@@ -48,6 +48,9 @@ Footprints pixelFootprints() {
 //? if surface_coordinates
   f.surface = Footprint(surface_uv, dFdx(surface_uv), dFdy(surface_uv));
 //? end
+//? if normal_layers
+  f.layer = footprintOf(uv_linear[3], uv_offset_set[3]);
+//? end
   return f;
 }
 

@@ -18,11 +18,7 @@ class FixedBrdf final : public Method {
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                                        const Progress& /*progress*/) const override {
     const Storage storage = parse_storage(options.word("storage"));
-    Prefiltered out;
-    if (has(effects, Effect::normal_variation)) {
-      out.textures.push_back(
-          make_texture("fixed_normal", mean_normal_chain(material), storage, normal_coordinates(material), true));
-    }
+    Prefiltered out = bake_mean_normal(material, storage, effects);
     if (has(effects, Effect::roughness_variation)) {
       // The finest level alone: reflectance is what this method does not filter.
       out.textures.push_back(

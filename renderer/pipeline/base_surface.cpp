@@ -82,6 +82,16 @@ Image roughness_map_of(const Material& material) {
   return Image(1, 1, 1, own_lobe ? roughness_from_lobe(distribution, lobe_parameter(material)) : material.roughness);
 }
 
+Image lobe_parameter_map_of(const Material& material) {
+  if (width_map(material) == nullptr) return Image(1, 1, 1, lobe_parameter(material));
+  if (material.lobe_parameter_map) return *material.lobe_parameter_map->image;
+  Image lobes = roughness_map_of(material);
+  std::ranges::transform(lobes.texels, lobes.texels.begin(), [&](float roughness) {
+    return lobe_from_alpha(material.brdf.distribution, roughness * roughness);
+  });
+  return lobes;
+}
+
 Image metallic_map_of(const Material& material) {
   if (const TextureMap* map = metallic_map(material); map != nullptr) return one_channel(*map->image, 1);
   return Image(1, 1, 1, material.metallic);

@@ -15,6 +15,9 @@ namespace footprint {
 /// parameters comes as the roughness of the same lobes (`roughness_from_lobe`).
 [[nodiscard]] Image roughness_map_of(const Material& material);
 
+/// The lobe parameter at every texel of that map, as the material gives it or from its roughness; one channel.
+[[nodiscard]] Image lobe_parameter_map_of(const Material& material);
+
 /// The metallic map of a material, one channel; its constant, 1 x 1, where it has none.
 [[nodiscard]] Image metallic_map_of(const Material& material);
 

@@ -10,10 +10,26 @@
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view surface_vertex_glsl, surface_fragment_glsl, surface_lights_glsl, common_footprint_glsl,
-    common_lobes_glsl, common_base_brdf_glsl, common_slopes_glsl, beckmann_lambda_glsl, facet_lobes_glsl,
-    surface_material_glsl, ndf_fragment_glsl, resolve_samples_glsl, screen_vertex_glsl, shadow_fragment_glsl,
-    shadow_vertex_glsl, surface_shadows_glsl, tangent_frame_glsl, vmf_density_glsl;
+extern const std::string_view beckmann_lambda_glsl;
+extern const std::string_view common_base_brdf_glsl;
+extern const std::string_view common_footprint_glsl;
+extern const std::string_view common_lobes_glsl;
+extern const std::string_view common_slopes_glsl;
+extern const std::string_view facet_lobes_glsl;
+extern const std::string_view facets_module_glsl;
+extern const std::string_view mean_normal_glsl;
+extern const std::string_view ndf_fragment_glsl;
+extern const std::string_view resolve_samples_glsl;
+extern const std::string_view screen_vertex_glsl;
+extern const std::string_view shadow_fragment_glsl;
+extern const std::string_view shadow_vertex_glsl;
+extern const std::string_view surface_fragment_glsl;
+extern const std::string_view surface_lights_glsl;
+extern const std::string_view surface_material_glsl;
+extern const std::string_view surface_shadows_glsl;
+extern const std::string_view surface_vertex_glsl;
+extern const std::string_view tangent_frame_glsl;
+extern const std::string_view vmf_density_glsl;
 }
 
 namespace {
@@ -26,6 +42,8 @@ std::optional<std::string_view> optional_text(std::string_view file) {
   if (file == "common_slopes.glsl") return embedded::common_slopes_glsl;
   if (file == "beckmann_lambda.glsl") return embedded::beckmann_lambda_glsl;
   if (file == "facet_lobes.glsl") return embedded::facet_lobes_glsl;
+  if (file == "facets_module.glsl") return embedded::facets_module_glsl;
+  if (file == "mean_normal.glsl") return embedded::mean_normal_glsl;
   if (file == "vmf_density.glsl") return embedded::vmf_density_glsl;
   if (file == "tangent_frame.glsl") return embedded::tangent_frame_glsl;
   return std::nullopt;

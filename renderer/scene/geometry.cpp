@@ -140,6 +140,12 @@ void drop_unused_vertices(std::vector<Vertex>& vertices, std::vector<std::uint32
   vertices = std::move(used);
 }
 
+void append(Mesh& mesh, const Mesh& part) {
+  const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), part.vertices.begin(), part.vertices.end());
+  for (const std::uint32_t index : part.indices) mesh.indices.push_back(base + index);
+}
+
 void make_flat_normals(std::vector<Vertex>& vertices, std::vector<std::uint32_t>& indices) {
   std::vector<Vertex> corners;
   corners.reserve(indices.size());

@@ -30,6 +30,9 @@ struct TriangleSoup {
 /// Drops the vertices that no index uses and renumbers the rest, in order of first use.
 void drop_unused_vertices(std::vector<Vertex>& vertices, std::vector<std::uint32_t>& indices);
 
+/// Adds the triangles of `part` to `mesh`, whatever its material.
+void append(Mesh& mesh, const Mesh& part);
+
 /// Gives each triangle its own three vertices with the triangle's normal (glTF 2.0: normals that are not given are
 /// flat). A degenerate triangle gets +z.
 void make_flat_normals(std::vector<Vertex>& vertices, std::vector<std::uint32_t>& indices);

@@ -71,20 +71,20 @@ distances = [1, 2, 16]
 uv = [2, 3]
 )");
   EXPECT_EQ(settings.name, "n");
-  const auto& plane = std::get<PlaneSettings>(settings.content);
+  const auto& plane = std::get<PlaneSettings>(settings.parts.at(0).content);
   EXPECT_EQ(plane.size, glm::vec2(3.0F, 2.5F));
   EXPECT_EQ(plane.normal_map->filename(), "bumps.png");
   EXPECT_TRUE(plane.normal_map->is_absolute());
   EXPECT_EQ(plane.normal_scale, 0.5);
   EXPECT_EQ(plane.roughness, 0.25F);
   EXPECT_EQ(plane.metallic, 1.0F);
-  EXPECT_EQ(settings.brdf.distribution, NormalDistribution::beckmann);
-  EXPECT_EQ(settings.brdf.geometry, GeometryTerm::tan);
-  EXPECT_EQ(settings.brdf.fresnel, FresnelTerm::none);
-  EXPECT_EQ(settings.brdf.diffuse, false);
-  EXPECT_EQ(settings.brdf.lobe_parameter, 0.2F);
-  EXPECT_EQ(settings.brdf.specular, glm::vec3(0.1F, 0.2F, 0.3F));
-  EXPECT_EQ(settings.brdf.base_color, glm::vec3(0.4F, 0.5F, 0.6F));
+  EXPECT_EQ(settings.parts.at(0).brdf.distribution, NormalDistribution::beckmann);
+  EXPECT_EQ(settings.parts.at(0).brdf.geometry, GeometryTerm::tan);
+  EXPECT_EQ(settings.parts.at(0).brdf.fresnel, FresnelTerm::none);
+  EXPECT_EQ(settings.parts.at(0).brdf.diffuse, false);
+  EXPECT_EQ(settings.parts.at(0).brdf.lobe_parameter, 0.2F);
+  EXPECT_EQ(settings.parts.at(0).brdf.specular, glm::vec3(0.1F, 0.2F, 0.3F));
+  EXPECT_EQ(settings.parts.at(0).brdf.base_color, glm::vec3(0.4F, 0.5F, 0.6F));
   EXPECT_EQ(settings.frame_size, glm::ivec2(640, 480));
   EXPECT_EQ(settings.exposure, 2.0F);
   EXPECT_FALSE(settings.keep_model_lights);
@@ -105,7 +105,7 @@ uv = [2, 3]
   EXPECT_FLOAT_EQ(static_cast<float>(framing.yfov), std::numbers::pi_v<float> / 2.0F);
   EXPECT_EQ(framing.margin, 2.0);
   EXPECT_EQ(settings.distances, (std::vector<double>{1, 2, 16}));
-  EXPECT_EQ(settings.tiling, glm::vec2(2, 3));
+  EXPECT_EQ(settings.parts.at(0).tiling, glm::vec2(2, 3));
 }
 
 TEST(SceneSettings, PlacedCameraAndAutomaticExposure) {

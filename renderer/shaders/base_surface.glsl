@@ -1,7 +1,5 @@
 // The base BRDF itself: what the reference averages, and `direct` shades once a pixel.
-struct Effective {
-  Facets facets;
-};
+//? include facets_module.glsl
 
 Effective effective(Footprints f) {
 //? if normal_variation
@@ -20,13 +18,3 @@ Effective effective(Footprints f) {
 //? end
   return Effective(evenFacets(normal, lobe));
 }
-
-vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) { return facetSpecular(e.facets, f0, wi, wo); }
-
-//? if diffuse
-vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
-  return lambert(e.facets.normal, albedo, f0, wi, wo);
-}
-//? end
-
-float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }

@@ -5,7 +5,40 @@ struct Effective {
   Footprint footprint;
   float variance;  // the base lobe's slope variance per axis
   vec3 mean;       // of the normals, for the diffuse term
+//? if environment_light
+//? if normal_variation
+  float total;  // weight of all peaks: below 1 where texels have no normal
+//? end
+//? end
 };
+
+//? if normal_variation
+// Lambert's azimuthal equal-area map from the disc of radius 2 to the sphere.
+vec3 directionFromDisc(vec2 p) {
+  float quarter = min(0.25 * dot(p, p), 1.0);
+  return vec3(p * sqrt(1.0 - quarter), 1.0 - 2.0 * quarter);
+}
+
+// Axis on the disc, root of the spread, weight. The finest level has one peak a texel, so the others start at the next.
+vec4 peakOf(FootprintTexel texel, int i) {
+  if (i == 0) return fetchTexel(fournier_first, 0, texel);
+  texel.level -= 1.0;
+  return fetchTexel(fournier_rest, i - 1, texel);
+}
+
+//? if environment_light
+float weightOfPeaks(Footprint f) {
+  float total = 0.0;
+  int texels = footprintTexelCount(fournier_first, f);
+  for (int t = 0; t < texels; ++t) {
+    FootprintTexel texel = footprintTexel(fournier_first, f, t);
+    int peaks = texel.weight <= 0.0 ? 0 : texel.level < 0.5 ? 1 : int(option_peaks);
+    for (int i = 0; i < peaks; ++i) total += texel.weight * max(peakOf(texel, i).w, 0.0);
+  }
+  return total;
+}
+//? end
+//? end
 
 Effective effective(Footprints f) {
   Effective e;
@@ -22,23 +55,13 @@ Effective effective(Footprints f) {
 //? else
   e.variance = lobeVariance(lobe_cutoff.x);
 //? end
+//? if environment_light
+//? if normal_variation
+  e.total = weightOfPeaks(e.footprint);
+//? end
+//? end
   return e;
 }
-
-//? if normal_variation
-// Lambert's azimuthal equal-area map from the disc of radius 2 to the sphere.
-vec3 directionFromDisc(vec2 p) {
-  float quarter = min(0.25 * dot(p, p), 1.0);
-  return vec3(p * sqrt(1.0 - quarter), 1.0 - 2.0 * quarter);
-}
-
-// Axis on the disc, root of the spread, weight. The finest level has one peak a texel, so the others start at the next.
-vec4 peakOf(FootprintTexel texel, int i) {
-  if (i == 0) return fetchTexel(fournier_first, 0, texel);
-  texel.level -= 1.0;
-  return fetchTexel(fournier_rest, i - 1, texel);
-}
-//? end
 
 float reflectedDensity(float variance, vec3 n, vec3 h, bool with_geometry, vec3 wi, vec3 wo) {
   float lobe = lobeFromVariance(variance);
@@ -84,3 +107,31 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
 //? end
 
 float ndf(Effective e, vec3 h) { return sumOfPeaks(e, h, false, h, h); }
+
+//? if environment_light
+//? if normal_variation
+int lobeCount(Effective e) { return e.total > 0.0 ? int(option_peaks) * footprintTexelCount(fournier_first, e.footprint) : 1; }
+
+NormalLobe normalLobe(Effective e, int i) {
+  if (e.total <= 0.0) return baseNormalLobe(vec3(0.0, 0.0, 1.0), lobeFromVariance(e.variance), 1.0);
+  FootprintTexel texel = footprintTexel(fournier_first, e.footprint, i / int(option_peaks));
+  int number = i % int(option_peaks);
+  bool there = texel.weight > 0.0 && (number == 0 || texel.level >= 0.5);
+  vec4 peak = there ? peakOf(texel, number) : vec4(0.0);
+  float weight = texel.weight * max(peak.w, 0.0) / e.total;
+  return baseNormalLobe(directionFromDisc(peak.xy), lobeFromVariance(e.variance + peak.z * peak.z), weight);
+}
+//? else
+int lobeCount(Effective e) { return 1; }
+
+NormalLobe normalLobe(Effective e, int i) {
+  return baseNormalLobe(vec3(0.0, 0.0, 1.0), lobeFromVariance(e.variance), 1.0);
+}
+//? end
+
+float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
+  return geometryFactor(lobe.base, lobe.axis, h, wi, wo);
+}
+
+vec3 meanNormal(Effective e) { return e.mean; }
+//? end

@@ -149,3 +149,25 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
   return lambert(mean * wi, albedo, f0, wi, wo);
 }
 //? end
+
+//? if environment_light
+int lobeCount(Effective e) { return 1; }
+
+NormalLobe normalLobe(Effective e, int i) { return baseNormalLobe(e.lobe.axis, e.round_lobe, 1.0); }
+
+float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) { return factor(e, h, wi, wo); }
+
+// By the points of `diffuse`.
+vec3 meanNormal(Effective e) {
+  vec3 sum = vec3(0.0);
+//? if diffuse
+  for (int i = -1; i <= 1; ++i) {
+    for (int j = -1; j <= 1; ++j) {
+      float weight = (i == 0 ? 4.0 : 1.0) * (j == 0 ? 4.0 : 1.0);
+      sum += weight / 36.0 * normalOfSlope(e.lobe.mean + e.root * (1.7320508 * vec2(i, j)));
+    }
+  }
+//? end
+  return sum;
+}
+//? end

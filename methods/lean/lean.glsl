@@ -34,3 +34,15 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
   return lambert(e.mean_normal, albedo, f0, wi, wo);
 }
 //? end
+
+//? if environment_light
+int lobeCount(Effective e) { return 1; }
+
+NormalLobe normalLobe(Effective e, int i) { return baseNormalLobe(e.lobe.axis, e.round_lobe, 1.0); }
+
+float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
+  return geometryFactor(e.round_lobe, e.lobe.axis, h, wi, wo);
+}
+
+vec3 meanNormal(Effective e) { return e.mean_normal; }
+//? end

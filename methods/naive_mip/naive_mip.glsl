@@ -31,3 +31,9 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) { return lambe
 //? end
 
 float ndf(Effective e, vec3 h) { return lobeDensity(e.lobe, e.normal, h); }
+
+//? if environment_light
+//? include one_lobe.glsl
+
+vec3 meanNormal(Effective e) { return e.normal; }
+//? end

@@ -51,3 +51,15 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
 //? end
 
 float ndf(Effective e, vec3 h) { return lobeDensity(e.lobe, e.normal, h); }
+
+//? if environment_light
+//? include one_lobe.glsl
+
+vec3 meanNormal(Effective e) {
+//? if diffuse_mean
+  return e.normal * e.consistency;
+//? else
+  return e.normal;
+//? end
+}
+//? end

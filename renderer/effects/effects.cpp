@@ -21,7 +21,8 @@ constexpr std::array<std::string_view, effect_count> names{"diffuse",
                                                            "double_sided",
                                                            "point_light",
                                                            "spot_light",
-                                                           "directional_light"};
+                                                           "directional_light",
+                                                           "environment_light"};
 
 // Smaller than any step of an 8-bit map; larger than what decoding one leaves in 32 bits.
 constexpr float constant_tolerance = 1e-5F;
@@ -83,6 +84,14 @@ EffectDecision lights(Effect effect, const Scene& scene, std::string_view word) 
           n > 0 ? fmt::format("{} {} light{}", n, word, n == 1 ? "" : "s") : fmt::format("no {} light", word)};
 }
 
+EffectDecision environment_light(const Scene& scene) {
+  if (!scene.environment) return {Effect::environment_light, false, "no environment"};
+  const Image& map = *scene.environment->radiance;
+  const bool lit = std::ranges::any_of(map.texels, [](float value) { return value > 0.0F; });
+  const std::string text = fmt::format("the environment {}, {} x {}", scene.environment->name, map.width, map.height);
+  return {Effect::environment_light, lit, lit ? text : text + ", is black"};
+}
+
 }  // namespace
 
 std::string_view effect_name(Effect effect) { return names.at(static_cast<std::size_t>(effect)); }
@@ -120,6 +129,7 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
       lights<PointLight>(Effect::point_light, scene, "point"),
       lights<SpotLight>(Effect::spot_light, scene, "spot"),
       lights<DirectionalLight>(Effect::directional_light, scene, "directional"),
+      environment_light(scene),
   };
 }
 

@@ -26,9 +26,10 @@ enum class Effect : std::size_t {
   point_light,
   spot_light,
   directional_light,
+  environment_light,  ///< light from all directions
 };
 
-inline constexpr std::size_t effect_count = 12;
+inline constexpr std::size_t effect_count = 13;
 using EffectSet = std::bitset<effect_count>;
 
 /// The name of an effect as shaders, tables and `explain` write it.

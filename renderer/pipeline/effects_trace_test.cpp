@@ -82,6 +82,8 @@ const auto cases = std::to_array<EffectCase>({
      [](Scene& s) {
        s.lights.emplace_back(DirectionalLight{.direction = {0, 0, -1}, .illuminance = glm::vec3(1.0F)});
      }},
+    {Effect::environment_light, "environment_stack",
+     [](Scene& s) { s.environment = constant_environment(glm::vec3(0.5F)); }},
 });
 
 class EffectTrace : public ::testing::TestWithParam<EffectCase> {};

@@ -205,6 +205,8 @@ GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const Eff
   spot_lights_ = light_buffer(blocks.spot);
   directional_lights_ = light_buffer(blocks.directional);
   light_counts_ = {blocks.point.size() / 2, blocks.spot.size() / 4, blocks.directional.size() / 2};
+  if (has(effects, Effect::environment_light))
+    environment_.emplace(scene.environment.value_or(constant_environment(glm::vec3(0.0F))));
 }
 
 void GpuScene::bind_lights(const gl::Program& program) const {

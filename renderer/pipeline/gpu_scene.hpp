@@ -1,12 +1,14 @@
 // A scene on the GPU: triangles, lights and the textures that every method shares.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "renderer/effects/effects.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/gl/objects.hpp"
+#include "renderer/pipeline/gpu_environment.hpp"
 #include "renderer/pipeline/prefiltered.hpp"
 #include "renderer/scene/scene.hpp"
 
@@ -66,7 +68,13 @@ class GpuScene {
   [[nodiscard]] const BaseBrdf& brdf() const { return brdf_; }
   /// Every map of every material is looked up at the same place.
   [[nodiscard]] bool shared_coordinates() const { return shared_coordinates_; }
-  [[nodiscard]] std::size_t shared_bytes() const { return shared_bytes_; }
+  /// Bytes of what every method reads: shared textures and, once a method's program is there, the prefiltered
+  /// environment.
+  [[nodiscard]] std::size_t shared_bytes() const {
+    return shared_bytes_ + (environment_ ? environment_->stack_bytes() : 0);
+  }
+  /// None without its light.
+  [[nodiscard]] GpuEnvironment* environment() { return environment_ ? &*environment_ : nullptr; }
   [[nodiscard]] SamplerCache& samplers() { return samplers_; }
 
   /// Binds the light blocks and sets the light counts of `program`.
@@ -85,6 +93,7 @@ class GpuScene {
   std::vector<GpuBatch> batches_;
   gl::Buffer point_lights_, spot_lights_, directional_lights_;
   LightCounts light_counts_;
+  std::optional<GpuEnvironment> environment_;
   SamplerCache samplers_;
 };
 

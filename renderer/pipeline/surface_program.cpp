@@ -23,6 +23,11 @@ EffectSet effects_of(const GpuScene& scene, const Method& method) {
   return scene.effects() & (method.info().honours | shared);
 }
 
+// A method whose samples are many, and whose module can, draws directions; one sample a pixel would be all noise.
+bool draws_directions(const Method& method, const ProgramSettings& settings) {
+  return method.info().draws_directions && settings.sampling != Sampling::frame;
+}
+
 ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings) {
   return {.effects = effects_of(scene, *baked.method),
           .brdf = scene.brdf(),
@@ -30,6 +35,7 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
           .max_probes = settings.max_probes,
           .orthographic = settings.orthographic,
           .shared_coordinates = scene.shared_coordinates(),
+          .environment_sampled = draws_directions(*baked.method, settings),
           .point_lights = scene.light_counts().point,
           .spot_lights = scene.light_counts().spot,
           .directional_lights = scene.light_counts().directional};
@@ -121,6 +127,10 @@ void GpuMethod::build_frame() const {
   gl::api().MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
+GLuint GpuMethod::units(const GpuBatch& batch) const {
+  return static_cast<GLuint>(batch.shared_textures.size() + baked_->materials.front().textures.size());
+}
+
 void GpuMethod::bind(const GpuBatch& batch, GpuScene& scene, Lookup lookup) const {
   const PerBatch& part = batches_.at(static_cast<std::size_t>(&batch - scene_batches_.data()));
   auto unit = static_cast<GLuint>(batch.shared_textures.size());
@@ -128,12 +138,16 @@ void GpuMethod::bind(const GpuBatch& batch, GpuScene& scene, Lookup lookup) cons
   if (part.scalars.name() != 0) gl::api().BindBufferBase(GL_UNIFORM_BUFFER, method_binding, part.scalars.name());
 }
 
-SurfaceProgram::SurfaceProgram(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings)
+SurfaceProgram::SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings)
     : settings_(settings),
+      environment_light_(has(effects_of(scene, *baked.method), Effect::environment_light)),
+      environment_sampled_(draws_directions(*baked.method, settings)),
       fragment_text_(fragment_shader(variant_of(scene, baked, settings), baked.method->shader(), baked.spec.name,
                                      baked.options, baked.materials.front())),
       program_(fmt::format("{} (lines below {} are of {}.glsl)", baked.spec.text, first_shared_line, baked.spec.name),
-               vertex_shader(variant_of(scene, baked, settings)), fragment_text_) {}
+               vertex_shader(variant_of(scene, baked, settings)), fragment_text_) {
+  if (environment_light_) scene.environment()->prepare(environment_sampled_);
+}
 
 void SurfaceProgram::set_sample(const glm::ivec2& origin, std::uint32_t seed, std::uint32_t pass) const {
   const GLint origin_place = program_.uniform("sample_origin");
@@ -162,6 +176,7 @@ void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& 
     GLuint unit = 0;
     for (const GpuTexture& texture : batch.shared_textures) bind_texture(unit++, texture, scene, settings_.lookup);
     method.bind(batch, scene, settings_.lookup);
+    if (environment_light_) scene.environment()->bind(method.units(batch), environment_sampled_);
     gl::api().BindVertexArray(batch.vertex_array.name());
     gl::api().DrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT, nullptr);
   }

@@ -247,13 +247,16 @@ void read_content(const TomlTable& root, const std::filesystem::path& folder, st
   }
 }
 
-void read_lights(const TomlTable& root, SceneSettings& settings) {
+void read_lights(const TomlTable& root, const std::filesystem::path& folder, SceneSettings& settings) {
   for (const TomlTable& light : root.tables("light", {"type", "position", "direction", "color", "intensity", "range",
                                                       "inner_cone_degrees", "outer_cone_degrees"})) {
     settings.lights.push_back(read_light(light));
   }
   if (const auto lights = root.table("lights", {"keep"})) {
     settings.keep_model_lights = lights->boolean("keep").value_or(true);
+  }
+  if (const auto environment = root.table("environment", environment_keys())) {
+    settings.environment = read_environment(*environment, folder);
   }
 }
 
@@ -289,16 +292,16 @@ CameraSettings read_camera(const TomlTable& table) {
 
 SceneSettings read_scene_settings(const std::filesystem::path& file, std::span<const Surface> surfaces) {
   const toml::table parsed = parse_toml_file(file);
-  const TomlTable root(
-      parsed, file, "",
-      {"scene", "model", "plane", "surface", "brdf", "frame", "light", "lights", "camera", "zoom", "tiling"});
+  const TomlTable root(parsed, file, "",
+                       {"scene", "model", "plane", "surface", "brdf", "frame", "light", "lights", "environment",
+                        "camera", "zoom", "tiling"});
   SceneSettings settings;
   if (const auto scene = root.table("scene", {"name", "description"})) {
     settings.name = scene->word("name");
     settings.description = scene->word("description").value_or("");
   }
   read_content(root, file.parent_path(), surfaces, settings);
-  read_lights(root, settings);
+  read_lights(root, file.parent_path(), settings);
   read_view(root, settings);
   return settings;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/scene/camera.hpp"
+#include "renderer/scene/environment_settings.hpp"
 #include "renderer/scene/scene.hpp"
 #include "renderer/scene/surface.hpp"
 
@@ -57,6 +58,7 @@ struct SceneSettings {
   bool automatic_exposure = false;  ///< asked for by name, also with the supplied lights
   std::vector<Light> lights;
   bool keep_model_lights = true;
+  std::optional<EnvironmentSettings> environment;
   CameraSettings camera;
   std::vector<double> distances{1.0};
   glm::vec2 tiling{1.0F};

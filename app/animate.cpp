@@ -7,14 +7,12 @@
 
 #include "app/arguments.hpp"
 #include "app/commands.hpp"
-#include "app/cpu_info.hpp"
 #include "app/options.hpp"
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/standard_output.hpp"
 #include "experiments/runner/animate.hpp"
 #include "renderer/core/files.hpp"
-#include "renderer/core/interrupt.hpp"
 
 namespace footprint {
 namespace {
@@ -92,11 +90,7 @@ AnimateSettings settings_from(const Arguments& arguments) {
 
 Animation animate_into(OutputFolder& folder, const AnimateSettings& settings, const Progress& progress) {
   Animation animation = run_animation(settings, folder.path(), progress);
-  animation.tool.version = FOOTPRINT_VERSION;
-  animation.backend.cpu = describe_cpu();
-  write_animation(animation, folder.path());
-  throw_if_interrupted();
-  folder.commit();
+  keep_results(animation, folder, write_animation);
   return animation;
 }
 

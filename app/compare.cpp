@@ -1,6 +1,4 @@
 // `footprint compare`: methods against the supersampled reference on one scene, the error and fps table and the page.
-#include <fmt/format.h>
-
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -9,16 +7,12 @@
 
 #include "app/arguments.hpp"
 #include "app/commands.hpp"
-#include "app/cpu_info.hpp"
 #include "app/options.hpp"
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
-#include "app/standard_output.hpp"
 #include "app/timing_process.hpp"
 #include "experiments/runner/compare.hpp"
-#include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
-#include "renderer/core/interrupt.hpp"
 #include "results/report/report.hpp"
 
 namespace footprint {
@@ -111,11 +105,7 @@ Results compare_into(OutputFolder& folder, const CompareSettings& settings, int 
   ProgressParts parts(progress, weight + processes - 1);
   const auto further = times_of_processes(processes - 1, folder.path(), parts.next(processes - 1, ""));
   Results results = run_compare(settings, folder.path(), further, parts.next(weight, ""));
-  results.tool.version = FOOTPRINT_VERSION;
-  results.backend.cpu = describe_cpu();
-  write_report(results, folder.path());
-  throw_if_interrupted();
-  folder.commit();
+  keep_results(results, folder, write_report);
   return results;
 }
 
@@ -129,7 +119,7 @@ void run_compare_command(const Arguments& arguments) {
     return compare_into(folder, settings, arguments.processes, display.callback());
   });
   display.finish();
-  write_output(fmt::format("{}\npage: {}\n", results_table(results), (place / "index.html").string()));
+  print_results(results, place);
 }
 
 }  // namespace

@@ -1,6 +1,13 @@
 // See output.hpp.
 #include "app/output.hpp"
 
+#include <fmt/format.h>
+
+#include "app/cpu_info.hpp"
+#include "app/standard_output.hpp"
+#include "renderer/core/interrupt.hpp"
+#include "results/report/report.hpp"
+
 namespace footprint {
 
 Error at_final_place(const Error& error, const OutputFolder& folder) {
@@ -8,6 +15,20 @@ Error at_final_place(const Error& error, const OutputFolder& folder) {
   const std::string hidden = folder.path().string();
   if (place.starts_with(hidden)) place.replace(0, hidden.size(), folder.final_path().string());
   return {error.kind(), std::move(place), error.message(), error.mend()};
+}
+
+void sign(ToolInfo& tool, BackendInfo& backend) {
+  tool.version = FOOTPRINT_VERSION;
+  backend.cpu = describe_cpu();
+}
+
+void keep(OutputFolder& folder) {
+  throw_if_interrupted();
+  folder.commit();
+}
+
+void print_results(const Results& results, const std::filesystem::path& place) {
+  write_output(fmt::format("{}\npage: {}\n", results_table(results), (place / "index.html").string()));
 }
 
 }  // namespace footprint

@@ -8,11 +8,21 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
+#include "results/report/records.hpp"
 
 namespace footprint {
 
 /// An error of a file that is still out of sight, with the place that the file was meant for.
 [[nodiscard]] Error at_final_place(const Error& error, const OutputFolder& folder);
+
+/// Fills in what only the program knows: its version, and the processor that it runs on.
+void sign(ToolInfo& tool, BackendInfo& backend);
+
+/// Moves the folder to its place. Errors (interrupted): where the run was interrupted, it is not moved.
+void keep(OutputFolder& folder);
+
+/// Prints the table of `results` and where their page lies, in the folder `place`.
+void print_results(const Results& results, const std::filesystem::path& place);
 
 /// What `write` makes of the folder (it commits) and where that is. Nothing is left of a folder that was not committed.
 template <typename Write>
@@ -24,6 +34,15 @@ auto write_whole(const std::filesystem::path& output, Write write) {
   } catch (const Error& error) {
     throw at_final_place(error, folder);
   }
+}
+
+/// Signs measured `results` with the program's version and the processor, lets `write` put them into the folder and
+/// moves that to its place. Errors (interrupted): nothing is moved.
+template <typename Measured, typename Write>
+void keep_results(Measured& results, OutputFolder& folder, Write write) {
+  sign(results.tool, results.backend);
+  write(results, folder.path());
+  keep(folder);
 }
 
 }  // namespace footprint

@@ -8,14 +8,12 @@
 
 #include "app/arguments.hpp"
 #include "app/commands.hpp"
-#include "app/cpu_info.hpp"
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/standard_output.hpp"
 #include "experiments/runner/run_experiment.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
-#include "renderer/core/interrupt.hpp"
 #include "results/report/report.hpp"
 
 namespace footprint {
@@ -63,11 +61,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
 Results run_into(const Experiment& experiment, const RunSettings& settings, OutputFolder& folder,
                  const Progress& progress) {
   Results results = run_experiment(experiment, settings, folder.path(), progress);
-  results.tool.version = FOOTPRINT_VERSION;
-  results.backend.cpu = describe_cpu();
-  write_report(results, folder.path());
-  throw_if_interrupted();
-  folder.commit();
+  keep_results(results, folder, write_report);
   return results;
 }
 
@@ -85,7 +79,7 @@ std::vector<std::string> run_and_print(const Arguments& arguments) {
     return run_into(experiment, settings, folder, display.callback());
   });
   display.finish();
-  write_output(fmt::format("{}\npage: {}\n", results_table(results), (place / "index.html").string()));
+  print_results(results, place);
   return results.experiment->shortfalls();
 }
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cctype>
 #include <charconv>
-#include <fstream>
 
 #include "experiments/runner/ndf_inspection.hpp"
 #include "renderer/core/error.hpp"
@@ -36,13 +35,6 @@ bool names_a_map(const std::string& path) {
   if (std::ranges::find(map_extensions, extension) != map_extensions.end()) return true;
   std::error_code ignored;
   return fs::is_regular_file(path, ignored) && std::ranges::find(scene_extensions, extension) == scene_extensions.end();
-}
-
-bool is_exr(const fs::path& file) {
-  constexpr std::array<char, 4> magic{'\x76', '\x2f', '\x31', '\x01'};
-  std::array<char, 4> first{};
-  std::ifstream(file, std::ios::binary).read(first.data(), first.size());
-  return first == magic;
 }
 
 NdfSource load_map(const std::string& path) {
@@ -90,6 +82,7 @@ std::size_t material_index(const Scene& scene, const std::string& wanted) {
 
 Material with_lobe(Material material, const BaseLobe& lobe) {
   material.brdf.distribution = lobe.distribution;
+  material.lobes.clear();
   material.lobe_parameter = static_cast<float>(lobe.parameter);
   return material;
 }

@@ -1,40 +1,40 @@
 // Geometry is filtered, reflectance is not: the renormalised mean normal with the lobe of the texel at the pixel's
 // centre (Tan 2005, figure 8d).
 struct Effective {
-  vec3 normal;
-  float lobe;
+  Facets facets;
 };
 
 Effective effective(Footprints f) {
-  Effective e;
 //? if normal_variation
   vec3 mean = fetch(fixed_normal, f.normal).xyz;
 //? if storage_unorm8
   mean = 2.0 * mean - 1.0;
 //? end
   float size = length(mean);
-  e.normal = size > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0);
+  vec3 normal = size > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0);
 //? else
-  e.normal = vec3(0.0, 0.0, 1.0);
+  vec3 normal = vec3(0.0, 0.0, 1.0);
 //? end
 //? if roughness_variation
-  e.lobe = lobeFromRoughness(fetchFinest(fixed_roughness, f.roughness).r);
+  float lobe = lobeFromRoughness(fetchFinest(fixed_roughness, f.roughness).r);
 //? else
-  e.lobe = lobe_cutoff.x;
+  float lobe = lobe_cutoff.x;
 //? end
-  return e;
+  return Effective(evenFacets(normal, lobe));
 }
 
-vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) { return lobeSpecular(e.lobe, e.normal, f0, wi, wo); }
+vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) { return facetSpecular(e.facets, f0, wi, wo); }
 
 //? if diffuse
-vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) { return lambert(e.normal, albedo, f0, wi, wo); }
+vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
+  return lambert(e.facets.normal, albedo, f0, wi, wo);
+}
 //? end
 
-float ndf(Effective e, vec3 h) { return lobeDensity(e.lobe, e.normal, h); }
+float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }
 
 //? if environment_light
-//? include one_lobe.glsl
+//? include facet_normal_lobes.glsl
 
-vec3 meanNormal(Effective e) { return e.normal; }
+vec3 meanNormal(Effective e) { return e.facets.normal; }
 //? end

@@ -21,12 +21,18 @@ struct Effective {
 //? if diffuse
   mat2 root;  // of the covariance, symmetric
 //? end
+//? if environment_light
+  LobeRow row;
+//? end
 };
 
 Effective effective(Footprints f) {
   Effective e;
   e.lobe = footprintLobe(f);
   e.round_lobe = lobeFromVariance(e.lobe.breadth);
+//? if environment_light
+  e.row = lobeRow(e.lobe);
+//? end
 //? if diffuse
   mat2 c = e.lobe.spread;
   float s = sqrt(determinantOfCovariance(c));
@@ -151,9 +157,9 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
 //? end
 
 //? if environment_light
-int lobeCount(Effective e) { return 1; }
+int lobeCount(Effective e) { return 2 * e.row.half_count + 1; }
 
-NormalLobe normalLobe(Effective e, int i) { return baseNormalLobe(e.lobe.axis, e.round_lobe, 1.0); }
+NormalLobe normalLobe(Effective e, int i) { return lobeOfRow(e.lobe, e.row, i); }
 
 float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) { return factor(e, h, wi, wo); }
 

@@ -39,7 +39,7 @@ std::vector<Image> normal_and_spread(const Material& material) {
 
 // This method leaves out that the roughness may vary: it takes its mean.
 float mean_lobe(const Material& material) {
-  if (material.lobe_parameter) return *material.lobe_parameter;
+  if (width_map(material) == nullptr) return lobe_parameter(material);
   const float roughness = mip_chain(roughness_map_of(material)).back().texels.front();
   return lobe_from_alpha(material.brdf.distribution, roughness * roughness);
 }

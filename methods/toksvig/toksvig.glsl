@@ -4,8 +4,7 @@
 // is a sum of slope variances per axis, which serves every distribution: alpha^2 / 2 takes the place of 1 / s for
 // Beckmann and GGX (Walter 2007, section 5.2), 1 / kappa for vMF.
 struct Effective {
-  vec3 normal;
-  float lobe;
+  Facets facets;
   float consistency;  // |Na|, 1 where all normals agree
 };
 
@@ -20,7 +19,6 @@ float baseVariance(Footprints f) {
 
 Effective effective(Footprints f) {
   Effective e;
-  float variance = baseVariance(f);
 //? if normal_variation
   vec3 mean = fetch(toksvig_normal, f.normal).xyz;
 //? if storage_unorm8
@@ -28,21 +26,22 @@ Effective effective(Footprints f) {
 //? end
   float size = length(mean);
   e.consistency = min(size, 1.0);  // rounding of the storage leaves |Na| > 1 on flat maps: a negative variance
-  e.normal = size > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0);
-  variance += option_spread * (1.0 - e.consistency) / max(e.consistency, 1e-6);
+  vec3 normal = size > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0);
+  float spread = option_spread * (1.0 - e.consistency) / max(e.consistency, 1e-6);
 //? else
   e.consistency = 1.0;
-  e.normal = vec3(0.0, 0.0, 1.0);
+  vec3 normal = vec3(0.0, 0.0, 1.0);
+  float spread = 0.0;
 //? end
-  e.lobe = lobeFromVariance(variance);
+  e.facets = spreadFacets(normal, baseVariance(f), spread);
   return e;
 }
 
-vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) { return lobeSpecular(e.lobe, e.normal, f0, wi, wo); }
+vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) { return facetSpecular(e.facets, f0, wi, wo); }
 
 //? if diffuse
 vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
-  vec3 reflected = lambert(e.normal, albedo, f0, wi, wo);
+  vec3 reflected = lambert(e.facets.normal, albedo, f0, wi, wo);
 //? if diffuse_mean
   reflected *= e.consistency;
 //? end
@@ -50,16 +49,16 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
 }
 //? end
 
-float ndf(Effective e, vec3 h) { return lobeDensity(e.lobe, e.normal, h); }
+float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }
 
 //? if environment_light
-//? include one_lobe.glsl
+//? include facet_normal_lobes.glsl
 
 vec3 meanNormal(Effective e) {
 //? if diffuse_mean
-  return e.normal * e.consistency;
+  return e.facets.normal * e.consistency;
 //? else
-  return e.normal;
+  return e.facets.normal;
 //? end
 }
 //? end

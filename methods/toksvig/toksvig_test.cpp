@@ -52,8 +52,8 @@ Recovered recovered(const Material& material, const std::map<std::string, std::s
                            select_text(toksvig_method().shader(), flags, "toksvig.glsl");
   const std::string body =
       "lobe_cutoff = vec4(a.x);\nFootprint p = Footprint(vec2(0.5), vec2(1.0, 0.0), vec2(0.0, 1.0));\n"
-      "Effective e = effective(Footprints(p, p, p));\nreturn b.x == 0.0 ? vec4(e.lobe, e.consistency, 0, 0) : "
-      "vec4(e.normal, 0);";
+      "Effective e = effective(Footprints(p, p, p));\nreturn b.x == 0.0 ? vec4(e.facets.lobe, e.consistency, 0, 0) : "
+      "vec4(e.facets.normal, 0);";
   const float s = *material.lobe_parameter;
   const std::array<std::array<glm::vec4, 3>, 2> inputs{
       {{glm::vec4(s), glm::vec4(0), {}}, {glm::vec4(s), glm::vec4(1), {}}}};

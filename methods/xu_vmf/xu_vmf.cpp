@@ -57,7 +57,7 @@ int layer_count(const Options& options) {
 // Two maps can be joined texel by texel where one place on the surface is one place in both. A map that is not there is
 // anywhere.
 bool can_join(const Material& material) {
-  if (!material.metallic_roughness_map || material.lobe_parameter) return true;
+  if (width_map(material) == nullptr) return true;
   const TextureCoordinates normal = normal_coordinates(material);
   const TextureCoordinates roughness = roughness_coordinates(material);
   const bool same_wrap = !material.normal_map || normal.wrap == roughness.wrap;
@@ -168,7 +168,10 @@ class XuVmf final : public Method {
                        "the hemisphere; in the tangent frame.",
                    .paper = "Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping, Computer Graphics Forum 36(4)",
                    .options = option_table(),
-                   .honours = EffectSet{}.set().reset(static_cast<std::size_t>(Effect::environment_light))};
+                   .honours = EffectSet{}
+                                  .set()
+                                  .reset(static_cast<std::size_t>(Effect::multi_lobe))
+                                  .reset(static_cast<std::size_t>(Effect::environment_light))};
   std::string shader_ = std::string(embedded::xu_vmf_glsl).append(embedded::xu_vmf_conversion_glsl);
 };
 

@@ -15,8 +15,10 @@ constexpr std::array<std::string_view, effect_count> names{"diffuse",
                                                            "masking_shadowing",
                                                            "normal_variation",
                                                            "roughness_variation",
+                                                           "multi_lobe",
                                                            "base_color_variation",
                                                            "metallic_variation",
+                                                           "specular_variation",
                                                            "alpha_mask",
                                                            "double_sided",
                                                            "point_light",
@@ -67,7 +69,7 @@ EffectDecision decide(Effect effect, const Scene& scene, Predicate holds, std::s
 
 bool reflects_diffusely(const Material& m) {
   const bool albedo = m.base_color.r > 0.0F || m.base_color.g > 0.0F || m.base_color.b > 0.0F;
-  return m.brdf.diffuse && albedo && (m.metallic < 1.0F || m.metallic_roughness_map);
+  return m.brdf.diffuse && albedo && (m.metallic < 1.0F || metallic_map(m) != nullptr);
 }
 
 EffectDecision normal_variation(const Scene& scene) {
@@ -98,10 +100,15 @@ std::string_view effect_name(Effect effect) { return names.at(static_cast<std::s
 
 std::vector<EffectDecision> derive_effects(const Scene& scene) {
   const auto roughness_varies = [](const Material& m) {
-    return !m.lobe_parameter && m.metallic_roughness_map && channel_varies(*m.metallic_roughness_map->image, 0);
+    return width_map(m) != nullptr && channel_varies(*width_map(m)->image, 0);
   };
   const auto metallic_varies = [](const Material& m) {
-    return m.metallic_roughness_map && channel_varies(*m.metallic_roughness_map->image, 1);
+    return metallic_map(m) != nullptr && channel_varies(*metallic_map(m)->image, 1);
+  };
+  const auto specular_varies = [](const Material& m) {
+    if (!m.specular_map) return false;
+    const Image& image = *m.specular_map->image;
+    return channel_varies(image, 0) || channel_varies(image, 1) || channel_varies(image, 2);
   };
   return {
       decide(Effect::diffuse, scene, reflects_diffusely, "a Lambert term with an albedo above 0",
@@ -116,10 +123,15 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
       decide(Effect::roughness_variation, scene, roughness_varies, "a roughness map that varies",
              "roughness is constant over each material"),
       decide(
+          Effect::multi_lobe, scene, [](const Material& m) { return !m.lobes.empty(); },
+          "facets with lobes about axes of their own", "every facet has one lobe, about its normal"),
+      decide(
           Effect::base_color_variation, scene, [](const Material& m) { return m.base_color_map.has_value(); },
           "a base-colour map", "no base-colour map"),
       decide(Effect::metallic_variation, scene, metallic_varies, "a metallic map that varies",
              "metalness is constant over each material"),
+      decide(Effect::specular_variation, scene, specular_varies, "a specular map that varies",
+             "the specular colour is constant over each material"),
       decide(
           Effect::alpha_mask, scene, [](const Material& m) { return m.alpha_cutoff.has_value(); },
           "parts cut out by alpha", "no material is cut out by alpha"),

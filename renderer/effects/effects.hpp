@@ -18,9 +18,11 @@ enum class Effect : std::size_t {
   fresnel,               ///< Schlick's term over F0
   masking_shadowing,     ///< the geometry term of the base BRDF
   normal_variation,      ///< a normal map that is not flat
-  roughness_variation,   ///< a roughness map that is not constant
+  roughness_variation,   ///< a map of roughness or of lobe parameters that is not constant
+  multi_lobe,            ///< facets with several lobes, or one whose axis is not their normal
   base_color_variation,  ///< a base-colour map
   metallic_variation,    ///< a metallic map that is not constant
+  specular_variation,    ///< a map of reflectance at normal incidence that is not constant
   alpha_mask,            ///< parts cut out by alpha
   double_sided,          ///< surfaces seen from behind
   point_light,
@@ -29,7 +31,7 @@ enum class Effect : std::size_t {
   environment_light,  ///< light from all directions
 };
 
-inline constexpr std::size_t effect_count = 13;
+inline constexpr std::size_t effect_count = 15;
 using EffectSet = std::bitset<effect_count>;
 
 /// The name of an effect as shaders, tables and `explain` write it.

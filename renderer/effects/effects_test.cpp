@@ -85,6 +85,29 @@ TEST(Effects, MapsCountWhereTheyVary) {
   EXPECT_FALSE(on(scene, Effect::roughness_variation));
 }
 
+TEST(Effects, LobeParameterMapsCountWhereTheyVary) {
+  Scene scene = plain_scene();
+  Image map(2, 1, 1, 50.0F);
+  scene.materials[0].lobe_parameter_map = map_of(map);
+  EXPECT_FALSE(on(scene, Effect::roughness_variation));
+  map.texels[1] = 400.0F;
+  scene.materials[0].lobe_parameter_map = map_of(map);
+  EXPECT_TRUE(on(scene, Effect::roughness_variation));
+  scene.materials[0].lobes = {FacetLobe{}};
+  EXPECT_FALSE(on(scene, Effect::roughness_variation));
+  EXPECT_TRUE(on(scene, Effect::multi_lobe));
+}
+
+TEST(Effects, SpecularMapsCountWhereTheyVaryInAnyChannel) {
+  Scene scene = plain_scene();
+  Image map(1, 2, 3, 0.5F);
+  scene.materials[0].specular_map = map_of(map);
+  EXPECT_FALSE(on(scene, Effect::specular_variation));
+  map.texels[5] = 0.6F;
+  scene.materials[0].specular_map = map_of(map);
+  EXPECT_TRUE(on(scene, Effect::specular_variation));
+}
+
 TEST(Effects, OneMaterialOfManyIsEnoughAndIsCounted) {
   Scene scene = plain_scene();
   scene.materials.push_back(scene.materials[0]);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -181,6 +182,13 @@ Image read_image(const std::filesystem::path& file, Transfer transfer, int max_s
   OIIO::Filesystem::IOFile source(name, IOProxy::Read);
   if (!source.opened()) throw Error(ErrorKind::usage, name, "cannot be opened", "check its permissions");
   return decode(source, name, transfer, max_side);
+}
+
+bool is_exr(const std::filesystem::path& file) {
+  constexpr std::array<char, 4> magic{'\x76', '\x2f', '\x31', '\x01'};
+  std::array<char, 4> first{};
+  std::ifstream(file, std::ios::binary).read(first.data(), first.size());
+  return first == magic;
 }
 
 Image read_image(std::span<const std::uint8_t> bytes, const std::string& name, Transfer transfer, int max_side) {

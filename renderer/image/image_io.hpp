@@ -26,6 +26,9 @@ enum class Transfer {
 [[nodiscard]] Image read_image(std::span<const std::uint8_t> bytes, const std::string& name, Transfer transfer,
                                int max_side = 16384);
 
+/// Whether a file is an EXR, by its first bytes; false where it cannot be read.
+[[nodiscard]] bool is_exr(const std::filesystem::path& file);
+
 /// Writes 1, 3 or 4 channels as 32-bit float EXR (zip); written to a temporary neighbour and renamed, so the file
 /// appears whole or not at all. Errors (machine): the folder cannot be written, the disk is full.
 void write_exr(const std::filesystem::path& file, const Image& image);

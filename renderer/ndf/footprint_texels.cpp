@@ -14,6 +14,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/pipeline/base_surface.hpp"
+#include "renderer/pipeline/facet_lobes.hpp"
 
 namespace footprint {
 namespace {
@@ -80,17 +81,13 @@ struct Alignment {
   glm::dvec2 scale{0.0}, offset{0.0};
 };
 
-bool roughness_is_mapped(const Material& material) {
-  return material.metallic_roughness_map && !material.lobe_parameter;
-}
-
 glm::dmat3 as_matrix(const glm::mat3x2& transform) {
   return {glm::dvec3(glm::dvec2(transform[0]), 0.0), glm::dvec3(glm::dvec2(transform[1]), 0.0),
           glm::dvec3(glm::dvec2(transform[2]), 1.0)};
 }
 
 Alignment alignment(const Material& material) {
-  if (!roughness_is_mapped(material)) return {};
+  if (width_map(material) == nullptr) return {};
   const TextureCoordinates normal = normal_coordinates(material);
   const TextureCoordinates roughness = roughness_coordinates(material);
   const auto refuse = [&](const std::string& message) {
@@ -118,7 +115,10 @@ class Facets {
                                      : std::make_shared<const Image>(normal_map_of(material))),
         roughness_(roughness_map_of(material)),
         parameter_(lobe_parameter(material)),
-        mapped_(roughness_is_mapped(material)) {}
+        mapped_(width_map(material) != nullptr),
+        holds_parameter_(mapped_ && material.lobe_parameter_map.has_value()) {
+    if (holds_parameter_) roughness_ = *material.lobe_parameter_map->image;
+  }
 
   [[nodiscard]] const Image& normals() const { return *normals_; }
   [[nodiscard]] const Image& roughness() const { return roughness_; }
@@ -137,6 +137,7 @@ class Facets {
   [[nodiscard]] double parameter_at(const Stretch& column, const Stretch& row) const {
     if (!mapped_) return parameter_;
     const float r = roughness_.at(column.roughness, row.roughness)[0];
+    if (holds_parameter_) return r;
     return lobe_from_alpha(distribution_, r * r);
   }
 
@@ -145,6 +146,7 @@ class Facets {
   Image roughness_;
   double parameter_;
   bool mapped_;
+  bool holds_parameter_;  // not roughness
 };
 
 auto order_of(const WeightedFacet& f) { return std::tie(f.parameter, f.normal.x, f.normal.y, f.normal.z); }
@@ -164,6 +166,22 @@ void unite_equal(std::vector<WeightedFacet>& facets) {
     }
   }
   facets.resize(std::min(kept + 1, facets.size()));
+}
+
+// Each facet once for each of the material's own lobes, about its axis.
+void multiply_by_lobes(const std::vector<FacetLobe>& lobes, std::vector<WeightedFacet>& facets) {
+  std::vector<WeightedFacet> out;
+  require_memory(frame_bytes(facets.size(), lobes.size(), sizeof(WeightedFacet)),
+                 fmt::format("{} facets of {} lobes", facets.size(), lobes.size()), "give a smaller --footprint");
+  out.reserve(facets.size() * lobes.size());
+  for (const WeightedFacet& facet : facets) {
+    for (const FacetLobe& lobe : lobes) {
+      const glm::dvec3 axis = glm::normalize(glm::dvec3(lobe.axis));
+      out.push_back({turned_with_normal(axis, facet.normal), lobe.parameter, facet.share * lobe.weight});
+    }
+  }
+  facets = std::move(out);
+  unite_equal(facets);
 }
 
 }  // namespace
@@ -220,11 +238,12 @@ FootprintTexels texels_under(const Material& material, const FootprintRect& rect
                 "give a --footprint where the map has some");
   }
   for (WeightedFacet& facet : out.facets) facet.share /= out.valid_share;
+  if (!material.lobes.empty()) multiply_by_lobes(material.lobes, out.facets);
   return out;
 }
 
 MappedFootprint roughness_footprint(const Material& material, const FootprintRect& rect) {
-  if (!roughness_is_mapped(material)) return {rect.centre(), {rect.size().x, 0.0}, {0.0, rect.size().y}};
+  if (width_map(material) == nullptr) return {rect.centre(), {rect.size().x, 0.0}, {0.0, rect.size().y}};
   const Alignment aligned = alignment(material);
   const glm::dvec2 size = aligned.scale * rect.size();
   return {aligned.scale * rect.centre() + aligned.offset, {size.x, 0.0}, {0.0, size.y}};

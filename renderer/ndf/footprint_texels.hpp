@@ -24,9 +24,9 @@ inline constexpr double farthest_footprint = 64.0;
 
 /// Facets of one normal and one lobe, and their share of the footprint's area.
 struct WeightedFacet {
-  glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit
+  glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit; of a facet with lobes of its own, the axis of one of them
   double parameter = 0.0;            ///< of the base lobe
-  double share = 0.0;                ///< of the footprint; over all facets the sum is 1
+  double share = 0.0;  ///< of the footprint, times the lobe's weight; over all facets the sum is 1 (weights')
 };
 
 /// What a footprint holds.
@@ -41,8 +41,9 @@ void check_footprint(const FootprintRect& rect, const std::string& place);
 
 /// Every facet of a material under `rect`: each texel of the normal map with the part of the rectangle that it covers,
 /// wrapped as its coordinates say, with the roughness texels that lie over it where the roughness varies. Equal facets
-/// are one; texels of weight 0 (no normal) do not count. Errors (usage): no texel has a normal; the maps are turned
-/// against each other or use different sets of coordinates; (machine): memory does not hold the facets.
+/// are one; a facet with lobes of its own stands once for each of them; texels of weight 0 (no normal) do not count.
+/// Errors (usage): no texel has a normal; the maps are turned against each other or use different sets of coordinates;
+/// (machine): memory does not hold the facets.
 [[nodiscard]] FootprintTexels texels_under(const Material& material, const FootprintRect& rect);
 
 /// The footprint of the roughness map under the same surface: centre and edges (columns) in its own coordinates.

@@ -41,6 +41,7 @@ Scene scene_of_facets(const Material& material) {
   scene.materials.push_back(material);
   Material& bare = scene.materials.front();
   bare.base_color_map.reset();
+  bare.specular_map.reset();
   bare.alpha_cutoff.reset();
   bare.double_sided = false;
   scene.meshes.push_back(make_plane({1.0F, 1.0F}, {1.0F, 1.0F}));

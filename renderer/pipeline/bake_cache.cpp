@@ -76,6 +76,10 @@ void add_material(ContentHash& hash, const Material& m) {
   add_map(hash, m.base_color_map);
   add_map(hash, m.metallic_roughness_map);
   add_map(hash, m.normal_map);
+  add_map(hash, m.lobe_parameter_map);
+  add_map(hash, m.specular_map);
+  add_value(hash, m.lobes.size());
+  for (const FacetLobe& lobe : m.lobes) add_value(hash, lobe);
 }
 
 struct KeptFile {
@@ -152,7 +156,7 @@ std::optional<fs::path> default_cache_folder() {
     if (value == nullptr || *value == '\0') return {};
     return fs::path(value);
   };
-  if (const auto own = variable("FOOTPRINT_CACHE")) return own;
+  if (auto own = variable("FOOTPRINT_CACHE")) return own;
   if (const auto shared = variable("XDG_CACHE_HOME")) return *shared / "footprint";
   if (const auto home = variable("HOME")) return *home / ".cache" / "footprint";
   return {};

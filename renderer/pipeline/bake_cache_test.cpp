@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path fresh_cache(const std::string& name) {
-  const fs::path folder = fs::path(::testing::TempDir()) / ("footprint_bake_cache_" + name);
+  fs::path folder = fs::path(::testing::TempDir()) / ("footprint_bake_cache_" + name);
   fs::remove_all(folder);
   return folder;
 }

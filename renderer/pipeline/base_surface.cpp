@@ -15,6 +15,8 @@ namespace {
 // Twins of the constants in common_lobes.glsl.
 constexpr float smallest_alpha = 1e-3F;
 constexpr float smallest_concentration = 1e-6F;
+constexpr float largest_exponent = 2e6F;
+constexpr float smallest_variance = 1e-12F;
 
 Image one_channel(const Image& image, int channel) {
   Image out(image.width, image.height, 1);
@@ -68,16 +70,26 @@ Image normal_map_of(const Material& material) {
 }
 
 Image roughness_map_of(const Material& material) {
-  if (material.metallic_roughness_map && !material.lobe_parameter)
-    return one_channel(*material.metallic_roughness_map->image, 0);
-  if (material.lobe_parameter)
-    return Image(1, 1, 1, std::sqrt(lobe_alpha(material.brdf.distribution, *material.lobe_parameter)));
-  return Image(1, 1, 1, material.roughness);
+  const NormalDistribution distribution = material.brdf.distribution;
+  if (const TextureMap* map = width_map(material); map != nullptr) {
+    Image roughness = one_channel(*map->image, 0);
+    if (material.lobe_parameter_map) {
+      std::ranges::transform(roughness.texels, roughness.texels.begin(),
+                             [&](float lobe) { return roughness_from_lobe(distribution, lobe); });
+    }
+    return roughness;
+  }
+  const bool own_lobe = material.lobe_parameter || !material.lobes.empty();
+  return Image(1, 1, 1, own_lobe ? roughness_from_lobe(distribution, lobe_parameter(material)) : material.roughness);
 }
 
 Image metallic_map_of(const Material& material) {
-  if (material.metallic_roughness_map) return one_channel(*material.metallic_roughness_map->image, 1);
+  if (const TextureMap* map = metallic_map(material); map != nullptr) return one_channel(*map->image, 1);
   return Image(1, 1, 1, material.metallic);
+}
+
+Image specular_map_of(const Material& material) {
+  return material.specular_map ? *material.specular_map->image : Image(1, 1, 3, 1.0F);
 }
 
 TextureCoordinates normal_coordinates(const Material& material) {
@@ -85,6 +97,7 @@ TextureCoordinates normal_coordinates(const Material& material) {
 }
 
 TextureCoordinates roughness_coordinates(const Material& material) {
+  if (material.lobe_parameter_map) return material.lobe_parameter_map->coordinates;
   return material.metallic_roughness_map ? material.metallic_roughness_map->coordinates : TextureCoordinates{};
 }
 
@@ -92,10 +105,26 @@ TextureCoordinates base_color_coordinates(const Material& material) {
   return material.base_color_map ? material.base_color_map->coordinates : TextureCoordinates{};
 }
 
+TextureCoordinates specular_coordinates(const Material& material) {
+  return material.specular_map ? material.specular_map->coordinates : TextureCoordinates{};
+}
+
 float lobe_parameter(const Material& material) {
+  const NormalDistribution distribution = material.brdf.distribution;
   if (material.lobe_parameter) return *material.lobe_parameter;
-  const float roughness = roughness_map_of(material).texels.front();
-  return lobe_from_alpha(material.brdf.distribution, roughness * roughness);
+  if (!material.lobes.empty()) {
+    float weight = 0.0F;
+    float variance = 0.0F;
+    for (const FacetLobe& lobe : material.lobes) {
+      weight += lobe.weight;
+      variance += lobe.weight * lobe_variance(distribution, lobe.parameter);
+    }
+    return lobe_from_variance(distribution, variance / weight);
+  }
+  const TextureMap* const map = width_map(material);
+  if (map != nullptr && material.lobe_parameter_map) return map->image->texels.front();
+  const float roughness = map != nullptr ? map->image->texels.front() : material.roughness;
+  return lobe_from_alpha(distribution, roughness * roughness);
 }
 
 float lobe_from_alpha(NormalDistribution distribution, float alpha) {
@@ -135,6 +164,34 @@ float lobe_variance(NormalDistribution distribution, float lobe) {
       break;
   }
   return 0.5F * lobe * lobe;
+}
+
+float lobe_from_variance(NormalDistribution distribution, float variance) {
+  const float alpha = std::max(std::sqrt(2.0F * variance), smallest_alpha);
+  switch (distribution) {
+    case NormalDistribution::blinn_phong:
+    case NormalDistribution::vmf:
+      return std::min(1.0F / std::max(variance, smallest_variance), largest_exponent);
+    case NormalDistribution::ggx:
+      return std::min(alpha, 1.0F);
+    case NormalDistribution::beckmann:
+      break;
+  }
+  return alpha;
+}
+
+float roughness_from_lobe(NormalDistribution distribution, float lobe) {
+  const double value = std::max(lobe, smallest_concentration);
+  switch (distribution) {
+    case NormalDistribution::blinn_phong:
+      return static_cast<float>(std::sqrt(std::sqrt(2.0 / (value + 2.0))));
+    case NormalDistribution::vmf:
+      return static_cast<float>(std::sqrt(std::sqrt(2.0 / value)));
+    case NormalDistribution::beckmann:
+    case NormalDistribution::ggx:
+      break;
+  }
+  return static_cast<float>(std::sqrt(value));
 }
 
 }  // namespace footprint

@@ -53,6 +53,11 @@ const auto cases = std::to_array<EffectCase>({
        map.texels = {0.4F, 0.0F, 0.8F, 0.0F};
        s.materials[0].metallic_roughness_map = map_of(std::move(map));
      }},
+    {Effect::multi_lobe, "facet_lobe",
+     [](Scene& s) {
+       s.materials[0].lobes = {{.axis = {0.6F, 0.0F, 0.8F}, .parameter = 0.4F, .weight = 0.5F},
+                               {.axis = {-0.6F, 0.0F, 0.8F}, .parameter = 0.3F, .weight = 0.5F}};
+     }},
     {Effect::base_color_variation, "base_color_map",
      [](Scene& s) {
        s.materials[0].metallic = 1.0F;
@@ -63,6 +68,8 @@ const auto cases = std::to_array<EffectCase>({
        s.materials[0].base_color = {1.0F, 0.0F, 0.0F, 1.0F};
        s.materials[0].metallic_roughness_map = map_of(halves(2, 0.5F, 0.9F));
      }},
+    {Effect::specular_variation, "specular_map",
+     [](Scene& s) { s.materials[0].specular_map = map_of(halves(3, 1.0F, 0.25F)); }},
     {Effect::alpha_mask, "discard",
      [](Scene& s) {
        s.materials[0].base_color.a = 0.3F;

@@ -11,7 +11,7 @@ namespace footprint {
 namespace {
 
 constexpr GLuint block_binding = 5;
-constexpr float directions_a_sample = 2.0F;  // of each kind: docs/metrics.md
+constexpr float directions_a_sample = 2.0F;  // of each kind: docs/base-brdf.md
 
 gl::Buffer block_of(const std::array<glm::vec4, 2>& values) { return gl::Buffer(std::as_bytes(std::span(values))); }
 

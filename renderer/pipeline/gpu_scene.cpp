@@ -4,25 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <glm/gtc/type_ptr.hpp>
 #include <limits>
 #include <span>
 
 #include "renderer/core/error.hpp"
 #include "renderer/image/mipmap.hpp"
 #include "renderer/pipeline/base_surface.hpp"
+#include "renderer/pipeline/facet_lobes.hpp"
 #include "renderer/pipeline/light_blocks.hpp"
 
 namespace footprint {
 namespace {
-
-// std140 twin of MaterialBlock in surface_fragment.glsl.
-struct MaterialBlock {
-  glm::vec4 base_color_factor;
-  glm::vec4 dielectric_specular_metallic;
-  glm::vec4 lobe_cutoff;
-  std::array<glm::vec4, 3> uv_linear;
-  std::array<glm::vec4, 3> uv_offset_set;
-};
 
 constexpr float never_cut = -1.0F;  // no alpha lies below it
 
@@ -53,18 +46,30 @@ GlFormat gl_format(Storage storage, int channels) {
   return {internals.at(s).at(c), formats.at(c), types.at(s)};
 }
 
-MaterialBlock material_block(const Material& material) {
-  MaterialBlock block{};
-  block.base_color_factor = material.base_color;
-  block.dielectric_specular_metallic =
-      glm::vec4(material.dielectric_specular, metallic_map_of(material).texels.front());
-  block.lobe_cutoff = {lobe_parameter(material), material.alpha_cutoff.value_or(never_cut), 0.0F, 0.0F};
+glm::vec4 linear_part(const TextureCoordinates& c) { return {c.transform[0], c.transform[1]}; }
+
+glm::vec4 offset_and_set(const TextureCoordinates& c) { return {c.transform[2], static_cast<float>(c.set), 0.0F}; }
+
+// The std140 members of MaterialBlock in surface_material.glsl. What multi_lobe adds comes last: a program whose method
+// leaves it out has a block without it.
+std::vector<glm::vec4> material_block(const Material& material, const EffectSet& effects) {
+  const bool specular_varies = has(effects, Effect::specular_variation);
+  glm::vec3 specular = material.dielectric_specular;
+  if (!specular_varies) specular *= glm::make_vec3(specular_map_of(material).texels.data());
+  std::vector<glm::vec4> block{
+      material.base_color, glm::vec4(specular, metallic_map_of(material).texels.front()),
+      glm::vec4(lobe_parameter(material), material.alpha_cutoff.value_or(never_cut), 0.0F, 0.0F)};
   const std::array slots{normal_coordinates(material), roughness_coordinates(material),
                          base_color_coordinates(material)};
-  for (std::size_t i = 0; i < slots.size(); ++i) {
-    const glm::mat3x2& t = slots[i].transform;
-    block.uv_linear[i] = {t[0], t[1]};
-    block.uv_offset_set[i] = {t[2], static_cast<float>(slots[i].set), 0.0F};
+  for (const TextureCoordinates& slot : slots) block.push_back(linear_part(slot));
+  for (const TextureCoordinates& slot : slots) block.push_back(offset_and_set(slot));
+  if (specular_varies) {
+    block.push_back(linear_part(specular_coordinates(material)));
+    block.push_back(offset_and_set(specular_coordinates(material)));
+  }
+  if (has(effects, Effect::multi_lobe)) {
+    const std::vector<glm::vec4> lobes = facet_lobe_block(material);
+    block.insert(block.end(), lobes.begin(), lobes.end());
   }
   return block;
 }
@@ -76,8 +81,9 @@ bool same_place(const TextureCoordinates& a, const TextureCoordinates& b) {
 bool maps_share_coordinates(const Material& m) {
   std::vector<TextureCoordinates> used;
   if (m.normal_map) used.push_back(m.normal_map->coordinates);
-  if (m.metallic_roughness_map) used.push_back(m.metallic_roughness_map->coordinates);
+  if (m.metallic_roughness_map || m.lobe_parameter_map) used.push_back(roughness_coordinates(m));
   if (m.base_color_map) used.push_back(m.base_color_map->coordinates);
+  if (m.specular_map) used.push_back(m.specular_map->coordinates);
   // Slot 0 serves every map: a material without a normal map has the default there.
   const TextureCoordinates first = normal_coordinates(m);
   return std::ranges::all_of(used, [&](const TextureCoordinates& c) { return same_place(c, first); });
@@ -110,7 +116,7 @@ gl::VertexArray vertex_array(const gl::Buffer& vertices, const gl::Buffer& indic
 }
 
 // All triangles of a material in one draw call.
-GpuBatch batch_of(const Scene& scene, std::size_t material) {
+GpuBatch batch_of(const Scene& scene, std::size_t material, const EffectSet& effects) {
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> indices;
   for (const Mesh& mesh : scene.meshes) {
@@ -129,8 +135,8 @@ GpuBatch batch_of(const Scene& scene, std::size_t material) {
   batch.index_count = static_cast<GLsizei>(indices.size());
   batch.material = material;
   batch.double_sided = scene.materials[material].double_sided;
-  const MaterialBlock block = material_block(scene.materials[material]);
-  batch.material_block = gl::Buffer(std::as_bytes(std::span(&block, 1)));
+  const std::vector<glm::vec4> block = material_block(scene.materials[material], effects);
+  batch.material_block = gl::Buffer(std::as_bytes(std::span(block)));
   return batch;
 }
 
@@ -144,6 +150,10 @@ std::vector<PrefilteredTexture> shared_textures(const Material& material, const 
   if (has(effects, Effect::metallic_variation)) {
     textures.push_back(make_texture("metallic_map", mip_chain(metallic_map_of(material)), Storage::fp32,
                                     roughness_coordinates(material)));
+  }
+  if (has(effects, Effect::specular_variation)) {
+    textures.push_back(make_texture("specular_map", mip_chain(specular_map_of(material)), Storage::fp32,
+                                    specular_coordinates(material)));
   }
   return textures;
 }
@@ -190,7 +200,7 @@ GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const Eff
     shared_coordinates_ = shared_coordinates_ && maps_share_coordinates(material);
   }
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    GpuBatch batch = batch_of(scene, i);
+    GpuBatch batch = batch_of(scene, i, effects);
     if (batch.index_count == 0) continue;
     for (const PrefilteredTexture& texture : shared_textures(scene.materials[i], effects)) {
       shared_bytes_ += byte_count({.textures = {texture}, .scalars = {}});

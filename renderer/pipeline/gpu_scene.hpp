@@ -54,7 +54,7 @@ struct GpuBatch {
   GLsizei index_count = 0;
   std::size_t material = 0;
   bool double_sided = false;
-  std::vector<GpuTexture> shared_textures;  ///< base_color_map, metallic_map: those whose effect is on
+  std::vector<GpuTexture> shared_textures;  ///< base_color_map, metallic_map, specular_map: those whose effect is on
 };
 
 /// The whole scene. Needs the context that made it to be current, also when destroyed.

@@ -21,6 +21,7 @@ std::string functions_of(const BaseBrdf& brdf) {
   ShaderVariant variant;
   variant.brdf = brdf;
   variant.effects.set();
+  variant.effects.reset(static_cast<std::size_t>(Effect::multi_lobe));  // facet_lobes_test.cpp has it
   return shared_functions(shader_flags(variant, Options({}, {}, "test")));
 }
 
@@ -141,7 +142,24 @@ TEST(Lobes, CppTwinsAgreeWithGlsl) {
       EXPECT_NEAR(glsl[i].z, lobe_alpha(distribution, lobe), 1e-5F);
       // A uniform lobe (exponent 0) has no finite width to come back from.
       EXPECT_TRUE(lobe <= 0.0F || std::abs(glsl[i].w - lobe) <= 1e-5F * lobe);
+      EXPECT_NEAR(lobe_from_variance(distribution, lobe_variance(distribution, lobe)), glsl[i].w, 1e-5F * glsl[i].w);
     }
+  }
+}
+
+// What a map of lobe parameters keeps of them: it is stored as roughness.
+TEST(Lobes, RoughnessKeepsTheLobeParameter) {
+  const auto kept = [](NormalDistribution distribution, float lobe) {
+    const float r = roughness_from_lobe(distribution, lobe);
+    return lobe_from_alpha(distribution, r * r);
+  };
+  for (float lobe = 1e-3F; lobe <= 1e6F; lobe *= 1.37F) {
+    EXPECT_NEAR(kept(NormalDistribution::vmf, lobe), lobe, 1e-6F * lobe);
+    EXPECT_NEAR(kept(NormalDistribution::blinn_phong, lobe), lobe, 1e-6F * std::max(lobe, 1.0F));
+  }
+  for (float alpha = 1e-3F; alpha <= 1.0F; alpha *= 1.37F) {
+    EXPECT_NEAR(kept(NormalDistribution::ggx, alpha), alpha, 1e-6F * alpha);
+    EXPECT_NEAR(kept(NormalDistribution::beckmann, alpha), alpha, 1e-6F * alpha);
   }
 }
 
@@ -156,7 +174,8 @@ TEST(Terms, GrazingAndOppositeDirectionsAreFinite) {
                                      NormalDistribution::beckmann, NormalDistribution::ggx}) {
     for (const GeometryTerm g : {GeometryTerm::none, GeometryTerm::tan, GeometryTerm::smith}) {
       const std::string body =
-          "float lobe = lobeFromAlpha(0.3);\nvec3 n = vec3(0, 0, 1);\nvec3 s = lobeSpecular(lobe, n, vec3(0.5), a.xyz, "
+          "float lobe = lobeFromAlpha(0.3);\nvec3 n = vec3(0, 0, 1);\nvec3 s = facetSpecular(evenFacets(n, lobe), "
+          "vec3(0.5), a.xyz, "
           "b.xyz);\n"
           "vec3 h = halfVector(a.xyz, b.xyz);\n"
           "float bound = 2.0 * lobeDensity(lobe, n, h) * max(h.z, 0.0) / max(dot(b.xyz, h), 1e-6);\nreturn vec4(s, "

@@ -11,9 +11,9 @@ namespace footprint {
 
 namespace embedded {
 extern const std::string_view surface_vertex_glsl, surface_fragment_glsl, surface_lights_glsl, common_footprint_glsl,
-    common_lobes_glsl, common_base_brdf_glsl, common_slopes_glsl, beckmann_lambda_glsl, surface_material_glsl,
-    ndf_fragment_glsl, resolve_samples_glsl, screen_vertex_glsl, vmf_density_glsl, normal_lobes_glsl,
-    environment_stack_glsl, environment_sampling_glsl, lobe_sampling_glsl, one_lobe_glsl;
+    common_lobes_glsl, common_base_brdf_glsl, common_slopes_glsl, beckmann_lambda_glsl, facet_lobes_glsl,
+    surface_material_glsl, ndf_fragment_glsl, resolve_samples_glsl, screen_vertex_glsl, vmf_density_glsl,
+    normal_lobes_glsl, facet_normal_lobes_glsl, environment_stack_glsl, environment_sampling_glsl, lobe_sampling_glsl;
 }
 
 namespace {
@@ -25,9 +25,10 @@ constexpr std::string_view version_line = "#version 450 core\n";
 std::optional<std::string_view> optional_text(std::string_view file) {
   if (file == "common_slopes.glsl") return embedded::common_slopes_glsl;
   if (file == "beckmann_lambda.glsl") return embedded::beckmann_lambda_glsl;
+  if (file == "facet_lobes.glsl") return embedded::facet_lobes_glsl;
   if (file == "vmf_density.glsl") return embedded::vmf_density_glsl;
   if (file == "lobe_sampling.glsl") return embedded::lobe_sampling_glsl;
-  if (file == "one_lobe.glsl") return embedded::one_lobe_glsl;
+  if (file == "facet_normal_lobes.glsl") return embedded::facet_normal_lobes_glsl;
   if (file == "environment_stack.glsl") return embedded::environment_stack_glsl;
   if (file == "environment_sampling.glsl") return embedded::environment_sampling_glsl;
   return std::nullopt;
@@ -243,6 +244,7 @@ std::vector<std::string> texture_names(const EffectSet& effects, const Prefilter
   std::vector<std::string> names;
   if (has(effects, Effect::base_color_variation)) names.emplace_back("base_color_map");
   if (has(effects, Effect::metallic_variation)) names.emplace_back("metallic_map");
+  if (has(effects, Effect::specular_variation)) names.emplace_back("specular_map");
   for (const PrefilteredTexture& texture : prefiltered.textures) names.push_back(texture.name);
   return names;
 }
@@ -259,6 +261,10 @@ std::string shared_functions(const ShaderFlags& flags) {
                      select_text(embedded::common_base_brdf_glsl, flags, "common_base_brdf.glsl");
   if (flags.contains("environment_light")) text += select_text(embedded::normal_lobes_glsl, flags, "normal_lobes.glsl");
   return text;
+}
+
+std::string material_block(const ShaderFlags& flags) {
+  return select_text(embedded::surface_material_glsl, flags, "surface_material.glsl");
 }
 
 std::string vertex_shader(const ShaderVariant& variant) {
@@ -282,7 +288,7 @@ std::string method_program(const ShaderVariant& variant, const Module& module, c
   std::string text = fmt::format("{}#line {}\n", version_line, first_shared_line) + first;
   if (variant.max_probes > 1) text += fmt::format("const float max_probes = {}.0;\n", variant.max_probes);
   text += number_options(options) + declarations(variant.effects, prefiltered);
-  text += shared_functions(flags) + std::string(embedded::surface_material_glsl);
+  text += material_block(flags) + shared_functions(flags);
   constexpr std::string_view split = "//# module\n";
   const std::size_t place = pass.find(split);
   text += pass.substr(0, place);
@@ -313,8 +319,7 @@ std::string frame_build_shader(const ShaderVariant& variant, std::string_view pa
                                const Options& options) {
   const ShaderFlags flags = shader_flags(variant, options);
   return fmt::format("{}#line {}\n", version_line, first_shared_line) + number_options(options) +
-         shared_functions(flags) + std::string(embedded::surface_material_glsl) +
-         select_text(pass, flags, pass_name, true);
+         material_block(flags) + shared_functions(flags) + select_text(pass, flags, pass_name, true);
 }
 
 std::string screen_vertex_shader() { return std::string(version_line) + std::string(embedded::screen_vertex_glsl); }

@@ -58,6 +58,9 @@ inline constexpr int first_shared_line = 10001;
 /// The environment's textures in the order of their units; none without its light.
 [[nodiscard]] std::vector<std::string> environment_texture_names(const ShaderVariant& variant);
 
+/// The material's uniform block, in front of the shared functions: with `multi_lobe` they read it.
+[[nodiscard]] std::string material_block(const ShaderFlags& flags);
+
 /// The lobes, base BRDF terms and footprint functions alone, for programs that evaluate a module outside of a frame.
 [[nodiscard]] std::string shared_functions(const ShaderFlags& flags);
 

@@ -20,6 +20,7 @@ EffectSet effects_of(const GpuScene& scene, const Method& method) {
   EffectSet shared;
   shared.set(static_cast<std::size_t>(Effect::base_color_variation));
   shared.set(static_cast<std::size_t>(Effect::metallic_variation));
+  shared.set(static_cast<std::size_t>(Effect::specular_variation));
   return scene.effects() & (method.info().honours | shared);
 }
 
@@ -106,8 +107,8 @@ BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scen
 GpuMethod::GpuMethod(const GpuScene& scene, const BakedMethod& baked)
     : baked_(&baked),
       scene_batches_(scene.batches()),
-      build_(baked.method->frame_build(
-          {.effects = scene.effects() & baked.method->info().honours, .brdf = scene.brdf()}, baked.options)) {
+      build_(baked.method->frame_build({.effects = effects_of(scene, *baked.method), .brdf = scene.brdf()},
+                                       baked.options)) {
   for (const GpuBatch& batch : scene.batches()) {
     const Prefiltered& prefiltered = baked.materials.at(batch.material);
     PerBatch part;

@@ -21,14 +21,19 @@ void require_finite(const Image& image, const std::string& name) {
               "radiance must be finite: mend the picture");
 }
 
-// Three channels of a picture that has one, three or four.
-Image colors_of(const Image& image) {
-  Image out(image.width, image.height, 3);
-  const auto stride = static_cast<std::size_t>(image.channels);
-  for (std::size_t i = 0; i < image.texel_count(); ++i) {
-    for (std::size_t c = 0; c < 3; ++c) out.texels[3 * i + c] = image.texels[stride * i + (stride == 1 ? 0 : c)];
+// Three channels of a picture that has one or four; of four in place, as the largest take gigabytes.
+Image with_three_channels(Image image) {
+  if (image.channels == 1) {
+    Image out(image.width, image.height, 3);
+    for (std::size_t i = 0; i < out.texels.size(); ++i) out.texels[i] = image.texels[i / 3];
+    return out;
   }
-  return out;
+  for (std::size_t i = 0; i < image.texel_count(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) image.texels[3 * i + c] = image.texels[4 * i + c];
+  }
+  image.channels = 3;
+  image.texels.resize(3 * image.texel_count());
+  return image;
 }
 
 std::size_t clamp_negative(Image& image) {
@@ -49,7 +54,7 @@ Environment load_environment(const std::filesystem::path& file, std::vector<std:
   if (image.channels == 2) {
     throw Error(ErrorKind::usage, file.string(), "has 2 channels", "give an environment with 1, 3 or 4 channels");
   }
-  if (image.channels != 3) image = colors_of(image);
+  if (image.channels != 3) image = with_three_channels(std::move(image));
   require_finite(image, file.string());
   if (const std::size_t negative = clamp_negative(image); negative > 0)
     warnings.push_back(fmt::format("{}: {} negative values of radiance are taken as 0", name, negative));

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "renderer/image/image.hpp"
 
@@ -44,6 +45,18 @@ struct TextureMap {
   TextureCoordinates coordinates;
 };
 
+/// One of several lobes that a facet reflects with. Its axis turns with the facet's normal (facet_lobes.hpp).
+struct FacetLobe {
+  glm::vec3 axis{0.0F, 0.0F, 1.0F};  ///< unit, z > 0: x along the tangent, y along the bitangent, z along the normal
+  float parameter = 1.0F;            ///< exponent (blinn_phong), alpha (beckmann, ggx), kappa (vmf)
+  float weight = 1.0F;               ///< above 0: D is the sum of weight times the lobe's density
+
+  friend bool operator==(const FacetLobe&, const FacetLobe&) = default;
+};
+
+/// The most lobes of a facet.
+inline constexpr std::size_t most_facet_lobes = 8;
+
 /// A surface's material. Without a map the factor alone counts; with one, factor * map as in glTF 2.0.
 struct Material {
   std::string name;
@@ -54,15 +67,32 @@ struct Material {
   float metallic = 1.0F;                 ///< 0..1
   float roughness = 1.0F;                ///< perceptual, 0..1; alpha = roughness^2 (glTF 2.0, appendix B)
   std::optional<float>
-      lobe_parameter;  ///< overrides roughness: exponent (blinn_phong), alpha (beckmann, ggx), kappa (vmf)
+      lobe_parameter;            ///< overrides roughness: exponent (blinn_phong), alpha (beckmann, ggx), kappa (vmf)
+  std::vector<FacetLobe> lobes;  ///< in place of the one lobe about the normal; empty: that lobe. Overrides all width
 
   std::optional<TextureMap> base_color_map;  ///< RGBA, linear
   std::optional<TextureMap>
-      metallic_roughness_map;            ///< 2 channels: roughness, metallic (0..1), already times the factors
-  std::optional<TextureMap> normal_map;  ///< 4 channels: unit normal xyz (z > 0 out of the surface), weight 0 or 1
+      metallic_roughness_map;  ///< 2 channels: roughness, metallic (0..1), already times the factors
+  std::optional<TextureMap>
+      lobe_parameter_map;  ///< 1 channel, as lobe_parameter: in place of metallic_roughness_map, `metallic` stays
+  std::optional<TextureMap> specular_map;  ///< RGB, linear: times dielectric_specular
+  std::optional<TextureMap> normal_map;    ///< 4 channels: unit normal xyz (z > 0 out of the surface), weight 0 or 1
 
   std::optional<float> alpha_cutoff;  ///< MASK: a point with alpha below it is not there
   bool double_sided = false;
 };
+
+/// The map that a material's lobe widens and narrows by: of lobe parameters, or of roughness in its first channel. Null
+/// where the width is constant.
+[[nodiscard]] inline const TextureMap* width_map(const Material& material) {
+  if (material.lobe_parameter || !material.lobes.empty()) return nullptr;
+  if (material.lobe_parameter_map) return &*material.lobe_parameter_map;
+  return material.metallic_roughness_map ? &*material.metallic_roughness_map : nullptr;
+}
+
+/// The map that a material's metalness varies by, in its second channel. Null where it is constant.
+[[nodiscard]] inline const TextureMap* metallic_map(const Material& material) {
+  return material.metallic_roughness_map && !material.lobe_parameter_map ? &*material.metallic_roughness_map : nullptr;
+}
 
 }  // namespace footprint

@@ -18,6 +18,10 @@ constexpr NumberRange length{1e-6, 1e6};          // metres, above 0
 constexpr NumberRange coordinate{-1e9, 1e9};      // metres
 constexpr NumberRange intensity{0.0, 1e12};       // candela or lux
 constexpr NumberRange field_of_view{0.1, 170.0};  // degrees
+constexpr NumberRange repeats{1e-3, 1e4};         // of a map along u or v
+constexpr NumberRange lobe_weight{1e-6, 1e3};
+
+constexpr double lowest_axis = 1e-3;  // a lobe on the horizon would lie below it half of the time
 
 const std::vector<std::string> light_types{"point", "spot", "directional"};
 
@@ -74,30 +78,70 @@ PlaneSettings read_plane(const TomlTable& table, const std::filesystem::path& fo
   return plane;
 }
 
-/// The one of exponent, alpha and kappa that is given; it must be the distribution's own.
-std::optional<float> read_lobe(const TomlTable& table, std::optional<NormalDistribution> distribution) {
-  struct Lobe {
-    std::string_view key;
-    NumberRange range;
-    std::array<NormalDistribution, 2> owners;
-  };
-  using enum NormalDistribution;
-  static constexpr std::array<Lobe, 3> lobes{{{"exponent", {1e-3, 1e6}, {blinn_phong, blinn_phong}},
-                                              {"alpha", {1e-4, 1.0}, {beckmann, ggx}},
-                                              {"kappa", {1e-3, 1e6}, {vmf, vmf}}}};
-  std::optional<float> found;
-  for (const Lobe& lobe : lobes) {
-    const auto value = table.number(lobe.key, lobe.range);
-    if (!value) continue;
-    if (found) throw table.error_at(lobe.key, "is one lobe parameter too many", "give one of exponent, alpha, kappa");
-    const NormalDistribution own = distribution.value_or(ggx);
-    if (own != lobe.owners[0] && own != lobe.owners[1]) {
-      throw table.error_at(lobe.key, "does not belong to the distribution",
+// What the parameter of a distribution's lobe is called.
+std::string_view lobe_key(NormalDistribution distribution) {
+  switch (distribution) {
+    case NormalDistribution::blinn_phong:
+      return "exponent";
+    case NormalDistribution::vmf:
+      return "kappa";
+    case NormalDistribution::beckmann:
+    case NormalDistribution::ggx:
+      break;
+  }
+  return "alpha";
+}
+
+/// The one of exponent, alpha and kappa that the table has, if any; it must be the distribution's own.
+std::optional<std::string_view> find_lobe(const TomlTable& table, std::optional<NormalDistribution> distribution) {
+  std::optional<std::string_view> found;
+  for (const std::string_view key : {"exponent", "alpha", "kappa"}) {
+    if (!table.has(key)) continue;
+    if (found) throw table.error_at(key, "is one lobe parameter too many", "give one of exponent, alpha, kappa");
+    if (key != lobe_key(distribution.value_or(NormalDistribution::ggx))) {
+      throw table.error_at(key, "does not belong to the distribution",
                            "exponent: blinn_phong; alpha: beckmann, ggx; kappa: vmf");
     }
-    found = static_cast<float>(*value);
+    found = key;
   }
   return found;
+}
+
+std::optional<float> read_lobe(const TomlTable& table, std::optional<NormalDistribution> distribution) {
+  const auto key = find_lobe(table, distribution);
+  if (!key) return std::nullopt;
+  return static_cast<float>(*table.number(*key, lobe_range(distribution.value_or(NormalDistribution::ggx))));
+}
+
+glm::vec3 read_axis(const TomlTable& table) {
+  const auto axis = direction(table, "axis");
+  if (!axis) missing(table, "axis");
+  if (axis->z < lowest_axis) {
+    throw table.error_at("axis", "does not rise above the horizon",
+                         "its z is along the normal: [0.7, 0, 0.7] leans by 45 degrees");
+  }
+  return glm::vec3{*axis};
+}
+
+/// The lobes of [[brdf.lobe]]: all with a weight, or none, and then the weights are equal and sum to one.
+std::vector<FacetLobe> read_lobes(const TomlTable& brdf, std::optional<NormalDistribution> distribution) {
+  std::vector<FacetLobe> lobes;
+  const auto tables = brdf.tables("lobe", {"axis", "exponent", "alpha", "kappa", "weight"});
+  if (tables.size() > most_facet_lobes) {
+    throw brdf.error_at("lobe", fmt::format("are {}, more than the {} there may be", tables.size(), most_facet_lobes),
+                        "leave out the weakest");
+  }
+  for (const TomlTable& table : tables) {
+    const auto parameter = read_lobe(table, distribution);
+    if (!parameter) missing(table, lobe_key(distribution.value_or(NormalDistribution::ggx)));
+    if (table.has("weight") != tables.front().has("weight")) {
+      throw table.error_at("weight", "stands in some lobes and not in others", "give every lobe a weight, or none");
+    }
+    const double equal = 1.0 / static_cast<double>(tables.size());
+    lobes.push_back(
+        {read_axis(table), *parameter, static_cast<float>(table.number("weight", lobe_weight).value_or(equal))});
+  }
+  return lobes;
 }
 
 BrdfSettings read_brdf(const TomlTable& table) {
@@ -109,9 +153,40 @@ BrdfSettings read_brdf(const TomlTable& table) {
   if (const auto i = table.choice("fresnel", {"none", "schlick"})) brdf.fresnel = static_cast<FresnelTerm>(*i);
   brdf.diffuse = table.boolean("diffuse");
   brdf.lobe_parameter = read_lobe(table, brdf.distribution);
+  brdf.lobes = read_lobes(table, brdf.distribution);
+  if (brdf.lobe_parameter && !brdf.lobes.empty()) {
+    throw table.error_at("lobe", "excludes a lobe parameter of [brdf]", "give each lobe its own alone");
+  }
   brdf.specular = color(table, "specular");
   brdf.base_color = color(table, "base_color");
   return brdf;
+}
+
+std::optional<MapFile> read_map(const TomlTable& maps, std::string_view key, const std::filesystem::path& folder) {
+  const auto table = maps.table(key, {"file", "uv"});
+  if (!table) return std::nullopt;
+  const auto name = table->word("file");
+  if (!name) missing(*table, "file");
+  MapFile map{folder / *name, std::nullopt};
+  if (const auto uv = table->numbers("uv", 2, repeats)) map.uv = {(*uv)[0], (*uv)[1]};
+  return map;
+}
+
+MapSettings read_maps(const TomlTable& table, const BrdfSettings& brdf, const std::filesystem::path& folder) {
+  MapSettings maps;
+  const auto lobe = find_lobe(table, brdf.distribution);
+  const auto refuse_width = [&](bool refused, const std::string& message, const std::string& mend) {
+    const std::string_view key = lobe.value_or("roughness");
+    if (refused && table.has(key)) throw table.error_at(key, message, mend);
+  };
+  refuse_width(lobe && table.has("roughness"), "excludes a map of roughness", "give one of the two");
+  refuse_width(brdf.lobe_parameter.has_value(), "excludes a lobe parameter of [brdf]", "leave one of them out");
+  refuse_width(!brdf.lobes.empty(), "excludes [[brdf.lobe]]", "lobes have their own parameters: leave one of them out");
+  if (lobe) maps.lobe_parameter = read_map(table, *lobe, folder);
+  maps.roughness = read_map(table, "roughness", folder);
+  maps.specular = read_map(table, "specular", folder);
+  maps.diffuse = read_map(table, "diffuse", folder);
+  return maps;
 }
 
 void read_frame(const TomlTable& table, SceneSettings& settings) {
@@ -239,11 +314,14 @@ void read_content(const TomlTable& root, const std::filesystem::path& folder, st
   if (plane) settings.content = read_plane(*plane, folder);
   if (surface) settings.content = read_surface(*surface, surfaces);
   if (const auto brdf = root.table("brdf", {"distribution", "geometry", "fresnel", "diffuse", "exponent", "alpha",
-                                            "kappa", "specular", "base_color"})) {
+                                            "kappa", "specular", "base_color", "lobe"})) {
     settings.brdf = read_brdf(*brdf);
   }
+  if (const auto maps = root.table("maps", {"roughness", "exponent", "alpha", "kappa", "specular", "diffuse"})) {
+    settings.maps = read_maps(*maps, settings.brdf, folder);
+  }
   if (const auto tiling = root.table("tiling", {"uv"})) {
-    if (const auto uv = tiling->numbers("uv", 2, {1e-3, 1e4})) settings.tiling = {(*uv)[0], (*uv)[1]};
+    if (const auto uv = tiling->numbers("uv", 2, repeats)) settings.tiling = {(*uv)[0], (*uv)[1]};
   }
 }
 
@@ -271,6 +349,10 @@ void read_view(const TomlTable& root, SceneSettings& settings) {
 
 }  // namespace
 
+NumberRange lobe_range(NormalDistribution distribution) {
+  return lobe_key(distribution) == "alpha" ? NumberRange{1e-4, 1.0} : NumberRange{1e-3, 1e6};
+}
+
 const std::vector<std::string>& camera_keys() {
   static const std::vector<std::string> keys{"frame_bounds", "position", "target", "up",
                                              "yfov_degrees", "znear",    "zfar"};
@@ -293,7 +375,7 @@ CameraSettings read_camera(const TomlTable& table) {
 SceneSettings read_scene_settings(const std::filesystem::path& file, std::span<const Surface> surfaces) {
   const toml::table parsed = parse_toml_file(file);
   const TomlTable root(parsed, file, "",
-                       {"scene", "model", "plane", "surface", "brdf", "frame", "light", "lights", "environment",
+                       {"scene", "model", "plane", "surface", "brdf", "maps", "frame", "light", "lights", "environment",
                         "camera", "zoom", "tiling"});
   SceneSettings settings;
   if (const auto scene = root.table("scene", {"name", "description"})) {

@@ -11,6 +11,7 @@
 #include "renderer/scene/environment_settings.hpp"
 #include "renderer/scene/scene.hpp"
 #include "renderer/scene/surface.hpp"
+#include "renderer/scene/toml_table.hpp"
 
 namespace footprint {
 
@@ -41,7 +42,19 @@ struct BrdfSettings {
   std::optional<FresnelTerm> fresnel;
   std::optional<bool> diffuse;
   std::optional<float> lobe_parameter;
+  std::vector<FacetLobe> lobes;  ///< in place of the one about the normal
   std::optional<glm::vec3> specular, base_color;
+};
+
+/// A map of the base BRDF from a file.
+struct MapFile {
+  std::filesystem::path file;
+  std::optional<glm::vec2> uv;  ///< how often it repeats along u and v; none: as [tiling] says
+};
+
+/// What [maps] lays over every material.
+struct MapSettings {
+  std::optional<MapFile> roughness, lobe_parameter, specular, diffuse;  ///< at most one of the first two
 };
 
 /// Where the camera stands: the model's own (or framed, where it has none), framed, or as given.
@@ -53,6 +66,7 @@ struct SceneSettings {
   std::string description;          ///< for people who list scenes
   std::variant<ModelSettings, PlaneSettings, SurfaceContent> content;
   BrdfSettings brdf;
+  MapSettings maps;
   std::optional<glm::ivec2> frame_size;
   std::optional<float> exposure;
   bool automatic_exposure = false;  ///< asked for by name, also with the supplied lights
@@ -64,7 +78,8 @@ struct SceneSettings {
   glm::vec2 tiling{1.0F};
 };
 
-class TomlTable;
+/// What a lobe parameter may be: exponent (blinn_phong) and kappa (vmf), or alpha (beckmann, ggx).
+[[nodiscard]] NumberRange lobe_range(NormalDistribution distribution);
 
 /// The keys of a [camera] table.
 [[nodiscard]] const std::vector<std::string>& camera_keys();

@@ -24,6 +24,12 @@ void check_resolution(const Surface& surface, int resolution) {
                  "ask for a smaller resolution, or free memory");
 }
 
+Image optional_map(const Surface& surface, Image (*map)(const SurfaceSettings&), const SurfaceSettings& settings) {
+  if (map == nullptr) return {};
+  check_resolution(surface, settings.resolution);
+  return map(settings);
+}
+
 }  // namespace
 
 const Surface& find_surface(std::span<const Surface> surfaces, const std::string& name) {
@@ -46,9 +52,15 @@ Image surface_normals(const Surface& surface, const SurfaceSettings& settings) {
 }
 
 Image surface_base_color(const Surface& surface, const SurfaceSettings& settings) {
-  if (surface.base_color == nullptr) return {};
-  check_resolution(surface, settings.resolution);
-  return surface.base_color(settings);
+  return optional_map(surface, surface.base_color, settings);
+}
+
+Image surface_specular(const Surface& surface, const SurfaceSettings& settings) {
+  return optional_map(surface, surface.specular, settings);
+}
+
+Image surface_lobe_parameter(const Surface& surface, const SurfaceSettings& settings) {
+  return optional_map(surface, surface.lobe_parameter, settings);
 }
 
 }  // namespace footprint

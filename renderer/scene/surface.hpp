@@ -32,8 +32,17 @@ struct Surface {
   int default_resolution = 512;
   /// A square map as Material::normal_map has it: unit normals, z > 0, weight 1, computed in double precision.
   Image (*normals)(const SurfaceSettings&) = nullptr;
-  /// Linear RGBA of the same size; null where the surface has one colour.
+  /// Linear RGBA of any size; null where the surface has one colour.
   Image (*base_color)(const SurfaceSettings&) = nullptr;
+  /// Linear RGB of any size, reflectance at normal incidence; null where it does not vary.
+  Image (*specular)(const SurfaceSettings&) = nullptr;
+  /// One channel of any size, the parameter of a lobe of `distribution`; null where the surface has no lobe of its own.
+  Image (*lobe_parameter)(const SurfaceSettings&) = nullptr;
+  /// Lobes of `distribution` about axes of their own, 1 to most_facet_lobes; not beside lobe_parameter.
+  std::vector<FacetLobe> (*lobes)(const SurfaceSettings&) = nullptr;
+  NormalDistribution distribution = NormalDistribution::ggx;  ///< of lobe_parameter and lobes
+  /// How often base_color, specular and lobe_parameter repeat over the mesh's texture coordinates; null: once.
+  glm::vec2 (*map_tiling)(const SurfaceSettings&) = nullptr;
   /// What the maps lie on: normals, tangents and texture coordinates set, material 0.
   Mesh (*mesh)(const SurfaceSettings&) = nullptr;
 };
@@ -56,5 +65,9 @@ struct SceneLibrary {
 
 /// The colour map; empty where the surface has none. Errors: as of `surface_normals`.
 [[nodiscard]] Image surface_base_color(const Surface& surface, const SurfaceSettings& settings);
+
+/// The map of reflectance at normal incidence and that of the lobe; likewise.
+[[nodiscard]] Image surface_specular(const Surface& surface, const SurfaceSettings& settings);
+[[nodiscard]] Image surface_lobe_parameter(const Surface& surface, const SurfaceSettings& settings);
 
 }  // namespace footprint

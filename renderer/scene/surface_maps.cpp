@@ -122,6 +122,33 @@ Image decode_metallic_roughness(const Image& stored, float roughness_factor, flo
   return map;
 }
 
+Image decode_lobe_parameter(const Image& stored, double least, double most) {
+  Image map(stored.width, stored.height, 1);
+  for (int y = 0; y < stored.height; ++y) {
+    for (int x = 0; x < stored.width; ++x) {
+      const float value = stored.at(x, y)[0];
+      if (!(value >= least && value <= most)) {
+        throw Error(ErrorKind::usage, fmt::format("texel ({}, {})", x, y),
+                    fmt::format("holds {}, not within {} to {}", value, least, most),
+                    "store the lobe parameter itself, as 32-bit floats");
+      }
+      map.at(x, y)[0] = value;
+    }
+  }
+  return map;
+}
+
+Image to_rgb(const Image& stored) {
+  const bool color = stored.channels >= 3;
+  Image map(stored.width, stored.height, 3);
+  for (int y = 0; y < stored.height; ++y) {
+    for (int x = 0; x < stored.width; ++x) {
+      for (std::size_t c = 0; c < 3; ++c) map.at(x, y)[c] = unit_range(stored.at(x, y)[color ? c : 0]);
+    }
+  }
+  return map;
+}
+
 Image to_rgba(const Image& stored) {
   const bool color = stored.channels >= 3;
   const bool alpha = stored.channels % 2 == 0;

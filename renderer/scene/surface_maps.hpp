@@ -33,6 +33,13 @@ struct NormalMap {
 /// two stored channels count as grey.
 [[nodiscard]] Image decode_metallic_roughness(const Image& stored, float roughness_factor, float metallic_factor);
 
+/// One channel, the lobe parameter as stored in the first one. Errors (usage), which name the texel: a value that is
+/// not within `least` to `most`.
+[[nodiscard]] Image decode_lobe_parameter(const Image& stored, double least, double most);
+
+/// Three channels, each clamped to [0, 1], from one (grey), two (grey, alpha), three or four.
+[[nodiscard]] Image to_rgb(const Image& stored);
+
 /// Four channels, each clamped to [0, 1], from one (grey), two (grey, alpha), three or four.
 [[nodiscard]] Image to_rgba(const Image& stored);
 

@@ -1,50 +1,51 @@
 // The base BRDF itself: what the reference averages, and `direct` shades once a pixel.
 struct Effective {
-  vec3 normal;
-  float lobe;
+  Facets facets;
 };
 
 Effective effective(Footprints f) {
-  Effective e;
 //? if normal_variation
   vec4 texel = fetchFinest(base_normal, f.normal);
 //? if not sampling_frame
   if (texel.w < 0.5) discard;  // an invalid normal of the map: nothing is there to shade
 //? end
-  e.normal = normalize(texel.xyz);
+  vec3 normal = normalize(texel.xyz);
 //? else
-  e.normal = vec3(0.0, 0.0, 1.0);
+  vec3 normal = vec3(0.0, 0.0, 1.0);
 //? end
 //? if roughness_variation
-  e.lobe = lobeFromRoughness(fetchFinest(base_roughness, f.roughness).r);
+  float lobe = lobeFromRoughness(fetchFinest(base_roughness, f.roughness).r);
 //? else
-  e.lobe = lobe_cutoff.x;
+  float lobe = lobe_cutoff.x;
 //? end
-  return e;
+  return Effective(evenFacets(normal, lobe));
 }
 
-vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) { return lobeSpecular(e.lobe, e.normal, f0, wi, wo); }
+vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) { return facetSpecular(e.facets, f0, wi, wo); }
 
 //? if diffuse
-vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) { return lambert(e.normal, albedo, f0, wi, wo); }
+vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
+  return lambert(e.facets.normal, albedo, f0, wi, wo);
+}
 //? end
 
-float ndf(Effective e, vec3 h) { return lobeDensity(e.lobe, e.normal, h); }
+float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }
 
 //? if environment_light
 //? if environment_sampled
 //? include lobe_sampling.glsl
 
-// A direction to the light: the mirror image of wo about a normal drawn from the lobe, or, one time in two where there is a
-// diffuse term, one of Lambert's. Below the horizon: none.
+// A direction to the light: the mirror image of wo about a normal drawn from the facets, or, one time in two where there
+// is a diffuse term, one of Lambert's. Below the horizon: none.
 vec3 drawDirection(Effective e, vec3 wo, vec3 u) {
 //? if diffuse
   if (u.z < 0.5) {
     float azimuth = 2.0 * pi * u.y;
-    return frameAbout(e.normal) * vec3(sqrt(u.x) * vec2(cos(azimuth), sin(azimuth)), sqrt(1.0 - u.x));
+    return frameAbout(e.facets.normal) * vec3(sqrt(u.x) * vec2(cos(azimuth), sin(azimuth)), sqrt(1.0 - u.x));
   }
+  u.z = 2.0 * u.z - 1.0;
 //? end
-  vec3 h = drawnNormal(e.lobe, e.normal, u.xy);
+  vec3 h = drawnFacet(e.facets, u);
   float cosine = dot(h, wo);
   return cosine > 0.0 ? 2.0 * cosine * h - wo : vec3(0.0, 0.0, -1.0);
 }
@@ -53,15 +54,15 @@ vec3 drawDirection(Effective e, vec3 wo, vec3 u) {
 float directionDensity(Effective e, vec3 wi, vec3 wo) {
   if (!halfVectorIsDefined(wi, wo)) return 0.0;
   vec3 h = halfVector(wi, wo);
-  float density = drawnDensity(e.lobe, e.normal, h) / (4.0 * max(dot(h, wo), 1e-6));
+  float density = drawnFacetDensity(e.facets, h) / (4.0 * max(dot(h, wo), 1e-6));
 //? if diffuse
-  density = 0.5 * density + 0.5 * max(dot(e.normal, wi), 0.0) / pi;
+  density = 0.5 * density + 0.5 * max(dot(e.facets.normal, wi), 0.0) / pi;
 //? end
   return density;
 }
 //? else
-//? include one_lobe.glsl
+//? include facet_normal_lobes.glsl
 
-vec3 meanNormal(Effective e) { return e.normal; }
+vec3 meanNormal(Effective e) { return e.facets.normal; }
 //? end
 //? end

@@ -74,11 +74,67 @@ float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
 float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) { return 1.0; }
 //? end
 
-// f * cos of facets whose normals are spread about n as the lobe says.
-vec3 lobeSpecular(float lobe, vec3 n, vec3 f0, vec3 wi, vec3 wo) {
+// Facets whose normals are spread about one, and what they reflect with.
+struct Facets {
+  vec3 normal;
+  float lobe;    // its parameter, the spread of the normals included
+//? if multi_lobe
+  float spread;  // slope variance per axis of the normals: what widens each of the material's own lobes
+//? end
+};
+
+//? if multi_lobe
+//? include facet_lobes.glsl
+Facets evenFacets(vec3 normal, float lobe) { return Facets(normal, lobe, 0.0); }
+// `variance` is the base lobe's, `spread` that of the normals, both slope variances per axis.
+Facets spreadFacets(vec3 normal, float variance, float spread) {
+  return Facets(normal, lobeFromVariance(variance + spread), spread);
+}
+//? else
+Facets evenFacets(vec3 normal, float lobe) { return Facets(normal, lobe); }
+// `variance` is the base lobe's, `spread` that of the normals, both slope variances per axis.
+Facets spreadFacets(vec3 normal, float variance, float spread) {
+  return Facets(normal, lobeFromVariance(variance + spread));
+}
+//? end
+
+// Density of normals per solid angle.
+float facetDensity(Facets f, vec3 h) {
+//? if multi_lobe
+  if (facet_lobe_count > 0) {
+    vec3 own = inFacetFrame(h, f.normal);
+    float sum = 0.0;
+    for (int k = 0; k < facet_lobe_count; ++k) {
+      sum += facet_lobes[k].weight * lobeDensity(widenedLobe(k, f.spread), facet_lobes[k].axis, own);
+    }
+    return sum;
+  }
+//? end
+  return lobeDensity(f.lobe, f.normal, h);
+}
+
+// f * cos but for the Fresnel term: density times geometry factor. The geometry is that of facets about the normal,
+// whatever the axes of their lobes.
+float facetReflectance(Facets f, vec3 h, vec3 wi, vec3 wo) {
+//? if multi_lobe
+  if (facet_lobe_count > 0) {
+    vec3 own = inFacetFrame(h, f.normal);
+    float sum = 0.0;
+    for (int k = 0; k < facet_lobe_count; ++k) {
+      float lobe = widenedLobe(k, f.spread);
+      sum += facet_lobes[k].weight * lobeDensity(lobe, facet_lobes[k].axis, own) *
+             geometryFactor(lobe, f.normal, h, wi, wo);
+    }
+    return sum;
+  }
+//? end
+  return lobeDensity(f.lobe, f.normal, h) * geometryFactor(f.lobe, f.normal, h, wi, wo);
+}
+
+// f * cos of facets.
+vec3 facetSpecular(Facets f, vec3 f0, vec3 wi, vec3 wo) {
   if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
-  vec3 h = halfVector(wi, wo);
-  return fresnelTerm(f0, wi, wo) * (lobeDensity(lobe, n, h) * geometryFactor(lobe, n, h, wi, wo));
+  return fresnelTerm(f0, wi, wo) * facetReflectance(f, halfVector(wi, wo), wi, wo);
 }
 
 //? if diffuse

@@ -12,6 +12,9 @@ struct Footprints {
   Footprint normal;
   Footprint roughness;
   Footprint base_color;
+//? if specular_variation
+  Footprint specular;
+//? end
 };
 
 //? if sampling_frame

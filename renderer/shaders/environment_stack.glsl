@@ -67,7 +67,7 @@ VisibleLobe visibleLobe(NormalLobe lobe, vec3 wo) {
   float sine = length(across);
   float deviation = inversesqrt(lobe.sharpness);
   if (sine < 1e-4) return VisibleLobe(lobe.axis, max(c, 0.0));
-  float a = clamp(c / (sine * deviation), -5.0, 1e4);
+  float a = max(c / (sine * deviation), -5.0);
   float facing = standardCdf(a);
   float mean = a * facing + inverse_root_two_pi * exp(-0.5 * a * a);
   vec3 shifted = lobe.axis + across * (deviation * facing / (max(mean, 1e-7) * sine));

@@ -1,4 +1,4 @@
-// Normals drawn from the base lobe, for the reference's own integration of an environment.
+// Normals drawn from facets' lobes, for the reference's own integration of an environment.
 
 // Right-handed, the third column n (Duff et al. 2017).
 mat3 frameAbout(vec3 n) {
@@ -44,4 +44,39 @@ vec3 drawnNormal(float lobe, vec3 n, vec2 u) {
   float sine = sqrt(max(tilt * (2.0 - tilt), 0.0));
   float azimuth = 2.0 * pi * u.y;
   return frameAbout(n) * vec3(sine * cos(azimuth), sine * sin(azimuth), 1.0 - tilt);
+}
+
+//? if multi_lobe
+float facetWeight() {
+  float sum = 0.0;
+  for (int k = 0; k < facet_lobe_count; ++k) sum += facet_lobes[k].weight;
+  return sum;
+}
+//? end
+
+// A normal of facets; u.z chooses among their lobes.
+vec3 drawnFacet(Facets f, vec3 u) {
+//? if multi_lobe
+  if (facet_lobe_count > 0) {
+    float left = u.z * facetWeight();
+    int k = 0;
+    while (k < facet_lobe_count - 1 && left >= facet_lobes[k].weight) left -= facet_lobes[k++].weight;
+    return drawnNormal(widenedLobe(k, f.spread), turnedWithNormal(facet_lobes[k].axis, f.normal), u.xy);
+  }
+//? end
+  return drawnNormal(f.lobe, f.normal, u.xy);
+}
+
+float drawnFacetDensity(Facets f, vec3 h) {
+//? if multi_lobe
+  if (facet_lobe_count > 0) {
+    vec3 own = inFacetFrame(h, f.normal);
+    float sum = 0.0;
+    for (int k = 0; k < facet_lobe_count; ++k) {
+      sum += facet_lobes[k].weight * drawnDensity(widenedLobe(k, f.spread), facet_lobes[k].axis, own);
+    }
+    return sum / facetWeight();
+  }
+//? end
+  return drawnDensity(f.lobe, f.normal, h);
 }

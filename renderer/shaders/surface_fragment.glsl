@@ -18,20 +18,28 @@ uniform uvec2 sample_seed;    // seed and pass
 //? end
 
 //# module
-Footprint footprintOf(int slot) {
-  vec2 uv = uv_offset_set[slot].z < 0.5 ? uv0 : uv1;
-  mat2 linear = mat2(uv_linear[slot].xy, uv_linear[slot].zw);
-  vec2 mapped = linear * uv + uv_offset_set[slot].xy;
+Footprint footprintOf(vec4 linear, vec4 offset_set) {
+  vec2 mapped = mat2(linear.xy, linear.zw) * (offset_set.z < 0.5 ? uv0 : uv1) + offset_set.xy;
   return Footprint(mapped, dFdx(mapped), dFdy(mapped));
 }
 
 Footprints pixelFootprints() {
+  Footprints f;
+  f.normal = footprintOf(uv_linear[0], uv_offset_set[0]);
 //? if shared_coordinates
-  Footprint f = footprintOf(0);
-  return Footprints(f, f, f);
-//? else
-  return Footprints(footprintOf(0), footprintOf(1), footprintOf(2));
+  f.roughness = f.normal;
+  f.base_color = f.normal;
+//? if specular_variation
+  f.specular = f.normal;
 //? end
+//? else
+  f.roughness = footprintOf(uv_linear[1], uv_offset_set[1]);
+  f.base_color = footprintOf(uv_linear[2], uv_offset_set[2]);
+//? if specular_variation
+  f.specular = footprintOf(specular_uv_linear, specular_uv_offset_set);
+//? end
+//? end
+  return f;
 }
 
 //? if random_draws
@@ -146,10 +154,14 @@ void main() {
 //? if metallic_variation
   metallic = fetch(metallic_map, f.roughness).r;
 //? end
+  vec3 dielectric_specular = dielectric_specular_metallic.rgb;
+//? if specular_variation
+  dielectric_specular *= fetch(specular_map, f.specular).rgb;
+//? end
   SurfacePoint p;
   p.effective = effective(f);
   p.albedo = base_color.rgb * (1.0 - metallic);
-  p.f0 = mix(dielectric_specular_metallic.rgb, base_color.rgb, metallic);
+  p.f0 = mix(dielectric_specular, base_color.rgb, metallic);
   p.frame = tangentFrame();
 //? if orthographic
   p.wo = to_camera * p.frame;

@@ -1,8 +1,25 @@
-// What is constant over a material: factors, the lobe, and where each map is looked up.
+// What is constant over a material: factors, the lobe or lobes, and where each map is looked up.
+//? if multi_lobe
+const int most_facet_lobes = 8;
+struct FacetLobe {
+  vec3 axis;  // z is the facet's normal
+  float parameter;
+  float weight;
+  float variance;  // slope variance per axis
+};
+//? end
 layout(std140, binding = 0) uniform MaterialBlock {
   vec4 base_color_factor;
   vec4 dielectric_specular_metallic;
   vec4 lobe_cutoff;    // lobe parameter, alpha cutoff
   vec4 uv_linear[3];   // slots normal, roughness, base_color: columns d/du, d/dv
   vec4 uv_offset_set[3];
+//? if specular_variation
+  vec4 specular_uv_linear;
+  vec4 specular_uv_offset_set;
+//? end
+//? if multi_lobe
+  int facet_lobe_count;  // 0: one lobe about the normal
+  FacetLobe facet_lobes[most_facet_lobes];
+//? end
 };

@@ -1,0 +1,21 @@
+// The lobes of a facet that reflects with several: how their axes turn, and how the material's uniform block holds
+// them.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "renderer/scene/material.hpp"
+
+namespace footprint {
+
+/// The shortest rotation that takes z to the unit vector `normal`, of `axis`; normal = -z turns about y. The twin of
+/// turnedWithNormal in facet_lobes.glsl.
+[[nodiscard]] glm::dvec3 turned_with_normal(const glm::dvec3& axis, const glm::dvec3& normal);
+
+/// The std140 members of surface_material.glsl that the effect `multi_lobe` adds: the number of lobes, then all
+/// most_facet_lobes, those that a material lacks as zeros. Errors (usage): more lobes than that, or one that is no lobe
+/// (docs/scenes.md has the ranges).
+[[nodiscard]] std::vector<glm::vec4> facet_lobe_block(const Material& material);
+
+}  // namespace footprint

@@ -28,10 +28,11 @@ enum class Effect : std::size_t {
   point_light,
   spot_light,
   directional_light,
-  cast_shadow,  ///< parts of the scene that stand between others and a light
+  cast_shadow,        ///< parts of the scene that stand between others and a light
+  environment_light,  ///< light from all directions
 };
 
-inline constexpr std::size_t effect_count = static_cast<std::size_t>(Effect::cast_shadow) + 1;
+inline constexpr std::size_t effect_count = static_cast<std::size_t>(Effect::environment_light) + 1;
 using EffectSet = std::bitset<effect_count>;
 
 /// The name of an effect as shaders, tables and `explain` write it.

@@ -200,10 +200,7 @@ class XuVmf final : public Method {
                        "the hemisphere.",
                    .paper = "Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping, Computer Graphics Forum 36(4)",
                    .options = option_table(),
-                   .honours = EffectSet{}
-                                  .set()
-                                  .reset(static_cast<std::size_t>(Effect::multi_lobe))
-                                  .reset(static_cast<std::size_t>(Effect::normal_layers))};
+                   .honours = all_effects_but({Effect::multi_lobe, Effect::normal_layers, Effect::environment_light})};
   std::string shader_ =
       std::string(embedded::xu_vmf_glsl).append(embedded::xu_vmf_conversion_glsl).append(embedded::xu_vmf_cells_glsl);
 };

@@ -27,7 +27,8 @@ constexpr std::array<std::string_view, effect_count> names{"diffuse",
                                                            "point_light",
                                                            "spot_light",
                                                            "directional_light",
-                                                           "cast_shadow"};
+                                                           "cast_shadow",
+                                                           "environment_light"};
 
 // Smaller than any step of an 8-bit map; larger than what decoding one leaves in 32 bits.
 constexpr float constant_tolerance = 1e-5F;
@@ -113,6 +114,14 @@ EffectDecision cast_shadow(const Scene& scene) {
                       casting.size() == 1 ? "" : "s")};
 }
 
+EffectDecision environment_light(const Scene& scene) {
+  if (!scene.environment) return {Effect::environment_light, false, "no environment"};
+  const Image& map = *scene.environment->radiance;
+  const bool lit = std::ranges::any_of(map.texels, [](float value) { return value > 0.0F; });
+  const std::string text = fmt::format("the environment {}, {} x {}", scene.environment->name, map.width, map.height);
+  return {Effect::environment_light, lit, lit ? text : text + ", is black"};
+}
+
 }  // namespace
 
 std::string_view effect_name(Effect effect) { return names.at(static_cast<std::size_t>(effect)); }
@@ -162,6 +171,7 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
       lights<SpotLight>(Effect::spot_light, scene, "spot"),
       lights<DirectionalLight>(Effect::directional_light, scene, "directional"),
       cast_shadow(scene),
+      environment_light(scene),
   };
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <bitset>
 #include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,10 +30,11 @@ enum class Effect : std::size_t {
   point_light,
   spot_light,
   directional_light,
-  cast_shadow,  ///< parts of the scene that stand between others and a light
+  cast_shadow,        ///< parts of the scene that stand between others and a light
+  environment_light,  ///< light from all directions
 };
 
-inline constexpr std::size_t effect_count = static_cast<std::size_t>(Effect::cast_shadow) + 1;
+inline constexpr std::size_t effect_count = static_cast<std::size_t>(Effect::environment_light) + 1;
 using EffectSet = std::bitset<effect_count>;
 
 /// The name of an effect as shaders, tables and `explain` write it.
@@ -47,6 +49,14 @@ using EffectSet = std::bitset<effect_count>;
 
 [[nodiscard]] inline bool has(const EffectSet& set, Effect effect) {
   return set.test(static_cast<std::size_t>(effect));
+}
+
+/// Every effect but those of `left_out`.
+[[nodiscard]] inline EffectSet all_effects_but(std::initializer_list<Effect> left_out) {
+  EffectSet set;
+  set.set();
+  for (const Effect effect : left_out) set.reset(static_cast<std::size_t>(effect));
+  return set;
 }
 
 /// One effect of a scene: on or off, and the reason in words ("the normal map is constant").

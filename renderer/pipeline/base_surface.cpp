@@ -74,7 +74,8 @@ class BaseSurface final : public Method {
                    .summary = "The supersampled truth: many samples a pixel, each shading one texel's own base BRDF.",
                    .paper = "",
                    .options = {},
-                   .honours = EffectSet{}.set()};
+                   .honours = EffectSet{}.set(),
+                   .draws_directions = true};
 };
 
 }  // namespace

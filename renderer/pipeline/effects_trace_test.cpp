@@ -99,6 +99,8 @@ const auto cases = std::to_array<EffectCase>({
        s.meshes.push_back(box_mesh({-0.2F, -0.2F, 0.1F}, {0.2F, 0.2F, 0.3F}));
        fit_bounds(s);
      }},
+    {Effect::environment_light, "environment_stack",
+     [](Scene& s) { s.environment = constant_environment(glm::vec3(0.5F)); }},
 });
 
 class EffectTrace : public ::testing::TestWithParam<EffectCase> {};

@@ -233,6 +233,8 @@ void GpuScene::make_lights(const gl::ContextInfo& context, const Scene& scene) {
   directional_lights_ = light_buffer(blocks.directional);
   light_counts_ = {blocks.point.size() / 2, blocks.spot.size() / 4, blocks.directional.size() / 2,
                    shadow_maps_ ? shadow_maps_->views().views.size() : 0};
+  if (has(effects_, Effect::environment_light))
+    environment_.emplace(scene.environment.value_or(constant_environment(glm::vec3(0.0F))));
   for (const auto* block : {&blocks.point, &blocks.spot, &blocks.directional})
     count_in(content_.lights, std::as_bytes(std::span(*block)));
 }

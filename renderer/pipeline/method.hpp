@@ -23,8 +23,9 @@ struct MethodInfo {
   std::string summary;  ///< one sentence
   std::string paper;    ///< author, year, title
   std::vector<OptionSpec> options;
-  EffectSet honours;             ///< effects that it can simulate; others are left out, and the table says so
-  bool slow_precompute = false;  ///< seconds, not milliseconds: kept on disk between runs (bake_cache.hpp)
+  EffectSet honours;              ///< effects that it can simulate; others are left out, and the table says so
+  bool draws_directions = false;  ///< the module integrates an environment itself where many samples are taken
+  bool slow_precompute = false;   ///< seconds, not milliseconds: kept on disk between runs (bake_cache.hpp)
 };
 
 /// A prefiltering method: a pure precompute, a GLSL module and, where it has one, a frame build

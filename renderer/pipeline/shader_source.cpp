@@ -13,7 +13,8 @@ namespace embedded {
 extern const std::string_view surface_vertex_glsl, surface_fragment_glsl, surface_lights_glsl, common_footprint_glsl,
     common_lobes_glsl, common_base_brdf_glsl, common_slopes_glsl, beckmann_lambda_glsl, facet_lobes_glsl,
     surface_material_glsl, ndf_fragment_glsl, resolve_samples_glsl, screen_vertex_glsl, vmf_density_glsl,
-    normal_lobes_glsl, facet_normal_lobes_glsl, environment_stack_glsl, environment_sampling_glsl, lobe_sampling_glsl;
+    normal_cdf_glsl, normal_lobes_glsl, facet_normal_lobes_glsl, environment_stack_glsl, environment_sampling_glsl,
+    lobe_sampling_glsl;
 }
 
 namespace {
@@ -27,6 +28,7 @@ std::optional<std::string_view> optional_text(std::string_view file) {
   if (file == "beckmann_lambda.glsl") return embedded::beckmann_lambda_glsl;
   if (file == "facet_lobes.glsl") return embedded::facet_lobes_glsl;
   if (file == "vmf_density.glsl") return embedded::vmf_density_glsl;
+  if (file == "normal_cdf.glsl") return embedded::normal_cdf_glsl;
   if (file == "lobe_sampling.glsl") return embedded::lobe_sampling_glsl;
   if (file == "facet_normal_lobes.glsl") return embedded::facet_normal_lobes_glsl;
   if (file == "environment_stack.glsl") return embedded::environment_stack_glsl;

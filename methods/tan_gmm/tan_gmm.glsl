@@ -55,11 +55,9 @@ float baseOverDisc(float variance, float height) {
 //? end
 }
 
-// The normal distribution function, to 1.4e-4 (Page 1977).
-float normalCdf(float x) {
-  float z = clamp(x, -8.0, 8.0);
-  return 1.0 / (1.0 + exp(-z * (1.5976 + 0.070565992 * z * z)));
-}
+//? if not environment_light
+//? include normal_cdf.glsl
+//? end
 
 // The mass of a Gaussian inside the disc: a noncentral chi-squared distribution of 2 degrees of freedom, by Sankaran 1963.
 float massInDisc(vec2 mean, float variance) {

@@ -1,6 +1,7 @@
 // The GLSL of environment light against sums over directions, and against its C++ twins.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -87,7 +88,8 @@ TEST(EnvironmentLight, OctahedralMapIsItsTwin) {
   }
 }
 
-// Between maps and behind the last: 5% of the largest mean over such a lobe.
+// Between maps and behind the last. Of the largest mean over such a lobe: 3% where the environment is smooth, 10% at a
+// lamp (6% between maps, the rest between texels).
 TEST(EnvironmentLight, StackHoldsMeansOverLobes) {
   const Environment environment = banded_environment();
   const std::string functions = functions_of(NormalDistribution::vmf);
@@ -107,7 +109,8 @@ TEST(EnvironmentLight, StackHoldsMeansOverLobes) {
       }
       const double largest = *std::ranges::max_element(truth);
       for (std::size_t i = 0; i < axes.size(); ++i)
-        EXPECT_NEAR(means[i][c], truth[i], 0.05 * largest) << "kappa " << kappa << ", axis " << i << ", channel " << c;
+        EXPECT_NEAR(means[i][c], truth[i], (c == 2 ? 0.1 : 0.03) * largest)
+            << "kappa " << kappa << ", axis " << i << ", channel " << c;
     }
   }
 }
@@ -230,8 +233,8 @@ double brute_force(const DrawnCase& c, const Environment& environment, const glm
   return sum * 2.0 * pi / (rings * sectors);
 }
 
-// The whole approximation but for geometry and Fresnel terms: 8% of the exact radiance (plus 1% of what the lobe could
-// reflect at most, where the view grazes).
+// The whole approximation but for geometry and Fresnel terms: 8% of the exact radiance, 20% with GGX's tail, which is
+// stretched most where the view is oblique; plus 1% of what a lobe could reflect at most.
 TEST(EnvironmentLight, LobesReflectWhatTheSumOverDirectionsSays) {
   const Environment environment = banded_environment();
   GpuEnvironment gpu(environment);
@@ -255,10 +258,11 @@ TEST(EnvironmentLight, LobesReflectWhatTheSumOverDirectionsSays) {
         functions_of(c.distribution),
         "return vec4(environmentSpecular(Effective(evenFacets(a.xyz, a.w)), vec3(1.0), b.xyz, mat3(1.0)), 1.0);",
         inputs);
+    const double bound = c.distribution == NormalDistribution::ggx ? 0.2 : 0.08;
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       for (int channel = 0; channel < 2; ++channel) {
         const double exact = truth[i][static_cast<std::size_t>(channel)];
-        EXPECT_NEAR(radiance[i][channel], exact, 0.08 * exact + 0.04)
+        EXPECT_NEAR(radiance[i][channel], exact, bound * exact + 0.04)
             << "distribution " << static_cast<int>(c.distribution) << ", view " << i << ", channel " << channel;
       }
     }

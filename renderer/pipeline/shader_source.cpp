@@ -23,6 +23,7 @@ extern const std::string_view facets_module_glsl;
 extern const std::string_view lobe_sampling_glsl;
 extern const std::string_view mean_normal_glsl;
 extern const std::string_view ndf_fragment_glsl;
+extern const std::string_view normal_cdf_glsl;
 extern const std::string_view normal_layers_glsl;
 extern const std::string_view normal_lobes_glsl;
 extern const std::string_view resolve_samples_glsl;
@@ -53,6 +54,7 @@ std::optional<std::string_view> optional_text(std::string_view file) {
   if (file == "normal_layers.glsl") return embedded::normal_layers_glsl;
   if (file == "vmf_density.glsl") return embedded::vmf_density_glsl;
   if (file == "tangent_frame.glsl") return embedded::tangent_frame_glsl;
+  if (file == "normal_cdf.glsl") return embedded::normal_cdf_glsl;
   if (file == "lobe_sampling.glsl") return embedded::lobe_sampling_glsl;
   if (file == "facet_normal_lobes.glsl") return embedded::facet_normal_lobes_glsl;
   if (file == "environment_stack.glsl") return embedded::environment_stack_glsl;

@@ -52,7 +52,7 @@ TEST(EnvironmentFile, RotationTurnsCounterClockwiseSeenFromAbove) {
   const Environment straight = *load("file = \"ramp.exr\"").environment;
   const Environment turned = *load("file = \"ramp.exr\"\nrotation_degrees = 90").environment;
   // What was seen along -z is now along -x.
-  EXPECT_EQ(environment_radiance(turned, {-1.0, 0.2, 0.1}), environment_radiance(straight, {0.1, 0.2, -1.0}));
+  EXPECT_EQ(environment_radiance(turned, {-1.0, 0.2, -0.1}), environment_radiance(straight, {0.1, 0.2, -1.0}));
   EXPECT_EQ(environment_radiance(straight, {0.1, 0.2, -1.0}).r, straight.radiance->at(2, 0)[0]);
 }
 

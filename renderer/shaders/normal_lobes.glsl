@@ -1,5 +1,7 @@
 // The effective NDF as lobes over half vectors: what a module hands over for environment light.
 
+//? include normal_cdf.glsl
+
 // A spherical Gaussian over half vectors, e^{sharpness ((axis.h) - 1)}.
 struct NormalLobe {
   vec3 axis;        // unit, tangent frame

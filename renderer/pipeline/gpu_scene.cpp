@@ -216,7 +216,8 @@ GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const Eff
 }
 
 LightBlocks GpuScene::blocks_of(std::span<const Light> lights) const {
-  return light_blocks(lights, shadow_maps_ ? std::span<const int>(shadow_maps_->views().first) : std::span<const int>());
+  return light_blocks(lights,
+                      shadow_maps_ ? std::span<const int>(shadow_maps_->views().first) : std::span<const int>());
 }
 
 void GpuScene::make_lights(const gl::ContextInfo& context, const Scene& scene) {

@@ -177,13 +177,6 @@ class IwasakiSg final : public Method {
                         100.0 * table.visible_share)};
   }
 
-  static EffectSet honoured() {
-    return EffectSet{}
-        .set()
-        .reset(static_cast<std::size_t>(Effect::roughness_variation))
-        .reset(static_cast<std::size_t>(Effect::multi_lobe));
-  }
-
   MethodInfo info_{.name = "iwasaki_sg",
                    .summary =
                        "Visible normals of small-scale geometry as spherical Gaussians whose amplitudes depend on both "
@@ -192,7 +185,7 @@ class IwasakiSg final : public Method {
                        "Iwasaki, Dobashi and Nishita 2012, Interactive Bi-scale Editing of Highly Glossy Materials, "
                        "ACM Transactions on Graphics 31(6)",
                    .options = option_table(),
-                   .honours = honoured(),
+                   .honours = all_effects_but({Effect::normal_layers, Effect::roughness_variation, Effect::multi_lobe}),
                    .resolves_texels = false};
   std::string shader_ = std::string(embedded::iwasaki_sg_glsl).append(embedded::iwasaki_sg_lobes_glsl);
 };

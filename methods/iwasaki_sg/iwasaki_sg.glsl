@@ -173,3 +173,38 @@ float ndf(Effective e, vec3 h) {
   for (int j = 0; j < e.count; ++j) sum += shareOf(j) * convolved(lobeOf(j), h);
   return sum;
 }
+
+//? if environment_light
+int lobeCount(Effective e) { return e.count; }
+
+// The lobe of normals and the base lobe as one; what the pair of directions makes of it stands in lobeGeometry.
+NormalLobe normalLobe(Effective e, int j) {
+  vec4 lobe = lobeOf(j);
+  return baseNormalLobe(lobe.xyz, lobeFromVariance(lobeVariance(lobe_cutoff.x) + 1.0 / lobe.w), shareOf(j));
+}
+
+// The lobe that a NormalLobe was made of: the one with its axis.
+int lobeAbout(Effective e, vec3 axis) {
+  int nearest = 0;
+  for (int j = 1; j < e.count; ++j) {
+    if (dot(lobeOf(j).xyz, axis) > dot(lobeOf(nearest).xyz, axis)) nearest = j;
+  }
+  return nearest;
+}
+
+float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
+  int j = lobeAbout(e, lobe.axis);
+  float factor = smoothFactor(lobeOf(j), h, wi, wo);
+//? if microgeometry_visibility
+  // Seen and lit, over the share that the lobe was handed over with. One number: colours are left to their mean.
+  factor *= dot(tableAt(j, placeOf(wi, wo)), vec3(1.0 / 3.0)) / max(shareOf(j), 1e-6);
+//? end
+  return factor;
+}
+
+vec3 meanNormal(Effective e) {
+  vec3 sum = vec3(0.0);
+  for (int j = 0; j < e.count; ++j) sum += shareOf(j) * meanCosine(lobeOf(j).w) * lobeOf(j).xyz;
+  return sum;
+}
+//? end

@@ -90,13 +90,14 @@ void add_material(ContentHash& hash, const Material& m) {
   add_map(hash, m.base_color_map);
   add_map(hash, m.metallic_roughness_map);
   add_map(hash, m.normal_map);
-  if (!m.microgeometry) return;
-  add_patch(hash, m.microgeometry->patch);
-  if (m.microgeometry->brdf) add_values(hash, m.microgeometry->brdf->values);
+  add_map(hash, m.layer_map);
   add_map(hash, m.lobe_parameter_map);
   add_map(hash, m.specular_map);
   add_value(hash, m.lobes.size());
   for (const FacetLobe& lobe : m.lobes) add_value(hash, lobe);
+  if (!m.microgeometry) return;
+  add_patch(hash, m.microgeometry->patch);
+  if (m.microgeometry->brdf) add_values(hash, m.microgeometry->brdf->values);
 }
 
 struct KeptFile {

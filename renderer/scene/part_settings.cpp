@@ -16,6 +16,8 @@ constexpr NumberRange lobe_weight{1e-6, 1e3};
 
 constexpr double lowest_axis = 1e-3;  // a lobe on the horizon would lie below it half of the time
 
+const std::vector<std::string> surface_keys{"name", "resolution", "seed", "parameters"};
+
 ModelSettings read_model(const TomlTable& table, const std::filesystem::path& folder) {
   if (table.has("file") == table.has("files")) {
     throw table.error_at("file", "or `files` must be given, and only one of them", "name the model file to draw");
@@ -255,7 +257,7 @@ decltype(PartSettings::content) read_content(const TomlTable& table, const std::
   const auto model = table.table("model", {"file", "files", "package", "unwrap"});
   const auto plane = table.table("plane", {"size", "normal_map", "normal_scale", "base_color_map",
                                            "metallic_roughness_map", "roughness", "metallic"});
-  const auto surface = table.table("surface", {"name", "resolution", "seed", "parameters"});
+  const auto surface = table.table("surface", surface_keys);
   if (!model && !plane && !surface) {
     throw table.error_at("model", "or `plane` or `surface` must be given", "add model = { file = \"NAME.gltf\" }");
   }
@@ -271,12 +273,35 @@ decltype(PartSettings::content) read_content(const TomlTable& table, const std::
 const std::vector<std::string> common_brdf_keys{"distribution", "geometry", "fresnel", "diffuse"};
 const std::vector<std::string> own_brdf_keys{"exponent", "alpha", "kappa", "specular", "base_color", "lobe"};
 
-/// A part's content, maps and tiling, with a BRDF that is read already.
+LayerSettings read_layer(const TomlTable& table, const std::filesystem::path& folder,
+                         std::span<const Surface> surfaces) {
+  const auto surface = table.table("surface", surface_keys);
+  if (table.has("bump_map") + table.has("normal_map") + surface.has_value() != 1) {
+    throw table.error_at("bump_map", "or `normal_map` or `surface` must be given, and only one of them",
+                         "name the file of heights or of normals, or a surface");
+  }
+  LayerSettings layer;
+  if (surface) layer.content = read_surface(*surface, surfaces);
+  if (const auto name = table.word("normal_map")) layer.content = LayerFile{folder / *name, false};
+  if (const auto name = table.word("bump_map")) {
+    layer.content = LayerFile{folder / *name, true};
+    // No default suits heights: between a scratch and a mountain lie four powers of ten.
+    if (!table.has("strength")) refuse_missing(table, "strength");
+  }
+  if (const auto uv = table.numbers("uv", 2, repeats)) layer.uv = {(*uv)[0], (*uv)[1]};
+  layer.strength = table.number("strength", {-100.0, 100.0}).value_or(layer.strength);
+  return layer;
+}
+
+/// A part's content, layer, maps and tiling, with a BRDF that is read already.
 PartSettings read_part(const TomlTable& table, const BrdfSettings& brdf, const std::filesystem::path& folder,
                        std::span<const Surface> surfaces) {
   PartSettings part;
   part.content = read_content(table, folder, surfaces);
   part.brdf = brdf;
+  if (const auto layer = table.table("layer", {"bump_map", "normal_map", "surface", "uv", "strength"})) {
+    part.layer = read_layer(*layer, folder, surfaces);
+  }
   if (const auto maps = table.table("maps", {"roughness", "exponent", "alpha", "kappa", "specular", "diffuse"})) {
     part.maps = read_maps(*maps, part.brdf, folder);
   }
@@ -306,7 +331,7 @@ NumberRange lobe_range(NormalDistribution distribution) {
 }
 
 const std::vector<std::string>& part_root_keys() {
-  static const std::vector<std::string> keys{"part", "model", "plane",         "surface",
+  static const std::vector<std::string> keys{"part", "model", "plane",         "surface", "layer",
                                              "brdf", "maps",  "microgeometry", "tiling"};
   return keys;
 }
@@ -314,14 +339,14 @@ const std::vector<std::string>& part_root_keys() {
 std::vector<PartSettings> read_parts(const TomlTable& root, const std::filesystem::path& folder,
                                      std::span<const Surface> surfaces) {
   if (!root.has("part")) return {read_only_part(root, folder, surfaces)};
-  for (const char* key : {"model", "plane", "surface", "maps", "microgeometry", "tiling"}) {
+  for (const char* key : {"model", "plane", "surface", "layer", "maps", "microgeometry", "tiling"}) {
     if (root.has(key)) throw root.error_at(key, "excludes [[part]]", "move it into a [[part]]");
   }
   const auto common_table = root.table("brdf", common_brdf_keys);
   const BrdfSettings common = common_table ? read_common_brdf(*common_table) : BrdfSettings{};
   std::vector<PartSettings> parts;
-  for (const TomlTable& table :
-       root.tables("part", {"name", "model", "plane", "surface", "brdf", "maps", "microgeometry", "tiling", "place"})) {
+  for (const TomlTable& table : root.tables("part", {"name", "model", "plane", "surface", "layer", "brdf", "maps",
+                                                     "microgeometry", "tiling", "place"})) {
     const auto own = table.table("brdf", own_brdf_keys);
     PartSettings& part =
         parts.emplace_back(read_part(table, own ? read_own_brdf(*own, common) : common, folder, surfaces));

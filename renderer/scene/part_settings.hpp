@@ -39,6 +39,19 @@ struct SurfaceContent {
   SurfaceSettings settings;
 };
 
+/// An image file of heights, or of normals.
+struct LayerFile {
+  std::filesystem::path path;
+  bool heights = false;
+};
+
+/// A detail layer over the normal map of every material of a part.
+struct LayerSettings {
+  std::variant<LayerFile, SurfaceContent> content;
+  glm::vec2 uv{1.0F};     ///< tiles over the mesh's first texture coordinates
+  double strength = 1.0;  ///< factor on the slopes; of heights, the height of 1 over 0 in widths of the map
+};
+
 /// What [brdf] changes in every material.
 struct BrdfSettings {
   std::optional<NormalDistribution> distribution;
@@ -96,6 +109,7 @@ struct Placement {
 struct PartSettings {
   std::string name;  ///< before the names of its meshes and materials; may be empty
   std::variant<ModelSettings, PlaneSettings, SurfaceContent, DressedModel> content;
+  std::optional<LayerSettings> layer;
   BrdfSettings brdf;
   MapSettings maps;
   std::optional<MicrogeometrySettings> microgeometry;

@@ -25,7 +25,7 @@ constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 constexpr double least_facing = 0.5;
 
 /// The gap around a chart, as a share of the packed square's side.
-constexpr double gap = 1.0 / 512.0;
+constexpr double gap = 1.0 / 1024.0;
 
 using FlatTriangle = std::array<glm::dvec2, 3>;
 
@@ -109,6 +109,7 @@ class ChartCutter {
     find_neighbours();
   }
 
+  /// The charts; triangles without area are in none.
   std::vector<Chart> cut() {
     std::vector<Chart> charts;
     for (std::uint32_t seed = 0; seed < taken_.size(); ++seed) {
@@ -127,7 +128,7 @@ class ChartCutter {
  private:
   static glm::dvec3 axis_of(const glm::dvec3& area_normal) {
     const double length = glm::length(area_normal);
-    return length > 0.0 ? area_normal / length : glm::dvec3{0.0, 0.0, 1.0};
+    return length > 0.0 && std::isfinite(1.0 / length) ? area_normal / length : glm::dvec3{0.0, 0.0, 1.0};
   }
 
   [[nodiscard]] const glm::vec3& corner(std::size_t index) const {
@@ -144,6 +145,7 @@ class ChartCutter {
     for (std::size_t i = 0; i < mesh_.indices.size(); i += 3) {
       const glm::dvec3 a{corner(i)}, b{corner(i + 1)}, c{corner(i + 2)};
       area_normals_.push_back(glm::cross(b - a, c - a));
+      taken_[i / 3] = area_normals_.back() == glm::dvec3{0.0};
       edges += glm::length(b - a);
     }
     // Some triangles a cell; but a large triangle among tiny ones must not lie in millions of cells.
@@ -164,6 +166,7 @@ class ChartCutter {
     }
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> edges;
     for (std::size_t i = 0; i < mesh_.indices.size(); ++i) {
+      if (taken_[i / 3]) continue;  // without area it lies on an edge of others
       const std::uint32_t a = place_of[mesh_.indices[i]];
       const std::uint32_t b = place_of[mesh_.indices[i / 3 * 3 + (i + 1) % 3]];
       edges[std::minmax(a, b)].push_back(i);
@@ -252,44 +255,56 @@ double pack(std::vector<Rectangle>& rectangles) {
   return side;
 }
 
-/// The mesh with a vertex of its own for every chart that meets at it, and the charts' places as texture coordinates.
+/// A chart's bounds on its plane.
+struct FlatBounds {
+  glm::dvec2 low{std::numeric_limits<double>::max()}, high{std::numeric_limits<double>::lowest()};
+};
+
+FlatBounds bounds_of(const Chart& chart, const Mesh& mesh) {
+  FlatBounds bounds;
+  for (const std::uint32_t triangle : chart.triangles) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const Vertex& vertex = mesh.vertices[mesh.indices[3 * std::size_t{triangle} + corner]];
+      const glm::dvec2 place = chart.plane.flat(glm::dvec3{vertex.position});
+      bounds.low = glm::min(bounds.low, place);
+      bounds.high = glm::max(bounds.high, place);
+    }
+  }
+  return bounds;
+}
+
+/// Gives every chart that meets at a vertex a vertex of its own there, with the chart's place as texture coordinates.
+/// What no chart has stays at (0, 0).
 void lay_out(const std::vector<Chart>& charts, Mesh& mesh) {
   std::vector<Rectangle> rectangles;
   std::vector<glm::dvec2> corners;  // lower left of each chart on its plane
   for (const Chart& chart : charts) {
-    glm::dvec2 low{std::numeric_limits<double>::max()}, high{std::numeric_limits<double>::lowest()};
-    for (const std::uint32_t triangle : chart.triangles) {
-      for (std::size_t corner = 0; corner < 3; ++corner) {
-        const glm::dvec2 place =
-            chart.plane.flat(glm::dvec3{mesh.vertices[mesh.indices[3 * std::size_t{triangle} + corner]].position});
-        low = glm::min(low, place);
-        high = glm::max(high, place);
-      }
-    }
-    rectangles.push_back({high - low});
-    corners.push_back(low);
+    const FlatBounds bounds = bounds_of(chart, mesh);
+    rectangles.push_back({bounds.high - bounds.low});
+    corners.push_back(bounds.low);
   }
   const double side = pack(rectangles);
-  std::vector<Vertex> vertices;
+  for (Vertex& vertex : mesh.vertices) vertex.uv0 = vertex.uv1 = glm::vec2{0.0F};
   std::vector<std::pair<std::size_t, std::uint32_t>> latest(mesh.vertices.size(), {charts.size(), none});
   for (std::size_t i = 0; i < charts.size(); ++i) {
     for (const std::uint32_t triangle : charts[i].triangles) {
       for (std::size_t corner = 0; corner < 3; ++corner) {
         std::uint32_t& index = mesh.indices[3 * std::size_t{triangle} + corner];
-        auto& [chart, place] = latest[index];
+        auto& [chart, copy] = latest[index];
         if (chart != i) {
-          chart = i;
-          place = static_cast<std::uint32_t>(vertices.size());
-          Vertex& vertex = vertices.emplace_back(mesh.vertices[index]);
-          const glm::dvec2 on_square =
-              (charts[i].plane.flat(glm::dvec3{vertex.position}) - corners[i] + rectangles[i].place) / side;
+          Vertex vertex = mesh.vertices[index];
+          const glm::dvec2 on_plane = charts[i].plane.flat(glm::dvec3{vertex.position}) - corners[i];
+          const glm::dvec2 on_square = (on_plane + rectangles[i].place) / side;
           vertex.uv0 = vertex.uv1 = glm::vec2{on_square.x, 1.0 - on_square.y};
+          chart = i;
+          copy = static_cast<std::uint32_t>(mesh.vertices.size());
+          mesh.vertices.push_back(vertex);
         }
-        index = place;
+        index = copy;
       }
     }
   }
-  mesh.vertices = std::move(vertices);
+  drop_unused_vertices(mesh.vertices, mesh.indices);
 }
 
 }  // namespace

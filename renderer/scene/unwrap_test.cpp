@@ -10,6 +10,7 @@
 
 #include "renderer/scene/geometry.hpp"
 #include "renderer/scene/unwrap.hpp"
+#include "tests/support/texture_coverage.hpp"
 
 namespace footprint {
 namespace {
@@ -59,30 +60,6 @@ Mesh spiral(int steps) {
   return mesh;
 }
 
-/// How often each point of a fine grid over the square lies well inside a triangle.
-std::vector<int> coverage(const Mesh& mesh, int side) {
-  std::vector<int> counts(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0);
-  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-    std::array<glm::dvec2, 3> corners;
-    for (std::size_t c = 0; c < 3; ++c) corners[c] = glm::dvec2(mesh.vertices[mesh.indices[i + c]].uv0) * double(side);
-    const auto turn = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };
-    const double area = turn(corners[1] - corners[0], corners[2] - corners[0]);
-    const glm::dvec2 low = glm::min(glm::min(corners[0], corners[1]), corners[2]);
-    const glm::dvec2 high = glm::max(glm::max(corners[0], corners[1]), corners[2]);
-    for (int y = static_cast<int>(low.y); y <= static_cast<int>(high.y) && y < side; ++y) {
-      for (int x = static_cast<int>(low.x); x <= static_cast<int>(high.x) && x < side; ++x) {
-        const glm::dvec2 point{x + 0.5, y + 0.5};
-        bool inside = true;
-        for (std::size_t c = 0; c < 3; ++c) {
-          inside = inside && turn(corners[(c + 1) % 3] - corners[c], point - corners[c]) / area > 1e-4;
-        }
-        counts[static_cast<std::size_t>(y * side + x)] += inside ? 1 : 0;
-      }
-    }
-  }
-  return counts;
-}
-
 double flat_area(const Mesh& mesh) {
   double sum = 0.0;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -107,7 +84,7 @@ void expect_valid(const Mesh& before, const Mesh& after) {
     ASSERT_NEAR(glm::dot(glm::vec3(now.tangent), now.normal), 0.0F, 1e-5F);
     ASSERT_EQ(now.tangent.w, 1.0F);  // no chart is mirrored
   }
-  EXPECT_LE(std::ranges::max(coverage(after, 700)), 1);
+  EXPECT_LE(std::ranges::max(testing::texture_coverage(after, 700)), 1);
 }
 
 TEST(Unwrap, LaysATorusFlatWithoutOverlap) {
@@ -147,8 +124,8 @@ TEST(Unwrap, LeavesAFlatSquareInOnePieceUpright) {
   repair_normals(mesh.vertices, mesh.indices);
   unwrap(mesh);
   ASSERT_EQ(mesh.vertices.size(), 4U);
-  EXPECT_NEAR(mesh.vertices[0].uv0.x, 1.0 / 512, 2e-2);  // packed to within 1% of the smallest square
-  EXPECT_NEAR(mesh.vertices[0].uv0.y, 1.0 - 1.0 / 512, 2e-2);
+  EXPECT_NEAR(mesh.vertices[0].uv0.x, 1.0 / 1024, 2e-2);  // packed to within 1% of the smallest square
+  EXPECT_NEAR(mesh.vertices[0].uv0.y, 1.0 - 1.0 / 1024, 2e-2);
   EXPECT_NEAR(mesh.vertices[2].uv0.x - mesh.vertices[0].uv0.x, 1.0, 3e-2);
   EXPECT_GT(mesh.vertices[0].tangent.x, 0.999F);
 }

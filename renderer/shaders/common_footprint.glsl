@@ -18,6 +18,9 @@ struct Footprints {
 //? if surface_coordinates
   Footprint surface;  // on textures that show each point of the surface once
 //? end
+//? if normal_layers
+  Footprint layer;
+//? end
 };
 
 //? if surface_coordinates
@@ -85,7 +88,7 @@ vec4 fetchFinest(sampler2DArray map, int layer, Footprint f) { return textureLod
 //? end
 //? end
 
-//? if sample_draws
+//? if random_draws
 vec2 texel_draw;  // of this sample, uniform in [0, 1)
 //? end
 

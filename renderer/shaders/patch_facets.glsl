@@ -14,14 +14,14 @@ struct FacetDraw {
 };
 
 FacetDraw drawnFacets() {
-//? if sample_draws
+//? if random_draws
   return FacetDraw(texel_draw);
 //? else
   return FacetDraw(vec2(0.5));
 //? end
 }
 
-int drawnFacet(FacetDraw draw, int k) {
+int patchFacet(FacetDraw draw, int k) {
   ivec2 size = textureSize(base_facets, 0);
   int share = size.x * size.y / facets_per_sample;
   float place = fract(draw.random.x + 0.618034 * float(k));  // even over k, whatever the sample drew
@@ -40,7 +40,7 @@ bool facetSees(int facet, vec3 w, vec2 random) {
 
 // The sum over drawn facets of what is seen of both directions: normal and share of a_v, or nothing.
 vec4 drawnNormal(FacetDraw draw, int k, vec3 wi, vec3 wo, out float paint) {
-  int facet = drawnFacet(draw, k);
+  int facet = patchFacet(draw, k);
   vec4 normal = texelFetch(base_facets, ivec2(facet % facets_per_row, facet / facets_per_row), 0);
   paint = normal.w;
   vec2 random = fract(draw.random.yx + float(k) * vec2(0.754878, 0.569840));

@@ -94,16 +94,15 @@ Image exponents(const SurfaceSettings& settings) {
 Height column_radius(const Height& y) {
   const auto ring = [&](double at, double width, double out) { return out * smooth_ridge((y - at) / width); };
   const Height shaft = 0.30 - 0.012 * y;
-  const Height base = 0.20 * (1.0 - smooth_step(y, 0.12, 0.3)) + ring(0.34, 0.09, 0.07) + ring(0.47, 0.06, 0.04);
-  const Height capital =
-      0.20 * smooth_step(y, hall::spring - 0.5, hall::spring - 0.06) + ring(hall::spring - 0.58, 0.06, 0.06);
+  const Height base = 0.18 * (1.0 - smooth_step(y, 0.05, 0.4)) + ring(0.5, 0.13, 0.06);
+  const Height capital = 0.22 * smooth_step(y, hall::spring - 0.6, hall::spring) + ring(hall::spring - 0.62, 0.13, 0.05);
   return shaft + base + capital;
 }
 
 Mesh column(double x, double z) {
-  return grid_mesh(40, 90, [&](const glm::dvec2& place) {
+  return grid_mesh(32, 110, [&](const glm::dvec2& place) {
     // Rows are closer together along the mouldings at both ends.
-    const double share = place.y - 0.8 * std::sin(2.0 * std::numbers::pi * place.y) / (2.0 * std::numbers::pi);
+    const double share = place.y - 0.6 * std::sin(2.0 * std::numbers::pi * place.y) / (2.0 * std::numbers::pi);
     const HeightPlace at{{2.0 * std::numbers::pi * place.x, hall::spring * share}};
     const Height radius = column_radius(at.y);
     const BentPoint point{x + radius * sin(at.x), at.y, z + radius * cos(at.x)};

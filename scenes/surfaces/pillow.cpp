@@ -39,7 +39,7 @@ Image base_color(const SurfaceSettings& settings) {
 Image specular(const SurfaceSettings& settings) {
   const Jacquard silk = cloth(settings);
   return fill_rgb(glm::ivec2{settings.resolution}, [&](const glm::dvec2& place) {
-    return silk.at(place).weft ? glm::dvec3{0.55, 0.38, 0.14} : glm::dvec3{0.10, 0.055, 0.06};
+    return silk.at(place).weft ? glm::dvec3{0.55, 0.38, 0.14} : glm::dvec3{0.06, 0.028, 0.034};
   });
 }
 

@@ -84,10 +84,9 @@ TEST_P(EverySurface, IsAFunctionOfItsSeedAlone) {
 
 TEST_P(EverySurface, HasMapsOfItsBrdfWithinTheirRanges) {
   for (const int resolution : {1, 2, 33, 128}) {
-    const auto [colors, speculars, lobes] =
-        std::array{surface_base_color(GetParam(), settings(resolution)),
-                   surface_specular(GetParam(), settings(resolution)),
-                   surface_lobe_parameter(GetParam(), settings(resolution))};
+    const auto [colors, speculars, lobes] = std::array{surface_base_color(GetParam(), settings(resolution)),
+                                                       surface_specular(GetParam(), settings(resolution)),
+                                                       surface_lobe_parameter(GetParam(), settings(resolution))};
     for (const Image& map : {colors, speculars}) {
       for (const float value : map.texels) ASSERT_TRUE(value >= 0.0F && value <= 1.0F) << value;
     }

@@ -11,8 +11,8 @@
 namespace footprint {
 namespace {
 
-/// Metres. The cloth's corners hang down to 0.2 above the floor.
-constexpr double half_side = 0.75, table_radius = 0.5, table_height = 0.74;
+/// Metres. The cloth's corners hang down to 0.3 above the floor.
+constexpr double half_side = 0.7, table_radius = 0.5, table_height = 0.74;
 
 /// The cloth bends over the table's rim along a quarter of a circle.
 constexpr double rim = 0.025;
@@ -46,7 +46,7 @@ class Drape {
       down = rim - rim * cos(length / rim);
     }
     const Height folds = this->folds(at, radius) * smooth_step(length, 0.0, 0.3);
-    out += (0.02 + 0.38 * length) * folds;
+    out += (0.02 + 0.36 * length) * folds;
     down = down * (1.0 - 0.1 * folds);
     const Height drop = table_height - down;
     return {out * at.x / radius, drop, -1.0 * out * at.y / radius};
@@ -57,7 +57,7 @@ class Drape {
 
   /// 0 in a hollow to 1 on a ridge: as many waves around the table as the cloth is too wide there.
   [[nodiscard]] Height folds(const HeightPlace& at, const Height& radius) const {
-    constexpr double waves = 11.0;
+    constexpr double waves = 9.0;
     const Height angle = atan2(at.y, at.x);
     // The noise is looked up on a circle, so that it closes around the table.
     const Height wander = wander_.at(2.5 * at.x / radius, 2.5 * at.y / radius);

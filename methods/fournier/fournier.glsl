@@ -5,40 +5,7 @@ struct Effective {
   Footprint footprint;
   float variance;  // the base lobe's slope variance per axis
   vec3 mean;       // of the normals, for the diffuse term
-//? if environment_light
-//? if normal_variation
-  float total;  // weight of all peaks: below 1 where texels have no normal
-//? end
-//? end
 };
-
-//? if normal_variation
-// Lambert's azimuthal equal-area map from the disc of radius 2 to the sphere.
-vec3 directionFromDisc(vec2 p) {
-  float quarter = min(0.25 * dot(p, p), 1.0);
-  return vec3(p * sqrt(1.0 - quarter), 1.0 - 2.0 * quarter);
-}
-
-// Axis on the disc, root of the spread, weight. The finest level has one peak a texel, so the others start at the next.
-vec4 peakOf(FootprintTexel texel, int i) {
-  if (i == 0) return fetchTexel(fournier_first, 0, texel);
-  texel.level -= 1.0;
-  return fetchTexel(fournier_rest, i - 1, texel);
-}
-
-//? if environment_light
-float weightOfPeaks(Footprint f) {
-  float total = 0.0;
-  int texels = footprintTexelCount(fournier_first, f);
-  for (int t = 0; t < texels; ++t) {
-    FootprintTexel texel = footprintTexel(fournier_first, f, t);
-    int peaks = texel.weight <= 0.0 ? 0 : texel.level < 0.5 ? 1 : int(option_peaks);
-    for (int i = 0; i < peaks; ++i) total += texel.weight * max(peakOf(texel, i).w, 0.0);
-  }
-  return total;
-}
-//? end
-//? end
 
 Effective effective(Footprints f) {
   Effective e;
@@ -55,18 +22,26 @@ Effective effective(Footprints f) {
 //? else
   e.variance = lobeVariance(lobe_cutoff.x);
 //? end
-//? if environment_light
-//? if normal_variation
-  e.total = weightOfPeaks(e.footprint);
-//? end
-//? end
   return e;
 }
 
-float reflectedDensity(float variance, vec3 n, vec3 h, bool with_geometry, vec3 wi, vec3 wo) {
-  float lobe = lobeFromVariance(variance);
-  float density = lobeDensity(lobe, n, h);
-  return with_geometry ? density * geometryFactor(lobe, n, h, wi, wo) : density;
+//? if normal_variation
+// Lambert's azimuthal equal-area map from the disc of radius 2 to the sphere.
+vec3 directionFromDisc(vec2 p) {
+  float quarter = min(0.25 * dot(p, p), 1.0);
+  return vec3(p * sqrt(1.0 - quarter), 1.0 - 2.0 * quarter);
+}
+
+// Axis on the disc, root of the spread, weight. The finest level has one peak a texel, so the others start at the next.
+vec4 peakOf(FootprintTexel texel, int i) {
+  if (i == 0) return fetchTexel(fournier_first, 0, texel);
+  texel.level -= 1.0;
+  return fetchTexel(fournier_rest, i - 1, texel);
+}
+//? end
+
+float reflectedDensity(Facets facets, vec3 h, bool with_geometry, vec3 wi, vec3 wo) {
+  return with_geometry ? facetReflectance(facets, h, wi, wo) : facetDensity(facets, h);
 }
 
 // The sum over all peaks of their densities at h, each times its geometry factor or not.
@@ -82,14 +57,14 @@ float sumOfPeaks(Effective e, vec3 h, bool with_geometry, vec3 wi, vec3 wo) {
       vec4 peak = peakOf(texel, i);
       if (peak.w <= 0.0) break;  // heaviest first: the others have none either
       float weight = texel.weight * peak.w;
-      float variance = e.variance + peak.z * peak.z;
-      sum += weight * reflectedDensity(variance, directionFromDisc(peak.xy), h, with_geometry, wi, wo);
+      Facets facets = spreadFacets(directionFromDisc(peak.xy), e.variance, peak.z * peak.z);
+      sum += weight * reflectedDensity(facets, h, with_geometry, wi, wo);
       total += weight;
     }
   }
   if (total > 0.0) return sum / total;
 //? end
-  return reflectedDensity(e.variance, vec3(0.0, 0.0, 1.0), h, with_geometry, wi, wo);
+  return reflectedDensity(spreadFacets(vec3(0.0, 0.0, 1.0), e.variance, 0.0), h, with_geometry, wi, wo);
 }
 
 vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
@@ -107,31 +82,3 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
 //? end
 
 float ndf(Effective e, vec3 h) { return sumOfPeaks(e, h, false, h, h); }
-
-//? if environment_light
-//? if normal_variation
-int lobeCount(Effective e) { return e.total > 0.0 ? int(option_peaks) * footprintTexelCount(fournier_first, e.footprint) : 1; }
-
-NormalLobe normalLobe(Effective e, int i) {
-  if (e.total <= 0.0) return baseNormalLobe(vec3(0.0, 0.0, 1.0), lobeFromVariance(e.variance), 1.0);
-  FootprintTexel texel = footprintTexel(fournier_first, e.footprint, i / int(option_peaks));
-  int number = i % int(option_peaks);
-  bool there = texel.weight > 0.0 && (number == 0 || texel.level >= 0.5);
-  vec4 peak = there ? peakOf(texel, number) : vec4(0.0);
-  float weight = texel.weight * max(peak.w, 0.0) / e.total;
-  return baseNormalLobe(directionFromDisc(peak.xy), lobeFromVariance(e.variance + peak.z * peak.z), weight);
-}
-//? else
-int lobeCount(Effective e) { return 1; }
-
-NormalLobe normalLobe(Effective e, int i) {
-  return baseNormalLobe(vec3(0.0, 0.0, 1.0), lobeFromVariance(e.variance), 1.0);
-}
-//? end
-
-float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
-  return geometryFactor(lobe.base, lobe.axis, h, wi, wo);
-}
-
-vec3 meanNormal(Effective e) { return e.mean; }
-//? end

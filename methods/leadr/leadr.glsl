@@ -34,9 +34,7 @@ Effective effective(Footprints f) {
   e.row = lobeRow(e.lobe);
 //? end
 //? if diffuse
-  mat2 c = e.lobe.spread;
-  float s = sqrt(determinantOfCovariance(c));
-  e.root = (c + mat2(s)) / max(sqrt(c[0][0] + c[1][1] + 2.0 * s), 1e-12);
+  e.root = covarianceRoot(e.lobe.spread);
 //? end
   return e;
 }

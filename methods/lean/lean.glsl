@@ -11,6 +11,24 @@ struct Effective {
 //? end
 };
 
+//? if diffuse
+//? if normal_layers
+// The mean of the unit normals of both layers together: no texture holds it, but their slopes' distribution tells it, by
+// 3 x 3 points of Gauss and Hermite.
+vec3 meanNormal(SlopeLobe lobe) {
+  mat2 root = covarianceRoot(lobe.spread);
+  vec3 sum = vec3(0.0);
+  for (int i = -1; i <= 1; ++i) {
+    for (int j = -1; j <= 1; ++j) {
+      float weight = (i == 0 ? 4.0 : 1.0) * (j == 0 ? 4.0 : 1.0) / 36.0;
+      sum += weight * normalOfSlope(lobe.mean + root * (1.7320508 * vec2(i, j)));
+    }
+  }
+  return sum;
+}
+//? end
+//? end
+
 Effective effective(Footprints f) {
   Effective e;
   e.lobe = footprintLobe(f);
@@ -20,8 +38,12 @@ Effective effective(Footprints f) {
 //? end
   e.mean_normal = vec3(0.0, 0.0, 1.0);
 //? if diffuse
+//? if normal_layers
+  e.mean_normal = meanNormal(e.lobe);
+//? else
 //? if normal_variation
   e.mean_normal = fetch(lean_normal, f.normal).xyz;
+//? end
 //? end
 //? end
   return e;

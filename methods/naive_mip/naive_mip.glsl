@@ -1,25 +1,18 @@
-// The mean normal, renormalised, with the mean roughness: one lobe, as wide as a facet's own.
-struct Effective {
-  Facets facets;
-};
+// The mean normal, renormalised, with the mean roughness or the mean lobe parameter: one lobe, as wide as a facet's own.
+//? include mean_normal.glsl
+//? include facets_module.glsl
 
 Effective effective(Footprints f) {
-//? if normal_variation
-  vec3 mean = fetch(naive_normal, f.normal).xyz;
-//? if storage_unorm8
-  mean = 2.0 * mean - 1.0;
-//? end
-  float size = length(mean);
-  vec3 normal = size > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0);
-//? else
-  vec3 normal = vec3(0.0, 0.0, 1.0);
-//? end
 //? if roughness_variation
+//? if averages_lobe
+  float lobe = fetch(naive_lobe, f.roughness).r;
+//? else
   float lobe = lobeFromRoughness(fetch(naive_roughness, f.roughness).r);
+//? end
 //? else
   float lobe = lobe_cutoff.x;
 //? end
-  return Effective(evenFacets(normal, lobe));
+  return Effective(evenFacets(meanNormal(f).xyz, lobe));
 }
 
 vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) { return facetSpecular(e.facets, f0, wi, wo); }

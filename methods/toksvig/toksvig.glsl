@@ -3,6 +3,8 @@
 //   1 / s' = 1 / s + (1 - |Na|) / |Na|,
 // is a sum of slope variances per axis, which serves every distribution: alpha^2 / 2 takes the place of 1 / s for
 // Beckmann and GGX (Walter 2007, section 5.2), 1 / kappa for vMF.
+//? include mean_normal.glsl
+
 struct Effective {
   Facets facets;
   float consistency;  // |Na|, 1 where all normals agree
@@ -18,23 +20,9 @@ float baseVariance(Footprints f) {
 }
 
 Effective effective(Footprints f) {
-  Effective e;
-//? if normal_variation
-  vec3 mean = fetch(toksvig_normal, f.normal).xyz;
-//? if storage_unorm8
-  mean = 2.0 * mean - 1.0;
-//? end
-  float size = length(mean);
-  e.consistency = min(size, 1.0);  // rounding of the storage leaves |Na| > 1 on flat maps: a negative variance
-  vec3 normal = size > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0);
-  float spread = option_spread * (1.0 - e.consistency) / max(e.consistency, 1e-6);
-//? else
-  e.consistency = 1.0;
-  vec3 normal = vec3(0.0, 0.0, 1.0);
-  float spread = 0.0;
-//? end
-  e.facets = spreadFacets(normal, baseVariance(f), spread);
-  return e;
+  vec4 mean = meanNormal(f);
+  float spread = option_spread * (1.0 - mean.w) / max(mean.w, 1e-6);
+  return Effective(spreadFacets(mean.xyz, baseVariance(f), spread), mean.w);
 }
 
 vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) { return facetSpecular(e.facets, f0, wi, wo); }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <ranges>
 
+#include "renderer/visibility/cast_shadows.hpp"
+
 namespace footprint {
 namespace {
 
@@ -14,6 +16,7 @@ constexpr std::array<std::string_view, effect_count> names{"diffuse",
                                                            "fresnel",
                                                            "masking_shadowing",
                                                            "normal_variation",
+                                                           "normal_layers",
                                                            "roughness_variation",
                                                            "multi_lobe",
                                                            "base_color_variation",
@@ -24,6 +27,7 @@ constexpr std::array<std::string_view, effect_count> names{"diffuse",
                                                            "point_light",
                                                            "spot_light",
                                                            "directional_light",
+                                                           "cast_shadow",
                                                            "environment_light"};
 
 // Smaller than any step of an 8-bit map; larger than what decoding one leaves in 32 bits.
@@ -79,11 +83,35 @@ EffectDecision normal_variation(const Scene& scene) {
                 mapped.holding == 0 ? "no normal map" : "every normal map is flat");
 }
 
+EffectDecision normal_layers(const Scene& scene) {
+  const Count layered = count_materials(scene, [](const Material& m) { return m.layer_map.has_value(); });
+  const auto rough = [](const Material& m) { return m.layer_map && !is_flat(*m.layer_map->image); };
+  return decide(Effect::normal_layers, scene, rough, "a detail layer that is not flat",
+                layered.holding == 0 ? "no detail layer" : "every detail layer is flat");
+}
+
 template <class Kind>
 EffectDecision lights(Effect effect, const Scene& scene, std::string_view word) {
   const auto n = std::ranges::count_if(scene.lights, [](const Light& l) { return std::holds_alternative<Kind>(l); });
   return {effect, n > 0,
           n > 0 ? fmt::format("{} {} light{}", n, word, n == 1 ? "" : "s") : fmt::format("no {} light", word)};
+}
+
+EffectDecision cast_shadow(const Scene& scene) {
+  const auto off = [](std::string_view reason) {
+    return EffectDecision{Effect::cast_shadow, false, std::string(reason)};
+  };
+  if (scene.lights.empty()) return off("no light that could cast one");
+  if (scene.shadows.cast) {
+    return *scene.shadows.cast ? EffectDecision{Effect::cast_shadow, true, "switched on by the scene"}
+                               : off("switched off by the scene");
+  }
+  const std::vector<bool> casting = lights_casting_shadows(scene, Occluders(scene));
+  const auto n = std::ranges::count(casting, true);
+  if (n == 0) return off("nothing stands between a surface and a light");
+  return {Effect::cast_shadow, true,
+          fmt::format("{} of {} light{}: something stands before a surface", n, casting.size(),
+                      casting.size() == 1 ? "" : "s")};
 }
 
 EffectDecision environment_light(const Scene& scene) {
@@ -120,6 +148,7 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
           Effect::masking_shadowing, scene, [](const Material& m) { return m.brdf.geometry != GeometryTerm::none; },
           "the base BRDF has a geometry term", "the base BRDF has no geometry term"),
       normal_variation(scene),
+      normal_layers(scene),
       decide(Effect::roughness_variation, scene, roughness_varies, "a roughness map that varies",
              "roughness is constant over each material"),
       decide(
@@ -141,6 +170,7 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
       lights<PointLight>(Effect::point_light, scene, "point"),
       lights<SpotLight>(Effect::spot_light, scene, "spot"),
       lights<DirectionalLight>(Effect::directional_light, scene, "directional"),
+      cast_shadow(scene),
       environment_light(scene),
   };
 }

@@ -76,6 +76,7 @@ void add_material(ContentHash& hash, const Material& m) {
   add_map(hash, m.base_color_map);
   add_map(hash, m.metallic_roughness_map);
   add_map(hash, m.normal_map);
+  add_map(hash, m.layer_map);
   add_map(hash, m.lobe_parameter_map);
   add_map(hash, m.specular_map);
   add_value(hash, m.lobes.size());

@@ -26,6 +26,25 @@ Image one_channel(const Image& image, int channel) {
   return out;
 }
 
+// Slope variance per axis of all lobes together, about the facet's normal: each lobe's own, and what its axis leans by.
+float variance_about_normal(const Material& material) {
+  float weight = 0.0F;
+  float variance = 0.0F;
+  for (const FacetLobe& lobe : material.lobes) {
+    const float leaning = 0.5F * glm::dot(glm::vec2(lobe.axis), glm::vec2(lobe.axis)) / (lobe.axis.z * lobe.axis.z);
+    weight += lobe.weight;
+    variance += lobe.weight * (lobe_variance(material.brdf.distribution, lobe.parameter) + leaning);
+  }
+  return variance / weight;
+}
+
+Image normals_or_flat(const std::optional<TextureMap>& map) {
+  if (map) return *map->image;
+  Image flat(1, 1, 4);
+  flat.texels = {0.0F, 0.0F, 1.0F, 1.0F};
+  return flat;
+}
+
 class BaseSurface final : public Method {
  public:
   [[nodiscard]] const MethodInfo& info() const override { return info_; }
@@ -36,6 +55,10 @@ class BaseSurface final : public Method {
     if (has(effects, Effect::normal_variation)) {
       out.textures.push_back(
           make_texture("base_normal", {normal_map_of(material)}, Storage::fp32, normal_coordinates(material)));
+    }
+    if (has(effects, Effect::normal_layers)) {
+      out.textures.push_back(
+          make_texture("base_layer", {layer_map_of(material)}, Storage::fp32, layer_coordinates(material)));
     }
     if (has(effects, Effect::roughness_variation)) {
       out.textures.push_back(
@@ -62,12 +85,9 @@ const Method& base_surface() {
   return method;
 }
 
-Image normal_map_of(const Material& material) {
-  if (material.normal_map) return *material.normal_map->image;
-  Image flat(1, 1, 4);
-  flat.texels = {0.0F, 0.0F, 1.0F, 1.0F};
-  return flat;
-}
+Image normal_map_of(const Material& material) { return normals_or_flat(material.normal_map); }
+
+Image layer_map_of(const Material& material) { return normals_or_flat(material.layer_map); }
 
 Image roughness_map_of(const Material& material) {
   const NormalDistribution distribution = material.brdf.distribution;
@@ -83,6 +103,16 @@ Image roughness_map_of(const Material& material) {
   return Image(1, 1, 1, own_lobe ? roughness_from_lobe(distribution, lobe_parameter(material)) : material.roughness);
 }
 
+Image lobe_parameter_map_of(const Material& material) {
+  if (width_map(material) == nullptr) return Image(1, 1, 1, lobe_parameter(material));
+  if (material.lobe_parameter_map) return *material.lobe_parameter_map->image;
+  Image lobes = roughness_map_of(material);
+  std::ranges::transform(lobes.texels, lobes.texels.begin(), [&](float roughness) {
+    return lobe_from_alpha(material.brdf.distribution, roughness * roughness);
+  });
+  return lobes;
+}
+
 Image metallic_map_of(const Material& material) {
   if (const TextureMap* map = metallic_map(material); map != nullptr) return one_channel(*map->image, 1);
   return Image(1, 1, 1, material.metallic);
@@ -94,6 +124,10 @@ Image specular_map_of(const Material& material) {
 
 TextureCoordinates normal_coordinates(const Material& material) {
   return material.normal_map ? material.normal_map->coordinates : TextureCoordinates{};
+}
+
+TextureCoordinates layer_coordinates(const Material& material) {
+  return material.layer_map ? material.layer_map->coordinates : TextureCoordinates{};
 }
 
 TextureCoordinates roughness_coordinates(const Material& material) {
@@ -112,15 +146,7 @@ TextureCoordinates specular_coordinates(const Material& material) {
 float lobe_parameter(const Material& material) {
   const NormalDistribution distribution = material.brdf.distribution;
   if (material.lobe_parameter) return *material.lobe_parameter;
-  if (!material.lobes.empty()) {
-    float weight = 0.0F;
-    float variance = 0.0F;
-    for (const FacetLobe& lobe : material.lobes) {
-      weight += lobe.weight;
-      variance += lobe.weight * lobe_variance(distribution, lobe.parameter);
-    }
-    return lobe_from_variance(distribution, variance / weight);
-  }
+  if (!material.lobes.empty()) return lobe_from_variance(distribution, variance_about_normal(material));
   const TextureMap* const map = width_map(material);
   if (map != nullptr && material.lobe_parameter_map) return map->image->texels.front();
   const float roughness = map != nullptr ? map->image->texels.front() : material.roughness;

@@ -11,7 +11,7 @@
 #include "renderer/effects/effects.hpp"
 #include "renderer/pipeline/frame_build.hpp"
 #include "renderer/pipeline/prefiltered.hpp"
-#include "renderer/scene/material.hpp"
+#include "renderer/scene/scene.hpp"
 
 namespace footprint {
 
@@ -45,6 +45,13 @@ class Method {
   /// effects alone, so that one program serves every material of a scene.
   [[nodiscard]] virtual Prefiltered precompute(const Material& material, const Options& options,
                                                const EffectSet& effects, const Progress& progress) const = 0;
+
+  /// As `precompute`, for a material of `scene`: what depends on the triangles that it lies on. What is baked is kept
+  /// on disk by the material alone: a method that overrides this must not be `slow_precompute`.
+  [[nodiscard]] virtual Prefiltered precompute_on(const Scene& scene, std::size_t material, const Options& options,
+                                                  const EffectSet& effects, const Progress& progress) const {
+    return precompute(scene.materials.at(material), options, effects, progress);
+  }
 
   /// The passes that are repeated each frame, for a scene whose effects (those that the method honours) and base BRDF
   /// `variant` has; null: there are none. A context is current. Errors (machine): a pass does not compile.

@@ -1,7 +1,8 @@
 // The base BRDF itself: what the reference averages, and `direct` shades once a pixel.
-struct Effective {
-  Facets facets;
-};
+//? if normal_layers
+//? include normal_layers.glsl
+//? end
+//? include facets_module.glsl
 
 Effective effective(Footprints f) {
 //? if normal_variation
@@ -12,6 +13,13 @@ Effective effective(Footprints f) {
   vec3 normal = normalize(texel.xyz);
 //? else
   vec3 normal = vec3(0.0, 0.0, 1.0);
+//? end
+//? if normal_layers
+  vec4 layer = fetchFinest(base_layer, f.layer);
+//? if not sampling_frame
+  if (layer.w < 0.5) discard;
+//? end
+  normal = withSlopesAdded(normal, layer.xyz);
 //? end
 //? if roughness_variation
   float lobe = lobeFromRoughness(fetchFinest(base_roughness, f.roughness).r);

@@ -19,8 +19,21 @@ mat2 slopeCovariance(vec2 mean, vec3 second) {
   return 0.5 * largest * mat2(1.0 + turn.x, turn.y, turn.y, 1.0 - turn.x);
 }
 
+//? if variant_clean
+// Per axis, for E[b.b] in place of M.
+float scalarCovariance(vec2 mean, float trace) { return max(0.5 * (trace - dot(mean, mean)), 0.0); }
+
+//? end
 // A covariance has no negative determinant; its rounding may have.
 float determinantOfCovariance(mat2 c) { return max(c[0][0] * c[1][1] - c[0][1] * c[1][0], 0.0); }
+
+//? if diffuse
+// The symmetric root of a covariance.
+mat2 covarianceRoot(mat2 c) {
+  float s = sqrt(determinantOfCovariance(c));
+  return (c + mat2(s)) / max(sqrt(c[0][0] + c[1][1] + 2.0 * s), 1e-12);
+}
+//? end
 
 // [d -b; -c a]: the inverse times the determinant.
 mat2 adjugate(mat2 m) { return mat2(m[1][1], -m[0][1], -m[1][0], m[0][0]); }
@@ -114,10 +127,21 @@ SlopeLobe footprintLobe(Footprints f) {
   vec4 moments = fetch(slope_moments, f.normal);
   mean = moments.xy;
 //? if variant_clean
-  spread = mat2(max(0.5 * (moments.z - dot(mean, mean)), 0.0));
+  spread = mat2(scalarCovariance(mean, moments.z));
 //? else
   spread = slopeCovariance(mean, vec3(moments.z, fetch(slope_cross, f.normal).r, moments.w));
 //? end
+//? end
+//? if normal_layers
+  // Slopes of independent layers add, and so do their means and covariances: M = M1 + M2 + B1 B2^T + B2 B1^T less
+  // (B1 + B2)(B1 + B2)^T is (M1 - B1 B1^T) + (M2 - B2 B2^T), in the order that cancels least.
+  vec4 layer = fetch(layer_moments, f.layer);
+//? if variant_clean
+  spread += mat2(scalarCovariance(layer.xy, layer.z));
+//? else
+  spread += slopeCovariance(layer.xy, vec3(layer.z, fetch(layer_cross, f.layer).r, layer.w));
+//? end
+  mean += layer.xy;
 //? end
   return slopeLobe(mean, spread, addedVariance(f));
 }

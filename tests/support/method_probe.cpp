@@ -43,9 +43,10 @@ std::vector<glm::vec4> probe_method(const ProbedMethod& probed, const std::strin
   const ShaderFlags flags = shader_flags(variant, options);
   text += fmt::format("const vec4 lobe_cutoff = vec4({:e});\n", lobe_parameter(*probed.material)) +
           shared_functions(flags) + select_text(probed.method->shader(), flags, probed.method->info().name);
-  const std::string footprint =
+  const std::string footprint = fmt::format(
       "Footprint whole_map = Footprint(vec2(0.5), vec2(1.0, 0.0), vec2(0.0, 1.0));\n"
-      "Effective e = effective(Footprints(whole_map, whole_map, whole_map));\n";
+      "Effective e = effective(Footprints(whole_map, whole_map, whole_map{}));\n",
+      has(variant.effects, Effect::normal_layers) ? ", whole_map" : "");
   std::vector<glm::vec4> out = evaluate_glsl(text, footprint + body, inputs);
   context.check("probing a method");
   return out;

@@ -278,7 +278,7 @@ class Comparison {
     for (const StagedMethod& staged : stage_.methods())
       draws.emplace_back([&staged, &view] { staged.frames().draw(view); });
     for (const StagedMethod& staged : stage_.methods()) {
-      if (staged.gpu().builds_each_frame()) draws.emplace_back([&staged] { staged.gpu().build_frame(); });
+      if (staged.gpu().has_frame_build()) draws.emplace_back([&staged, &view] { staged.gpu().rebuild(view); });
     }
     const double weight = static_cast<double>(settings_.methods.size()) * settings_.repeats;
     return interleaved_times(stage_.context().info(), draws, settings_.repeats,
@@ -313,8 +313,9 @@ class Comparison {
       record.fps = 1000.0 / record.frame_ms.median;
       record.ratio_to_direct = {
           .median = quantile(ratios, 0.5), .minimum = std::ranges::min(ratios), .maximum = std::ranges::max(ratios)};
-      if (method(m).gpu().builds_each_frame())
-        record.frame_build_ms = quantile(pooled(processes, distance, build++), 0.5);
+      if (!method(m).gpu().has_frame_build()) continue;
+      record.frame_build_ms = quantile(pooled(processes, distance, build++), 0.5);
+      record.frame_build = method(m).gpu().keeps_builds() ? "reused" : "every frame";
     }
   }
 

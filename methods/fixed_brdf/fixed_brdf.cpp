@@ -18,11 +18,7 @@ class FixedBrdf final : public Method {
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                                        const Progress& /*progress*/) const override {
     const Storage storage = parse_storage(options.word("storage"));
-    Prefiltered out;
-    if (has(effects, Effect::normal_variation)) {
-      out.textures.push_back(
-          make_texture("fixed_normal", mean_normal_chain(material), storage, normal_coordinates(material), true));
-    }
+    Prefiltered out = bake_mean_normal(material, storage, effects);
     if (has(effects, Effect::roughness_variation)) {
       // The finest level alone: reflectance is what this method does not filter.
       out.textures.push_back(
@@ -39,7 +35,7 @@ class FixedBrdf final : public Method {
       .summary = "The finest level's reflectance at any distance, over geometry that is filtered.",
       .paper = "Tan, Lin, Quan, Guo, Shum 2005, Multiresolution Reflectance Filtering, EGSR (its comparison, figure 8)",
       .options = {storage_option()},
-      .honours = EffectSet{}.set().reset(static_cast<std::size_t>(Effect::normal_layers))};
+      .honours = all_effects_but({Effect::normal_layers})};
 };
 
 }  // namespace

@@ -1,26 +1,15 @@
 // Geometry is filtered, reflectance is not: the renormalised mean normal with the lobe of the texel at the pixel's
 // centre (Tan 2005, figure 8d).
-struct Effective {
-  Facets facets;
-};
+//? include mean_normal.glsl
+//? include facets_module.glsl
 
 Effective effective(Footprints f) {
-//? if normal_variation
-  vec3 mean = fetch(fixed_normal, f.normal).xyz;
-//? if storage_unorm8
-  mean = 2.0 * mean - 1.0;
-//? end
-  float size = length(mean);
-  vec3 normal = size > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0);
-//? else
-  vec3 normal = vec3(0.0, 0.0, 1.0);
-//? end
 //? if roughness_variation
   float lobe = lobeFromRoughness(fetchFinest(fixed_roughness, f.roughness).r);
 //? else
   float lobe = lobe_cutoff.x;
 //? end
-  return Effective(evenFacets(normal, lobe));
+  return Effective(evenFacets(meanNormal(f).xyz, lobe));
 }
 
 vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) { return facetSpecular(e.facets, f0, wi, wo); }
@@ -32,3 +21,9 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
 //? end
 
 float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }
+
+//? if environment_light
+//? include facet_normal_lobes.glsl
+
+vec3 meanNormal(Effective e) { return e.facets.normal; }
+//? end

@@ -40,10 +40,8 @@ vec4 peakOf(FootprintTexel texel, int i) {
 }
 //? end
 
-float reflectedDensity(float variance, vec3 n, vec3 h, bool with_geometry, vec3 wi, vec3 wo) {
-  float lobe = lobeFromVariance(variance);
-  float density = lobeDensity(lobe, n, h);
-  return with_geometry ? density * geometryFactor(lobe, n, h, wi, wo) : density;
+float reflectedDensity(Facets facets, vec3 h, bool with_geometry, vec3 wi, vec3 wo) {
+  return with_geometry ? facetReflectance(facets, h, wi, wo) : facetDensity(facets, h);
 }
 
 // The sum over all peaks of their densities at h, each times its geometry factor or not.
@@ -59,14 +57,14 @@ float sumOfPeaks(Effective e, vec3 h, bool with_geometry, vec3 wi, vec3 wo) {
       vec4 peak = peakOf(texel, i);
       if (peak.w <= 0.0) break;  // heaviest first: the others have none either
       float weight = texel.weight * peak.w;
-      float variance = e.variance + peak.z * peak.z;
-      sum += weight * reflectedDensity(variance, directionFromDisc(peak.xy), h, with_geometry, wi, wo);
+      Facets facets = spreadFacets(directionFromDisc(peak.xy), e.variance, peak.z * peak.z);
+      sum += weight * reflectedDensity(facets, h, with_geometry, wi, wo);
       total += weight;
     }
   }
   if (total > 0.0) return sum / total;
 //? end
-  return reflectedDensity(e.variance, vec3(0.0, 0.0, 1.0), h, with_geometry, wi, wo);
+  return reflectedDensity(spreadFacets(vec3(0.0, 0.0, 1.0), e.variance, 0.0), h, with_geometry, wi, wo);
 }
 
 vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {

@@ -1,5 +1,6 @@
 // `naive_mip`: the mean normal, renormalised, and the mean roughness. What most renderers do, and what makes far
 // surfaces too shiny: the spread of the normals is lost.
+#include "renderer/core/error.hpp"
 #include "renderer/image/mipmap.hpp"
 #include "renderer/pipeline/base_surface.hpp"
 #include "renderer/pipeline/normal_chain.hpp"
@@ -19,19 +20,16 @@ class NaiveMip final : public Method {
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                                        const Progress& /*progress*/) const override {
     const Storage storage = parse_storage(options.word("storage"));
-    Prefiltered out;
-    if (has(effects, Effect::normal_variation)) {
-      out.textures.push_back(
-          make_texture("naive_normal", mean_normal_chain(material), storage, normal_coordinates(material), true));
+    Prefiltered out = bake_mean_normal(material, storage, effects);
+    if (!has(effects, Effect::roughness_variation)) return out;
+    const bool lobe = options.word("averages") == "lobe";
+    if (lobe && storage == Storage::unorm8) {
+      throw Error(ErrorKind::usage, "naive_mip", "bytes hold no lobe parameters",
+                  "give storage=fp32 or storage=fp16, or averages=roughness");
     }
-    if (has(effects, Effect::normal_layers)) {
-      out.textures.push_back(make_texture("naive_layer", mean_normal_chain(layer_map_of(material)), storage,
-                                          layer_coordinates(material), true));
-    }
-    if (has(effects, Effect::roughness_variation)) {
-      out.textures.push_back(make_texture("naive_roughness", mip_chain(roughness_map_of(material)), storage,
-                                          roughness_coordinates(material)));
-    }
+    const Image map = lobe ? lobe_parameter_map_of(material) : roughness_map_of(material);
+    out.textures.push_back(make_texture(lobe ? "naive_lobe" : "naive_roughness", mip_chain(map), storage,
+                                        roughness_coordinates(material)));
     return out;
   }
 
@@ -42,7 +40,10 @@ class NaiveMip final : public Method {
       .name = "naive_mip",
       .summary = "Mip maps of normal and roughness: the mean normal, renormalised, and the mean roughness.",
       .paper = "Williams 1983, Pyramidal Parametrics (the mip map itself)",
-      .options = {storage_option()},
+      .options = {storage_option(),
+                  word_option("averages", {"roughness", "lobe"},
+                              "What of a varying lobe is averaged: the perceptual roughness, as a texture stores it, "
+                              "or the lobe's own parameter (exponent, alpha, kappa), as Xu 2017 does.")},
       .honours = EffectSet{}.set()};
 };
 

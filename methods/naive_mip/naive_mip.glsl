@@ -1,35 +1,18 @@
-// The mean normal, renormalised, with the mean roughness: one lobe, as wide as a facet's own.
-//? if normal_layers
-//? include normal_layers.glsl
-//? end
-struct Effective {
-  Facets facets;
-};
-
-// Of a stored mean.
-vec3 meanNormal(vec3 mean) {
-//? if storage_unorm8
-  mean = 2.0 * mean - 1.0;
-//? end
-  float size = length(mean);
-  return size > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0);
-}
+// The mean normal, renormalised, with the mean roughness or the mean lobe parameter: one lobe, as wide as a facet's own.
+//? include mean_normal.glsl
+//? include facets_module.glsl
 
 Effective effective(Footprints f) {
-//? if normal_variation
-  vec3 normal = meanNormal(fetch(naive_normal, f.normal).xyz);
-//? else
-  vec3 normal = vec3(0.0, 0.0, 1.0);
-//? end
-//? if normal_layers
-  normal = withSlopesAdded(normal, meanNormal(fetch(naive_layer, f.layer).xyz));
-//? end
 //? if roughness_variation
+//? if averages_lobe
+  float lobe = fetch(naive_lobe, f.roughness).r;
+//? else
   float lobe = lobeFromRoughness(fetch(naive_roughness, f.roughness).r);
+//? end
 //? else
   float lobe = lobe_cutoff.x;
 //? end
-  return Effective(evenFacets(normal, lobe));
+  return Effective(evenFacets(meanNormal(f).xyz, lobe));
 }
 
 vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) { return facetSpecular(e.facets, f0, wi, wo); }
@@ -41,3 +24,9 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
 //? end
 
 float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }
+
+//? if environment_light
+//? include facet_normal_lobes.glsl
+
+vec3 meanNormal(Effective e) { return e.facets.normal; }
+//? end

@@ -102,10 +102,7 @@ class TanGmm final : public Method {
           "the texture filter blends them.",
       .paper = "Tan et al. 2005, Multiresolution Reflectance Filtering, Eurographics Symposium on Rendering",
       .options = option_table(),
-      .honours = EffectSet{}
-                     .set()
-                     .reset(static_cast<std::size_t>(Effect::multi_lobe))
-                     .reset(static_cast<std::size_t>(Effect::normal_layers)),
+      .honours = all_effects_but({Effect::normal_layers}),
       .slow_precompute = true};
 };
 

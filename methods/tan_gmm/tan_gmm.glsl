@@ -15,6 +15,9 @@ struct Effective {
   float share[components];
   float amount[components];
   float width[components];
+//? if multi_lobe
+  float spread[components];  // of the normals alone, as `width` has it: what widens each of the material's own lobes
+//? end
   float lobe;  // of a single facet
 };
 
@@ -52,11 +55,9 @@ float baseOverDisc(float variance, float height) {
 //? end
 }
 
-// The normal distribution function, to 1.4e-4 (Page 1977).
-float normalCdf(float x) {
-  float z = clamp(x, -8.0, 8.0);
-  return 1.0 / (1.0 + exp(-z * (1.5976 + 0.070565992 * z * z)));
-}
+//? if not environment_light
+//? include normal_cdf.glsl
+//? end
 
 // The mass of a Gaussian inside the disc: a noncentral chi-squared distribution of 2 degrees of freedom, by Sankaran 1963.
 float massInDisc(vec2 mean, float variance) {
@@ -81,30 +82,94 @@ float rimFactor(vec2 mean, float variance, float height, float base_variance) {
 //? end
 }
 
-// The Gaussian over the disc that stands for normals and base lobe together (Tan 2005, section 3).
-void setLobe(inout Effective e, int i, float share, vec2 mean, float height, float spread) {
-  float base = clamp(lobeVariance(e.lobe), 1e-6, 4.0);
-  e.width[i] = clamp(spread + baseOverDisc(base, height), 1e-6, 4.0);
-  e.amount[i] = share * rimFactor(mean, e.width[i], height, base) / (2.0 * pi * e.width[i]);
+// The Gaussian over the disc that stands for normals and base lobe together (Tan 2005, section 3): its variance, and its
+// share of the energy over the density's norm. `base` is the base lobe's variance.
+float widthOverDisc(float spread, float base, float height) {
+  return clamp(spread + baseOverDisc(base, height), 1e-6, 4.0);
+}
+float amountOverDisc(float share, vec2 mean, float width, float height, float base) {
+  return share * rimFactor(mean, width, height, base) / (2.0 * pi * width);
 }
 
 // Over solid angle: an area of the disc is h_z times the solid angle above it.
-float componentDensity(Effective e, int i, vec3 h) {
-  vec2 d = h.xy - e.mean[i].xy;
-  return e.amount[i] * exp(-0.5 * dot(d, d) / e.width[i]) * max(h.z, 0.0);
+float densityOverDisc(float amount, vec2 mean, float width, vec3 h) {
+  vec2 d = h.xy - mean;
+  return amount * exp(-0.5 * dot(d, d) / width) * max(h.z, 0.0);
 }
+
+void setLobe(inout Effective e, int i, float share, vec2 mean, float height, float spread) {
+  float base = clamp(lobeVariance(e.lobe), 1e-6, 4.0);
+  e.width[i] = widthOverDisc(spread, base, height);
+  e.amount[i] = amountOverDisc(share, mean, e.width[i], height, base);
+//? if multi_lobe
+  e.spread[i] = spread;
+//? end
+}
+
+float lobeOverComponent(Effective e, int i, vec3 h) {
+  return densityOverDisc(e.amount[i], e.mean[i].xy, e.width[i], h);
+}
+
+//? if multi_lobe
+// Of an axis below the horizon nothing is over the disc.
+float lobeOverComponent(Effective e, int i, int k, vec3 h) {
+  vec3 axis = turnedWithNormal(facet_lobes[k].axis, e.mean[i]);
+  if (axis.z <= 0.0 || e.amount[i] <= 0.0) return 0.0;
+  float base = clamp(facet_lobes[k].variance, 1e-6, 4.0);
+  float width = widthOverDisc(e.spread[i], base, axis.z);
+  return densityOverDisc(amountOverDisc(e.share[i], axis.xy, width, axis.z, base), axis.xy, width, h);
+}
+//? end
 //? else
 // The base lobe about the component's mean, widened by the component's spread. An area of the disc is the cosine times its
 // solid angle, so that the round lobe of the same area has the spread over the cosine; on the rim over its own width.
 void setLobe(inout Effective e, int i, float share, vec2 mean, float height, float spread) {
-  e.width[i] = spread <= 0.0 ? e.lobe : lobeFromVariance(lobeVariance(e.lobe) + spread / max(height, sqrt(spread)));
+  float around = spread <= 0.0 ? 0.0 : spread / max(height, sqrt(spread));
+  e.width[i] = spread <= 0.0 ? e.lobe : lobeFromVariance(lobeVariance(e.lobe) + around);
   e.amount[i] = share;
+//? if multi_lobe
+  e.spread[i] = around;
+//? end
 }
 
-float componentDensity(Effective e, int i, vec3 h) {
+float lobeOverComponent(Effective e, int i, vec3 h) {
   return e.amount[i] <= 0.0 ? 0.0 : e.amount[i] * lobeDensity(e.width[i], e.mean[i], h);
 }
+
+//? if multi_lobe
+float lobeOverComponent(Effective e, int i, int k, vec3 h) {
+  if (e.amount[i] <= 0.0) return 0.0;
+  vec3 own = inFacetFrame(h, e.mean[i]);
+  return e.amount[i] * lobeDensity(widenedLobe(k, e.spread[i]), facet_lobes[k].axis, own);
+}
 //? end
+//? end
+
+float componentDensity(Effective e, int i, vec3 h) {
+//? if multi_lobe
+  if (facet_lobe_count > 0) {
+    float sum = 0.0;
+    for (int k = 0; k < facet_lobe_count; ++k) sum += facet_lobes[k].weight * lobeOverComponent(e, i, k, h);
+    return sum;
+  }
+//? end
+  return lobeOverComponent(e, i, h);
+}
+
+// The geometry is that of single facets about the component's mean.
+float componentReflectance(Effective e, int i, vec3 h, vec3 wi, vec3 wo) {
+//? if multi_lobe
+  if (facet_lobe_count > 0) {
+    float sum = 0.0;
+    for (int k = 0; k < facet_lobe_count; ++k) {
+      sum += facet_lobes[k].weight * lobeOverComponent(e, i, k, h) *
+             geometryFactor(facet_lobes[k].parameter, e.mean[i], h, wi, wo);
+    }
+    return sum;
+  }
+//? end
+  return lobeOverComponent(e, i, h) * geometryFactor(e.lobe, e.mean[i], h, wi, wo);
+}
 
 float baseLobe(Footprints f) {
 //? if roughness_variation
@@ -123,6 +188,9 @@ void setComponent(inout Effective e, int i, Component c) {
   e.share[i] = c.share;
   e.amount[i] = 0.0;
   e.width[i] = e.lobe;
+//? if multi_lobe
+  e.spread[i] = 0.0;
+//? end
   if (c.share > 0.0) setLobe(e, i, c.share, mean, height, c.spread);
 }
 
@@ -154,9 +222,7 @@ vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
   if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
   vec3 h = halfVector(wi, wo);
   float sum = 0.0;
-  for (int i = 0; i < components; ++i) {
-    sum += componentDensity(e, i, h) * geometryFactor(e.lobe, e.mean[i], h, wi, wo);
-  }
+  for (int i = 0; i < components; ++i) sum += componentReflectance(e, i, h, wi, wo);
   return fresnelTerm(f0, wi, wo) * sum;
 }
 
@@ -173,3 +239,29 @@ float ndf(Effective e, vec3 h) {
   for (int i = 0; i < components; ++i) sum += componentDensity(e, i, h);
   return sum;
 }
+
+//? if environment_light
+int lobeCount(Effective e) { return components; }
+
+NormalLobe normalLobe(Effective e, int i) {
+//? if lobe_gaussian
+  // The round lobe of the solid angle above the Gaussian's area of the disc.
+  float width = e.width[i];
+  return vmfNormalLobe(e.mean[i], max(e.mean[i].z, sqrt(width)) / width, 2.0 * pi * width * e.amount[i], e.lobe);
+//? else
+  NormalLobe lobe = baseNormalLobe(e.mean[i], e.width[i], e.amount[i]);
+  lobe.base = e.lobe;
+  return lobe;
+//? end
+}
+
+float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
+  return geometryFactor(lobe.base, lobe.axis, h, wi, wo);
+}
+
+vec3 meanNormal(Effective e) {
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < components; ++i) sum += e.share[i] * e.mean[i];
+  return sum;
+}
+//? end

@@ -18,15 +18,7 @@ class Toksvig final : public Method {
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                                        const Progress& /*progress*/) const override {
     const Storage storage = parse_storage(options.word("storage"));
-    Prefiltered out;
-    if (has(effects, Effect::normal_variation)) {
-      out.textures.push_back(
-          make_texture("toksvig_normal", mean_normal_chain(material), storage, normal_coordinates(material), true));
-    }
-    if (has(effects, Effect::normal_layers)) {
-      out.textures.push_back(make_texture("toksvig_layer", mean_normal_chain(layer_map_of(material)), storage,
-                                          layer_coordinates(material), true));
-    }
+    Prefiltered out = bake_mean_normal(material, storage, effects);
     if (has(effects, Effect::roughness_variation)) {
       out.textures.push_back(
           make_texture("toksvig_deviation", lobe_deviation_chain(material), storage, roughness_coordinates(material)));

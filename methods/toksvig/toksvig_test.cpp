@@ -47,7 +47,7 @@ Recovered recovered(const Material& material, const std::map<std::string, std::s
   gl::api().BindTextureUnit(0, texture.texture.name());
   gl::api().BindSampler(0, samplers.sampler(texture.coordinates, Lookup::trilinear));
   const ShaderFlags flags = shader_flags(variant, options);
-  const std::string text = "layout(binding = 0) uniform sampler2D toksvig_normal;\nconst float option_spread = 1.0;\n" +
+  const std::string text = "layout(binding = 0) uniform sampler2D mean_normal;\nconst float option_spread = 1.0;\n" +
                            shared_functions(flags) + "vec4 lobe_cutoff;\n" +
                            select_text(toksvig_method().shader(), flags, "toksvig.glsl");
   const std::string body =

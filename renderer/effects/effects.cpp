@@ -7,6 +7,8 @@
 #include <cmath>
 #include <ranges>
 
+#include "renderer/visibility/cast_shadows.hpp"
+
 namespace footprint {
 namespace {
 
@@ -24,7 +26,9 @@ constexpr std::array<std::string_view, effect_count> names{"diffuse",
                                                            "double_sided",
                                                            "point_light",
                                                            "spot_light",
-                                                           "directional_light"};
+                                                           "directional_light",
+                                                           "cast_shadow",
+                                                           "environment_light"};
 
 // Smaller than any step of an 8-bit map; larger than what decoding one leaves in 32 bits.
 constexpr float constant_tolerance = 1e-5F;
@@ -93,6 +97,31 @@ EffectDecision lights(Effect effect, const Scene& scene, std::string_view word) 
           n > 0 ? fmt::format("{} {} light{}", n, word, n == 1 ? "" : "s") : fmt::format("no {} light", word)};
 }
 
+EffectDecision cast_shadow(const Scene& scene) {
+  const auto off = [](std::string_view reason) {
+    return EffectDecision{Effect::cast_shadow, false, std::string(reason)};
+  };
+  if (scene.lights.empty()) return off("no light that could cast one");
+  if (scene.shadows.cast) {
+    return *scene.shadows.cast ? EffectDecision{Effect::cast_shadow, true, "switched on by the scene"}
+                               : off("switched off by the scene");
+  }
+  const std::vector<bool> casting = lights_casting_shadows(scene, Occluders(scene));
+  const auto n = std::ranges::count(casting, true);
+  if (n == 0) return off("nothing stands between a surface and a light");
+  return {Effect::cast_shadow, true,
+          fmt::format("{} of {} light{}: something stands before a surface", n, casting.size(),
+                      casting.size() == 1 ? "" : "s")};
+}
+
+EffectDecision environment_light(const Scene& scene) {
+  if (!scene.environment) return {Effect::environment_light, false, "no environment"};
+  const Image& map = *scene.environment->radiance;
+  const bool lit = std::ranges::any_of(map.texels, [](float value) { return value > 0.0F; });
+  const std::string text = fmt::format("the environment {}, {} x {}", scene.environment->name, map.width, map.height);
+  return {Effect::environment_light, lit, lit ? text : text + ", is black"};
+}
+
 }  // namespace
 
 std::string_view effect_name(Effect effect) { return names.at(static_cast<std::size_t>(effect)); }
@@ -141,6 +170,8 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
       lights<PointLight>(Effect::point_light, scene, "point"),
       lights<SpotLight>(Effect::spot_light, scene, "spot"),
       lights<DirectionalLight>(Effect::directional_light, scene, "directional"),
+      cast_shadow(scene),
+      environment_light(scene),
   };
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <bitset>
 #include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,9 +30,11 @@ enum class Effect : std::size_t {
   point_light,
   spot_light,
   directional_light,
+  cast_shadow,        ///< parts of the scene that stand between others and a light
+  environment_light,  ///< light from all directions
 };
 
-inline constexpr std::size_t effect_count = 15;
+inline constexpr std::size_t effect_count = static_cast<std::size_t>(Effect::environment_light) + 1;
 using EffectSet = std::bitset<effect_count>;
 
 /// The name of an effect as shaders, tables and `explain` write it.
@@ -48,6 +51,14 @@ using EffectSet = std::bitset<effect_count>;
   return set.test(static_cast<std::size_t>(effect));
 }
 
+/// Every effect but those of `left_out`.
+[[nodiscard]] inline EffectSet all_effects_but(std::initializer_list<Effect> left_out) {
+  EffectSet set;
+  set.set();
+  for (const Effect effect : left_out) set.reset(static_cast<std::size_t>(effect));
+  return set;
+}
+
 /// One effect of a scene: on or off, and the reason in words ("the normal map is constant").
 struct EffectDecision {
   Effect effect;
@@ -55,7 +66,8 @@ struct EffectDecision {
   std::string reason;
 };
 
-/// Every effect with its decision, in the order of the enumeration. Pure: looks at the scene's values alone.
+/// Every effect with its decision, in the order of the enumeration. Pure: looks at the scene's values alone. Takes a
+/// moment where rays have to tell whether anything casts a shadow. Errors (machine): memory is out.
 [[nodiscard]] std::vector<EffectDecision> derive_effects(const Scene& scene);
 
 /// The effects that are on.

@@ -110,18 +110,12 @@ Alignment alignment(const Material& material) {
 class Facets {
  public:
   explicit Facets(const Material& material)
-      : distribution_(material.brdf.distribution),
-        normals_(material.normal_map ? material.normal_map->image
+      : normals_(material.normal_map ? material.normal_map->image
                                      : std::make_shared<const Image>(normal_map_of(material))),
-        roughness_(roughness_map_of(material)),
-        parameter_(lobe_parameter(material)),
-        mapped_(width_map(material) != nullptr),
-        holds_parameter_(mapped_ && material.lobe_parameter_map.has_value()) {
-    if (holds_parameter_) roughness_ = *material.lobe_parameter_map->image;
-  }
+        parameters_(lobe_parameter_map_of(material)) {}
 
   [[nodiscard]] const Image& normals() const { return *normals_; }
-  [[nodiscard]] const Image& roughness() const { return roughness_; }
+  [[nodiscard]] const Image& parameters() const { return parameters_; }
 
   /// No share where the texel has no normal.
   [[nodiscard]] WeightedFacet facet(const Stretch& column, const Stretch& row, double area) const {
@@ -130,23 +124,13 @@ class Facets {
     const double length = glm::length(normal);
     const bool valid = texel[3] >= 0.5F && std::isfinite(length) && length >= shortest_normal;
     if (!valid) return {};
-    return {normal / length, parameter_at(column, row), column.length * row.length / area};
+    const double parameter = parameters_.at(column.roughness, row.roughness)[0];
+    return {normal / length, parameter, column.length * row.length / area};
   }
 
  private:
-  [[nodiscard]] double parameter_at(const Stretch& column, const Stretch& row) const {
-    if (!mapped_) return parameter_;
-    const float r = roughness_.at(column.roughness, row.roughness)[0];
-    if (holds_parameter_) return r;
-    return lobe_from_alpha(distribution_, r * r);
-  }
-
-  NormalDistribution distribution_;
   std::shared_ptr<const Image> normals_;
-  Image roughness_;
-  double parameter_;
-  bool mapped_;
-  bool holds_parameter_;  // not roughness
+  Image parameters_;  // of the lobe, where the roughness map has its texels
 };
 
 auto order_of(const WeightedFacet& f) { return std::tie(f.parameter, f.normal.x, f.normal.y, f.normal.z); }
@@ -212,7 +196,7 @@ FootprintTexels texels_under(const Material& material, const FootprintRect& rect
   const std::array<Wrap, 2> roughness_wrap = roughness_coordinates(material).wrap;
   const auto axis = [&](int i) {
     const int size = i == 0 ? maps.normals().width : maps.normals().height;
-    const int rough = i == 0 ? maps.roughness().width : maps.roughness().height;
+    const int rough = i == 0 ? maps.parameters().width : maps.parameters().height;
     const auto k = static_cast<std::size_t>(i);
     return stretches({size, normal_wrap[k], 1.0, 0.0}, {rough, roughness_wrap[k], aligned.scale[i], aligned.offset[i]},
                      rect.lower[i], rect.upper[i]);

@@ -237,5 +237,32 @@ TEST(NdfFigures, TellHowFarADensityIsOff) {
   EXPECT_FALSE(std::isfinite(broken.l2) || std::isfinite(broken.energy) || std::isfinite(broken.peak));
 }
 
+// A map of lobe parameters gives its own numbers, not what a roughness map would keep of them.
+TEST(FootprintTexels, TakesLobeParametersAsTheyAre) {
+  Material material;
+  material.brdf.distribution = NormalDistribution::vmf;
+  Image kappas(2, 1, 1);
+  kappas.texels = {0.25F, 123456.0F};
+  material.lobe_parameter_map = TextureMap{"kappas", std::make_shared<const Image>(kappas), {}};
+  const FootprintTexels under = texels_under(material, {});
+  ASSERT_EQ(under.facets.size(), 2U);
+  EXPECT_EQ(under.facets[0].parameter, 0.25);
+  EXPECT_EQ(under.facets[1].parameter, 123456.0);
+}
+
+// The axis of each lobe stands for the facet, with the lobe's weight.
+TEST(FootprintTexels, HasAFacetForEachLobe) {
+  Material material;
+  material.lobes = {{.axis = {0.6F, 0.0F, 0.8F}, .parameter = 0.1F, .weight = 0.5F},
+                    {.axis = {0.0F, 0.0F, 1.0F}, .parameter = 0.2F, .weight = 2.0F}};
+  const FootprintTexels under = texels_under(material, {});
+  ASSERT_EQ(under.facets.size(), 2U);
+  EXPECT_NEAR(under.facets[0].normal.x, 0.6, 1e-6);
+  EXPECT_NEAR(under.facets[0].share, 0.5, 1e-6);
+  EXPECT_NEAR(under.facets[1].normal.z, 1.0, 1e-6);
+  EXPECT_NEAR(under.facets[1].share, 2.0, 1e-6);
+  EXPECT_NEAR(under.valid_share, 1.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace footprint::testing

@@ -26,6 +26,18 @@ Image one_channel(const Image& image, int channel) {
   return out;
 }
 
+// Slope variance per axis of all lobes together, about the facet's normal: each lobe's own, and what its axis leans by.
+float variance_about_normal(const Material& material) {
+  float weight = 0.0F;
+  float variance = 0.0F;
+  for (const FacetLobe& lobe : material.lobes) {
+    const float leaning = 0.5F * glm::dot(glm::vec2(lobe.axis), glm::vec2(lobe.axis)) / (lobe.axis.z * lobe.axis.z);
+    weight += lobe.weight;
+    variance += lobe.weight * (lobe_variance(material.brdf.distribution, lobe.parameter) + leaning);
+  }
+  return variance / weight;
+}
+
 Image normals_or_flat(const std::optional<TextureMap>& map) {
   if (map) return *map->image;
   Image flat(1, 1, 4);
@@ -62,7 +74,8 @@ class BaseSurface final : public Method {
                    .summary = "The supersampled truth: many samples a pixel, each shading one texel's own base BRDF.",
                    .paper = "",
                    .options = {},
-                   .honours = EffectSet{}.set()};
+                   .honours = EffectSet{}.set(),
+                   .draws_directions = true};
 };
 
 }  // namespace
@@ -88,6 +101,16 @@ Image roughness_map_of(const Material& material) {
   }
   const bool own_lobe = material.lobe_parameter || !material.lobes.empty();
   return Image(1, 1, 1, own_lobe ? roughness_from_lobe(distribution, lobe_parameter(material)) : material.roughness);
+}
+
+Image lobe_parameter_map_of(const Material& material) {
+  if (width_map(material) == nullptr) return Image(1, 1, 1, lobe_parameter(material));
+  if (material.lobe_parameter_map) return *material.lobe_parameter_map->image;
+  Image lobes = roughness_map_of(material);
+  std::ranges::transform(lobes.texels, lobes.texels.begin(), [&](float roughness) {
+    return lobe_from_alpha(material.brdf.distribution, roughness * roughness);
+  });
+  return lobes;
 }
 
 Image metallic_map_of(const Material& material) {
@@ -123,15 +146,7 @@ TextureCoordinates specular_coordinates(const Material& material) {
 float lobe_parameter(const Material& material) {
   const NormalDistribution distribution = material.brdf.distribution;
   if (material.lobe_parameter) return *material.lobe_parameter;
-  if (!material.lobes.empty()) {
-    float weight = 0.0F;
-    float variance = 0.0F;
-    for (const FacetLobe& lobe : material.lobes) {
-      weight += lobe.weight;
-      variance += lobe.weight * lobe_variance(distribution, lobe.parameter);
-    }
-    return lobe_from_variance(distribution, variance / weight);
-  }
+  if (!material.lobes.empty()) return lobe_from_variance(distribution, variance_about_normal(material));
   const TextureMap* const map = width_map(material);
   if (map != nullptr && material.lobe_parameter_map) return map->image->texels.front();
   const float roughness = map != nullptr ? map->image->texels.front() : material.roughness;

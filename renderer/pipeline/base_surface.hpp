@@ -18,6 +18,9 @@ namespace footprint {
 /// parameters comes as the roughness of the same lobes (`roughness_from_lobe`).
 [[nodiscard]] Image roughness_map_of(const Material& material);
 
+/// The lobe parameter at every texel of that map, as the material gives it or from its roughness; one channel.
+[[nodiscard]] Image lobe_parameter_map_of(const Material& material);
+
 /// The metallic map of a material, one channel; its constant, 1 x 1, where it has none.
 [[nodiscard]] Image metallic_map_of(const Material& material);
 
@@ -31,8 +34,9 @@ namespace footprint {
 [[nodiscard]] TextureCoordinates base_color_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates specular_coordinates(const Material& material);
 
-/// The lobe parameter of a material whose roughness does not vary: exponent, alpha or kappa. Of one with lobes of their
-/// own axes that of the mean variance of its lobes: what a method takes that leaves `multi_lobe` out.
+/// The lobe parameter of a material whose roughness does not vary: exponent, alpha or kappa. Of one whose lobes have
+/// axes of their own that of one lobe about the normal, with the slope variance that they have about it: what a method
+/// takes that leaves `multi_lobe` out.
 [[nodiscard]] float lobe_parameter(const Material& material);
 
 /// Lobe parameter <-> alpha and slope variance per axis; the C++ twins of common_lobes.glsl.

@@ -7,6 +7,7 @@
 
 #include "renderer/pipeline/base_surface.hpp"
 #include "tests/support/rendering.hpp"
+#include "tests/support/shadow_scenes.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint::testing {
@@ -93,6 +94,13 @@ const auto cases = std::to_array<EffectCase>({
      [](Scene& s) {
        s.lights.emplace_back(DirectionalLight{.direction = {0, 0, -1}, .illuminance = glm::vec3(1.0F)});
      }},
+    {Effect::cast_shadow, "shadow_maps",
+     [](Scene& s) {
+       s.meshes.push_back(box_mesh({-0.2F, -0.2F, 0.1F}, {0.2F, 0.2F, 0.3F}));
+       fit_bounds(s);
+     }},
+    {Effect::environment_light, "environment_stack",
+     [](Scene& s) { s.environment = constant_environment(glm::vec3(0.5F)); }},
 });
 
 class EffectTrace : public ::testing::TestWithParam<EffectCase> {};
@@ -156,6 +164,7 @@ TEST(EffectTrace, TexturesAndBytesFollow) {
   EXPECT_EQ(bytes(scene), 8U * 8U * 16U);
   scene.materials[0].base_color_map = map_of(Image(2, 2, 4, 1.0F));
   EXPECT_EQ(TestRenderer(scene).gpu_scene().shared_bytes(), (4U + 1U) * 16U);
+  EXPECT_FALSE(TestRenderer(scene).gpu_scene().shadow_maps());
 }
 
 // An effect that a method cannot honour is left out of its picture; all else stays.

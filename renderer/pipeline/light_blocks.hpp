@@ -12,11 +12,12 @@ namespace footprint {
 
 /// One vector a light kind, four floats a member, in the order of the shader's structs.
 struct LightBlocks {
-  std::vector<glm::vec4> point;        ///< 2 a light: position and range (0: unlimited), intensity
+  std::vector<glm::vec4> point;        ///< 2 a light: position and range (0: unlimited), intensity and shadow map
   std::vector<glm::vec4> spot;         ///< 4 a light: as point, then direction, cone scale and offset
-  std::vector<glm::vec4> directional;  ///< 2 a light: direction to the light, illuminance
+  std::vector<glm::vec4> directional;  ///< 2 a light: direction to the light, illuminance and shadow map
 };
 
-[[nodiscard]] LightBlocks light_blocks(std::span<const Light> lights);
+/// `first_maps`: the number of each light's first shadow map; empty where there are none.
+[[nodiscard]] LightBlocks light_blocks(std::span<const Light> lights, std::span<const int> first_maps = {});
 
 }  // namespace footprint

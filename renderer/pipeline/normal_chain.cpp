@@ -37,12 +37,24 @@ std::vector<Image> mean_normal_chain(Image normals) {
   return chain;
 }
 
+Prefiltered bake_mean_normal(const Material& material, Storage storage, const EffectSet& effects) {
+  Prefiltered out;
+  if (has(effects, Effect::normal_variation)) {
+    out.textures.push_back(
+        make_texture("mean_normal", mean_normal_chain(material), storage, normal_coordinates(material), true));
+  }
+  if (has(effects, Effect::normal_layers)) {
+    out.textures.push_back(make_texture("mean_layer", mean_normal_chain(layer_map_of(material)), storage,
+                                        layer_coordinates(material), true));
+  }
+  return out;
+}
+
 Image lobe_variance_map(const Material& material) {
   const NormalDistribution distribution = material.brdf.distribution;
-  Image variance = roughness_map_of(material);
-  std::ranges::transform(variance.texels, variance.texels.begin(), [&](float roughness) {
-    return lobe_variance(distribution, lobe_from_alpha(distribution, roughness * roughness));
-  });
+  Image variance = lobe_parameter_map_of(material);
+  std::ranges::transform(variance.texels, variance.texels.begin(),
+                         [&](float lobe) { return lobe_variance(distribution, lobe); });
   return variance;
 }
 

@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "renderer/core/options.hpp"
+#include "renderer/effects/effects.hpp"
 #include "renderer/image/image.hpp"
+#include "renderer/pipeline/prefiltered.hpp"
 #include "renderer/scene/material.hpp"
 
 namespace footprint {
@@ -15,6 +17,9 @@ namespace footprint {
 
 /// That of the material's own normal map.
 [[nodiscard]] std::vector<Image> mean_normal_chain(const Material& material);
+
+/// The texture `mean_normal` that mean_normal.glsl reads, of that chain; none where normals do not vary.
+[[nodiscard]] Prefiltered bake_mean_normal(const Material& material, Storage storage, const EffectSet& effects);
 
 /// Slope variance per axis of the base lobe at every texel of the roughness map (1 x 1 where it has none), one channel.
 [[nodiscard]] Image lobe_variance_map(const Material& material);

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "renderer/scene/environment.hpp"
 #include "renderer/scene/material.hpp"
 
 namespace footprint {
@@ -61,6 +62,8 @@ struct Camera {
   float znear = 0.01F;
   std::optional<float> zfar;    ///< none: infinite (perspective only)
   std::optional<float> aspect;  ///< width / height where the file gives one; sets the default frame shape
+
+  friend bool operator==(const Camera&, const Camera&) = default;
 };
 
 /// Axis-aligned bounds of all vertices.
@@ -69,6 +72,15 @@ struct Bounds {
   glm::vec3 upper{0.0F};
   [[nodiscard]] glm::vec3 centre() const { return 0.5F * (lower + upper); }
   [[nodiscard]] float radius() const { return 0.5F * glm::length(upper - lower); }
+};
+
+/// The texels a side that a shadow map may have.
+inline constexpr int smallest_shadow_map = 16, largest_shadow_map = 16384;
+
+/// What a scene says about large-scale visibility (docs/shadows.md).
+struct ShadowSettings {
+  std::optional<bool> cast;  ///< none: where something stands between a surface and a light
+  int resolution = 2048;     ///< texels a side of each shadow map
 };
 
 /// The factors on the camera's distance that a zoom may take.
@@ -81,6 +93,8 @@ struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Material> materials;
   std::vector<Light> lights;
+  ShadowSettings shadows;
+  std::optional<Environment> environment;
   Camera camera;
   Bounds bounds;
   std::optional<float> exposure;  ///< multiplies radiance before display and the clamped measures; none: automatic

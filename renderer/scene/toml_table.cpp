@@ -44,6 +44,13 @@ std::string TomlTable::full_name(std::string_view key) const {
   return name_.empty() ? fmt::format("`{}`", key) : fmt::format("`{}` in {}", key, name_);
 }
 
+std::string TomlTable::path_of(std::string_view key) const {
+  if (name_.empty()) return std::string(key);
+  const std::string_view name = name_;
+  const std::size_t first = name.find_first_not_of('[');
+  return fmt::format("{}.{}", name.substr(first, name.find_last_not_of(']') + 1 - first), key);
+}
+
 Error TomlTable::error_at(std::string_view key, const std::string& message, const std::string& mend) const {
   const toml::node* node = find(key);
   return {ErrorKind::usage, line_place(file_, node != nullptr ? node->source() : table_.source()),
@@ -132,8 +139,8 @@ std::optional<std::vector<std::string>> TomlTable::words(std::string_view key) c
 std::optional<TomlTable> TomlTable::table(std::string_view key, const std::vector<std::string>& known) const {
   const toml::node* node = find(key);
   if (node == nullptr) return std::nullopt;
-  if (!node->is_table()) throw error_at(key, "must be a table", fmt::format("write [{}]", key));
-  return TomlTable(*node->as_table(), file_, fmt::format("[{}]", key), known);
+  if (!node->is_table()) throw error_at(key, "must be a table", fmt::format("write [{}]", path_of(key)));
+  return TomlTable(*node->as_table(), file_, fmt::format("[{}]", path_of(key)), known);
 }
 
 std::vector<TomlTable> TomlTable::tables(std::string_view key, const std::vector<std::string>& known) const {
@@ -142,10 +149,10 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key, const std::vector
   if (node == nullptr) return result;
   const toml::array* array = node->as_array();
   if (array == nullptr || !array->is_array_of_tables()) {
-    throw error_at(key, "must be a list of tables", fmt::format("write [[{}]]", key));
+    throw error_at(key, "must be a list of tables", fmt::format("write [[{}]]", path_of(key)));
   }
   for (const toml::node& element : *array) {
-    result.emplace_back(*element.as_table(), file_, fmt::format("[[{}]]", key), known);
+    result.emplace_back(*element.as_table(), file_, fmt::format("[[{}]]", path_of(key)), known);
   }
   return result;
 }

@@ -58,6 +58,8 @@ class TomlTable {
   [[nodiscard]] const toml::node* find(std::string_view key) const { return table_.get(key); }
   [[nodiscard]] double checked(const toml::node& node, std::string_view key, NumberRange range) const;
   [[nodiscard]] std::string full_name(std::string_view key) const;
+  /// As the header of a table in this one is written: "brdf.lobe".
+  [[nodiscard]] std::string path_of(std::string_view key) const;
 
   const toml::table& table_;
   std::filesystem::path file_;

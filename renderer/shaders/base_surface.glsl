@@ -2,9 +2,7 @@
 //? if normal_layers
 //? include normal_layers.glsl
 //? end
-struct Effective {
-  Facets facets;
-};
+//? include facets_module.glsl
 
 Effective effective(Footprints f) {
 //? if normal_variation
@@ -40,3 +38,39 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
 //? end
 
 float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }
+
+//? if environment_light
+//? if environment_sampled
+//? include lobe_sampling.glsl
+
+// A direction to the light: the mirror image of wo about a normal drawn from the facets, or, one time in two where there
+// is a diffuse term, one of Lambert's. Below the horizon: none.
+vec3 drawDirection(Effective e, vec3 wo, vec3 u) {
+//? if diffuse
+  if (u.z < 0.5) {
+    float azimuth = 2.0 * pi * u.y;
+    return frameAbout(e.facets.normal) * vec3(sqrt(u.x) * vec2(cos(azimuth), sin(azimuth)), sqrt(1.0 - u.x));
+  }
+  u.z = 2.0 * u.z - 1.0;
+//? end
+  vec3 h = drawnFacet(e.facets, u);
+  float cosine = dot(h, wo);
+  return cosine > 0.0 ? 2.0 * cosine * h - wo : vec3(0.0, 0.0, -1.0);
+}
+
+// Its density over solid angle.
+float directionDensity(Effective e, vec3 wi, vec3 wo) {
+  if (!halfVectorIsDefined(wi, wo)) return 0.0;
+  vec3 h = halfVector(wi, wo);
+  float density = drawnFacetDensity(e.facets, h) / (4.0 * max(dot(h, wo), 1e-6));
+//? if diffuse
+  density = 0.5 * density + 0.5 * max(dot(e.facets.normal, wi), 0.0) / pi;
+//? end
+  return density;
+}
+//? else
+//? include facet_normal_lobes.glsl
+
+vec3 meanNormal(Effective e) { return e.facets.normal; }
+//? end
+//? end

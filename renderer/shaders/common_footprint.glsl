@@ -15,10 +15,18 @@ struct Footprints {
 //? if specular_variation
   Footprint specular;
 //? end
+//? if surface_coordinates
+  Footprint surface;  // on textures that show each point of the surface once
+//? end
 //? if normal_layers
   Footprint layer;
 //? end
 };
+
+//? if surface_coordinates
+// From the tangent frame of the point that is shaded to the camera's axes: x right, y up, z towards the viewer.
+mat3 tangent_to_camera;
+//? end
 
 //? if sampling_frame
 //? if anisotropic

@@ -5,10 +5,16 @@ in vec3 world_normal;
 in vec4 world_tangent;
 in vec2 uv0;
 in vec2 uv1;
+//? if surface_coordinates
+in vec2 surface_uv;
+//? end
 
 layout(location = 0) out vec4 radiance_coverage;
 
 uniform vec3 camera_position;
+//? if surface_coordinates
+uniform mat3 world_to_camera;
+//? end
 //? if orthographic
 uniform vec3 to_camera;
 //? end
@@ -39,13 +45,16 @@ Footprints pixelFootprints() {
   f.specular = footprintOf(specular_uv_linear, specular_uv_offset_set);
 //? end
 //? end
+//? if surface_coordinates
+  f.surface = Footprint(surface_uv, dFdx(surface_uv), dFdy(surface_uv));
+//? end
 //? if normal_layers
   f.layer = footprintOf(uv_linear[3], uv_offset_set[3]);
 //? end
   return f;
 }
 
-//? if sampling_texel
+//? if random_draws
 // PCG3D (Jarzynski and Olano 2020): independent numbers for each sample of the picture, whatever the tile.
 uvec3 hashed(uvec3 v) {
   v = v * 1664525u + 1013904223u;
@@ -59,23 +68,20 @@ uvec3 hashed(uvec3 v) {
   return v;
 }
 
-vec2 drawTexelOffsets() {
+// Of each number `draw` of a sample, others.
+uvec3 drawBits(uint draw) {
   uvec2 place = uvec2(ivec2(gl_FragCoord.xy) + sample_origin);
-  uvec3 bits = hashed(uvec3(place, sample_seed.y) ^ hashed(uvec3(sample_seed.x, 0x9e3779b9u, sample_seed.y)));
-  return vec2(bits.xy >> 8u) * (1.0 / 16777216.0);  // 24 bits: exact in a float, below 1
+  return hashed(uvec3(place, sample_seed.y) ^ hashed(uvec3(sample_seed.x, 0x9e3779b9u + draw, sample_seed.y)));
 }
 //? end
 
-// The tangent frame, right-handed or not as the mesh says; columns tangent, bitangent, normal.
-mat3 tangentFrame() {
-  vec3 n = world_normal / max(length(world_normal), 1e-20);  // opposite normals of a vertex pair meet at zero: unlit, not NaN
-//? if double_sided
-  if (!gl_FrontFacing) n = -n;
-//? end
-  vec3 t = world_tangent.xyz - n * dot(n, world_tangent.xyz);
-  t /= max(length(t), 1e-12);
-  return mat3(t, cross(n, t) * world_tangent.w, n);
+//? if sampling_texel
+vec2 drawTexelOffsets() {
+  return vec2(drawBits(0u).xy >> 8u) * (1.0 / 16777216.0);  // 24 bits: exact in a float, below 1
 }
+//? end
+
+//? include tangent_frame.glsl
 
 struct SurfacePoint {
   Effective effective;
@@ -83,6 +89,9 @@ struct SurfacePoint {
   vec3 f0;
   mat3 frame;
   vec3 wo;  // tangent frame
+//? if cast_shadow
+  vec3 facet;  // the triangle's own normal, on the side that is seen
+//? end
 };
 
 // One light's share. A light below the surface's own horizon does not reach it.
@@ -96,6 +105,23 @@ vec3 reflected(SurfacePoint p, vec3 to_light, vec3 irradiance_at_normal) {
   return f_cos * irradiance_at_normal;
 }
 
+//? if cast_shadow
+// The triangle's normal on the side of the camera; zero where the pixel sees it edge-on.
+vec3 facetNormal(vec3 along_x, vec3 along_y, vec3 to_viewer) {
+  vec3 n = cross(along_x, along_y);
+  float size = length(n);
+  return size > 0.0 ? n * (sign(dot(n, to_viewer)) / size) : vec3(0.0);
+}
+
+//? end
+//? if environment_light
+//? if environment_sampled
+//? include environment_sampling.glsl
+//? else
+//? include environment_stack.glsl
+//? end
+//? end
+
 vec3 lit(SurfacePoint p) {
   vec3 radiance = vec3(0.0);
 //? if point_light
@@ -103,6 +129,9 @@ vec3 lit(SurfacePoint p) {
     vec3 d = point_lights[i].position_range.xyz - world_position;
     float d2 = dot(d, d);
     float attenuation = distanceAttenuation(d2, point_lights[i].position_range.w);
+//? if cast_shadow
+    attenuation *= clearOfShadow(point_lights[i].intensity.w, world_position, p.facet, -d);
+//? end
     radiance += reflected(p, d * inversesqrt(max(d2, 1e-24)), point_lights[i].intensity.rgb * attenuation);
   }
 //? end
@@ -113,19 +142,33 @@ vec3 lit(SurfacePoint p) {
     vec3 to_light = d * inversesqrt(max(d2, 1e-24));
     float angular = clamp(-dot(spot_lights[i].direction.xyz, to_light) * spot_lights[i].cone.x + spot_lights[i].cone.y, 0.0, 1.0);
     float attenuation = distanceAttenuation(d2, spot_lights[i].position_range.w) * angular * angular;
+//? if cast_shadow
+    attenuation *= clearOfShadow(spot_lights[i].intensity.w, world_position, p.facet, -d);
+//? end
     radiance += reflected(p, to_light, spot_lights[i].intensity.rgb * attenuation);
   }
 //? end
 //? if directional_light
   for (int i = 0; i < directional_light_count; ++i) {
-    radiance += reflected(p, directional_lights[i].to_light.xyz, directional_lights[i].illuminance.rgb);
+    vec3 irradiance = directional_lights[i].illuminance.rgb;
+//? if cast_shadow
+    irradiance *= clearOfShadow(directional_lights[i].illuminance.w, world_position, p.facet, vec3(0.0));
+//? end
+    radiance += reflected(p, directional_lights[i].to_light.xyz, irradiance);
   }
+//? end
+//? if environment_light
+  radiance += environmentLit(p.effective, p.albedo, p.f0, p.wo, p.frame);
 //? end
   return radiance;
 }
 
 void main() {
   Footprints f = pixelFootprints();
+//? if cast_shadow
+  vec3 along_x = dFdx(world_position);  // before any pixel is discarded
+  vec3 along_y = dFdy(world_position);
+//? end
 //? if sampling_texel
   texel_draw = drawTexelOffsets();
 //? end
@@ -145,14 +188,25 @@ void main() {
   dielectric_specular *= fetch(specular_map, f.specular).rgb;
 //? end
   SurfacePoint p;
+//? if double_sided
+  p.frame = tangentFrame(gl_FrontFacing ? world_normal : -world_normal, world_tangent);
+//? else
+  p.frame = tangentFrame(world_normal, world_tangent);
+//? end
+//? if surface_coordinates
+  tangent_to_camera = world_to_camera * p.frame;
+//? end
   p.effective = effective(f);
   p.albedo = base_color.rgb * (1.0 - metallic);
   p.f0 = mix(dielectric_specular, base_color.rgb, metallic);
-  p.frame = tangentFrame();
 //? if orthographic
-  p.wo = to_camera * p.frame;
+  vec3 to_viewer = to_camera;
 //? else
-  p.wo = normalize(camera_position - world_position) * p.frame;
+  vec3 to_viewer = normalize(camera_position - world_position);
+//? end
+  p.wo = to_viewer * p.frame;
+//? if cast_shadow
+  p.facet = facetNormal(along_x, along_y, to_viewer);
 //? end
   radiance_coverage = vec4(lit(p), 1.0);
 }

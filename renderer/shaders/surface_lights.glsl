@@ -4,7 +4,7 @@
 //? if point_light
 struct PointLight {
   vec4 position_range;  // range 0: unlimited
-  vec4 intensity;
+  vec4 intensity;       // w: the light's first shadow map
 };
 layout(std140, binding = 2) uniform PointLights { PointLight point_lights[point_light_capacity]; };
 uniform int point_light_count;
@@ -12,7 +12,7 @@ uniform int point_light_count;
 //? if spot_light
 struct SpotLight {
   vec4 position_range;
-  vec4 intensity;
+  vec4 intensity;  // w: as above
   vec4 direction;
   vec4 cone;  // scale and offset of KHR_lights_punctual's angular attenuation
 };
@@ -22,7 +22,7 @@ uniform int spot_light_count;
 //? if directional_light
 struct DirectionalLight {
   vec4 to_light;
-  vec4 illuminance;
+  vec4 illuminance;  // w: as above
 };
 layout(std140, binding = 4) uniform DirectionalLights { DirectionalLight directional_lights[directional_light_capacity]; };
 uniform int directional_light_count;

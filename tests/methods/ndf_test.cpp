@@ -81,6 +81,32 @@ TEST_P(EveryMethodsNdf, IsTheLobeOverAConstantMap) {
   }
 }
 
+// Lobes 45 degrees to either side of each facet's normal.
+Material with_two_lobes(Image normals) {
+  Material material = material_of(std::move(normals), {vmf, 128});
+  material.lobe_parameter.reset();
+  material.lobes = {{.axis = {0.70710678F, 0.0F, 0.70710678F}, .parameter = 128.0F, .weight = 0.75F},
+                    {.axis = {-0.70710678F, 0.0F, 0.70710678F}, .parameter = 64.0F, .weight = 0.25F}};
+  return material;
+}
+
+TEST_P(EveryMethodsNdf, HasTheLobesOverAConstantMap) {
+  if (!has(GetParam()->info().honours, Effect::multi_lobe)) GTEST_SKIP();
+  for (const glm::vec3& normal : {glm::vec3(0, 0, 1), glm::vec3(0, 0.28F, 0.96F)}) {
+    const NdfFigures figures = Inspection(with_two_lobes(constant_normals(16, 16, normal))).figures(name());
+    EXPECT_LT(figures.l2, 1e-3) << normal.y;
+    EXPECT_NEAR(figures.energy, 1.0, 0.01) << normal.y;
+  }
+}
+
+TEST_P(EveryMethodsNdf, KeepsTheEnergyOfSeveralLobesOverBumps) {
+  if (!has(GetParam()->info().honours, Effect::multi_lobe)) GTEST_SKIP();
+  const Surface& bumps = find_surface(all_surfaces(), "bumps");
+  SurfaceSettings settings = surface_settings(bumps, {});
+  settings.resolution = 64;
+  EXPECT_NEAR(Inspection(with_two_lobes(surface_normals(bumps, settings))).figures(name()).energy, 1.0, 0.01);
+}
+
 // Hard cases 5, 6, 25, 28: narrow lobes, directions far from every lobe, texels without a normal, normals on the
 // horizon, sizes that are no power of two, footprints within a texel.
 TEST_P(EveryMethodsNdf, IsFiniteAndNotNegativeAtTheLimits) {

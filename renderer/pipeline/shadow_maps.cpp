@@ -1,0 +1,107 @@
+// See shadow_maps.hpp.
+#include "renderer/pipeline/shadow_maps.hpp"
+
+#include <fmt/format.h>
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include "renderer/core/error.hpp"
+#include "renderer/core/memory.hpp"
+#include "renderer/pipeline/gpu_scene.hpp"
+#include "renderer/pipeline/shader_source.hpp"
+
+namespace footprint {
+namespace {
+
+// In surface_shadows.glsl.
+constexpr GLuint maps_unit = 15;
+constexpr GLuint views_binding = 6;
+constexpr GLuint material_binding = 0;
+
+constexpr const char* mend =
+    "lower `resolution` or set `cast = false` in [shadows] of a scene.toml, or use fewer lights";
+
+void require_room(const gl::ContextInfo& context, const ShadowViews& views, const Scene& scene) {
+  const std::size_t count = views.views.size();
+  const std::string what = fmt::format("{} shadow maps of {} texels a side", count, scene.shadows.resolution);
+  GLint layers = 0;
+  gl::api().GetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
+  const auto block_bytes = static_cast<std::size_t>(context.max_uniform_block_bytes);
+  if (count > static_cast<std::size_t>(layers) || count * sizeof(ShadowView) > block_bytes) {
+    throw Error(ErrorKind::machine, scene.source, what + " are more than this GL takes", mend);
+  }
+  if (scene.shadows.resolution > std::min(context.max_texture_size, context.max_framebuffer_size)) {
+    throw Error(ErrorKind::machine, scene.source, what + " are larger than this GL takes", mend);
+  }
+  const auto side = static_cast<std::uint64_t>(scene.shadows.resolution);
+  require_memory(frame_bytes(side, side, sizeof(float) * count), what, mend);
+}
+
+gl::Texture make_maps(const gl::ContextInfo& context, const ShadowViews& views, const Scene& scene) {
+  require_room(context, views, scene);
+  const int resolution = scene.shadows.resolution;
+  return {GL_DEPTH_COMPONENT32F, resolution, resolution, 1,
+          static_cast<int>(std::max<std::size_t>(views.views.size(), 1))};
+}
+
+void draw_batch(const GpuBatch& batch, const EffectSet& effects, SamplerCache& samplers) {
+  // The base colour comes first among the shared textures; its alpha decides what is there.
+  if (has(effects, Effect::alpha_mask) && has(effects, Effect::base_color_variation)) {
+    const GpuTexture& base_color = batch.shared_textures.front();
+    gl::api().BindTextureUnit(0, base_color.texture.name());
+    gl::api().BindSampler(0, samplers.sampler(base_color.coordinates, Lookup::trilinear));
+  }
+  gl::api().BindBufferBase(GL_UNIFORM_BUFFER, material_binding, batch.material_block.name());
+  gl::api().BindVertexArray(batch.vertex_array.name());
+  gl::api().DrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT, nullptr);
+}
+
+}  // namespace
+
+ShadowMaps::ShadowMaps(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects,
+                       std::span<const GpuBatch> batches, SamplerCache& samplers)
+    : views_(shadow_views(scene)),
+      resolution_(scene.shadows.resolution),
+      maps_(make_maps(context, views_, scene)),
+      sampler_(gl::comparing_sampler()),
+      view_block_(std::as_bytes(std::span(views_.views))) {
+  draw(effects, batches, samplers);
+}
+
+void ShadowMaps::draw(const EffectSet& effects, std::span<const GpuBatch> batches, SamplerCache& samplers) {
+  constexpr float far_plane = 1.0F;
+  const gl::Program program("shadow maps", shadow_vertex_shader(effects), shadow_fragment_shader(effects));
+  GLuint name = 0;
+  gl::api().CreateFramebuffers(1, &name);
+  const gl::Framebuffer framebuffer(name);
+  gl::api().NamedFramebufferDrawBuffer(name, GL_NONE);
+  gl::api().UseProgram(program.name());
+  gl::api().Viewport(0, 0, resolution_, resolution_);
+  gl::api().DepthMask(GL_TRUE);
+  gl::api().Enable(GL_DEPTH_TEST);
+  gl::api().DepthFunc(GL_LESS);
+  gl::api().Disable(GL_CULL_FACE);
+  for (std::size_t i = 0; i < views_.views.size(); ++i) {
+    gl::api().NamedFramebufferTextureLayer(name, GL_DEPTH_ATTACHMENT, maps_.name(), 0, static_cast<GLint>(i));
+    gl::api().BindFramebuffer(GL_FRAMEBUFFER, name);
+    gl::api().ClearBufferfv(GL_DEPTH, 0, &far_plane);
+    gl::api().UniformMatrix4fv(program.uniform("world_to_map"), 1, GL_FALSE,
+                               glm::value_ptr(views_.views[i].world_to_map));
+    for (const GpuBatch& batch : batches) draw_batch(batch, effects, samplers);
+  }
+  draws_ = views_.views.size() * batches.size();
+  gl::api().BindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void ShadowMaps::bind() const {
+  gl::api().BindBufferBase(GL_UNIFORM_BUFFER, views_binding, view_block_.name());
+  gl::api().BindTextureUnit(maps_unit, maps_.name());
+  gl::api().BindSampler(maps_unit, sampler_.name());
+}
+
+std::size_t ShadowMaps::bytes() const {
+  const auto side = static_cast<std::size_t>(resolution_);
+  return side * side * sizeof(float) * views_.views.size();
+}
+
+}  // namespace footprint

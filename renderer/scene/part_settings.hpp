@@ -1,0 +1,108 @@
+// What scene.toml draws: the parts of a scene as plain values; docs/scenes.md is its reference.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "renderer/scene/material.hpp"
+#include "renderer/scene/surface.hpp"
+#include "renderer/scene/toml_table.hpp"
+
+namespace footprint {
+
+/// A model file to draw: the first of `candidates` that exists.
+struct ModelSettings {
+  std::vector<std::filesystem::path> candidates;
+  std::string package;  ///< Debian package that brings it, for the error text; may be empty
+  bool unwrap = false;  ///< new texture coordinates in place of the file's (unwrap.hpp)
+};
+
+/// A rectangle in the xy plane with maps of its own.
+struct PlaneSettings {
+  glm::vec2 size{1.0F};
+  std::optional<std::filesystem::path> normal_map, base_color_map, metallic_roughness_map;
+  double normal_scale = 1.0;
+  float roughness = 0.5F, metallic = 0.0F;
+};
+
+/// A procedural surface on its own mesh; `surface` belongs to the library that the scene was read with.
+struct SurfaceContent {
+  const Surface* surface;
+  SurfaceSettings settings;
+};
+
+/// An image file of heights, or of normals.
+struct LayerFile {
+  std::filesystem::path path;
+  bool heights = false;
+};
+
+/// A detail layer over the normal map of every material of a part.
+struct LayerSettings {
+  std::variant<LayerFile, SurfaceContent> content;
+  glm::vec2 uv{1.0F};     ///< tiles over the mesh's first texture coordinates
+  double strength = 1.0;  ///< factor on the slopes; of heights, the height of 1 over 0 in widths of the map
+};
+
+/// What [brdf] changes in every material.
+struct BrdfSettings {
+  std::optional<NormalDistribution> distribution;
+  std::optional<GeometryTerm> geometry;
+  std::optional<FresnelTerm> fresnel;
+  std::optional<bool> diffuse;
+  std::optional<float> lobe_parameter;
+  std::vector<FacetLobe> lobes;  ///< in place of the one about the normal
+  std::optional<glm::vec3> specular, base_color;
+};
+
+/// A map of the base BRDF from a file.
+struct MapFile {
+  std::filesystem::path file;
+  std::optional<glm::vec2> uv;  ///< how often it repeats along u and v; none: as [tiling] says
+};
+
+/// What [maps] lays over every material.
+struct MapSettings {
+  std::optional<MapFile> roughness, lobe_parameter, specular, diffuse;  ///< at most one of the first two
+};
+
+/// A model's triangles under the maps of a surface, in place of the model's own materials.
+struct DressedModel {
+  ModelSettings model;
+  SurfaceContent surface;
+};
+
+/// Where a part stands: scaled, then turned about the world's x, y and z axes in this order, then moved.
+struct Placement {
+  glm::dvec3 translation{0.0};  ///< metres
+  glm::dvec3 rotation{0.0};     ///< radians, right-handed
+  double scale = 1.0;
+};
+
+/// One part of a scene: what is drawn, of what, and where.
+struct PartSettings {
+  std::string name;  ///< before the names of its meshes and materials; may be empty
+  std::variant<ModelSettings, PlaneSettings, SurfaceContent, DressedModel> content;
+  std::optional<LayerSettings> layer;
+  BrdfSettings brdf;
+  MapSettings maps;
+  glm::vec2 tiling{1.0F};  ///< on the texture coordinates of all maps but those that say their own
+  Placement placement;
+};
+
+/// What a lobe parameter may be: exponent (blinn_phong) and kappa (vmf), or alpha (beckmann, ggx).
+[[nodiscard]] NumberRange lobe_range(NormalDistribution distribution);
+
+/// The parts of a scene.toml: those of [[part]], or the one that the file itself is. Errors as of read_scene_settings.
+[[nodiscard]] std::vector<PartSettings> read_parts(const TomlTable& root, const std::filesystem::path& folder,
+                                                   std::span<const Surface> surfaces);
+
+/// The keys that read_parts takes of the whole file.
+[[nodiscard]] const std::vector<std::string>& part_root_keys();
+
+}  // namespace footprint

@@ -1,0 +1,23 @@
+// Vertices to a shadow map. Depth runs linearly along the map's axis and comes from the fragment stage, so that nothing
+// has to be clipped by it: z = 0 lies within every w.
+layout(location = 0) in vec3 in_position;
+//? if alpha_mask
+layout(location = 3) in vec2 in_uv0;
+layout(location = 4) in vec2 in_uv1;
+out vec2 uv0;
+out vec2 uv1;
+//? end
+
+uniform mat4 world_to_map;
+
+out float depth;
+
+void main() {
+  vec4 place = world_to_map * vec4(in_position, 1.0);
+//? if alpha_mask
+  uv0 = in_uv0;
+  uv1 = in_uv1;
+//? end
+  depth = place.z;
+  gl_Position = vec4(2.0 * place.xy - place.w, 0.0, place.w);
+}

@@ -1,0 +1,151 @@
+// See cast_shadows.hpp.
+#include "renderer/visibility/cast_shadows.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+
+#include "renderer/visibility/light_ray.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr std::size_t fewest_area_places = 4096;  // so that large triangles are looked at closely
+constexpr float near_corner = 0.9F;               // of the way from the middle to a corner
+
+// A light closer to a triangle's plane than this does not shine on it: rays along a surface meet its own triangles.
+constexpr float grazing = 1e-3F;
+
+struct TriangleId {
+  std::size_t mesh, triangle;
+};
+
+std::vector<TriangleId> all_triangles(const Scene& scene) {
+  std::vector<TriangleId> triangles;
+  for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
+    for (std::size_t i = 0; i < scene.meshes[mesh].indices.size() / 3; ++i) triangles.push_back({mesh, i});
+  }
+  return triangles;
+}
+
+double area(const Occluders& occluders, const TriangleId& id) {
+  const auto [a, b, c] = occluders.corners(id.mesh, id.triangle);
+  return 0.5 * glm::length(glm::cross(glm::dvec3(b->position) - glm::dvec3(a->position),
+                                      glm::dvec3(c->position) - glm::dvec3(a->position)));
+}
+
+// The middle and a place near each corner.
+std::array<SurfacePlace, 4> places_of(const TriangleId& id) {
+  constexpr float middle = 1.0F / 3.0F;
+  constexpr float far = middle + near_corner * (1.0F - middle);
+  constexpr float rest = 0.5F * (1.0F - far);
+  return {{{id.mesh, id.triangle, middle, middle},
+           {id.mesh, id.triangle, rest, rest},
+           {id.mesh, id.triangle, far, rest},
+           {id.mesh, id.triangle, rest, far}}};
+}
+
+// A place of a triangle for a number in [0, 1): the numbers i / n spread evenly over it (the triangle is halved again
+// and again, Basu and Owen 2015).
+SurfacePlace place_for(const TriangleId& id, double number) {
+  glm::dvec2 a(0.0), b(1.0, 0.0), c(0.0, 1.0);
+  for (int depth = 0; depth < 12; ++depth) {
+    number *= 4.0;
+    const int quarter = std::min(static_cast<int>(number), 3);
+    number -= quarter;
+    const glm::dvec2 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
+    const std::array<std::array<glm::dvec2, 3>, 4> parts{{{bc, ca, ab}, {a, ab, ca}, {ab, b, bc}, {ca, bc, c}}};
+    a = parts.at(static_cast<std::size_t>(quarter))[0];
+    b = parts.at(static_cast<std::size_t>(quarter))[1];
+    c = parts.at(static_cast<std::size_t>(quarter))[2];
+  }
+  const glm::vec2 middle((a + b + c) / 3.0);
+  return {id.mesh, id.triangle, middle.x, middle.y};
+}
+
+void append_by_area(const std::vector<TriangleId>& triangles, const Occluders& occluders, std::size_t count,
+                    std::vector<SurfacePlace>& places) {
+  std::vector<double> upto;
+  double total = 0;
+  for (const TriangleId& id : triangles) upto.push_back(total += area(occluders, id));
+  if (!(total > 0.0)) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double wanted = total * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+    const auto found = std::min(std::ranges::upper_bound(upto, wanted), upto.end() - 1);
+    const auto index = static_cast<std::size_t>(found - upto.begin());
+    const double before = index == 0 ? 0.0 : upto[index - 1];
+    places.push_back(place_for(triangles[index], (wanted - before) / (upto[index] - before)));
+  }
+}
+
+// One search for one light.
+class Search {
+ public:
+  Search(const Scene& scene, const Occluders& occluders, const Light& light)
+      : scene_(&scene), occluders_(&occluders), light_(&light) {}
+
+  // Whether a place is kept from the light, or keeps another from it.
+  [[nodiscard]] bool shadows(const SurfacePlace& place) const {
+    const glm::vec3 point = occluders_->point(place);
+    const auto ray = ray_to_light(*light_, point);
+    if (!ray) return false;
+    const float side = facing(place, ray->direction);
+    const glm::vec3 start =
+        point + std::copysign(occluders_->offset(), side) * occluders_->normal(place.mesh, place.triangle);
+    if (lit(place, side) && occluders_->blocked(start, ray->direction, ray->distance)) return true;
+    const auto next = occluders_->nearest(point, -ray->direction, 2.0F * occluders_->offset());
+    return next && lit(*next, facing(*next, ray->direction)) && ray_to_light(*light_, occluders_->point(*next));
+  }
+
+ private:
+  [[nodiscard]] float facing(const SurfacePlace& place, const glm::vec3& to_light) const {
+    return glm::dot(occluders_->normal(place.mesh, place.triangle), to_light);
+  }
+
+  [[nodiscard]] bool lit(const SurfacePlace& place, float side) const {
+    const auto material = static_cast<std::size_t>(scene_->meshes[place.mesh].material);
+    return (scene_->materials[material].double_sided ? std::abs(side) : side) > grazing;
+  }
+
+  const Scene* scene_;
+  const Occluders* occluders_;
+  const Light* light_;
+};
+
+}  // namespace
+
+std::vector<SurfacePlace> spread_places(const Scene& scene, const Occluders& occluders, std::size_t limit) {
+  std::vector<TriangleId> triangles = all_triangles(scene);
+  std::erase_if(triangles, [&](const TriangleId& id) { return !(area(occluders, id) > 0.0); });
+  std::vector<SurfacePlace> places;
+  const std::size_t looked_at = std::min(triangles.size(), limit);
+  for (std::size_t i = 0; i < looked_at; ++i) {
+    const auto of_triangle = places_of(triangles[i * triangles.size() / looked_at]);
+    places.insert(places.end(), of_triangle.begin(), of_triangle.end());
+  }
+  append_by_area(triangles, occluders, std::clamp(looked_at, std::min(fewest_area_places, limit), limit), places);
+  std::erase_if(places, [&](const SurfacePlace& place) { return !occluders.present(place); });
+  return places;
+}
+
+std::vector<bool> lights_casting_shadows(const Scene& scene, const Occluders& occluders, std::size_t limit) {
+  const std::vector<SurfacePlace> places = spread_places(scene, occluders, limit);
+  std::vector<bool> casting;
+  for (const Light& light : scene.lights) {
+    const Search search(scene, occluders, light);
+    std::atomic<bool> found = false;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, places.size(), 64), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end() && !found; ++i) {
+        if (search.shadows(places[i])) found = true;
+      }
+    });
+    casting.push_back(found);
+  }
+  return casting;
+}
+
+}  // namespace footprint

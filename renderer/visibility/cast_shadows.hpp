@@ -1,0 +1,24 @@
+// Whether anything in a scene casts a shadow on anything else, found by rays.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "renderer/visibility/occluders.hpp"
+
+namespace footprint {
+
+/// The places of a scene that the search looks at: at most `limit` triangles, spread over all, by their middle and by
+/// places near their corners, and as many places again, spread over the area. Deterministic. Triangles without an area
+/// and places that an alpha mask cuts out have none.
+[[nodiscard]] std::vector<SurfacePlace> spread_places(const Scene& scene, const Occluders& occluders,
+                                                      std::size_t limit);
+
+/// For each light of the scene: whether something keeps it from a place that faces it. From every place a ray goes to
+/// the light, if the place faces it (a double-sided one always does), and a ray away from it, which tells whether the
+/// place itself keeps it from the next: so a small part over a large one is found as well as the reverse. A plane or a
+/// one-sided convex body casts no shadow. Deterministic; time grows with the number of triangles up to `limit`.
+[[nodiscard]] std::vector<bool> lights_casting_shadows(const Scene& scene, const Occluders& occluders,
+                                                       std::size_t limit = std::size_t{1} << 16U);
+
+}  // namespace footprint

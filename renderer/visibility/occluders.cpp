@@ -1,0 +1,160 @@
+// See occluders.hpp.
+#include "renderer/visibility/occluders.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+namespace {
+
+// 32-bit positions are off by 6e-8 of their size; triangles of one smooth surface meet within far more than that.
+constexpr float relative_offset = 1e-4F;
+
+[[noreturn]] void throw_out_of_memory(const Scene& scene) {
+  throw Error(ErrorKind::machine, scene.source, "memory is out for the search of what casts shadows",
+              "set `cast = false` in [shadows] of a scene.toml, or free memory");
+}
+
+int wrapped(int texel, int size, Wrap wrap) {
+  switch (wrap) {
+    case Wrap::repeat:
+      return ((texel % size) + size) % size;
+    case Wrap::mirrored_repeat: {
+      const int there = ((texel % (2 * size)) + 2 * size) % (2 * size);
+      return there < size ? there : 2 * size - 1 - there;
+    }
+    case Wrap::clamp_to_edge:
+      break;
+  }
+  return std::clamp(texel, 0, size - 1);
+}
+
+// Texture coordinates may lie a million tiles out: still within an int for 16384 texels, but not for ever.
+int texel_of(float coordinate, int size, Wrap wrap) {
+  constexpr float most = 1e9F;
+  return wrapped(static_cast<int>(std::clamp(std::floor(coordinate * static_cast<float>(size)), -most, most)), size,
+                 wrap);
+}
+
+std::array<const Vertex*, 3> corners_of(const Mesh& mesh, std::size_t triangle) {
+  return {&mesh.vertices[mesh.indices[3 * triangle]], &mesh.vertices[mesh.indices[3 * triangle + 1]],
+          &mesh.vertices[mesh.indices[3 * triangle + 2]]};
+}
+
+bool is_there(const Mesh& mesh, const Material& material, const SurfacePlace& place) {
+  if (!material.alpha_cutoff) return true;
+  float alpha = material.base_color.a;
+  if (material.base_color_map) {
+    const TextureCoordinates& coordinates = material.base_color_map->coordinates;
+    const auto corners = corners_of(mesh, place.triangle);
+    const auto uv_of = [&](const Vertex& vertex) { return coordinates.set == 0 ? vertex.uv0 : vertex.uv1; };
+    const glm::vec2 uv =
+        (1.0F - place.u - place.v) * uv_of(*corners[0]) + place.u * uv_of(*corners[1]) + place.v * uv_of(*corners[2]);
+    const glm::vec2 mapped = coordinates.transform * glm::vec3(uv, 1.0F);
+    const Image& image = *material.base_color_map->image;
+    alpha *= image.at(texel_of(mapped.x, image.width, coordinates.wrap[0]),
+                      texel_of(mapped.y, image.height, coordinates.wrap[1]))[3];
+  }
+  return alpha >= *material.alpha_cutoff;
+}
+
+RTCRay ray_of(const glm::vec3& origin, const glm::vec3& direction, float least, float most) {
+  RTCRay ray{};
+  ray.org_x = origin.x;
+  ray.org_y = origin.y;
+  ray.org_z = origin.z;
+  ray.dir_x = direction.x;
+  ray.dir_y = direction.y;
+  ray.dir_z = direction.z;
+  ray.tnear = least;
+  ray.tfar = most;
+  ray.mask = ~0U;
+  return ray;
+}
+
+}  // namespace
+
+Occluders::Occluders(const Scene& scene)
+    : scene_(&scene),
+      offset_(relative_offset * std::max(scene.bounds.radius(), std::numeric_limits<float>::min())),
+      device_(rtcNewDevice(nullptr)),
+      rays_(device_ ? rtcNewScene(device_.get()) : nullptr) {
+  if (!rays_) throw_out_of_memory(scene);
+  rtcSetSceneFlags(rays_.get(), RTC_SCENE_FLAG_ROBUST);
+  for (const Mesh& mesh : scene.meshes) {
+    cut_outs_.push_back({&mesh, &scene.materials[static_cast<std::size_t>(mesh.material)]});
+  }
+  for (CutOut& cut_out : cut_outs_) add(*cut_out.mesh, cut_out);
+  rtcCommitScene(rays_.get());
+  if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) throw_out_of_memory(scene);
+}
+
+void Occluders::add(const Mesh& mesh, CutOut& cut_out) {
+  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.vertices.data(),
+                             offsetof(Vertex, position), sizeof(Vertex), mesh.vertices.size());
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,
+                             3 * sizeof(std::uint32_t), mesh.indices.size() / 3);
+  if (cut_out.material->alpha_cutoff) {
+    rtcSetGeometryUserData(geometry, &cut_out);
+    rtcSetGeometryOccludedFilterFunction(geometry, let_holes_through);
+    rtcSetGeometryIntersectFilterFunction(geometry, let_holes_through);
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(rays_.get(), geometry);
+  rtcReleaseGeometry(geometry);
+}
+
+void Occluders::let_holes_through(const RTCFilterFunctionNArguments* hit) {
+  const auto& [mesh, material] = *static_cast<const CutOut*>(hit->geometryUserPtr);
+  for (unsigned i = 0; i < hit->N; ++i) {
+    if (hit->valid[i] == 0) continue;
+    const SurfacePlace place{0, RTCHitN_primID(hit->hit, hit->N, i), RTCHitN_u(hit->hit, hit->N, i),
+                             RTCHitN_v(hit->hit, hit->N, i)};
+    if (!is_there(*mesh, *material, place)) hit->valid[i] = 0;
+  }
+}
+
+bool Occluders::blocked(const glm::vec3& origin, const glm::vec3& direction, float distance) const {
+  RTCIntersectContext context{};
+  rtcInitIntersectContext(&context);
+  RTCRay ray = ray_of(origin, direction, 0.0F, distance);
+  rtcOccluded1(rays_.get(), &context, &ray);
+  return ray.tfar < 0.0F;
+}
+
+std::optional<SurfacePlace> Occluders::nearest(const glm::vec3& origin, const glm::vec3& direction, float least) const {
+  RTCIntersectContext context{};
+  rtcInitIntersectContext(&context);
+  RTCRayHit found{.ray = ray_of(origin, direction, least, unlimited), .hit = {}};
+  found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(rays_.get(), &context, &found);
+  if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  return SurfacePlace{found.hit.geomID, found.hit.primID, found.hit.u, found.hit.v};
+}
+
+bool Occluders::present(const SurfacePlace& place) const {
+  const Mesh& mesh = scene_->meshes[place.mesh];
+  return is_there(mesh, scene_->materials[static_cast<std::size_t>(mesh.material)], place);
+}
+
+std::array<const Vertex*, 3> Occluders::corners(std::size_t mesh, std::size_t triangle) const {
+  return corners_of(scene_->meshes[mesh], triangle);
+}
+
+glm::vec3 Occluders::point(const SurfacePlace& place) const {
+  const auto [a, b, c] = corners(place.mesh, place.triangle);
+  return (1.0F - place.u - place.v) * a->position + place.u * b->position + place.v * c->position;
+}
+
+glm::vec3 Occluders::normal(std::size_t mesh, std::size_t triangle) const {
+  const auto [a, b, c] = corners(mesh, triangle);
+  const glm::dvec3 outwards =
+      glm::cross(glm::dvec3(b->position) - glm::dvec3(a->position), glm::dvec3(c->position) - glm::dvec3(a->position));
+  const double length = glm::length(outwards);
+  return length > 0.0 ? glm::vec3(outwards / length) : glm::vec3(0.0F);
+}
+
+}  // namespace footprint

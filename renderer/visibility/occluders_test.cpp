@@ -1,0 +1,78 @@
+// Rays against triangles: what blocks them, what is cut out, what they meet first.
+#include "renderer/visibility/occluders.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/support/shadow_scenes.hpp"
+
+namespace footprint::testing {
+namespace {
+
+glm::vec3 random_direction(std::mt19937& random) {
+  std::normal_distribution<float> normal;
+  return glm::normalize(glm::vec3(normal(random), normal(random), normal(random)));
+}
+
+// A ray meets a sphere where the quadratic says; the mesh is within its sagitta of the sphere.
+TEST(Occluders, AgreeWithASphere) {
+  Scene scene = white_floor();
+  scene.meshes = {sphere_mesh({0.1F, -0.2F, 0.3F}, 0.5F, 200)};
+  fit_bounds(scene);
+  const Occluders occluders(scene);
+  std::mt19937 random(3);
+  for (int i = 0; i < 2000; ++i) {
+    const glm::vec3 origin = 2.0F * random_direction(random);
+    const glm::vec3 direction = glm::normalize(0.6F * random_direction(random) - origin);
+    const glm::vec3 to_centre = glm::vec3(0.1F, -0.2F, 0.3F) - origin;
+    const float along = glm::dot(to_centre, direction);
+    const float miss = std::sqrt(std::max(glm::dot(to_centre, to_centre) - along * along, 0.0F));
+    if (std::abs(miss - 0.5F) < 1e-3F) continue;
+    EXPECT_EQ(occluders.blocked(origin, direction), miss < 0.5F);
+    const auto place = occluders.nearest(origin, direction);
+    ASSERT_EQ(place.has_value(), miss < 0.5F);
+    if (!place) continue;
+    const float distance = along - std::sqrt(0.25F - miss * miss);
+    EXPECT_NEAR(glm::distance(occluders.point(*place), origin), distance, 2e-2F);
+    EXPECT_NEAR(glm::distance(occluders.point(*place), glm::vec3(0.1F, -0.2F, 0.3F)), 0.5F, 1e-3F);
+    EXPECT_LT(glm::dot(occluders.normal(place->mesh, place->triangle), direction), 0.0F);
+    EXPECT_FALSE(occluders.blocked(origin, direction, distance - 2e-2F));
+  }
+}
+
+// A mask of two by two texels, one of them open: rays through its quarter pass, under each way of wrapping.
+TEST(Occluders, LetHolesThrough) {
+  Scene scene = white_floor();
+  Image mask(2, 2, 4, 1.0F);
+  mask.at(0, 0)[3] = 0.2F;  // v = 0 is the top row: y > 0
+  Material& material = scene.materials[0];
+  material.alpha_cutoff = 0.5F;
+  material.base_color_map = TextureMap{"mask", std::make_shared<const Image>(mask), {}};
+  const auto open = [&](float x, float y) { return !Occluders(scene).blocked({x, y, 1.0F}, {0, 0, -1}); };
+  EXPECT_TRUE(open(-0.5F, 0.5F));
+  EXPECT_FALSE(open(0.5F, 0.5F));
+  EXPECT_FALSE(open(-0.5F, -0.5F));
+  glm::mat3x2& transform = material.base_color_map->coordinates.transform;
+  transform = glm::mat3x2(1, 0, 0, 1, 1, 0);  // a whole tile to the right
+  EXPECT_TRUE(open(-0.5F, 0.5F));
+  material.base_color_map->coordinates.wrap = {Wrap::mirrored_repeat, Wrap::repeat};
+  EXPECT_FALSE(open(-0.5F, 0.5F));
+  EXPECT_TRUE(open(0.5F, 0.5F));
+  material.base_color_map->coordinates.wrap = {Wrap::clamp_to_edge, Wrap::repeat};
+  EXPECT_FALSE(open(-0.5F, 0.5F));
+  EXPECT_FALSE(open(0.5F, 0.5F));
+}
+
+TEST(Occluders, BothSidesBlock) {
+  const Scene scene = white_floor();
+  const Occluders occluders(scene);
+  EXPECT_TRUE(occluders.blocked({0.3F, 0.2F, 1.0F}, {0, 0, -1}));
+  EXPECT_TRUE(occluders.blocked({0.3F, 0.2F, -1.0F}, {0, 0, 1}));
+  EXPECT_FALSE(occluders.blocked({0.3F, 0.2F, 1.0F}, {0, 0, -1}, 0.9F));
+  EXPECT_FALSE(occluders.nearest({0.3F, 0.2F, 1.0F}, {0, 0, 1}));
+}
+
+}  // namespace
+}  // namespace footprint::testing

@@ -1,0 +1,149 @@
+// Base BRDFs of several lobes and of maps by every method: each that honours them meets `direct` where there is nothing
+// to filter, and the truth's energy over a footprint.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "methods/registry.hpp"
+#include "renderer/image/metrics.hpp"
+#include "renderer/pipeline/base_surface.hpp"
+#include "tests/support/rendering.hpp"
+#include "tests/support/test_scenes.hpp"
+
+namespace footprint::testing {
+namespace {
+
+class EveryMethodsBaseBrdf : public ::testing::TestWithParam<const Method*> {
+ protected:
+  static bool honours(Effect effect) { return has(GetParam()->info().honours, effect); }
+  static double difference_from_direct(const Scene& scene, double distance) {
+    TestRenderer renderer(scene, {24, 24});
+    const Image direct = renderer.frame(find_method("direct"), {}, 1, 0, distance);
+    const Image picture = renderer.frame(*GetParam(), {}, 1, 0, distance);
+    return compare_images(picture, direct, 1.0F).value().relative_rmse;
+  }
+};
+
+constexpr std::array<BaseBrdf, 3> brdfs = {{
+    {NormalDistribution::ggx, GeometryTerm::smith, FresnelTerm::schlick, true},
+    {NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, true},
+    {NormalDistribution::vmf, GeometryTerm::tan, FresnelTerm::schlick, true},
+}};
+
+// The parameter of a lobe as wide as a GGX one of `alpha`.
+float parameter(const BaseBrdf& brdf, float alpha) { return lobe_from_alpha(brdf.distribution, alpha); }
+
+std::vector<FacetLobe> two_lobes(const BaseBrdf& brdf) {
+  return {{.axis = {0.6F, 0.0F, 0.8F}, .parameter = parameter(brdf, 0.2F), .weight = 0.6F},
+          {.axis = {-0.48F, 0.36F, 0.8F}, .parameter = parameter(brdf, 0.4F), .weight = 0.7F}};
+}
+
+TEST_P(EveryMethodsBaseBrdf, SeveralLobesAreDirectsOnAConstantMap) {
+  for (const BaseBrdf& brdf : brdfs) {
+    for (const glm::vec3& normal : {glm::vec3(0, 0, 1), glm::vec3(0.28F, 0, 0.96F)}) {
+      Image normals = constant_normals(16, 16, normal);
+      normals.at(0, 0)[0] += 2e-5F;  // keeps a flat map from being left out
+      Scene scene = square_scene(normals, {.brdf = brdf, .specular = glm::vec3(0.5F)});
+      scene.materials[0].lobes = two_lobes(brdf);
+      for (const double distance : {0.05, 4.0}) {
+        if (honours(Effect::multi_lobe)) {
+          EXPECT_LT(difference_from_direct(scene, distance), 1e-3) << distance;
+        } else {
+          EXPECT_GT(difference_from_direct(scene, distance), 0.02) << distance;
+        }
+      }
+    }
+  }
+}
+
+TEST_P(EveryMethodsBaseBrdf, SeveralLobesStayFiniteAtTheLimits) {
+  for (const BaseBrdf& brdf : brdfs) {
+    Scene scene = square_scene(random_normals(9, 5, 0.999F, 3), {.brdf = brdf});
+    scene.materials[0].lobes = {{.axis = {0.99F, 0, 0.14106736F}, .parameter = parameter(brdf, 0.0F), .weight = 1e-6F},
+                                {.axis = {0, 0, 1}, .parameter = parameter(brdf, 0.999F), .weight = 1e3F}};
+    for (const double distance : {0.05, 20.0}) {
+      for (const float value : TestRenderer(scene, {16, 16}).frame(*GetParam(), {}, 1, 0, distance).texels) {
+        ASSERT_TRUE(std::isfinite(value) && value >= 0.0F);
+      }
+    }
+  }
+}
+
+// The map's middle, where the camera looks, has one value; around it are others.
+template <class Fill>
+TextureMap uniform_in_the_middle(int channels, Fill fill) {
+  auto image = std::make_shared<Image>(33, 21, channels);
+  for (int y = 0; y < image->height; ++y) {
+    for (int x = 0; x < image->width; ++x) {
+      const bool middle = x > 10 && x < 22 && y > 5 && y < 15;
+      for (int c = 0; c < channels; ++c) image->at(x, y)[static_cast<std::size_t>(c)] = fill(middle ? -1 : x + y, c);
+    }
+  }
+  return {"map", image, {}};
+}
+
+TEST_P(EveryMethodsBaseBrdf, AMapOfLobeParametersIsDirectsAtMagnificationWhereItIsUniform) {
+  if (!honours(Effect::roughness_variation)) GTEST_SKIP();
+  for (const BaseBrdf& brdf : brdfs) {
+    Scene scene = square_scene({}, {.brdf = brdf, .specular = glm::vec3(0.5F)});
+    scene.materials[0].lobe_parameter_map = uniform_in_the_middle(1, [&](int i, int /*channel*/) {
+      return parameter(brdf, i < 0 ? 0.25F : 0.1F + 0.01F * static_cast<float>(i % 5));
+    });
+    EXPECT_LT(difference_from_direct(scene, 0.05), 1e-3);
+    // ... which is that of the one parameter.
+    const Image mapped = TestRenderer(scene, {24, 24}).frame(*GetParam(), {}, 1, 0, 0.05);
+    scene.materials[0].lobe_parameter_map.reset();
+    scene.materials[0].lobe_parameter = parameter(brdf, 0.25F);
+    const Image constant = TestRenderer(scene, {24, 24}).frame(*GetParam(), {}, 1, 0, 0.05);
+    EXPECT_LT(compare_images(mapped, constant, 1.0F).value().relative_rmse, 1e-3);
+  }
+}
+
+// The pipeline filters F0 for all: as `direct`, near and far, beside a normal map with coordinates of its own.
+TEST_P(EveryMethodsBaseBrdf, ASpecularMapIsDirects) {
+  for (const BaseBrdf& brdf : brdfs) {
+    Image normals = constant_normals(16, 16, glm::vec3(0.28F, 0, 0.96F));
+    Scene scene = square_scene(normals, {.brdf = brdf, .specular = {1.0F, 0.5F, 0.25F}});
+    scene.materials[0].specular_map =
+        uniform_in_the_middle(3, [](int i, int c) { return i < 0 ? 0.4F : 0.1F * static_cast<float>((i + c) % 9); });
+    scene.materials[0].specular_map->coordinates.transform = {3.0F, 0.0F, 0.0F, 2.0F, 0.3F, 0.1F};
+    for (const double distance : {0.05, 1.0, 6.0}) {
+      EXPECT_LT(difference_from_direct(scene, distance), 1e-3) << distance;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryMethodsBaseBrdf,
+                         ::testing::ValuesIn(all_methods().begin(), all_methods().end()),
+                         [](const auto& test) { return test.param->info().name; });
+
+// Far away a map of F0 is its mean: of a checkerboard of two values, for the reference as for a filtered frame.
+TEST(SpecularMap, IsItsMeanFarAway) {
+  const BaseBrdf plain{NormalDistribution::vmf, GeometryTerm::none, FresnelTerm::none, false};
+  Scene scene = square_scene({}, {.brdf = plain, .roughness = 0.6F, .specular = glm::vec3(1.0F)});
+  const Scene mean = [&] {
+    Scene out = scene;
+    out.materials[0].dielectric_specular = {0.3F, 0.45F, 0.5F};
+    return out;
+  }();
+  auto checker = std::make_shared<Image>(64, 64, 3);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const glm::vec3 value = (x + y) % 2 == 0 ? glm::vec3(0.2F, 0.1F, 1.0F) : glm::vec3(0.4F, 0.8F, 0.0F);
+      std::copy_n(&value.x, 3, checker->at(x, y).begin());
+    }
+  }
+  scene.materials[0].specular_map = TextureMap{"checker", checker, {}};
+  const Image expected = TestRenderer(mean, {8, 8}).frame(base_surface());
+  EXPECT_LT(compare_images(TestRenderer(scene, {8, 8}).frame(base_surface()), expected, 1.0F).value().relative_rmse,
+            1e-5);
+  const Image truth = TestRenderer(scene, {8, 8}).reference(4096).mean;
+  const Image expected_truth = TestRenderer(mean, {8, 8}).reference(4096).mean;
+  // The standard error of 4096 draws of one of two values: 0.013, to 5% over 192 of them.
+  EXPECT_LT(compare_images(truth, expected_truth, 1.0F).value().relative_rmse, 0.016);
+}
+
+}  // namespace
+}  // namespace footprint::testing

@@ -40,8 +40,9 @@ struct GpuTexture {
   TextureCoordinates coordinates;
   TextureFilter filter = TextureFilter::trilinear;
 
-  /// The program's lookup, unless this texture's texels must not be blended.
+  /// The program's lookup, unless this texture says itself whether its texels are blended.
   [[nodiscard]] Lookup lookup(Lookup wanted) const {
+    if (filter == TextureFilter::linear) return Lookup::trilinear;
     return filter == TextureFilter::nearest ? Lookup::nearest : wanted;
   }
 };

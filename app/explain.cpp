@@ -1,10 +1,11 @@
-// `footprint explain`: which effects a scene calls for and why, the pass, textures and bytes that follow, what they
+// `footprint explain`: which effects a scene calls for and why, the passes, textures and bytes that follow, what they
 // cost.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,12 @@ struct TextureUse {
   std::size_t bytes = 0;
 };
 
+// The shadow maps, drawn once before the first frame; none where nothing casts a shadow.
+struct ShadowPass {
+  std::size_t maps = 0, draws = 0, bytes = 0;
+  int resolution = 0;
+};
+
 // Everything that `explain` has to say.
 struct Explanation {
   std::vector<EffectDecision> effects;
@@ -59,6 +66,7 @@ struct Explanation {
   std::size_t shared_bytes = 0, method_bytes = 0;
   std::vector<TextureUse> textures;
   std::size_t shader_lines = 0;
+  std::optional<ShadowPass> shadows;
   std::vector<EffectCost> costs;
 };
 
@@ -95,8 +103,19 @@ Explanation explain(const Arguments& arguments, const Progress& progress) {
   out.method_bytes = method.baked().bytes;
   out.textures = texture_uses(method.baked());
   out.shader_lines = static_cast<std::size_t>(std::ranges::count(method.frames().program().fragment_text(), '\n'));
+  if (const auto& maps = stage.gpu_scene().shadow_maps()) {
+    out.shadows = {.maps = maps->views().views.size(),
+                   .draws = maps->draws(),
+                   .bytes = maps->bytes(),
+                   .resolution = maps->resolution()};
+  }
   if (arguments.cost) out.costs = measure_effect_costs(stage, settings, arguments.repeats, parts.next(2, ""));
   return out;
+}
+
+std::string text_of(const ShadowPass& pass) {
+  return fmt::format("\nshadow maps, drawn once\n  {:<21} {}\n  {:<21} {} of {}x{}\n  {:<21} {}\n", "draws", pass.draws,
+                     "maps", pass.maps, pass.resolution, pass.resolution, "bytes", readable_bytes(pass.bytes));
 }
 
 std::string text_of(const Explanation& explanation) {
@@ -105,6 +124,7 @@ std::string text_of(const Explanation& explanation) {
     text +=
         fmt::format("  {:<21} {:<4} {}\n", effect_name(decision.effect), decision.on ? "on" : "off", decision.reason);
   }
+  if (explanation.shadows) text += text_of(*explanation.shadows);
   text += fmt::format("\nforward pass with {}\n  {:<21} {}\n  {:<21} {} lines\n  {:<21} {}\n", explanation.method,
                       "draws", explanation.draws, "fragment shader", explanation.shader_lines, "shared by all methods",
                       readable_bytes(explanation.shared_bytes));
@@ -132,7 +152,16 @@ std::string json_of(const Explanation& explanation) {
   }
   json["method"] = explanation.method;
   json["left_out"] = explanation.left_out;
-  json["passes"] = {{{"name", "forward"}, {"draws", explanation.draws}, {"shader_lines", explanation.shader_lines}}};
+  if (const auto& shadows = explanation.shadows) {
+    json["passes"].push_back({{"name", "shadow_maps"},
+                              {"draws", shadows->draws},
+                              {"maps", shadows->maps},
+                              {"resolution", shadows->resolution},
+                              {"bytes", shadows->bytes},
+                              {"once", true}});
+  }
+  json["passes"].push_back(
+      {{"name", "forward"}, {"draws", explanation.draws}, {"shader_lines", explanation.shader_lines}});
   json["shared_bytes"] = explanation.shared_bytes;
   json["method_bytes"] = explanation.method_bytes;
   json["textures"] = Json::array();

@@ -24,7 +24,6 @@
 namespace footprint {
 namespace {
 
-constexpr std::array curve_counts{1, 2, 4, 8, 16, 32, 64};
 constexpr int curve_samples = 286;  // of its renders and timed draws: what the curve weighs beside the reference
 constexpr double scale_quantile = 0.99;
 constexpr double smallest_error_scale = 0.01;
@@ -175,7 +174,7 @@ class Comparison {
 
   std::vector<SupersamplingPoint> supersampling_curve(const Truth& truth, const std::string& prefix) {
     std::vector<SupersamplingPoint> curve;
-    for (const int spp : curve_counts) {
+    for (const int spp : supersampling_counts) {
       const std::uint64_t seed = settings_.seed ^ (curve_seed * static_cast<std::uint64_t>(spp));
       const Supersampled picture =
           stage_.reference().render(truth.view, spp, seed, parts_.next(spp, prefix + "supersampling, "));
@@ -278,7 +277,7 @@ class Comparison {
     for (const StagedMethod& staged : stage_.methods())
       draws.emplace_back([&staged, &view] { staged.frames().draw(view); });
     for (const StagedMethod& staged : stage_.methods()) {
-      if (staged.gpu().builds_each_frame()) draws.emplace_back([&staged] { staged.gpu().build_frame(); });
+      if (staged.gpu().has_frame_build()) draws.emplace_back([&staged, &view] { staged.gpu().rebuild(view); });
     }
     const double weight = static_cast<double>(settings_.methods.size()) * settings_.repeats;
     return interleaved_times(stage_.context().info(), draws, settings_.repeats,
@@ -313,8 +312,9 @@ class Comparison {
       record.fps = 1000.0 / record.frame_ms.median;
       record.ratio_to_direct = {
           .median = quantile(ratios, 0.5), .minimum = std::ranges::min(ratios), .maximum = std::ranges::max(ratios)};
-      if (method(m).gpu().builds_each_frame())
-        record.frame_build_ms = quantile(pooled(processes, distance, build++), 0.5);
+      if (!method(m).gpu().has_frame_build()) continue;
+      record.frame_build_ms = quantile(pooled(processes, distance, build++), 0.5);
+      record.frame_build = method(m).gpu().keeps_builds() ? "reused" : "every frame";
     }
   }
 

@@ -17,7 +17,8 @@ extern const std::string_view fournier_glsl;
 
 namespace {
 
-// The lobe that is fitted with; where the roughness varies, that of the mean variance, as where there are several lobes.
+// The lobe that is fitted with; where the roughness varies, that of the mean variance, as where there are several
+// lobes.
 double base_variance(const Material& material) {
   if (width_map(material) == nullptr) return mean_lobe_variance(material);
   const double deviation = lobe_deviation_chain(material).back().texels.front();
@@ -93,7 +94,7 @@ class Fournier final : public Method {
                        "pixel sums up to 8 times as many.",
                    .integer = true},
                   peak_storage_option()},
-      .honours = EffectSet{}.set(),
+      .honours = map_effects_but({Effect::normal_layers, Effect::environment_light}),
       .slow_precompute = true};
 };
 

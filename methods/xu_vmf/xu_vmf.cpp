@@ -1,27 +1,22 @@
 // `xu_vmf`: base BRDF and normal map joined into von Mises-Fisher lobes every frame, averaged by parts of the
 // hemisphere. Xu, Wang, Zhao, Bao 2017, "Real-Time Linear BRDF MIP-Mapping".
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <utility>
 
-#include "renderer/gl/objects.hpp"
+#include "methods/xu_vmf/instant_map.hpp"
+#include "methods/xu_vmf/surface_layout.hpp"
 #include "renderer/image/mipmap.hpp"
 #include "renderer/pipeline/base_surface.hpp"
-#include "renderer/pipeline/gpu_scene.hpp"
-#include "renderer/pipeline/method.hpp"
 #include "renderer/pipeline/normal_chain.hpp"
-#include "renderer/pipeline/shader_source.hpp"
 
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view xu_vmf_glsl, xu_vmf_conversion_glsl, xu_vmf_join_glsl, xu_vmf_coarsen_glsl;
+extern const std::string_view xu_vmf_glsl, xu_vmf_conversion_glsl, xu_vmf_cells_glsl;
 }
 
 namespace {
-
-constexpr GLuint material_binding = 0;
-constexpr GLuint group_edge = 8;  // local size of the passes
 
 OptionSpec threshold_option(std::string name, double value, std::string meaning) {
   return {.name = std::move(name),
@@ -37,6 +32,9 @@ std::vector<OptionSpec> option_table() {
   return {word_option("j", {"adaptive", "1", "4", "8"},
                       "Parts of the hemisphere, a lobe each: a fixed number, or each footprint's own by the thresholds "
                       "eps0 and eps1."),
+          word_option("space", {"tangent", "camera"},
+                      "Where lobes are joined: in the frame of the normal map, once for all places that show it, or in "
+                      "camera space, where the mesh's curvature is filtered too and what faces away is left out."),
           word_option("partition", {"azimuth", "latitude"},
                       "How the hemisphere is cut: 4 sectors, each in 2 rings, or 4 rings, each in 2 halves."),
           word_option("variant", {"corrected", "published"},
@@ -45,13 +43,15 @@ std::vector<OptionSpec> option_table() {
           word_option("lobe", {"base", "vmf"},
                       "What a part reflects with: the scene's base lobe of the width that kappa says, or the paper's "
                       "von Mises-Fisher lobe."),
+          word_option("conversion", {"newton", "table"},
+                      "How |r| comes of kappa: by Newton's steps, or from a table of 1024 entries."),
+          word_option("storage", {"fp32", "fp16"}, "How the map is stored: 32-bit or half floats."),
+          word_option("rebuild", {"always", "changed"},
+                      "When the map is built: for every frame, or when something that goes into it has changed."),
+          word_option("thresholds", {"hard", "blended"},
+                      "Whether j=adaptive steps at eps0 and eps1, or blends over the 0.02 below each."),
           threshold_option("eps0", 0.95, "j=adaptive: one lobe serves the whole footprint where its |r| is above."),
           threshold_option("eps1", 0.85, "j=adaptive: one lobe serves one of the 4 parts where its |r| is above.")};
-}
-
-int layer_count(const Options& options) {
-  const std::string& j = options.word("j");
-  return j == "adaptive" ? 9 : std::stoi(j);  // adaptive: the whole hemisphere, and its 8 parts
 }
 
 // Two maps can be joined texel by texel where one place on the surface is one place in both. A map that is not there is
@@ -64,87 +64,120 @@ bool can_join(const Material& material) {
   return normal.set == roughness.set && normal.transform == roughness.transform && same_wrap;
 }
 
-// The passes of one scene.
-class InstantMap final : public FrameBuild {
- public:
-  InstantMap(const ShaderVariant& variant, const Options& options)
-      : layers_(static_cast<GLuint>(layer_count(options))),
-        varies_{has(variant.effects, Effect::normal_variation), has(variant.effects, Effect::roughness_variation)},
-        join_("xu_vmf_join.glsl",
-              frame_build_shader(variant,
-                                 std::string(embedded::xu_vmf_conversion_glsl).append(embedded::xu_vmf_join_glsl),
-                                 "xu_vmf_join.glsl", options)),
-        coarsen_("xu_vmf_coarsen.glsl",
-                 frame_build_shader(variant, embedded::xu_vmf_coarsen_glsl, "xu_vmf_coarsen.glsl", options)) {}
-
-  void run(const GpuBatch& batch, std::span<const GpuTexture> textures) const override {
-    const gl::Texture& map = textures.front().texture;
-    bind_inputs(batch, textures.subspan(1));
-    gl::api().ClearTexImage(map.name(), 0, GL_RGBA, GL_FLOAT, nullptr);  // a texel is written to its own part alone
-    dispatch(join_, map, 0, 1);
-    const int levels = mip_level_count(map.width(), map.height());
-    bind(0, map);
-    for (int level = 1; level < levels; ++level) {
-      gl::api().MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-      gl::api().ProgramUniform1i(coarsen_.name(), coarsen_.uniform("fine_level"), level - 1);
-      dispatch(coarsen_, map, level, layers_);
+// 1 - |r| over the logarithm of kappa, 0.01 to 100 000 (hard to store otherwise: |r| is near 1 for most of it). Found
+// by Newton's steps in double precision.
+Image shortfall_table() {
+  constexpr int entries = 1024;
+  Image table(entries, 1, 1);
+  for (int i = 0; i < entries; ++i) {
+    const double kappa = 1e-2 * std::pow(1e7, static_cast<double>(i) / (entries - 1));
+    double q = kappa >= 1.0 ? 1.0 / (kappa + 0.5) : 1.0 / (1.0 + kappa / 3.0);
+    for (int step = 0; step < 6; ++step) {
+      q -= (((q + kappa - 3.0) * q - 2.0 * kappa) * q + 2.0) / ((3.0 * q + 2.0 * (kappa - 3.0)) * q - 2.0 * kappa);
     }
+    table.at(i, 0)[0] = static_cast<float>(q);
   }
+  return table;
+}
 
- private:
-  static void bind(GLuint unit, const gl::Texture& texture) {
-    gl::api().BindTextureUnit(unit, texture.name());
-    gl::api().BindSampler(unit, 0);
+// The maps that are joined, and where they lie.
+struct Inputs {
+  bool normals_vary, roughness_varies;
+  Image normals, variances;
+  TextureCoordinates place;
+
+  Inputs(const Material& material, const EffectSet& effects)
+      : normals_vary(has(effects, Effect::normal_variation)),
+        roughness_varies(has(effects, Effect::roughness_variation)),
+        normals(normals_vary ? normal_map_of(material) : Image(1, 1, 4)),
+        variances(roughness_varies ? lobe_variance_map(material) : Image(1, 1, 1)),
+        place(normals_vary && material.normal_map ? normal_coordinates(material) : roughness_coordinates(material)) {}
+
+  [[nodiscard]] bool anything() const { return normals_vary || roughness_varies; }
+  [[nodiscard]] glm::ivec2 size() const {
+    return {std::max(normals.width, variances.width), std::max(normals.height, variances.height)};
   }
-
-  // Unit 0 has the normals and unit 1 the lobe's variance, those of them that vary.
-  void bind_inputs(const GpuBatch& batch, std::span<const GpuTexture> inputs) const {
-    gl::api().BindBufferBase(GL_UNIFORM_BUFFER, material_binding, batch.material_block.name());
-    std::size_t next = 0;
-    for (GLuint unit = 0; unit < varies_.size(); ++unit) {
-      if (varies_.at(unit)) bind(unit, inputs[next++].texture);
-    }
-  }
-
-  // One invocation a texel of the level that is written.
-  static void dispatch(const gl::Program& pass, const gl::Texture& map, int level, GLuint depth) {
-    const auto groups = [&](int size) {
-      return (static_cast<GLuint>(std::max(size >> level, 1)) + group_edge - 1) / group_edge;
-    };
-    gl::api().BindImageTexture(0, map.name(), level, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA32F);
-    gl::api().UseProgram(pass.name());
-    gl::api().DispatchCompute(groups(map.width()), groups(map.height()), depth);
-  }
-
-  GLuint layers_;
-  std::array<bool, 2> varies_;
-  gl::Program join_, coarsen_;
 };
+
+int layers_of(const Material& material, const EffectSet& effects) {
+  return has(effects, Effect::multi_lobe) ? xu_vmf::whole_layers(material) : 1;
+}
+
+// The maps that the frame build fills, for a finest level of `size`.
+void declare_maps(Prefiltered& out, const glm::ivec2& size, const TextureCoordinates& place, int layers,
+                  const Options& options, const EffectSet& effects) {
+  const int parts = xu_vmf::part_count(options);
+  const bool guard = xu_vmf::keeps_guard(options, effects);
+  const bool whole_is_averaged = parts == 0 || options.word("j") == "adaptive" || layers > 1;
+  const auto declare = [&](std::string_view name, const glm::ivec2& texels, int count, int channels, bool whole_chain) {
+    out.textures.push_back(make_built_texture({.name = std::string(name),
+                                               .width = texels.x,
+                                               .height = texels.y,
+                                               .layers = count,
+                                               .channels = channels,
+                                               .storage = parse_storage(options.word("storage")),
+                                               .whole_chain = whole_chain},
+                                              place));
+  };
+  declare(xu_vmf::whole_name, size, layers, 4, whole_is_averaged);
+  if (guard) declare(xu_vmf::whole_guard_name, size, 1, 1, whole_is_averaged);
+  if (parts == 0) return;
+  const glm::ivec2 half = glm::max(size / 2, glm::ivec2(1));
+  declare(xu_vmf::parts_name, half, parts * std::max(layers - 1, 1), 4, true);
+  if (guard) declare(xu_vmf::parts_guard_name, half, parts, 1, true);
+}
+
+void add_inputs(Prefiltered& out, const Inputs& inputs, const Material& material, const Options& options) {
+  const auto add = [&](std::string_view name, const Image& image, const TextureCoordinates& place) {
+    out.textures.push_back(make_texture(std::string(name), {image}, Storage::fp32, place));
+  };
+  if (inputs.normals_vary) add(xu_vmf::normals_name, inputs.normals, normal_coordinates(material));
+  if (inputs.roughness_varies) add(xu_vmf::variances_name, inputs.variances, roughness_coordinates(material));
+  if (options.word("conversion") == "table") add(xu_vmf::table_name, shortfall_table(), {});
+}
+
+Prefiltered in_tangent_space(Inputs inputs, const Material& material, const Options& options,
+                             const EffectSet& effects) {
+  Prefiltered out;
+  if (inputs.normals_vary && inputs.roughness_varies && !can_join(material)) {
+    inputs.variances = mip_chain(std::move(inputs.variances)).back();
+    out.notes.emplace_back(
+        "the roughness map has other texture coordinates than the normal map and cannot be joined with it; its mean "
+        "variance stands in");
+  }
+  declare_maps(out, inputs.size(), inputs.place, layers_of(material, effects), options, effects);
+  add_inputs(out, inputs, material, options);
+  return out;
+}
 
 class XuVmf final : public Method {
  public:
   /// The frame build does the filtering: what is baked are its inputs, and the place of its map.
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                                        const Progress& /*progress*/) const override {
-    const bool normals_vary = has(effects, Effect::normal_variation);
-    const bool roughness_varies = has(effects, Effect::roughness_variation);
+    const Inputs inputs(material, effects);
+    return inputs.anything() ? in_tangent_space(inputs, material, options, effects) : Prefiltered{};
+  }
+
+  [[nodiscard]] Prefiltered precompute_on(const Scene& scene, std::size_t index, const Options& options,
+                                          const EffectSet& effects, const Progress& progress) const override {
+    const Material& material = scene.materials.at(index);
+    const Inputs inputs(material, effects);
+    if (options.word("space") == "tangent" || !inputs.anything())
+      return precompute(material, options, effects, progress);
+    xu_vmf::SurfaceLayout layout = xu_vmf::lay_out(triangles_of(scene, index), inputs.place, inputs.size());
     Prefiltered out;
-    if (!normals_vary && !roughness_varies) return out;
-    const Image normals = normals_vary ? normal_map_of(material) : Image(1, 1, 4);
-    Image variances = roughness_varies ? lobe_variance_map(material) : Image(1, 1, 1);
-    if (normals_vary && roughness_varies && !can_join(material)) {
-      variances = mip_chain(std::move(variances)).back();
-      out.notes.emplace_back(
-          "the roughness map has other texture coordinates than the normal map and cannot be joined with it; its mean "
-          "variance stands in");
+    if (layout.unique) {
+      TextureCoordinates place;
+      place.wrap = {Wrap::clamp_to_edge, Wrap::clamp_to_edge};
+      declare_maps(out, layout.size, place, layers_of(material, effects), options, effects);
+      add_inputs(out, inputs, material, options);
+    } else {
+      out = in_tangent_space(inputs, material, options, effects);
     }
-    const TextureCoordinates place =
-        normals_vary && material.normal_map ? normal_coordinates(material) : roughness_coordinates(material);
-    out.textures.push_back(make_built_texture("xu_vmf_map", std::max(normals.width, variances.width),
-                                              std::max(normals.height, variances.height), layer_count(options),
-                                              Storage::fp32, place));
-    if (normals_vary) out.textures.push_back(make_texture("xu_vmf_normals", {normals}, Storage::fp32, place));
-    if (roughness_varies) out.textures.push_back(make_texture("xu_vmf_variances", {variances}, Storage::fp32, place));
+    if (!layout.note.empty()) out.notes.push_back(std::move(layout.note));
+    out.scalars.emplace(xu_vmf::camera_space_name, layout.unique ? 1.0F : 0.0F);
+    out.surface_coordinates = std::move(layout.coordinates);
     return out;
   }
 
@@ -154,10 +187,12 @@ class XuVmf final : public Method {
                                                         const Options& options) const override {
     const bool anything =
         has(variant.effects, Effect::normal_variation) || has(variant.effects, Effect::roughness_variation);
-    return anything ? std::make_unique<InstantMap>(variant, options) : nullptr;
+    return anything ? std::make_unique<xu_vmf::InstantMap>(variant, options) : nullptr;
   }
 
-  [[nodiscard]] int lobe_count(const Options& options) const override { return std::min(layer_count(options), 8); }
+  [[nodiscard]] int lobe_count(const Options& options) const override {
+    return std::max(xu_vmf::part_count(options), 1);
+  }
 
   [[nodiscard]] std::string_view shader() const override { return shader_; }
 
@@ -165,11 +200,12 @@ class XuVmf final : public Method {
   MethodInfo info_{.name = "xu_vmf",
                    .summary =
                        "Lobes of base BRDF and normal map together, joined each frame and averaged by parts of "
-                       "the hemisphere; in the tangent frame.",
+                       "the hemisphere.",
                    .paper = "Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping, Computer Graphics Forum 36(4)",
                    .options = option_table(),
-                   .honours = EffectSet{}.set().reset(static_cast<std::size_t>(Effect::multi_lobe))};
-  std::string shader_ = std::string(embedded::xu_vmf_glsl).append(embedded::xu_vmf_conversion_glsl);
+                   .honours = map_effects_but({Effect::normal_layers})};
+  std::string shader_ =
+      std::string(embedded::xu_vmf_glsl).append(embedded::xu_vmf_conversion_glsl).append(embedded::xu_vmf_cells_glsl);
 };
 
 }  // namespace

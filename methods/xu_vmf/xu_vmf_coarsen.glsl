@@ -1,31 +1,22 @@
-// The further passes of the frame build: one level from the next finer one, each layer by itself. A coarse texel is the
-// exact mean of the area that it covers, for any size: two texels along an even axis, three with the shares
-// ((m - i), m, (1 + i)) / n along an odd one, n = 2m + 1 (Guthe and Heckbert 2005).
-layout(local_size_x = 8, local_size_y = 8) in;
+// The further passes of the frame build: one level of some layers from the next finer one.
+layout(location = 0) out vec4 coarse[layer_count];
 
-layout(binding = 0, rgba32f) writeonly uniform image2DArray coarse;
-layout(binding = 0) uniform sampler2DArray map;
-uniform int fine_level;
-
-vec3 sharesOf(int i, int n) {
-  if (n == 1) return vec3(1.0, 0.0, 0.0);
-  if (n % 2 == 0) return vec3(0.5, 0.5, 0.0);
-  int m = n / 2;
-  return vec3(m - i, m, 1 + i) / float(n);
-}
+uniform int first_layer;
+layout(binding = 0) uniform sampler2DArray map;  // its base level is the finer one
 
 void main() {
-  ivec3 place = ivec3(gl_GlobalInvocationID);
-  if (any(greaterThanEqual(place.xy, imageSize(coarse).xy))) return;
-  ivec2 size = textureSize(map, fine_level).xy;
+  ivec2 place = ivec2(gl_FragCoord.xy);
+  ivec2 size = textureSize(map, 0).xy;
   vec3 across = sharesOf(place.x, size.x);
   vec3 down = sharesOf(place.y, size.y);
   ivec2 taps = min(size, 2 + size % 2);
-  vec4 sum = vec4(0.0);
-  for (int j = 0; j < taps.y; ++j) {
-    for (int i = 0; i < taps.x; ++i) {
-      sum += across[i] * down[j] * texelFetch(map, ivec3(2 * place.xy + ivec2(i, j), place.z), fine_level);
+  for (int i = 0; i < layer_count; ++i) {
+    vec4 sum = vec4(0.0);
+    for (int y = 0; y < taps.y; ++y) {
+      for (int x = 0; x < taps.x; ++x) {
+        sum += across[x] * down[y] * texelFetch(map, ivec3(2 * place + ivec2(x, y), first_layer + i), 0);
+      }
     }
+    coarse[i] = stored(sum);
   }
-  imageStore(coarse, place, sum);
 }

@@ -1,65 +1,99 @@
-// First pass of the frame build: the base BRDF and the normal map joined into one lobe a texel (Xu 2017, section 4). A
-// texel is (r, 1) in the layer whose part of the hemisphere its normal lies in, and in the others 0, as they were
-// cleared: means of texels are (w r, w): the share of the footprint that a part covers, and its lobes' mean.
-layout(local_size_x = 8, local_size_y = 8) in;
+// First pass of the frame build: the base BRDF and the normal map joined into one lobe a texel (Xu 2017, section 4), of
+// facets with several lobes one for each, for the whole hemisphere: (r, 1), or 0 where the surface has no valid normal, faces away, or is not at all. Means of
+// texels are (w r, w): the share of the footprint that is covered, and its lobes' mean.
+layout(location = 0) out vec4 joined;
+//? if guard
+layout(location = 1) out vec4 guard;  // 1 - |r|, which no rounding of r reaches
+//? end
 
-layout(binding = 0, rgba32f) writeonly uniform image2DArray finest;
 //? if normal_variation
 layout(binding = 0) uniform sampler2D normals;  // weight in w: 0 where the map has no valid normal
 //? end
 //? if roughness_variation
 layout(binding = 1) uniform sampler2D variances;  // of the base lobe
 //? end
+//? if conversion_table
+layout(binding = 2) uniform sampler2D shortfalls;
+//? end
 
-//? if partition_azimuth
-// Four sectors about the axes, so that grooves along an axis fall whole into opposite ones; each is cut at the middle
-// of the disc's radius.
-int cellOf(vec3 n) {
-  int sector = abs(n.x) >= abs(n.y) ? (n.x >= 0.0 ? 0 : 2) : (n.y > 0.0 ? 1 : 3);
-  return 2 * sector + (length(n.xy) >= 0.5 ? 1 : 0);
+//? if camera
+in vec3 world_position;
+in vec3 world_normal;
+in vec4 world_tangent;
+in vec2 uv0;
+in vec2 uv1;
+uniform mat3 world_to_camera;
+uniform vec4 viewer;  // (place, 1), or (direction towards it, 0)
+uniform bool two_sided;
+
+//? include tangent_frame.glsl
+
+// Whether the viewer sees the triangle's front. Its outward side comes of how position changes over the texture, where
+// the triangle may lie mirrored.
+bool facesViewer() {
+  vec3 outward = cross(dFdx(world_position), dFdy(world_position)) * (gl_FrontFacing ? 1.0 : -1.0);
+  return dot(outward, viewer.xyz - viewer.w * world_position) > 0.0;
 }
+
+vec2 mapped(int slot) {
+  vec2 uv = uv_offset_set[slot].z < 0.5 ? uv0 : uv1;
+  return mat2(uv_linear[slot].xy, uv_linear[slot].zw) * uv + uv_offset_set[slot].xy;
+}
+
+vec4 texelOf(sampler2D map, int slot) { return textureLod(map, mapped(slot), 0.0); }
 //? else
-// Four rings of equal width over the disc, each cut in halves.
-int cellOf(vec3 n) { return 2 * min(int(4.0 * length(n.xy)), 3) + (n.x >= 0.0 ? 0 : 1); }
-//? end
-
-// The layer of a cell's part.
-int layerOf(int cell) {
-//? if j_adaptive
-  return 1 + cell;  // layer 0 has the whole hemisphere
-//? end
-//? if j_1
-  return 0;
-//? end
-//? if j_4
-  return cell / 2;
-//? end
-//? if j_8
-  return cell;
-//? end
-}
+uniform ivec2 map_size;
 
 // Maps of different sizes share their area: the texel under this one.
-ivec2 under(ivec2 texel, ivec2 size, ivec2 map_size) { return texel * map_size / size; }
+vec4 texelOf(sampler2D map, int slot) {
+  return texelFetch(map, ivec2(gl_FragCoord.xy) * textureSize(map, 0) / map_size, 0);
+}
+//? end
+
+//? if multi_lobe
+uniform int own_lobe;  // of a facet; -1: its normal alone
+//? end
+
+float shortfall(float kappa) {
+//? if conversion_table
+  return tabulatedShortfall(shortfalls, kappa);
+//? else
+  return shortfallOf(kappa);
+//? end
+}
 
 void main() {
-  ivec2 size = imageSize(finest).xy;
-  ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(texel, size))) return;
+  joined = vec4(0.0);
+//? if guard
+  guard = vec4(0.0);
+//? end
   vec4 normal = vec4(0.0, 0.0, 1.0, 1.0);
 //? if normal_variation
-  normal = texelFetch(normals, under(texel, size, textureSize(normals, 0)), 0);
+  normal = texelOf(normals, 0);
 //? end
   float lobe = lobe_cutoff.x;
 //? if roughness_variation
-  lobe = lobeFromVariance(texelFetch(variances, under(texel, size, textureSize(variances, 0)), 0).r);
+  lobe = lobeFromVariance(texelOf(variances, 1).r);
 //? end
-  float height = length(normal.xyz);  // decoded bytes are up to 0.6% too long or short
-  if (normal.w < 0.5 || height < 1e-3) return;
-  vec3 n = normal.xyz / height;
-  vec4 value = vec4((1.0 - shortfallOf(kappaOfLobe(lobe))) * n, 1.0);
-  imageStore(finest, ivec3(texel, layerOf(cellOf(n))), value);
-//? if j_adaptive
-  imageStore(finest, ivec3(texel, 0), value);
+  float size = length(normal.xyz);  // decoded bytes are up to 0.6% too long or short
+  if (normal.w < 0.5 || size < 1e-3) return;
+  vec3 axis = normal.xyz / size;
+  float q = shortfall(kappaOfLobe(lobe));
+//? if multi_lobe
+  if (own_lobe < 0) {
+    q = 0.0;
+  } else if (facet_lobe_count > 0) {
+    axis = turnedWithNormal(facet_lobes[own_lobe].axis, axis);
+    q = shortfall(kappaOfLobe(facet_lobes[own_lobe].parameter));
+  }
+//? end
+//? if camera
+  bool front = facesViewer();
+  if (!front && !two_sided) return;
+  axis = world_to_camera * (tangentFrame(front ? world_normal : -world_normal, world_tangent) * axis);
+//? end
+  joined = stored(vec4((1.0 - q) * axis, 1.0));
+//? if guard
+  guard = stored(vec4(q, 0.0, 0.0, 1.0));
 //? end
 }

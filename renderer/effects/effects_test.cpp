@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <set>
 
+#include "renderer/scene/plane.hpp"
+
 namespace footprint {
 namespace {
 
@@ -115,6 +117,37 @@ TEST(Effects, OneMaterialOfManyIsEnoughAndIsCounted) {
   scene.materials[1].double_sided = true;
   EXPECT_EQ(decision(scene, Effect::alpha_mask).reason, "1 of 2 materials: parts cut out by alpha");
   EXPECT_TRUE(on(scene, Effect::double_sided));
+}
+
+// A square facing +z, under `height` of which another hovers.
+Scene two_squares(float height) {
+  Scene scene = plain_scene();
+  scene.meshes = {make_plane({2, 2}, {1, 1}), make_plane({1, 1}, {1, 1})};
+  for (Vertex& vertex : scene.meshes[1].vertices) vertex.position.z = height;
+  scene.bounds = {{-1, -1, 0}, {1, 1, height}};
+  scene.lights = {PointLight{.position = {0, 0, 3}, .intensity = glm::vec3(1), .range = {}},
+                  DirectionalLight{.direction = {0, 0, 1}, .illuminance = glm::vec3(0)}};
+  return scene;
+}
+
+TEST(Effects, ShadowsAreCastWhereSomethingStandsInTheWay) {
+  Scene scene = two_squares(1.0F);
+  EXPECT_EQ(decision(scene, Effect::cast_shadow).reason, "1 of 2 lights: something stands before a surface");
+  EXPECT_TRUE(on(scene, Effect::cast_shadow));
+  scene.meshes.pop_back();
+  EXPECT_EQ(decision(scene, Effect::cast_shadow).reason, "nothing stands between a surface and a light");
+  EXPECT_FALSE(on(scene, Effect::cast_shadow));
+}
+
+TEST(Effects, ShadowsFollowTheSceneWhereItSaysSo) {
+  Scene scene = two_squares(1.0F);
+  scene.shadows.cast = false;
+  EXPECT_EQ(decision(scene, Effect::cast_shadow).reason, "switched off by the scene");
+  scene.shadows.cast = true;
+  scene.meshes.pop_back();
+  EXPECT_TRUE(on(scene, Effect::cast_shadow));
+  scene.lights.clear();
+  EXPECT_FALSE(on(scene, Effect::cast_shadow));
 }
 
 TEST(Effects, LightsAreCountedByKind) {

@@ -102,15 +102,22 @@ Sampler comparing_sampler() {
   return sampler;
 }
 
-Buffer::Buffer(std::span<const std::byte> bytes) {
+Buffer::Buffer(std::span<const std::byte> bytes, Content use)
+    : writable_bytes_(use == Content::changing ? bytes.size() : 0) {
   static constexpr std::array<std::byte, 16> zeros{};
   const std::span<const std::byte> content = bytes.empty() ? std::span<const std::byte>(zeros) : bytes;
   GLuint name = 0;
   api().CreateBuffers(1, &name);
   handle_ = Handle<delete_buffer>(name);
+  const GLbitfield flags = use == Content::changing ? GL_DYNAMIC_STORAGE_BIT : 0;
   const GLenum error =
-      error_of([&] { api().NamedBufferStorage(name, static_cast<GLsizeiptr>(content.size()), content.data(), 0); });
+      error_of([&] { api().NamedBufferStorage(name, static_cast<GLsizeiptr>(content.size()), content.data(), flags); });
   if (error != GL_NO_ERROR) throw_no_memory("buffer", fmt::format("{} bytes", content.size()), error);
+}
+
+void Buffer::write(std::span<const std::byte> bytes) const {
+  if (bytes.size() != writable_bytes_) throw std::logic_error("a buffer takes new content of its own size alone");
+  if (!bytes.empty()) api().NamedBufferSubData(name(), 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
 }
 
 Texture::Texture(GLenum internal_format, int width, int height, int levels, int layers)

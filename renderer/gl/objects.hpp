@@ -59,17 +59,22 @@ using Framebuffer = Handle<delete_framebuffer>;
 /// comes out; what lies beyond the edge counts as 1.
 [[nodiscard]] Sampler comparing_sampler();
 
-/// An immutable buffer.
+/// A buffer of a size that does not change.
 class Buffer {
  public:
+  enum class Content { constant, changing };
+
   Buffer() = default;
-  /// `bytes` are copied; an empty span makes a buffer of 16 zero bytes (GL has no empty ones).
-  /// Errors (machine): memory is out.
-  explicit Buffer(std::span<const std::byte> bytes);
+  /// `bytes` are copied; an empty span makes a buffer of 16 zero bytes (GL has no empty ones). Content that is
+  /// `changing` may be written again. Errors (machine): memory is out.
+  explicit Buffer(std::span<const std::byte> bytes, Content content = Content::constant);
+  /// Replaces all of the content. Errors: std::logic_error where it is constant or of another size.
+  void write(std::span<const std::byte> bytes) const;
   [[nodiscard]] GLuint name() const { return handle_.name(); }
 
  private:
   Handle<delete_buffer> handle_;
+  std::size_t writable_bytes_ = 0;
 };
 
 /// A 2D texture, or an array of them, with immutable storage.

@@ -22,6 +22,7 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, int pr
   variant.effects = scene.effects() & baked.method->info().honours;
   variant.brdf = scene.brdf();
   variant.max_probes = probes;
+  variant.surface_coordinates = baked.materials.front().surface_coordinates.has_value();
   return variant;
 }
 
@@ -30,6 +31,25 @@ gl::Program program_of(const GpuScene& scene, const BakedMethod& baked, int prob
           screen_vertex_shader(),
           ndf_shader(variant_of(scene, baked, probes), baked.method->shader(), baked.spec.name, baked.options,
                      baked.materials.front())};
+}
+
+// From above, so that the camera's axes are the plane's own.
+View view_of_facets() {
+  View view{.size = {1, 1}, .camera = {}};
+  view.camera.orthographic = true;
+  view.camera.world[3] = glm::vec4(0.0F, 0.0F, 1.0F, 1.0F);
+  return view;
+}
+
+// Texture coordinates at which the normal map lies once on the plane, whatever the material's transform; as they are
+// where it has no inverse.
+void lay_out_once(Mesh& plane, const TextureCoordinates& coordinates) {
+  const glm::mat2 linear(coordinates.transform[0], coordinates.transform[1]);
+  if (std::abs(glm::determinant(linear)) < 1e-12F) return;
+  for (Vertex& vertex : plane.vertices) {
+    vertex.uv0 = glm::inverse(linear) * (vertex.uv0 - coordinates.transform[2]);
+    vertex.uv1 = vertex.uv0;
+  }
 }
 
 }  // namespace
@@ -41,10 +61,12 @@ Scene scene_of_facets(const Material& material) {
   scene.materials.push_back(material);
   Material& bare = scene.materials.front();
   bare.base_color_map.reset();
+  bare.layer_map.reset();
   bare.specular_map.reset();
   bare.alpha_cutoff.reset();
   bare.double_sided = false;
   scene.meshes.push_back(make_plane({1.0F, 1.0F}, {1.0F, 1.0F}));
+  lay_out_once(scene.meshes.front(), normal_coordinates(material));
   return scene;
 }
 
@@ -66,6 +88,7 @@ MethodNdf::MethodNdf(const gl::ContextInfo& context, GpuScene& scene, const Bake
   GLuint name = 0;
   gl::api().CreateVertexArrays(1, &name);
   no_vertices_ = gl::VertexArray(name);
+  gpu_.build_frame(view_of_facets());
 }
 
 void MethodNdf::set_footprint(const FootprintRect& rect) const {

@@ -33,12 +33,12 @@ void FrameRenderer::draw_tile(const View& view, const Tile& tile) const {
 }
 
 void FrameRenderer::draw(const View& view) const {
-  method_->build_frame();
+  method_->build_frame(view);
   for (const Tile& tile : tiles_) draw_tile(view, tile);
 }
 
 Image FrameRenderer::render(const View& view) const {
-  method_->build_frame();
+  method_->build_frame(view);
   Image picture(view.size.x, view.size.y, 4);
   for (const Tile& tile : tiles_) {
     draw_tile(view, tile);

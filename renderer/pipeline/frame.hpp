@@ -12,7 +12,7 @@ class FrameRenderer {
   FrameRenderer(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method, const glm::ivec2& size,
                 const ProgramSettings& settings, int tile_edge = 0);
 
-  /// Runs the method's frame build and draws a view; the pixels stay on the GPU. What a frame costs is the time of this
+  /// Runs the method's frame build, where one is due, and draws a view; the pixels stay on the GPU. What a frame costs is the time of this
   /// call up to glFinish.
   void draw(const View& view) const;
 

@@ -1,16 +1,36 @@
 // What a method rebuilds on the GPU each frame, before shading.
 #pragma once
 
+#include <optional>
 #include <span>
+
+#include "renderer/gl/functions.hpp"
 
 namespace footprint {
 
 struct GpuBatch;
 struct GpuTexture;
+struct Prefiltered;
+struct View;
+
+/// One material, as a frame build finds it.
+struct FrameBuildJob {
+  const GpuBatch& batch;                 ///< the material's block, and whether its triangles have two sides
+  GLuint vertex_array;                   ///< its triangles, with their surface coordinates where it has some
+  const Prefiltered& baked;              ///< what the precompute made of it
+  std::span<const GpuTexture> textures;  ///< the textures of `baked`, in its order, on the GPU
+  const View& view;                      ///< what is to be drawn
+};
+
+/// What of a frame goes into what is built.
+struct BuildInputs {
+  bool camera = false, geometry = false, materials = false, lights = false;
+};
 
 /// The passes of a method's frame build, compiled for one scene. They fill the textures that the precompute declared
-/// with make_built_texture. A pass may change the program, texture units, image units and uniform blocks that are
-/// bound, which every draw sets for itself, and nothing else of the GL: compute passes need no more.
+/// with make_built_texture, by drawing into them or by compute. A pass may bind what it likes (program, framebuffer,
+/// vertex array, texture and image units, uniform blocks), and change the viewport, the depth test, culling and
+/// blending: GpuMethod puts back what a draw does not set for itself. Of the rest of the GL's state nothing may change.
 class FrameBuild {
  public:
   FrameBuild() = default;
@@ -18,10 +38,12 @@ class FrameBuild {
   FrameBuild& operator=(const FrameBuild&) = delete;
   virtual ~FrameBuild() = default;
 
-  /// Issues the passes for one material. `textures` are those of the precompute, in its order, as they lie on the GPU;
-  /// `batch` has the material's block and triangles. Whoever calls it puts memory barriers before and
-  /// behind it.
-  virtual void run(const GpuBatch& batch, std::span<const GpuTexture> textures) const = 0;
+  /// Issues the passes for one material. Whoever calls it puts memory barriers before and behind it.
+  virtual void run(const FrameBuildJob& job) const = 0;
+
+  /// What a build may be kept for: as long as none of these changes, what was built serves the next frame too. None: it
+  /// is built for every frame, whatever moved.
+  [[nodiscard]] virtual std::optional<BuildInputs> kept_until_change_of() const { return {}; }
 };
 
 }  // namespace footprint

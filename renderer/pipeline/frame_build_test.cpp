@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "renderer/core/error.hpp"
+#include "renderer/pipeline/base_surface.hpp"
 #include "renderer/pipeline/frame.hpp"
 #include "renderer/pipeline/prefiltered_file.hpp"
 #include "tests/support/rendering.hpp"
@@ -18,16 +20,23 @@ constexpr std::string_view fill_pass =
     "uniform float value;\n"
     "void main() { imageStore(shade, ivec3(gl_GlobalInvocationID), vec4(value)); }\n";
 
-// Fills a texture with the number of its run.
+// Fills a texture with the number of its run, and changes whatever of the GL's state it may.
 class Fill final : public FrameBuild {
  public:
-  Fill(const ShaderVariant& variant, const Options& options, int& runs)
-      : runs_(runs), pass_("fill", frame_build_shader(variant, fill_pass, "fill.glsl", options)) {}
+  Fill(const ShaderVariant& variant, const Options& options, int& runs, std::optional<BuildInputs> inputs)
+      : runs_(runs), inputs_(inputs), pass_("fill", frame_build_shader(variant, fill_pass, "fill.glsl", options)) {}
 
-  void run(const GpuBatch& batch, std::span<const GpuTexture> textures) const override {
-    EXPECT_GT(batch.index_count, 0);
+  [[nodiscard]] std::optional<BuildInputs> kept_until_change_of() const override { return inputs_; }
+
+  void run(const FrameBuildJob& job) const override {
+    EXPECT_GT(job.batch.index_count, 0);
+    EXPECT_EQ(job.vertex_array, job.batch.vertex_array.name());
     ++runs_;
-    const gl::Texture& map = textures.front().texture;
+    gl::api().BindFramebuffer(GL_FRAMEBUFFER, 0);
+    gl::api().Viewport(1, 1, 1, 1);
+    gl::api().BindVertexArray(job.vertex_array);
+    for (const GLenum name : {GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND}) gl::api().Enable(name);
+    const gl::Texture& map = job.textures.front().texture;
     gl::api().UseProgram(pass_.name());
     gl::api().Uniform1f(pass_.uniform("value"), static_cast<float>(runs_));
     gl::api().BindImageTexture(0, map.name(), 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA32F);
@@ -36,6 +45,7 @@ class Fill final : public FrameBuild {
 
  private:
   int& runs_;
+  std::optional<BuildInputs> inputs_;
   gl::Program pass_;
 };
 
@@ -45,11 +55,11 @@ class Builder final : public Method {
   [[nodiscard]] const MethodInfo& info() const override { return info_; }
   [[nodiscard]] Prefiltered precompute(const Material& /*material*/, const Options& /*options*/,
                                        const EffectSet& /*effects*/, const Progress& /*progress*/) const override {
-    return {.textures = {make_built_texture("shade", 1, 1, 1, Storage::fp32, {})}, .scalars = {}};
+    return {.textures = {make_built_texture({.name = "shade"}, {})}, .scalars = {}};
   }
   [[nodiscard]] std::unique_ptr<FrameBuild> frame_build(const ShaderVariant& variant,
                                                         const Options& options) const override {
-    return std::make_unique<Fill>(variant, options, runs);
+    return std::make_unique<Fill>(variant, options, runs, inputs);
   }
   [[nodiscard]] std::string_view shader() const override {
     return "struct Effective { float shade; };\n"
@@ -58,6 +68,7 @@ class Builder final : public Method {
            "float ndf(Effective e, vec3 h) { return e.shade; }\n";
   }
   mutable int runs = 0;
+  std::optional<BuildInputs> inputs{};
 
  private:
   MethodInfo info_{.name = "builder",
@@ -73,7 +84,7 @@ GLint state_of(GLenum name) {
   return value;
 }
 
-TEST(FrameBuild, RunsOnceAtFirstAndOnceAFrameWhateverTheTiles) {
+TEST(FrameBuild, RunsOnceAFrameWhateverTheTiles) {
   const Scene scene = square_scene(constant_normals(4, 4, {0, 0, 1}), {});
   const Builder method;
   const EffectSet effects = EffectSet{}.set(static_cast<std::size_t>(Effect::point_light));
@@ -81,20 +92,21 @@ TEST(FrameBuild, RunsOnceAtFirstAndOnceAFrameWhateverTheTiles) {
   const BakedMethod baked =
       bake(method, {.text = "builder", .name = "builder", .options = {}}, scene, effects, no_progress);
   const GpuMethod gpu(gpu_scene, baked);
-  EXPECT_TRUE(gpu.builds_each_frame());
-  EXPECT_EQ(method.runs, 1);
+  EXPECT_TRUE(gpu.has_frame_build());
+  EXPECT_FALSE(gpu.keeps_builds());
+  EXPECT_EQ(method.runs, 0);
   const View view{.size = {8, 8}, .camera = scene.camera};
   const FrameRenderer frames(shared_context().info(), gpu_scene, gpu, view.size, {}, 4);  // 4 tiles
   const Image first = frames.render(view);
-  EXPECT_EQ(method.runs, 2);
+  EXPECT_EQ(method.runs, 1);
   const Image second = frames.render(view);
-  EXPECT_EQ(method.runs, 3);
+  EXPECT_EQ(method.runs, 2);
   frames.draw(view);
-  EXPECT_EQ(method.runs, 4);
+  EXPECT_EQ(method.runs, 3);
   shared_context().check("frame builds");
   const float one = first.at(4, 4)[0];
   EXPECT_GT(one, 0.0F);
-  EXPECT_NEAR(second.at(4, 4)[0] / one, 1.5F, 1e-5F);  // what the third run has written, over what the second had
+  EXPECT_NEAR(second.at(4, 4)[0] / one, 2.0F, 1e-5F);  // what the second run has written, over what the first had
 }
 
 TEST(FrameBuild, LeavesThePipelinesStateAlone) {
@@ -112,7 +124,7 @@ TEST(FrameBuild, LeavesThePipelinesStateAlone) {
       GL_VERTEX_ARRAY_BINDING};
   std::array<GLint, kept.size()> before{};
   std::ranges::transform(kept, before.begin(), state_of);
-  gpu.build_frame();
+  gpu.build_frame({.size = {5, 3}, .camera = scene.camera});
   for (std::size_t i = 0; i < kept.size(); ++i) EXPECT_EQ(state_of(kept.at(i)), before.at(i)) << i;
   std::array<GLint, 4> viewport{};
   gl::api().GetIntegerv(GL_VIEWPORT, viewport.data());
@@ -120,14 +132,72 @@ TEST(FrameBuild, LeavesThePipelinesStateAlone) {
   shared_context().check("a frame build");
 }
 
+// One frame after the other of a scene that changes, by a build that depends on `inputs`: how often it ran.
+std::vector<int> runs_over(const std::vector<Scene>& frames, const BuildInputs& inputs) {
+  Builder method;
+  method.inputs = inputs;
+  const EffectSet effects = EffectSet{}.set(static_cast<std::size_t>(Effect::point_light));
+  GpuScene gpu_scene(shared_context().info(), frames.front(), effects);
+  const BakedMethod baked =
+      bake(method, {.text = "builder", .name = "builder", .options = {}}, frames.front(), effects, no_progress);
+  const GpuMethod gpu(gpu_scene, baked);
+  EXPECT_TRUE(gpu.keeps_builds());
+  std::vector<int> runs;
+  for (const Scene& frame : frames) {
+    gpu_scene.update(frame);
+    gpu.build_frame({.size = {4, 4}, .camera = frame.camera});
+    runs.push_back(method.runs);
+  }
+  return runs;
+}
+
+TEST(FrameBuild, IsKeptUntilSomethingThatGoesIntoItChanges) {
+  const Scene still = square_scene(constant_normals(4, 4, {0, 0, 1}), {});
+  std::vector<Scene> frames(6, still);
+  for (std::size_t i = 2; i < frames.size(); ++i) frames[i].camera.world[3].x = 0.1F;
+  for (std::size_t i = 3; i < frames.size(); ++i) frames[i].meshes[0].vertices[1].position.z = 0.1F;
+  for (std::size_t i = 4; i < frames.size(); ++i) frames[i].materials[0].roughness = 0.7F;
+  for (std::size_t i = 5; i < frames.size(); ++i) std::get<PointLight>(frames[i].lights[0]).position.x = 1.0F;
+  EXPECT_EQ(runs_over(frames, {.camera = true}), (std::vector<int>{1, 1, 2, 2, 2, 2}));
+  EXPECT_EQ(runs_over(frames, {.geometry = true}), (std::vector<int>{1, 1, 1, 2, 2, 2}));
+  EXPECT_EQ(runs_over(frames, {.materials = true}), (std::vector<int>{1, 1, 1, 1, 2, 2}));
+  EXPECT_EQ(runs_over(frames, {.lights = true}), (std::vector<int>{1, 1, 1, 1, 1, 2}));
+}
+
+TEST(GpuSceneUpdate, DrawsWhatAFreshSceneDraws) {
+  const Scene before = square_scene(random_normals(8, 8, 0.4F, 1), {});
+  Scene after = before;
+  for (Vertex& vertex : after.meshes[0].vertices) vertex.position.z += 0.2F * vertex.position.x;
+  after.materials[0].roughness = 0.3F;
+  std::get<PointLight>(after.lights[0]).position = {-0.5F, 0.2F, 1.0F};
+  TestRenderer fresh(after), kept(before);
+  kept.update(after);
+  EXPECT_EQ(kept.frame(base_surface()), fresh.frame(base_surface()));
+  EXPECT_NE(kept.frame(base_surface()), TestRenderer(before).frame(base_surface()));
+}
+
+TEST(GpuSceneUpdate, RefusesAnotherScene) {
+  const Scene scene = square_scene({}, {});
+  GpuScene gpu_scene(shared_context().info(), scene, {});
+  Scene more_vertices = scene, more_lights = scene, no_material = scene;
+  more_vertices.meshes[0].vertices.emplace_back();
+  more_lights.lights.push_back(scene.lights[0]);
+  no_material.materials.clear();
+  for (const Scene& other : {more_vertices, more_lights, no_material}) EXPECT_THROW(gpu_scene.update(other), Error);
+  EXPECT_NO_THROW(gpu_scene.update(scene));
+}
+
 TEST(BuiltTexture, HasSizesAndBytesButNoTexels) {
-  const PrefilteredTexture texture = make_built_texture("map", 13, 6, 9, Storage::fp32, {});
+  const PrefilteredTexture texture = make_built_texture({.name = "map", .width = 13, .height = 6, .layers = 9}, {});
   ASSERT_EQ(texture.levels.size(), 4U);
   EXPECT_EQ(texture.levels[1].width, 6);
   EXPECT_EQ(texture.levels[1].height, 3);
   EXPECT_EQ(byte_count(texture), (13U * 6U + 6U * 3U + 3U * 1U + 1U) * 9U * 16U);
   EXPECT_THROW((void)decode_level(texture, 0), std::logic_error);
-  const Prefiltered prefiltered{.textures = {texture}, .scalars = {}};
+  EXPECT_EQ(make_built_texture({.name = "map", .width = 13, .height = 6, .whole_chain = false}, {}).levels.size(), 1U);
+  Prefiltered prefiltered{.textures = {texture}, .scalars = {}};
+  EXPECT_EQ(from_bytes(to_bytes(prefiltered)), prefiltered);
+  prefiltered.surface_coordinates = {{0.25F, 1.0F}, {0.0F, 0.5F}};
   EXPECT_EQ(from_bytes(to_bytes(prefiltered)), prefiltered);
 }
 

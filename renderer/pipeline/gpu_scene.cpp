@@ -12,7 +12,7 @@
 #include "renderer/image/mipmap.hpp"
 #include "renderer/pipeline/base_surface.hpp"
 #include "renderer/pipeline/facet_lobes.hpp"
-#include "renderer/pipeline/light_blocks.hpp"
+#include "renderer/scene/geometry.hpp"
 
 namespace footprint {
 namespace {
@@ -60,7 +60,7 @@ std::vector<glm::vec4> material_block(const Material& material, const EffectSet&
       material.base_color, glm::vec4(specular, metallic_map_of(material).texels.front()),
       glm::vec4(lobe_parameter(material), material.alpha_cutoff.value_or(never_cut), 0.0F, 0.0F)};
   const std::array slots{normal_coordinates(material), roughness_coordinates(material),
-                         base_color_coordinates(material)};
+                         base_color_coordinates(material), layer_coordinates(material)};
   for (const TextureCoordinates& slot : slots) block.push_back(linear_part(slot));
   for (const TextureCoordinates& slot : slots) block.push_back(offset_and_set(slot));
   if (specular_varies) {
@@ -92,51 +92,37 @@ bool maps_share_coordinates(const Material& m) {
 // A block without lights holds one dark one, since the shader's array has at least one member.
 gl::Buffer light_buffer(std::span<const glm::vec4> values) {
   static constexpr std::array<glm::vec4, 4> dark{};
-  return gl::Buffer(std::as_bytes(values.empty() ? std::span<const glm::vec4>(dark) : values));
+  return gl::Buffer(std::as_bytes(values.empty() ? std::span<const glm::vec4>(dark) : values),
+                    gl::Buffer::Content::changing);
 }
 
-void add_attribute(GLuint array, GLuint location, GLint size, std::size_t offset) {
+void add_attribute(GLuint array, GLuint location, GLint size, std::size_t offset, GLuint binding = 0) {
   gl::api().EnableVertexArrayAttrib(array, location);
   gl::api().VertexArrayAttribFormat(array, location, size, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
-  gl::api().VertexArrayAttribBinding(array, location, 0);
+  gl::api().VertexArrayAttribBinding(array, location, binding);
 }
 
-gl::VertexArray vertex_array(const gl::Buffer& vertices, const gl::Buffer& indices) {
-  GLuint name = 0;
-  gl::api().CreateVertexArrays(1, &name);
-  gl::VertexArray array(name);
-  gl::api().VertexArrayVertexBuffer(name, 0, vertices.name(), 0, sizeof(Vertex));
-  gl::api().VertexArrayElementBuffer(name, indices.name());
-  add_attribute(name, 0, 3, offsetof(Vertex, position));
-  add_attribute(name, 1, 3, offsetof(Vertex, normal));
-  add_attribute(name, 2, 4, offsetof(Vertex, tangent));
-  add_attribute(name, 3, 2, offsetof(Vertex, uv0));
-  add_attribute(name, 4, 2, offsetof(Vertex, uv1));
-  return array;
-}
+void count_in(std::uint64_t& hash, std::span<const std::byte> bytes) { hash = fnv1a(bytes, hash); }
 
-// All triangles of a material in one draw call.
-GpuBatch batch_of(const Scene& scene, std::size_t material, const EffectSet& effects) {
-  std::vector<Vertex> vertices;
-  std::vector<std::uint32_t> indices;
-  for (const Mesh& mesh : scene.meshes) {
-    if (static_cast<std::size_t>(mesh.material) != material) continue;
-    const auto base = static_cast<std::uint32_t>(vertices.size());
-    vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-    for (const std::uint32_t index : mesh.indices) indices.push_back(base + index);
-  }
+// All triangles of a material in one draw call, counted into `content`.
+GpuBatch batch_of(const Scene& scene, std::size_t material, const EffectSet& effects, SceneContent& content) {
+  const auto [vertices, indices] = triangles_of(scene, material);
+  if (indices.empty()) return {};
   if (indices.size() > static_cast<std::size_t>(std::numeric_limits<GLsizei>::max())) {
     throw Error(ErrorKind::machine, scene.source, "one material has more indices than a draw call takes", "split it");
   }
   GpuBatch batch;
-  batch.vertices = gl::Buffer(std::as_bytes(std::span(vertices)));
+  batch.vertices = gl::Buffer(std::as_bytes(std::span(vertices)), gl::Buffer::Content::changing);
   batch.indices = gl::Buffer(std::as_bytes(std::span(indices)));
   batch.vertex_array = vertex_array(batch.vertices, batch.indices);
   batch.index_count = static_cast<GLsizei>(indices.size());
+  batch.vertex_count = vertices.size();
   batch.material = material;
   batch.double_sided = scene.materials[material].double_sided;
   const std::vector<glm::vec4> block = material_block(scene.materials[material], effects);
-  batch.material_block = gl::Buffer(std::as_bytes(std::span(block)));
+  batch.material_block = gl::Buffer(std::as_bytes(std::span(block)), gl::Buffer::Content::changing);
+  count_in(content.geometry, std::as_bytes(std::span(vertices)));
+  count_in(content.materials, std::as_bytes(std::span(block)));
   return batch;
 }
 
@@ -167,6 +153,24 @@ void require_capacity(const gl::ContextInfo& context, std::size_t vectors, const
 
 }  // namespace
 
+gl::VertexArray vertex_array(const gl::Buffer& vertices, const gl::Buffer& indices, const gl::Buffer* surface) {
+  GLuint name = 0;
+  gl::api().CreateVertexArrays(1, &name);
+  gl::VertexArray array(name);
+  gl::api().VertexArrayVertexBuffer(name, 0, vertices.name(), 0, sizeof(Vertex));
+  gl::api().VertexArrayElementBuffer(name, indices.name());
+  add_attribute(name, 0, 3, offsetof(Vertex, position));
+  add_attribute(name, 1, 3, offsetof(Vertex, normal));
+  add_attribute(name, 2, 4, offsetof(Vertex, tangent));
+  add_attribute(name, 3, 2, offsetof(Vertex, uv0));
+  add_attribute(name, 4, 2, offsetof(Vertex, uv1));
+  if (surface != nullptr) {
+    gl::api().VertexArrayVertexBuffer(name, 1, surface->name(), 0, sizeof(glm::vec2));
+    add_attribute(name, 5, 2, 0, 1);
+  }
+  return array;
+}
+
 GLuint SamplerCache::sampler(const TextureCoordinates& coordinates, Lookup lookup) {
   for (const Entry& entry : entries_) {
     if (entry.wrap == coordinates.wrap && entry.lookup == lookup) return entry.sampler.name();
@@ -190,7 +194,7 @@ GpuTexture upload(const PrefilteredTexture& texture) {
 }
 
 GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects)
-    : effects_(effects), brdf_(scene.materials.front().brdf) {
+    : context_(&context), effects_(effects), brdf_(scene.materials.front().brdf) {
   for (const Material& material : scene.materials) {
     if (material.brdf != brdf_) {
       throw Error(ErrorKind::usage, scene.source,
@@ -200,7 +204,7 @@ GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const Eff
     shared_coordinates_ = shared_coordinates_ && maps_share_coordinates(material);
   }
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    GpuBatch batch = batch_of(scene, i, effects);
+    GpuBatch batch = batch_of(scene, i, effects, content_);
     if (batch.index_count == 0) continue;
     for (const PrefilteredTexture& texture : shared_textures(scene.materials[i], effects)) {
       shared_bytes_ += byte_count({.textures = {texture}, .scalars = {}});
@@ -211,13 +215,17 @@ GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const Eff
   make_lights(context, scene);
 }
 
+LightBlocks GpuScene::blocks_of(std::span<const Light> lights) const {
+  return light_blocks(lights,
+                      shadow_maps_ ? std::span<const int>(shadow_maps_->views().first) : std::span<const int>());
+}
+
 void GpuScene::make_lights(const gl::ContextInfo& context, const Scene& scene) {
   if (has(effects_, Effect::cast_shadow)) {
     shadow_maps_.emplace(context, scene, effects_, batches_, samplers_);
     shared_bytes_ += shadow_maps_->bytes();
   }
-  const LightBlocks blocks = light_blocks(
-      scene.lights, shadow_maps_ ? std::span<const int>(shadow_maps_->views().first) : std::span<const int>());
+  const LightBlocks blocks = blocks_of(scene.lights);
   require_capacity(context, std::max({blocks.point.size(), blocks.spot.size(), blocks.directional.size()}),
                    scene.source);
   point_lights_ = light_buffer(blocks.point);
@@ -225,6 +233,44 @@ void GpuScene::make_lights(const gl::ContextInfo& context, const Scene& scene) {
   directional_lights_ = light_buffer(blocks.directional);
   light_counts_ = {blocks.point.size() / 2, blocks.spot.size() / 4, blocks.directional.size() / 2,
                    shadow_maps_ ? shadow_maps_->views().views.size() : 0};
+  if (has(effects_, Effect::environment_light))
+    environment_.emplace(scene.environment.value_or(constant_environment(glm::vec3(0.0F))));
+  for (const auto* block : {&blocks.point, &blocks.spot, &blocks.directional})
+    count_in(content_.lights, std::as_bytes(std::span(*block)));
+}
+
+void GpuScene::update(const Scene& scene) {
+  const auto require = [&](bool same, const char* what) {
+    if (same) return;
+    throw Error(ErrorKind::usage, scene.source, fmt::format("it has other {} than the scene that is drawn", what),
+                "set it up anew");
+  };
+  SceneContent content;
+  for (const GpuBatch& batch : batches_) {
+    require(batch.material < scene.materials.size(), "materials");
+    const TriangleSoup triangles = triangles_of(scene, batch.material);
+    require(triangles.vertices.size() == batch.vertex_count, "vertices");
+    const auto vertices = std::as_bytes(std::span(triangles.vertices));
+    const std::vector<glm::vec4> block = material_block(scene.materials[batch.material], effects_);
+    batch.vertices.write(vertices);
+    batch.material_block.write(std::as_bytes(std::span(block)));
+    count_in(content.geometry, vertices);
+    count_in(content.materials, std::as_bytes(std::span(block)));
+  }
+  if (shadow_maps_) {
+    shadow_maps_.emplace(*context_, scene, effects_, batches_, samplers_);
+    require(shadow_maps_->views().views.size() == light_counts_.shadow_maps, "lights");
+  }
+  const LightBlocks blocks = blocks_of(scene.lights);
+  const auto write = [&](const gl::Buffer& buffer, std::span<const glm::vec4> values, std::size_t count) {
+    require(values.size() == count, "lights");
+    if (count > 0) buffer.write(std::as_bytes(values));
+    count_in(content.lights, std::as_bytes(values));
+  };
+  write(point_lights_, blocks.point, 2 * light_counts_.point);
+  write(spot_lights_, blocks.spot, 4 * light_counts_.spot);
+  write(directional_lights_, blocks.directional, 2 * light_counts_.directional);
+  content_ = content;
 }
 
 void GpuScene::bind_lights(const gl::Program& program) const {

@@ -5,9 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "renderer/core/hash.hpp"
 #include "renderer/effects/effects.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/gl/objects.hpp"
+#include "renderer/pipeline/light_blocks.hpp"
+#include "renderer/pipeline/gpu_environment.hpp"
 #include "renderer/pipeline/prefiltered.hpp"
 #include "renderer/pipeline/shadow_maps.hpp"
 #include "renderer/scene/scene.hpp"
@@ -37,8 +40,9 @@ struct GpuTexture {
   TextureCoordinates coordinates;
   TextureFilter filter = TextureFilter::trilinear;
 
-  /// The program's lookup, unless this texture's texels must not be blended.
+  /// The program's lookup, unless this texture says itself whether its texels are blended.
   [[nodiscard]] Lookup lookup(Lookup wanted) const {
+    if (filter == TextureFilter::linear) return Lookup::trilinear;
     return filter == TextureFilter::nearest ? Lookup::nearest : wanted;
   }
 };
@@ -47,11 +51,24 @@ struct GpuTexture {
 /// over the GL limits, out of memory.
 [[nodiscard]] GpuTexture upload(const PrefilteredTexture& texture);
 
+/// A vertex array over vertices and indices, and over one pair of surface coordinates a vertex where `surface` is
+/// given.
+[[nodiscard]] gl::VertexArray vertex_array(const gl::Buffer& vertices, const gl::Buffer& indices,
+                                           const gl::Buffer* surface = nullptr);
+
+/// Hashes of what a scene's parts hold: one that differs tells that the part has changed.
+struct SceneContent {
+  std::uint64_t geometry = fnv1a_start, materials = fnv1a_start, lights = fnv1a_start;
+
+  friend bool operator==(const SceneContent&, const SceneContent&) = default;
+};
+
 /// The triangles of one material, and what is constant over it.
 struct GpuBatch {
   gl::VertexArray vertex_array;
   gl::Buffer vertices, indices, material_block;
   GLsizei index_count = 0;
+  std::size_t vertex_count = 0;
   std::size_t material = 0;
   bool double_sided = false;
   std::vector<GpuTexture> shared_textures;  ///< base_color_map, metallic_map, specular_map: those whose effect is on
@@ -63,15 +80,25 @@ class GpuScene {
   /// Errors (usage): materials with different base BRDFs (a comparison needs one); (machine): over GL's limits.
   GpuScene(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects);
 
+  /// Takes over vertices, lights and the constants of materials as `scene` has them: the next frame of what moves. Maps
+  /// and base BRDF stay. Errors (usage): another number of materials, vertices or lights of a kind than before.
+  void update(const Scene& scene);
+  [[nodiscard]] const SceneContent& content() const { return content_; }
+
   [[nodiscard]] const std::vector<GpuBatch>& batches() const { return batches_; }
   [[nodiscard]] const EffectSet& effects() const { return effects_; }
   [[nodiscard]] const BaseBrdf& brdf() const { return brdf_; }
   /// Every map of every material is looked up at the same place.
   [[nodiscard]] bool shared_coordinates() const { return shared_coordinates_; }
-  /// Of textures that every method reads: maps of the materials and of shadows.
-  [[nodiscard]] std::size_t shared_bytes() const { return shared_bytes_; }
   /// None where the effect is off.
   [[nodiscard]] const std::optional<ShadowMaps>& shadow_maps() const { return shadow_maps_; }
+  /// Bytes of what every method reads: shared textures, shadow maps and, once a method's program is there, the
+  /// prefiltered environment.
+  [[nodiscard]] std::size_t shared_bytes() const {
+    return shared_bytes_ + (environment_ ? environment_->stack_bytes() : 0);
+  }
+  /// None without its light.
+  [[nodiscard]] GpuEnvironment* environment() { return environment_ ? &*environment_ : nullptr; }
   [[nodiscard]] SamplerCache& samplers() { return samplers_; }
 
   /// Binds the light blocks, their shadow maps, and sets the light counts of `program`.
@@ -84,6 +111,7 @@ class GpuScene {
   [[nodiscard]] const LightCounts& light_counts() const { return light_counts_; }
 
  private:
+  const gl::ContextInfo* context_;
   EffectSet effects_;
   BaseBrdf brdf_;
   bool shared_coordinates_ = true;
@@ -91,9 +119,12 @@ class GpuScene {
   std::vector<GpuBatch> batches_;
   gl::Buffer point_lights_, spot_lights_, directional_lights_;
   LightCounts light_counts_;
+  std::optional<GpuEnvironment> environment_;
   SamplerCache samplers_;
+  SceneContent content_;
   std::optional<ShadowMaps> shadow_maps_;
 
+  [[nodiscard]] LightBlocks blocks_of(std::span<const Light> lights) const;
   void make_lights(const gl::ContextInfo& context, const Scene& scene);
 };
 

@@ -11,7 +11,7 @@
 #include "renderer/effects/effects.hpp"
 #include "renderer/pipeline/frame_build.hpp"
 #include "renderer/pipeline/prefiltered.hpp"
-#include "renderer/scene/material.hpp"
+#include "renderer/scene/scene.hpp"
 
 namespace footprint {
 
@@ -23,8 +23,12 @@ struct MethodInfo {
   std::string summary;  ///< one sentence
   std::string paper;    ///< author, year, title
   std::vector<OptionSpec> options;
-  EffectSet honours;             ///< effects that it can simulate; others are left out, and the table says so
-  bool slow_precompute = false;  ///< seconds, not milliseconds: kept on disk between runs (bake_cache.hpp)
+  EffectSet honours;              ///< effects that it can simulate; others are left out, and the table says so
+  bool draws_directions = false;  ///< the module integrates an environment itself where many samples are taken
+  bool slow_precompute = false;   ///< seconds, not milliseconds: kept on disk between runs (bake_cache.hpp)
+  /// Whether it shows a map's texels where they are large on screen. Not so: one effective BRDF for the whole material,
+  /// which is right where the whole map lies in a pixel.
+  bool resolves_texels = true;
 };
 
 /// A prefiltering method: a pure precompute, a GLSL module and, where it has one, a frame build
@@ -44,6 +48,13 @@ class Method {
   /// effects alone, so that one program serves every material of a scene.
   [[nodiscard]] virtual Prefiltered precompute(const Material& material, const Options& options,
                                                const EffectSet& effects, const Progress& progress) const = 0;
+
+  /// As `precompute`, for a material of `scene`: what depends on the triangles that it lies on. What is baked is kept
+  /// on disk by the material alone: a method that overrides this must not be `slow_precompute`.
+  [[nodiscard]] virtual Prefiltered precompute_on(const Scene& scene, std::size_t material, const Options& options,
+                                                  const EffectSet& effects, const Progress& progress) const {
+    return precompute(scene.materials.at(material), options, effects, progress);
+  }
 
   /// The passes that are repeated each frame, for a scene whose effects (those that the method honours) and base BRDF
   /// `variant` has; null: there are none. A context is current. Errors (machine): a pass does not compile.

@@ -117,6 +117,7 @@ std::size_t byte_count(const PrefilteredTexture& texture) {
 
 std::size_t byte_count(const Prefiltered& prefiltered) {
   std::size_t bytes = prefiltered.scalars.size() * sizeof(float);
+  if (prefiltered.surface_coordinates) bytes += prefiltered.surface_coordinates->size() * sizeof(glm::vec2);
   for (const PrefilteredTexture& texture : prefiltered.textures) bytes += byte_count(texture);
   return bytes;
 }
@@ -154,18 +155,18 @@ PrefilteredTexture make_array_texture(std::string name, std::span<const std::vec
           .levels = std::move(levels)};
 }
 
-PrefilteredTexture make_built_texture(std::string name, int width, int height, int layers, Storage storage,
-                                      const TextureCoordinates& coordinates) {
+PrefilteredTexture make_built_texture(const BuiltTexture& built, const TextureCoordinates& coordinates) {
   PrefilteredTexture texture;
-  texture.name = std::move(name);
-  texture.storage = storage;
-  texture.layers = layers;
+  texture.name = built.name;
+  texture.storage = built.storage;
+  texture.channels = built.channels;
+  texture.layers = built.layers;
   texture.coordinates = coordinates;
   texture.built = true;
-  const int count = mip_level_count(width, height);
+  const int count = built.whole_chain ? mip_level_count(built.width, built.height) : 1;
   for (int level = 0; level < count; ++level) {
     texture.levels.push_back(
-        {.width = std::max(width >> level, 1), .height = std::max(height >> level, 1), .bytes = {}});
+        {.width = std::max(built.width >> level, 1), .height = std::max(built.height >> level, 1), .bytes = {}});
   }
   return texture;
 }

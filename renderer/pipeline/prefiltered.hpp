@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,8 +23,9 @@ enum class Storage { fp32, fp16, unorm8 };
 /// Errors (usage) on a word that is no storage.
 [[nodiscard]] Storage parse_storage(std::string_view word);
 
-/// Whether texels may be blended: a mixture's lobes that have no counterpart in the neighbour may not.
-enum class TextureFilter { trilinear, nearest };
+/// Whether texels are blended: as the program looks maps up; never (a mixture's lobes that have no counterpart in the
+/// neighbour); always (a table that is no map: what it holds between texels is the same however the scene is sampled).
+enum class TextureFilter { trilinear, nearest, linear };
 
 /// One level of a texture, encoded in the texture's storage: layer after layer, rows from v = 0.
 struct TextureLevel {
@@ -42,7 +44,7 @@ struct PrefilteredTexture {
   int layers = 0;    ///< 0: a plain texture, else an array of so many
   TextureFilter filter = TextureFilter::trilinear;
   TextureCoordinates coordinates;    ///< those of the map that it prefilters
-  std::vector<TextureLevel> levels;  ///< finest first, 1 x 1 last
+  std::vector<TextureLevel> levels;  ///< finest first, 1 x 1 last; one alone where nothing coarser is read
   bool built = false;                ///< a frame build writes the texels: levels have their sizes and no bytes
 
   friend bool operator==(const PrefilteredTexture&, const PrefilteredTexture&) = default;
@@ -53,6 +55,9 @@ struct Prefiltered {
   std::vector<PrefilteredTexture> textures;
   std::map<std::string, float> scalars;  ///< uniform float NAME
   std::vector<std::string> notes{};      ///< what a user should know of how it went, one sentence each; tables show it
+  /// For each vertex of the material (triangles_of) its place in textures that show each point of the surface once;
+  /// none: the module looks at the maps' own coordinates alone.
+  std::optional<std::vector<glm::vec2>> surface_coordinates{};
 
   friend bool operator==(const Prefiltered&, const Prefiltered&) = default;
 };
@@ -76,10 +81,17 @@ struct Prefiltered {
                                                     Storage storage, const TextureCoordinates& coordinates,
                                                     TextureFilter filter = TextureFilter::trilinear);
 
-/// Declares an array texture of 4 channels with the whole chain of sizes, whose texels a frame build writes
-/// (frame_build.hpp).
-[[nodiscard]] PrefilteredTexture make_built_texture(std::string name, int width, int height, int layers,
-                                                    Storage storage, const TextureCoordinates& coordinates);
+/// An array texture whose texels a frame build writes (frame_build.hpp).
+struct BuiltTexture {
+  std::string name;
+  int width = 1, height = 1, layers = 1;
+  int channels = 4;
+  Storage storage = Storage::fp32;
+  bool whole_chain = true;  ///< all levels, else the finest alone
+};
+
+/// Declares it: its levels have their sizes and no texels.
+[[nodiscard]] PrefilteredTexture make_built_texture(const BuiltTexture& built, const TextureCoordinates& coordinates);
 
 /// The floats that the shader reads from a level of a layer, before any decoding of a signed range. Errors:
 /// std::logic_error for a texture that a frame build writes.

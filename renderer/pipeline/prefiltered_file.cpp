@@ -11,7 +11,7 @@
 namespace footprint {
 namespace {
 
-constexpr std::string_view magic = "footprint bake 3";  // another layout below: another number here
+constexpr std::string_view magic = "footprint bake 4";  // another layout below: another number here
 
 class Writer {
  public:
@@ -136,6 +136,11 @@ std::vector<std::uint8_t> to_bytes(const Prefiltered& prefiltered) {
   }
   out.add<std::uint64_t>(prefiltered.notes.size());
   for (const std::string& note : prefiltered.notes) out.add_text(note);
+  out.add(prefiltered.surface_coordinates.has_value());
+  if (prefiltered.surface_coordinates) {
+    const auto bytes = std::as_bytes(std::span(*prefiltered.surface_coordinates));
+    out.add_block({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  }
   const std::string sum = checksum(out.bytes());
   std::vector<std::uint8_t> bytes = out.take();
   bytes.insert(bytes.end(), sum.begin(), sum.end());
@@ -155,6 +160,12 @@ std::optional<Prefiltered> from_bytes(std::span<const std::uint8_t> bytes) {
     prefiltered.scalars[std::move(name)] = in.get<float>();
   }
   for (std::uint64_t count = in.get_count(1); count > 0; --count) prefiltered.notes.push_back(in.get_text());
+  if (in.get<bool>()) {
+    const std::span<const std::uint8_t> block = in.get_block();
+    prefiltered.surface_coordinates.emplace(block.size() / sizeof(glm::vec2));
+    std::memcpy(prefiltered.surface_coordinates->data(), block.data(),
+                block.size() / sizeof(glm::vec2) * sizeof(glm::vec2));
+  }
   if (!in.finished()) return {};
   return prefiltered;
 }

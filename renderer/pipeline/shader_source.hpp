@@ -28,7 +28,9 @@ struct ShaderVariant {
   Sampling sampling = Sampling::frame;
   int max_probes = 1;  ///< anisotropic probes along the major axis; 1: isotropic
   bool orthographic = false;
-  bool shared_coordinates = false;  ///< every map of the scene is looked up at one place
+  bool shared_coordinates = false;   ///< every map of the scene is looked up at one place
+  bool surface_coordinates = false;  ///< the method has coordinates of its own (Prefiltered::surface_coordinates)
+  bool environment_sampled = false;  ///< the module draws directions itself, as the reference does, and gives no lobes
   std::size_t point_lights = 0, spot_lights = 0, directional_lights = 0;
   std::size_t shadow_maps = 0;
 };
@@ -51,8 +53,12 @@ inline constexpr int first_shared_line = 10001;
 /// What the shared functions must offer for a method's textures: `texture_arrays`, `texel_lookups`.
 [[nodiscard]] ShaderFlags texture_flags(const Prefiltered& prefiltered);
 
-/// The textures of a program, in the order of their units: the shared ones, then the method's.
+/// The textures of a program, in the order of their units: the shared ones, the method's, then, in a forward pass, the
+/// environment's.
 [[nodiscard]] std::vector<std::string> texture_names(const EffectSet& effects, const Prefiltered& prefiltered);
+
+/// The environment's textures in the order of their units; none without its light.
+[[nodiscard]] std::vector<std::string> environment_texture_names(const ShaderVariant& variant);
 
 /// The material's uniform block, in front of the shared functions: with `multi_lobe` they read it.
 [[nodiscard]] std::string material_block(const ShaderFlags& flags);
@@ -73,17 +79,20 @@ inline constexpr int first_shared_line = 10001;
                                      std::string_view module_name, const Options& options,
                                      const Prefiltered& prefiltered);
 
-/// A compute pass of a frame build: `pass` has the local size and `main`; in front of it stand the lobes and base BRDF
-/// terms, the number options and the material's block, and the flags are fragment_shader's.
+/// A stage of a frame build's pass, of any kind: `pass` has its inputs, outputs and `main`; in front of it stand the
+/// lobes and base BRDF terms, the number options and the material's block, and the flags are fragment_shader's and
+/// `own`.
 [[nodiscard]] std::string frame_build_shader(const ShaderVariant& variant, std::string_view pass,
-                                             std::string_view pass_name, const Options& options);
+                                             std::string_view pass_name, const Options& options,
+                                             const ShaderFlags& own = {});
 
 /// The stages that draw a shadow map.
 [[nodiscard]] std::string shadow_vertex_shader(const EffectSet& effects);
 [[nodiscard]] std::string shadow_fragment_shader(const EffectSet& effects);
 
-/// The stages that add a pass of samples to the reference's sums.
+/// A vertex stage that covers the whole viewport by 3 vertices, without attributes.
 [[nodiscard]] std::string screen_vertex_shader();
+/// The stage that adds a pass of samples to the reference's sums.
 [[nodiscard]] std::string resolve_shader();
 
 }  // namespace footprint

@@ -15,7 +15,7 @@ namespace {
 
 // In surface_shadows.glsl.
 constexpr GLuint maps_unit = 15;
-constexpr GLuint views_binding = 5;
+constexpr GLuint views_binding = 6;
 constexpr GLuint material_binding = 0;
 
 constexpr const char* mend =

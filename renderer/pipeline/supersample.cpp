@@ -166,6 +166,7 @@ void Supersampler::accumulate(Accumulator& sums, const View& view, const Tile& t
 
 void Supersampler::draw(const View& view, int spp, std::uint64_t seed) const {
   const SampleGrid samples = sample_grid(spp, seed);
+  method_->build_frame(view);
   for (const Tile& tile : tiles_of(view.size, tile_edge_)) {
     Accumulator& sums = accumulator(view.size, samples.grid);
     for (std::size_t pass = 0; pass < samples.offsets.size(); ++pass) accumulate(sums, view, tile, samples, seed, pass);
@@ -174,6 +175,7 @@ void Supersampler::draw(const View& view, int spp, std::uint64_t seed) const {
 
 Supersampled Supersampler::render(const View& view, int spp, std::uint64_t seed, const Progress& progress) const {
   const SampleGrid samples = sample_grid(spp, seed);
+  method_->build_frame(view);
   const std::vector<Tile> tiles = tiles_of(view.size, tile_edge_);
   const auto steps = static_cast<double>(tiles.size() * samples.offsets.size());
   Image mean(view.size.x, view.size.y, 4);

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <glm/gtc/type_ptr.hpp>
 
@@ -25,6 +27,11 @@ EffectSet effects_of(const GpuScene& scene, const Method& method) {
   return scene.effects() & (method.info().honours | shared);
 }
 
+// A method whose samples are many, and whose module can, draws directions; one sample a pixel would be all noise.
+bool draws_directions(const Method& method, const ProgramSettings& settings) {
+  return method.info().draws_directions && settings.sampling != Sampling::frame;
+}
+
 ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings) {
   return {.effects = effects_of(scene, *baked.method),
           .brdf = scene.brdf(),
@@ -32,6 +39,8 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
           .max_probes = settings.max_probes,
           .orthographic = settings.orthographic,
           .shared_coordinates = scene.shared_coordinates(),
+          .surface_coordinates = baked.materials.front().surface_coordinates.has_value(),
+          .environment_sampled = draws_directions(*baked.method, settings),
           .point_lights = scene.light_counts().point,
           .spot_lights = scene.light_counts().spot,
           .directional_lights = scene.light_counts().directional,
@@ -50,19 +59,53 @@ void bind_texture(GLuint unit, const GpuTexture& texture, GpuScene& scene, Looku
   gl::api().BindSampler(unit, scene.samplers().sampler(texture.coordinates, texture.lookup(lookup)));
 }
 
+// Puts back at its end what of the GL's state a frame build may change and a draw does not set for itself.
+class StateKeeper {
+ public:
+  StateKeeper() {
+    gl::api().GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw_);
+    gl::api().GetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_);
+    gl::api().GetIntegerv(GL_VERTEX_ARRAY_BINDING, &vertex_array_);
+    gl::api().GetIntegerv(GL_VIEWPORT, viewport_.data());
+    std::ranges::transform(switches, on_.begin(), [](GLenum name) { return gl::api().IsEnabled(name) == GL_TRUE; });
+  }
+  StateKeeper(const StateKeeper&) = delete;
+  StateKeeper& operator=(const StateKeeper&) = delete;
+  ~StateKeeper() {
+    gl::api().BindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(draw_));
+    gl::api().BindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read_));
+    gl::api().BindVertexArray(static_cast<GLuint>(vertex_array_));
+    gl::api().Viewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
+    for (std::size_t i = 0; i < switches.size(); ++i) {
+      if (on_.at(i)) {
+        gl::api().Enable(switches.at(i));
+      } else {
+        gl::api().Disable(switches.at(i));
+      }
+    }
+  }
+
+ private:
+  static constexpr std::array<GLenum, 3> switches{GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND};
+  GLint draw_ = 0, read_ = 0, vertex_array_ = 0;
+  std::array<GLint, 4> viewport_{};
+  std::array<bool, switches.size()> on_{};
+};
+
 struct Outcome {
   Prefiltered prefiltered;
   bool from_disk;
 };
 
 // One material: from the disk where it is kept there, else by the method, and kept if that is worth it.
-Outcome prefilter(const Method& method, const Material& material, const Options& options, const EffectSet& effects,
-                  const Progress& progress, const BakeCache* cache) {
+Outcome prefilter(const Method& method, const Scene& scene, std::size_t index, const Options& options,
+                  const EffectSet& effects, const Progress& progress, const BakeCache* cache) {
   if (cache == nullptr || !method.info().slow_precompute)
-    return {method.precompute(material, options, effects, progress), false};
+    return {method.precompute_on(scene, index, options, effects, progress), false};
+  const Material& material = scene.materials[index];
   const std::string key = cache->key(method.info().name, material, options, effects);
   if (std::optional<Prefiltered> kept = cache->find(key)) return {*std::move(kept), true};
-  Outcome outcome{method.precompute(material, options, effects, progress), false};
+  Outcome outcome{method.precompute_on(scene, index, options, effects, progress), false};
   cache->keep(key, outcome.prefiltered);
   return outcome;
 }
@@ -82,12 +125,13 @@ BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scen
                     .texels = 0,
                     .cached = cache != nullptr && method.info().slow_precompute};
   const auto count = static_cast<double>(scene.materials.size());
-  for (const Material& material : scene.materials) {
-    const auto done = static_cast<double>(baked.materials.size());
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const Material& material = scene.materials[i];
+    const auto done = static_cast<double>(i);
     const Progress part = [&](std::string_view what, double fraction) { progress(what, (done + fraction) / count); };
     part(fmt::format("{}: {}", spec.text, material.name), 0.0);
     try {
-      auto [prefiltered, from_disk] = prefilter(method, material, baked.options, honoured, part, cache);
+      auto [prefiltered, from_disk] = prefilter(method, scene, i, baked.options, honoured, part, cache);
       baked.materials.push_back(std::move(prefiltered));
       baked.cached = baked.cached && from_disk;
     } catch (const Error& error) {
@@ -102,7 +146,7 @@ BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scen
 
 GpuMethod::GpuMethod(const GpuScene& scene, const BakedMethod& baked)
     : baked_(&baked),
-      scene_batches_(scene.batches()),
+      scene_(&scene),
       build_(baked.method->frame_build({.effects = effects_of(scene, *baked.method), .brdf = scene.brdf()},
                                        baked.options)) {
   for (const GpuBatch& batch : scene.batches()) {
@@ -111,32 +155,73 @@ GpuMethod::GpuMethod(const GpuScene& scene, const BakedMethod& baked)
     for (const PrefilteredTexture& texture : prefiltered.textures) part.textures.push_back(upload(texture));
     const std::vector<float> scalars = scalar_block(prefiltered);
     if (!scalars.empty()) part.scalars = gl::Buffer(std::as_bytes(std::span(scalars)));
+    if (prefiltered.surface_coordinates) {
+      part.surface_coordinates = gl::Buffer(std::as_bytes(std::span(*prefiltered.surface_coordinates)));
+      part.vertex_array = footprint::vertex_array(batch.vertices, batch.indices, &part.surface_coordinates);
+    }
     batches_.push_back(std::move(part));
   }
-  build_frame();
 }
 
-void GpuMethod::build_frame() const {
+const GpuMethod::PerBatch& GpuMethod::part_of(const GpuBatch& batch) const {
+  return batches_.at(static_cast<std::size_t>(&batch - scene_->batches().data()));
+}
+
+GLuint GpuMethod::vertex_array(const GpuBatch& batch) const {
+  const gl::VertexArray& own = part_of(batch).vertex_array;
+  return own ? own.name() : batch.vertex_array.name();
+}
+
+bool GpuMethod::is_built_for(const View& view) const {
+  const std::optional<BuildInputs> inputs = build_->kept_until_change_of();
+  if (!inputs || !built_) return false;
+  const SceneContent& then = built_->content;
+  const SceneContent& now = scene_->content();
+  return (!inputs->camera || built_->camera == view.camera) && (!inputs->geometry || then.geometry == now.geometry) &&
+         (!inputs->materials || then.materials == now.materials) && (!inputs->lights || then.lights == now.lights);
+}
+
+void GpuMethod::build_frame(const View& view) const {
+  if (build_ && !is_built_for(view)) rebuild(view);
+}
+
+void GpuMethod::rebuild(const View& view) const {
   if (!build_) return;
+  const StateKeeper state;
   // Not before what was drawn from the textures, or built into them, is done.
   gl::api().MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
-  for (std::size_t i = 0; i < batches_.size(); ++i) build_->run(scene_batches_[i], batches_[i].textures);
+  for (const GpuBatch& batch : scene_->batches()) {
+    build_->run({.batch = batch,
+                 .vertex_array = vertex_array(batch),
+                 .baked = baked_->materials.at(batch.material),
+                 .textures = part_of(batch).textures,
+                 .view = view});
+  }
   gl::api().MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  built_ = {.camera = view.camera, .content = scene_->content()};
+}
+
+GLuint GpuMethod::units(const GpuBatch& batch) const {
+  return static_cast<GLuint>(batch.shared_textures.size() + baked_->materials.front().textures.size());
 }
 
 void GpuMethod::bind(const GpuBatch& batch, GpuScene& scene, Lookup lookup) const {
-  const PerBatch& part = batches_.at(static_cast<std::size_t>(&batch - scene_batches_.data()));
+  const PerBatch& part = part_of(batch);
   auto unit = static_cast<GLuint>(batch.shared_textures.size());
   for (const GpuTexture& texture : part.textures) bind_texture(unit++, texture, scene, lookup);
   if (part.scalars.name() != 0) gl::api().BindBufferBase(GL_UNIFORM_BUFFER, method_binding, part.scalars.name());
 }
 
-SurfaceProgram::SurfaceProgram(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings)
+SurfaceProgram::SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings)
     : settings_(settings),
+      environment_light_(has(effects_of(scene, *baked.method), Effect::environment_light)),
+      environment_sampled_(draws_directions(*baked.method, settings)),
       fragment_text_(fragment_shader(variant_of(scene, baked, settings), baked.method->shader(), baked.spec.name,
                                      baked.options, baked.materials.front())),
       program_(fmt::format("{} (lines below {} are of {}.glsl)", baked.spec.text, first_shared_line, baked.spec.name),
-               vertex_shader(variant_of(scene, baked, settings)), fragment_text_) {}
+               vertex_shader(variant_of(scene, baked, settings)), fragment_text_) {
+  if (environment_light_) scene.environment()->prepare(environment_sampled_);
+}
 
 void SurfaceProgram::set_sample(const glm::ivec2& origin, std::uint32_t seed, std::uint32_t pass) const {
   const GLint origin_place = program_.uniform("sample_origin");
@@ -152,6 +237,11 @@ void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& 
   const glm::vec3 camera = settings_.orthographic ? direction_to_camera(view.camera) : camera_position(view.camera);
   const char* const camera_name = settings_.orthographic ? "to_camera" : "camera_position";
   gl::api().Uniform3fv(program_.uniform(camera_name), 1, glm::value_ptr(camera));
+  const GLint to_camera_space = program_.uniform("world_to_camera");
+  if (to_camera_space >= 0) {
+    const glm::mat3 rotation = world_to_camera(view.camera);
+    gl::api().UniformMatrix3fv(to_camera_space, 1, GL_FALSE, glm::value_ptr(rotation));
+  }
   scene.bind_lights(program_);
   gl::api().Enable(GL_DEPTH_TEST);
   gl::api().DepthFunc(GL_LESS);
@@ -165,7 +255,8 @@ void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& 
     GLuint unit = 0;
     for (const GpuTexture& texture : batch.shared_textures) bind_texture(unit++, texture, scene, settings_.lookup);
     method.bind(batch, scene, settings_.lookup);
-    gl::api().BindVertexArray(batch.vertex_array.name());
+    if (environment_light_) scene.environment()->bind(method.units(batch), environment_sampled_);
+    gl::api().BindVertexArray(method.vertex_array(batch));
     gl::api().DrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT, nullptr);
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,27 +35,43 @@ struct BakedMethod {
 /// A baked method's textures and scalars on the GPU, shared by its programs.
 class GpuMethod {
  public:
-  /// Uploads what was baked and, where the method has a frame build, runs it once: what is bound is whole from the
-  /// start.
+  /// Uploads what was baked. What a frame build fills is empty until the first one.
   GpuMethod(const GpuScene& scene, const BakedMethod& baked);
-  /// Whether the method rebuilds something each frame.
-  [[nodiscard]] bool builds_each_frame() const { return build_ != nullptr; }
-  /// Runs the frame build of every material, if there is one. Leaves framebuffer, viewport, depth, culling and blending
-  /// as they are.
-  void build_frame() const;
+  /// Whether the method has a frame build, and whether a frame in which nothing moved keeps what was built before.
+  [[nodiscard]] bool has_frame_build() const { return build_ != nullptr; }
+  [[nodiscard]] bool keeps_builds() const { return build_ && build_->kept_until_change_of(); }
+  /// Runs the frame build of every material for a view, if there is one and what was last built does not serve it too.
+  /// Leaves framebuffers, viewport, vertex array, depth test, culling and blending as they are.
+  void build_frame(const View& view) const;
+  /// Runs it whatever was built before.
+  void rebuild(const View& view) const;
   /// Binds textures (after the shared ones) and scalars of a batch.
   void bind(const GpuBatch& batch, GpuScene& scene, Lookup lookup) const;
+  /// The triangles of a batch, with this method's surface coordinates where it has some.
+  [[nodiscard]] GLuint vertex_array(const GpuBatch& batch) const;
+  /// The texture units that a batch takes, from 0 on: the shared textures and the method's.
+  [[nodiscard]] GLuint units(const GpuBatch& batch) const;
   [[nodiscard]] const BakedMethod& baked() const { return *baked_; }
 
  private:
   struct PerBatch {
     std::vector<GpuTexture> textures;
-    gl::Buffer scalars;
+    gl::Buffer scalars, surface_coordinates;
+    gl::VertexArray vertex_array;
   };
+  // What the last build was for.
+  struct Built {
+    Camera camera;
+    SceneContent content;
+  };
+  [[nodiscard]] const PerBatch& part_of(const GpuBatch& batch) const;
+  [[nodiscard]] bool is_built_for(const View& view) const;
+
   const BakedMethod* baked_;
-  std::span<const GpuBatch> scene_batches_;
+  const GpuScene* scene_;
   std::vector<PerBatch> batches_;
   std::unique_ptr<FrameBuild> build_;
+  mutable std::optional<Built> built_;
 };
 
 /// How a program samples, and what the scene's camera asks of it.
@@ -68,8 +85,9 @@ struct ProgramSettings {
 /// One compiled forward pass.
 class SurfaceProgram {
  public:
-  /// Errors (machine): the module does not compile (the log names its lines).
-  SurfaceProgram(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings);
+  /// Makes what the scene's environment lacks for it. Errors (machine): the module does not compile (the log names its
+  /// lines).
+  SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings);
 
   /// Draws the scene into the bound framebuffer, whose viewport is the tile's (times the sample grid).
   void draw(GpuScene& scene, const GpuMethod& method, const View& view, const glm::mat4& world_to_clip) const;
@@ -81,6 +99,8 @@ class SurfaceProgram {
 
  private:
   ProgramSettings settings_;
+  bool environment_light_;
+  bool environment_sampled_;
   std::string fragment_text_;
   gl::Program program_;
 };

@@ -54,6 +54,8 @@ glm::mat4 tile_matrix(const View& view, const Tile& tile, const glm::dvec2& offs
   return glm::mat4(tile_in_clip(view, tile, offset) * projection(view) * world_to_camera);
 }
 
+glm::mat3 world_to_camera(const Camera& camera) { return glm::transpose(glm::mat3(camera.world)); }
+
 glm::vec3 camera_position(const Camera& camera) { return glm::vec3(camera.world[3]); }
 
 glm::vec3 direction_to_camera(const Camera& camera) { return glm::normalize(glm::vec3(camera.world[2])); }

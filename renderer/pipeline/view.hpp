@@ -27,6 +27,9 @@ struct Tile {
 /// the parts of a large picture differ in the last digits of the whole picture's matrix.
 [[nodiscard]] glm::mat4 tile_matrix(const View& view, const Tile& tile, const glm::dvec2& offset);
 
+/// The rotation from world axes to the camera's: x right, y up, z towards the viewer.
+[[nodiscard]] glm::mat3 world_to_camera(const Camera& camera);
+
 [[nodiscard]] glm::vec3 camera_position(const Camera& camera);
 
 /// The direction to an orthographic camera, the same from everywhere.

@@ -116,6 +116,17 @@ std::vector<std::uint32_t> triangle_list(std::span<const std::uint32_t> indices,
   return list;
 }
 
+TriangleSoup triangles_of(const Scene& scene, std::size_t material) {
+  TriangleSoup all;
+  for (const Mesh& mesh : scene.meshes) {
+    if (static_cast<std::size_t>(mesh.material) != material) continue;
+    const auto base = static_cast<std::uint32_t>(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (const std::uint32_t index : mesh.indices) all.indices.push_back(base + index);
+  }
+  return all;
+}
+
 void drop_unused_vertices(std::vector<Vertex>& vertices, std::vector<std::uint32_t>& indices) {
   std::vector<std::uint32_t> place(vertices.size(), unused);
   std::vector<Vertex> used;
@@ -127,6 +138,12 @@ void drop_unused_vertices(std::vector<Vertex>& vertices, std::vector<std::uint32
     index = place[index];
   }
   vertices = std::move(used);
+}
+
+void append(Mesh& mesh, const Mesh& part) {
+  const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), part.vertices.begin(), part.vertices.end());
+  for (const std::uint32_t index : part.indices) mesh.indices.push_back(base + index);
 }
 
 void make_flat_normals(std::vector<Vertex>& vertices, std::vector<std::uint32_t>& indices) {

@@ -18,8 +18,20 @@ enum class Topology { triangles, strip, fan };
 /// A strip or a fan as a triangle list with the winding of glTF 2.0; a trailing incomplete triangle is left out.
 [[nodiscard]] std::vector<std::uint32_t> triangle_list(std::span<const std::uint32_t> indices, Topology topology);
 
+/// Triangles over vertices of their own.
+struct TriangleSoup {
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices;  ///< three a triangle
+};
+
+/// All triangles of a material, mesh after mesh.
+[[nodiscard]] TriangleSoup triangles_of(const Scene& scene, std::size_t material);
+
 /// Drops the vertices that no index uses and renumbers the rest, in order of first use.
 void drop_unused_vertices(std::vector<Vertex>& vertices, std::vector<std::uint32_t>& indices);
+
+/// Adds the triangles of `part` to `mesh`, whatever its material.
+void append(Mesh& mesh, const Mesh& part);
 
 /// Gives each triangle its own three vertices with the triangle's normal (glTF 2.0: normals that are not given are
 /// flat). A degenerate triangle gets +z.

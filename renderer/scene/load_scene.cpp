@@ -2,12 +2,12 @@
 #include "renderer/scene/load_scene.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <system_error>
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/suggest.hpp"
 #include "renderer/scene/assemble.hpp"
+#include "renderer/scene/model_file.hpp"
 
 namespace footprint {
 namespace {
@@ -19,13 +19,6 @@ constexpr const char* settings_name = "scene.toml";
 bool is_file(const fs::path& path) {
   std::error_code error;
   return fs::is_regular_file(path, error);
-}
-
-std::string lower_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return extension;
 }
 
 // `camera` in place of the settings' own, where it says anything.
@@ -49,7 +42,7 @@ Scene load_settings(const fs::path& file, const std::string& source, std::span<c
 Scene load_bare(const fs::path& file, const std::string& source, const CameraSettings& camera) {
   SceneSettings settings;
   replace_camera(settings, camera);
-  settings.content = ModelSettings{{file}, {}};
+  settings.parts.emplace_back().content = ModelSettings{{file}, {}, false};
   return assemble_scene(settings, file.stem().string(), source);
 }
 
@@ -67,11 +60,10 @@ Scene load_scene(const std::string& scene, const SceneLibrary& library, const Ca
     if (is_file(path / settings_name)) return load_settings(path / settings_name, scene, library.surfaces, camera);
     throw Error(ErrorKind::usage, scene, "the folder has no scene.toml", "name a folder with one, or a glTF file");
   }
-  const std::string extension = lower_extension(path);
-  if (extension == ".toml") return load_settings(path, scene, library.surfaces, camera);
-  if (extension == ".gltf" || extension == ".glb") return load_bare(path, scene, camera);
+  if (lower_extension(path) == ".toml") return load_settings(path, scene, library.surfaces, camera);
+  if (names_model(path)) return load_bare(path, scene, camera);
   if (fs::exists(path, error)) {
-    throw Error(ErrorKind::usage, scene, "is neither a scene.toml nor a .gltf or .glb file",
+    throw Error(ErrorKind::usage, scene, "is neither a scene.toml nor a .gltf, .glb or .obj file",
                 "export the model as glTF 2.0");
   }
   throw Error(ErrorKind::usage, scene, "no such scene or file", suggestion(scene, list_scenes(library.folder)));

@@ -62,7 +62,7 @@ TEST(LoadScene, WrongNamesAreNamed) {
   EXPECT_NE(error_of("nowhere.gltf").find("no such file"), std::string::npos);
   EXPECT_NE(error_of("nowhere/scene.toml").find("no such file"), std::string::npos);
   EXPECT_NE(error_of(test::test_folder().string()).find("no scene.toml"), std::string::npos);
-  EXPECT_NE(error_of(test::write_file("model.obj", "v 0 0 0").string()).find("neither"), std::string::npos);
+  EXPECT_NE(error_of(test::write_file("model.stl", "solid").string()).find("neither"), std::string::npos);
 }
 
 TEST(LoadScene, BareGltfGetsCameraLightsAndExposure) {

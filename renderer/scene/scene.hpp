@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "renderer/scene/environment.hpp"
 #include "renderer/scene/material.hpp"
 
 namespace footprint {
@@ -61,6 +62,8 @@ struct Camera {
   float znear = 0.01F;
   std::optional<float> zfar;    ///< none: infinite (perspective only)
   std::optional<float> aspect;  ///< width / height where the file gives one; sets the default frame shape
+
+  friend bool operator==(const Camera&, const Camera&) = default;
 };
 
 /// Axis-aligned bounds of all vertices.
@@ -91,6 +94,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Light> lights;
   ShadowSettings shadows;
+  std::optional<Environment> environment;
   Camera camera;
   Bounds bounds;
   std::optional<float> exposure;  ///< multiplies radiance before display and the clamped measures; none: automatic

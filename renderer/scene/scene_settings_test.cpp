@@ -60,6 +60,9 @@ outer_cone_degrees = 90
 [[light]]
 type = "directional"
 direction = [0, -3, 0]
+[shadows]
+cast = false
+resolution = 512
 [camera]
 frame_bounds = { direction = [0, 0, 2], fov_degrees = 90, margin = 2 }
 [zoom]
@@ -68,20 +71,20 @@ distances = [1, 2, 16]
 uv = [2, 3]
 )");
   EXPECT_EQ(settings.name, "n");
-  const auto& plane = std::get<PlaneSettings>(settings.content);
+  const auto& plane = std::get<PlaneSettings>(settings.parts.at(0).content);
   EXPECT_EQ(plane.size, glm::vec2(3.0F, 2.5F));
   EXPECT_EQ(plane.normal_map->filename(), "bumps.png");
   EXPECT_TRUE(plane.normal_map->is_absolute());
   EXPECT_EQ(plane.normal_scale, 0.5);
   EXPECT_EQ(plane.roughness, 0.25F);
   EXPECT_EQ(plane.metallic, 1.0F);
-  EXPECT_EQ(settings.brdf.distribution, NormalDistribution::beckmann);
-  EXPECT_EQ(settings.brdf.geometry, GeometryTerm::tan);
-  EXPECT_EQ(settings.brdf.fresnel, FresnelTerm::none);
-  EXPECT_EQ(settings.brdf.diffuse, false);
-  EXPECT_EQ(settings.brdf.lobe_parameter, 0.2F);
-  EXPECT_EQ(settings.brdf.specular, glm::vec3(0.1F, 0.2F, 0.3F));
-  EXPECT_EQ(settings.brdf.base_color, glm::vec3(0.4F, 0.5F, 0.6F));
+  EXPECT_EQ(settings.parts.at(0).brdf.distribution, NormalDistribution::beckmann);
+  EXPECT_EQ(settings.parts.at(0).brdf.geometry, GeometryTerm::tan);
+  EXPECT_EQ(settings.parts.at(0).brdf.fresnel, FresnelTerm::none);
+  EXPECT_EQ(settings.parts.at(0).brdf.diffuse, false);
+  EXPECT_EQ(settings.parts.at(0).brdf.lobe_parameter, 0.2F);
+  EXPECT_EQ(settings.parts.at(0).brdf.specular, glm::vec3(0.1F, 0.2F, 0.3F));
+  EXPECT_EQ(settings.parts.at(0).brdf.base_color, glm::vec3(0.4F, 0.5F, 0.6F));
   EXPECT_EQ(settings.frame_size, glm::ivec2(640, 480));
   EXPECT_EQ(settings.exposure, 2.0F);
   EXPECT_FALSE(settings.keep_model_lights);
@@ -95,12 +98,14 @@ uv = [2, 3]
   EXPECT_FLOAT_EQ(spot.inner_cone_angle, std::numbers::pi_v<float> / 18.0F);
   EXPECT_FLOAT_EQ(spot.outer_cone_angle, std::numbers::pi_v<float> / 2.0F);
   EXPECT_EQ(std::get<DirectionalLight>(settings.lights[2]).direction, glm::vec3(0, -1, 0));
+  EXPECT_EQ(settings.shadows.cast, false);
+  EXPECT_EQ(settings.shadows.resolution, 512);
   const auto& framing = std::get<Framing>(settings.camera);
   EXPECT_EQ(framing.direction, glm::dvec3(0, 0, 1));
   EXPECT_FLOAT_EQ(static_cast<float>(framing.yfov), std::numbers::pi_v<float> / 2.0F);
   EXPECT_EQ(framing.margin, 2.0);
   EXPECT_EQ(settings.distances, (std::vector<double>{1, 2, 16}));
-  EXPECT_EQ(settings.tiling, glm::vec2(2, 3));
+  EXPECT_EQ(settings.parts.at(0).tiling, glm::vec2(2, 3));
 }
 
 TEST(SceneSettings, PlacedCameraAndAutomaticExposure) {
@@ -115,6 +120,33 @@ TEST(SceneSettings, PlacedCameraAndAutomaticExposure) {
   EXPECT_FLOAT_EQ(camera.yfov, std::numbers::pi_v<float> / 3.0F);
   EXPECT_EQ(camera.znear, 0.5F);
   EXPECT_EQ(camera.zfar, 20.0F);
+}
+
+TEST(SceneSettings, ShadowsAreDerivedUnlessTold) {
+  EXPECT_FALSE(read("[plane]\n").shadows.cast);
+  EXPECT_FALSE(read("[plane]\n[shadows]\n").shadows.cast);
+  EXPECT_EQ(read("[plane]\n[shadows]\ncast = true\n").shadows.cast, true);
+  expect_error("[plane]\n[shadows]\ncast = \"on\"\n", {"scene.toml:3", "cast"});
+  expect_error("[plane]\n[shadows]\ncasts = true\n", {"scene.toml:3", "unknown key `casts`", "`cast`"});
+  expect_error("[plane]\n[shadows]\nresolution = 15\n", {"scene.toml:3", "resolution", "16"});
+  expect_error("[plane]\n[shadows]\nresolution = 100000\n", {"scene.toml:3", "resolution", "16384"});
+  expect_error("[plane]\n[shadows]\nresolution = 64.5\n", {"scene.toml:3", "resolution"});
+}
+
+TEST(SceneSettings, ALayerIsHeightsOrNormals) {
+  const SceneSettings settings = read("[plane]\n[layer]\nbump_map = \"h.png\"\nuv = [8, 4]\nstrength = 0.02");
+  ASSERT_TRUE(settings.parts.front().layer);
+  EXPECT_TRUE(std::get<LayerFile>(settings.parts.front().layer->content).heights);
+  EXPECT_EQ(std::get<LayerFile>(settings.parts.front().layer->content).path.filename(), "h.png");
+  EXPECT_EQ(settings.parts.front().layer->uv, glm::vec2(8.0F, 4.0F));
+  EXPECT_EQ(settings.parts.front().layer->strength, 0.02);
+  const SceneSettings normals = read("[plane]\n[layer]\nnormal_map = \"n.png\"");
+  EXPECT_FALSE(std::get<LayerFile>(normals.parts.front().layer->content).heights);
+  EXPECT_EQ(normals.parts.front().layer->strength, 1.0);
+  expect_error("[plane]\n[layer]\nuv = [1, 1]", {"scene.toml:2", "bump_map", "surface"});
+  expect_error("[plane]\n[layer]\nbump_map = \"a\"\nnormal_map = \"b\"", {"scene.toml:3", "only one"});
+  expect_error("[plane]\n[layer]\nbump_map = \"a\"", {"scene.toml:2", "strength", "missing"});
+  expect_error("[plane]\n[layer]\nnormal_map = \"a\"\nstrenght = 2", {"scene.toml:4", "strength"});
 }
 
 TEST(SceneSettings, UnknownKeysNameLineAndNeighbour) {
@@ -152,7 +184,7 @@ TEST(SceneSettings, WrongTypesAndRangesNameTheirLine) {
 TEST(SceneSettings, WhatExcludesOrNeedsEachOther) {
   const std::string plane = "[plane]\n";
   expect_error("[zoom]\ndistances = [1]\n", {"`model` or `plane`"});
-  expect_error("[plane]\n[model]\nfile = \"a.gltf\"\n", {"only one"});
+  expect_error("[plane]\n[model]\nfile = \"a.gltf\"\n", {"excludes `model`"});
   expect_error("[model]\n", {"scene.toml:1", "`files`"});
   expect_error("[model]\nfile = \"a.gltf\"\nfiles = [\"b.gltf\"]\n", {"only one"});
   expect_error("[model]\nfiles = [1]\n", {"scene.toml:2", "list of strings"});

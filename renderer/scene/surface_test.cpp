@@ -102,7 +102,7 @@ TEST(SurfaceInScene, MistakesAreNamedWithTheirLine) {
   expect_error(hills + "[surface.parameters]\nheight = 11\n", {"scene.toml:4", "0 to 10"});
   expect_error(hills + "[surface.parameters]\nkind = \"rund\"\n", {"scene.toml:4", "did you mean `round`"});
   expect_error(hills + "[surface.parameters]\ncount = 1.5\n", {"scene.toml:4", "whole number"});
-  expect_error(hills + "[plane]\n", {"only one"});
+  expect_error(hills + "[plane]\n", {"scene.toml:3", "`plane` excludes"});
 }
 
 }  // namespace

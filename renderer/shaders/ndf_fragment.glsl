@@ -16,5 +16,13 @@ void main() {
     density = 0.0;
     return;
   }
-  density = ndf(effective(Footprints(givenFootprint(0), givenFootprint(1), givenFootprint(2))), h);
+  Footprints all;
+  all.normal = givenFootprint(0);
+  all.roughness = givenFootprint(1);
+  all.base_color = givenFootprint(2);
+//? if surface_coordinates
+  all.surface = all.normal;
+  tangent_to_camera = mat3(1.0);  // the plane lies as the camera sees it
+//? end
+  density = ndf(effective(all), h);
 }

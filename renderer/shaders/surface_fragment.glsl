@@ -5,10 +5,16 @@ in vec3 world_normal;
 in vec4 world_tangent;
 in vec2 uv0;
 in vec2 uv1;
+//? if surface_coordinates
+in vec2 surface_uv;
+//? end
 
 layout(location = 0) out vec4 radiance_coverage;
 
 uniform vec3 camera_position;
+//? if surface_coordinates
+uniform mat3 world_to_camera;
+//? end
 //? if orthographic
 uniform vec3 to_camera;
 //? end
@@ -39,10 +45,16 @@ Footprints pixelFootprints() {
   f.specular = footprintOf(specular_uv_linear, specular_uv_offset_set);
 //? end
 //? end
+//? if surface_coordinates
+  f.surface = Footprint(surface_uv, dFdx(surface_uv), dFdy(surface_uv));
+//? end
+//? if normal_layers
+  f.layer = footprintOf(uv_linear[3], uv_offset_set[3]);
+//? end
   return f;
 }
 
-//? if sampling_texel
+//? if random_draws
 // PCG3D (Jarzynski and Olano 2020): independent numbers for each sample of the picture, whatever the tile.
 uvec3 hashed(uvec3 v) {
   v = v * 1664525u + 1013904223u;
@@ -56,23 +68,20 @@ uvec3 hashed(uvec3 v) {
   return v;
 }
 
-vec2 drawTexelOffsets() {
+// Of each number `draw` of a sample, others.
+uvec3 drawBits(uint draw) {
   uvec2 place = uvec2(ivec2(gl_FragCoord.xy) + sample_origin);
-  uvec3 bits = hashed(uvec3(place, sample_seed.y) ^ hashed(uvec3(sample_seed.x, 0x9e3779b9u, sample_seed.y)));
-  return vec2(bits.xy >> 8u) * (1.0 / 16777216.0);  // 24 bits: exact in a float, below 1
+  return hashed(uvec3(place, sample_seed.y) ^ hashed(uvec3(sample_seed.x, 0x9e3779b9u + draw, sample_seed.y)));
 }
 //? end
 
-// The tangent frame, right-handed or not as the mesh says; columns tangent, bitangent, normal.
-mat3 tangentFrame() {
-  vec3 n = world_normal / max(length(world_normal), 1e-20);  // opposite normals of a vertex pair meet at zero: unlit, not NaN
-//? if double_sided
-  if (!gl_FrontFacing) n = -n;
-//? end
-  vec3 t = world_tangent.xyz - n * dot(n, world_tangent.xyz);
-  t /= max(length(t), 1e-12);
-  return mat3(t, cross(n, t) * world_tangent.w, n);
+//? if random_draws
+vec2 drawTexelOffsets() {
+  return vec2(drawBits(0u).xy >> 8u) * (1.0 / 16777216.0);  // 24 bits: exact in a float, below 1
 }
+//? end
+
+//? include tangent_frame.glsl
 
 struct SurfacePoint {
   Effective effective;
@@ -105,6 +114,14 @@ vec3 facetNormal(vec3 along_x, vec3 along_y, vec3 to_viewer) {
 }
 
 //? end
+//? if environment_light
+//? if environment_sampled
+//? include environment_sampling.glsl
+//? else
+//? include environment_stack.glsl
+//? end
+//? end
+
 vec3 lit(SurfacePoint p) {
   vec3 radiance = vec3(0.0);
 //? if point_light
@@ -140,6 +157,9 @@ vec3 lit(SurfacePoint p) {
     radiance += reflected(p, directional_lights[i].to_light.xyz, irradiance);
   }
 //? end
+//? if environment_light
+  radiance += environmentLit(p.effective, p.albedo, p.f0, p.wo, p.frame);
+//? end
   return radiance;
 }
 
@@ -149,7 +169,7 @@ void main() {
   vec3 along_x = dFdx(world_position);  // before any pixel is discarded
   vec3 along_y = dFdy(world_position);
 //? end
-//? if sampling_texel
+//? if random_draws
   texel_draw = drawTexelOffsets();
 //? end
   vec4 base_color = base_color_factor;
@@ -168,10 +188,17 @@ void main() {
   dielectric_specular *= fetch(specular_map, f.specular).rgb;
 //? end
   SurfacePoint p;
+//? if double_sided
+  p.frame = tangentFrame(gl_FrontFacing ? world_normal : -world_normal, world_tangent);
+//? else
+  p.frame = tangentFrame(world_normal, world_tangent);
+//? end
+//? if surface_coordinates
+  tangent_to_camera = world_to_camera * p.frame;
+//? end
   p.effective = effective(f);
   p.albedo = base_color.rgb * (1.0 - metallic);
   p.f0 = mix(dielectric_specular, base_color.rgb, metallic);
-  p.frame = tangentFrame();
 //? if orthographic
   vec3 to_viewer = to_camera;
 //? else

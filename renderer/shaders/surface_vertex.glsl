@@ -4,6 +4,9 @@ layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec4 in_tangent;
 layout(location = 3) in vec2 in_uv0;
 layout(location = 4) in vec2 in_uv1;
+//? if surface_coordinates
+layout(location = 5) in vec2 in_surface;
+//? end
 
 uniform mat4 world_to_clip;
 
@@ -12,6 +15,9 @@ out vec3 world_normal;
 out vec4 world_tangent;
 out vec2 uv0;
 out vec2 uv1;
+//? if surface_coordinates
+out vec2 surface_uv;
+//? end
 
 void main() {
   world_position = in_position;
@@ -19,5 +25,8 @@ void main() {
   world_tangent = in_tangent;
   uv0 = in_uv0;
   uv1 = in_uv1;
+//? if surface_coordinates
+  surface_uv = in_surface;
+//? end
   gl_Position = world_to_clip * vec4(in_position, 1.0);
 }

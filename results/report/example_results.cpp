@@ -126,6 +126,7 @@ Results example_results() {
   }
   results.records[2].error->normalized_color = 0.0006;  // below the noise floor
   results.records[3].frame_build_ms = 0.31;
+  results.records[3].frame_build = "every frame";
   results.records[3].precompute_cached = true;
   results.records[0].other_references = {{16, 0.0223, 0.0029}, {36, 0.0217, {}}};
   results.records[4].flicker = Flicker{.mean = 0.031, .p99 = 0.4, .noise_floor = 0.002};

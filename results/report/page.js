@@ -35,7 +35,7 @@ const columns = [
    meaning: 'Frame time over that of the unfiltered method beside it: median (least–most).'},
   {title: 'fps', text: 'fps', value: (r) => r.time.fps, meaning: 'Frames a second at the median frame time.'},
   {title: 'Build ms', text: 'build', value: (r) => r.time.frame_build_ms,
-   only: () => records.some((r) => r.time.frame_build_ms !== null), meaning: 'What the method rebuilds each frame.'},
+   only: () => records.some((r) => r.time.frame_build_ms !== null), meaning: 'What the method rebuilds when something moves, and whether the timed frames have it in them.'},
   {title: 'Bake s', text: 'precompute', value: (r) => r.precompute.seconds,
    meaning: 'What the method bakes once, in seconds.'},
   {title: 'Maps', text: 'bytes', value: (r) => r.precompute.bytes, meaning: 'Memory that the baked maps take.'},

@@ -57,10 +57,11 @@ std::optional<Flicker> parse_flicker(const JsonNode& node) {
 }
 
 void parse_time(const JsonNode& node, Record& record) {
-  node.with_keys({"frame_ms", "frame_build_ms", "fps", "ratio_to_direct"});
+  node.with_keys({"frame_ms", "frame_build_ms", "frame_build", "fps", "ratio_to_direct"});
   const JsonNode frame = node["frame_ms"].with_keys({"median", "min", "p90"});
   record.frame_ms = {frame["median"].number(), frame["min"].number(), frame["p90"].number()};
   record.frame_build_ms = node["frame_build_ms"].optional_number();
+  if (record.frame_build_ms) record.frame_build = node["frame_build"].text();
   record.fps = node["fps"].number_or(infinity);
   const JsonNode ratio = node["ratio_to_direct"].with_keys({"median", "min", "max"});
   record.ratio_to_direct = {ratio["median"].number_or(not_a_number), ratio["min"].number_or(not_a_number),

@@ -70,7 +70,8 @@ struct Record {
   std::optional<Flicker> flicker;                ///< none: no frame of a zoom, or its first
   FrameTime frame_ms;
   std::optional<double> frame_build_ms;  ///< none: the method rebuilds nothing each frame
-  double fps = 0;                        ///< 1000 / frame_ms.median
+  std::string frame_build;  ///< "every frame": `frame_ms` has it in it; "reused": it has not; empty: there is none
+  double fps = 0;           ///< 1000 / frame_ms.median
   TimeRatio ratio_to_direct;
   double precompute_seconds = 0;
   std::uint64_t precompute_bytes = 0;

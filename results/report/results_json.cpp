@@ -46,6 +46,7 @@ Json time_json(const Record& record) {
             {"min", json_number(record.frame_ms.minimum)},
             {"p90", json_number(record.frame_ms.p90)}}},
           {"frame_build_ms", json_number(record.frame_build_ms)},
+          {"frame_build", record.frame_build.empty() ? Json() : Json(record.frame_build)},
           {"fps", json_number(record.fps)},
           {"ratio_to_direct",
            {{"median", json_number(record.ratio_to_direct.median)},

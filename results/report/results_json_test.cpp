@@ -63,6 +63,7 @@ TEST(ResultsJson, HasThePublishedFields) {
                             "/records/0/time/frame_ms/min",
                             "/records/0/time/frame_ms/p90",
                             "/records/0/time/frame_build_ms",
+                            "/records/0/time/frame_build",
                             "/records/0/time/fps",
                             "/records/0/time/ratio_to_direct/median",
                             "/records/0/time/ratio_to_direct/min",
@@ -79,6 +80,7 @@ TEST(ResultsJson, HasThePublishedFields) {
   }
   EXPECT_EQ(document["records"][0]["size"], json::array({256, 256}));
   EXPECT_EQ(document["records"][3]["time"]["frame_build_ms"], 0.31);
+  EXPECT_EQ(document["records"][3]["time"]["frame_build"], "every frame");
   EXPECT_EQ(document["records"][0]["time"]["frame_build_ms"], nullptr);
 }
 

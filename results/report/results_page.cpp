@@ -54,7 +54,7 @@ Json display(const Record& record) {
           {"frame", spread_text(record.frame_ms.median, record.frame_ms.minimum, record.frame_ms.p90)},
           {"ratio", spread_text(ratio.median, ratio.minimum, ratio.maximum)},
           {"fps", three_figures(record.fps)},
-          {"build", record.frame_build_ms ? three_figures(*record.frame_build_ms) : "none"},
+          {"build", record.frame_build_ms ? three_figures(*record.frame_build_ms) + ", " + record.frame_build : "none"},
           {"precompute", three_figures(record.precompute_seconds)},
           {"bytes", bytes_text(record.precompute_bytes)},
           {"bytes_per_texel", bytes_per_texel_text(record)},

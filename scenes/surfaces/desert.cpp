@@ -93,7 +93,7 @@ Image normals(const SurfaceSettings& settings) {
 Image base_color(const SurfaceSettings& settings) {
   const Sand sand(settings.seed);
   constexpr glm::dvec3 light{0.62, 0.40, 0.21}, dark{0.50, 0.30, 0.145};
-  return fill_colors(settings.resolution,
+  return fill_colors(glm::ivec2{settings.resolution},
                      [&](const glm::dvec2& place) { return glm::mix(light, dark, sand.darkness(HeightPlace{place})); });
 }
 

@@ -73,17 +73,13 @@ Image normals(const SurfaceSettings& settings) {
   });
 }
 
-/// The breast plate at an angle around the body (radians, 0 in front) and a height (metres), with both derivatives.
-struct Point {
-  Height x, y, z;
-};
-
 Height bulge(const Height& at, double centre, double width) {
   const Height t = (at - centre) / width;
   return exp(-1.0 * t * t);
 }
 
-Point plate_at(double angle_value, double height_value) {
+/// The breast plate at an angle around the body (radians, 0 in front) and a height (metres).
+BentPoint plate_at(double angle_value, double height_value) {
   const HeightPlace at{{angle_value, height_value}};
   const Height &angle = at.x, &y = at.y;
   const Height across = 0.30 + 0.10 * smooth_step(y, -0.35, 0.15) - 0.05 * smooth_step(y, 0.1, 0.5);
@@ -104,16 +100,7 @@ Vertex plate_vertex(const glm::dvec2& place) {
   const double side = 2.0 * place.x - 1.0;
   const double top = 0.46 - 0.16 * std::exp(-(side * side) / 0.12), bottom = -0.44 - 0.1 * (1.0 - side * side);
   const double height = glm::mix(bottom, top, place.y), angle = side * half_angle(height);
-  const Point point = plate_at(angle, height);
-  const auto along = [&](int axis) {
-    return glm::dvec3{point.x.derivatives()[axis], point.y.derivatives()[axis], point.z.derivatives()[axis]};
-  };
-  Vertex vertex;
-  vertex.position = glm::dvec3{point.x.value(), point.y.value(), point.z.value()};
-  vertex.tangent = {glm::vec3{glm::normalize(along(0))}, 1.0F};
-  vertex.normal = glm::normalize(glm::cross(along(0), along(1)));
-  vertex.uv0 = vertex.uv1 = glm::vec2{0.4 * angle, -height};  // in metres, nearly
-  return vertex;
+  return bent_vertex(plate_at(angle, height), {0.4 * angle, -height});  // texture coordinates in metres, nearly
 }
 
 Mesh mesh(const SurfaceSettings& /*settings*/) {

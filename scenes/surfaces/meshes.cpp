@@ -5,6 +5,18 @@
 
 namespace footprint {
 
+Vertex bent_vertex(const BentPoint& point, const glm::dvec2& uv) {
+  const auto along = [&](int axis) {
+    return glm::dvec3{point.x.derivatives()[axis], point.y.derivatives()[axis], point.z.derivatives()[axis]};
+  };
+  Vertex vertex;
+  vertex.position = glm::dvec3{point.x.value(), point.y.value(), point.z.value()};
+  vertex.tangent = {glm::vec3{glm::normalize(along(0))}, 1.0F};
+  vertex.normal = glm::normalize(glm::cross(along(0), along(1)));
+  vertex.uv0 = vertex.uv1 = glm::vec2{uv};
+  return vertex;
+}
+
 Mesh square_mesh(const SurfaceSettings& /*settings*/) { return make_plane({2.0F, 2.0F}, {1.0F, 1.0F}); }
 
 Mesh grid_mesh(int columns, int rows, const std::function<Vertex(const glm::dvec2& place)>& vertex_at) {

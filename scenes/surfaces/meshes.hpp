@@ -4,8 +4,18 @@
 #include <functional>
 
 #include "renderer/scene/surface.hpp"
+#include "scenes/surfaces/height.hpp"
 
 namespace footprint {
+
+/// A point in space as a formula of two coordinates, whose derivatives it carries.
+struct BentPoint {
+  Height x, y, z;
+};
+
+/// The vertex at `point`: tangent along the first coordinate, normal along the cross product of both derivatives, which
+/// must not be parallel; `uv` in both sets of texture coordinates.
+[[nodiscard]] Vertex bent_vertex(const BentPoint& point, const glm::dvec2& uv);
 
 /// A square of 2 x 2 m in the xy plane, facing +z, which the maps cover once. Surface::mesh of the flat surfaces.
 [[nodiscard]] Mesh square_mesh(const SurfaceSettings& settings);

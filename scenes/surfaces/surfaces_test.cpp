@@ -62,12 +62,39 @@ TEST_P(EverySurface, HasUnitNormalsOutOfTheSurfaceAtAnySize) {
   expect_unit_normals(normals(256));
 }
 
+/// All maps that a surface has.
+std::vector<Image> maps(const Surface& surface, const SurfaceSettings& settings) {
+  return {surface_normals(surface, settings), surface_base_color(surface, settings),
+          surface_specular(surface, settings), surface_lobe_parameter(surface, settings)};
+}
+
+/// Whether chance has no part in a surface.
+bool is_regular(const Surface& surface) { return surface.name == "checker"; }
+
+/// Whether a surface has colours and gloss alone.
+bool has_relief(const Surface& surface) { return surface.name != "checker" && surface.name != "pillow"; }
+
 TEST_P(EverySurface, IsAFunctionOfItsSeedAlone) {
-  const Image map = normals(129);
-  EXPECT_EQ(normals(129), map);
-  EXPECT_NE(normals(129, 2), map);
+  const auto made = maps(GetParam(), settings(129));
+  EXPECT_EQ(maps(GetParam(), settings(129)), made);
+  EXPECT_EQ(maps(GetParam(), settings(129, 2)) == made, is_regular(GetParam()));
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  EXPECT_EQ(normals(129), map);
+  EXPECT_EQ(maps(GetParam(), settings(129)), made);
+}
+
+TEST_P(EverySurface, HasMapsOfItsBrdfWithinTheirRanges) {
+  for (const int resolution : {1, 2, 33, 128}) {
+    const auto [colors, speculars, lobes] = std::array{surface_base_color(GetParam(), settings(resolution)),
+                                                       surface_specular(GetParam(), settings(resolution)),
+                                                       surface_lobe_parameter(GetParam(), settings(resolution))};
+    for (const Image& map : {colors, speculars}) {
+      for (const float value : map.texels) ASSERT_TRUE(value >= 0.0F && value <= 1.0F) << value;
+    }
+    for (const float value : lobes.texels) ASSERT_TRUE(value >= 1.0F && value <= 1e6F) << value;
+    EXPECT_TRUE(colors.empty() || colors.channels == 4);
+    EXPECT_TRUE(speculars.empty() || speculars.channels == 3);
+    EXPECT_TRUE(lobes.empty() || lobes.channels == 1);
+  }
 }
 
 /// Mean and variance of the normals' x and y; slopes have none where a surface is steep.
@@ -97,7 +124,7 @@ TEST_P(EverySurface, HasTheSameStatisticsAtEverySize) {
     EXPECT_NEAR(fine.variance[axis], coarse.variance[axis], 0.05 * fine.variance[axis] + 1e-12);
     EXPECT_NEAR(fine.variance[axis], odd.variance[axis], 0.05 * fine.variance[axis] + 1e-12);
   }
-  EXPECT_GT(fine.variance.x, 1e-4);
+  EXPECT_EQ(fine.variance.x > 1e-4, has_relief(GetParam()));
 }
 
 TEST_P(EverySurface, HasAMeshWithUnitFrames) {

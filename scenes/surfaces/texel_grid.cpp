@@ -7,15 +7,16 @@
 namespace footprint {
 namespace {
 
-Image fill(int resolution, const std::function<glm::dvec3(const glm::dvec2&)>& value_at) {
-  Image image(resolution, resolution, 4, 1.0F);
-  tbb::parallel_for(tbb::blocked_range<int>(0, resolution), [&](const tbb::blocked_range<int>& rows) {
+/// `Count` channels, computed; one more holds 1 where `channels` asks for it.
+template <int Count, typename ValueAtPlace>
+Image fill(glm::ivec2 size, int channels, const ValueAtPlace& value_at) {
+  Image image(size.x, size.y, channels, 1.0F);
+  tbb::parallel_for(tbb::blocked_range<int>(0, size.y), [&](const tbb::blocked_range<int>& rows) {
     for (int y = rows.begin(); y < rows.end(); ++y) {
-      for (int x = 0; x < resolution; ++x) {
-        const glm::dvec2 place{(x + 0.5) / resolution, 1.0 - (y + 0.5) / resolution};
-        const glm::vec3 value{value_at(place)};
+      for (int x = 0; x < size.x; ++x) {
+        const glm::vec<Count, double> value{value_at(glm::dvec2{(x + 0.5) / size.x, 1.0 - (y + 0.5) / size.y})};
         const auto texel = image.at(x, y);
-        for (int c = 0; c < 3; ++c) texel[static_cast<std::size_t>(c)] = value[c];
+        for (int c = 0; c < Count; ++c) texel[static_cast<std::size_t>(c)] = static_cast<float>(value[c]);
       }
     }
   });
@@ -24,8 +25,12 @@ Image fill(int resolution, const std::function<glm::dvec3(const glm::dvec2&)>& v
 
 }  // namespace
 
-Image fill_normals(int resolution, const NormalAt& normal_at) { return fill(resolution, normal_at); }
+Image fill_normals(int resolution, const NormalAt& normal_at) { return fill<3>(glm::ivec2{resolution}, 4, normal_at); }
 
-Image fill_colors(int resolution, const ColorAt& color_at) { return fill(resolution, color_at); }
+Image fill_colors(glm::ivec2 size, const ColorAt& color_at) { return fill<3>(size, 4, color_at); }
+
+Image fill_rgb(glm::ivec2 size, const ColorAt& color_at) { return fill<3>(size, 3, color_at); }
+
+Image fill_values(glm::ivec2 size, const ValueAt& value_at) { return fill<1>(size, 1, value_at); }
 
 }  // namespace footprint

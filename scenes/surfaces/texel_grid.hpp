@@ -14,11 +14,18 @@ using NormalAt = std::function<glm::dvec3(const glm::dvec2& place)>;
 /// The colour (0 to 1, linear) at such a point.
 using ColorAt = std::function<glm::dvec3(const glm::dvec2& place)>;
 
+/// A single value, such as the exponent of a lobe, at such a point.
+using ValueAt = std::function<double(const glm::dvec2& place)>;
+
 /// The normals at the texels' centres, with weight 1. The functions are called from several threads at once.
 [[nodiscard]] Image fill_normals(int resolution, const NormalAt& normal_at);
 
-/// The colours at the texels' centres, with alpha 1.
-[[nodiscard]] Image fill_colors(int resolution, const ColorAt& color_at);
+/// The colours at the texels' centres of a map of any width and height, with alpha 1 in a fourth channel.
+[[nodiscard]] Image fill_colors(glm::ivec2 size, const ColorAt& color_at);
+
+/// The colours in three channels alone, and values in one.
+[[nodiscard]] Image fill_rgb(glm::ivec2 size, const ColorAt& color_at);
+[[nodiscard]] Image fill_values(glm::ivec2 size, const ValueAt& value_at);
 
 /// The unit normal of a height field with gradient `slope` (rise over run along x and y).
 [[nodiscard]] inline glm::dvec3 normal_of_slope(const glm::dvec2& slope) {

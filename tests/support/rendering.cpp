@@ -61,6 +61,11 @@ std::string TestRenderer::fragment_text(const Method& method) {
   return SurfaceProgram(gpu_scene_, baked(method, {}), {}).fragment_text();
 }
 
+void TestRenderer::update(const Scene& scene) {
+  gpu_scene_.update(scene);
+  scene_ = scene;
+}
+
 double largest_difference(const Image& a, const Image& b) {
   if (a.width != b.width || a.height != b.height || a.channels != b.channels)
     return std::numeric_limits<double>::infinity();

@@ -25,6 +25,8 @@ class TestRenderer {
   [[nodiscard]] Supersampled reference(int spp, std::uint64_t seed = 1,
                                        ReferenceFilter filter = ReferenceFilter::after_shading, int tile = 0);
   [[nodiscard]] std::string fragment_text(const Method& method);
+  /// Goes on with another scene of the same parts (GpuScene::update).
+  void update(const Scene& scene);
   [[nodiscard]] const GpuScene& gpu_scene() const { return gpu_scene_; }
 
  private:

@@ -1,0 +1,244 @@
+// See instant_map.hpp.
+#include "methods/xu_vmf/instant_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "renderer/pipeline/view.hpp"
+
+namespace footprint {
+
+namespace embedded {
+extern const std::string_view xu_vmf_conversion_glsl, xu_vmf_table_glsl, xu_vmf_cells_glsl, xu_vmf_storing_glsl,
+    xu_vmf_join_glsl, xu_vmf_split_glsl, xu_vmf_coarsen_glsl, xu_vmf_raster_vertex_glsl;
+}
+
+namespace xu_vmf {
+namespace {
+
+constexpr GLuint material_binding = 0;
+constexpr std::array<float, 4> nothing{};
+
+gl::VertexArray empty_vertex_array() {
+  GLuint name = 0;
+  gl::api().CreateVertexArrays(1, &name);
+  return gl::VertexArray(name);
+}
+
+gl::Framebuffer framebuffer(GLuint attachments) {
+  GLuint name = 0;
+  gl::api().CreateFramebuffers(1, &name);
+  std::vector<GLenum> buffers;
+  for (GLuint i = 0; i < attachments; ++i) buffers.push_back(GL_COLOR_ATTACHMENT0 + i);
+  gl::api().NamedFramebufferDrawBuffers(name, static_cast<GLsizei>(attachments), buffers.data());
+  return gl::Framebuffer(name);
+}
+
+// A texture of the job by its name; null where the precompute made none.
+const GpuTexture* texture_of(const FrameBuildJob& job, std::string_view name) {
+  const auto& baked = job.baked.textures;
+  const auto found = std::ranges::find(baked, name, &PrefilteredTexture::name);
+  return found == baked.end() ? nullptr : &job.textures[static_cast<std::size_t>(found - baked.begin())];
+}
+
+void bind(GLuint unit, const gl::Texture& texture, GLuint sampler = 0) {
+  gl::api().BindTextureUnit(unit, texture.name());
+  gl::api().BindSampler(unit, sampler);
+}
+
+bool in_camera_space(const FrameBuildJob& job) {
+  const auto found = job.baked.scalars.find(std::string(camera_space_name));
+  return found != job.baked.scalars.end() && found->second > 0.5F;
+}
+
+// What is read and what is drawn into are levels of one texture: only the one that is read can be reached.
+void show_one_level(const gl::Texture& map, int level) {
+  gl::api().TextureParameteri(map.name(), GL_TEXTURE_BASE_LEVEL, level);
+  gl::api().TextureParameteri(map.name(), GL_TEXTURE_MAX_LEVEL, level);
+}
+
+void show_all_levels(const gl::Texture& map, int levels) {
+  gl::api().TextureParameteri(map.name(), GL_TEXTURE_BASE_LEVEL, 0);
+  gl::api().TextureParameteri(map.name(), GL_TEXTURE_MAX_LEVEL, levels - 1);
+}
+
+const PrefilteredTexture& declared(const FrameBuildJob& job, std::string_view name) {
+  return *std::ranges::find(job.baked.textures, name, &PrefilteredTexture::name);
+}
+
+// Lobes that each facet has.
+int own_lobes(const FrameBuildJob& job) { return std::max(declared(job, whole_name).layers - 1, 1); }
+
+}  // namespace
+
+int whole_layers(const Material& material) {
+  return material.lobes.empty() ? 1 : static_cast<int>(material.lobes.size()) + 1;
+}
+
+int part_count(const Options& options) {
+  const std::string& j = options.word("j");
+  return j == "1" ? 0 : j == "4" ? 4 : 8;
+}
+
+bool keeps_guard(const Options& options, const EffectSet& effects) {
+  return options.word("storage") == "fp16" && has(effects, Effect::roughness_variation);
+}
+
+InstantMap::InstantMap(const ShaderVariant& variant, const Options& options)
+    : options_(options),
+      effects_(variant.effects),
+      parts_(static_cast<GLuint>(part_count(options))),
+      guards_(keeps_guard(options, variant.effects)),
+      no_vertices_(empty_vertex_array()),
+      joined_(framebuffer(guards_ ? 2 : 1)) {
+  ShaderFlags flags;
+  if (guards_) flags.emplace("guard");
+  const auto fragment = [&](std::string_view name, std::initializer_list<std::string_view> texts) {
+    std::string text;
+    for (const std::string_view part : texts) text += part;
+    return frame_build_shader(variant, text, fmt::format("xu_vmf_{}.glsl", name), options, flags);
+  };
+  const auto join_text = [&] {
+    return fragment("join", {embedded::xu_vmf_conversion_glsl, embedded::xu_vmf_table_glsl,
+                             embedded::xu_vmf_storing_glsl, embedded::xu_vmf_join_glsl});
+  };
+  const auto layer_count = [](GLuint layers) { return fmt::format("const int layer_count = {};\n", layers); };
+  const auto split_text = [&] {
+    return fragment("split", {layer_count(parts_), embedded::xu_vmf_cells_glsl, embedded::xu_vmf_storing_glsl,
+                              embedded::xu_vmf_split_glsl});
+  };
+  const auto stage = [&](GLuint layers) {
+    return Stage{
+        framebuffer(layers),
+        {"xu_vmf_coarsen", screen_vertex_shader(),
+         fragment("coarsen", {layer_count(layers), embedded::xu_vmf_storing_glsl, embedded::xu_vmf_coarsen_glsl})},
+        layers};
+  };
+  join_flat_ = {"xu_vmf_join", screen_vertex_shader(), join_text()};
+  whole_ = stage(1);
+  if (parts_ > 0) {
+    split_stage_ = stage(parts_);
+    if (guards_) split_guard_.emplace("xu_vmf_split, guard", screen_vertex_shader(), split_text());
+    flags.clear();
+    split_.emplace("xu_vmf_split", screen_vertex_shader(), split_text());
+    if (guards_) flags.emplace("guard");
+  }
+  if (options.word("space") != "camera") return;
+  flags.emplace("camera");
+  join_surface_.emplace(
+      "xu_vmf_join, camera space",
+      frame_build_shader(variant, embedded::xu_vmf_raster_vertex_glsl, "xu_vmf_raster_vertex.glsl", options),
+      join_text());
+}
+
+std::optional<BuildInputs> InstantMap::kept_until_change_of() const {
+  if (options_.word("rebuild") == "always") return {};
+  const bool camera = join_surface_.has_value();
+  return BuildInputs{.camera = camera, .geometry = camera, .materials = true, .lights = false};
+}
+
+void InstantMap::run(const FrameBuildJob& job) const {
+  for (const GLenum off : {GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND}) gl::api().Disable(off);
+  gl::api().BindBufferBase(GL_UNIFORM_BUFFER, material_binding, job.batch.material_block.name());
+  join(job);
+  for (const std::string_view name : {whole_name, whole_guard_name}) coarsen(whole_, job, name);
+  if (parts_ == 0) return;
+  split(job);
+  for (const std::string_view name : {parts_name, parts_guard_name}) coarsen(split_stage_, job, name);
+}
+
+// Binds what the program reads.
+void InstantMap::prepare_join(const FrameBuildJob& job, const gl::Program& program, bool camera) const {
+  constexpr std::array inputs{normals_name, variances_name, table_name};
+  for (GLuint unit = 0; unit < inputs.size(); ++unit) {
+    if (const GpuTexture* input = texture_of(job, inputs.at(unit)))
+      bind(unit, input->texture, samplers_.sampler(input->coordinates, Lookup::nearest));
+  }
+  gl::api().UseProgram(program.name());
+  if (!camera) {
+    const gl::Texture& map = texture_of(job, whole_name)->texture;
+    gl::api().Uniform2i(program.uniform("map_size"), map.width(), map.height());
+    return;
+  }
+  const Camera& seen_by = job.view.camera;
+  const glm::mat3 rotation = world_to_camera(seen_by);
+  const glm::vec4 viewer =
+      seen_by.orthographic ? glm::vec4(direction_to_camera(seen_by), 0.0F) : glm::vec4(camera_position(seen_by), 1.0F);
+  gl::api().UniformMatrix3fv(program.uniform("world_to_camera"), 1, GL_FALSE, glm::value_ptr(rotation));
+  gl::api().Uniform4fv(program.uniform("viewer"), 1, glm::value_ptr(viewer));
+  gl::api().Uniform1i(program.uniform("two_sided"), job.batch.double_sided ? 1 : 0);
+}
+
+void InstantMap::join(const FrameBuildJob& job) const {
+  const bool camera = in_camera_space(job);
+  const gl::Texture& map = texture_of(job, whole_name)->texture;
+  const gl::Program& program = camera ? *join_surface_ : join_flat_;
+  prepare_join(job, program, camera);
+  gl::api().BindFramebuffer(GL_FRAMEBUFFER, joined_.name());
+  gl::api().Viewport(0, 0, map.width(), map.height());
+  gl::api().BindVertexArray(camera ? job.vertex_array : no_vertices_.name());
+  const int layers = declared(job, whole_name).layers;
+  for (int layer = 0; layer < layers; ++layer) {
+    gl::api().NamedFramebufferTextureLayer(joined_.name(), GL_COLOR_ATTACHMENT0, map.name(), 0, layer);
+    if (guards_) {
+      const gl::Texture& guard = texture_of(job, whole_guard_name)->texture;
+      gl::api().NamedFramebufferTextureLayer(joined_.name(), GL_COLOR_ATTACHMENT1, guard.name(), 0, 0);
+    }
+    const bool normals_alone = layers > 1 && layer == layers - 1;
+    if (has(effects_, Effect::multi_lobe)) gl::api().Uniform1i(program.uniform("own_lobe"), normals_alone ? -1 : layer);
+    if (!camera) {
+      gl::api().DrawArrays(GL_TRIANGLES, 0, 3);
+      continue;
+    }
+    for (GLint i = 0; i < (guards_ ? 2 : 1); ++i) gl::api().ClearBufferfv(GL_COLOR, i, nothing.data());
+    gl::api().DrawElements(GL_TRIANGLES, job.batch.index_count, GL_UNSIGNED_INT, nullptr);
+  }
+}
+
+void InstantMap::split(const FrameBuildJob& job) const {
+  bind(0, texture_of(job, whole_name)->texture);
+  gl::api().UseProgram(split_->name());
+  for (int own = 0; own < own_lobes(job); ++own) {
+    gl::api().Uniform1i(split_->uniform("source"), own);
+    draw_into(split_stage_, texture_of(job, parts_name)->texture, 0, own * static_cast<int>(parts_));
+  }
+  if (!guards_) return;
+  bind(1, texture_of(job, whole_guard_name)->texture);
+  gl::api().UseProgram(split_guard_->name());
+  gl::api().Uniform1i(split_guard_->uniform("source"), 0);
+  draw_into(split_stage_, texture_of(job, parts_guard_name)->texture, 0, 0);
+}
+
+void InstantMap::draw_into(const Stage& stage, const gl::Texture& map, int level, int first_layer) const {
+  for (GLuint i = 0; i < stage.layers; ++i) {
+    gl::api().NamedFramebufferTextureLayer(stage.framebuffer.name(), GL_COLOR_ATTACHMENT0 + i, map.name(), level,
+                                           first_layer + static_cast<GLint>(i));
+  }
+  gl::api().BindFramebuffer(GL_FRAMEBUFFER, stage.framebuffer.name());
+  gl::api().Viewport(0, 0, std::max(map.width() >> level, 1), std::max(map.height() >> level, 1));
+  gl::api().BindVertexArray(no_vertices_.name());
+  gl::api().DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+// Fills the further levels of a texture, if the job has it.
+void InstantMap::coarsen(const Stage& stage, const FrameBuildJob& job, std::string_view name) const {
+  const GpuTexture* built = texture_of(job, name);
+  if (built == nullptr) return;
+  const int levels = static_cast<int>(declared(job, name).levels.size());
+  const int layers = declared(job, name).layers;
+  bind(0, built->texture);
+  gl::api().UseProgram(stage.coarsen.name());
+  for (int level = 1; level < levels; ++level) {
+    show_one_level(built->texture, level - 1);
+    for (int first = 0; first < layers; first += static_cast<int>(stage.layers)) {
+      gl::api().Uniform1i(stage.coarsen.uniform("first_layer"), first);
+      draw_into(stage, built->texture, level, first);
+    }
+  }
+  show_all_levels(built->texture, levels);
+}
+
+}  // namespace xu_vmf
+}  // namespace footprint

@@ -1,0 +1,245 @@
+// See surface_layout.hpp.
+#include "methods/xu_vmf/surface_layout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <span>
+
+namespace footprint::xu_vmf {
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+constexpr double tolerance = 1e-2;          // texels that rounding may carry a coordinate over the map's edge
+constexpr double permitted_overlap = 1e-3;  // of the covered texels: rounding along shared edges
+constexpr double largest_coordinate = 1e6;  // texels; what lies beyond is no layout
+
+// A rectangle of texels, `end` excluded.
+struct Box {
+  glm::ivec2 first{0}, end{0};
+  [[nodiscard]] glm::ivec2 size() const { return end - first; }
+};
+
+// The triangles that hang together by their vertices, and the texels that they lie in.
+struct Chart {
+  std::vector<Triangle> triangles;
+  Box box;
+  glm::ivec2 place{0};  // of its box in the atlas
+};
+
+// How many texels have been covered, and how many of them more than once.
+class Coverage {
+ public:
+  explicit Coverage(const Box& box)
+      : box_(box), covered_(static_cast<std::size_t>(box.size().x) * static_cast<std::size_t>(box.size().y)) {}
+
+  // Covers the texels whose centres lie inside, as a rasteriser does: of a shared edge one side alone has those on it.
+  void add(std::span<const glm::dvec2, 3> corners) {
+    const double area = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    if (area == 0.0) return;
+    const std::array<glm::dvec2, 3> turned{corners[0], corners[area > 0 ? 1 : 2], corners[area > 0 ? 2 : 1]};
+    const glm::dvec2 lower = glm::min(turned[0], glm::min(turned[1], turned[2]));
+    const glm::dvec2 upper = glm::max(turned[0], glm::max(turned[1], turned[2]));
+    const glm::ivec2 first = glm::max(glm::ivec2(glm::floor(lower)), box_.first);
+    const glm::ivec2 end = glm::min(glm::ivec2(glm::floor(upper)) + 1, box_.end);
+    for (int y = first.y; y < end.y; ++y) {
+      for (int x = first.x; x < end.x; ++x) {
+        if (holds(turned, glm::dvec2(x, y) + 0.5)) cover(x, y);
+      }
+    }
+  }
+
+  [[nodiscard]] bool overlaps() const { return twice_ > permitted_overlap * once_; }
+
+ private:
+  static double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+  static bool holds(const std::array<glm::dvec2, 3>& corners, const glm::dvec2& point) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::dvec2 from = corners.at(i);
+      const glm::dvec2 edge = corners.at((i + 1) % 3) - from;
+      const double side = cross(edge, point - from);
+      const bool keeps_edge = edge.y > 0.0 || (edge.y == 0.0 && edge.x < 0.0);
+      if (side < 0.0 || (side == 0.0 && !keeps_edge)) return false;
+    }
+    return true;
+  }
+
+  void cover(int x, int y) {
+    const glm::ivec2 at = glm::ivec2(x, y) - box_.first;
+    const auto index =
+        static_cast<std::size_t>(at.y) * static_cast<std::size_t>(box_.size().x) + static_cast<std::size_t>(at.x);
+    ++(covered_[index] ? twice_ : once_);
+    covered_[index] = true;
+  }
+
+  Box box_;
+  std::vector<bool> covered_;
+  double once_ = 0, twice_ = 0;
+};
+
+std::vector<glm::dvec2> texel_coordinates(const TriangleSoup& triangles, const TextureCoordinates& coordinates,
+                                          const glm::ivec2& size) {
+  std::vector<glm::dvec2> out;
+  out.reserve(triangles.vertices.size());
+  for (const Vertex& vertex : triangles.vertices) {
+    const glm::vec2 uv = coordinates.set == 0 ? vertex.uv0 : vertex.uv1;
+    out.push_back(glm::dvec2(coordinates.transform * glm::vec3(uv, 1.0F)) * glm::dvec2(size));
+  }
+  return out;
+}
+
+std::array<glm::dvec2, 3> corners_of(const Triangle& triangle, std::span<const glm::dvec2> places) {
+  return {places[triangle[0]], places[triangle[1]], places[triangle[2]]};
+}
+
+bool overlaps(std::span<const Triangle> triangles, std::span<const glm::dvec2> places, const Box& box) {
+  Coverage coverage(box);
+  for (const Triangle& triangle : triangles) coverage.add(corners_of(triangle, places));
+  return coverage.overlaps();
+}
+
+std::vector<Triangle> triangle_list(const TriangleSoup& soup) {
+  std::vector<Triangle> out;
+  for (std::size_t i = 0; i + 2 < soup.indices.size(); i += 3)
+    out.push_back({soup.indices[i], soup.indices[i + 1], soup.indices[i + 2]});
+  return out;
+}
+
+// Vertices that triangles join, directly or by others, have one root.
+class VertexGroups {
+ public:
+  explicit VertexGroups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
+  std::uint32_t root(std::uint32_t vertex) {
+    while (parent_[vertex] != vertex) vertex = parent_[vertex] = parent_[parent_[vertex]];
+    return vertex;
+  }
+  void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+Box box_of(std::span<const Triangle> triangles, std::span<const glm::dvec2> places) {
+  glm::dvec2 lower(largest_coordinate), upper(-largest_coordinate);
+  for (const Triangle& triangle : triangles) {
+    for (const std::uint32_t vertex : triangle) {
+      lower = glm::min(lower, places[vertex]);
+      upper = glm::max(upper, places[vertex]);
+    }
+  }
+  return {glm::ivec2(glm::floor(lower + tolerance)), glm::ivec2(glm::ceil(upper - tolerance))};
+}
+
+std::vector<Chart> charts_of(std::span<const Triangle> triangles, std::span<const glm::dvec2> places) {
+  VertexGroups groups(places.size());
+  for (const Triangle& triangle : triangles) {
+    groups.join(triangle[0], triangle[1]);
+    groups.join(triangle[0], triangle[2]);
+  }
+  std::vector<std::optional<std::size_t>> chart_of(places.size());
+  std::vector<Chart> charts;
+  for (const Triangle& triangle : triangles) {
+    std::optional<std::size_t>& chart = chart_of[groups.root(triangle[0])];
+    if (!chart) {
+      chart = charts.size();
+      charts.emplace_back();
+    }
+    charts[*chart].triangles.push_back(triangle);
+  }
+  for (Chart& chart : charts) {
+    chart.box = box_of(chart.triangles, places);
+    chart.box.end = glm::max(chart.box.end, chart.box.first + 1);
+  }
+  return charts;
+}
+
+// Shelves: charts by height, the highest first, from left to right. Gives the size of the whole; none if that is over
+// `largest_atlas`.
+std::optional<glm::ivec2> pack(std::vector<Chart>& charts) {
+  double area = 0;
+  int widest = 1;
+  std::vector<Chart*> order;
+  for (Chart& chart : charts) {
+    const glm::ivec2 cell = chart.box.size() + chart_gap;
+    area += static_cast<double>(cell.x) * cell.y;
+    widest = std::max(widest, cell.x);
+    order.push_back(&chart);
+  }
+  if (area > static_cast<double>(largest_atlas)) return {};
+  constexpr int multiple = 64;  // halves evenly, level after level
+  const auto rounded = [](int size) { return (size + multiple - 1) / multiple * multiple; };
+  const int width = rounded(std::max(widest, static_cast<int>(std::ceil(std::sqrt(area)))));
+  std::ranges::stable_sort(order, std::ranges::greater(), [](const Chart* chart) { return chart->box.size().y; });
+  glm::ivec2 pen(0);
+  int shelf = 0;
+  for (Chart* chart : order) {
+    const glm::ivec2 cell = chart->box.size() + chart_gap;
+    if (pen.x + cell.x > width) pen = {0, pen.y + shelf}, shelf = 0;
+    chart->place = pen + chart_gap / 2;
+    pen.x += cell.x;
+    shelf = std::max(shelf, cell.y);
+  }
+  const glm::ivec2 size(width, rounded(pen.y + shelf));
+  if (static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) > largest_atlas) return {};
+  return size;
+}
+
+// Moves every chart to its place; `places` turn from texels of the map to texels of the atlas.
+void move(std::span<const Chart> charts, std::span<glm::dvec2> places) {
+  std::vector<bool> moved(places.size());
+  for (const Chart& chart : charts) {
+    for (const Triangle& triangle : chart.triangles) {
+      for (const std::uint32_t vertex : triangle) {
+        if (!moved[vertex]) places[vertex] += glm::dvec2(chart.place - chart.box.first);
+        moved[vertex] = true;
+      }
+    }
+  }
+}
+
+SurfaceLayout layout(const glm::ivec2& size, std::span<const glm::dvec2> places, std::string note, bool unique) {
+  SurfaceLayout out{.size = size, .coordinates = {}, .unique = unique, .note = std::move(note)};
+  out.coordinates.reserve(places.size());
+  for (const glm::dvec2& place : places) out.coordinates.emplace_back(place / glm::dvec2(size));
+  return out;
+}
+
+}  // namespace
+
+SurfaceLayout lay_out(const TriangleSoup& soup, const TextureCoordinates& coordinates, const glm::ivec2& map_size) {
+  std::vector<glm::dvec2> places = texel_coordinates(soup, coordinates, map_size);
+  const auto none = [&](const std::string& why) {
+    return layout(map_size, places, why + ": joined in the tangent frame", false);
+  };
+  const bool sound = std::ranges::all_of(places, [](const glm::dvec2& place) {
+    return std::abs(place.x) < largest_coordinate && std::abs(place.y) < largest_coordinate;  // false for a NaN too
+  });
+  if (!sound) return none("texture coordinates are not finite, or far outside of the map");
+  const std::vector<Triangle> triangles = triangle_list(soup);
+  if (triangles.empty()) return layout(map_size, places, {}, true);
+  const Box map{{0, 0}, map_size};
+  const Box used = box_of(triangles, places);
+  const bool inside =
+      glm::all(glm::greaterThanEqual(used.first, map.first)) && glm::all(glm::lessThanEqual(used.end, map.end));
+  if (inside && !overlaps(triangles, places, map)) return layout(map_size, places, {}, true);
+  std::vector<Chart> charts = charts_of(triangles, places);
+  const std::optional<glm::ivec2> size = pack(charts);
+  if (!size) return none(fmt::format("an atlas of its own would have more than {} texels", largest_atlas));
+  for (const Chart& chart : charts) {
+    if (overlaps(chart.triangles, places, chart.box)) return none("texture coordinates overlap within one chart");
+  }
+  move(charts, places);
+  return layout(*size, places,
+                fmt::format("the texture coordinates {}: an atlas of {} x {} texels in {} charts",
+                            inside ? "overlap" : "leave the map", size->x, size->y, charts.size()),
+                true);
+}
+
+}  // namespace footprint::xu_vmf

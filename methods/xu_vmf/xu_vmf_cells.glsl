@@ -1,0 +1,18 @@
+// The parts that the hemisphere of normals is cut into: 8 cells, two of them to each of 4 parts. r has the direction.
+//? if partition_azimuth
+// Four sectors about the axes, so that grooves along an axis fall whole into opposite ones; each is cut at the middle
+// of the disc's radius.
+int cellOf(vec3 r) {
+  int sector = abs(r.x) >= abs(r.y) ? (r.x >= 0.0 ? 0 : 2) : (r.y > 0.0 ? 1 : 3);
+  return 2 * sector + (dot(r.xy, r.xy) >= 0.25 * dot(r, r) ? 1 : 0);
+}
+//? else
+// Four rings of equal width over the disc, each cut in halves.
+int cellOf(vec3 r) { return 2 * min(int(4.0 * sqrt(dot(r.xy, r.xy) / max(dot(r, r), 1e-30))), 3) + (r.x >= 0.0 ? 0 : 1); }
+//? end
+
+//? if j_4
+int partOfCell(int cell) { return cell / 2; }
+//? else
+int partOfCell(int cell) { return cell; }
+//? end

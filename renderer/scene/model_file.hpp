@@ -1,0 +1,20 @@
+// Model files of every format that is read, told apart by their endings.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "renderer/scene/model.hpp"
+
+namespace footprint {
+
+/// A path's ending in small letters, with its dot.
+[[nodiscard]] std::string lower_extension(const std::filesystem::path& path);
+
+/// Whether a path ends as a model file does: .gltf, .glb or .obj.
+[[nodiscard]] bool names_model(const std::filesystem::path& path);
+
+/// Loads an .obj file as such, any other as glTF. Errors (usage): as of load_obj and load_gltf.
+[[nodiscard]] Model load_model(const std::filesystem::path& file);
+
+}  // namespace footprint

@@ -1,0 +1,103 @@
+// cast_metal: bronze from a sand mould, grained and pitted, with stains of patina on a smaller map of its own that
+// repeats.
+#include <array>
+#include <cmath>
+
+#include "scenes/surfaces/meshes.hpp"
+#include "scenes/surfaces/octaves.hpp"
+#include "scenes/surfaces/texel_grid.hpp"
+
+namespace footprint {
+namespace {
+
+/// The grain of the mould: cells along the map's width, and slope.
+constexpr std::array<Octave, 4> grain{{{50, 0.03}, {180, 0.08}, {420, 0.18}, {700, 0.22}}};
+constexpr std::array<Octave, 4> stains{{{3, 0.9}, {7, 0.6}, {19, 0.45}, {60, 0.35}}};
+
+/// The map of stains beside a map of 2048 normals a side; smaller in proportion beside others.
+constexpr glm::ivec2 stain_size{671, 457};
+constexpr int grain_size = 2048;
+
+glm::ivec2 stain_size_of(const SurfaceSettings& settings) {
+  const double share = static_cast<double>(settings.resolution) / grain_size;
+  return glm::max(glm::ivec2(glm::round(share * glm::dvec2(stain_size))), glm::ivec2{1});
+}
+
+Image normals(const SurfaceSettings& settings) {
+  std::mt19937_64 random(settings.seed);
+  const OctaveNoise mould(grain, random);
+  const double steepness = settings.parameters.number("steepness");
+  return fill_normals(settings.resolution, [&](const glm::dvec2& place) {
+    return normal_of_slope(steepness * slope_of(mould.relief(HeightPlace{place})));
+  });
+}
+
+/// How far the patina covers a place of the map of stains: 0 bare and rubbed bright, 1 crusted.
+class Patina {
+ public:
+  explicit Patina(const SurfaceSettings& settings)
+      : Patina(std::mt19937_64(settings.seed + (std::uint64_t{1} << 32U))) {}
+
+  [[nodiscard]] double at(const glm::dvec2& place) const { return glm::smoothstep(-0.25, 0.35, noise_.value(place)); }
+
+ private:
+  explicit Patina(std::mt19937_64 random) : noise_(stains, random) {}
+
+  OctaveNoise noise_;
+};
+
+Image base_color(const SurfaceSettings& settings) {
+  const Patina patina(settings);
+  return fill_colors(stain_size_of(settings), [&](const glm::dvec2& place) {
+    return glm::mix(glm::dvec3{0.10, 0.05, 0.02}, glm::dvec3{0.10, 0.24, 0.18}, patina.at(place));
+  });
+}
+
+Image specular(const SurfaceSettings& settings) {
+  const Patina patina(settings);
+  return fill_rgb(stain_size_of(settings), [&](const glm::dvec2& place) {
+    return glm::mix(glm::dvec3{0.72, 0.46, 0.22}, glm::dvec3{0.05, 0.06, 0.05}, patina.at(place));
+  });
+}
+
+Image exponents(const SurfaceSettings& settings) {
+  const Patina patina(settings);
+  return fill_values(stain_size_of(settings), [&](const glm::dvec2& place) {
+    constexpr double bright = 400.0, crusted = 8.0;
+    return bright * std::pow(crusted / bright, patina.at(place));
+  });
+}
+
+glm::vec2 stain_tiling(const SurfaceSettings& settings) {
+  const auto repeats = static_cast<float>(settings.parameters.number("stain_repeats"));
+  // As many texels per metre along v as along u, nearly, and a whole number of times.
+  return {repeats, std::round(repeats * static_cast<float>(stain_size.x) / static_cast<float>(stain_size.y))};
+}
+
+}  // namespace
+
+Surface cast_metal_surface() {
+  return {.name = "cast_metal",
+          .summary = "grained bronze, with stains of patina on a smaller map that repeats (671 x 457 beside 2048)",
+          .parameters = {{.name = "steepness",
+                          .default_value = 1.0,
+                          .minimum = 0,
+                          .maximum = 10,
+                          .meaning = "factor on the slopes of the grain"},
+                         {.name = "stain_repeats",
+                          .default_value = 4.0,
+                          .minimum = 1,
+                          .maximum = 64,
+                          .meaning = "how often the map of stains repeats along the map's width",
+                          .integer = true}},
+          .default_resolution = grain_size,
+          .normals = normals,
+          .base_color = base_color,
+          .specular = specular,
+          .lobe_parameter = exponents,
+          .distribution = NormalDistribution::blinn_phong,
+          .map_tiling = stain_tiling,
+          .mesh = square_mesh};
+}
+
+}  // namespace footprint

@@ -1,0 +1,75 @@
+// checker: two base BRDFs in a checkerboard, without relief.
+#include "scenes/surfaces/meshes.hpp"
+#include "scenes/surfaces/texel_grid.hpp"
+
+namespace footprint {
+namespace {
+
+/// Whether a place lies on a glossy square; the others are dull.
+class Board {
+ public:
+  explicit Board(const SurfaceSettings& settings) : squares_(settings.parameters.number("squares")) {}
+
+  [[nodiscard]] bool is_glossy(const glm::dvec2& place) const {
+    const glm::ivec2 square = glm::ivec2(glm::floor(squares_ * place));
+    return (square.x + square.y) % 2 == 0;
+  }
+
+ private:
+  double squares_;
+};
+
+Image normals(const SurfaceSettings& settings) {
+  return fill_normals(settings.resolution, [](const glm::dvec2&) { return glm::dvec3{0.0, 0.0, 1.0}; });
+}
+
+Image base_color(const SurfaceSettings& settings) {
+  const Board board(settings);
+  return fill_colors(glm::ivec2{settings.resolution}, [&](const glm::dvec2& place) {
+    return board.is_glossy(place) ? glm::dvec3{0.02, 0.03, 0.06} : glm::dvec3{0.34, 0.20, 0.10};
+  });
+}
+
+Image specular(const SurfaceSettings& settings) {
+  const Board board(settings);
+  return fill_rgb(glm::ivec2{settings.resolution}, [&](const glm::dvec2& place) {
+    return board.is_glossy(place) ? glm::dvec3{0.5, 0.52, 0.56} : glm::dvec3{0.3, 0.24, 0.18};
+  });
+}
+
+Image exponents(const SurfaceSettings& settings) {
+  const Board board(settings);
+  const double glossy = settings.parameters.number("glossy"), dull = settings.parameters.number("dull");
+  return fill_values(glm::ivec2{settings.resolution},
+                     [&](const glm::dvec2& place) { return board.is_glossy(place) ? glossy : dull; });
+}
+
+}  // namespace
+
+Surface checker_surface() {
+  return {
+      .name = "checker",
+      .summary = "two base BRDFs in a checkerboard, without relief",
+      .parameters =
+          {{.name = "squares",
+            .default_value = 64.0,
+            .minimum = 1,
+            .maximum = 16384,
+            .meaning = "squares along the map's width; an even number tiles",
+            .integer = true},
+           {.name = "glossy",
+            .default_value = 800.0,
+            .minimum = 1,
+            .maximum = 1e6,
+            .meaning = "exponent of one square's lobe"},
+           {.name = "dull", .default_value = 8.0, .minimum = 1, .maximum = 1e6, .meaning = "exponent of the other's"}},
+      .default_resolution = 512,
+      .normals = normals,
+      .base_color = base_color,
+      .specular = specular,
+      .lobe_parameter = exponents,
+      .distribution = NormalDistribution::blinn_phong,
+      .mesh = square_mesh};
+}
+
+}  // namespace footprint

@@ -1,0 +1,109 @@
+// engine_turned: metal under a polishing rod that was set down in rows: overlapping discs of fine, concentric
+// scratches.
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "renderer/core/random.hpp"
+#include "scenes/surfaces/meshes.hpp"
+#include "scenes/surfaces/texel_grid.hpp"
+#include "scenes/surfaces/wrapped_grid.hpp"
+
+namespace footprint {
+namespace {
+
+/// Lengths on the map are in discs: each is set down one from the next and covers this radius.
+constexpr double disc_radius = 0.74;
+
+/// The scratches of one disc, from its middle outwards.
+struct Disc {
+  std::array<double, 64> ends{};    ///< where each scratch ends, rising
+  std::array<double, 64> slopes{};  ///< of its flanks
+};
+
+Disc draw_disc(int scratches, double tilt, std::mt19937_64& random) {
+  Disc disc;
+  double end = 0.0;
+  for (int i = 0; i < scratches; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    end += 0.6 + 0.8 * uniform(random);
+    disc.ends[at] = end;
+    disc.slopes[at] = tilt * (0.4 + 0.6 * uniform(random));
+  }
+  for (double& x : disc.ends) x *= disc_radius / end;
+  return disc;
+}
+
+/// The discs in their rows. Each lies over its neighbours to the left and below, so that the map tiles.
+class EngineTurning {
+ public:
+  explicit EngineTurning(const SurfaceSettings& settings)
+      : scratches_(static_cast<std::size_t>(settings.parameters.number("scratches"))),
+        discs_(static_cast<int>(settings.parameters.number("count")),
+               static_cast<int>(settings.parameters.number("count"))) {
+    std::mt19937_64 random(settings.seed);
+    const double tilt = std::tan(glm::radians(settings.parameters.number("tilt_degrees")));
+    for (Disc& disc : discs_) disc = draw_disc(static_cast<int>(scratches_), tilt, random);
+  }
+
+  [[nodiscard]] glm::dvec3 normal(const glm::dvec2& place) const {
+    const glm::dvec2 at = static_cast<double>(discs_.columns()) * place;
+    const int column = static_cast<int>(std::floor(at.x)), row = static_cast<int>(std::floor(at.y));
+    // From the uppermost disc that can reach the place downwards; the last one, in whose square it lies, always does.
+    for (int y = row + 1; y >= row - 1; --y) {
+      for (int x = column + 1; x >= column - 1; --x) {
+        const glm::dvec2 offset = at - (glm::dvec2(x, y) + 0.5);
+        if (glm::dot(offset, offset) < disc_radius * disc_radius) return normal_on(discs_.at(x, y), offset);
+      }
+    }
+    return {0.0, 0.0, 1.0};
+  }
+
+ private:
+  /// Scratches are V-shaped: each has an inner flank, which faces outwards, and an outer one.
+  [[nodiscard]] glm::dvec3 normal_on(const Disc& disc, const glm::dvec2& offset) const {
+    const double radius = glm::length(offset);
+    std::size_t scratch = 0;
+    while (scratch + 1 < scratches_ && disc.ends[scratch] < radius) ++scratch;
+    const double start = scratch == 0 ? 0.0 : disc.ends[scratch - 1];
+    const double side = 2.0 * radius < start + disc.ends[scratch] ? -1.0 : 1.0;
+    return normal_of_slope(side * disc.slopes[scratch] * offset / std::max(radius, 1e-9));
+  }
+
+  std::size_t scratches_;
+  WrappedGrid<Disc> discs_;
+};
+
+Image normals(const SurfaceSettings& settings) {
+  const EngineTurning turning(settings);
+  return fill_normals(settings.resolution, [&](const glm::dvec2& place) { return turning.normal(place); });
+}
+
+}  // namespace
+
+Surface engine_turned_surface() {
+  return {.name = "engine_turned",
+          .summary = "rows of overlapping discs of concentric V-shaped scratches",
+          .parameters = {{.name = "count",
+                          .default_value = 24.0,
+                          .minimum = 1,
+                          .maximum = 1024,
+                          .meaning = "discs along the map's width, and as many rows",
+                          .integer = true},
+                         {.name = "scratches",
+                          .default_value = 14.0,
+                          .minimum = 1,
+                          .maximum = 64,
+                          .meaning = "scratches of a disc",
+                          .integer = true},
+                         {.name = "tilt_degrees",
+                          .default_value = 16.0,
+                          .minimum = 0,
+                          .maximum = 80,
+                          .meaning = "tilt of the steepest scratch's flanks, degrees"}},
+          .default_resolution = 2048,
+          .normals = normals,
+          .mesh = square_mesh};
+}
+
+}  // namespace footprint

@@ -1,0 +1,77 @@
+// See jacquard.hpp.
+#include "scenes/surfaces/jacquard.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "renderer/core/random.hpp"
+#include "scenes/surfaces/wrapped_grid.hpp"
+
+namespace footprint {
+namespace {
+
+/// Whether a flower of six petals around a disc covers a place; 1 is the tip of a petal.
+bool in_flower(const glm::dvec2& place) {
+  const double radius = glm::length(place), angle = std::atan2(place.y, place.x);
+  if (radius < 0.16) return true;
+  if (radius < 0.24) return false;
+  const double petal = std::abs(std::cos(3.0 * angle));
+  const bool vein = petal > 0.985 && radius > 0.4 && radius < 0.85;
+  return radius < 0.3 + 0.7 * petal && !vein;
+}
+
+/// Whether the figure covers a place of its repeat, both coordinates within -1 to 1: ovals that touch at the repeat's
+/// corners and middles of sides, a band around each, leaves where they meet.
+bool in_figure(const glm::dvec2& place) {
+  const auto oval = [](const glm::dvec2& at) {
+    // Pointed at top and bottom: the bounding wave swings from side to side.
+    return std::abs(at.x) - 0.5 * (1.0 + std::cos(std::numbers::pi * at.y));
+  };
+  const double edge = oval(place);
+  if (std::abs(edge + 0.02) < 0.055) return true;
+  if (std::abs(edge + 0.17) < 0.02) return true;
+  if (edge < -0.19) return in_flower(place / glm::dvec2{0.62, 0.5});
+  // Between the ovals lie those of the rows beside, half a repeat away.
+  const glm::dvec2 other{place.x - std::copysign(1.0, place.x), place.y - std::copysign(1.0, place.y)};
+  if (std::abs(oval(other) + 0.17) < 0.02) return true;
+  return oval(other) < -0.19 && in_flower(other / glm::dvec2{0.62, 0.5});
+}
+
+/// Where the binding points of a satin of five lie: two threads on in every row.
+bool is_binding(int column, int row) { return wrap(column - 2 * row, 5) == 0; }
+
+}  // namespace
+
+Jacquard::Jacquard(glm::ivec2 threads, glm::ivec2 figures, std::uint32_t seed) : threads_(threads), figures_(figures) {
+  std::mt19937_64 random(seed);
+  for (int i = 0; i < threads.x; ++i) warp_.push_back(uniform(random));
+  for (int i = 0; i < threads.y; ++i) weft_.push_back(uniform(random));
+}
+
+Thread Jacquard::at(const glm::dvec2& place) const {
+  const glm::dvec2 cell = place * glm::dvec2(threads_);
+  const int column = static_cast<int>(std::floor(cell.x)), row = static_cast<int>(std::floor(cell.y));
+  // The loom decides for whole crossings: the figure's outline is stepped.
+  const glm::dvec2 crossing = (glm::dvec2(column, row) + 0.5) / glm::dvec2(threads_);
+  const glm::dvec2 repeat = glm::fract(crossing * glm::dvec2(figures_));
+  Thread thread;
+  thread.figure = in_figure(2.0 * repeat - 1.0);
+  thread.weft = thread.figure != is_binding(column, row);
+  const glm::dvec2 offset = 2.0 * (cell - glm::dvec2(column, row)) - 1.0;
+  thread.across = thread.weft ? offset.y : offset.x;
+  thread.along = thread.weft ? offset.x : offset.y;
+  const auto uneven = [](const std::vector<double>& threads, int index) {
+    return threads[static_cast<std::size_t>(wrap(index, static_cast<int>(threads.size())))];
+  };
+  thread.uneven = thread.weft ? uneven(weft_, row) : uneven(warp_, column);
+  return thread;
+}
+
+glm::dvec3 Jacquard::normal(const Thread& thread, double roundness) {
+  // A thread is round across; along it, it dives where it ends, at a binding point.
+  const double across = roundness * thread.across, along = 0.35 * roundness * thread.along;
+  const glm::dvec2 tilt = thread.weft ? glm::dvec2{along, across} : glm::dvec2{across, along};
+  return glm::dvec3{tilt, std::sqrt(std::max(0.0, 1.0 - glm::dot(tilt, tilt)))};
+}
+
+}  // namespace footprint

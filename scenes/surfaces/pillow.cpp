@@ -1,0 +1,132 @@
+// pillow: a stuffed pillow in figured silk, whose threads differ in colour and gloss; the cloth itself is flat.
+#include <cmath>
+#include <numbers>
+
+#include "renderer/scene/geometry.hpp"
+#include "scenes/surfaces/height.hpp"
+#include "scenes/surfaces/jacquard.hpp"
+#include "scenes/surfaces/meshes.hpp"
+#include "scenes/surfaces/noise.hpp"
+#include "scenes/surfaces/texel_grid.hpp"
+
+namespace footprint {
+namespace {
+
+/// Metres. The map's upper half lies on the front, its lower half on the back.
+constexpr double half_width = 0.30, half_height = 0.15, half_thickness = 0.085;
+
+constexpr glm::dvec3 warp_color{0.30, 0.012, 0.035}, weft_color{0.42, 0.25, 0.06};
+
+/// The map's halves are twice as wide as high: as many threads per metre each way.
+Jacquard cloth(const SurfaceSettings& settings) {
+  return {glm::ivec2{static_cast<int>(settings.parameters.number("threads"))}, {5, 4}, settings.seed};
+}
+
+Image normals(const SurfaceSettings& settings) {
+  return fill_normals(settings.resolution, [](const glm::dvec2&) { return glm::dvec3{0.0, 0.0, 1.0}; });
+}
+
+/// Darker at a thread's edges, where it dives under its neighbours.
+Image base_color(const SurfaceSettings& settings) {
+  const Jacquard silk = cloth(settings);
+  return fill_colors(glm::ivec2{settings.resolution}, [&](const glm::dvec2& place) {
+    const Thread thread = silk.at(place);
+    const double shade = (1.0 - 0.45 * thread.across * thread.across) * (0.8 + 0.4 * thread.uneven);
+    return glm::min(shade * (thread.weft ? weft_color : warp_color), 1.0);
+  });
+}
+
+Image specular(const SurfaceSettings& settings) {
+  const Jacquard silk = cloth(settings);
+  return fill_rgb(glm::ivec2{settings.resolution}, [&](const glm::dvec2& place) {
+    return silk.at(place).weft ? glm::dvec3{0.55, 0.38, 0.14} : glm::dvec3{0.06, 0.028, 0.034};
+  });
+}
+
+/// Silk is glossy along the weft's long floats and dull where a thread has been worked harder.
+Image exponents(const SurfaceSettings& settings) {
+  const Jacquard silk = cloth(settings);
+  return fill_values(glm::ivec2{settings.resolution}, [&](const glm::dvec2& place) {
+    const Thread thread = silk.at(place);
+    return (thread.weft ? 220.0 : 14.0) * std::exp2(2.0 * thread.uneven - 1.0);
+  });
+}
+
+/// One side, `facing` 1 the front and -1 the back. (s, t) runs over the side from corner to corner, -1 to 1.
+class Stuffing {
+ public:
+  explicit Stuffing(std::uint32_t seed) : Stuffing(std::mt19937_64(seed)) {}
+
+  [[nodiscard]] BentPoint at(const HeightPlace& place, double facing) const {
+    const Height s = spread(place.x), t = spread(place.y);
+    // Filling draws the sides in, which leaves the corners out.
+    const Height x = half_width * s * (1.0 - 0.10 * (1.0 - t * t) * s * s);
+    const Height y = half_height * t * (1.0 - 0.16 * (1.0 - s * s) * t * t);
+    const Height round = cos(quarter * place.x) * cos(quarter * place.y);
+    const Height dents = noise_.at(3.0 * place.x + 3.0 * facing, 1.7 * place.y);
+    return {x, y, facing * half_thickness * round * (1.0 + 0.10 * dents + puckers(place, facing))};
+  }
+
+ private:
+  explicit Stuffing(std::mt19937_64 random) : noise_(16, random) {}
+
+  static constexpr double quarter = std::numbers::pi / 2.0;
+
+  /// Close together near the seams, where the side turns; never quite standing still, so that corners have a normal.
+  [[nodiscard]] static Height spread(const Height& x) { return 0.9 * sin(quarter * x) + 0.1 * x; }
+
+  /// Short creases across the seams and long ones out of the corners.
+  [[nodiscard]] Height puckers(const HeightPlace& place, double facing) const {
+    const Height to_sides = place.x * place.x, to_ends = place.y * place.y;
+    const Height along_sides = noise_.at(11.0 * place.y + 5.0 * facing, 0.8 * place.x);
+    const Height along_ends = noise_.at(19.0 * place.x + 7.0 * facing, 0.8 * place.y);
+    const Height corners = noise_.at(5.0 * (place.x - place.y) + 2.0 * facing, 5.0 * (place.x + place.y));
+    return 0.5 * to_sides * to_sides * along_sides + 0.5 * to_ends * to_ends * along_ends +
+           0.6 * to_sides * to_ends * corners;
+  }
+
+  PeriodicNoise noise_;
+};
+
+/// Front and back meet along the seam.
+Mesh mesh(const SurfaceSettings& settings) {
+  constexpr int columns = 160, rows = 80;
+  const Stuffing stuffing(settings.seed);
+  const auto side = [&](double facing) {
+    return grid_mesh(columns, rows, [&](const glm::dvec2& place) {
+      const HeightPlace at{2.0 * place - 1.0};
+      HeightPlace turned = at;
+      turned.x *= facing;
+      // Nearer to lengths along the cloth than (s, t) are.
+      const auto share = [](double t) { return 0.5 + 0.5 * (0.5 * t + 0.5 * std::sin(std::numbers::pi / 2.0 * t)); };
+      const double v = 1.0 - share(at.y.value());
+      return bent_vertex(stuffing.at(turned, facing), {share(at.x.value()), facing > 0.0 ? 0.5 * v : 0.5 + 0.5 * v});
+    });
+  };
+  Mesh mesh = side(1.0);
+  append(mesh, side(-1.0));
+  mesh.name = "pillow";
+  return mesh;
+}
+
+}  // namespace
+
+Surface pillow_surface() {
+  return {.name = "pillow",
+          .summary = "a stuffed pillow in figured silk: two threads that differ in colour and gloss, no relief",
+          .parameters = {{.name = "threads",
+                          .default_value = 320.0,
+                          .minimum = 5,
+                          .maximum = 8192,
+                          .meaning = "warp threads along the map's width, and as many weft threads",
+                          .integer = true}},
+          .default_resolution = 1024,
+          .normals = normals,
+          .base_color = base_color,
+          .specular = specular,
+          .lobe_parameter = exponents,
+          .distribution = NormalDistribution::blinn_phong,
+          .mesh = mesh};
+}
+
+}  // namespace footprint

@@ -1,4 +1,5 @@
-// footprint_bench: what frames, the reference, start-up, mip chains, mixtures and baking cost (docs/performance.md).
+// footprint_bench: what frames, the reference, start-up, mip chains, mixtures, edits of small-scale geometry and baking
+// cost (docs/performance.md).
 #include <benchmark/benchmark.h>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +10,8 @@
 #include <string>
 
 #include "bench/frame_benchmarks.hpp"
+#include "bench/frame_builds.hpp"
+#include "bench/iwasaki_benchmarks.hpp"
 #include "bench/mip_benchmarks.hpp"
 #include "bench/ratios.hpp"
 #include "bench/tan_gmm_benchmarks.hpp"
@@ -22,6 +25,10 @@ void run(int argc, char** argv) {
   int repeats = 0;
   app.add_option("--ratios", repeats, "Print ratios of interleaved frame times over this many rounds, and nothing else")
       ->check(CLI::Range(1, 100000));
+  int build_repeats = 0;
+  app.add_option("--builds", build_repeats,
+                 "Print what frame builds of --methods cost by the size of the map, over this many rounds")
+      ->check(CLI::Range(1, 100000));
   std::string scene_name;
   app.add_option("--scene", scene_name, "What to draw: as `footprint compare` takes it; if not given, ClearCoatTest");
   std::string methods;
@@ -32,6 +39,11 @@ void run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     std::exit(app.exit(error));
+  }
+  if (build_repeats > 0) {
+    if (methods.empty()) methods = "xu_vmf:rebuild=changed";
+    (void)std::fputs(footprint::bench::frame_build_table(methods, build_repeats).c_str(), stdout);
+    return;
   }
   std::optional<footprint::Scene> scene = footprint::bench::load_bench_scene(scene_name);
   std::optional<footprint::bench::BenchScene> subject;
@@ -46,6 +58,7 @@ void run(int argc, char** argv) {
   }
   footprint::bench::register_mip_benchmarks();
   footprint::bench::register_tan_gmm_benchmarks();
+  footprint::bench::register_iwasaki_benchmarks();
   benchmark::RunSpecifiedBenchmarks();
 }
 

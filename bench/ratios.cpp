@@ -4,39 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <vector>
 
-#include "renderer/gl/functions.hpp"
-#include "renderer/pipeline/timing.hpp"
+#include "bench/side_by_side.hpp"
 
 namespace footprint::bench {
 namespace {
-
-using Times = std::vector<std::vector<double>>;  // [candidate][repeat], milliseconds
-
-struct WallAndCpu {
-  Times wall, cpu;
-};
-
-// CPU time is that of all threads of the process: other load on the machine hardly moves it, while wall clock shows
-// what a user waits for.
-WallAndCpu measure(const BenchScene& scene, const std::vector<DrawFrame>& candidates, int repeats) {
-  WallAndCpu times;
-  times.cpu.resize(candidates.size());
-  std::vector<DrawFrame> measured;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    measured.emplace_back([&, i] {
-      const std::clock_t start = std::clock();
-      candidates[i]();
-      gl::api().Finish();
-      times.cpu[i].push_back(1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
-    });
-  }
-  times.wall = interleaved_times(scene.stage().context().info(), measured, repeats, no_progress);
-  for (std::vector<double>& cpu : times.cpu) cpu.erase(cpu.begin());  // the round that warms up
-  return times;
-}
 
 std::string row(const std::string& name, const std::vector<double>& a, const std::vector<double>& b) {
   const std::vector<double> ratios = paired_ratios(a, b);
@@ -59,7 +32,7 @@ std::string frame_rows(const BenchScene& scene, const std::string& over, int rep
     if (&method == &scene.method(over)) base = candidates.size();
     candidates.emplace_back([&scene, &method] { scene.draw(method); });
   }
-  const WallAndCpu times = measure(scene, candidates, repeats);
+  const WallAndCpu times = side_by_side(scene.stage().context().info(), candidates, repeats);
   std::string text = rows("direct / bare", times, direct, 0);
   for (std::size_t i = 1; i < candidates.size(); ++i) {
     if (i == base) continue;
@@ -74,7 +47,8 @@ std::string reference_rows(const BenchScene& scene, int repeats) {
                                           [&scene, &direct] {
                                             for (int i = 0; i < reference_spp; ++i) scene.draw(direct);
                                           }};
-  return rows(fmt::format("reference / {} direct", reference_spp), measure(scene, candidates, repeats), 0, 1);
+  return rows(fmt::format("reference / {} direct", reference_spp),
+              side_by_side(scene.stage().context().info(), candidates, repeats), 0, 1);
 }
 
 }  // namespace

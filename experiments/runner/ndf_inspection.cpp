@@ -112,6 +112,8 @@ class Bench {
     const BakedMethod baked = bake(method, spec, scene_, effects_, progress, cache_ ? &*cache_ : nullptr);
     const MethodNdf ndf(context_.info(), gpu_scene_, baked, scene_.materials.front(), settings_.anisotropy,
                         settings_.tile);
+    for (const std::string& note : baked.materials.front().notes)
+      results.notes.push_back(fmt::format("{}: {}", spec.text, note));
     const std::vector<float> densities = ndf.densities(settings_.footprint, grid.hemisphere.directions);
     const NdfFigures figures = compare_ndfs(grid.hemisphere, densities, grid.truth);
     NdfRecord record{spec.text, {}, figures.l2, figures.energy, figures.peak, method.lobe_count(baked.options), {}};

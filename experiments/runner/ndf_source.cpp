@@ -93,7 +93,9 @@ NdfSource load_ndf_source(const std::string& path, const std::string& material, 
     throw Error(ErrorKind::usage, "--material", fmt::format("{} is a map and has no materials", path), "leave it out");
   }
   const Scene scene = load_scene(path, library);
-  return {path, false, scene.materials.at(material_index(scene, material)), scene.warnings};
+  NdfSource source{path, false, scene.materials.at(material_index(scene, material)), scene.warnings};
+  if (source.material.layer_map) source.notes.emplace_back("the detail layer is left out: one normal map is inspected");
+  return source;
 }
 
 }  // namespace footprint

@@ -6,6 +6,7 @@
 
 #include "methods/fournier/peak_chain.hpp"
 #include "renderer/pipeline/base_surface.hpp"
+#include "renderer/pipeline/facet_lobes.hpp"
 #include "renderer/pipeline/normal_chain.hpp"
 
 namespace footprint {
@@ -16,11 +17,10 @@ extern const std::string_view fournier_glsl;
 
 namespace {
 
-// The lobe that is fitted with; where the roughness varies, that of the mean variance.
+// The lobe that is fitted with; where the roughness varies, that of the mean variance, as where there are several
+// lobes.
 double base_variance(const Material& material) {
-  const NormalDistribution distribution = material.brdf.distribution;
-  const Image roughness = roughness_map_of(material);
-  if (roughness.texel_count() == 1) return lobe_variance(distribution, lobe_parameter(material));
+  if (width_map(material) == nullptr) return mean_lobe_variance(material);
   const double deviation = lobe_deviation_chain(material).back().texels.front();
   return deviation * deviation;
 }
@@ -94,7 +94,7 @@ class Fournier final : public Method {
                        "pixel sums up to 8 times as many.",
                    .integer = true},
                   peak_storage_option()},
-      .honours = EffectSet{}.set(),
+      .honours = map_effects_but({Effect::normal_layers, Effect::environment_light}),
       .slow_precompute = true};
 };
 

@@ -21,16 +21,20 @@ struct Effective {
 //? if diffuse
   mat2 root;  // of the covariance, symmetric
 //? end
+//? if environment_light
+  LobeRow row;
+//? end
 };
 
 Effective effective(Footprints f) {
   Effective e;
   e.lobe = footprintLobe(f);
   e.round_lobe = lobeFromVariance(e.lobe.breadth);
+//? if environment_light
+  e.row = lobeRow(e.lobe);
+//? end
 //? if diffuse
-  mat2 c = e.lobe.spread;
-  float s = sqrt(determinantOfCovariance(c));
-  e.root = (c + mat2(s)) / max(sqrt(c[0][0] + c[1][1] + 2.0 * s), 1e-12);
+  e.root = covarianceRoot(e.lobe.spread);
 //? end
   return e;
 }
@@ -147,5 +151,27 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
 #endif
 #endif
   return lambert(mean * wi, albedo, f0, wi, wo);
+}
+//? end
+
+//? if environment_light
+int lobeCount(Effective e) { return 2 * e.row.half_count + 1; }
+
+NormalLobe normalLobe(Effective e, int i) { return lobeOfRow(e.lobe, e.row, i); }
+
+float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) { return factor(e, h, wi, wo); }
+
+// By the points of `diffuse`.
+vec3 meanNormal(Effective e) {
+  vec3 sum = vec3(0.0);
+//? if diffuse
+  for (int i = -1; i <= 1; ++i) {
+    for (int j = -1; j <= 1; ++j) {
+      float weight = (i == 0 ? 4.0 : 1.0) * (j == 0 ? 4.0 : 1.0);
+      sum += weight / 36.0 * normalOfSlope(e.lobe.mean + e.root * (1.7320508 * vec2(i, j)));
+    }
+  }
+//? end
+  return sum;
 }
 //? end

@@ -20,7 +20,8 @@ class Lean final : public Method {
                                        const Progress& /*progress*/) const override {
     const bool scalar = options.word("variant") == "clean";
     Prefiltered out = bake_slopes(material, options, effects, scalar ? SlopeVariant::scalar : SlopeVariant::full);
-    if (has(effects, Effect::normal_variation) && has(effects, Effect::diffuse)) {
+    if (has(effects, Effect::normal_variation) && has(effects, Effect::diffuse) &&
+        !has(effects, Effect::normal_layers)) {
       out.textures.push_back(make_texture("lean_normal", mean_normal_chain(material),
                                           parse_storage(options.word("storage")), normal_coordinates(material)));
     }
@@ -37,7 +38,7 @@ class Lean final : public Method {
                                word_option("variant", {"lean", "clean"},
                                            "The whole covariance of slopes, or its trace alone (CLEAN): a round lobe "
                                            "and three channels instead of five.")},
-                   .honours = EffectSet{}.set().reset(static_cast<std::size_t>(Effect::multi_lobe))};
+                   .honours = map_effects_but({Effect::multi_lobe})};
 };
 
 }  // namespace

@@ -6,16 +6,44 @@ struct Effective {
   SlopeLobe lobe;
   float round_lobe;  // parameter of the round base lobe of the same breadth, for the geometry term
   vec3 mean_normal;  // not renormalised: its dot product is the mean of the texels' own
+//? if environment_light
+  LobeRow row;
+//? end
 };
+
+//? if diffuse
+//? if normal_layers
+// The mean of the unit normals of both layers together: no texture holds it, but their slopes' distribution tells it, by
+// 3 x 3 points of Gauss and Hermite.
+vec3 meanNormal(SlopeLobe lobe) {
+  mat2 root = covarianceRoot(lobe.spread);
+  vec3 sum = vec3(0.0);
+  for (int i = -1; i <= 1; ++i) {
+    for (int j = -1; j <= 1; ++j) {
+      float weight = (i == 0 ? 4.0 : 1.0) * (j == 0 ? 4.0 : 1.0) / 36.0;
+      sum += weight * normalOfSlope(lobe.mean + root * (1.7320508 * vec2(i, j)));
+    }
+  }
+  return sum;
+}
+//? end
+//? end
 
 Effective effective(Footprints f) {
   Effective e;
   e.lobe = footprintLobe(f);
   e.round_lobe = lobeFromVariance(e.lobe.breadth);
+//? if environment_light
+  e.row = lobeRow(e.lobe);
+//? end
   e.mean_normal = vec3(0.0, 0.0, 1.0);
 //? if diffuse
+//? if normal_layers
+  e.mean_normal = meanNormal(e.lobe);
+//? else
 //? if normal_variation
   e.mean_normal = fetch(lean_normal, f.normal).xyz;
+//? end
 //? end
 //? end
   return e;
@@ -33,4 +61,16 @@ vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
 vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
   return lambert(e.mean_normal, albedo, f0, wi, wo);
 }
+//? end
+
+//? if environment_light
+int lobeCount(Effective e) { return 2 * e.row.half_count + 1; }
+
+NormalLobe normalLobe(Effective e, int i) { return lobeOfRow(e.lobe, e.row, i); }
+
+float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
+  return geometryFactor(e.round_lobe, e.lobe.axis, h, wi, wo);
+}
+
+vec3 meanNormal(Effective e) { return e.mean_normal; }
 //? end

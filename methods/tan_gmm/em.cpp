@@ -1,70 +1,49 @@
 // See em.hpp.
 #include "methods/tan_gmm/em.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "methods/tan_gmm/sample_sums.hpp"
+
 namespace footprint::tan_gmm {
 namespace {
 
-// Samples are taken in blocks that stay in the first cache; their sums are kept in double.
-constexpr Eigen::Index block_size = 256;
-using Column = Eigen::Array<float, Eigen::Dynamic, 1, Eigen::ColMajor, block_size, 1>;
-using Table = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, block_size, most_components>;
-using Points = Eigen::Map<const Eigen::ArrayXf>;
+// The components that have weight, in their order; the others have no share in any sample.
+struct Present {
+  Terms terms;
+  std::array<std::size_t, most_components> index{};  // in the mixture
+  std::size_t count = 0;
 
-// e^-60 is no responsibility to speak of; far below it products are subnormal, which processors take a hundred times as
-// long for.
-constexpr float least_exponent = -60.0F;
-
-// log(alpha / (2 pi sigma^2)) - r^2 / (2 sigma^2), the terms of a component's log density.
-struct LogDensity {
-  float constant, factor;
-
-  explicit LogDensity(const Gaussian& g)
-      : constant(g.alpha > 0.0F ? std::log(g.alpha / (2.0F * std::numbers::pi_v<float> * g.variance)) : never),
-        factor(0.5F / g.variance) {}
-
-  static constexpr float never = -1e9F;  // far below any density of a sample: its responsibility is 0
+  explicit Present(std::span<const Gaussian> mixture) {
+    for (std::size_t i = 0; i < mixture.size(); ++i) {
+      const Gaussian& g = mixture[i];
+      if (g.alpha <= 0.0F) continue;
+      terms.x[count] = g.x;
+      terms.y[count] = g.y;
+      terms.constant[count] = std::log(g.alpha / (2.0F * std::numbers::pi_v<float> * g.variance));
+      terms.factor[count] = 0.5F / g.variance;
+      index[count++] = i;
+    }
+  }
 };
 
-// Sums about the component's mean before the step; about its own mean they would need a second pass.
-struct Sums {
-  double weight = 0, dx = 0, dy = 0, square = 0;
-};
-
-void add_block(const Points& x, const Points& y, const Points& spread, const Points& weight,
-               std::span<const Gaussian> mixture, std::span<Sums> sums, double& log_likelihood) {
-  const auto count = static_cast<Eigen::Index>(mixture.size());
-  Table square(x.size(), count);
-  Table share(x.size(), count);
-  Column peak = Column::Constant(x.size(), std::numeric_limits<float>::lowest());
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Gaussian& g = mixture[static_cast<std::size_t>(i)];
-    const LogDensity density(g);
-    square.col(i) = (x - g.x).square() + (y - g.y).square() + spread;
-    share.col(i) = density.constant - density.factor * square.col(i);
-    peak = peak.max(share.col(i));
+// A component alone takes every sample whole.
+Sums sums_of_one(const Samples& samples, const Terms& terms) {
+  Sums sums;
+  for (std::size_t j = 0; j < samples.size(); ++j) {
+    const double weight = samples.weight[j];
+    const double dx = static_cast<double>(samples.x[j]) - terms.x[0];
+    const double dy = static_cast<double>(samples.y[j]) - terms.y[0];
+    sums.weight[0] += weight;
+    sums.dx[0] += weight * dx;
+    sums.dy[0] += weight * dy;
+    sums.square[0] += weight * (dx * dx + dy * dy + samples.spread[j]);
   }
-  Column total = Column::Zero(x.size());
-  for (Eigen::Index i = 0; i < count; ++i) {
-    share.col(i) = (share.col(i) - peak).max(least_exponent).exp();
-    total += share.col(i);
-  }
-  log_likelihood += static_cast<double>((weight * (peak + total.log())).sum());
-  total = weight / total;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Gaussian& g = mixture[static_cast<std::size_t>(i)];
-    Sums& sum = sums[static_cast<std::size_t>(i)];
-    share.col(i) *= total;
-    sum.weight += static_cast<double>(share.col(i).sum());
-    sum.dx += static_cast<double>((share.col(i) * (x - g.x)).sum());
-    sum.dy += static_cast<double>((share.col(i) * (y - g.y)).sum());
-    sum.square += static_cast<double>((share.col(i) * square.col(i)).sum());
-  }
+  sums.log_likelihood = terms.constant[0] * sums.weight[0] - terms.factor[0] * sums.square[0];
+  return sums;
 }
 
 }  // namespace
@@ -72,9 +51,11 @@ void add_block(const Points& x, const Points& y, const Points& spread, const Poi
 void Prior::add(std::span<const Gaussian> neighbour) {
   for (std::size_t i = 0; i < neighbour.size(); ++i) {
     const double alpha = neighbour[i].alpha;
+    if (alpha <= 0.0) continue;
     weight_[i] += alpha;
-    x_[i] += alpha * neighbour[i].x;
-    y_[i] += alpha * neighbour[i].y;
+    const double share = alpha / weight_[i];
+    x_[i] += share * (neighbour[i].x - x_[i]);
+    y_[i] += share * (neighbour[i].y - y_[i]);
   }
 }
 
@@ -85,24 +66,21 @@ double Prior::log_density(std::size_t i, double x, double y) const {
 }
 
 Expectation expectation(const Samples& samples, std::span<const Gaussian> mixture) {
-  std::array<Sums, most_components> sums{};
+  const Present present(mixture);
   Expectation e;
-  const auto size = static_cast<Eigen::Index>(samples.size());
-  for (Eigen::Index begin = 0; begin < size; begin += block_size) {
-    const Eigen::Index count = std::min(block_size, size - begin);
-    add_block(Points(samples.x.data() + begin, count), Points(samples.y.data() + begin, count),
-              Points(samples.spread.data() + begin, count), Points(samples.weight.data() + begin, count), mixture, sums,
-              e.log_likelihood);
-  }
-  for (std::size_t i = 0; i < mixture.size(); ++i) {
-    Moments& m = e.moments[i];
-    m.weight = sums[i].weight;
-    if (m.weight <= 0) continue;
-    const double dx = sums[i].dx / m.weight;
-    const double dy = sums[i].dy / m.weight;
-    m.x = mixture[i].x + dx;
-    m.y = mixture[i].y + dy;
-    m.scatter = std::max(sums[i].square - m.weight * (dx * dx + dy * dy), 0.0);
+  if (present.count == 0) return e;
+  const Sums sums =
+      present.count == 1 ? sums_of_one(samples, present.terms) : sums_over(samples, present.terms, present.count);
+  e.log_likelihood = sums.log_likelihood;
+  for (std::size_t k = 0; k < present.count; ++k) {
+    if (sums.weight[k] <= 0) continue;
+    const Gaussian& g = mixture[present.index[k]];
+    const double dx = sums.dx[k] / sums.weight[k];
+    const double dy = sums.dy[k] / sums.weight[k];
+    e.moments[present.index[k]] = {.weight = sums.weight[k],
+                                   .x = g.x + dx,
+                                   .y = g.y + dy,
+                                   .scatter = std::max(sums.square[k] - sums.weight[k] * (dx * dx + dy * dy), 0.0)};
   }
   return e;
 }

@@ -4,11 +4,10 @@
 #include <array>
 #include <span>
 
+#include "methods/tan_gmm/sample_sums.hpp"
 #include "methods/tan_gmm/samples.hpp"
 
 namespace footprint::tan_gmm {
-
-constexpr int most_components = 8;
 
 /// No variance is below it: a Gaussian that shrinks onto one normal would have an infinite likelihood.
 constexpr float variance_floor = 1e-6F;
@@ -34,15 +33,15 @@ class Prior {
 
   /// c sum_k alpha_ki, and the mean of mu_ki with those weights; 0 where it has none.
   [[nodiscard]] double weight(std::size_t i) const { return c_ * weight_[i]; }
-  [[nodiscard]] double mean_x(std::size_t i) const { return weight_[i] > 0 ? x_[i] / weight_[i] : 0.0; }
-  [[nodiscard]] double mean_y(std::size_t i) const { return weight_[i] > 0 ? y_[i] / weight_[i] : 0.0; }
+  [[nodiscard]] double mean_x(std::size_t i) const { return x_[i]; }
+  [[nodiscard]] double mean_y(std::size_t i) const { return y_[i]; }
 
   /// The log of the prior for component i at (x, y), up to a constant that depends on the neighbours alone.
   [[nodiscard]] double log_density(std::size_t i, double x, double y) const;
 
  private:
   double c_;
-  std::array<double, most_components> weight_{}, x_{}, y_{};  // sums over the neighbours
+  std::array<double, most_components> weight_{}, x_{}, y_{};  // sum and means over the neighbours
 };
 
 /// How the mean is updated. exact: the maximum of the posterior; published: Tan's approximation of it, which weighs the
@@ -61,8 +60,9 @@ struct Expectation {
   double log_likelihood = 0;  ///< of the mixture that the responsibilities are taken from
 };
 
-/// The E-step, with responsibilities by log-sum-exp. `samples` and `mixture` are not empty. A sample with a spread
-/// counts as its points would with the mean of their log densities (Verbeek, Nunnink, Vlassis 2006).
+/// The E-step, with responsibilities by log-sum-exp. `samples` is not empty, and a component has an alpha above 0. A
+/// sample with a spread counts as its points would with the mean of their log densities (Verbeek, Nunnink, Vlassis
+/// 2006).
 [[nodiscard]] Expectation expectation(const Samples& samples, std::span<const Gaussian> mixture);
 
 /// The M-step. alpha = sum / M; mu with the variance before the step; then sigma^2 per axis about the new mean, with

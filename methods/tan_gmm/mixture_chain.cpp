@@ -49,9 +49,11 @@ struct Workspace {
 // Fits the texels of one level; the coarser one, if any, is done.
 class LevelFit {
  public:
-  LevelFit(const NormalField& normals, const FitSettings& settings, Moment moment, const Level* coarser, Level& level,
-           std::span<Image> stored, tbb::enumerable_thread_specific<Workspace>& workspaces)
+  LevelFit(const NormalField& normals, const PooledTiles& tiles, const FitSettings& settings, Moment moment,
+           const Level* coarser, Level& level, std::span<Image> stored,
+           tbb::enumerable_thread_specific<Workspace>& workspaces)
       : normals_(&normals),
+        tiles_(&tiles),
         settings_(&settings),
         moment_(moment),
         coarser_(coarser),
@@ -64,18 +66,30 @@ class LevelFit {
   }
 
  private:
-  // A texel needs its neighbours W, NW, N and NE. Those with equal x + 2 y need none of one another, so that a front of
-  // them runs in parallel and every texel still sees what scanline order would have shown it.
+  // A texel needs its neighbours W, NW, N and NE. In the coordinates u = x + y and y all of them lie at no greater u
+  // and no greater y, so that square blocks over (u, y) whose indices have equal sums need none of one another: a front
+  // of them runs in parallel and every texel still sees what scanline order would have shown it.
   void run_wavefront(const std::function<void(double)>& report) const {
-    const int fronts = level_->width() + 2 * (level_->height() - 1);
+    const int side = std::clamp(level_->width() / 32, 1, 16);
+    const int rows = (level_->height() + side - 1) / side;
+    const int reach = (level_->width() + side - 2) / side;  // row r has the blocks r to r + reach
+    const int fronts = 2 * (rows - 1) + reach + 1;
     for (int front = 0; front < fronts; ++front) {
-      const int first = std::max(0, (front - level_->width() + 2) / 2);
-      const int last = std::min(level_->height() - 1, front / 2);
-      tbb::parallel_for(tbb::blocked_range<int>(first, last + 1), [&](const tbb::blocked_range<int>& rows) {
+      const int first = std::max(0, (front - reach + 1) / 2);
+      const int last = std::min(rows - 1, front / 2);
+      tbb::parallel_for(tbb::blocked_range<int>(first, last + 1), [&](const tbb::blocked_range<int>& range) {
         Workspace& workspace = workspaces_->local();
-        for (int y = rows.begin(); y < rows.end(); ++y) fit(front - 2 * y, y, workspace);
+        for (int row = range.begin(); row < range.end(); ++row) fit_block(front - row, row, side, workspace);
       });
       report((front + 1.0) / fronts);
+    }
+  }
+
+  void fit_block(int column, int row, int side, Workspace& workspace) const {
+    const int past = std::min((row + 1) * side, level_->height());
+    for (int y = row * side; y < past; ++y) {
+      const int end = std::min((column + 1) * side - y, level_->width());
+      for (int x = std::max(column * side - y, 0); x < end; ++x) fit(x, y, workspace);
     }
   }
 
@@ -108,8 +122,9 @@ class LevelFit {
 
   void fit(int x, int y, Workspace& workspace) const {
     Samples& samples = workspace.samples;
-    normals_->gather(level_->width(), level_->height(), x, y, samples);
+    tiles_->gather(level_->width(), level_->height(), x, y, samples);
     const double coverage = normals_->coverage(level_->width(), level_->height(), samples);
+    merge_repeats(samples);
     workspace.cells.pool(samples);
     const std::span<Gaussian> mixture = level_->at(x, y);
     fit_texel(samples, prior(x, y), parent(x, y), *settings_, mixture);
@@ -128,6 +143,7 @@ class LevelFit {
   }
 
   const NormalField* normals_;
+  const PooledTiles* tiles_;
   const FitSettings* settings_;
   Moment moment_;
   const Level* coarser_;
@@ -142,6 +158,7 @@ MixtureChain mixture_chain(const NormalField& normals, const FitSettings& settin
                            const Progress& progress) {
   const int levels = mip_level_count(normals.width(), normals.height());
   MixtureChain chain(settings.components, std::vector<Image>(static_cast<std::size_t>(levels)));
+  const PooledTiles tiles(normals);
   tbb::enumerable_thread_specific<Workspace> workspaces;
   Level coarser(0, 0, settings.components);
   for (int index = levels - 1; index >= 0; --index) {
@@ -149,7 +166,8 @@ MixtureChain mixture_chain(const NormalField& normals, const FitSettings& settin
     const int height = std::max(normals.height() >> index, 1);
     Level level(width, height, settings.components);
     std::vector<Image> stored(settings.components, Image(width, height, 4));
-    const LevelFit fit(normals, settings, moment, index == levels - 1 ? nullptr : &coarser, level, stored, workspaces);
+    const LevelFit fit(normals, tiles, settings, moment, index == levels - 1 ? nullptr : &coarser, level, stored,
+                       workspaces);
     const std::string what = fmt::format("fitting mixtures, {} x {}", width, height);
     const int done = levels - 1 - index;  // every level visits every normal, so that each takes about as long
     fit.run([&](double fraction) { progress(what, (done + fraction) / levels); });

@@ -109,6 +109,42 @@ TEST(TanSamples, NormalsBelowTheSurfaceGoToTheRim) {
   EXPECT_NEAR(samples.x.at(0), 1.0F, 1e-6F);
 }
 
+TEST(TanSamples, RepeatsBecomeOne) {
+  Samples samples;
+  for (const float x : {0.1F, 0.1F, 0.2F, 0.1F, 0.1F, 0.1F}) samples.add(x, 0.3F, 0.0F, 2.0F);
+  samples.add(0.1F, 0.3F, 0.01F, 1.0F);  // another spread
+  merge_repeats(samples);
+  EXPECT_EQ(samples.x, (std::vector<float>{0.1F, 0.2F, 0.1F, 0.1F}));
+  EXPECT_EQ(samples.weight, (std::vector<float>{4.0F, 2.0F, 6.0F, 1.0F}));
+  Samples none;
+  merge_repeats(none);
+  EXPECT_EQ(none.size(), 0U);
+}
+
+// Tiles of a map whose levels they fit, and of one whose levels they do not: weight and moments of the normals.
+TEST(TanSamples, TilesHoldWhatTheirTexelsDo) {
+  for (const auto& [width, height] : std::array<std::pair<int, int>, 3>{{{64, 32}, {48, 80}, {37, 50}}}) {
+    const NormalField field(random_normals(width, height, 0.9F, 9));
+    const PooledTiles tiles(field);
+    for (const auto& [columns, rows] : std::array<std::pair<int, int>, 3>{{{1, 1}, {2, 1}, {3, 5}}}) {
+      Samples own;
+      Samples pooled;
+      field.gather(columns, rows, columns - 1, rows - 1, own);
+      tiles.gather(columns, rows, columns - 1, rows - 1, pooled);
+      EXPECT_LE(pooled.size(), own.size());
+      const auto moment = [](const Samples& s, bool second) {
+        double sum = 0;
+        for (std::size_t i = 0; i < s.size(); ++i)
+          sum += s.weight[i] * (second ? s.x[i] * s.x[i] + s.y[i] * s.y[i] + s.spread[i] : s.x[i]);
+        return sum;
+      };
+      EXPECT_NEAR(pooled.total_weight(), own.total_weight(), 1e-3);
+      for (const bool second : {false, true})
+        EXPECT_NEAR(moment(pooled, second), moment(own, second), 1e-5 * own.total_weight());
+    }
+  }
+}
+
 TEST(TanSamples, PoolingKeepsTheMoments) {
   const NormalField field(random_normals(128, 64, 0.9F, 2));
   Samples samples;

@@ -1,9 +1,14 @@
 // See samples.hpp.
 #include "methods/tan_gmm/samples.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace footprint::tan_gmm {
 namespace {
@@ -34,6 +39,19 @@ struct Span {
   }
 };
 
+// In their order.
+void remove_weightless(Samples& samples) {
+  if (std::ranges::find(samples.weight, 0.0F) == samples.weight.end()) return;
+  std::size_t kept = 0;
+  for (std::size_t j = 0; j < samples.size(); ++j) {
+    if (samples.weight[j] <= 0.0F) continue;
+    for (std::vector<float>* column : {&samples.x, &samples.y, &samples.spread, &samples.weight})
+      (*column)[kept] = (*column)[j];
+    ++kept;
+  }
+  samples.resize(kept);
+}
+
 }  // namespace
 
 double Samples::total_weight() const { return std::accumulate(weight.begin(), weight.end(), 0.0); }
@@ -45,8 +63,17 @@ void Samples::add(float x_, float y_, float spread_, float weight_) {
   weight.push_back(weight_);
 }
 
-void Samples::clear() {
-  for (std::vector<float>* column : {&x, &y, &spread, &weight}) column->clear();
+void Samples::append(const Samples& others) {
+  x.insert(x.end(), others.x.begin(), others.x.end());
+  y.insert(y.end(), others.y.begin(), others.y.end());
+  spread.insert(spread.end(), others.spread.begin(), others.spread.end());
+  weight.insert(weight.end(), others.weight.begin(), others.weight.end());
+}
+
+void Samples::clear() { resize(0); }
+
+void Samples::resize(std::size_t size) {
+  for (std::vector<float>* column : {&x, &y, &spread, &weight}) column->resize(size);
 }
 
 NormalField::NormalField(const Image& normals)
@@ -67,23 +94,47 @@ NormalField::NormalField(const Image& normals)
 }
 
 void NormalField::gather(int level_width, int level_height, int column, int row, Samples& out) const {
-  out.clear();
   const Span across(width_, level_width, column);
   const Span down(height_, level_height, row);
-  for (int j = down.first(); j < down.past(); ++j) {
-    const double share = down.share(j);
-    const std::size_t start = static_cast<std::size_t>(j) * static_cast<std::size_t>(width_);
-    for (int i = across.first(); i < across.past(); ++i) {
-      const std::size_t texel = start + static_cast<std::size_t>(i);
-      if (weight_[texel] <= 0.0F) continue;
-      out.add(x_[texel], y_[texel], 0.0F, static_cast<float>(share * across.share(i)) * weight_[texel]);
+  const int first = across.first();
+  const auto columns = static_cast<std::size_t>(across.past() - first);
+  const auto share_first = static_cast<float>(across.share(first));
+  const auto share_last = static_cast<float>(across.share(across.past() - 1));
+  out.resize(columns * static_cast<std::size_t>(down.past() - down.first()));
+  std::ranges::fill(out.spread, 0.0F);
+  std::size_t to = 0;
+  for (int j = down.first(); j < down.past(); ++j, to += columns) {
+    const std::size_t from = static_cast<std::size_t>(j) * static_cast<std::size_t>(width_) + first;
+    const auto share = static_cast<float>(down.share(j));
+    for (std::size_t i = 0; i < columns; ++i) {
+      out.x[to + i] = x_[from + i];
+      out.y[to + i] = y_[from + i];
+      out.weight[to + i] = share * weight_[from + i];
     }
+    out.weight[to] *= share_first;
+    if (columns > 1) out.weight[to + columns - 1] *= share_last;
   }
+  remove_weightless(out);
 }
 
 double NormalField::coverage(int level_width, int level_height, const Samples& samples) const {
   const double area = static_cast<double>(width_) / level_width * height_ / level_height;
   return std::min(samples.total_weight() / area, 1.0);
+}
+
+void merge_repeats(Samples& samples) {
+  std::size_t last = 0;
+  for (std::size_t j = 1; j < samples.size(); ++j) {
+    if (samples.x[j] == samples.x[last] && samples.y[j] == samples.y[last] &&
+        samples.spread[j] == samples.spread[last]) {
+      samples.weight[last] += samples.weight[j];
+      continue;
+    }
+    ++last;
+    for (std::vector<float>* column : {&samples.x, &samples.y, &samples.spread, &samples.weight})
+      (*column)[last] = (*column)[j];
+  }
+  samples.resize(std::min(last + 1, samples.size()));
 }
 
 CellPool::CellPool() : cells_(static_cast<std::size_t>(cells_across) * cells_across) {}
@@ -114,6 +165,41 @@ void CellPool::pool(Samples& samples) {
                 static_cast<float>(y + centre_of(static_cast<int>(index / cells_across))), static_cast<float>(spread),
                 static_cast<float>(cell.weight));
     cell = {};
+  }
+}
+
+PooledTiles::PooledTiles(const NormalField& normals)
+    : normals_(&normals), across_(normals.width() / side), down_(normals.height() / side) {
+  if (!fit(across_, down_)) return;
+  tiles_.resize(static_cast<std::size_t>(across_) * static_cast<std::size_t>(down_));
+  tbb::enumerable_thread_specific<std::pair<CellPool, Samples>> workspaces;
+  tbb::parallel_for(tbb::blocked_range<int>(0, down_), [&](const tbb::blocked_range<int>& rows) {
+    auto& [cells, samples] = workspaces.local();
+    for (int row = rows.begin(); row < rows.end(); ++row) {
+      for (int column = 0; column < across_; ++column) {
+        normals_->gather(across_, down_, column, row, samples);
+        cells.pool(samples);
+        tiles_[static_cast<std::size_t>(row) * static_cast<std::size_t>(across_) + static_cast<std::size_t>(column)] =
+            samples;
+      }
+    }
+  });
+}
+
+bool PooledTiles::fit(int level_width, int level_height) const {
+  return level_width > 0 && level_height > 0 && normals_->width() % (level_width * side) == 0 &&
+         normals_->height() % (level_height * side) == 0;
+}
+
+void PooledTiles::gather(int level_width, int level_height, int column, int row, Samples& out) const {
+  if (!fit(level_width, level_height)) return normals_->gather(level_width, level_height, column, row, out);
+  out.clear();
+  const int columns = across_ / level_width;
+  const int rows = down_ / level_height;
+  for (int j = row * rows; j < (row + 1) * rows; ++j) {
+    for (int i = column * columns; i < (column + 1) * columns; ++i) {
+      out.append(tiles_[static_cast<std::size_t>(j) * static_cast<std::size_t>(across_) + static_cast<std::size_t>(i)]);
+    }
   }
 }
 

@@ -17,7 +17,9 @@ struct Samples {
   [[nodiscard]] std::size_t size() const { return x.size(); }
   [[nodiscard]] double total_weight() const;
   void add(float x_, float y_, float spread_, float weight_);
+  void append(const Samples& others);
   void clear();
+  void resize(std::size_t size);  ///< new ones are all 0 until they are set
 };
 
 /// A normal map projected to the disc: normals renormalised, those that are invalid (weight 0, shorter than 1e-3, not
@@ -42,6 +44,9 @@ class NormalField {
   std::vector<float> x_, y_, weight_;
 };
 
+/// Samples that repeat the one before them become one with their weight.
+void merge_repeats(Samples& samples);
+
 /// Pools the samples of large texels in the cells of a grid over the disc, each to its centroid and spread, so that
 /// first and second moments are kept exactly. Cells are 1/128 wide.
 class CellPool {
@@ -58,6 +63,26 @@ class CellPool {
   };
   std::vector<Cell> cells_;
   std::vector<std::uint32_t> touched_;  // in the order of the first sample
+};
+
+/// The normals of a map by tiles of 16 x 16 texels, each pooled once: levels whose texels hold whole tiles start from
+/// what is left of them.
+class PooledTiles {
+ public:
+  static constexpr int side = 16;
+
+  explicit PooledTiles(const NormalField& normals);
+
+  /// As NormalField::gather, but for the pooling.
+  void gather(int level_width, int level_height, int column, int row, Samples& out) const;
+
+ private:
+  /// Texels of a level of this size are rectangles of whole tiles.
+  [[nodiscard]] bool fit(int level_width, int level_height) const;
+
+  const NormalField* normals_;
+  int across_, down_;  // tiles
+  std::vector<Samples> tiles_;
 };
 
 }  // namespace footprint::tan_gmm

@@ -115,8 +115,8 @@ Gaussian densest_spot(const Samples& samples) {
 
 // For every set of components the best prior of a matching of the first clusters, as many as the set holds, to it.
 struct Matching {
-  double prior = -std::numeric_limits<double>::infinity();
-  std::size_t last = 0;  // the component that the last of those clusters took
+  double prior;
+  std::size_t last;  // the component that the last of those clusters took
 };
 
 }  // namespace
@@ -155,15 +155,19 @@ void dense_start(const Samples& samples, std::span<Gaussian> mixture) {
 // Exact, by dynamic programming over sets of components: 2^n n steps.
 void match_order(const Prior& prior, std::span<Gaussian> mixture) {
   const std::size_t n = mixture.size();
+  std::array<std::array<double, most_components>, most_components> own{};  // of cluster j as component i
+  for (std::size_t j = 0; j < n; ++j) {
+    if (mixture[j].alpha <= 0.0F) continue;
+    for (std::size_t i = 0; i < n; ++i) own[j][i] = prior.log_density(i, mixture[j].x, mixture[j].y);
+  }
   std::array<Matching, std::size_t{1} << most_components> best;
-  best[0].prior = 0;
+  best[0] = {0.0, 0};
   for (std::size_t set = 1; set < (std::size_t{1} << n); ++set) {
+    best[set] = {-std::numeric_limits<double>::infinity(), 0};
     const auto placed = static_cast<std::size_t>(std::popcount(set)) - 1;
-    const Gaussian& cluster = mixture[placed];
     for (std::size_t i = 0; i < n; ++i) {
       if ((set >> i & 1U) == 0) continue;
-      const double own = cluster.alpha > 0.0F ? prior.log_density(i, cluster.x, cluster.y) : 0.0;
-      const double sum = best[set ^ (std::size_t{1} << i)].prior + own;
+      const double sum = best[set ^ (std::size_t{1} << i)].prior + own[placed][i];
       if (sum > best[set].prior) best[set] = {sum, i};
     }
   }

@@ -55,11 +55,9 @@ float baseOverDisc(float variance, float height) {
 //? end
 }
 
-// The normal distribution function, to 1.4e-4 (Page 1977).
-float normalCdf(float x) {
-  float z = clamp(x, -8.0, 8.0);
-  return 1.0 / (1.0 + exp(-z * (1.5976 + 0.070565992 * z * z)));
-}
+//? if not environment_light
+//? include normal_cdf.glsl
+//? end
 
 // The mass of a Gaussian inside the disc: a noncentral chi-squared distribution of 2 degrees of freedom, by Sankaran 1963.
 float massInDisc(vec2 mean, float variance) {
@@ -241,3 +239,29 @@ float ndf(Effective e, vec3 h) {
   for (int i = 0; i < components; ++i) sum += componentDensity(e, i, h);
   return sum;
 }
+
+//? if environment_light
+int lobeCount(Effective e) { return components; }
+
+NormalLobe normalLobe(Effective e, int i) {
+//? if lobe_gaussian
+  // The round lobe of the solid angle above the Gaussian's area of the disc.
+  float width = e.width[i];
+  return vmfNormalLobe(e.mean[i], max(e.mean[i].z, sqrt(width)) / width, 2.0 * pi * width * e.amount[i], e.lobe);
+//? else
+  NormalLobe lobe = baseNormalLobe(e.mean[i], e.width[i], e.amount[i]);
+  lobe.base = e.lobe;
+  return lobe;
+//? end
+}
+
+float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
+  return geometryFactor(lobe.base, lobe.axis, h, wi, wo);
+}
+
+vec3 meanNormal(Effective e) {
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < components; ++i) sum += e.share[i] * e.mean[i];
+  return sum;
+}
+//? end

@@ -39,10 +39,21 @@ class Trials {
 // Rounding aside.
 bool are_one_normal(const Samples& samples) {
   for (std::size_t j = 1; j < samples.size(); ++j) {
-    const float distance = std::hypot(samples.x[j] - samples.x[0], samples.y[j] - samples.y[0]);
-    if (distance > 1e-6F || samples.spread[j] > 0.0F) return false;
+    const float dx = samples.x[j] - samples.x[0];
+    const float dy = samples.y[j] - samples.y[0];
+    if (dx * dx + dy * dy > 1e-12F || samples.spread[j] > 0.0F) return false;
   }
   return true;
+}
+
+// To the component that suits the neighbours: shared among several a normal would be blended with several.
+void give_whole(float x, float y, const Prior& prior, std::span<Gaussian> mixture) {
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < mixture.size(); ++i) {
+    mixture[i] = {.x = static_cast<float>(prior.mean_x(i)), .y = static_cast<float>(prior.mean_y(i))};
+    if (prior.log_density(i, x, y) > prior.log_density(best, x, y)) best = i;
+  }
+  mixture[best] = {.alpha = 1.0F, .x = x, .y = y, .variance = variance_floor};
 }
 
 void start_from_clusters(const Samples& samples, const Prior& prior, std::span<Gaussian> mixture) {
@@ -76,9 +87,7 @@ void fit_texel(const Samples& samples, const Prior& prior, std::span<const Gauss
   if (samples.size() == 0) return;
   const bool inherit = settings.start == Start::inherit && !parent.empty();
   if (are_one_normal(samples)) {
-    // It goes whole to the component that suits the neighbours: shared among several it would be blended with several.
-    mixture[0] = {.alpha = 1.0F, .x = samples.x[0], .y = samples.y[0], .variance = variance_floor};
-    match_order(prior, mixture);
+    give_whole(samples.x[0], samples.y[0], prior, mixture);
   } else if (settings.start == Start::clusters) {
     start_from_clusters(samples, prior, mixture);
   } else if (inherit) {

@@ -24,3 +24,9 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
 //? end
 
 float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }
+
+//? if environment_light
+//? include facet_normal_lobes.glsl
+
+vec3 meanNormal(Effective e) { return e.facets.normal; }
+//? end

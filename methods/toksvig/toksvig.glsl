@@ -38,3 +38,15 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
 //? end
 
 float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }
+
+//? if environment_light
+//? include facet_normal_lobes.glsl
+
+vec3 meanNormal(Effective e) {
+//? if diffuse_mean
+  return e.facets.normal * e.consistency;
+//? else
+  return e.facets.normal;
+//? end
+}
+//? end

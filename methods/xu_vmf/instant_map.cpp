@@ -64,11 +64,18 @@ void show_all_levels(const gl::Texture& map, int levels) {
   gl::api().TextureParameteri(map.name(), GL_TEXTURE_MAX_LEVEL, levels - 1);
 }
 
-int level_count(const FrameBuildJob& job, std::string_view name) {
-  return static_cast<int>(std::ranges::find(job.baked.textures, name, &PrefilteredTexture::name)->levels.size());
+const PrefilteredTexture& declared(const FrameBuildJob& job, std::string_view name) {
+  return *std::ranges::find(job.baked.textures, name, &PrefilteredTexture::name);
 }
 
+// Lobes that each facet has.
+int own_lobes(const FrameBuildJob& job) { return std::max(declared(job, whole_name).layers - 1, 1); }
+
 }  // namespace
+
+int whole_layers(const Material& material) {
+  return material.lobes.empty() ? 1 : static_cast<int>(material.lobes.size()) + 1;
+}
 
 int part_count(const Options& options) {
   const std::string& j = options.word("j");
@@ -97,15 +104,17 @@ InstantMap::InstantMap(const ShaderVariant& variant, const Options& options)
     return fragment("join", {embedded::xu_vmf_conversion_glsl, embedded::xu_vmf_table_glsl,
                              embedded::xu_vmf_storing_glsl, embedded::xu_vmf_join_glsl});
   };
+  const auto layer_count = [](GLuint layers) { return fmt::format("const int layer_count = {};\n", layers); };
   const auto split_text = [&] {
-    return fragment("split", {embedded::xu_vmf_cells_glsl, embedded::xu_vmf_storing_glsl, embedded::xu_vmf_split_glsl});
+    return fragment("split", {layer_count(parts_), embedded::xu_vmf_cells_glsl, embedded::xu_vmf_storing_glsl,
+                              embedded::xu_vmf_split_glsl});
   };
   const auto stage = [&](GLuint layers) {
-    const std::string count = fmt::format("const int layer_count = {};\n", layers);
-    return Stage{framebuffer(layers),
-                 {"xu_vmf_coarsen", screen_vertex_shader(),
-                  fragment("coarsen", {count, embedded::xu_vmf_storing_glsl, embedded::xu_vmf_coarsen_glsl})},
-                 layers};
+    return Stage{
+        framebuffer(layers),
+        {"xu_vmf_coarsen", screen_vertex_shader(),
+         fragment("coarsen", {layer_count(layers), embedded::xu_vmf_storing_glsl, embedded::xu_vmf_coarsen_glsl})},
+        layers};
   };
   join_flat_ = {"xu_vmf_join", screen_vertex_shader(), join_text()};
   whole_ = stage(1);
@@ -134,66 +143,78 @@ void InstantMap::run(const FrameBuildJob& job) const {
   for (const GLenum off : {GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND}) gl::api().Disable(off);
   gl::api().BindBufferBase(GL_UNIFORM_BUFFER, material_binding, job.batch.material_block.name());
   join(job);
-  for (const std::string_view name : {whole_name, whole_guard_name}) {
-    if (const GpuTexture* map = texture_of(job, name)) coarsen(whole_, map->texture, level_count(job, name));
-  }
+  for (const std::string_view name : {whole_name, whole_guard_name}) coarsen(whole_, job, name);
   if (parts_ == 0) return;
   split(job);
-  for (const std::string_view name : {parts_name, parts_guard_name}) {
-    if (const GpuTexture* map = texture_of(job, name)) coarsen(split_stage_, map->texture, level_count(job, name));
+  for (const std::string_view name : {parts_name, parts_guard_name}) coarsen(split_stage_, job, name);
+}
+
+// Binds what the program reads.
+void InstantMap::prepare_join(const FrameBuildJob& job, const gl::Program& program, bool camera) const {
+  constexpr std::array inputs{normals_name, variances_name, table_name};
+  for (GLuint unit = 0; unit < inputs.size(); ++unit) {
+    if (const GpuTexture* input = texture_of(job, inputs.at(unit)))
+      bind(unit, input->texture, samplers_.sampler(input->coordinates, Lookup::nearest));
   }
+  gl::api().UseProgram(program.name());
+  if (!camera) {
+    const gl::Texture& map = texture_of(job, whole_name)->texture;
+    gl::api().Uniform2i(program.uniform("map_size"), map.width(), map.height());
+    return;
+  }
+  const Camera& seen_by = job.view.camera;
+  const glm::mat3 rotation = world_to_camera(seen_by);
+  const glm::vec4 viewer =
+      seen_by.orthographic ? glm::vec4(direction_to_camera(seen_by), 0.0F) : glm::vec4(camera_position(seen_by), 1.0F);
+  gl::api().UniformMatrix3fv(program.uniform("world_to_camera"), 1, GL_FALSE, glm::value_ptr(rotation));
+  gl::api().Uniform4fv(program.uniform("viewer"), 1, glm::value_ptr(viewer));
+  gl::api().Uniform1i(program.uniform("two_sided"), job.batch.double_sided ? 1 : 0);
 }
 
 void InstantMap::join(const FrameBuildJob& job) const {
   const bool camera = in_camera_space(job);
   const gl::Texture& map = texture_of(job, whole_name)->texture;
   const gl::Program& program = camera ? *join_surface_ : join_flat_;
-  constexpr std::array inputs{normals_name, variances_name, table_name};
-  for (GLuint unit = 0; unit < inputs.size(); ++unit) {
-    if (const GpuTexture* input = texture_of(job, inputs.at(unit)))
-      bind(unit, input->texture, samplers_.sampler(input->coordinates, Lookup::nearest));
-  }
-  gl::api().NamedFramebufferTextureLayer(joined_.name(), GL_COLOR_ATTACHMENT0, map.name(), 0, 0);
-  if (guards_) {
-    const gl::Texture& guard = texture_of(job, whole_guard_name)->texture;
-    gl::api().NamedFramebufferTextureLayer(joined_.name(), GL_COLOR_ATTACHMENT1, guard.name(), 0, 0);
-  }
+  prepare_join(job, program, camera);
   gl::api().BindFramebuffer(GL_FRAMEBUFFER, joined_.name());
   gl::api().Viewport(0, 0, map.width(), map.height());
-  gl::api().UseProgram(program.name());
-  if (!camera) {
-    gl::api().Uniform2i(program.uniform("map_size"), map.width(), map.height());
-    gl::api().BindVertexArray(no_vertices_.name());
-    gl::api().DrawArrays(GL_TRIANGLES, 0, 3);
-    return;
+  gl::api().BindVertexArray(camera ? job.vertex_array : no_vertices_.name());
+  const int layers = declared(job, whole_name).layers;
+  for (int layer = 0; layer < layers; ++layer) {
+    gl::api().NamedFramebufferTextureLayer(joined_.name(), GL_COLOR_ATTACHMENT0, map.name(), 0, layer);
+    if (guards_) {
+      const gl::Texture& guard = texture_of(job, whole_guard_name)->texture;
+      gl::api().NamedFramebufferTextureLayer(joined_.name(), GL_COLOR_ATTACHMENT1, guard.name(), 0, 0);
+    }
+    const bool normals_alone = layers > 1 && layer == layers - 1;
+    if (has(effects_, Effect::multi_lobe)) gl::api().Uniform1i(program.uniform("own_lobe"), normals_alone ? -1 : layer);
+    if (!camera) {
+      gl::api().DrawArrays(GL_TRIANGLES, 0, 3);
+      continue;
+    }
+    for (GLint i = 0; i < (guards_ ? 2 : 1); ++i) gl::api().ClearBufferfv(GL_COLOR, i, nothing.data());
+    gl::api().DrawElements(GL_TRIANGLES, job.batch.index_count, GL_UNSIGNED_INT, nullptr);
   }
-  for (GLint i = 0; i < (guards_ ? 2 : 1); ++i) gl::api().ClearBufferfv(GL_COLOR, i, nothing.data());
-  const Camera& camera_of_view = job.view.camera;
-  const glm::mat3 rotation = world_to_camera(camera_of_view);
-  const glm::vec4 viewer = camera_of_view.orthographic ? glm::vec4(direction_to_camera(camera_of_view), 0.0F)
-                                                       : glm::vec4(camera_position(camera_of_view), 1.0F);
-  gl::api().UniformMatrix3fv(program.uniform("world_to_camera"), 1, GL_FALSE, glm::value_ptr(rotation));
-  gl::api().Uniform4fv(program.uniform("viewer"), 1, glm::value_ptr(viewer));
-  gl::api().Uniform1i(program.uniform("two_sided"), job.batch.double_sided ? 1 : 0);
-  gl::api().BindVertexArray(job.vertex_array);
-  gl::api().DrawElements(GL_TRIANGLES, job.batch.index_count, GL_UNSIGNED_INT, nullptr);
 }
 
 void InstantMap::split(const FrameBuildJob& job) const {
-  const gl::Texture& finest = texture_of(job, whole_name)->texture;
-  bind(0, finest);
+  bind(0, texture_of(job, whole_name)->texture);
   gl::api().UseProgram(split_->name());
-  draw_into(split_stage_, texture_of(job, parts_name)->texture, 0);
+  for (int own = 0; own < own_lobes(job); ++own) {
+    gl::api().Uniform1i(split_->uniform("source"), own);
+    draw_into(split_stage_, texture_of(job, parts_name)->texture, 0, own * static_cast<int>(parts_));
+  }
   if (!guards_) return;
   bind(1, texture_of(job, whole_guard_name)->texture);
   gl::api().UseProgram(split_guard_->name());
-  draw_into(split_stage_, texture_of(job, parts_guard_name)->texture, 0);
+  gl::api().Uniform1i(split_guard_->uniform("source"), 0);
+  draw_into(split_stage_, texture_of(job, parts_guard_name)->texture, 0, 0);
 }
 
-void InstantMap::draw_into(const Stage& stage, const gl::Texture& map, int level) const {
+void InstantMap::draw_into(const Stage& stage, const gl::Texture& map, int level, int first_layer) const {
   for (GLuint i = 0; i < stage.layers; ++i) {
     gl::api().NamedFramebufferTextureLayer(stage.framebuffer.name(), GL_COLOR_ATTACHMENT0 + i, map.name(), level,
-                                           static_cast<GLint>(i));
+                                           first_layer + static_cast<GLint>(i));
   }
   gl::api().BindFramebuffer(GL_FRAMEBUFFER, stage.framebuffer.name());
   gl::api().Viewport(0, 0, std::max(map.width() >> level, 1), std::max(map.height() >> level, 1));
@@ -201,14 +222,22 @@ void InstantMap::draw_into(const Stage& stage, const gl::Texture& map, int level
   gl::api().DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void InstantMap::coarsen(const Stage& stage, const gl::Texture& map, int levels) const {
-  bind(0, map);
+// Fills the further levels of a texture, if the job has it.
+void InstantMap::coarsen(const Stage& stage, const FrameBuildJob& job, std::string_view name) const {
+  const GpuTexture* built = texture_of(job, name);
+  if (built == nullptr) return;
+  const int levels = static_cast<int>(declared(job, name).levels.size());
+  const int layers = declared(job, name).layers;
+  bind(0, built->texture);
   gl::api().UseProgram(stage.coarsen.name());
   for (int level = 1; level < levels; ++level) {
-    show_one_level(map, level - 1);
-    draw_into(stage, map, level);
+    show_one_level(built->texture, level - 1);
+    for (int first = 0; first < layers; first += static_cast<int>(stage.layers)) {
+      gl::api().Uniform1i(stage.coarsen.uniform("first_layer"), first);
+      draw_into(stage, built->texture, level, first);
+    }
   }
-  show_all_levels(map, levels);
+  show_all_levels(built->texture, levels);
 }
 
 }  // namespace xu_vmf

@@ -16,6 +16,10 @@ inline constexpr std::string_view whole_name = "xu_vmf_whole", parts_name = "xu_
 inline constexpr std::string_view whole_guard_name = "xu_vmf_whole_guard", parts_guard_name = "xu_vmf_parts_guard";
 inline constexpr std::string_view normals_name = "xu_vmf_normals", variances_name = "xu_vmf_variances";
 inline constexpr std::string_view table_name = "xu_vmf_shortfalls";
+/// Layers of the whole hemisphere's texture: facets with one lobe have one; of others it has one for each of their
+/// lobes, and one of normals alone.
+[[nodiscard]] int whole_layers(const Material& material);
+
 /// The scalar that tells whether a material's map has the camera's axes.
 inline constexpr std::string_view camera_space_name = "xu_vmf_in_camera_space";
 
@@ -42,9 +46,10 @@ class InstantMap final : public FrameBuild {
   };
 
   void join(const FrameBuildJob& job) const;
+  void prepare_join(const FrameBuildJob& job, const gl::Program& program, bool camera) const;
   void split(const FrameBuildJob& job) const;
-  void coarsen(const Stage& stage, const gl::Texture& map, int levels) const;
-  void draw_into(const Stage& stage, const gl::Texture& map, int level) const;
+  void coarsen(const Stage& stage, const FrameBuildJob& job, std::string_view name) const;
+  void draw_into(const Stage& stage, const gl::Texture& map, int level, int first_layer) const;
 
   Options options_;
   EffectSet effects_;

@@ -223,6 +223,7 @@ SurfaceLayout lay_out(const TriangleSoup& soup, const TextureCoordinates& coordi
   });
   if (!sound) return none("texture coordinates are not finite, or far outside of the map");
   const std::vector<Triangle> triangles = triangle_list(soup);
+  if (triangles.empty()) return layout(map_size, places, {}, true);
   const Box map{{0, 0}, map_size};
   const Box used = box_of(triangles, places);
   const bool inside =

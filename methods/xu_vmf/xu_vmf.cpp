@@ -99,28 +99,31 @@ struct Inputs {
   }
 };
 
+int layers_of(const Material& material, const EffectSet& effects) {
+  return has(effects, Effect::multi_lobe) ? xu_vmf::whole_layers(material) : 1;
+}
+
 // The maps that the frame build fills, for a finest level of `size`.
-void declare_maps(Prefiltered& out, const glm::ivec2& size, const TextureCoordinates& place, const Options& options,
-                  const EffectSet& effects) {
+void declare_maps(Prefiltered& out, const glm::ivec2& size, const TextureCoordinates& place, int layers,
+                  const Options& options, const EffectSet& effects) {
   const int parts = xu_vmf::part_count(options);
   const bool guard = xu_vmf::keeps_guard(options, effects);
-  const bool whole_is_averaged = parts == 0 || options.word("j") == "adaptive";
-  const auto declare = [&](std::string_view name, const glm::ivec2& texels, int layers, int channels,
-                           bool whole_chain) {
+  const bool whole_is_averaged = parts == 0 || options.word("j") == "adaptive" || layers > 1;
+  const auto declare = [&](std::string_view name, const glm::ivec2& texels, int count, int channels, bool whole_chain) {
     out.textures.push_back(make_built_texture({.name = std::string(name),
                                                .width = texels.x,
                                                .height = texels.y,
-                                               .layers = layers,
+                                               .layers = count,
                                                .channels = channels,
                                                .storage = parse_storage(options.word("storage")),
                                                .whole_chain = whole_chain},
                                               place));
   };
-  declare(xu_vmf::whole_name, size, 1, 4, whole_is_averaged);
+  declare(xu_vmf::whole_name, size, layers, 4, whole_is_averaged);
   if (guard) declare(xu_vmf::whole_guard_name, size, 1, 1, whole_is_averaged);
   if (parts == 0) return;
   const glm::ivec2 half = glm::max(size / 2, glm::ivec2(1));
-  declare(xu_vmf::parts_name, half, parts, 4, true);
+  declare(xu_vmf::parts_name, half, parts * std::max(layers - 1, 1), 4, true);
   if (guard) declare(xu_vmf::parts_guard_name, half, parts, 1, true);
 }
 
@@ -142,7 +145,7 @@ Prefiltered in_tangent_space(Inputs inputs, const Material& material, const Opti
         "the roughness map has other texture coordinates than the normal map and cannot be joined with it; its mean "
         "variance stands in");
   }
-  declare_maps(out, inputs.size(), inputs.place, options, effects);
+  declare_maps(out, inputs.size(), inputs.place, layers_of(material, effects), options, effects);
   add_inputs(out, inputs, material, options);
   return out;
 }
@@ -167,7 +170,7 @@ class XuVmf final : public Method {
     if (layout.unique) {
       TextureCoordinates place;
       place.wrap = {Wrap::clamp_to_edge, Wrap::clamp_to_edge};
-      declare_maps(out, layout.size, place, options, effects);
+      declare_maps(out, layout.size, place, layers_of(material, effects), options, effects);
       add_inputs(out, inputs, material, options);
     } else {
       out = in_tangent_space(inputs, material, options, effects);
@@ -200,7 +203,7 @@ class XuVmf final : public Method {
                        "the hemisphere.",
                    .paper = "Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping, Computer Graphics Forum 36(4)",
                    .options = option_table(),
-                   .honours = EffectSet{}.set().reset(static_cast<std::size_t>(Effect::multi_lobe))};
+                   .honours = map_effects_but({Effect::normal_layers})};
   std::string shader_ =
       std::string(embedded::xu_vmf_glsl).append(embedded::xu_vmf_conversion_glsl).append(embedded::xu_vmf_cells_glsl);
 };

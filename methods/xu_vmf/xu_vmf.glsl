@@ -8,19 +8,29 @@ float kappaOfLobe(float lobe);
 float lobeOfKappa(float kappa);
 int cellOf(vec3 r);
 int partOfCell(int cell);
+//? if j_4
+const int part_count = 4;
+//? else
+const int part_count = 8;
+//? end
 
 //? if j_1
-const int most_lobes = 1;
+const int most_of_one = 1;
 //? else
 //? if j_4
-const int most_lobes = 4;
+const int most_of_one = 4;
 //? else
 //? if thresholds_blended
-const int most_lobes = 13;  // on the way from one lobe to 4 parts, and in each of these on the way to 2
+const int most_of_one = 13;  // on the way from one lobe to 4 parts, and in each of these on the way to 2
 //? else
-const int most_lobes = 8;
+const int most_of_one = 8;
 //? end
 //? end
+//? end
+//? if multi_lobe
+const int most_lobes = most_of_one * most_facet_lobes;
+//? else
+const int most_lobes = most_of_one;
 //? end
 
 // Lobes 0 to count - 1.
@@ -32,6 +42,9 @@ struct Effective {
   float share[most_lobes];   // of the footprint; all sum to one
   float amount[most_lobes];  // what the lobe adds with
   float cosine[most_lobes];  // length of the mean of the unit normals
+//? if multi_lobe
+  vec3 normal;  // mean of the unit normals of facets with lobes of their own axes
+//? end
 };
 
 // A part that covers less of the footprint is left out, and no division is by nothing.
@@ -55,14 +68,32 @@ float densityOf(Effective e, int i, vec3 h) {
 //? end
 }
 
-void addFlat(inout Effective e) {
-  e.mean[0] = vec3(0.0, 0.0, 1.0);
-  e.lobe[0] = lobe_cutoff.x;
-  e.kappa[0] = kappaOfLobe(lobe_cutoff.x);
-  e.share[0] = 1.0;
-  e.amount[0] = 1.0;
-  e.cosine[0] = 1.0;
-  e.count = 1;
+// A facet's lobe: about its normal, or with an axis and a weight of its own.
+struct OwnLobe {
+  vec3 axis;
+  float parameter, weight;
+};
+
+//? if multi_lobe
+int ownLobeCount() { return max(facet_lobe_count, 1); }
+OwnLobe ownLobe(int k) {
+  if (facet_lobe_count > 0) return OwnLobe(facet_lobes[k].axis, facet_lobes[k].parameter, facet_lobes[k].weight);
+  return OwnLobe(vec3(0.0, 0.0, 1.0), lobe_cutoff.x, 1.0);
+}
+//? else
+int ownLobeCount() { return 1; }
+OwnLobe ownLobe(int k) { return OwnLobe(vec3(0.0, 0.0, 1.0), lobe_cutoff.x, 1.0); }
+//? end
+
+// The lobe of flat facets.
+void addFlat(inout Effective e, OwnLobe own) {
+  int i = e.count++;
+  e.mean[i] = own.axis;
+  e.lobe[i] = own.parameter;
+  e.kappa[i] = kappaOfLobe(own.parameter);
+  e.share[i] = 1.0;
+  e.amount[i] = 1.0;
+  e.cosine[i] = 1.0;
 }
 
 //? if texture_arrays
@@ -100,18 +131,18 @@ Part partOf(vec4 r, float least) { return Part(r, least); }
 Part partOf(vec4 r, float least) { return Part(r, 0.0); }
 //? end
 //? else
-float facet_shortfall;  // 1 - |r| of every texel
+float facet_shortfall;  // 1 - |r| of every texel of the lobe that is looked up
 Part partOf(vec4 r, float least) { return Part(r, r.w * facet_shortfall); }
 //? end
 
-Part wholeAt(Footprint f) {
+Part wholeAt(Footprint f, int own) {
   float least = 0.0;
 //? if storage_fp16
 //? if roughness_variation
   least = fetch(xu_vmf_whole_guard, 0, f).r;
 //? end
 //? end
-  return partOf(fetch(xu_vmf_whole, 0, f), least);
+  return partOf(fetch(xu_vmf_whole, own, f), least);
 }
 
 // A part's lobe, where `weight` of it counts.
@@ -125,9 +156,7 @@ void addLobe(inout Effective e, Part part, float weight) {
   e.kappa[i] = kappaOf(clamp(q, 1.0 / largest_exponent, 1.0));
   e.lobe[i] = lobeOfKappa(e.kappa[i]);
   e.share[i] = weight * part.r.w;
-//? if variant_published
   e.amount[i] = weight;  // Algorithm 1 as printed adds every lobe whole, whatever it covers
-//? end
 //? if roughness_variation
   e.cosine[i] = 1.0;  // what of |r| is the normals' and what the lobes' is not known
 //? else
@@ -137,9 +166,10 @@ void addLobe(inout Effective e, Part part, float weight) {
 
 //? if sampling_frame
 //? if not j_1
-// Where a part is looked up. Its finest level is not stored: the texels of the whole hemisphere's stand in for it below
+// Where a part of one of the facets' lobes is looked up. Its finest level is not stored: the texels of the whole hemisphere's stand in for it below
 // level 1, each for the part that its lobe is in.
 struct Probe {
+  int own;
   vec2 uv;
   float level;
   vec4 texel[4];
@@ -147,8 +177,9 @@ struct Probe {
   int part[4];
 };
 
-Probe probeAt(vec2 uv, float level) {
+Probe probeAt(int own, vec2 uv, float level) {
   Probe p;
+  p.own = own;
   p.uv = uv;
   p.level = level;
   vec2 size = vec2(textureSize(xu_vmf_whole, 0).xy);
@@ -160,7 +191,7 @@ Probe probeAt(vec2 uv, float level) {
     vec2 near = mix(1.0 - beyond, beyond, side);
     float share = near.x * near.y * (1.0 - max(level, 0.0));
     vec2 centre = (corner + side + 0.5) / size;
-    vec4 texel = textureLod(xu_vmf_whole, vec3(centre, 0), 0.0);
+    vec4 texel = textureLod(xu_vmf_whole, vec3(centre, own), 0.0);
     p.texel[i] = share * texel;
     p.part[i] = partOfCell(cellOf(texel.xyz));
     p.least[i] = 0.0;
@@ -179,7 +210,7 @@ Part partAt(Probe p, int part) {
   float least = 0.0;
   if (p.level > 0.0) {
     float share = min(p.level, 1.0);
-    r = share * textureLod(xu_vmf_parts, vec3(p.uv, part), p.level - 1.0);
+    r = share * textureLod(xu_vmf_parts, vec3(p.uv, p.own * part_count + part), p.level - 1.0);
 //? if storage_fp16
 //? if roughness_variation
     least = share * textureLod(xu_vmf_parts_guard, vec3(p.uv, part), p.level - 1.0).r;
@@ -197,10 +228,10 @@ Part partAt(Probe p, int part) {
 Part sumOf(Part a, Part b) { return Part(a.r + b.r, a.least + b.least); }
 
 //? if anisotropic
-Part partUnder(Footprint f, int part) {
+Part partUnder(Footprint f, int own, int part) {
   Probes p = probesOf(vec2(textureSize(xu_vmf_whole, 0).xy), f);
   Part sum = Part(vec4(0.0), 0.0);
-  for (int i = 0; i < p.count; ++i) sum = sumOf(sum, partAt(probeAt(probeUv(f, p, i), p.level), part));
+  for (int i = 0; i < p.count; ++i) sum = sumOf(sum, partAt(probeAt(own, probeUv(f, p, i), p.level), part));
   return Part(sum.r / float(p.count), sum.least / float(p.count));
 }
 //? end
@@ -217,16 +248,16 @@ float unityOf(Part part, float threshold) {
 
 // Loops run over the layers that the map has: a count that the compiler does not know, so that it unrolls nothing and
 // compiles in a fraction of the time.
-void addParts(inout Effective e, Footprint f, float weight) {
-  int layers = textureSize(xu_vmf_parts, 0).z;
+void addParts(inout Effective e, Footprint f, int own, float weight) {
+  int layers = textureSize(xu_vmf_parts, 0).z / ownLobeCount();
 //? if not anisotropic
-  Probe probe = probeAt(f.uv, levelOf(vec2(textureSize(xu_vmf_whole, 0).xy), f));
+  Probe probe = probeAt(own, f.uv, levelOf(vec2(textureSize(xu_vmf_whole, 0).xy), f));
 //? end
 //? if j_adaptive
   // A coarse cell is the sum of its two fine ones, so that it needs no layer of its own.
   for (int i = 0; i < layers; i += 2) {
 //? if anisotropic
-    Part first = partUnder(f, i), second = partUnder(f, i + 1);
+    Part first = partUnder(f, own, i), second = partUnder(f, own, i + 1);
 //? else
     Part first = partAt(probe, i), second = partAt(probe, i + 1);
 //? end
@@ -240,7 +271,7 @@ void addParts(inout Effective e, Footprint f, float weight) {
   }
 //? else
 //? if anisotropic
-  for (int i = 0; i < layers; ++i) addLobe(e, partUnder(f, i), weight);
+  for (int i = 0; i < layers; ++i) addLobe(e, partUnder(f, own, i), weight);
 //? else
   for (int i = 0; i < layers; ++i) addLobe(e, partAt(probe, i), weight);
 //? end
@@ -250,59 +281,92 @@ void addParts(inout Effective e, Footprint f, float weight) {
 //? end
 
 // Algorithm 1. A sample of the finest level has one texel, or what is blended of texels: one lobe.
-void addLobes(inout Effective e, Footprint f) {
+void addLobes(inout Effective e, Footprint f, int own) {
 //? if not sampling_frame
-  addLobe(e, wholeAt(f), 1.0);
+  addLobe(e, wholeAt(f, own), 1.0);
 //? else
 //? if j_1
-  addLobe(e, wholeAt(f), 1.0);
+  addLobe(e, wholeAt(f, own), 1.0);
 //? else
 //? if j_adaptive
-  Part whole = wholeAt(f);
+  Part whole = wholeAt(f, own);
   float unity = unityOf(whole, option_eps0);
   if (unity > 0.0) addLobe(e, whole, unity);
-  if (unity < 1.0 && whole.r.w >= least_share) addParts(e, f, 1.0 - unity);
+  if (unity < 1.0 && whole.r.w >= least_share) addParts(e, f, own, 1.0 - unity);
 //? else
-  addParts(e, f, 1.0);
+  addParts(e, f, own, 1.0);
 //? end
 //? end
 //? end
 }
 //? end
 
+// The lobes that came of one of the facets' own, from `first` on: shares sum to one, amounts to its weight.
+void weigh(inout Effective e, int first, float weight) {
+  float covered = 0.0;
+  for (int i = first; i < e.count; ++i) covered += e.share[i];
+  for (int i = first; i < e.count; ++i) {
+    e.share[i] /= covered;
+//? if variant_corrected
+    e.amount[i] = weight * e.share[i];
+//? else
+    e.amount[i] *= weight;
+//? end
+  }
+}
+
 Effective effective(Footprints f) {
   Effective e;
   e.count = 0;
+  for (int k = 0; k < ownLobeCount(); ++k) {
+    OwnLobe own = ownLobe(k);
+    int first = e.count;
 //? if texture_arrays
 //? if not roughness_variation
-  facet_shortfall = shortfallOf(kappaOfLobe(lobe_cutoff.x));
+    facet_shortfall = shortfallOf(kappaOfLobe(own.parameter));
 //? end
-  addLobes(e, placeOf(f));
+    addLobes(e, placeOf(f), k);
 //? end
-  if (e.count == 0) addFlat(e);
-  float covered = 0.0;
-  for (int i = 0; i < e.count; ++i) covered += e.share[i];
-  for (int i = 0; i < e.count; ++i) {
-    e.share[i] /= covered;
-//? if variant_corrected
-    e.amount[i] = e.share[i];
-//? end
+    if (e.count == first) addFlat(e, own);
+    weigh(e, first, own.weight);
   }
+//? if multi_lobe
+  e.normal = vec3(0.0, 0.0, 1.0);
+//? if texture_arrays
+  vec4 normals = fetch(xu_vmf_whole, facet_lobe_count, placeOf(f));
+  if (normals.w >= least_share) e.normal = axisOf(normals.xyz / normals.w);
+//? end
+//? end
   return e;
 }
+
+//? if multi_lobe
+// Facets with lobes of their own axes hide each other by their normals, whatever the axes.
+vec3 geometryAxis(Effective e, int i) {
+  return facet_lobe_count > 0 ? e.normal / max(length(e.normal), 1e-6) : e.mean[i];
+}
+//? else
+vec3 geometryAxis(Effective e, int i) { return e.mean[i]; }
+//? end
 
 vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
   if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
   vec3 h = halfVector(wi, wo);
   float sum = 0.0;
   for (int i = 0; i < e.count; ++i) {
-    sum += e.amount[i] * densityOf(e, i, h) * geometryFactor(e.lobe[i], e.mean[i], h, wi, wo);
+    sum += e.amount[i] * densityOf(e, i, h) * geometryFactor(e.lobe[i], geometryAxis(e, i), h, wi, wo);
   }
   return fresnelTerm(f0, wi, wo) * sum;
 }
 
 //? if diffuse
 vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
+//? if multi_lobe
+  if (facet_lobe_count > 0) {
+    float size = max(length(e.normal), 1e-6);
+    return size * lambert(e.normal / size, albedo, f0, wi, wo);
+  }
+//? end
   vec3 sum = vec3(0.0);
   for (int i = 0; i < e.count; ++i) sum += e.share[i] * e.cosine[i] * lambert(e.mean[i], albedo, f0, wi, wo);
   return sum;
@@ -314,3 +378,31 @@ float ndf(Effective e, vec3 h) {
   for (int i = 0; i < e.count; ++i) sum += e.amount[i] * densityOf(e, i, h);
   return sum;
 }
+
+//? if environment_light
+int lobeCount(Effective e) { return e.count; }
+
+NormalLobe normalLobe(Effective e, int i) {
+//? if lobe_base
+  return baseNormalLobe(e.mean[i], e.lobe[i], e.amount[i]);
+//? else
+  return vmfNormalLobe(e.mean[i], e.kappa[i], e.amount[i], e.lobe[i]);
+//? end
+}
+
+float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
+//? if multi_lobe
+  if (facet_lobe_count > 0) return geometryFactor(lobe.base, geometryAxis(e, 0), h, wi, wo);
+//? end
+  return geometryFactor(lobe.base, lobe.axis, h, wi, wo);
+}
+
+vec3 meanNormal(Effective e) {
+//? if multi_lobe
+  if (facet_lobe_count > 0) return e.normal;
+//? end
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < e.count; ++i) sum += e.share[i] * e.cosine[i] * e.mean[i];
+  return sum;
+}
+//? end

@@ -12,9 +12,7 @@ int cellOf(vec3 r) { return 2 * min(int(4.0 * sqrt(dot(r.xy, r.xy) / max(dot(r, 
 //? end
 
 //? if j_4
-const int part_count = 4;
 int partOfCell(int cell) { return cell / 2; }
 //? else
-const int part_count = 8;
 int partOfCell(int cell) { return cell; }
 //? end

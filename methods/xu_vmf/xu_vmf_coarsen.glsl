@@ -1,6 +1,7 @@
-// The further passes of the frame build: one level of all layers from the next finer one.
+// The further passes of the frame build: one level of some layers from the next finer one.
 layout(location = 0) out vec4 coarse[layer_count];
 
+uniform int first_layer;
 layout(binding = 0) uniform sampler2DArray map;  // its base level is the finer one
 
 void main() {
@@ -13,7 +14,7 @@ void main() {
     vec4 sum = vec4(0.0);
     for (int y = 0; y < taps.y; ++y) {
       for (int x = 0; x < taps.x; ++x) {
-        sum += across[x] * down[y] * texelFetch(map, ivec3(2 * place + ivec2(x, y), i), 0);
+        sum += across[x] * down[y] * texelFetch(map, ivec3(2 * place + ivec2(x, y), first_layer + i), 0);
       }
     }
     coarse[i] = stored(sum);

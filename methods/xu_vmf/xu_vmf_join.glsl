@@ -1,5 +1,5 @@
-// First pass of the frame build: the base BRDF and the normal map joined into one lobe a texel (Xu 2017, section 4), for
-// the whole hemisphere: (r, 1), or 0 where the surface has no valid normal, faces away, or is not at all. Means of
+// First pass of the frame build: the base BRDF and the normal map joined into one lobe a texel (Xu 2017, section 4), of
+// facets with several lobes one for each, for the whole hemisphere: (r, 1), or 0 where the surface has no valid normal, faces away, or is not at all. Means of
 // texels are (w r, w): the share of the footprint that is covered, and its lobes' mean.
 layout(location = 0) out vec4 joined;
 //? if guard
@@ -50,6 +50,10 @@ vec4 texelOf(sampler2D map, int slot) {
 }
 //? end
 
+//? if multi_lobe
+uniform int own_lobe;  // of a facet; -1: its normal alone
+//? end
+
 float shortfall(float kappa) {
 //? if conversion_table
   return tabulatedShortfall(shortfalls, kappa);
@@ -73,14 +77,22 @@ void main() {
 //? end
   float size = length(normal.xyz);  // decoded bytes are up to 0.6% too long or short
   if (normal.w < 0.5 || size < 1e-3) return;
-  vec3 n = normal.xyz / size;
+  vec3 axis = normal.xyz / size;
+  float q = shortfall(kappaOfLobe(lobe));
+//? if multi_lobe
+  if (own_lobe < 0) {
+    q = 0.0;
+  } else if (facet_lobe_count > 0) {
+    axis = turnedWithNormal(facet_lobes[own_lobe].axis, axis);
+    q = shortfall(kappaOfLobe(facet_lobes[own_lobe].parameter));
+  }
+//? end
 //? if camera
   bool front = facesViewer();
   if (!front && !two_sided) return;
-  n = world_to_camera * (tangentFrame(front ? world_normal : -world_normal, world_tangent) * n);
+  axis = world_to_camera * (tangentFrame(front ? world_normal : -world_normal, world_tangent) * axis);
 //? end
-  float q = shortfall(kappaOfLobe(lobe));
-  joined = stored(vec4((1.0 - q) * n, 1.0));
+  joined = stored(vec4((1.0 - q) * axis, 1.0));
 //? if guard
   guard = stored(vec4(q, 0.0, 0.0, 1.0));
 //? end

@@ -1,14 +1,15 @@
 // Second pass of the frame build: from the finest level, where a texel has one lobe, to the next one of every part. The
 // finest level of a part is not stored: whether a texel's lobe is in it, its direction tells.
-layout(location = 0) out vec4 part[part_count];
+layout(location = 0) out vec4 part[layer_count];
 
+uniform int source;  // the layer that is split
 layout(binding = 0) uniform sampler2DArray finest;
 //? if guard
 layout(binding = 1) uniform sampler2DArray values;
 //? end
 
 void main() {
-  for (int i = 0; i < part_count; ++i) part[i] = vec4(0.0);
+  for (int i = 0; i < layer_count; ++i) part[i] = vec4(0.0);
   ivec2 place = ivec2(gl_FragCoord.xy);
   ivec2 size = textureSize(finest, 0).xy;
   vec3 across = sharesOf(place.x, size.x);
@@ -16,7 +17,7 @@ void main() {
   ivec2 taps = min(size, 2 + size % 2);
   for (int y = 0; y < taps.y; ++y) {
     for (int x = 0; x < taps.x; ++x) {
-      ivec3 texel = ivec3(2 * place + ivec2(x, y), 0);
+      ivec3 texel = ivec3(2 * place + ivec2(x, y), source);
       vec4 r = texelFetch(finest, texel, 0);
       if (r.w == 0.0) continue;
       int own = partOfCell(cellOf(r.xyz));
@@ -24,8 +25,8 @@ void main() {
 //? if guard
       value = across[x] * down[y] * texelFetch(values, texel, 0);
 //? end
-      for (int i = 0; i < part_count; ++i) part[i] += i == own ? value : vec4(0.0);
+      for (int i = 0; i < layer_count; ++i) part[i] += i == own ? value : vec4(0.0);
     }
   }
-  for (int i = 0; i < part_count; ++i) part[i] = stored(part[i]);
+  for (int i = 0; i < layer_count; ++i) part[i] = stored(part[i]);
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <ranges>
 
+#include "renderer/microgeometry/microgeometry.hpp"
 #include "renderer/visibility/cast_shadows.hpp"
 
 namespace footprint {
@@ -16,6 +17,7 @@ constexpr std::array<std::string_view, effect_count> names{"diffuse",
                                                            "fresnel",
                                                            "masking_shadowing",
                                                            "normal_variation",
+                                                           "normal_layers",
                                                            "roughness_variation",
                                                            "multi_lobe",
                                                            "base_color_variation",
@@ -26,7 +28,12 @@ constexpr std::array<std::string_view, effect_count> names{"diffuse",
                                                            "point_light",
                                                            "spot_light",
                                                            "directional_light",
-                                                           "cast_shadow"};
+                                                           "cast_shadow",
+                                                           "environment_light",
+
+                                                           "microgeometry_visibility",
+                                                           "microgeometry_colour",
+                                                           "tabulated_brdf"};
 
 // Smaller than any step of an 8-bit map; larger than what decoding one leaves in 32 bits.
 constexpr float constant_tolerance = 1e-5F;
@@ -81,6 +88,13 @@ EffectDecision normal_variation(const Scene& scene) {
                 mapped.holding == 0 ? "no normal map" : "every normal map is flat");
 }
 
+EffectDecision normal_layers(const Scene& scene) {
+  const Count layered = count_materials(scene, [](const Material& m) { return m.layer_map.has_value(); });
+  const auto rough = [](const Material& m) { return m.layer_map && !is_flat(*m.layer_map->image); };
+  return decide(Effect::normal_layers, scene, rough, "a detail layer that is not flat",
+                layered.holding == 0 ? "no detail layer" : "every detail layer is flat");
+}
+
 template <class Kind>
 EffectDecision lights(Effect effect, const Scene& scene, std::string_view word) {
   const auto n = std::ranges::count_if(scene.lights, [](const Light& l) { return std::holds_alternative<Kind>(l); });
@@ -105,6 +119,14 @@ EffectDecision cast_shadow(const Scene& scene) {
                       casting.size() == 1 ? "" : "s")};
 }
 
+EffectDecision environment_light(const Scene& scene) {
+  if (!scene.environment) return {Effect::environment_light, false, "no environment"};
+  const Image& map = *scene.environment->radiance;
+  const bool lit = std::ranges::any_of(map.texels, [](float value) { return value > 0.0F; });
+  const std::string text = fmt::format("the environment {}, {} x {}", scene.environment->name, map.width, map.height);
+  return {Effect::environment_light, lit, lit ? text : text + ", is black"};
+}
+
 }  // namespace
 
 std::string_view effect_name(Effect effect) { return names.at(static_cast<std::size_t>(effect)); }
@@ -121,6 +143,7 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
     const Image& image = *m.specular_map->image;
     return channel_varies(image, 0) || channel_varies(image, 1) || channel_varies(image, 2);
   };
+  const auto coloured = [](const Material& m) { return m.microgeometry && has_colors(m.microgeometry->patch); };
   return {
       decide(Effect::diffuse, scene, reflects_diffusely, "a Lambert term with an albedo above 0",
              "no material reflects diffusely"),
@@ -131,6 +154,7 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
           Effect::masking_shadowing, scene, [](const Material& m) { return m.brdf.geometry != GeometryTerm::none; },
           "the base BRDF has a geometry term", "the base BRDF has no geometry term"),
       normal_variation(scene),
+      normal_layers(scene),
       decide(Effect::roughness_variation, scene, roughness_varies, "a roughness map that varies",
              "roughness is constant over each material"),
       decide(
@@ -153,6 +177,15 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
       lights<SpotLight>(Effect::spot_light, scene, "spot"),
       lights<DirectionalLight>(Effect::directional_light, scene, "directional"),
       cast_shadow(scene),
+      environment_light(scene),
+      decide(
+          Effect::microgeometry_visibility, scene, [](const Material& m) { return m.microgeometry != nullptr; },
+          "a patch of small-scale geometry", "no small-scale geometry"),
+      decide(Effect::microgeometry_colour, scene, coloured, "a patch of several colours",
+             "no small-scale geometry of several colours"),
+      decide(
+          Effect::tabulated_brdf, scene, [](const Material& m) { return m.microgeometry && m.microgeometry->brdf; },
+          "facets with a tabulated BRDF", "every facet has the base BRDF"),
   };
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <bitset>
 #include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,7 @@ enum class Effect : std::size_t {
   fresnel,               ///< Schlick's term over F0
   masking_shadowing,     ///< the geometry term of the base BRDF
   normal_variation,      ///< a normal map that is not flat
+  normal_layers,         ///< a detail layer over the normal map
   roughness_variation,   ///< a map of roughness or of lobe parameters that is not constant
   multi_lobe,            ///< facets with several lobes, or one whose axis is not their normal
   base_color_variation,  ///< a base-colour map
@@ -28,10 +30,14 @@ enum class Effect : std::size_t {
   point_light,
   spot_light,
   directional_light,
-  cast_shadow,  ///< parts of the scene that stand between others and a light
+  cast_shadow,               ///< parts of the scene that stand between others and a light
+  environment_light,         ///< light from all directions
+  microgeometry_visibility,  ///< small-scale geometry whose facets hide and shadow each other
+  microgeometry_colour,      ///< small-scale geometry of several colours
+  tabulated_brdf,            ///< facets that reflect as a table says, in place of the base BRDF
 };
 
-inline constexpr std::size_t effect_count = static_cast<std::size_t>(Effect::cast_shadow) + 1;
+inline constexpr std::size_t effect_count = static_cast<std::size_t>(Effect::tabulated_brdf) + 1;
 using EffectSet = std::bitset<effect_count>;
 
 /// The name of an effect as shaders, tables and `explain` write it.
@@ -46,6 +52,21 @@ using EffectSet = std::bitset<effect_count>;
 
 [[nodiscard]] inline bool has(const EffectSet& set, Effect effect) {
   return set.test(static_cast<std::size_t>(effect));
+}
+
+/// Every effect but those of `left_out`.
+[[nodiscard]] inline EffectSet all_effects_but(std::initializer_list<Effect> left_out) {
+  EffectSet set;
+  set.set();
+  for (const Effect effect : left_out) set.reset(static_cast<std::size_t>(effect));
+  return set;
+}
+
+/// Every effect but those of `left_out` and of small-scale geometry: what a method can honour that knows a surface by
+/// its maps alone.
+[[nodiscard]] inline EffectSet map_effects_but(std::initializer_list<Effect> left_out) {
+  return all_effects_but(left_out) &
+         all_effects_but({Effect::microgeometry_visibility, Effect::microgeometry_colour, Effect::tabulated_brdf});
 }
 
 /// One effect of a scene: on or off, and the reason in words ("the normal map is constant").

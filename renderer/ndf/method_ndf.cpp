@@ -61,6 +61,7 @@ Scene scene_of_facets(const Material& material) {
   scene.materials.push_back(material);
   Material& bare = scene.materials.front();
   bare.base_color_map.reset();
+  bare.layer_map.reset();
   bare.specular_map.reset();
   bare.alpha_cutoff.reset();
   bare.double_sided = false;

@@ -100,6 +100,9 @@ TEST(BakeCache, TheKeyFollowsEverythingThatABakeDependsOn) {
   changed = material;
   changed.normal_map->coordinates.wrap[0] = Wrap::clamp_to_edge;
   EXPECT_NE(cache.key("m", changed, options, {}), key);
+  changed = material;
+  changed.layer_map = material.normal_map;
+  EXPECT_NE(cache.key("m", changed, options, {}), key);
 }
 
 // A method that counts its precomputes.

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+
+#include "renderer/microgeometry/microgeometry.hpp"
+#include "renderer/pipeline/patch_facets.hpp"
 
 namespace footprint {
 
@@ -26,20 +30,51 @@ Image one_channel(const Image& image, int channel) {
   return out;
 }
 
+// Slope variance per axis of all lobes together, about the facet's normal: each lobe's own, and what its axis leans by.
+float variance_about_normal(const Material& material) {
+  float weight = 0.0F;
+  float variance = 0.0F;
+  for (const FacetLobe& lobe : material.lobes) {
+    const float leaning = 0.5F * glm::dot(glm::vec2(lobe.axis), glm::vec2(lobe.axis)) / (lobe.axis.z * lobe.axis.z);
+    weight += lobe.weight;
+    variance += lobe.weight * (lobe_variance(material.brdf.distribution, lobe.parameter) + leaning);
+  }
+  return variance / weight;
+}
+
+Image normals_or_flat(const std::optional<TextureMap>& map) {
+  if (map) return *map->image;
+  Image flat(1, 1, 4);
+  flat.texels = {0.0F, 0.0F, 1.0F, 1.0F};
+  return flat;
+}
+
 class BaseSurface final : public Method {
  public:
   [[nodiscard]] const MethodInfo& info() const override { return info_; }
 
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& /*options*/, const EffectSet& effects,
-                                       const Progress& /*progress*/) const override {
+                                       const Progress& progress) const override {
     Prefiltered out;
     if (has(effects, Effect::normal_variation)) {
       out.textures.push_back(
           make_texture("base_normal", {normal_map_of(material)}, Storage::fp32, normal_coordinates(material)));
     }
+    if (has(effects, Effect::normal_layers)) {
+      out.textures.push_back(
+          make_texture("base_layer", {layer_map_of(material)}, Storage::fp32, layer_coordinates(material)));
+    }
     if (has(effects, Effect::roughness_variation)) {
       out.textures.push_back(
           make_texture("base_roughness", {roughness_map_of(material)}, Storage::fp32, roughness_coordinates(material)));
+    }
+    if (has(effects, Effect::microgeometry_visibility)) {
+      std::ranges::move(patch_facet_textures(material, progress), std::back_inserter(out.textures));
+      out.scalars["base_has_patch"] = material.microgeometry ? 1.0F : 0.0F;
+    }
+    if (has(effects, Effect::tabulated_brdf)) {
+      out.textures.push_back(tabulated_brdf_texture(material));
+      out.scalars["base_has_table"] = material.microgeometry && material.microgeometry->brdf ? 1.0F : 0.0F;
     }
     return out;
   }
@@ -51,7 +86,8 @@ class BaseSurface final : public Method {
                    .summary = "The supersampled truth: many samples a pixel, each shading one texel's own base BRDF.",
                    .paper = "",
                    .options = {},
-                   .honours = EffectSet{}.set()};
+                   .honours = EffectSet{}.set(),
+                   .draws_directions = true};
 };
 
 }  // namespace
@@ -61,12 +97,9 @@ const Method& base_surface() {
   return method;
 }
 
-Image normal_map_of(const Material& material) {
-  if (material.normal_map) return *material.normal_map->image;
-  Image flat(1, 1, 4);
-  flat.texels = {0.0F, 0.0F, 1.0F, 1.0F};
-  return flat;
-}
+Image normal_map_of(const Material& material) { return normals_or_flat(material.normal_map); }
+
+Image layer_map_of(const Material& material) { return normals_or_flat(material.layer_map); }
 
 Image roughness_map_of(const Material& material) {
   const NormalDistribution distribution = material.brdf.distribution;
@@ -105,6 +138,10 @@ TextureCoordinates normal_coordinates(const Material& material) {
   return material.normal_map ? material.normal_map->coordinates : TextureCoordinates{};
 }
 
+TextureCoordinates layer_coordinates(const Material& material) {
+  return material.layer_map ? material.layer_map->coordinates : TextureCoordinates{};
+}
+
 TextureCoordinates roughness_coordinates(const Material& material) {
   if (material.lobe_parameter_map) return material.lobe_parameter_map->coordinates;
   return material.metallic_roughness_map ? material.metallic_roughness_map->coordinates : TextureCoordinates{};
@@ -121,15 +158,7 @@ TextureCoordinates specular_coordinates(const Material& material) {
 float lobe_parameter(const Material& material) {
   const NormalDistribution distribution = material.brdf.distribution;
   if (material.lobe_parameter) return *material.lobe_parameter;
-  if (!material.lobes.empty()) {
-    float weight = 0.0F;
-    float variance = 0.0F;
-    for (const FacetLobe& lobe : material.lobes) {
-      weight += lobe.weight;
-      variance += lobe.weight * lobe_variance(distribution, lobe.parameter);
-    }
-    return lobe_from_variance(distribution, variance / weight);
-  }
+  if (!material.lobes.empty()) return lobe_from_variance(distribution, variance_about_normal(material));
   const TextureMap* const map = width_map(material);
   if (map != nullptr && material.lobe_parameter_map) return map->image->texels.front();
   const float roughness = map != nullptr ? map->image->texels.front() : material.roughness;

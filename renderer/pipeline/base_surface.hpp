@@ -11,6 +11,9 @@ namespace footprint {
 /// The normal map of a material as RGBA (unit normal, weight 0 or 1); flat, 1 x 1, where it has none.
 [[nodiscard]] Image normal_map_of(const Material& material);
 
+/// The detail layer of a material, likewise.
+[[nodiscard]] Image layer_map_of(const Material& material);
+
 /// The perceptual roughness map of a material, one channel; its constant, 1 x 1, where it has none. A map of lobe
 /// parameters comes as the roughness of the same lobes (`roughness_from_lobe`).
 [[nodiscard]] Image roughness_map_of(const Material& material);
@@ -26,12 +29,14 @@ namespace footprint {
 
 /// Where the maps are looked up; the defaults where a material has none.
 [[nodiscard]] TextureCoordinates normal_coordinates(const Material& material);
+[[nodiscard]] TextureCoordinates layer_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates roughness_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates base_color_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates specular_coordinates(const Material& material);
 
-/// The lobe parameter of a material whose roughness does not vary: exponent, alpha or kappa. Of one with lobes of their
-/// own axes that of the mean variance of its lobes: what a method takes that leaves `multi_lobe` out.
+/// The lobe parameter of a material whose roughness does not vary: exponent, alpha or kappa. Of one whose lobes have
+/// axes of their own that of one lobe about the normal, with the slope variance that they have about it: what a method
+/// takes that leaves `multi_lobe` out.
 [[nodiscard]] float lobe_parameter(const Material& material);
 
 /// Lobe parameter <-> alpha and slope variance per axis; the C++ twins of common_lobes.glsl.

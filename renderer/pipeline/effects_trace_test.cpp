@@ -47,6 +47,10 @@ const auto cases = std::to_array<EffectCase>({
      [](Scene& s) {
        s.materials[0].normal_map = map_of(constant_normals(2, 2, {0.6F, 0.0F, 0.8F}));
      }},
+    {Effect::normal_layers, "base_layer",
+     [](Scene& s) {
+       s.materials[0].layer_map = map_of(constant_normals(2, 2, {0.6F, 0.0F, 0.8F}));
+     }},
     {Effect::roughness_variation, "base_roughness",
      [](Scene& s) {
        s.materials[0].metallic = 0.0F;
@@ -95,6 +99,8 @@ const auto cases = std::to_array<EffectCase>({
        s.meshes.push_back(box_mesh({-0.2F, -0.2F, 0.1F}, {0.2F, 0.2F, 0.3F}));
        fit_bounds(s);
      }},
+    {Effect::environment_light, "environment_stack",
+     [](Scene& s) { s.environment = constant_environment(glm::vec3(0.5F)); }},
 });
 
 class EffectTrace : public ::testing::TestWithParam<EffectCase> {};

@@ -38,6 +38,18 @@ glm::dvec3 turned_with_normal(const glm::dvec3& axis, const glm::dvec3& normal) 
   return {turned, normal.z * axis.z - glm::dot(glm::dvec2(normal), across)};
 }
 
+double mean_lobe_variance(const Material& material) {
+  const NormalDistribution distribution = material.brdf.distribution;
+  if (material.lobes.empty()) return lobe_variance(distribution, lobe_parameter(material));
+  double weight = 0.0;
+  double variance = 0.0;
+  for (const FacetLobe& lobe : material.lobes) {
+    weight += lobe.weight;
+    variance += static_cast<double>(lobe.weight) * lobe_variance(distribution, lobe.parameter);
+  }
+  return variance / weight;
+}
+
 std::vector<glm::vec4> facet_lobe_block(const Material& material) {
   if (material.lobes.size() > most_facet_lobes) {
     throw Error(ErrorKind::usage, fmt::format("material {}", material.name),

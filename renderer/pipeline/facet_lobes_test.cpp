@@ -133,11 +133,14 @@ TEST(FacetLobes, AMaterialWithoutLobesKeepsItsOwn) {
   EXPECT_LT(largest_difference(TestRenderer(scene).frame(base_surface()), alone), 1e-6);
 }
 
-TEST(FacetLobes, WhoLeavesThemOutTakesTheirMeanVariance) {
+// Both axes lean by a slope of 0.75: half of its square an axis.
+TEST(FacetLobes, WhoLeavesThemOutTakesTheirVarianceAboutTheNormal) {
   Material material;
   material.brdf = plain;
   material.lobes = two_lobes;
-  EXPECT_NEAR(lobe_parameter(material), 1.25 / (0.75 / 60 + 0.5 / 20), 1e-4);
+  const double own = (0.75 / 60 + 0.5 / 20) / 1.25;
+  EXPECT_NEAR(mean_lobe_variance(material), own, 1e-6);
+  EXPECT_NEAR(lobe_parameter(material), 1.0 / (own + 0.5 * 0.75 * 0.75), 1e-4);
 }
 
 TEST(FacetLobes, WhatIsNoLobeIsRefused) {

@@ -60,7 +60,7 @@ std::vector<glm::vec4> material_block(const Material& material, const EffectSet&
       material.base_color, glm::vec4(specular, metallic_map_of(material).texels.front()),
       glm::vec4(lobe_parameter(material), material.alpha_cutoff.value_or(never_cut), 0.0F, 0.0F)};
   const std::array slots{normal_coordinates(material), roughness_coordinates(material),
-                         base_color_coordinates(material)};
+                         base_color_coordinates(material), layer_coordinates(material)};
   for (const TextureCoordinates& slot : slots) block.push_back(linear_part(slot));
   for (const TextureCoordinates& slot : slots) block.push_back(offset_and_set(slot));
   if (specular_varies) {
@@ -216,7 +216,8 @@ GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const Eff
 }
 
 LightBlocks GpuScene::blocks_of(std::span<const Light> lights) const {
-  return light_blocks(lights, shadow_maps_ ? std::span<const int>(shadow_maps_->views().first) : std::span<const int>());
+  return light_blocks(lights,
+                      shadow_maps_ ? std::span<const int>(shadow_maps_->views().first) : std::span<const int>());
 }
 
 void GpuScene::make_lights(const gl::ContextInfo& context, const Scene& scene) {
@@ -232,6 +233,8 @@ void GpuScene::make_lights(const gl::ContextInfo& context, const Scene& scene) {
   directional_lights_ = light_buffer(blocks.directional);
   light_counts_ = {blocks.point.size() / 2, blocks.spot.size() / 4, blocks.directional.size() / 2,
                    shadow_maps_ ? shadow_maps_->views().views.size() : 0};
+  if (has(effects_, Effect::environment_light))
+    environment_.emplace(scene.environment.value_or(constant_environment(glm::vec3(0.0F))));
   for (const auto* block : {&blocks.point, &blocks.spot, &blocks.directional})
     count_in(content_.lights, std::as_bytes(std::span(*block)));
 }

@@ -10,6 +10,7 @@
 #include "renderer/gl/context.hpp"
 #include "renderer/gl/objects.hpp"
 #include "renderer/pipeline/light_blocks.hpp"
+#include "renderer/pipeline/gpu_environment.hpp"
 #include "renderer/pipeline/prefiltered.hpp"
 #include "renderer/pipeline/shadow_maps.hpp"
 #include "renderer/scene/scene.hpp"
@@ -39,8 +40,9 @@ struct GpuTexture {
   TextureCoordinates coordinates;
   TextureFilter filter = TextureFilter::trilinear;
 
-  /// The program's lookup, unless this texture's texels must not be blended.
+  /// The program's lookup, unless this texture says itself whether its texels are blended.
   [[nodiscard]] Lookup lookup(Lookup wanted) const {
+    if (filter == TextureFilter::linear) return Lookup::trilinear;
     return filter == TextureFilter::nearest ? Lookup::nearest : wanted;
   }
 };
@@ -88,10 +90,15 @@ class GpuScene {
   [[nodiscard]] const BaseBrdf& brdf() const { return brdf_; }
   /// Every map of every material is looked up at the same place.
   [[nodiscard]] bool shared_coordinates() const { return shared_coordinates_; }
-  /// Of textures that every method reads: maps of the materials and of shadows.
-  [[nodiscard]] std::size_t shared_bytes() const { return shared_bytes_; }
   /// None where the effect is off.
   [[nodiscard]] const std::optional<ShadowMaps>& shadow_maps() const { return shadow_maps_; }
+  /// Bytes of what every method reads: shared textures, shadow maps and, once a method's program is there, the
+  /// prefiltered environment.
+  [[nodiscard]] std::size_t shared_bytes() const {
+    return shared_bytes_ + (environment_ ? environment_->stack_bytes() : 0);
+  }
+  /// None without its light.
+  [[nodiscard]] GpuEnvironment* environment() { return environment_ ? &*environment_ : nullptr; }
   [[nodiscard]] SamplerCache& samplers() { return samplers_; }
 
   /// Binds the light blocks, their shadow maps, and sets the light counts of `program`.
@@ -112,6 +119,7 @@ class GpuScene {
   std::vector<GpuBatch> batches_;
   gl::Buffer point_lights_, spot_lights_, directional_lights_;
   LightCounts light_counts_;
+  std::optional<GpuEnvironment> environment_;
   SamplerCache samplers_;
   SceneContent content_;
   std::optional<ShadowMaps> shadow_maps_;

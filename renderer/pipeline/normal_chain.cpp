@@ -28,8 +28,9 @@ Image without_weight(const Image& weighted) {
 
 }  // namespace
 
-std::vector<Image> mean_normal_chain(const Material& material) {
-  Image normals = normal_map_of(material);
+std::vector<Image> mean_normal_chain(const Material& material) { return mean_normal_chain(normal_map_of(material)); }
+
+std::vector<Image> mean_normal_chain(Image normals) {
   renormalise(normals);
   std::vector<Image> chain;
   for (const Image& level : weighted_mip_chain(std::move(normals))) chain.push_back(without_weight(level));
@@ -41,6 +42,10 @@ Prefiltered bake_mean_normal(const Material& material, Storage storage, const Ef
   if (has(effects, Effect::normal_variation)) {
     out.textures.push_back(
         make_texture("mean_normal", mean_normal_chain(material), storage, normal_coordinates(material), true));
+  }
+  if (has(effects, Effect::normal_layers)) {
+    out.textures.push_back(make_texture("mean_layer", mean_normal_chain(layer_map_of(material)), storage,
+                                        layer_coordinates(material), true));
   }
   return out;
 }

@@ -11,8 +11,11 @@
 
 namespace footprint {
 
-/// The mip chain of a material's normal map: 3 channels, the mean of the unit normals, not renormalised, so that its
-/// length tells their spread. Normals enter renormalised in 32 bits; invalid ones (weight 0) do not enter.
+/// The mip chain of a normal map (as Material::normal_map): 3 channels, the mean of the unit normals, not renormalised,
+/// so that its length tells their spread. Normals enter renormalised in 32 bits; invalid ones (weight 0) do not enter.
+[[nodiscard]] std::vector<Image> mean_normal_chain(Image normals);
+
+/// That of the material's own normal map.
 [[nodiscard]] std::vector<Image> mean_normal_chain(const Material& material);
 
 /// The texture `mean_normal` that mean_normal.glsl reads, of that chain; none where normals do not vary.

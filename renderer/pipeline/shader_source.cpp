@@ -15,10 +15,19 @@ extern const std::string_view common_base_brdf_glsl;
 extern const std::string_view common_footprint_glsl;
 extern const std::string_view common_lobes_glsl;
 extern const std::string_view common_slopes_glsl;
+extern const std::string_view direction_grid_glsl;
+extern const std::string_view environment_sampling_glsl;
+extern const std::string_view environment_stack_glsl;
 extern const std::string_view facet_lobes_glsl;
+extern const std::string_view facet_normal_lobes_glsl;
 extern const std::string_view facets_module_glsl;
+extern const std::string_view lobe_sampling_glsl;
 extern const std::string_view mean_normal_glsl;
 extern const std::string_view ndf_fragment_glsl;
+extern const std::string_view patch_facets_glsl;
+extern const std::string_view normal_cdf_glsl;
+extern const std::string_view normal_layers_glsl;
+extern const std::string_view normal_lobes_glsl;
 extern const std::string_view resolve_samples_glsl;
 extern const std::string_view screen_vertex_glsl;
 extern const std::string_view shadow_fragment_glsl;
@@ -30,22 +39,30 @@ extern const std::string_view surface_shadows_glsl;
 extern const std::string_view surface_vertex_glsl;
 extern const std::string_view tangent_frame_glsl;
 extern const std::string_view vmf_density_glsl;
-}
+}  // namespace embedded
 
 namespace {
 
 constexpr std::string_view directive_mark = "//? ";
 constexpr std::string_view version_line = "#version 450 core\n";
 
-// The texts that a module takes in by `include`: what some methods share and others do not pay for.
+// The texts that are taken in by `include`: what some programs share and others do not pay for.
 std::optional<std::string_view> optional_text(std::string_view file) {
   if (file == "common_slopes.glsl") return embedded::common_slopes_glsl;
   if (file == "beckmann_lambda.glsl") return embedded::beckmann_lambda_glsl;
+  if (file == "direction_grid.glsl") return embedded::direction_grid_glsl;
+  if (file == "patch_facets.glsl") return embedded::patch_facets_glsl;
   if (file == "facet_lobes.glsl") return embedded::facet_lobes_glsl;
   if (file == "facets_module.glsl") return embedded::facets_module_glsl;
   if (file == "mean_normal.glsl") return embedded::mean_normal_glsl;
+  if (file == "normal_layers.glsl") return embedded::normal_layers_glsl;
   if (file == "vmf_density.glsl") return embedded::vmf_density_glsl;
   if (file == "tangent_frame.glsl") return embedded::tangent_frame_glsl;
+  if (file == "normal_cdf.glsl") return embedded::normal_cdf_glsl;
+  if (file == "lobe_sampling.glsl") return embedded::lobe_sampling_glsl;
+  if (file == "facet_normal_lobes.glsl") return embedded::facet_normal_lobes_glsl;
+  if (file == "environment_stack.glsl") return embedded::environment_stack_glsl;
+  if (file == "environment_sampling.glsl") return embedded::environment_sampling_glsl;
   return std::nullopt;
 }
 
@@ -166,6 +183,10 @@ std::string_view sampling_flag(Sampling sampling) {
   return {};
 }
 
+bool samples_environment(const ShaderVariant& v) {
+  return has(v.effects, Effect::environment_light) && v.environment_sampled;
+}
+
 std::string light_capacities(const ShaderVariant& v) {
   std::string text;
   const auto capacity = [&](Effect effect, std::string_view name, std::size_t count) {
@@ -202,6 +223,17 @@ std::string declarations(const EffectSet& effects, const Prefiltered& prefiltere
   return text + "};\n";
 }
 
+// Behind all other textures, whose units start at 0.
+std::string environment_declarations(const ShaderVariant& variant, std::size_t first_unit) {
+  std::string text;
+  std::size_t unit = first_unit;
+  for (const std::string& name : environment_texture_names(variant)) {
+    text += fmt::format("layout(binding = {}) uniform sampler2D{} {};\n", unit++,
+                        name == "environment_stack" ? "Array" : "", name);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string select_text(std::string_view text, const ShaderFlags& flags, std::string_view file, bool numbered) {
@@ -221,6 +253,10 @@ ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options) {
   flags.emplace(geometry_flag(variant.brdf.geometry));
   if (variant.brdf.fresnel == FresnelTerm::schlick) flags.emplace("fresnel_schlick");
   flags.emplace(sampling_flag(variant.sampling));
+  if (samples_environment(variant)) flags.emplace("environment_sampled");
+  // What is drawn at random: a texel of the maps, directions to an environment, facets of a patch.
+  const bool facets = has(variant.effects, Effect::microgeometry_visibility) && variant.sampling != Sampling::frame;
+  if (variant.sampling == Sampling::texel || samples_environment(variant) || facets) flags.emplace("random_draws");
   if (variant.max_probes > 1) flags.emplace("anisotropic");
   if (variant.orthographic) flags.emplace("orthographic");
   if (variant.shared_coordinates) flags.emplace("shared_coordinates");
@@ -249,10 +285,18 @@ std::vector<std::string> texture_names(const EffectSet& effects, const Prefilter
   return names;
 }
 
+std::vector<std::string> environment_texture_names(const ShaderVariant& variant) {
+  if (!has(variant.effects, Effect::environment_light)) return {};
+  if (variant.environment_sampled) return {"environment_radiance", "environment_alias"};
+  return {"environment_stack", "environment_irradiance"};
+}
+
 std::string shared_functions(const ShaderFlags& flags) {
-  return select_text(embedded::common_footprint_glsl, flags, "common_footprint.glsl") +
-         select_text(embedded::common_lobes_glsl, flags, "common_lobes.glsl") +
-         select_text(embedded::common_base_brdf_glsl, flags, "common_base_brdf.glsl");
+  std::string text = select_text(embedded::common_footprint_glsl, flags, "common_footprint.glsl") +
+                     select_text(embedded::common_lobes_glsl, flags, "common_lobes.glsl") +
+                     select_text(embedded::common_base_brdf_glsl, flags, "common_base_brdf.glsl");
+  if (flags.contains("environment_light")) text += select_text(embedded::normal_lobes_glsl, flags, "normal_lobes.glsl");
+  return text;
 }
 
 std::string material_block(const ShaderFlags& flags) {
@@ -294,8 +338,9 @@ std::string method_program(const ShaderVariant& variant, const Module& module, c
 std::string fragment_shader(const ShaderVariant& variant, std::string_view module, std::string_view module_name,
                             const Options& options, const Prefiltered& prefiltered) {
   const ShaderFlags flags = shader_flags(variant, options);
-  std::string lights =
-      light_capacities(variant) + select_text(embedded::surface_lights_glsl, flags, "surface_lights.glsl");
+  std::string lights = light_capacities(variant) +
+                       environment_declarations(variant, texture_names(variant.effects, prefiltered).size()) +
+                       select_text(embedded::surface_lights_glsl, flags, "surface_lights.glsl");
   if (has(variant.effects, Effect::cast_shadow)) lights += embedded::surface_shadows_glsl;
   const std::string forward = select_text(embedded::surface_fragment_glsl, flags, "surface_fragment.glsl");
   return method_program(variant, {module, module_name}, options, prefiltered, lights, forward);

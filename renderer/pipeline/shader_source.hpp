@@ -28,8 +28,9 @@ struct ShaderVariant {
   Sampling sampling = Sampling::frame;
   int max_probes = 1;  ///< anisotropic probes along the major axis; 1: isotropic
   bool orthographic = false;
-  bool shared_coordinates = false;  ///< every map of the scene is looked up at one place
+  bool shared_coordinates = false;   ///< every map of the scene is looked up at one place
   bool surface_coordinates = false;  ///< the method has coordinates of its own (Prefiltered::surface_coordinates)
+  bool environment_sampled = false;  ///< the module draws directions itself, as the reference does, and gives no lobes
   std::size_t point_lights = 0, spot_lights = 0, directional_lights = 0;
   std::size_t shadow_maps = 0;
 };
@@ -52,8 +53,12 @@ inline constexpr int first_shared_line = 10001;
 /// What the shared functions must offer for a method's textures: `texture_arrays`, `texel_lookups`.
 [[nodiscard]] ShaderFlags texture_flags(const Prefiltered& prefiltered);
 
-/// The textures of a program, in the order of their units: the shared ones, then the method's.
+/// The textures of a program, in the order of their units: the shared ones, the method's, then, in a forward pass, the
+/// environment's.
 [[nodiscard]] std::vector<std::string> texture_names(const EffectSet& effects, const Prefiltered& prefiltered);
+
+/// The environment's textures in the order of their units; none without its light.
+[[nodiscard]] std::vector<std::string> environment_texture_names(const ShaderVariant& variant);
 
 /// The material's uniform block, in front of the shared functions: with `multi_lobe` they read it.
 [[nodiscard]] std::string material_block(const ShaderFlags& flags);

@@ -128,19 +128,24 @@ Prefiltered bake_slopes(const Material& material, const Options& options, const 
                         SlopeVariant variant) {
   const Storage storage = parse_storage(options.word("storage"));
   const bool in_moments = options.word("roughness") == "moments" && has(effects, Effect::normal_variation);
+  const Image no_variance(1, 1, 1, 0.0F);
   Prefiltered out;
-  if (has(effects, Effect::normal_variation)) {
-    const TextureCoordinates coordinates = normal_coordinates(material);
-    const std::vector<Image> chain =
-        in_moments ? rough_moment_chain(material) : slope_moment_chain(normal_map_of(material), Image(1, 1, 1, 0.0F));
+  const auto add = [&](const std::string& name, const std::vector<Image>& chain,
+                       const TextureCoordinates& coordinates) {
     if (variant == SlopeVariant::scalar) {
-      out.textures.push_back(make_texture("slope_moments", with_trace(chain), storage, coordinates));
-    } else {
-      out.textures.push_back(make_texture("slope_moments", channels_of(chain, {slope_x, slope_y, slope_xx, slope_yy}),
-                                          storage, coordinates));
-      out.textures.push_back(make_texture("slope_cross", channels_of(chain, {slope_xy}), storage, coordinates));
+      out.textures.push_back(make_texture(name + "_moments", with_trace(chain), storage, coordinates));
+      return;
     }
+    out.textures.push_back(make_texture(name + "_moments", channels_of(chain, {slope_x, slope_y, slope_xx, slope_yy}),
+                                        storage, coordinates));
+    out.textures.push_back(make_texture(name + "_cross", channels_of(chain, {slope_xy}), storage, coordinates));
+  };
+  if (has(effects, Effect::normal_variation)) {
+    add("slope", in_moments ? rough_moment_chain(material) : slope_moment_chain(normal_map_of(material), no_variance),
+        normal_coordinates(material));
   }
+  if (has(effects, Effect::normal_layers))
+    add("layer", slope_moment_chain(layer_map_of(material), no_variance), layer_coordinates(material));
   if (has(effects, Effect::roughness_variation) && !in_moments) {
     out.textures.push_back(
         make_texture("slope_deviation", lobe_deviation_chain(material), storage, roughness_coordinates(material)));

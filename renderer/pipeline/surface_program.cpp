@@ -27,6 +27,11 @@ EffectSet effects_of(const GpuScene& scene, const Method& method) {
   return scene.effects() & (method.info().honours | shared);
 }
 
+// A method whose samples are many, and whose module can, draws directions; one sample a pixel would be all noise.
+bool draws_directions(const Method& method, const ProgramSettings& settings) {
+  return method.info().draws_directions && settings.sampling != Sampling::frame;
+}
+
 ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings) {
   return {.effects = effects_of(scene, *baked.method),
           .brdf = scene.brdf(),
@@ -35,6 +40,7 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
           .orthographic = settings.orthographic,
           .shared_coordinates = scene.shared_coordinates(),
           .surface_coordinates = baked.materials.front().surface_coordinates.has_value(),
+          .environment_sampled = draws_directions(*baked.method, settings),
           .point_lights = scene.light_counts().point,
           .spot_lights = scene.light_counts().spot,
           .directional_lights = scene.light_counts().directional,
@@ -141,8 +147,8 @@ BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scen
 GpuMethod::GpuMethod(const GpuScene& scene, const BakedMethod& baked)
     : baked_(&baked),
       scene_(&scene),
-      build_(baked.method->frame_build(
-          {.effects = effects_of(scene, *baked.method), .brdf = scene.brdf()}, baked.options)) {
+      build_(baked.method->frame_build({.effects = effects_of(scene, *baked.method), .brdf = scene.brdf()},
+                                       baked.options)) {
   for (const GpuBatch& batch : scene.batches()) {
     const Prefiltered& prefiltered = baked.materials.at(batch.material);
     PerBatch part;
@@ -195,6 +201,10 @@ void GpuMethod::rebuild(const View& view) const {
   built_ = {.camera = view.camera, .content = scene_->content()};
 }
 
+GLuint GpuMethod::units(const GpuBatch& batch) const {
+  return static_cast<GLuint>(batch.shared_textures.size() + baked_->materials.front().textures.size());
+}
+
 void GpuMethod::bind(const GpuBatch& batch, GpuScene& scene, Lookup lookup) const {
   const PerBatch& part = part_of(batch);
   auto unit = static_cast<GLuint>(batch.shared_textures.size());
@@ -202,12 +212,16 @@ void GpuMethod::bind(const GpuBatch& batch, GpuScene& scene, Lookup lookup) cons
   if (part.scalars.name() != 0) gl::api().BindBufferBase(GL_UNIFORM_BUFFER, method_binding, part.scalars.name());
 }
 
-SurfaceProgram::SurfaceProgram(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings)
+SurfaceProgram::SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings)
     : settings_(settings),
+      environment_light_(has(effects_of(scene, *baked.method), Effect::environment_light)),
+      environment_sampled_(draws_directions(*baked.method, settings)),
       fragment_text_(fragment_shader(variant_of(scene, baked, settings), baked.method->shader(), baked.spec.name,
                                      baked.options, baked.materials.front())),
       program_(fmt::format("{} (lines below {} are of {}.glsl)", baked.spec.text, first_shared_line, baked.spec.name),
-               vertex_shader(variant_of(scene, baked, settings)), fragment_text_) {}
+               vertex_shader(variant_of(scene, baked, settings)), fragment_text_) {
+  if (environment_light_) scene.environment()->prepare(environment_sampled_);
+}
 
 void SurfaceProgram::set_sample(const glm::ivec2& origin, std::uint32_t seed, std::uint32_t pass) const {
   const GLint origin_place = program_.uniform("sample_origin");
@@ -241,6 +255,7 @@ void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& 
     GLuint unit = 0;
     for (const GpuTexture& texture : batch.shared_textures) bind_texture(unit++, texture, scene, settings_.lookup);
     method.bind(batch, scene, settings_.lookup);
+    if (environment_light_) scene.environment()->bind(method.units(batch), environment_sampled_);
     gl::api().BindVertexArray(method.vertex_array(batch));
     gl::api().DrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT, nullptr);
   }

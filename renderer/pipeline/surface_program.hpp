@@ -49,6 +49,8 @@ class GpuMethod {
   void bind(const GpuBatch& batch, GpuScene& scene, Lookup lookup) const;
   /// The triangles of a batch, with this method's surface coordinates where it has some.
   [[nodiscard]] GLuint vertex_array(const GpuBatch& batch) const;
+  /// The texture units that a batch takes, from 0 on: the shared textures and the method's.
+  [[nodiscard]] GLuint units(const GpuBatch& batch) const;
   [[nodiscard]] const BakedMethod& baked() const { return *baked_; }
 
  private:
@@ -83,8 +85,9 @@ struct ProgramSettings {
 /// One compiled forward pass.
 class SurfaceProgram {
  public:
-  /// Errors (machine): the module does not compile (the log names its lines).
-  SurfaceProgram(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings);
+  /// Makes what the scene's environment lacks for it. Errors (machine): the module does not compile (the log names its
+  /// lines).
+  SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings);
 
   /// Draws the scene into the bound framebuffer, whose viewport is the tile's (times the sample grid).
   void draw(GpuScene& scene, const GpuMethod& method, const View& view, const glm::mat4& world_to_clip) const;
@@ -96,6 +99,8 @@ class SurfaceProgram {
 
  private:
   ProgramSettings settings_;
+  bool environment_light_;
+  bool environment_sampled_;
   std::string fragment_text_;
   gl::Program program_;
 };

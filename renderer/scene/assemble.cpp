@@ -56,8 +56,9 @@ void set_camera(const SceneSettings& settings, const std::optional<Camera>& own,
 void set_lights(const SceneSettings& settings, std::vector<Light> own, Scene& scene) {
   if (settings.keep_model_lights) scene.lights = std::move(own);
   scene.lights.insert(scene.lights.end(), settings.lights.begin(), settings.lights.end());
+  if (settings.environment) scene.environment = make_environment(*settings.environment, scene.warnings);
   scene.exposure = settings.exposure;
-  if (!scene.lights.empty()) return;
+  if (!scene.lights.empty() || scene.environment) return;
   scene.lights = supplied_lights(scene.camera, scene.bounds);
   scene.defaults.emplace_back("lights: a key and a fill directional light and a point light, white at radiance 0.8");
   if (!settings.exposure && !settings.automatic_exposure) {

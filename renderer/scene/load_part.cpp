@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
+#include <iterator>
 #include <memory>
 
 #include "renderer/core/error.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/geometry.hpp"
+#include "renderer/scene/microgeometry_content.hpp"
 #include "renderer/scene/model_file.hpp"
 #include "renderer/scene/plane.hpp"
 #include "renderer/scene/surface_maps.hpp"
@@ -116,6 +118,26 @@ Model load_content(const DressedModel& content) {
   if (content.model.unwrap) std::ranges::for_each(model.meshes, unwrap);
   model.materials = {surface_material(content.surface)};
   return model;
+}
+
+TextureMap load_layer(const LayerFile& file, double strength, std::vector<std::string>& warnings) {
+  const Image stored = read_image(file.path, Transfer::linear);
+  NormalMap map = file.heights ? normals_of_heights(stored, strength) : decode_normal_map(stored, strength);
+  std::ranges::move(describe_faults(map, file.path.filename().string()), std::back_inserter(warnings));
+  return make_map(file.path, std::move(map.image));
+}
+
+TextureMap load_layer(const SurfaceContent& content, double strength, std::vector<std::string>& /*warnings*/) {
+  Image normals = surface_normals(*content.surface, content.settings);
+  scale_slopes(normals, strength);
+  return make_map(content.surface->name, std::move(normals));
+}
+
+TextureMap load_layer(const LayerSettings& settings, std::vector<std::string>& warnings) {
+  const auto load = [&](const auto& content) { return load_layer(content, settings.strength, warnings); };
+  TextureMap map = std::visit(load, settings.content);
+  map.coordinates.transform = glm::mat3x2{settings.uv.x, 0.0F, 0.0F, settings.uv.y, 0.0F, 0.0F};
+  return map;
 }
 
 void replace_base_color(const glm::vec3& color, Material& material) {
@@ -291,10 +313,16 @@ void add_name(const std::string& part, std::string& name) {
 
 Model load_part(const PartSettings& settings) {
   Model model = std::visit([](const auto& content) { return load_content(content); }, settings.content);
+  std::optional<TextureMap> layer;
+  if (settings.layer) layer = load_layer(*settings.layer, model.warnings);
   const LaidMaps maps = load_maps(settings);
+  std::optional<MicrogeometryContent> microgeometry;
+  if (settings.microgeometry) microgeometry = load_microgeometry(*settings.microgeometry);
   for (Material& material : model.materials) {
     apply(settings.brdf, settings.maps, material);
+    if (microgeometry) apply(*microgeometry, material);
     tile(settings.tiling, material);
+    material.layer_map = layer;
     lay(maps, settings.brdf, material);
     add_name(settings.name, material.name);
   }

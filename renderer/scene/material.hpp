@@ -12,6 +12,8 @@
 
 namespace footprint {
 
+struct Microgeometry;
+
 enum class NormalDistribution { blinn_phong, beckmann, ggx, vmf };
 enum class GeometryTerm { none, tan, smith };
 enum class FresnelTerm { none, schlick };
@@ -77,9 +79,14 @@ struct Material {
       lobe_parameter_map;  ///< 1 channel, as lobe_parameter: in place of metallic_roughness_map, `metallic` stays
   std::optional<TextureMap> specular_map;  ///< RGB, linear: times dielectric_specular
   std::optional<TextureMap> normal_map;    ///< 4 channels: unit normal xyz (z > 0 out of the surface), weight 0 or 1
+  std::optional<TextureMap> layer_map;     ///< detail over the normal map, of the same kind: their slopes add
 
   std::optional<float> alpha_cutoff;  ///< MASK: a point with alpha below it is not there
   bool double_sided = false;
+
+  /// The small-scale geometry that the normal map is a view of from above; null where there is none. Shared, never
+  /// changed.
+  std::shared_ptr<const Microgeometry> microgeometry;
 };
 
 /// The map that a material's lobe widens and narrows by: of lobe parameters, or of roughness in its first channel. Null

@@ -16,6 +16,8 @@ constexpr NumberRange lobe_weight{1e-6, 1e3};
 
 constexpr double lowest_axis = 1e-3;  // a lobe on the horizon would lie below it half of the time
 
+const std::vector<std::string> surface_keys{"name", "resolution", "seed", "parameters"};
+
 ModelSettings read_model(const TomlTable& table, const std::filesystem::path& folder) {
   if (table.has("file") == table.has("files")) {
     throw table.error_at("file", "or `files` must be given, and only one of them", "name the model file to draw");
@@ -164,14 +166,14 @@ MapSettings read_maps(const TomlTable& table, const BrdfSettings& brdf, const st
   return maps;
 }
 
-/// The parameters of [surface], each checked where it stands.
-std::map<std::string, std::string> read_parameters(const TomlTable& table, const Surface& surface) {
+/// The key `parameters`, each number and word checked where it stands.
+std::map<std::string, std::string> read_parameters(const TomlTable& table, const std::vector<OptionSpec>& specs) {
   std::vector<std::string> names;
-  for (const OptionSpec& spec : surface.parameters) names.push_back(spec.name);
+  for (const OptionSpec& spec : specs) names.push_back(spec.name);
   std::map<std::string, std::string> given;
   const auto parameters = table.table("parameters", names);
   if (!parameters) return given;
-  for (const OptionSpec& spec : surface.parameters) {
+  for (const OptionSpec& spec : specs) {
     if (!spec.choices.empty()) {
       if (const auto i = parameters->choice(spec.name, spec.choices)) given[spec.name] = spec.choices[*i];
     } else if (spec.integer) {
@@ -191,7 +193,7 @@ SurfaceContent read_surface(const TomlTable& table, std::span<const Surface> sur
   const auto place = table.choice("name", names);
   if (!place) refuse_missing(table, "name");
   const Surface& surface = surfaces[*place];
-  SurfaceSettings settings = surface_settings(surface, read_parameters(table, surface));
+  SurfaceSettings settings = surface_settings(surface, read_parameters(table, surface.parameters));
   if (const auto resolution = table.whole_number("resolution", {1.0, largest_surface_resolution})) {
     settings.resolution = static_cast<int>(*resolution);
   }
@@ -199,6 +201,46 @@ SurfaceContent read_surface(const TomlTable& table, std::span<const Surface> sur
     settings.seed = static_cast<std::uint32_t>(*seed);
   }
   return {&surface, std::move(settings)};
+}
+
+WardSettings read_ward(const TomlTable& table) {
+  WardSettings ward;
+  ward.alpha = table.number("alpha", {1e-2, 1.0}).value_or(ward.alpha);
+  ward.specular = read_color(table, "specular").value_or(ward.specular);
+  ward.diffuse = read_color(table, "diffuse").value_or(ward.diffuse);
+  return ward;
+}
+
+MicrogeometrySettings read_microgeometry(const TomlTable& table, const std::filesystem::path& folder) {
+  if (table.has("kind") == table.has("model")) {
+    throw table.error_at("kind", "or `model` must be given, and only one of them", "add kind = \"weave\"");
+  }
+  MicrogeometrySettings settings;
+  std::vector<std::string> names;
+  for (const PatchKind& kind : patch_kinds()) names.push_back(kind.name);
+  if (const auto place = table.choice("kind", names)) {
+    settings.kind = &patch_kinds()[*place];
+    settings.parameters = read_parameters(table, settings.kind->parameters);
+  } else {
+    settings.model = folder / *table.word("model");
+    if (table.has("parameters")) throw table.error_at("parameters", "belongs to a kind", "leave it out");
+  }
+  if (const auto period = table.numbers("period", 2, length_range)) {
+    if (settings.kind != nullptr) throw table.error_at("period", "belongs to a model", "leave it out");
+    settings.period = glm::vec2{(*period)[0], (*period)[1]};
+  }
+  if (const auto file = table.word("measured")) settings.measured = folder / *file;
+  if (const auto ward = table.table("ward", {"alpha", "specular", "diffuse"})) {
+    if (settings.measured) throw table.error_at("ward", "excludes `measured`", "give one of the two");
+    settings.ward = read_ward(*ward);
+  }
+  if (const auto seed = table.whole_number("seed", {0.0, std::numeric_limits<std::uint32_t>::max()})) {
+    settings.seed = static_cast<std::uint64_t>(*seed);
+  }
+  if (const auto resolution = table.whole_number("resolution", {1.0, 4096.0})) {
+    settings.resolution = static_cast<int>(*resolution);
+  }
+  return settings;
 }
 
 Placement read_placement(const TomlTable& table) {
@@ -215,7 +257,7 @@ decltype(PartSettings::content) read_content(const TomlTable& table, const std::
   const auto model = table.table("model", {"file", "files", "package", "unwrap"});
   const auto plane = table.table("plane", {"size", "normal_map", "normal_scale", "base_color_map",
                                            "metallic_roughness_map", "roughness", "metallic"});
-  const auto surface = table.table("surface", {"name", "resolution", "seed", "parameters"});
+  const auto surface = table.table("surface", surface_keys);
   if (!model && !plane && !surface) {
     throw table.error_at("model", "or `plane` or `surface` must be given", "add model = { file = \"NAME.gltf\" }");
   }
@@ -231,14 +273,41 @@ decltype(PartSettings::content) read_content(const TomlTable& table, const std::
 const std::vector<std::string> common_brdf_keys{"distribution", "geometry", "fresnel", "diffuse"};
 const std::vector<std::string> own_brdf_keys{"exponent", "alpha", "kappa", "specular", "base_color", "lobe"};
 
-/// A part's content, maps and tiling, with a BRDF that is read already.
+LayerSettings read_layer(const TomlTable& table, const std::filesystem::path& folder,
+                         std::span<const Surface> surfaces) {
+  const auto surface = table.table("surface", surface_keys);
+  if (table.has("bump_map") + table.has("normal_map") + surface.has_value() != 1) {
+    throw table.error_at("bump_map", "or `normal_map` or `surface` must be given, and only one of them",
+                         "name the file of heights or of normals, or a surface");
+  }
+  LayerSettings layer;
+  if (surface) layer.content = read_surface(*surface, surfaces);
+  if (const auto name = table.word("normal_map")) layer.content = LayerFile{folder / *name, false};
+  if (const auto name = table.word("bump_map")) {
+    layer.content = LayerFile{folder / *name, true};
+    // No default suits heights: between a scratch and a mountain lie four powers of ten.
+    if (!table.has("strength")) refuse_missing(table, "strength");
+  }
+  if (const auto uv = table.numbers("uv", 2, repeats)) layer.uv = {(*uv)[0], (*uv)[1]};
+  layer.strength = table.number("strength", {-100.0, 100.0}).value_or(layer.strength);
+  return layer;
+}
+
+/// A part's content, layer, maps and tiling, with a BRDF that is read already.
 PartSettings read_part(const TomlTable& table, const BrdfSettings& brdf, const std::filesystem::path& folder,
                        std::span<const Surface> surfaces) {
   PartSettings part;
   part.content = read_content(table, folder, surfaces);
   part.brdf = brdf;
+  if (const auto layer = table.table("layer", {"bump_map", "normal_map", "surface", "uv", "strength"})) {
+    part.layer = read_layer(*layer, folder, surfaces);
+  }
   if (const auto maps = table.table("maps", {"roughness", "exponent", "alpha", "kappa", "specular", "diffuse"})) {
     part.maps = read_maps(*maps, part.brdf, folder);
+  }
+  if (const auto microgeometry = table.table(
+          "microgeometry", {"kind", "model", "period", "measured", "ward", "seed", "resolution", "parameters"})) {
+    part.microgeometry = read_microgeometry(*microgeometry, folder);
   }
   if (const auto tiling = table.table("tiling", {"uv"})) {
     if (const auto uv = tiling->numbers("uv", 2, repeats)) part.tiling = {(*uv)[0], (*uv)[1]};
@@ -262,21 +331,22 @@ NumberRange lobe_range(NormalDistribution distribution) {
 }
 
 const std::vector<std::string>& part_root_keys() {
-  static const std::vector<std::string> keys{"part", "model", "plane", "surface", "brdf", "maps", "tiling"};
+  static const std::vector<std::string> keys{"part", "model", "plane",         "surface", "layer",
+                                             "brdf", "maps",  "microgeometry", "tiling"};
   return keys;
 }
 
 std::vector<PartSettings> read_parts(const TomlTable& root, const std::filesystem::path& folder,
                                      std::span<const Surface> surfaces) {
   if (!root.has("part")) return {read_only_part(root, folder, surfaces)};
-  for (const char* key : {"model", "plane", "surface", "maps", "tiling"}) {
+  for (const char* key : {"model", "plane", "surface", "layer", "maps", "microgeometry", "tiling"}) {
     if (root.has(key)) throw root.error_at(key, "excludes [[part]]", "move it into a [[part]]");
   }
   const auto common_table = root.table("brdf", common_brdf_keys);
   const BrdfSettings common = common_table ? read_common_brdf(*common_table) : BrdfSettings{};
   std::vector<PartSettings> parts;
-  for (const TomlTable& table :
-       root.tables("part", {"name", "model", "plane", "surface", "brdf", "maps", "tiling", "place"})) {
+  for (const TomlTable& table : root.tables("part", {"name", "model", "plane", "surface", "layer", "brdf", "maps",
+                                                     "microgeometry", "tiling", "place"})) {
     const auto own = table.table("brdf", own_brdf_keys);
     PartSettings& part =
         parts.emplace_back(read_part(table, own ? read_own_brdf(*own, common) : common, folder, surfaces));

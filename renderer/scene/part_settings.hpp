@@ -1,14 +1,17 @@
 // What scene.toml draws: the parts of a scene as plain values; docs/scenes.md is its reference.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "renderer/microgeometry/patch_kinds.hpp"
 #include "renderer/scene/material.hpp"
 #include "renderer/scene/surface.hpp"
 #include "renderer/scene/toml_table.hpp"
@@ -36,6 +39,19 @@ struct SurfaceContent {
   SurfaceSettings settings;
 };
 
+/// An image file of heights, or of normals.
+struct LayerFile {
+  std::filesystem::path path;
+  bool heights = false;
+};
+
+/// A detail layer over the normal map of every material of a part.
+struct LayerSettings {
+  std::variant<LayerFile, SurfaceContent> content;
+  glm::vec2 uv{1.0F};     ///< tiles over the mesh's first texture coordinates
+  double strength = 1.0;  ///< factor on the slopes; of heights, the height of 1 over 0 in widths of the map
+};
+
 /// What [brdf] changes in every material.
 struct BrdfSettings {
   std::optional<NormalDistribution> distribution;
@@ -58,6 +74,24 @@ struct MapSettings {
   std::optional<MapFile> roughness, lobe_parameter, specular, diffuse;  ///< at most one of the first two
 };
 
+/// Ward's isotropic BRDF (1992).
+struct WardSettings {
+  double alpha = 0.1;
+  glm::vec3 specular{1.0F}, diffuse{0.0F};
+};
+
+/// The small-scale geometry of a part's materials: a patch of a kind, or a model's triangles.
+struct MicrogeometrySettings {
+  const PatchKind* kind = nullptr;                ///< null: `model`
+  std::map<std::string, std::string> parameters;  ///< of the kind, those that are given
+  std::filesystem::path model;                    ///< glTF file; its y axis points out of the surface
+  std::optional<glm::vec2> period;                ///< of the model's tiles; else its bounds
+  std::optional<std::filesystem::path> measured;  ///< MERL file in place of the base BRDF of the facets
+  std::optional<WardSettings> ward;               ///< or Ward's BRDF
+  std::uint64_t seed = 1;
+  int resolution = 256;  ///< texels a side of the normal map that methods see which know no patches
+};
+
 /// A model's triangles under the maps of a surface, in place of the model's own materials.
 struct DressedModel {
   ModelSettings model;
@@ -75,8 +109,10 @@ struct Placement {
 struct PartSettings {
   std::string name;  ///< before the names of its meshes and materials; may be empty
   std::variant<ModelSettings, PlaneSettings, SurfaceContent, DressedModel> content;
+  std::optional<LayerSettings> layer;
   BrdfSettings brdf;
   MapSettings maps;
+  std::optional<MicrogeometrySettings> microgeometry;
   glm::vec2 tiling{1.0F};  ///< on the texture coordinates of all maps but those that say their own
   Placement placement;
 };

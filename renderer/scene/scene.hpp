@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "renderer/scene/environment.hpp"
 #include "renderer/scene/material.hpp"
 
 namespace footprint {
@@ -93,6 +94,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Light> lights;
   ShadowSettings shadows;
+  std::optional<Environment> environment;
   Camera camera;
   Bounds bounds;
   std::optional<float> exposure;  ///< multiplies radiance before display and the clamped measures; none: automatic

@@ -96,13 +96,16 @@ Camera read_placed_camera(const TomlTable& table) {
   return camera;
 }
 
-void read_lights(const TomlTable& root, SceneSettings& settings) {
+void read_lights(const TomlTable& root, const std::filesystem::path& folder, SceneSettings& settings) {
   for (const TomlTable& light : root.tables("light", {"type", "position", "direction", "color", "intensity", "range",
                                                       "inner_cone_degrees", "outer_cone_degrees"})) {
     settings.lights.push_back(read_light(light));
   }
   if (const auto lights = root.table("lights", {"keep"})) {
     settings.keep_model_lights = lights->boolean("keep").value_or(true);
+  }
+  if (const auto environment = root.table("environment", environment_keys())) {
+    settings.environment = read_environment(*environment, folder);
   }
   if (const auto shadows = root.table("shadows", {"cast", "resolution"})) {
     settings.shadows.cast = shadows->boolean("cast");
@@ -144,7 +147,7 @@ CameraSettings read_camera(const TomlTable& table) {
 
 SceneSettings read_scene_settings(const std::filesystem::path& file, std::span<const Surface> surfaces) {
   const toml::table parsed = parse_toml_file(file);
-  std::vector<std::string> known{"scene", "frame", "light", "lights", "shadows", "camera", "zoom"};
+  std::vector<std::string> known{"scene", "frame", "light", "lights", "environment", "shadows", "camera", "zoom"};
   known.insert(known.end(), part_root_keys().begin(), part_root_keys().end());
   const TomlTable root(parsed, file, "", known);
   SceneSettings settings;
@@ -153,7 +156,7 @@ SceneSettings read_scene_settings(const std::filesystem::path& file, std::span<c
     settings.description = scene->word("description").value_or("");
   }
   settings.parts = read_parts(root, file.parent_path(), surfaces);
-  read_lights(root, settings);
+  read_lights(root, file.parent_path(), settings);
   read_view(root, settings);
   return settings;
 }

@@ -9,6 +9,7 @@
 
 #include "renderer/scene/camera.hpp"
 #include "renderer/scene/part_settings.hpp"
+#include "renderer/scene/environment_settings.hpp"
 #include "renderer/scene/scene.hpp"
 #include "renderer/scene/toml_table.hpp"
 
@@ -28,6 +29,7 @@ struct SceneSettings {
   std::vector<Light> lights;
   bool keep_model_lights = true;
   ShadowSettings shadows;
+  std::optional<EnvironmentSettings> environment;
   CameraSettings camera;
   std::vector<double> distances{1.0};
 };

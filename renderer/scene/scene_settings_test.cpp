@@ -133,6 +133,22 @@ TEST(SceneSettings, ShadowsAreDerivedUnlessTold) {
   expect_error("[plane]\n[shadows]\nresolution = 64.5\n", {"scene.toml:3", "resolution"});
 }
 
+TEST(SceneSettings, ALayerIsHeightsOrNormals) {
+  const SceneSettings settings = read("[plane]\n[layer]\nbump_map = \"h.png\"\nuv = [8, 4]\nstrength = 0.02");
+  ASSERT_TRUE(settings.parts.front().layer);
+  EXPECT_TRUE(std::get<LayerFile>(settings.parts.front().layer->content).heights);
+  EXPECT_EQ(std::get<LayerFile>(settings.parts.front().layer->content).path.filename(), "h.png");
+  EXPECT_EQ(settings.parts.front().layer->uv, glm::vec2(8.0F, 4.0F));
+  EXPECT_EQ(settings.parts.front().layer->strength, 0.02);
+  const SceneSettings normals = read("[plane]\n[layer]\nnormal_map = \"n.png\"");
+  EXPECT_FALSE(std::get<LayerFile>(normals.parts.front().layer->content).heights);
+  EXPECT_EQ(normals.parts.front().layer->strength, 1.0);
+  expect_error("[plane]\n[layer]\nuv = [1, 1]", {"scene.toml:2", "bump_map", "surface"});
+  expect_error("[plane]\n[layer]\nbump_map = \"a\"\nnormal_map = \"b\"", {"scene.toml:3", "only one"});
+  expect_error("[plane]\n[layer]\nbump_map = \"a\"", {"scene.toml:2", "strength", "missing"});
+  expect_error("[plane]\n[layer]\nnormal_map = \"a\"\nstrenght = 2", {"scene.toml:4", "strength"});
+}
+
 TEST(SceneSettings, UnknownKeysNameLineAndNeighbour) {
   expect_error("[plane]\nsize = [1, 1]\nnormal_mop = \"a.png\"\n",
                {"scene.toml:3", "unknown key `normal_mop` in [plane]", "did you mean `normal_map`"});

@@ -97,6 +97,34 @@ NormalMap decode_unit_normals(const Image& stored) {
       stored, [](const glm::dvec3& v) { return v; }, 1.0);
 }
 
+void scale_slopes(Image& normals, double strength) {
+  for (std::size_t i = 0; i < normals.texels.size(); i += 4) {
+    float* const n = &normals.texels[i];
+    const glm::dvec3 scaled = glm::normalize(glm::dvec3{strength * n[0], strength * n[1], n[2]});
+    for (int c = 0; c < 3; ++c) n[c] = static_cast<float>(scaled[c]);
+  }
+}
+
+NormalMap normals_of_heights(const Image& stored, double strength) {
+  NormalMap map{Image(stored.width, stored.height, 4), 0, 0};
+  const auto height = [&](int x, int y) {
+    return static_cast<double>(
+        stored.at((x + stored.width) % stored.width, (y + stored.height) % stored.height).front());
+  };
+  const double per_texel = 0.5 * strength * stored.width;  // texels are square
+  for (int y = 0; y < stored.height; ++y) {
+    for (int x = 0; x < stored.width; ++x) {
+      const double dx = per_texel * (height(x + 1, y) - height(x - 1, y));
+      const double dy = per_texel * (height(x, y - 1) - height(x, y + 1));  // rows run down, the normal's y up
+      const bool valid = std::isfinite(dx) && std::isfinite(dy);
+      map.invalid += valid ? 0 : 1;
+      const glm::vec3 normal = valid ? glm::vec3(glm::normalize(glm::dvec3{-dx, -dy, 1.0})) : glm::vec3{0, 0, 1};
+      std::ranges::copy(std::array{normal.x, normal.y, normal.z, valid ? 1.0F : 0.0F}, map.image.at(x, y).begin());
+    }
+  }
+  return map;
+}
+
 std::vector<std::string> describe_faults(const NormalMap& map, const std::string& name) {
   std::vector<std::string> lines;
   if (map.invalid > 0) {

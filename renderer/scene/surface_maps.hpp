@@ -26,6 +26,13 @@ struct NormalMap {
 /// that are encoded as 0 to 1.
 [[nodiscard]] NormalMap decode_unit_normals(const Image& stored);
 
+/// Multiplies the slopes of a normal map by `strength`.
+void scale_slopes(Image& normals, double strength);
+
+/// The normals of a map of heights that tiles, by central differences: the first channel times `strength` is the height
+/// in widths of the map. A texel next to a height that is not finite gets weight 0.
+[[nodiscard]] NormalMap normals_of_heights(const Image& stored, double strength);
+
 /// What is wrong with a normal map, one line each for the output; empty where nothing is.
 [[nodiscard]] std::vector<std::string> describe_faults(const NormalMap& map, const std::string& name);
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "renderer/core/error.hpp"
 
@@ -34,6 +35,41 @@ TEST(SurfaceMaps, TexelsWithoutDirectionHaveNoWeight) {
     EXPECT_EQ(map.image.texels, (std::vector{0.0F, 0.0F, 1.0F, 0.0F}));
     EXPECT_EQ(map.invalid, 1U);
   }
+}
+
+// Heights of a sine along x over the columns and of a cosine along y: slopes by their derivatives.
+TEST(SurfaceMaps, HeightsBecomeTheirSlopes) {
+  constexpr int size = 256;
+  constexpr double turn = 2.0 * std::numbers::pi / size;
+  Image heights(size, size, 1);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x)
+      heights.at(x, y)[0] = static_cast<float>(0.25 * (std::sin(3 * turn * x) + std::cos(2 * turn * y)));
+  }
+  const NormalMap map = normals_of_heights(heights, 0.1);
+  EXPECT_EQ(map.invalid, 0U);
+  for (const auto& [x, y] : {std::pair{0, 0}, std::pair{40, 100}, std::pair{255, 255}, std::pair{128, 7}}) {
+    const auto n = map.image.at(x, y);
+    const double along_x = 0.1 * 0.25 * 3 * turn * size * std::cos(3 * turn * x);
+    const double down = -0.1 * 0.25 * 2 * turn * size * std::sin(2 * turn * y);
+    EXPECT_NEAR(n[0] / n[2], -along_x, 1e-3) << x << " " << y;
+    EXPECT_NEAR(n[1] / n[2], down, 1e-3) << x << " " << y;
+  }
+}
+
+TEST(SurfaceMaps, AHeightThatIsNoneHasNoSlopeAboutIt) {
+  Image heights(5, 5, 1);
+  heights.at(2, 2)[0] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(normals_of_heights(heights, 1.0).invalid, 4U);
+  EXPECT_EQ(normals_of_heights(Image(1, 1, 1, 0.5F), 1.0).image.texels, (std::vector{0.0F, 0.0F, 1.0F, 1.0F}));
+}
+
+TEST(SurfaceMaps, SlopesAreScaled) {
+  Image normals(1, 1, 4);
+  normals.texels = {0.6F, 0.0F, 0.8F, 1.0F};
+  scale_slopes(normals, 2.0);
+  EXPECT_NEAR(normals.texels[0] / normals.texels[2], 1.5, 1e-6);
+  EXPECT_EQ(normals.texels[3], 1.0F);
 }
 
 TEST(SurfaceMaps, TexelsPointingInwardsAreLaidFlat) {

@@ -1,20 +1,87 @@
 // The base BRDF itself: what the reference averages, and `direct` shades once a pixel.
+//? if normal_layers
+//? include normal_layers.glsl
+//? end
+//? if microgeometry_visibility
+//? include patch_facets.glsl
+//? else
 //? include facets_module.glsl
+//? end
 
 Effective effective(Footprints f) {
 //? if normal_variation
   vec4 texel = fetchFinest(base_normal, f.normal);
 //? if not sampling_frame
+//? if microgeometry_visibility
+  if (texel.w < 0.5 && base_has_patch < 0.5) discard;
+//? else
   if (texel.w < 0.5) discard;  // an invalid normal of the map: nothing is there to shade
+//? end
 //? end
   vec3 normal = normalize(texel.xyz);
 //? else
   vec3 normal = vec3(0.0, 0.0, 1.0);
+//? end
+//? if normal_layers
+  vec4 layer = fetchFinest(base_layer, f.layer);
+//? if not sampling_frame
+  if (layer.w < 0.5) discard;
+//? end
+  normal = withSlopesAdded(normal, layer.xyz);
 //? end
 //? if roughness_variation
   float lobe = lobeFromRoughness(fetchFinest(base_roughness, f.roughness).r);
 //? else
   float lobe = lobe_cutoff.x;
 //? end
+//? if microgeometry_visibility
+  return Effective(evenFacets(normal, lobe), drawnFacets());
+//? else
   return Effective(evenFacets(normal, lobe));
+//? end
 }
+
+//? if environment_light
+//? if environment_sampled
+//? include lobe_sampling.glsl
+
+// One of Lambert's directions about n.
+vec3 lambertDirection(vec3 n, vec2 u) {
+  float azimuth = 2.0 * pi * u.y;
+  return frameAbout(n) * vec3(sqrt(u.x) * vec2(cos(azimuth), sin(azimuth)), sqrt(1.0 - u.x));
+}
+
+// A direction to the light: the mirror image of wo about a normal drawn from the facets, or, one time in two where there
+// is a diffuse term, one of Lambert's. Below the horizon: none.
+vec3 drawDirection(Effective e, vec3 wo, vec3 u) {
+//? if microgeometry_visibility
+  if (base_has_patch > 0.5) return lambertDirection(vec3(0.0, 0.0, 1.0), u.xy);  // facets point everywhere
+//? end
+//? if diffuse
+  if (u.z < 0.5) return lambertDirection(e.facets.normal, u.xy);
+  u.z = 2.0 * u.z - 1.0;
+//? end
+  vec3 h = drawnFacet(e.facets, u);
+  float cosine = dot(h, wo);
+  return cosine > 0.0 ? 2.0 * cosine * h - wo : vec3(0.0, 0.0, -1.0);
+}
+
+// Its density over solid angle.
+float directionDensity(Effective e, vec3 wi, vec3 wo) {
+//? if microgeometry_visibility
+  if (base_has_patch > 0.5) return max(wi.z, 0.0) / pi;
+//? end
+  if (!halfVectorIsDefined(wi, wo)) return 0.0;
+  vec3 h = halfVector(wi, wo);
+  float density = drawnFacetDensity(e.facets, h) / (4.0 * max(dot(h, wo), 1e-6));
+//? if diffuse
+  density = 0.5 * density + 0.5 * max(dot(e.facets.normal, wi), 0.0) / pi;
+//? end
+  return density;
+}
+//? else
+//? include facet_normal_lobes.glsl
+
+vec3 meanNormal(Effective e) { return e.facets.normal; }
+//? end
+//? end

@@ -19,8 +19,21 @@ mat2 slopeCovariance(vec2 mean, vec3 second) {
   return 0.5 * largest * mat2(1.0 + turn.x, turn.y, turn.y, 1.0 - turn.x);
 }
 
+//? if variant_clean
+// Per axis, for E[b.b] in place of M.
+float scalarCovariance(vec2 mean, float trace) { return max(0.5 * (trace - dot(mean, mean)), 0.0); }
+
+//? end
 // A covariance has no negative determinant; its rounding may have.
 float determinantOfCovariance(mat2 c) { return max(c[0][0] * c[1][1] - c[0][1] * c[1][0], 0.0); }
+
+//? if diffuse
+// The symmetric root of a covariance.
+mat2 covarianceRoot(mat2 c) {
+  float s = sqrt(determinantOfCovariance(c));
+  return (c + mat2(s)) / max(sqrt(c[0][0] + c[1][1] + 2.0 * s), 1e-12);
+}
+//? end
 
 // [d -b; -c a]: the inverse times the determinant.
 mat2 adjugate(mat2 m) { return mat2(m[1][1], -m[0][1], -m[1][0], m[0][0]); }
@@ -114,10 +127,60 @@ SlopeLobe footprintLobe(Footprints f) {
   vec4 moments = fetch(slope_moments, f.normal);
   mean = moments.xy;
 //? if variant_clean
-  spread = mat2(max(0.5 * (moments.z - dot(mean, mean)), 0.0));
+  spread = mat2(scalarCovariance(mean, moments.z));
 //? else
   spread = slopeCovariance(mean, vec3(moments.z, fetch(slope_cross, f.normal).r, moments.w));
 //? end
 //? end
+//? if normal_layers
+  // Slopes of independent layers add, and so do their means and covariances: M = M1 + M2 + B1 B2^T + B2 B1^T less
+  // (B1 + B2)(B1 + B2)^T is (M1 - B1 B1^T) + (M2 - B2 B2^T), in the order that cancels least.
+  vec4 layer = fetch(layer_moments, f.layer);
+//? if variant_clean
+  spread += mat2(scalarCovariance(layer.xy, layer.z));
+//? else
+  spread += slopeCovariance(layer.xy, vec3(layer.z, fetch(layer_cross, f.layer).r, layer.w));
+//? end
+  mean += layer.xy;
+//? end
   return slopeLobe(mean, spread, addedVariance(f));
 }
+
+//? if environment_light
+// A long lobe as a row of round ones, for environment light: all as wide as the long one is across, along the slopes in
+// which it is long, with the weights of a Gaussian and its variance. Five or seven, at even steps of a reach of 1.9
+// deviations; of a lobe less than 1.3 times as long as wide, the round one.
+struct LobeRow {
+  int half_count;   // lobes to each side of the middle one
+  float across;     // slope variance per axis about `axis` of each lobe
+  vec2 step;        // from lobe to lobe, in slopes of the surface
+};
+
+LobeRow lobeRow(SlopeLobe e) {
+  mat2 inverse_jacobian = inverseSlopeJacobian(e.mean, e.secant);
+  mat2 local = inverse_jacobian * e.spread * inverse_jacobian;
+  vec2 deviator = vec2(0.5 * (local[0][0] - local[1][1]), local[0][1]);
+  float radius = length(deviator);
+  float middle = e.base + 0.5 * (local[0][0] + local[1][1]);
+  float across = max(middle - radius, max(e.base, 1e-7));
+  float ratio = (middle + radius) / across;
+  if (ratio < 1.69) return LobeRow(0, e.breadth, vec2(0.0));
+  vec2 along = deviator.x >= 0.0 ? vec2(radius + deviator.x, deviator.y) : vec2(deviator.y, radius - deviator.x);
+  float excess = sqrt(2.0 * radius);
+  vec2 unit = slopeJacobian(e.mean, e.secant) * normalize(along) * excess;
+  return ratio <= 16.0 ? LobeRow(2, across, 1.0025 * unit) : LobeRow(3, across, 0.6869 * unit);
+}
+
+NormalLobe lobeOfRow(SlopeLobe e, LobeRow row, int i) {
+  int place = i - row.half_count;
+  vec3 axis = normalOfSlope(e.mean + float(place) * row.step);
+  float x = row.half_count == 0 ? 0.0 : 1.9 * float(place) / float(row.half_count);
+  float share = exp(-0.5 * x * x) / (row.half_count == 0 ? 1.0 : row.half_count == 2 ? 2.6026 : 3.8622);
+  float lobe = lobeFromVariance(row.across);
+//? if roughness_stretched
+  return baseNormalLobe(axis, lobe, share);
+//? else
+  return vmfNormalLobe(axis, 1.0 / row.across, share, lobe);
+//? end
+}
+//? end

@@ -1,14 +1,29 @@
 // The mean of the unit normals under a footprint, from the texture of `bake_mean_normal`: its direction, that of the
 // surface where it has none, and its length, at most 1.
-vec4 meanNormal(Footprints f) {
-//? if normal_variation
-  vec3 mean = fetch(mean_normal, f.normal).xyz;
+//? if normal_layers
+//? include normal_layers.glsl
+//? end
+
+vec4 storedMeanNormal(vec3 mean) {
 //? if storage_unorm8
   mean = 2.0 * mean - 1.0;
 //? end
   float size = length(mean);
   return vec4(size > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0), min(size, 1.0));
+}
+
+vec4 meanNormal(Footprints f) {
+//? if normal_variation
+  vec4 normal = storedMeanNormal(fetch(mean_normal, f.normal).xyz);
 //? else
-  return vec4(0.0, 0.0, 1.0, 1.0);
+  vec4 normal = vec4(0.0, 0.0, 1.0, 1.0);
 //? end
+//? if normal_layers
+  // The slopes of the two add, and of two independent layers so do the variances (1 - |Na|) / |Na| that the lengths tell:
+  // 1 / |Na| = 1 / |Na1| + 1 / |Na2| - 1.
+  vec4 layer = storedMeanNormal(fetch(mean_layer, f.layer).xyz);
+  float size = 1.0 / (1.0 / max(normal.w, 1e-6) + 1.0 / max(layer.w, 1e-6) - 1.0);
+  normal = vec4(withSlopesAdded(normal.xyz, layer.xyz), size);
+//? end
+  return normal;
 }

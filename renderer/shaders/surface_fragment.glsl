@@ -48,10 +48,13 @@ Footprints pixelFootprints() {
 //? if surface_coordinates
   f.surface = Footprint(surface_uv, dFdx(surface_uv), dFdy(surface_uv));
 //? end
+//? if normal_layers
+  f.layer = footprintOf(uv_linear[3], uv_offset_set[3]);
+//? end
   return f;
 }
 
-//? if sampling_texel
+//? if random_draws
 // PCG3D (Jarzynski and Olano 2020): independent numbers for each sample of the picture, whatever the tile.
 uvec3 hashed(uvec3 v) {
   v = v * 1664525u + 1013904223u;
@@ -65,10 +68,16 @@ uvec3 hashed(uvec3 v) {
   return v;
 }
 
-vec2 drawTexelOffsets() {
+// Of each number `draw` of a sample, others.
+uvec3 drawBits(uint draw) {
   uvec2 place = uvec2(ivec2(gl_FragCoord.xy) + sample_origin);
-  uvec3 bits = hashed(uvec3(place, sample_seed.y) ^ hashed(uvec3(sample_seed.x, 0x9e3779b9u, sample_seed.y)));
-  return vec2(bits.xy >> 8u) * (1.0 / 16777216.0);  // 24 bits: exact in a float, below 1
+  return hashed(uvec3(place, sample_seed.y) ^ hashed(uvec3(sample_seed.x, 0x9e3779b9u + draw, sample_seed.y)));
+}
+//? end
+
+//? if random_draws
+vec2 drawTexelOffsets() {
+  return vec2(drawBits(0u).xy >> 8u) * (1.0 / 16777216.0);  // 24 bits: exact in a float, below 1
 }
 //? end
 
@@ -105,6 +114,14 @@ vec3 facetNormal(vec3 along_x, vec3 along_y, vec3 to_viewer) {
 }
 
 //? end
+//? if environment_light
+//? if environment_sampled
+//? include environment_sampling.glsl
+//? else
+//? include environment_stack.glsl
+//? end
+//? end
+
 vec3 lit(SurfacePoint p) {
   vec3 radiance = vec3(0.0);
 //? if point_light
@@ -140,6 +157,9 @@ vec3 lit(SurfacePoint p) {
     radiance += reflected(p, directional_lights[i].to_light.xyz, irradiance);
   }
 //? end
+//? if environment_light
+  radiance += environmentLit(p.effective, p.albedo, p.f0, p.wo, p.frame);
+//? end
   return radiance;
 }
 
@@ -149,7 +169,7 @@ void main() {
   vec3 along_x = dFdx(world_position);  // before any pixel is discarded
   vec3 along_y = dFdy(world_position);
 //? end
-//? if sampling_texel
+//? if random_draws
   texel_draw = drawTexelOffsets();
 //? end
   vec4 base_color = base_color_factor;

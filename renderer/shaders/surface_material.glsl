@@ -12,8 +12,8 @@ layout(std140, binding = 0) uniform MaterialBlock {
   vec4 base_color_factor;
   vec4 dielectric_specular_metallic;
   vec4 lobe_cutoff;    // lobe parameter, alpha cutoff
-  vec4 uv_linear[3];   // slots normal, roughness, base_color: columns d/du, d/dv
-  vec4 uv_offset_set[3];
+  vec4 uv_linear[4];   // slots normal, roughness, base_color, layer: columns d/du, d/dv
+  vec4 uv_offset_set[4];
 //? if specular_variation
   vec4 specular_uv_linear;
   vec4 specular_uv_offset_set;

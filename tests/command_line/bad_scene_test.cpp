@@ -32,6 +32,11 @@ std::vector<Case> scenes() {
       row("EmptyScene", {"scene.toml: ", "empty"}, ""),
       row("NothingToShow", {"scene.toml:1: ", "`model` or `plane`"}, "# nothing\n"),
       row("MissingModel", {"scene.toml, ", "missing.gltf: no such file"}, "[model]\nfile = \"missing.gltf\"\n"),
+      row("LobeInTheSurface", {"scene.toml:5: ", "`axis` in [[brdf.lobe]]", "horizon"},
+          "[plane]\n[brdf]\ndistribution = \"vmf\"\n[[brdf.lobe]]\naxis = [0.7, 0.7, 0]\nkappa = 128\n"),
+      row("LobesBesideAMap", {"scene.toml:7: ", "`kappa` in [maps] excludes [[brdf.lobe]]"},
+          "[plane]\n[brdf]\ndistribution = \"vmf\"\n[[brdf.lobe]]\naxis = [0, 0, 1]\nkappa = 128\n"
+          "[maps.kappa]\nfile = \"kappa.exr\"\n"),
       row("MissingMap", {"scene.toml, ", "missing.png: there is no such file"},
           "[plane]\nnormal_map = \"missing.png\"\n"),
   };

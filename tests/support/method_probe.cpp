@@ -37,15 +37,23 @@ std::vector<glm::vec4> probe_method(const ProbedMethod& probed, const std::strin
     const auto unit = static_cast<GLuint>(textures.size());
     textures.push_back(upload(texture));
     gl::api().BindTextureUnit(unit, textures.back().texture.name());
-    gl::api().BindSampler(unit, samplers.sampler(texture.coordinates, Lookup::trilinear));
-    text += fmt::format("layout(binding = {}) uniform sampler2D {};\n", unit, texture.name);
+    const GpuTexture& bound = textures.back();
+    gl::api().BindSampler(unit, samplers.sampler(bound.coordinates, bound.lookup(Lookup::trilinear)));
+    text += fmt::format("layout(binding = {}) uniform sampler2D{} {};\n", unit, texture.layers > 0 ? "Array" : "",
+                        texture.name);
   }
-  const ShaderFlags flags = shader_flags(variant, options);
+  ShaderFlags flags = shader_flags(variant, options);
+  flags.merge(texture_flags(baked));
+  for (const auto& [name, value] : options.all()) {
+    if (const auto* number = std::get_if<double>(&value))
+      text += fmt::format("const float option_{} = {:e};\n", name, *number);
+  }
   text += fmt::format("const vec4 lobe_cutoff = vec4({:e});\n", lobe_parameter(*probed.material)) +
           shared_functions(flags) + select_text(probed.method->shader(), flags, probed.method->info().name);
-  const std::string footprint =
+  const std::string footprint = fmt::format(
       "Footprint whole_map = Footprint(vec2(0.5), vec2(1.0, 0.0), vec2(0.0, 1.0));\n"
-      "Effective e = effective(Footprints(whole_map, whole_map, whole_map));\n";
+      "Effective e = effective(Footprints(whole_map, whole_map, whole_map{}));\n",
+      has(variant.effects, Effect::normal_layers) ? ", whole_map" : "");
   std::vector<glm::vec4> out = evaluate_glsl(text, footprint + body, inputs);
   context.check("probing a method");
   return out;

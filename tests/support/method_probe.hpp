@@ -22,7 +22,7 @@ struct ProbedMethod {
   [[nodiscard]] static EffectSet default_effects();
 };
 
-/// Bakes the material, takes `Effective e` of a footprint that covers the whole map once, and evaluates
+/// Bakes the material, takes `Effective e` of a footprint that covers the whole of each map once, and evaluates
 /// `vec4 probe(vec4 a, vec4 b, vec4 c) { <e is there> <body> }` over the inputs.
 [[nodiscard]] std::vector<glm::vec4> probe_method(const ProbedMethod& probed, const std::string& body,
                                                   std::span<const std::array<glm::vec4, 3>> inputs);

@@ -1,0 +1,75 @@
+// For tests: a material with its map, built by the method's own passes, and the lobes that the shader makes of it.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "renderer/pipeline/gpu_scene.hpp"
+#include "renderer/pipeline/method.hpp"
+#include "renderer/pipeline/shader_source.hpp"
+#include "renderer/pipeline/view.hpp"
+
+namespace footprint {
+
+const Method& xu_vmf_method();
+
+namespace testing {
+
+using Words = std::map<std::string, std::string>;
+using ProbeInputs = std::vector<std::array<glm::vec4, 3>>;
+
+/// One lobe of the mixture over the whole map.
+struct MapLobe {
+  double share;
+  glm::dvec3 mean;
+  double kappa;
+};
+
+/// The square of tests/support/test_scenes.hpp with a material of Blinn-Phong lobes.
+[[nodiscard]] Scene blinn_phong_square(const Image& normals, float exponent);
+
+/// The same with a roughness map.
+[[nodiscard]] Scene rough_square(const Image& normals, const Image& roughness);
+
+/// The map of a scene's first material.
+class BuiltMap {
+ public:
+  explicit BuiltMap(const Scene& scene, const Words& words = {});
+
+  /// Builds once more, with the triangles and constants of another one's scene, for its camera.
+  void build_for(const BuiltMap& other) const;
+
+  [[nodiscard]] const Prefiltered& baked() const { return baked_; }
+
+  /// One level of all layers of a texture, layer after layer below each other.
+  [[nodiscard]] Image level(std::string_view name, std::size_t index) const;
+
+  /// Evaluates `body` over `inputs`, with `Effective e` of a footprint over the whole map.
+  [[nodiscard]] std::vector<glm::vec4> probe(const std::string& body, const ProbeInputs& inputs) const;
+
+  [[nodiscard]] std::vector<MapLobe> lobes() const;
+  [[nodiscard]] std::vector<double> densities(const std::vector<glm::dvec3>& directions) const;
+  /// Over the upper hemisphere.
+  [[nodiscard]] double energy() const;
+
+ private:
+  [[nodiscard]] std::string shader_text() const;
+
+  Scene values_;
+  Options options_;
+  ShaderVariant variant_;
+  GpuScene scene_;
+  Prefiltered baked_;
+  std::unique_ptr<FrameBuild> build_;
+  gl::Buffer surface_coordinates_;
+  gl::VertexArray vertex_array_;
+  std::vector<GpuTexture> textures_;
+  mutable SamplerCache samplers_;
+};
+
+}  // namespace testing
+}  // namespace footprint

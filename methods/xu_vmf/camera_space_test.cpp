@@ -1,0 +1,162 @@
+// The map in camera space: rotation, culling, coverage and charts, and frames of what moves.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "methods/xu_vmf/built_map.hpp"
+#include "renderer/pipeline/frame.hpp"
+#include "renderer/scene/plane.hpp"
+#include "tests/support/rendering.hpp"
+#include "tests/support/test_scenes.hpp"
+
+namespace footprint::testing {
+namespace {
+
+const Words camera_space{{"space", "camera"}};
+
+glm::mat3 turn(double degrees, const glm::vec3& axis) {
+  return glm::mat3(glm::rotate(glm::mat4(1.0F), static_cast<float>(glm::radians(degrees)), axis));
+}
+
+void turn_vertices(std::vector<Vertex>& vertices, const glm::mat3& by) {
+  for (Vertex& vertex : vertices) {
+    vertex.position = by * vertex.position;
+    vertex.normal = by * vertex.normal;
+    vertex.tangent = glm::vec4(by * glm::vec3(vertex.tangent), vertex.tangent.w);
+  }
+}
+
+Scene turned_square(double degrees, bool two_sided = false) {
+  Scene scene = blinn_phong_square(random_normals(16, 8, 0.7F, 31), 100);
+  turn_vertices(scene.meshes[0].vertices, turn(degrees, {0, 1, 0}));
+  scene.materials[0].double_sided = two_sided;
+  return scene;
+}
+
+glm::vec3 direction(const Image& map, int x, int y) {
+  const auto texel = map.at(x, y);
+  return {texel[0], texel[1], texel[2]};
+}
+
+TEST(CameraSpace, TurnsTheLobesOfATurnedSurface) {
+  const Image flat = BuiltMap(turned_square(0)).level("xu_vmf_whole", 0);
+  for (const double degrees : {0.0, 40.0, -75.0}) {
+    const Image turned = BuiltMap(turned_square(degrees), camera_space).level("xu_vmf_whole", 0);
+    const glm::mat3 by = turn(degrees, {0, 1, 0});
+    for (int y = 0; y < flat.height; ++y) {
+      for (int x = 0; x < flat.width; ++x) {
+        EXPECT_LT(glm::length(direction(turned, x, y) - by * direction(flat, x, y)), 1e-5F) << degrees;
+        EXPECT_EQ(turned.at(x, y)[3], 1.0F);
+      }
+    }
+  }
+}
+
+TEST(CameraSpace, LeavesOutWhatFacesAwayAndTurnsTwoSidedSurfacesRound) {
+  const BuiltMap away(turned_square(180), camera_space);
+  for (const float value : away.level("xu_vmf_whole", 0).texels) EXPECT_EQ(value, 0.0F);
+  const std::vector<MapLobe> lobes = away.lobes();  // nothing is covered: flat, not NaN
+  ASSERT_EQ(lobes.size(), 1U);
+  EXPECT_NEAR(lobes[0].kappa, 101.0, 0.01);
+  const Image flat = BuiltMap(turned_square(0)).level("xu_vmf_whole", 0);
+  const Image behind = BuiltMap(turned_square(180, true), camera_space).level("xu_vmf_whole", 0);
+  for (int x = 0; x < flat.width; ++x) {
+    // Frame: tangent (-1, 0, 0), normal turned round to +z, bitangent cross(n, t) = (0, -1, 0).
+    const glm::vec3 r = direction(flat, x, 3);
+    EXPECT_LT(glm::length(direction(behind, x, 3) - glm::vec3(-r.x, -r.y, r.z)), 1e-5F);
+  }
+}
+
+// Two planes under one flat map: the second is tilted, and looks up the same texels.
+Scene two_planes() {
+  Scene scene = blinn_phong_square(constant_normals(24, 24, {0, 0, 1}), 100);
+  Mesh tilted = make_plane({1, 1}, {1, 1});
+  turn_vertices(tilted.vertices, turn(60, {0, 1, 0}));
+  scene.meshes.push_back(tilted);
+  return scene;
+}
+
+TEST(CameraSpace, MixesNoChartsUpToTheThirdLevel) {
+  const BuiltMap map(two_planes(), camera_space);
+  ASSERT_EQ(map.baked().notes.size(), 1U);
+  const glm::vec3 tilted = turn(60, {0, 1, 0}) * glm::vec3(0, 0, 1);
+  for (std::size_t level = 0; level < 4; ++level) {
+    const Image whole = map.level("xu_vmf_whole", level);
+    int facing = 0, slanted = 0;
+    for (int y = 0; y < whole.height; ++y) {
+      for (int x = 0; x < whole.width; ++x) {
+        const float covered = whole.at(x, y)[3];
+        if (covered == 0.0F) continue;
+        const glm::vec3 n = direction(whole, x, y) / covered / (1.0F - 1.0F / 100.5F);
+        if (glm::length(n - tilted) < 1e-3F) {
+          ++slanted;
+        } else {
+          EXPECT_LT(glm::length(n - glm::vec3(0, 0, 1)), 1e-3F) << level << ": " << x << ", " << y;
+          ++facing;
+        }
+      }
+    }
+    EXPECT_GT(facing, 0) << level;
+    EXPECT_GT(slanted, 0) << level;
+  }
+}
+
+TEST(CameraSpace, FallsBackToTheTangentFrameAndSaysSo) {
+  Scene scene = two_planes();
+  for (Vertex& vertex : scene.meshes[1].vertices) vertex.uv0.x = std::nanf("");
+  const BuiltMap map(scene, camera_space);
+  ASSERT_EQ(map.baked().notes.size(), 1U);
+  EXPECT_EQ(map.baked().scalars.at("xu_vmf_in_camera_space"), 0.0F);
+  EXPECT_EQ(map.level("xu_vmf_whole", 0).width, 24);
+  const std::vector<MapLobe> lobes = map.lobes();
+  ASSERT_EQ(lobes.size(), 1U);
+  EXPECT_NEAR(lobes[0].kappa, 101.0, 0.01);
+}
+
+// One renderer that goes on, frame after frame.
+class GoingOn {
+ public:
+  GoingOn(const Scene& scene, const MethodSpec& spec)
+      : effects_(effects_on(derive_effects(scene))),
+        gpu_scene_(shared_context().info(), scene, effects_),
+        baked_(bake(xu_vmf_method(), spec, scene, effects_, no_progress)),
+        gpu_(gpu_scene_, baked_),
+        frames_(shared_context().info(), gpu_scene_, gpu_, {32, 32}, {}) {}
+
+  [[nodiscard]] Image frame(const Scene& scene) {
+    gpu_scene_.update(scene);
+    return frames_.render({.size = {32, 32}, .camera = scene.camera});
+  }
+
+ private:
+  EffectSet effects_;
+  GpuScene gpu_scene_;
+  BakedMethod baked_;
+  GpuMethod gpu_;
+  FrameRenderer frames_;
+};
+
+TEST(XuFrames, OfWhatMovesAreThoseOfAColdStart) {
+  std::vector<Scene> frames{turned_square(0),  turned_square(20), turned_square(20),
+                            turned_square(20), turned_square(20), turned_square(0)};
+  std::get<PointLight>(frames[2].lights[0]).position = {-0.6F, 0.2F, 1.2F};  // a light
+  frames[3].materials[0].lobe_parameter = 30.0F;                             // the BRDF
+  frames[4].camera.world = glm::translate(glm::mat4(1.0F), {0.3F, 0.0F, 3.0F});
+  for (const std::string text :
+       {"xu_vmf:space=camera", "xu_vmf:space=camera:rebuild=changed", "xu_vmf:space=tangent:rebuild=changed"}) {
+    const MethodSpec spec = parse_methods(text).front();
+    GoingOn going_on(frames.front(), spec);
+    Image before;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const Image frame = going_on.frame(frames[i]);
+      EXPECT_EQ(frame, GoingOn(frames[i], spec).frame(frames[i])) << text << ", frame " << i;
+      EXPECT_NE(frame, before) << text << ", frame " << i;
+      before = frame;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace footprint::testing

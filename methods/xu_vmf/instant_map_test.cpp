@@ -1,0 +1,174 @@
+// What the frame build's map holds, against sums in double precision.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "methods/xu_vmf/built_map.hpp"
+#include "methods/xu_vmf/shortfall_twin.hpp"
+#include "renderer/image/mipmap.hpp"
+#include "tests/support/test_scenes.hpp"
+
+namespace footprint::testing {
+namespace {
+
+// The part that a normal lies in, written once more by angles.
+int cell_twin(const glm::dvec3& n, bool azimuth) {
+  const double radius = std::hypot(n.x, n.y);
+  const double angle = std::atan2(n.y, n.x);
+  if (!azimuth)
+    return 2 * std::min(static_cast<int>(radius / 0.25), 3) + (std::abs(angle) <= std::numbers::pi / 2 ? 0 : 1);
+  const int sector = (static_cast<int>(std::lround(angle / (std::numbers::pi / 2))) + 4) % 4;
+  return 2 * sector + (radius < 0.5 ? 0 : 1);
+}
+
+struct MapCase {
+  std::string j;
+  bool azimuth;
+};
+
+class XuMap : public ::testing::TestWithParam<MapCase> {};
+
+Image checked_normals() {
+  Image normals = random_normals(13, 7, 0.9F, 11);
+  for (int x = 0; x < 5; ++x) normals.at(x, 3)[3] = 0.0F;
+  std::ranges::fill(normals.at(6, 2), 0.0F);
+  return normals;
+}
+
+// (r, 1) of the texels of a map with a roughness map: of all, and of those whose lobes lie in each of 8 cells.
+std::vector<Image> finest_twin(const Image& normals, const Image& roughness, bool azimuth) {
+  std::vector<Image> out(9, Image(normals.width, normals.height, 4, 0.0F));
+  for (int y = 0; y < normals.height; ++y) {
+    for (int x = 0; x < normals.width; ++x) {
+      const auto texel = normals.at(x, y);
+      if (texel[3] < 0.5F) continue;
+      const glm::dvec3 n = glm::normalize(glm::dvec3(texel[0], texel[1], texel[2]));
+      const double alpha = std::pow(roughness.at(x, y)[0], 2.0);
+      const glm::dvec3 r = (1.0 - shortfall_twin(2.0 / (alpha * alpha) - 1.0)) * n;  // kappa = s + 1
+      for (const std::size_t layer : {0, 1 + cell_twin(n, azimuth)}) {
+        const auto value = out[layer].at(x, y);
+        for (int c = 0; c < 3; ++c) value[static_cast<std::size_t>(c)] = static_cast<float>(r[c]);
+        value[3] = 1.0F;
+      }
+    }
+  }
+  return out;
+}
+
+void expect_levels(const BuiltMap& map, std::string_view name, const std::vector<Image>& layers, std::size_t first,
+                   float tolerance) {
+  for (std::size_t layer = 0; layer < layers.size(); ++layer) {
+    const std::vector<Image> chain = mip_chain(layers[layer]);
+    for (std::size_t level = first; level < chain.size(); ++level) {
+      const Image got = map.level(name, level - first);
+      const Image& want = chain[level];
+      for (std::size_t i = 0; i < want.texels.size(); ++i)
+        EXPECT_NEAR(got.texels[layer * want.texels.size() + i], want.texels[i], tolerance) << layer << ", " << level;
+    }
+  }
+}
+
+// Every level of every layer of a map of odd sizes with holes and a roughness map: the mean of (r, 1) over the texels
+// under it, so that (xyz / w) is the mean of the covered ones.
+TEST_P(XuMap, HoldsTheMeansOfTheCoveredTexels) {
+  const auto& [j, azimuth] = GetParam();
+  const Image normals = checked_normals();
+  Image roughness(13, 7, 1);
+  for (std::size_t i = 0; i < roughness.texels.size(); ++i)
+    roughness.texels[i] = 0.2F + 0.7F * static_cast<float>(i % 9) / 9.0F;
+  const Words words{{"j", j}, {"partition", azimuth ? "azimuth" : "latitude"}};
+  const std::vector<Image> finest = finest_twin(normals, roughness, azimuth);
+  std::vector<Image> parts(finest.begin() + 1, finest.end());
+  if (j == "4") {
+    for (std::size_t i = 0; i < 4; ++i) {
+      std::ranges::transform(parts[2 * i].texels, parts[2 * i + 1].texels, parts[i].texels.begin(), std::plus());
+    }
+    parts.resize(4);
+  }
+  for (const bool half : {false, true}) {
+    Words stored = words;
+    if (half) stored["storage"] = "fp16";
+    const BuiltMap map(rough_square(normals, roughness), stored);
+    const float tolerance = half ? 1e-3F : 1e-5F;  // rounded to half floats at each of 3 levels
+    if (j == "1" || j == "adaptive") expect_levels(map, "xu_vmf_whole", {finest[0]}, 0, tolerance);
+    if (j != "1") expect_levels(map, "xu_vmf_parts", parts, 1, tolerance);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, XuMap,
+                         ::testing::Values(MapCase{"1", true}, MapCase{"4", true}, MapCase{"8", true},
+                                           MapCase{"adaptive", true}, MapCase{"4", false}, MapCase{"8", false},
+                                           MapCase{"adaptive", false}),
+                         [](const auto& test) {
+                           return "j_" + test.param.j + (test.param.azimuth ? "_azimuth" : "_latitude");
+                         });
+
+// The map is what the frame's BRDF says, and nothing of the frame before stays in it.
+TEST(XuFrameBuild, AChangedBrdfGivesTheMapOfAColdStart) {
+  const Image normals = random_normals(9, 6, 0.5F, 13);
+  const BuiltMap sharp(blinn_phong_square(normals, 400));
+  const BuiltMap broad(blinn_phong_square(normals, 20));
+  const Image cold = sharp.level("xu_vmf_parts", 1);
+  EXPECT_NE(broad.level("xu_vmf_parts", 1), cold);
+  broad.build_for(sharp);
+  EXPECT_EQ(broad.level("xu_vmf_parts", 1), cold);
+}
+
+TEST(XuFrameBuild, JoinsMapsOfDifferentSizesAndSaysWhereItCannot) {
+  const Image normals = random_normals(8, 8, 0.5F, 14);
+  Image roughness(4, 16, 1, 0.3F);
+  roughness.at(0, 0)[0] = 0.9F;
+  Scene scene = rough_square(normals, roughness);
+  const BuiltMap joined(scene);
+  EXPECT_EQ(joined.baked().textures.front().levels.front().width, 8);
+  EXPECT_EQ(joined.baked().textures.front().levels.front().height, 16);
+  EXPECT_TRUE(joined.baked().notes.empty());
+  scene.materials[0].metallic_roughness_map->coordinates.set = 1;
+  const BuiltMap apart(scene);
+  EXPECT_EQ(apart.baked().textures.front().levels.front().height, 8);
+  ASSERT_EQ(apart.baked().notes.size(), 1U);
+  EXPECT_NEAR(apart.energy(), 1.0, 0.02);
+}
+
+TEST(XuFrameBuild, IsNotThereWhereNothingVaries) {
+  const Options options(xu_vmf_method().info().options, {}, "xu_vmf");
+  const Material material = blinn_phong_square(constant_normals(4, 4, {0, 0, 1}), 100).materials[0];
+  EXPECT_EQ(xu_vmf_method().frame_build({}, options), nullptr);
+  EXPECT_TRUE(xu_vmf_method().precompute(material, options, {}, no_progress).textures.empty());
+}
+
+// A facet with two lobes has layers for each, and one of normals.
+TEST(XuMap, HasTheLobesOfAFacetInLayersOfTheirOwn) {
+  const Image normals = random_normals(8, 8, 0.6F, 21);
+  Scene scene = blinn_phong_square(normals, 100);
+  const float slant = std::sqrt(0.5F);
+  scene.materials[0].lobe_parameter.reset();
+  scene.materials[0].lobes = {{{slant, 0.0F, slant}, 50.0F, 0.7F}, {{0.0F, 0.0F, 1.0F}, 200.0F, 0.3F}};
+  const BuiltMap map(scene);
+  const Image whole = map.level("xu_vmf_whole", 0);
+  ASSERT_EQ(whole.height, 3 * 8);
+  EXPECT_EQ(map.level("xu_vmf_parts", 0).height, 16 * 4);
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      const auto texel = normals.at(x, y);
+      const glm::dvec3 n = glm::normalize(glm::dvec3(texel[0], texel[1], texel[2]));
+      // The rotation from z to n, about cross(z, n), by Rodrigues' formula.
+      const glm::dvec3 about(-n.y, n.x, 0.0);
+      const glm::dvec3 axis(slant, 0.0, slant);
+      const glm::dvec3 turned = axis * n.z + glm::cross(about, axis) + about * glm::dot(about, axis) / (1.0 + n.z);
+      const std::array expected{(1.0 - shortfall_twin(51.0)) * turned, (1.0 - shortfall_twin(201.0)) * n, n};
+      for (int layer = 0; layer < 3; ++layer) {
+        for (int c = 0; c < 3; ++c) {
+          EXPECT_NEAR(whole.at(x, y + 8 * layer)[static_cast<std::size_t>(c)],
+                      expected[static_cast<std::size_t>(layer)][c], 1e-5);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace footprint::testing

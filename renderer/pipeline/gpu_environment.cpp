@@ -1,0 +1,70 @@
+// See gpu_environment.hpp.
+#include "renderer/pipeline/gpu_environment.hpp"
+
+#include <array>
+#include <glm/glm.hpp>
+
+#include "renderer/environment/direction_table.hpp"
+#include "renderer/pipeline/gpu_scene.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr GLuint block_binding = 5;
+constexpr float directions_a_sample = 2.0F;  // of each kind: docs/base-brdf.md
+
+gl::Buffer block_of(const std::array<glm::vec4, 2>& values) { return gl::Buffer(std::as_bytes(std::span(values))); }
+
+gl::Texture plain_texture(const Image& image, GLenum internal_format, GLenum format) {
+  gl::Texture texture(internal_format, image.width, image.height);
+  texture.upload(0, image.width, image.height, format, GL_FLOAT, image.texels.data());
+  return texture;
+}
+
+}  // namespace
+
+GpuEnvironment::Part GpuEnvironment::stack_part() const {
+  const RadianceStack stack = prefilter_environment(environment_, no_progress);
+  const PrefilteredTexture maps = make_array_texture("environment_stack", stack.layers, Storage::fp32, {});
+  Part part;
+  part.first = std::move(upload(maps).texture);
+  part.second = plain_texture(stack.irradiance, GL_RGBA32F, GL_RGBA);
+  part.sampler = gl::trilinear_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+  part.block = block_of({glm::vec4(stack.mean, 0.0F),
+                         glm::vec4(stack.finest_sharpness, static_cast<float>(stack.map_count()), 0.0F, 0.0F)});
+  part.bytes = byte_count(maps) + stack.irradiance.texels.size() * sizeof(float);
+  return part;
+}
+
+GpuEnvironment::Part GpuEnvironment::table_part() const {
+  const Image& map = *environment_.radiance;
+  const DirectionTable table = direction_table(map);
+  Part part;
+  part.first = plain_texture(table.radiance, GL_RGBA32F, GL_RGBA);
+  part.second = plain_texture(table.alias, GL_RG32F, GL_RG);
+  part.sampler = gl::nearest_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+  part.block = block_of({glm::vec4(static_cast<float>(map.width), static_cast<float>(map.height), environment_.rotation,
+                                   directions_a_sample),
+                         glm::vec4(0.0F)});
+  part.bytes = (table.radiance.texels.size() + table.alias.texels.size()) * sizeof(float);
+  return part;
+}
+
+void GpuEnvironment::prepare(bool sampled) {
+  if (sampled) {
+    if (!tables_) tables_ = table_part();
+  } else if (!stack_) {
+    stack_ = stack_part();
+  }
+}
+
+void GpuEnvironment::bind(GLuint first_unit, bool sampled) const {
+  const Part& part = sampled ? *tables_ : *stack_;
+  for (const gl::Texture* const texture : {&part.first, &part.second}) {
+    gl::api().BindTextureUnit(first_unit, texture->name());
+    gl::api().BindSampler(first_unit++, part.sampler.name());
+  }
+  gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding, part.block.name());
+}
+
+}  // namespace footprint

@@ -1,0 +1,41 @@
+// An environment on the GPU: prefiltered maps for the methods, tables to draw directions for the reference.
+#pragma once
+
+#include <optional>
+
+#include "renderer/environment/radiance_stack.hpp"
+#include "renderer/gl/objects.hpp"
+
+namespace footprint {
+
+/// The textures and the block that environment_stack.glsl or environment_sampling.glsl read. Each kind is made where a
+/// program first asks for it: the reference needs no stack, a method no tables. Needs the context that made it to be
+/// current, also when destroyed.
+class GpuEnvironment {
+ public:
+  explicit GpuEnvironment(Environment environment) : environment_(std::move(environment)) {}
+
+  /// Makes what a program needs, if it is not there yet. Errors (machine): over the GL limits, out of memory.
+  void prepare(bool sampled);
+
+  /// Binds it: two textures from `first_unit` on, and the block.
+  void bind(GLuint first_unit, bool sampled) const;
+
+  /// Bytes of the prefiltered maps, 0 before they are made. The reference's tables are no part of any method's cost.
+  [[nodiscard]] std::size_t stack_bytes() const { return stack_ ? stack_->bytes : 0; }
+
+ private:
+  struct Part {
+    gl::Texture first, second;  // in the order of environment_texture_names
+    gl::Sampler sampler;
+    gl::Buffer block;
+    std::size_t bytes = 0;
+  };
+  [[nodiscard]] Part stack_part() const;
+  [[nodiscard]] Part table_part() const;
+
+  Environment environment_;
+  std::optional<Part> stack_, tables_;
+};
+
+}  // namespace footprint

@@ -1,0 +1,151 @@
+// Environment light for prefiltered footprints: each lobe of the module's NDF takes the environment's mean over the lobe
+// that its mirror images make about the viewer (Wang 2009), from a stack of prefiltered maps (Kautz 2000).
+layout(std140, binding = 5) uniform EnvironmentBlock {
+  vec4 environment_mean;         // radiance over all directions
+  vec4 environment_stack_range;  // sharpness of the finest map's lobe, number of maps: two a level
+};
+
+const float inverse_root_two_pi = 0.3989423;
+
+// The octahedral map of the sphere, +y in the middle, on the unit square (Praun and Hoppe 2003).
+vec2 octahedral(vec3 d) {
+  vec3 p = d / (abs(d.x) + abs(d.y) + abs(d.z));
+  if (p.y >= 0.0) return 0.5 + 0.5 * p.xz;
+  vec2 folded = 1.0 - abs(p.zx);
+  return 0.5 + 0.5 * vec2(p.x >= 0.0 ? folded.x : -folded.x, p.z >= 0.0 ? folded.y : -folded.y);
+}
+
+// A border of one texel repeats what lies across the edge, so that linear filtering has no seam.
+vec2 borderedPlace(vec2 place, vec2 size) { return (1.0 + place * (size - 2.0)) / size; }
+
+// Map 2 l is level l of layer 0, map 2 l + 1 that of layer 1.
+vec3 stackMap(int map, vec2 place) {
+  int level = map >> 1;
+  vec2 size = vec2(textureSize(environment_stack, level).xy);
+  return textureLod(environment_stack, vec3(borderedPlace(place, size), map & 1), float(level)).rgb;
+}
+
+// The environment's mean over a vMF lobe. Every map's lobe is half as sharp as the one before it. Between two of them the
+// mean is taken as linear in the logarithm of the sharpness: in a smooth environment it is so in 1 / sharpness, at a lamp
+// in the sharpness itself, and between the two nothing is off by more than 6%. Behind the last map it goes to the mean
+// over all directions as the sharpness goes to 0.
+vec3 stackRadiance(vec3 axis, float sharpness) {
+  vec2 place = octahedral(axis);
+  float finest = environment_stack_range.x;
+  int last = int(environment_stack_range.y) - 1;
+  float steps = log2(finest / max(sharpness, 1e-6));
+  if (steps >= float(last)) return mix(environment_mean.rgb, stackMap(last, place), exp2(float(last) - steps));
+  steps = max(steps, 0.0);
+  int map = min(int(steps), last - 1);
+  return mix(stackMap(map, place), stackMap(map + 1, place), steps - float(map));
+}
+
+// The share of a vMF lobe that lies above a plane, t the cosine of axis and plane's normal; to 0.021. A logistic whose
+// slope at t = 0 is right for small and for large sharpness k, and whose value at t = 1 is the exact 1 / (1 + e^-k).
+float shareAbove(float t, float k) {
+  float slope = k * inversesqrt(1.0 + k / 2.546);
+  return 1.0 / (1.0 + exp(-clamp(slope * t + (k - slope) * t * t * t, -80.0, 80.0)));
+}
+
+// The lobe as the viewer sees its facets: each counts by (h.wo), of those that face away nothing is seen.
+struct VisibleLobe {
+  vec3 axis;   // mean of the visible normals
+  float area;  // mean of max(h.wo, 0)
+};
+
+// In the plane that touches the sphere at the axis the lobe is a Gaussian, and (h.wo) is linear across it: moments of a
+// Gaussian that is cut off. Far from grazing views the area is (axis.wo) and the axis the lobe's own.
+VisibleLobe visibleLobe(NormalLobe lobe, vec3 wo) {
+  float c = dot(lobe.axis, wo);
+  vec3 across = wo - c * lobe.axis;
+  float sine = length(across);
+  float deviation = inversesqrt(lobe.sharpness);
+  if (sine < 1e-4) return VisibleLobe(lobe.axis, max(c, 0.0));
+  float a = max(c / (sine * deviation), -5.0);
+  float facing = normalCdf(a);
+  float mean = a * facing + inverse_root_two_pi * exp(-0.5 * a * a);
+  vec3 shifted = lobe.axis + across * (deviation * facing / (max(mean, 1e-7) * sine));
+  return VisibleLobe(normalize(shifted), sine * deviation * max(mean, 0.0));
+}
+
+// What a lobe reflects towards wo: integral of F D G' L over wi. With dwi = 4 (h.wo) dh the lobe's energy is 4 times what
+// is visible of it; about the mirror image of the visible normals' mean it is 4 (axis.wo) times wider (Wang 2009). F and
+// G' are taken there, and of what lies below the surface's horizon nothing arrives.
+vec3 lobeRadiance(Effective e, NormalLobe lobe, vec3 f0, vec3 wo, mat3 frame) {
+  VisibleLobe visible = visibleLobe(lobe, wo);
+  float cosine = max(dot(visible.axis, wo), 0.01);
+  vec3 mirrored = 2.0 * cosine * visible.axis - wo;
+  mirrored /= max(length(mirrored), 1e-6);
+  float sharpness = lobe.sharpness / (4.0 * cosine);
+  float reflected = 4.0 * lobe.weight * visible.area * shareAbove(mirrored.z, sharpness);
+  reflected *= lobeGeometry(e, lobe, visible.axis, mirrored, wo);
+  return fresnelTerm(f0, mirrored, wo) * reflected * stackRadiance(frame * mirrored, sharpness);
+}
+
+//? if distribution_ggx
+// GGX over slopes is a mixture of Gaussians, 1 / (1 + x)^2 = integral of s e^-s e^-sx ds; two points of Gauss and Laguerre
+// keep its energy and its peak with its first two derivatives in x. The tail is what a single Gaussian lacks.
+const vec2 ggx_shares = vec2(0.8535534, 0.1464466);
+const vec2 ggx_sharpness = vec2(0.5857864, 3.4142136);
+//? end
+
+vec3 environmentSpecular(Effective e, vec3 f0, vec3 wo, mat3 frame) {
+  vec3 radiance = vec3(0.0);
+  int count = lobeCount(e);
+  for (int i = 0; i < count; ++i) {
+    NormalLobe lobe = normalLobe(e, i);
+    if (lobe.weight <= 0.0) continue;
+//? if distribution_ggx
+    if (lobe.tailed) {
+      NormalLobe tail = lobe;
+      tail.sharpness *= ggx_sharpness.x;
+      tail.weight *= ggx_shares.x;
+      radiance += lobeRadiance(e, tail, f0, wo, frame);
+      lobe.sharpness *= ggx_sharpness.y;
+      lobe.weight *= ggx_shares.y;
+    }
+//? end
+    radiance += lobeRadiance(e, lobe, f0, wo, frame);
+  }
+  return radiance;
+}
+
+//? if diffuse
+//? if fresnel
+// The mean over a hemisphere of light, weighted by the cosine, of what Schlick's term lets through: (1 - v.h)^5 has the
+// mean 0.0282 (1 - n.v)^2.6 + 0.0001, to 5e-4.
+vec3 meanTransmitted(vec3 f0, float cosine) {
+//? if fresnel_schlick
+  return (1.0 - f0) * (0.9999 - 0.0282 * pow(1.0 - clamp(cosine, 0.0, 1.0), 2.6));
+//? else
+  return vec3(1.0);
+//? end
+}
+//? end
+
+// Lambert's term over all directions. Irradiance is close to linear in the normal, so that normals with the mean m get
+// the mean over all directions and |m| of the difference to it. A facet that leans loses what its surface hides: of a
+// constant environment (1 - n_z) / 2.
+vec3 environmentDiffuse(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) {
+  vec3 m = meanNormal(e);
+  float size = length(m);
+  vec3 n = size > 1e-6 ? m / size : vec3(0.0, 0.0, 1.0);
+  vec2 irradiance_size = vec2(textureSize(environment_irradiance, 0));
+  vec2 place = borderedPlace(octahedral(frame * n), irradiance_size);
+  vec3 facing = textureLod(environment_irradiance, place, 0.0).rgb;  // irradiance over pi
+  vec3 arriving = mix(environment_mean.rgb, facing, min(size, 1.0));
+  vec3 reflected = albedo * arriving * clamp(0.5 + 0.5 * m.z, 0.0, 1.0);
+//? if fresnel
+  reflected *= meanTransmitted(f0, dot(n, wo));
+//? end
+  return reflected;
+}
+//? end
+
+vec3 environmentLit(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) {
+  vec3 radiance = environmentSpecular(e, f0, wo, frame);
+//? if diffuse
+  radiance += environmentDiffuse(e, albedo, f0, wo, frame);
+//? end
+  return radiance;
+}

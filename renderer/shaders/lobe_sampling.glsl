@@ -1,0 +1,82 @@
+// Normals drawn from facets' lobes, for the reference's own integration of an environment.
+
+// Right-handed, the third column n (Duff et al. 2017).
+mat3 frameAbout(vec3 n) {
+  float s = n.z >= 0.0 ? 1.0 : -1.0;
+  float a = -1.0 / (s + n.z);
+  float b = n.x * n.y * a;
+  return mat3(vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3(b, s + n.y * n.y * a, -n.y), n);
+}
+
+// 1 - e^x for x <= 0, without the cancellation near 0.
+float shortOfOne(float x) { return x > -1e-3 ? -x * (1.0 + 0.5 * x) : 1.0 - exp(x); }
+
+// 1 - cos of the angle with that squared tangent.
+float tiltOf(float tangent2) {
+  float secant = sqrt(1.0 + tangent2);
+  return tangent2 / (secant * (1.0 + secant));
+}
+
+// 1 - cos of a normal drawn from the lobe, and its density over solid angle; u in (0, 1].
+//? if distribution_blinn_phong
+float drawnTilt(float s, float u) { return shortOfOne(log(u) / (s + 1.0)); }
+float drawnDensity(float s, vec3 n, vec3 h) { return lobeDensity(s, n, h); }
+//? end
+//? if distribution_vmf
+float drawnTilt(float kappa, float u) {
+  float k = max(kappa, 1e-3);
+  return clamp(-log(u + (1.0 - u) * exp(-2.0 * k)) / k, 0.0, 2.0);
+}
+float drawnDensity(float kappa, vec3 n, vec3 h) { return lobeDensity(max(kappa, 1e-3), n, h); }
+//? end
+// Of microfacets the projected area integrates to one.
+//? if distribution_beckmann
+float drawnTilt(float alpha, float u) { return tiltOf(-alpha * alpha * log(u)); }
+float drawnDensity(float alpha, vec3 n, vec3 h) { return lobeDensity(alpha, n, h) * max(dot(n, h), 0.0); }
+//? end
+//? if distribution_ggx
+float drawnTilt(float alpha, float u) { return tiltOf(alpha * alpha * (1.0 - u) / u); }
+float drawnDensity(float alpha, vec3 n, vec3 h) { return lobeDensity(alpha, n, h) * max(dot(n, h), 0.0); }
+//? end
+
+vec3 drawnNormal(float lobe, vec3 n, vec2 u) {
+  float tilt = drawnTilt(lobe, max(1.0 - u.x, 1e-7));
+  float sine = sqrt(max(tilt * (2.0 - tilt), 0.0));
+  float azimuth = 2.0 * pi * u.y;
+  return frameAbout(n) * vec3(sine * cos(azimuth), sine * sin(azimuth), 1.0 - tilt);
+}
+
+//? if multi_lobe
+float facetWeight() {
+  float sum = 0.0;
+  for (int k = 0; k < facet_lobe_count; ++k) sum += facet_lobes[k].weight;
+  return sum;
+}
+//? end
+
+// A normal of facets; u.z chooses among their lobes.
+vec3 drawnFacet(Facets f, vec3 u) {
+//? if multi_lobe
+  if (facet_lobe_count > 0) {
+    float left = u.z * facetWeight();
+    int k = 0;
+    while (k < facet_lobe_count - 1 && left >= facet_lobes[k].weight) left -= facet_lobes[k++].weight;
+    return drawnNormal(widenedLobe(k, f.spread), turnedWithNormal(facet_lobes[k].axis, f.normal), u.xy);
+  }
+//? end
+  return drawnNormal(f.lobe, f.normal, u.xy);
+}
+
+float drawnFacetDensity(Facets f, vec3 h) {
+//? if multi_lobe
+  if (facet_lobe_count > 0) {
+    vec3 own = inFacetFrame(h, f.normal);
+    float sum = 0.0;
+    for (int k = 0; k < facet_lobe_count; ++k) {
+      sum += facet_lobes[k].weight * drawnDensity(widenedLobe(k, f.spread), facet_lobes[k].axis, own);
+    }
+    return sum / facetWeight();
+  }
+//? end
+  return drawnDensity(f.lobe, f.normal, h);
+}

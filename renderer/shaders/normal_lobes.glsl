@@ -1,0 +1,41 @@
+// The effective NDF as lobes over half vectors: what a module hands over for environment light.
+
+//? include normal_cdf.glsl
+
+// A spherical Gaussian over half vectors, e^{sharpness ((axis.h) - 1)}.
+struct NormalLobe {
+  vec3 axis;        // unit, tangent frame
+  float sharpness;  // kappa, above 0
+  float weight;     // the lobe's integral of D(h) (axis.h): what its facets cover seen along its axis
+  float base;       // parameter of the base lobe that the geometry factor takes for it
+  bool tailed;      // with GGX's tail: two Gaussians stand for it, not one
+};
+
+// The mean of axis.h over a vMF lobe: coth kappa - 1 / kappa.
+float meanCosine(float kappa) {
+  if (kappa < 0.1) return kappa * (1.0 / 3.0 - kappa * kappa / 45.0);
+  float e = exp(-2.0 * kappa);
+  return (1.0 + e) / (1.0 - e) - 1.0 / kappa;
+}
+
+// A von Mises-Fisher lobe that holds `share` of the footprint.
+NormalLobe vmfNormalLobe(vec3 axis, float kappa, float share, float base) {
+  return NormalLobe(axis, max(kappa, 1e-3), share * meanCosine(kappa), base, false);
+}
+
+// The base lobe about an axis that holds `share` of the footprint. The widths are those of the lobe near its peak; a
+// microfacet lobe's integral of D(h) (axis.h) is one, a Blinn-Phong lobe's (s + 1) / (s + 2).
+NormalLobe baseNormalLobe(vec3 axis, float lobe, float share) {
+//? if distribution_blinn_phong
+  return NormalLobe(axis, lobe + 1.0, share * (lobe + 1.0) / (lobe + 2.0), lobe, false);
+//? end
+//? if distribution_vmf
+  return vmfNormalLobe(axis, lobe, share, lobe);
+//? end
+//? if distribution_beckmann
+  return NormalLobe(axis, 2.0 / (lobe * lobe), share, lobe, false);
+//? end
+//? if distribution_ggx
+  return NormalLobe(axis, 2.0 / (lobe * lobe), share, lobe, true);
+//? end
+}

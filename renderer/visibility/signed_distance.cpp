@@ -1,0 +1,84 @@
+// See signed_distance.hpp.
+#include "renderer/visibility/signed_distance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "renderer/environment/octahedral.hpp"
+
+namespace footprint {
+namespace {
+
+glm::dvec2 middle_of_cell(int x, int y) { return (glm::dvec2(x, y) + 0.5) / static_cast<double>(visibility_edge); }
+
+std::vector<glm::vec3> grid_directions() {
+  std::vector<glm::vec3> directions;
+  for (int y = 0; y < visibility_edge; ++y) {
+    for (int x = 0; x < visibility_edge; ++x) directions.emplace_back(octahedral_direction(middle_of_cell(x, y)));
+  }
+  return directions;
+}
+
+// All pairs of cells that share a side. Each side of the square is folded onto itself.
+std::vector<std::pair<std::size_t, std::size_t>> grid_neighbours() {
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  const auto cell = [](int x, int y) { return visibility_cell(octahedral_direction(middle_of_cell(x, y))); };
+  for (int i = 0; i < visibility_edge; ++i) {
+    for (int j = -1; j < visibility_edge; ++j) {
+      pairs.emplace_back(cell(j, i), cell(j + 1, i));
+      pairs.emplace_back(cell(i, j), cell(i, j + 1));
+    }
+  }
+  return pairs;
+}
+
+// Points halfway between neighbours of which one is visible.
+std::vector<glm::vec3> edges_of(const SphereVisibility& visible) {
+  static const std::vector<std::pair<std::size_t, std::size_t>> neighbours = grid_neighbours();
+  const std::vector<glm::vec3>& directions = visibility_directions();
+  std::vector<glm::vec3> edges;
+  for (const auto& [a, b] : neighbours) {
+    if (visible[a] != visible[b]) edges.push_back(glm::normalize(directions[a] + directions[b]));
+  }
+  return edges;
+}
+
+}  // namespace
+
+std::size_t visibility_cell(const glm::dvec3& direction) {
+  const glm::dvec2 place = octahedral_place(direction) * static_cast<double>(visibility_edge);
+  const int x = std::clamp(static_cast<int>(place.x), 0, visibility_edge - 1);
+  const int y = std::clamp(static_cast<int>(place.y), 0, visibility_edge - 1);
+  return static_cast<std::size_t>(y) * visibility_edge + static_cast<std::size_t>(x);
+}
+
+const std::vector<glm::vec3>& visibility_directions() {
+  static const std::vector<glm::vec3> directions = grid_directions();
+  return directions;
+}
+
+SphereVisibility visibility_at(const Occluders& occluders, const glm::vec3& point, const glm::vec3& normal) {
+  const std::vector<glm::vec3>& directions = visibility_directions();
+  const glm::vec3 start = point + occluders.offset() * normal;
+  SphereVisibility visible;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    visible[i] = glm::dot(directions[i], normal) > 0.0F && !occluders.blocked(start, directions[i]);
+  }
+  return visible;
+}
+
+std::vector<float> signed_distances(const SphereVisibility& visible, std::span<const glm::vec3> directions) {
+  const std::vector<glm::vec3> edges = edges_of(visible);
+  std::vector<float> distances;
+  for (const glm::vec3& direction : directions) {
+    float nearest = -1.0F;
+    for (const glm::vec3& edge : edges) nearest = std::max(nearest, glm::dot(direction, edge));
+    const float angle = edges.empty() ? std::numbers::pi_v<float> : std::acos(std::min(nearest, 1.0F));
+    distances.push_back(visible[visibility_cell(direction)] ? angle : -angle);
+  }
+  return distances;
+}
+
+}  // namespace footprint

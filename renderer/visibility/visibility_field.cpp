@@ -1,0 +1,164 @@
+// See visibility_field.hpp.
+#include "renderer/visibility/visibility_field.hpp"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "renderer/core/memory.hpp"
+#include "renderer/environment/octahedral.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr int map_texels = visibility_map_edge * visibility_map_edge;
+constexpr int bordered_edge = visibility_map_edge + 2;
+constexpr std::size_t vertices_at_once = 512;  // between two reports of progress
+constexpr std::size_t channels = 4;
+constexpr int fewest_columns = 512;  // of an environment, eight or so for each cell along the equator
+
+using Distances = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // a row a vertex
+
+std::vector<glm::vec3> map_directions() {
+  std::vector<glm::vec3> directions;
+  for (int y = 0; y < visibility_map_edge; ++y) {
+    for (int x = 0; x < visibility_map_edge; ++x) {
+      directions.emplace_back(bordered_texel_direction(bordered_edge, x + 1, y + 1));
+    }
+  }
+  return directions;
+}
+
+// A vertex of the scene, counted over all meshes.
+std::vector<const Vertex*> all_vertices(const Scene& scene) {
+  std::vector<const Vertex*> vertices;
+  for (const Mesh& mesh : scene.meshes) {
+    for (const Vertex& vertex : mesh.vertices) vertices.push_back(&vertex);
+  }
+  return vertices;
+}
+
+glm::vec3 diffuse_share(const SphereVisibility& visible, const glm::vec3& normal, std::span<const glm::dvec3> light) {
+  glm::dvec3 above(0.0), seen(0.0);
+  const std::vector<glm::vec3>& directions = visibility_directions();
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const glm::dvec3 arriving = static_cast<double>(std::max(glm::dot(directions[i], normal), 0.0F)) * light[i];
+    above += arriving;
+    if (visible[i]) seen += arriving;
+  }
+  glm::vec3 share(1.0F);
+  for (int c = 0; c < 3; ++c) {
+    if (above[c] > 0.0) share[c] = static_cast<float>(seen[c] / above[c]);
+  }
+  return share;
+}
+
+// What is known of all vertices before the compression.
+struct Measured {
+  Distances distances;
+  std::vector<glm::vec3> diffuse_shares;
+};
+
+Measured measure(const std::vector<const Vertex*>& vertices, const Occluders& occluders,
+                 std::span<const glm::dvec3> light, const Progress& progress) {
+  require_memory(vertices.size() * (map_texels * sizeof(float) + sizeof(VertexVisibility)),
+                 fmt::format("visibility at {} vertices", vertices.size()),
+                 "set `cast = false` in [shadows] of a scene.toml, or use a coarser model");
+  Measured measured{Distances(static_cast<Eigen::Index>(vertices.size()), map_texels),
+                    std::vector<glm::vec3>(vertices.size())};
+  const std::vector<glm::vec3> directions = map_directions();
+  for (std::size_t start = 0; start < vertices.size(); start += vertices_at_once) {
+    progress("visibility at vertices", static_cast<double>(start) / static_cast<double>(vertices.size()));
+    const std::size_t end = std::min(start + vertices_at_once, vertices.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(start, end, 16), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+        const glm::vec3& given = vertices[i]->normal;
+        const glm::vec3 normal = given / std::max(glm::length(given), 1e-20F);
+        const SphereVisibility visible = visibility_at(occluders, vertices[i]->position, normal);
+        const std::vector<float> distances = signed_distances(visible, directions);
+        std::ranges::copy(distances, measured.distances.row(static_cast<Eigen::Index>(i)).data());
+        measured.diffuse_shares[i] = diffuse_share(visible, normal, light);
+      }
+    });
+  }
+  return measured;
+}
+
+// The directions of greatest variance, the greatest first.
+Eigen::MatrixXf principal_components(const Distances& centred) {
+  const Eigen::MatrixXd covariance = (centred.transpose() * centred).cast<double>();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
+  return solver.eigenvectors().rightCols(visibility_components).rowwise().reverse().cast<float>();
+}
+
+// Mean and components side by side in the channels of bordered maps.
+std::vector<Image> make_layers(const Eigen::RowVectorXf& mean, const Eigen::MatrixXf& components) {
+  std::vector<Image> layers((visibility_components + channels) / channels,
+                            Image(bordered_edge, bordered_edge, channels));
+  for (int y = 0; y < bordered_edge; ++y) {
+    for (int x = 0; x < bordered_edge; ++x) {
+      const glm::dvec2 place = octahedral_place(bordered_texel_direction(bordered_edge, x, y));
+      const glm::ivec2 inside =
+          glm::min(glm::ivec2(place * static_cast<double>(visibility_map_edge)), visibility_map_edge - 1);
+      const int texel = inside.y * visibility_map_edge + inside.x;
+      layers[0].at(x, y)[0] = mean[texel];
+      for (std::size_t k = 0; k < visibility_components; ++k) {
+        layers[(k + 1) / channels].at(x, y)[(k + 1) % channels] = components(texel, static_cast<Eigen::Index>(k));
+      }
+    }
+  }
+  return layers;
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> light_of_cells(const Environment& environment) {
+  // A small map is cut up, so that every cell gets its share of a texel.
+  const auto times = [](int texels, int least) { return (least + texels - 1) / texels; };
+  const Image& given = *environment.radiance;
+  const Image map = resampled_environment(given, given.width * times(given.width, fewest_columns),
+                                          given.height * times(given.height, fewest_columns / 2));
+  const std::vector<double> solid_angles = row_solid_angles(map.width, map.height);
+  std::vector<glm::dvec3> light(visibility_directions().size(), glm::dvec3(0.0));
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      const glm::dvec3 direction = environment_direction(environment, (x + 0.5) / map.width, (y + 0.5) / map.height);
+      const auto texel = map.at(x, y);
+      light[visibility_cell(direction)] +=
+          solid_angles[static_cast<std::size_t>(y)] * glm::dvec3(texel[0], texel[1], texel[2]);
+    }
+  }
+  return light;
+}
+
+VisibilityField visibility_field(const Scene& scene, const Occluders& occluders, const Environment& environment,
+                                 const Progress& progress) {
+  const std::vector<const Vertex*> vertices = all_vertices(scene);
+  Measured measured = measure(vertices, occluders, light_of_cells(environment), progress);
+  const Eigen::RowVectorXf mean = measured.distances.colwise().mean();
+  measured.distances.rowwise() -= mean;
+  const Eigen::MatrixXf components = principal_components(measured.distances);
+  const Eigen::MatrixXf weights = measured.distances * components;
+  VisibilityField field{.layers = make_layers(mean, components), .meshes = {}};
+  std::size_t vertex = 0;
+  for (const Mesh& mesh : scene.meshes) {
+    std::vector<VertexVisibility>& values = field.meshes.emplace_back(mesh.vertices.size());
+    for (VertexVisibility& value : values) {
+      for (std::size_t k = 0; k < visibility_components; ++k) {
+        value.weights.at(k) = weights(static_cast<Eigen::Index>(vertex), static_cast<Eigen::Index>(k));
+      }
+      value.diffuse_share = measured.diffuse_shares[vertex++];
+    }
+  }
+  const double left_out = (measured.distances - weights * components.transpose()).squaredNorm();
+  field.error = std::sqrt(left_out / static_cast<double>(measured.distances.size()));
+  return field;
+}
+
+}  // namespace footprint

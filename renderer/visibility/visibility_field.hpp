@@ -1,0 +1,43 @@
+// Visibility of distant light at the vertices of a scene: signed distance functions as a few numbers a vertex.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "renderer/core/progress.hpp"
+#include "renderer/scene/environment.hpp"
+#include "renderer/visibility/signed_distance.hpp"
+
+namespace footprint {
+
+/// Components that stand for a vertex's signed distance function, beside the mean of all.
+inline constexpr std::size_t visibility_components = 15;
+
+/// Texels a side of the maps of mean and components, without their border.
+inline constexpr int visibility_map_edge = 16;
+
+/// Light from each cell of the visibility grid: radiance integrated over its solid angle, in the order of
+/// visibility_directions.
+[[nodiscard]] std::vector<glm::dvec3> light_of_cells(const Environment& environment);
+
+/// One vertex.
+struct VertexVisibility {
+  std::array<float, visibility_components> weights{};
+  glm::vec3 diffuse_share{1.0F};  ///< of a Lambert surface's irradiance: what is visible over what is above the horizon
+};
+
+/// The signed distance function of vertex v at w is mean(w) + sum over k of weights[k] component_k(w), radians.
+struct VisibilityField {
+  std::vector<Image> layers;  ///< RGBA, bordered octahedral maps; the first channel of all is the mean
+  std::vector<std::vector<VertexVisibility>> meshes;  ///< as the meshes of the scene, a value a vertex
+  double error = 0.0;                                 ///< what the components leave out, root mean square, radians
+};
+
+/// Asks the visibility of every vertex (1024 rays each, TBB and Embree) and compresses the distances by principal
+/// components. Equal scenes give equal fields at any number of threads. Errors: (machine) more than memory holds; those
+/// of `progress`.
+[[nodiscard]] VisibilityField visibility_field(const Scene& scene, const Occluders& occluders,
+                                               const Environment& environment, const Progress& progress);
+
+}  // namespace footprint

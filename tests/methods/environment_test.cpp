@@ -1,0 +1,182 @@
+// What must hold for every method under an environment: it meets `direct` where nothing is filtered, keeps the energy
+// of a white furnace within a bound, and stays finite; and what the reference integrates.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "methods/registry.hpp"
+#include "renderer/image/metrics.hpp"
+#include "renderer/pipeline/base_surface.hpp"
+#include "tests/support/rendering.hpp"
+#include "tests/support/test_scenes.hpp"
+
+namespace footprint::testing {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Scene lit_square(const Image& normals, const SquareMaterial& material, Environment environment) {
+  Scene scene = square_scene(normals, material);
+  scene.lights.clear();
+  scene.environment = std::move(environment);
+  return scene;
+}
+
+// Bright above and on one side, dark below: nothing in it is symmetric.
+Environment uneven_environment() {
+  Image map(32, 16, 3);
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      const auto height = static_cast<float>(1.0 - (y + 0.5) / map.height);
+      map.at(x, y)[0] = 0.1F + height * height;
+      map.at(x, y)[1] = 0.1F + height * (x < 12 ? 1.0F : 0.2F);
+      map.at(x, y)[2] = x == 20 && y == 4 ? 20.0F : 0.3F;
+    }
+  }
+  return {.name = "uneven", .radiance = std::make_shared<const Image>(std::move(map)), .rotation = 0.7F};
+}
+
+double mean_of(const Image& picture) {
+  double sum = 0;
+  double count = 0;
+  for (std::size_t i = 0; i < picture.texels.size(); i += 4) {
+    if (picture.texels[i + 3] < 1.0F) continue;
+    sum += (picture.texels[i] + picture.texels[i + 1] + picture.texels[i + 2]) / 3.0;
+    count += 1.0;
+  }
+  return sum / count;
+}
+
+constexpr BaseBrdf lambert{NormalDistribution::ggx, GeometryTerm::none, FresnelTerm::none, true};
+constexpr BaseBrdf microfacet{NormalDistribution::ggx, GeometryTerm::smith, FresnelTerm::none, false};
+
+class UnderAnEnvironment : public ::testing::TestWithParam<const Method*> {
+ protected:
+  void SetUp() override {
+    if (!has(GetParam()->info().honours, Effect::environment_light)) GTEST_SKIP() << "leaves environment light out";
+  }
+};
+
+TEST_P(UnderAnEnvironment, EqualsDirectOnAConstantMapAtAnyDistance) {
+  Image normals = constant_normals(16, 16, {0.28F, 0, 0.96F});
+  normals.at(0, 0)[0] += 2e-5F;  // keeps a flat map from being left out, and is no bump to speak of
+  for (const NormalDistribution distribution : {NormalDistribution::ggx, NormalDistribution::beckmann,
+                                                NormalDistribution::blinn_phong, NormalDistribution::vmf}) {
+    const BaseBrdf brdf{distribution, GeometryTerm::smith, FresnelTerm::schlick, true};
+    TestRenderer renderer(lit_square(normals, {.brdf = brdf}, uneven_environment()), {32, 32});
+    for (const double distance : {0.05, 1.0, 4.0}) {
+      const Image direct = renderer.frame(find_method("direct"), {}, 1, 0, distance);
+      const Image picture = renderer.frame(*GetParam(), {}, 1, 0, distance);
+      EXPECT_LT(compare_images(picture, direct, 1.0F).value().relative_rmse, 2e-3)
+          << "distribution " << static_cast<int>(distribution) << ", distance " << distance;
+    }
+  }
+}
+
+// All that arrives leaves: a white Lambert surface whose texels lean up to 30 degrees, and a white metal.
+TEST_P(UnderAnEnvironment, KeepsTheEnergyOfAWhiteFurnace) {
+  const Environment white = constant_environment(glm::vec3(1.0F));
+  const Image normals = random_normals(16, 16, 0.5F, 7);
+  const SquareMaterial plaster{.brdf = lambert, .base_color = glm::vec3(1.0F), .specular = glm::vec3(0.0F)};
+  const SquareMaterial metal{.brdf = microfacet, .roughness = 0.5F, .specular = glm::vec3(1.0F)};
+  for (const SquareMaterial& material : {plaster, metal}) {
+    TestRenderer renderer(lit_square(normals, material, white), {32, 32});
+    const double truth = mean_of(renderer.reference(64).mean);
+    for (const double distance : {0.5, 4.0}) {
+      const Image picture = renderer.frame(*GetParam(), {}, 1, 0, distance);
+      EXPECT_NEAR(mean_of(picture) / truth, 1.0, 0.12) << GetParam()->info().name << ", distance " << distance;
+      for (const float value : picture.texels) ASSERT_LE(value, 1.1F);
+    }
+  }
+}
+
+TEST_P(UnderAnEnvironment, StaysFiniteAtTheLimits) {
+  for (const NormalDistribution distribution : {NormalDistribution::ggx, NormalDistribution::blinn_phong}) {
+    for (const float roughness : {0.0F, 1.0F}) {
+      const BaseBrdf brdf{distribution, GeometryTerm::tan, FresnelTerm::schlick, true};
+      Scene scene =
+          lit_square(random_normals(9, 5, 0.999F, 3), {.brdf = brdf, .roughness = roughness}, uneven_environment());
+      scene.camera = receding_grooves().camera;
+      TestRenderer renderer(scene, {32, 32});
+      for (const double distance : {0.05, 4.0}) {
+        const Image picture = renderer.frame(*GetParam(), {}, 1, 0, distance);
+        for (const float value : picture.texels) ASSERT_TRUE(std::isfinite(value) && value >= 0.0F);
+      }
+    }
+  }
+}
+
+// At the scale of a texel a pixel, where nothing is far from its own lobe.
+TEST_P(UnderAnEnvironment, IsNearTheReference) {
+  Scene scene = lit_square(random_normals(16, 16, 0.4F, 5), {.brdf = {}, .roughness = 0.5F}, uneven_environment());
+  TestRenderer renderer(scene, {32, 32});
+  const Image truth = renderer.reference(256).mean;
+  EXPECT_LT(compare_images(renderer.frame(*GetParam()), truth, 1.0F).value().relative_rmse, 0.25);
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, UnderAnEnvironment, ::testing::ValuesIn(all_methods().begin(), all_methods().end()),
+                         [](const auto& test) { return test.param->info().name; });
+
+// Radiance of a flat surface at one point of the picture by a sum over directions that shares no code with the shaders.
+double blinn_phong_under(const Environment& environment, double exponent, std::size_t channel) {
+  constexpr int rings = 400;
+  constexpr int sectors = 800;
+  const glm::dvec3 wo(0, 0, 1);
+  double sum = 0;
+  for (int i = 0; i < rings; ++i) {
+    const double z = (i + 0.5) / rings;
+    for (int j = 0; j < sectors; ++j) {
+      const double azimuth = 2.0 * pi * (j + 0.5) / sectors;
+      const double r = std::sqrt(1.0 - z * z);
+      const glm::dvec3 wi(r * std::cos(azimuth), r * std::sin(azimuth), z);
+      const double density = (exponent + 1.0) / (2.0 * pi) * std::pow(glm::normalize(wi + wo).z, exponent);
+      sum += density * environment_radiance(environment, wi)[static_cast<int>(channel)];
+    }
+  }
+  return sum * 2.0 * pi / (rings * sectors);
+}
+
+TEST(ReferenceUnderAnEnvironment, IntegratesItWithinItsStandardError) {
+  constexpr BaseBrdf brdf{NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, false};
+  Scene scene = lit_square({}, {.brdf = brdf, .specular = glm::vec3(0.25F)}, uneven_environment());
+  scene.camera.orthographic = true;
+  scene.camera.ymag = 1.0F;
+  for (const float exponent : {8.0F, 200.0F}) {
+    scene.materials[0].lobe_parameter = exponent;
+    const Supersampled reference = TestRenderer(scene, {16, 16}).reference(256);
+    glm::dvec3 mean(0.0), variance(0.0);
+    for (std::size_t i = 0; i < reference.mean.texel_count(); ++i) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        mean[static_cast<int>(c)] += reference.mean.texels[4 * i + c];
+        variance[static_cast<int>(c)] += std::pow(static_cast<double>(reference.standard_error.texels[3 * i + c]), 2.0);
+      }
+    }
+    const auto count = static_cast<double>(reference.mean.texel_count());
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double error = std::sqrt(variance[static_cast<int>(c)]) / count;
+      const double truth = 0.25 * blinn_phong_under(*scene.environment, exponent, c);
+      EXPECT_NEAR(mean[static_cast<int>(c)] / count, truth, 4.0 * error + 2e-3 * truth)
+          << "exponent " << exponent << ", channel " << c;
+      EXPECT_LT(error, 0.02 * truth);
+    }
+  }
+}
+
+TEST(ReferenceUnderAnEnvironment, ReflectsAllOfAWhiteFurnace) {
+  const SquareMaterial plaster{.brdf = lambert, .base_color = glm::vec3(1.0F), .specular = glm::vec3(0.0F)};
+  TestRenderer renderer(lit_square({}, plaster, constant_environment(glm::vec3(1.0F))), {16, 16});
+  EXPECT_NEAR(mean_of(renderer.reference(256).mean), 1.0, 2e-3);
+  EXPECT_NEAR(mean_of(renderer.frame(find_method("direct"))), 1.0, 1e-3);
+}
+
+TEST(ReferenceUnderAnEnvironment, IsDeterministicAndNotOfTheTile) {
+  TestRenderer renderer(lit_square(random_normals(16, 16, 0.4F, 5), {}, uneven_environment()), {24, 24});
+  const Image whole = renderer.reference(16, 3).mean;
+  EXPECT_EQ(whole, renderer.reference(16, 3).mean);
+  EXPECT_LT(largest_difference(whole, renderer.reference(16, 3, ReferenceFilter::after_shading, 16).mean), 1e-4);
+  EXPECT_GT(largest_difference(whole, renderer.reference(16, 4).mean), 1e-4);
+}
+
+}  // namespace
+}  // namespace footprint::testing

@@ -103,6 +103,7 @@ float smoothFactor(vec4 lobe, vec3 h, vec3 wi, vec3 wo) {
 //? end
 }
 
+//? if microgeometry_visibility
 //? if tabulated_brdf
 // Facets that reflect by lobes of their own, in colour; that of sharpness 0 is diffuse (equations 9 and 15 in one). The
 // table has the facets' cosine to the light over that of the surface.
@@ -124,10 +125,13 @@ vec3 tabulatedReflection(Effective e, vec3 wi, vec3 wo) {
   return sum * max(wi.z, 0.0);
 }
 //? end
+//? end
 
 vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
+//? if microgeometry_visibility
 //? if tabulated_brdf
   if (iwasaki_tabulated > 0.5) return tabulatedReflection(e, wi, wo);
+//? end
 //? end
   if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
   vec3 h = halfVector(wi, wo);
@@ -149,10 +153,10 @@ vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
 
 //? if diffuse
 vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
+//? if microgeometry_visibility
 //? if tabulated_brdf
   if (iwasaki_tabulated > 0.5) return vec3(0.0);  // tabulatedReflection has it
 //? end
-//? if microgeometry_visibility
   // The table has the facets' cosines over that of the surface as a whole.
   return lambert(vec3(0.0, 0.0, 1.0), albedo, f0, wi, wo) * tableAt(e.count, placeOf(wi, wo));
 //? else

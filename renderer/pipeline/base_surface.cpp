@@ -72,6 +72,7 @@ class BaseSurface final : public Method {
       std::ranges::move(patch_facet_textures(material, progress), std::back_inserter(out.textures));
       out.scalars["base_has_patch"] = material.microgeometry ? 1.0F : 0.0F;
     }
+    if (has(effects, Effect::microgeometry_colour)) out.textures.push_back(paint_texture(material));
     if (has(effects, Effect::tabulated_brdf)) {
       out.textures.push_back(tabulated_brdf_texture(material));
       out.scalars["base_has_table"] = material.microgeometry && material.microgeometry->brdf ? 1.0F : 0.0F;

@@ -135,13 +135,15 @@ std::vector<PrefilteredTexture> patch_facet_textures(const Material& material, c
     visibility = visibility_image(seen, samples.size());
     area = area_image(patch, samples, seen, directions);
   }
-  std::vector<PrefilteredTexture> textures{
-      make_texture("base_facets", {facets}, Storage::fp32, {}),
-      make_texture("base_visibility", {visibility}, Storage::fp32, {}),
-      make_texture("base_visible_area", {area}, Storage::fp32, {}),
-      make_texture("base_paints", {paint_image(paint_factors(material))}, Storage::fp32, {})};
+  std::vector<PrefilteredTexture> textures{make_texture("base_facets", {facets}, Storage::fp32, {}),
+                                           make_texture("base_visibility", {visibility}, Storage::fp32, {}),
+                                           make_texture("base_visible_area", {area}, Storage::fp32, {})};
   textures[2].filter = TextureFilter::linear;
   return textures;
+}
+
+PrefilteredTexture paint_texture(const Material& material) {
+  return make_texture("base_paints", {paint_image(paint_factors(material))}, Storage::fp32, {});
 }
 
 PrefilteredTexture tabulated_brdf_texture(const Material& material) {

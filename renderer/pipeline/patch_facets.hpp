@@ -20,9 +20,12 @@ struct PaintFactors {
 /// are.
 [[nodiscard]] std::vector<PaintFactors> paint_factors(const Material& material);
 
-/// Facets of equal area in the order of their normals, what each sees of 1024 directions, a_v and the paints. Of a
-/// material without a patch: textures of the same names that hold nothing.
+/// Facets of equal area in the order of their normals, what each sees of 1024 directions, and a_v. Of a material
+/// without a patch: textures of the same names that hold nothing.
 [[nodiscard]] std::vector<PrefilteredTexture> patch_facet_textures(const Material& material, const Progress& progress);
+
+/// The paints' factors.
+[[nodiscard]] PrefilteredTexture paint_texture(const Material& material);
 
 /// The facets' tabulated BRDF, a layer for each phi_d; one texel where the material has none.
 [[nodiscard]] PrefilteredTexture tabulated_brdf_texture(const Material& material);

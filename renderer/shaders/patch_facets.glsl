@@ -58,6 +58,15 @@ float visibleArea(vec3 wo) {
 
 const float least_visible_area = 1e-6;
 
+// What a paint multiplies the specular term's reflectance and the base colour by.
+//? if microgeometry_colour
+vec3 specularFactor(float paint) { return texelFetch(base_paints, ivec2(int(paint), 0), 0).rgb; }
+vec3 diffuseFactor(float paint) { return texelFetch(base_paints, ivec2(int(paint), 1), 0).rgb; }
+//? else
+vec3 specularFactor(float paint) { return vec3(1.0); }
+vec3 diffuseFactor(float paint) { return vec3(1.0); }
+//? end
+
 //? if tabulated_brdf
 const float largest_cell_shift = 0.99999;
 
@@ -84,7 +93,7 @@ vec3 patchSpecular(FacetDraw draw, vec3 f0, vec3 wi, vec3 wo) {
     float paint;
     vec4 normal = drawnNormal(draw, k, wi, wo, paint);
     if (normal.w == 0.0) continue;
-    vec3 factor = texelFetch(base_paints, ivec2(int(paint), 0), 0).rgb;
+    vec3 factor = specularFactor(paint);
 //? if tabulated_brdf
     if (base_has_table > 0.5) {
       sum += normal.w * dot(normal.xyz, wi) * factor * tabulatedBrdf(normal.xyz, wi, wo);
@@ -109,8 +118,7 @@ vec3 patchDiffuse(FacetDraw draw, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
     float paint;
     vec4 normal = drawnNormal(draw, k, wi, wo, paint);
     if (normal.w == 0.0) continue;
-    vec3 own = f0 * texelFetch(base_paints, ivec2(int(paint), 0), 0).rgb;
-    sum += normal.w * lambert(normal.xyz, albedo * texelFetch(base_paints, ivec2(int(paint), 1), 0).rgb, own, wi, wo);
+    sum += normal.w * lambert(normal.xyz, albedo * diffuseFactor(paint), f0 * specularFactor(paint), wi, wo);
   }
   return sum / (float(facets_per_sample) * area);
 }

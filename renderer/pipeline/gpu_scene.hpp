@@ -80,8 +80,8 @@ class GpuScene {
   /// Errors (usage): materials with different base BRDFs (a comparison needs one); (machine): over GL's limits.
   GpuScene(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects);
 
-  /// Takes over vertices, lights and the constants of materials as `scene` has them: the next frame of what moves. Maps
-  /// and base BRDF stay. Errors (usage): another number of materials, vertices or lights of a kind than before.
+  /// Takes over vertices, lights and the constants of materials as `scene` has them: the next frame of what moves. Maps,
+  /// environment and base BRDF stay. Errors (usage): another number of materials, vertices or lights of a kind than before.
   void update(const Scene& scene);
   [[nodiscard]] const SceneContent& content() const { return content_; }
 

@@ -35,7 +35,9 @@ OptionSpec whole_number(std::string name, double value, double minimum, double m
 }
 
 std::vector<OptionSpec> option_table() {
-  return {whole_number("j", 8, 1, most_lobes, "Most spherical Gaussians of the normal distribution."),
+  return {whole_number("j", 7, 1, most_lobes,
+                       "Most spherical Gaussians of the normal distribution; 3 and 7 fill texels of four with the "
+                       "diffuse term."),
           whole_number("directions", 12, 2, 32, "Side of the grid of incident and outgoing directions."),
           whole_number("facets", 65536, 64, 1 << 24, "Samples of the patch."),
           word_option("lobe", {"base", "sg"},
@@ -97,16 +99,28 @@ Image tiled(std::span<const float> values, std::size_t channels, int side, Irrad
   return image;
 }
 
-// One layer a lobe, and one for the diffuse term.
+// One channel of images, four to an image: a shader fetches them together. What is left over is 0.
+std::vector<Image> packed(const std::vector<Image>& values) {
+  std::vector<Image> out;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (k % 4 == 0) out.emplace_back(values[k].width, values[k].height, 4);
+    for (std::size_t i = 0; i < values[k].texels.size(); ++i) out.back().texels[4 * i + k % 4] = values[k].texels[i];
+  }
+  return out;
+}
+
+// The values of the lobes and, behind them, of the diffuse term: a layer each in colour, else four a layer.
 PrefilteredTexture amplitude_texture(const Amplitudes& table, const TableSettings& settings, Storage storage) {
   const Irradiance irradiance = settings.cosines == Cosines::published ? Irradiance::with : Irradiance::without;
-  const std::size_t layer = table.channels * table.directions * table.directions;
-  std::vector<std::vector<Image>> layers;
+  const std::size_t size = table.channels * table.directions * table.directions;
+  std::vector<Image> values;
   for (std::size_t j = 0; j < table.lobes.size(); ++j) {
-    layers.push_back(
-        {tiled(std::span(table.masses).subspan(j * layer, layer), table.channels, settings.side, irradiance)});
+    values.push_back(tiled(std::span(table.masses).subspan(j * size, size), table.channels, settings.side, irradiance));
   }
-  layers.push_back({tiled(table.diffuse, table.channels, settings.side, Irradiance::with)});
+  values.push_back(tiled(table.diffuse, table.channels, settings.side, Irradiance::with));
+  if (table.channels == 1) values = packed(values);
+  std::vector<std::vector<Image>> layers;
+  for (Image& value : values) layers.push_back({std::move(value)});
   return make_array_texture("iwasaki_amplitudes", layers, storage, {}, TextureFilter::linear);
 }
 

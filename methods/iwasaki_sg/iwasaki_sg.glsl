@@ -53,15 +53,22 @@ TablePlace placeOf(vec3 wi, vec3 wo) {
   return place;
 }
 
-vec3 tableAt(int layer, TablePlace place) {
+vec4 tableLayer(int layer, TablePlace place) {
   vec4 sum = vec4(0.0);
   for (int k = 0; k < 4; ++k) sum += place.weights[k] * textureLod(iwasaki_amplitudes, vec3(place.uv[k], layer), 0.0);
-//? if microgeometry_colour
-  return sum.rgb;
-//? else
-  return sum.rrr;
-//? end
+  return sum;
 }
+
+// The values of the table are the lobes' and, behind them, the diffuse term's: a layer each in colour, else four a layer.
+//? if microgeometry_colour
+const int values_per_layer = 1;
+vec3 valueIn(vec4 layer, int value) { return layer.rgb; }
+//? else
+const int values_per_layer = 4;
+vec3 valueIn(vec4 layer, int value) { return vec3(layer[value & 3]); }
+//? end
+
+vec3 tableAt(int value, TablePlace place) { return valueIn(tableLayer(value / values_per_layer, place), value); }
 //? end
 
 // The base BRDF's density of half vectors, averaged over normals that a lobe distributes.
@@ -113,14 +120,16 @@ vec3 tabulatedReflection(Effective e, vec3 wi, vec3 wo) {
   TablePlace place = placeOf(wi, wo);
   int count = textureSize(iwasaki_table, 0).x;
   vec3 sum = vec3(0.0);
+  vec4 layer = vec4(0.0);
   for (int j = 0; j < e.count; ++j) {
+    if (j % values_per_layer == 0) layer = tableLayer(j / values_per_layer, place);
     vec4 lobe = lobeOf(j);
     vec3 reflected = vec3(0.0);
     for (int s = 0; s < count; ++s) {
       vec4 brdf = texelFetch(iwasaki_table, ivec2(s, 0), 0);
       reflected += brdf.yzw * sgConvolution(lobe.xyz, lobe.w, h, brdf.x);
     }
-    sum += tableAt(j, place) * reflected / sgIntegral(lobe.w);
+    sum += valueIn(layer, j) * reflected / sgIntegral(lobe.w);
   }
   return sum * max(wi.z, 0.0);
 }
@@ -137,13 +146,15 @@ vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
   vec3 h = halfVector(wi, wo);
 //? if microgeometry_visibility
   TablePlace place = placeOf(wi, wo);
+  vec4 layer = vec4(0.0);
 //? end
   vec3 sum = vec3(0.0);
   for (int j = 0; j < e.count; ++j) {
     vec4 lobe = lobeOf(j);
     float reflected = convolved(lobe, h) * smoothFactor(lobe, h, wi, wo);
 //? if microgeometry_visibility
-    sum += tableAt(j, place) * reflected;
+    if (j % values_per_layer == 0) layer = tableLayer(j / values_per_layer, place);
+    sum += valueIn(layer, j) * reflected;
 //? else
     sum += shareOf(j) * reflected;
 //? end

@@ -28,9 +28,8 @@ struct ShaderVariant {
   Sampling sampling = Sampling::frame;
   int max_probes = 1;  ///< anisotropic probes along the major axis; 1: isotropic
   bool orthographic = false;
-  bool shared_coordinates = false;  ///< every map of the scene is looked up at one place
-  bool surface_coordinates = false;  ///< the method has coordinates of its own (Prefiltered::surface_coordinates)
   bool shared_coordinates = false;   ///< every map of the scene is looked up at one place
+  bool surface_coordinates = false;  ///< the method has coordinates of its own (Prefiltered::surface_coordinates)
   bool environment_sampled = false;  ///< the module draws directions itself, as the reference does, and gives no lobes
   std::size_t point_lights = 0, spot_lights = 0, directional_lights = 0;
   std::size_t shadow_maps = 0;

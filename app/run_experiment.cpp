@@ -65,22 +65,43 @@ Results run_into(const Experiment& experiment, const RunSettings& settings, Outp
   return results;
 }
 
-// Runs the experiment, prints its table and gives what fell short.
+// The experiments to run: the one that is named, or its members, none of which has members of its own.
+std::vector<Experiment> named_experiments(const std::string& name) {
+  const Experiment named = read_experiment(find_experiment(name, experiments_folder()));
+  if (named.members.empty()) return {named};
+  std::vector<Experiment> members;
+  for (const std::filesystem::path& file : named.members) {
+    members.push_back(read_experiment(file));
+    if (members.back().members.empty()) continue;
+    throw Error(ErrorKind::usage, named.file.string(), fmt::format("its member {} has members", members.back().name),
+                "name those instead");
+  }
+  return members;
+}
+
+// Runs the experiment, or each of its members into a folder of its own, prints the tables and gives what fell short.
 std::vector<std::string> run_and_print(const Arguments& arguments) {
-  const Experiment experiment = read_experiment(find_experiment(arguments.experiment, experiments_folder()));
+  const std::vector<Experiment> experiments = named_experiments(arguments.experiment);
   RunSettings settings;
   settings.scene_library = scene_library();
   settings.quick = arguments.quick;
   settings.tile = arguments.backend.tile;
   settings.cache = cache_folder(arguments.no_cache);
   settings.context = context_request(arguments.backend);
-  ProgressDisplay display(progress_style(arguments.quiet));
-  const auto [results, place] = write_whole(arguments.output, [&](OutputFolder& folder) {
-    return run_into(experiment, settings, folder, display.callback());
-  });
-  display.finish();
-  print_results(results, place);
-  return results.experiment->shortfalls();
+  std::vector<std::string> shortfalls;
+  for (const Experiment& experiment : experiments) {
+    const std::filesystem::path output = arguments.output;
+    ProgressDisplay display(progress_style(arguments.quiet));
+    const auto [results, place] =
+        write_whole(experiments.size() > 1 ? output / experiment.name : output,
+                    [&](OutputFolder& folder) { return run_into(experiment, settings, folder, display.callback()); });
+    display.finish();
+    print_results(results, place);
+    for (const std::string& line : results.experiment->shortfalls()) {
+      shortfalls.push_back(experiments.size() > 1 ? experiment.name + ": " + line : line);
+    }
+  }
+  return shortfalls;
 }
 
 void check(const Arguments& arguments) {

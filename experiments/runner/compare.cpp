@@ -24,7 +24,6 @@
 namespace footprint {
 namespace {
 
-constexpr std::array curve_counts{1, 2, 4, 8, 16, 32, 64};
 constexpr int curve_samples = 286;  // of its renders and timed draws: what the curve weighs beside the reference
 constexpr double scale_quantile = 0.99;
 constexpr double smallest_error_scale = 0.01;
@@ -175,7 +174,7 @@ class Comparison {
 
   std::vector<SupersamplingPoint> supersampling_curve(const Truth& truth, const std::string& prefix) {
     std::vector<SupersamplingPoint> curve;
-    for (const int spp : curve_counts) {
+    for (const int spp : supersampling_counts) {
       const std::uint64_t seed = settings_.seed ^ (curve_seed * static_cast<std::uint64_t>(spp));
       const Supersampled picture =
           stage_.reference().render(truth.view, spp, seed, parts_.next(spp, prefix + "supersampling, "));

@@ -1,6 +1,7 @@
 // The main job: methods against the supersampled reference over the distances of a scene, as records and pictures.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -16,6 +17,9 @@
 #include "results/report/records.hpp"
 
 namespace footprint {
+
+/// Samples a pixel at which plain supersampling is measured and timed, beside the methods.
+inline constexpr std::array supersampling_counts{1, 2, 4, 8, 16, 32, 64};
 
 /// What `footprint compare` is asked for.
 struct CompareSettings {

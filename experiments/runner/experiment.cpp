@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "experiments/runner/compare.hpp"
 #include "experiments/runner/known_methods.hpp"
 #include "experiments/runner/picture_files.hpp"
 #include "experiments/runner/zoom.hpp"
@@ -145,7 +146,12 @@ void check_measures(const Expression& expression, const Experiment& experiment) 
                                  experiment.footprints.end()) {
       refuse(fmt::format("there is no footprint `{:.80}`", *measure.footprint), "use the name of one of [[ndf]]");
     }
-    if (measure.spp && std::ranges::find(experiment.other_spp, *measure.spp) == experiment.other_spp.end()) {
+    if (is_of_supersampling(measure.function)) {
+      if (std::ranges::find(supersampling_counts, *measure.spp) == supersampling_counts.end()) {
+        refuse(fmt::format("no {} samples are timed", *measure.spp),
+               fmt::format("timed are {}", fmt::join(supersampling_counts, ", ")));
+      }
+    } else if (measure.spp && std::ranges::find(experiment.other_spp, *measure.spp) == experiment.other_spp.end()) {
       refuse(fmt::format("other_spp of [reference] does not have {}", *measure.spp), "add it there, or leave spp out");
     }
     if (measure.function.starts_with("flicker") && !experiment.consecutive) {
@@ -304,6 +310,31 @@ void read_figure(const TomlTable& table, Experiment& experiment) {
   if (experiment.figure.rows.empty()) missing(table, "row");
 }
 
+// An experiment that is made of others has nothing but their names.
+std::vector<fs::path> read_members(const TomlTable& root, const TomlTable& head, const fs::path& folder) {
+  for (const char* key : {"scene", "size", "methods", "exposure", "anisotropy", "repeats"}) {
+    if (head.has(key)) throw head.error_at(key, "excludes `members`", "move it into one of them");
+  }
+  for (const char* key : {"zoom", "camera", "reference", "ndf", "published", "claim", "threshold", "figure"}) {
+    if (root.has(key)) throw root.error_at(key, "excludes `members`", "move it into one of them");
+  }
+  std::vector<fs::path> members;
+  const std::vector<std::string> names = head.words("members").value();
+  for (const std::string& name : names) {
+    const fs::path member = folder / (name + ".toml");
+    std::error_code unknown;
+    if (!fs::is_regular_file(member, unknown)) {
+      throw head.error_at("members", fmt::format("names `{:.80}`, which is no file beside it", name),
+                          suggestion(name, list_experiments(folder)));
+    }
+    if (std::ranges::find(members, member) != members.end()) {
+      throw head.error_at("members", fmt::format("names `{:.80}` twice", name), "name each once");
+    }
+    members.push_back(member);
+  }
+  return members;
+}
+
 }  // namespace
 
 fs::path find_experiment(const std::string& experiment, const fs::path& folder) {
@@ -336,9 +367,15 @@ Experiment read_experiment(const fs::path& file) {
   Experiment experiment;
   experiment.name = file.stem().string();
   experiment.file = file;
-  const auto head = root.table(
-      "experiment", {"title", "description", "scene", "size", "methods", "exposure", "anisotropy", "repeats"});
+  const auto head = root.table("experiment", {"title", "description", "scene", "size", "methods", "exposure",
+                                              "anisotropy", "repeats", "members"});
   if (!head) missing(root, "experiment");
+  if (head->has("members")) {
+    experiment.title = required_word(*head, "title");
+    experiment.description = head->word("description").value_or("");
+    experiment.members = read_members(root, *head, file.parent_path());
+    return experiment;
+  }
   read_head(*head, experiment);
   if (const auto zoom = root.table("zoom", {"distances", "from", "to", "frames"})) read_zoom(*zoom, experiment);
   if (const auto camera = root.table("camera", camera_keys())) experiment.camera = read_camera(*camera);

@@ -67,6 +67,8 @@ struct Experiment {
   std::string name;  ///< the file's stem
   std::filesystem::path file;
   std::string title, description;
+  std::vector<std::filesystem::path>
+      members;        ///< files of the experiments that it is made of; with any, all below is unset
   std::string scene;  ///< as load_scene takes it
   std::optional<glm::ivec2> size;
   std::vector<MethodSpec> methods;

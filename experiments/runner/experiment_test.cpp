@@ -274,5 +274,18 @@ TEST(Zoom, StepsAreEqualRatiosBetweenExactEnds) {
   for (std::size_t i = 1; i < inward.size(); ++i) EXPECT_NEAR(inward[i] / inward[i - 1], std::sqrt(0.5), 1e-8);
 }
 
+TEST_F(ExperimentFile, MayBeMadeOfOthersAndThenHasNothingElse) {
+  write("first.toml", head);
+  write("second.toml", head);
+  const std::string title = "[experiment]\ntitle = \"both\"\n";
+  const Experiment both = read(title + "members = [\"first\", \"second\"]\n");
+  EXPECT_EQ(both.title, "both");
+  EXPECT_EQ(both.members, (std::vector<fs::path>{folder_ / "first.toml", folder_ / "second.toml"}));
+  expect_complaint(title + "members = [\"frist\"]\n", "did you mean `first`");
+  expect_complaint(title + "members = [\"first\", \"first\"]\n", "`first` twice");
+  expect_complaint(title + "members = [\"first\"]\nscene = \"bumps\"\n", "excludes `members`");
+  expect_complaint(title + "members = [\"first\"]\n[zoom]\ndistances = [1]\n", "excludes `members`");
+}
+
 }  // namespace
 }  // namespace footprint

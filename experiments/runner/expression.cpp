@@ -125,6 +125,8 @@ class Parser {
     node.measure.function = name;
     node.measure.method = argument("a method");
     while (take_one_of(",") != 0) selector(node.measure);
+    if (is_of_supersampling(name) && !node.measure.spp)
+      fail("`spp` is missing", "write supersampling_time(direct, spp=64)");
     expect(')');
     return node;
   }
@@ -146,6 +148,7 @@ class Parser {
 
   static std::vector<std::string> selectors_of(const std::string& function) {
     if (is_of_ndf(function)) return {"footprint"};
+    if (is_of_supersampling(function)) return {"distance", "spp"};
     if (takes_spp(function)) return {"distance", "frame", "spp"};
     return {"distance", "frame"};
   }

@@ -94,6 +94,38 @@ TEST(Expression, FiguresOfFootprintsAreMeansOverThem) {
   EXPECT_NE(complaint("error(a, footprint=p)").find("selects nothing of error"), std::string::npos);
 }
 
+TEST(Expression, WhatIsRebuiltEachFrameIsTakenApartFromTheShading) {
+  Results results = two_frames();
+  for (Record& record : results.records) {
+    record.frame_ms.median = 10;
+    record.frame_build_ms = record.method == "a" ? std::optional(4.0) : std::nullopt;
+    record.frame_build = record.method == "a" ? "every frame" : "";
+    record.precompute_bytes_per_texel = 12;
+  }
+  const auto value = [&](const std::string& text) { return Expression(text, "").evaluate(results).value; };
+  EXPECT_EQ(value("build(a)"), 4.0);
+  EXPECT_EQ(value("shading(a)"), 6.0);
+  EXPECT_EQ(value("total(a)"), 10.0);
+  EXPECT_EQ(value("build(b)"), std::nullopt);
+  EXPECT_EQ(value("total(b)"), 10.0);
+  EXPECT_EQ(value("bytes_per_texel(a)"), 12.0);
+  for (Record& record : results.records) record.frame_build = record.method == "a" ? "reused" : "";
+  EXPECT_EQ(value("shading(a)"), 10.0);
+  EXPECT_EQ(value("total(a)"), 14.0);
+}
+
+TEST(Expression, PlainSupersamplingIsTimedByItsCountOfSamples) {
+  Results results = two_frames();
+  results.supersampling = {{1.0, 16, 0.1, 20.0}, {1.0, 64, 0.0, 80.0}, {2.5, 64, 0.0, 40.0}};
+  const auto value = [&](const std::string& text) { return Expression(text, "").evaluate(results).value; };
+  EXPECT_EQ(value("supersampling_time(a, spp=64)"), 60.0);
+  EXPECT_EQ(value("supersampling_time(a, spp=64, distance=2.5)"), 40.0);
+  EXPECT_EQ(value("supersampling_time(a, spp=16)"), 20.0);
+  EXPECT_EQ(value("supersampling_time(a, spp=4)"), std::nullopt);
+  EXPECT_NE(complaint("supersampling_time(a)").find("`spp` is missing"), std::string::npos);
+  EXPECT_NE(complaint("supersampling_time(a, frame=1)").find("selects nothing"), std::string::npos);
+}
+
 TEST(Expression, ABoundOfTheCurveCountsAsItsEnd) { EXPECT_DOUBLE_EQ(value_of("equivalent_spp(a)"), 64); }
 
 TEST(Expression, ABakeFromTheCacheHasNoTime) {

@@ -36,6 +36,16 @@ Figure equivalent_count(const Record& record) {
   return parsed.ec == std::errc() ? Figure(end) : Figure();
 }
 
+/// What of a build that runs each frame the frame's time has in it.
+double build_in_frame(const Record& record) {
+  return record.frame_build == "every frame" ? record.frame_build_ms.value_or(0.0) : 0.0;
+}
+
+/// A frame with its build, whether or not the timed frames kept theirs.
+Figure total_time(const Record& record) {
+  return record.frame_ms.median - build_in_frame(record) + record.frame_build_ms.value_or(0.0);
+}
+
 const std::vector<Function>& functions() {
   static const std::vector<Function> table{
       of_error("error", &RecordError::normalized_color),
@@ -50,10 +60,14 @@ const std::vector<Function>& functions() {
       {"flicker", [](const Record& r) { return r.flicker ? Figure(r.flicker->mean) : Figure(); }},
       {"flicker_p99", [](const Record& r) { return r.flicker ? Figure(r.flicker->p99) : Figure(); }},
       {"time", [](const Record& r) { return Figure(r.frame_ms.median); }},
+      {"build", [](const Record& r) { return r.frame_build_ms; }},
+      {"shading", [](const Record& r) { return Figure(r.frame_ms.median - build_in_frame(r)); }},
+      {"total", total_time},
       {"ratio", [](const Record& r) { return Figure(r.ratio_to_direct.median); }},
       {"fps", [](const Record& r) { return Figure(r.fps); }},
       {"precompute", [](const Record& r) { return r.precompute_cached ? Figure() : Figure(r.precompute_seconds); }},
-      {"bytes", [](const Record& r) { return Figure(static_cast<double>(r.precompute_bytes)); }}};
+      {"bytes", [](const Record& r) { return Figure(static_cast<double>(r.precompute_bytes)); }},
+      {"bytes_per_texel", [](const Record& r) { return r.precompute_bytes_per_texel; }}};
   return table;
 }
 
@@ -67,6 +81,8 @@ const std::array<NdfFunction, 3>& ndf_functions() {
       {{"ndf_l2", &NdfFigures::l2}, {"ndf_energy", &NdfFigures::energy}, {"ndf_peak", &NdfFigures::peak}}};
   return table;
 }
+
+constexpr const char* supersampling_function = "supersampling_time";
 
 Measured mean_of(double sum, std::size_t count) {
   const double mean = sum / static_cast<double>(count);
@@ -85,6 +101,18 @@ Measured measured_ndf(const Measure& measure, const std::string& method, const R
     ++count;
   }
   return count > 0 ? mean_of(sum, count) : Measured{.value = {}, .problem = "no such footprint was looked into"};
+}
+
+// The mean over the distances.
+Measured measured_supersampling(const Measure& measure, const Results& results) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const SupersamplingPoint& point : results.supersampling) {
+    if (point.spp != measure.spp || (measure.distance && point.distance != *measure.distance)) continue;
+    sum += point.ms;
+    ++count;
+  }
+  return count > 0 ? mean_of(sum, count) : Measured{.value = {}, .problem = "no such count of samples was timed"};
 }
 
 struct Sample {
@@ -123,12 +151,15 @@ const std::vector<std::string>& measure_functions() {
     std::vector<std::string> all;
     for (const Function& function : functions()) all.push_back(function.name);
     for (const NdfFunction& function : ndf_functions()) all.push_back(function.name);
+    all.emplace_back(supersampling_function);
     return all;
   }();
   return names;
 }
 
-bool takes_spp(const std::string& function) { return function == "error"; }
+bool takes_spp(const std::string& function) { return function == "error" || is_of_supersampling(function); }
+
+bool is_of_supersampling(const std::string& function) { return function == supersampling_function; }
 
 bool is_of_ndf(const std::string& function) {
   return std::ranges::find(ndf_functions(), function, &NdfFunction::name) != ndf_functions().end();
@@ -165,6 +196,7 @@ Measured measured(const Measure& measure, const Results& results) {
   const std::vector<std::string> methods = methods_of(results);
   const std::string& method = methods[select_method(measure.method, methods)];
   if (is_of_ndf(measure.function)) return measured_ndf(measure, method, results);
+  if (is_of_supersampling(measure.function)) return measured_supersampling(measure, results);
   const auto function = std::ranges::find(functions(), measure.function, &Function::name);
   double sum = 0;
   std::size_t count = 0, noisy = 0, matching = 0;

@@ -17,7 +17,8 @@ struct Measure {
   std::optional<double> distance;
   std::optional<int> frame;
   std::optional<std::string> footprint;  ///< of the NDF's functions alone
-  std::optional<int> spp;  ///< `error` alone: against the reference of so many samples; none: the experiment's own
+  std::optional<int> spp;  ///< `error`: against the reference of so many samples, none: the experiment's own;
+                           ///< `supersampling_time`: of so many samples, which must be given
 };
 
 /// The functions by name, in the order of the documentation.
@@ -35,6 +36,9 @@ struct Measure {
 /// The place in `methods` of the one that is written `wanted`, else of the only one with that name. Errors (usage,
 /// no place): none, with the nearest; more than one.
 [[nodiscard]] std::size_t select_method(const std::string& wanted, std::span<const std::string> methods);
+
+/// Whether a function is of plain supersampling beside the methods: it needs `spp`.
+[[nodiscard]] bool is_of_supersampling(const std::string& function);
 
 /// What a run says to a measure.
 struct Measured {

@@ -108,14 +108,13 @@ class Objective {
     const Point point = point_at(x);
     const Matrix products = products_of_peaks(point);
     const Vector with_target = products_with_target(point);
-    const Matrix chain = chain_rule(point);
     Vector amplitudes = Vector::Zero(size());
     for (std::size_t i = 0; i < point.lobes.size(); ++i)
       amplitudes[first(i)] = point.weights[static_cast<Eigen::Index>(i)];
     const Vector residual = products * amplitudes - with_target;
     return {.q = std::max(amplitudes.dot(residual) - amplitudes.dot(with_target) + target_norm_, 0.0),
-            .gradient = chain * residual,
-            .gram = chain * products * chain.transpose()};
+            .gradient = by_parameters(point, residual),
+            .gram = by_parameters(point, by_parameters(point, products).transpose())};
   }
 
  private:
@@ -175,24 +174,25 @@ class Objective {
     return products;
   }
 
-  // The derivatives of sum_i w_i L_i by the parameters (rows) over the lobes and their own derivatives (columns).
-  [[nodiscard]] Matrix chain_rule(const Point& point) const {
-    Matrix chain = Matrix::Zero(size(), size());
+  // What is given over the lobes and their own derivatives (rows), over the derivatives of sum_i w_i L_i by the
+  // parameters: the chain rule, whose matrix is all but empty.
+  [[nodiscard]] Matrix by_parameters(const Point& point, const Matrix& rows) const {
     const double sum = std::max(point.roots.squaredNorm(), 1e-300);
+    Eigen::RowVectorXd mean = Eigen::RowVectorXd::Zero(rows.cols());
+    for (std::size_t k = 0; k < point.lobes.size(); ++k)
+      mean += point.weights[static_cast<Eigen::Index>(k)] * rows.row(first(k));
+    Matrix out(rows.rows(), rows.cols());
     for (std::size_t i = 0; i < point.lobes.size(); ++i) {
-      const auto row = static_cast<Eigen::Index>(i);
-      const double by_root = 2.0 * point.roots[row] / sum;
-      for (std::size_t k = 0; k < point.lobes.size(); ++k) {
-        const double weight = point.weights[static_cast<Eigen::Index>(k)];
-        chain(first(i), first(k)) = by_root * ((i == k ? 1.0 : 0.0) - weight);
-      }
+      const auto index = static_cast<Eigen::Index>(i);
       const double kappa = point.lobes[i].kappa;
-      const double deviation = point.deviations[row];
+      const double weight = point.weights[index];
+      const double deviation = point.deviations[index];
       const bool is_free = base_variance_ + deviation * deviation < largest_variance;
-      chain(first(i) + 1, first(i) + 1) = is_free ? point.weights[row] * -2.0 * deviation * kappa * kappa : 0.0;
-      chain(first(i) + 2, first(i) + 2) = chain(first(i) + 3, first(i) + 3) = point.weights[row];
+      out.row(first(i)) = (2.0 * point.roots[index] / sum) * (rows.row(first(i)) - mean);
+      out.row(first(i) + 1) = (is_free ? weight * -2.0 * deviation * kappa * kappa : 0.0) * rows.row(first(i) + 1);
+      out.middleRows<2>(first(i) + 2) = weight * rows.middleRows<2>(first(i) + 2);
     }
-    return chain;
+    return out;
   }
 
   double base_variance_;
@@ -220,7 +220,8 @@ class Residual : public Eigen::DenseFunctor<double> {
     if (factor.info() != Eigen::Success) return -1;
     const Eigen::Index n = objective_->size();
     jacobian_.setZero(n + 1, n);
-    jacobian_.topRows(n) = factor.matrixU() * Matrix(scale.asDiagonal());
+    const Matrix upper = factor.matrixU();
+    jacobian_.topRows(n) = upper * scale.asDiagonal();
     residual.resize(n + 1);
     residual.head(n) = factor.matrixL().solve(at.gradient.cwiseQuotient(scale));
     residual[n] =

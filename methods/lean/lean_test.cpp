@@ -61,6 +61,28 @@ Image v_grooves(float slope) {
   return image;
 }
 
+// Under an environment a long lobe is a row of round ones: of all shares one, with the grooves' own variance.
+TEST(Lean, LongLobesAreRowsOfRoundOnes) {
+  const std::array<std::array<glm::vec4, 3>, 1> input{};
+  for (const auto& [slope, lobes] : {std::pair(0.05F, 1), {0.2F, 5}, {0.3F, 7}}) {
+    const Material material = material_of(v_grooves(slope), beckmann, 0.1F);
+    ProbedMethod probed = lean(material);
+    probed.effects.set(static_cast<std::size_t>(Effect::environment_light));
+    const auto sums = probe_method(probed,
+                                   "vec4 sum = vec4(0.0);\n"
+                                   "for (int i = 0; i < lobeCount(e); ++i) {\n"
+                                   "  NormalLobe lobe = normalLobe(e, i);\n"
+                                   "  vec2 slope = -lobe.axis.xy / lobe.axis.z;\n"
+                                   "  sum += lobe.weight * vec4(1.0, slope.x * slope.x, slope.y * slope.y, 0.0);\n"
+                                   "}\nreturn vec4(sum.xyz, lobeCount(e));",
+                                   input);
+    EXPECT_EQ(sums[0].w, static_cast<float>(lobes));
+    EXPECT_NEAR(sums[0].x, 1.0, 1e-3);
+    EXPECT_NEAR(sums[0].y, lobes == 1 ? 0.0 : slope * slope, 2e-3 * slope * slope);
+    EXPECT_NEAR(sums[0].z, 0.0, 1e-6);
+  }
+}
+
 // Golden: B and Sigma + 1/s of four texels under exponent 100, roughness at shading time or in the moments.
 TEST(Lean, FourTexelsMeetTheGoldenVector) {
   const Material material = material_of(four_texel_normals(), blinn_phong, 100);

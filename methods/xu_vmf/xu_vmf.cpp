@@ -166,6 +166,11 @@ class XuVmf final : public Method {
     if (options.word("space") == "tangent" || !inputs.anything())
       return precompute(material, options, effects, progress);
     xu_vmf::SurfaceLayout layout = xu_vmf::lay_out(triangles_of(scene, index), inputs.place, inputs.size());
+    // A material without maps among others with them: its one texel would show one normal of the whole mesh.
+    if (inputs.size() == glm::ivec2(1)) {
+      layout.unique = false;
+      layout.note.clear();
+    }
     Prefiltered out;
     if (layout.unique) {
       TextureCoordinates place;
@@ -203,7 +208,7 @@ class XuVmf final : public Method {
                        "the hemisphere.",
                    .paper = "Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping, Computer Graphics Forum 36(4)",
                    .options = option_table(),
-                   .honours = all_effects_but({Effect::normal_layers})};
+                   .honours = map_effects_but({Effect::normal_layers})};
   std::string shader_ =
       std::string(embedded::xu_vmf_glsl).append(embedded::xu_vmf_conversion_glsl).append(embedded::xu_vmf_cells_glsl);
 };

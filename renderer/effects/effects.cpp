@@ -8,6 +8,7 @@
 #include <cmath>
 #include <ranges>
 
+#include "renderer/microgeometry/microgeometry.hpp"
 #include "renderer/visibility/cast_shadows.hpp"
 
 namespace footprint {
@@ -29,7 +30,11 @@ constexpr std::array<std::string_view, effect_count> names{"diffuse",
                                                            "spot_light",
                                                            "directional_light",
                                                            "cast_shadow",
-                                                           "environment_light"};
+                                                           "environment_light",
+
+                                                           "microgeometry_visibility",
+                                                           "microgeometry_colour",
+                                                           "tabulated_brdf"};
 
 // Smaller than any step of an 8-bit map; larger than what decoding one leaves in 32 bits.
 constexpr float constant_tolerance = 1e-5F;
@@ -142,6 +147,7 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
     const Image& image = *m.specular_map->image;
     return channel_varies(image, 0) || channel_varies(image, 1) || channel_varies(image, 2);
   };
+  const auto coloured = [](const Material& m) { return m.microgeometry && has_colors(m.microgeometry->patch); };
   return {
       decide(Effect::diffuse, scene, reflects_diffusely, "a Lambert term with an albedo above 0",
              "no material reflects diffusely"),
@@ -176,6 +182,14 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
       lights<DirectionalLight>(Effect::directional_light, scene, "directional"),
       cast_shadow(scene),
       environment_light(scene),
+      decide(
+          Effect::microgeometry_visibility, scene, [](const Material& m) { return m.microgeometry != nullptr; },
+          "a patch of small-scale geometry", "no small-scale geometry"),
+      decide(Effect::microgeometry_colour, scene, coloured, "a patch of several colours",
+             "no small-scale geometry of several colours"),
+      decide(
+          Effect::tabulated_brdf, scene, [](const Material& m) { return m.microgeometry && m.microgeometry->brdf; },
+          "facets with a tabulated BRDF", "every facet has the base BRDF"),
   };
 }
 

@@ -41,8 +41,9 @@ struct GpuTexture {
   TextureCoordinates coordinates;
   TextureFilter filter = TextureFilter::trilinear;
 
-  /// The program's lookup, unless this texture's texels must not be blended.
+  /// The program's lookup, unless this texture says itself whether its texels are blended.
   [[nodiscard]] Lookup lookup(Lookup wanted) const {
+    if (filter == TextureFilter::linear) return Lookup::trilinear;
     return filter == TextureFilter::nearest ? Lookup::nearest : wanted;
   }
 };
@@ -86,8 +87,8 @@ class GpuScene {
   GpuScene(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects,
            const Progress& progress = no_progress);
 
-  /// Takes over vertices, lights and the constants of materials as `scene` has them: the next frame of what moves. Maps
-  /// and base BRDF stay. Errors (usage): another number of materials, vertices or lights of a kind than before.
+  /// Takes over vertices, lights and the constants of materials as `scene` has them: the next frame of what moves. Maps,
+  /// environment and base BRDF stay. Errors (usage): another number of materials, vertices or lights of a kind than before.
   void update(const Scene& scene);
   [[nodiscard]] const SceneContent& content() const { return content_; }
 

@@ -94,6 +94,15 @@ TEST(EnvironmentFile, LargeMapsAreAveragedDown) {
   EXPECT_EQ(scene.warnings.size(), 1U);
 }
 
+TEST(EnvironmentFile, PhotographedEnvironmentOfAPackageLoads) {
+  const std::string file = "/usr/share/blender/datafiles/studiolights/world/courtyard.exr";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the package blender-data is not installed";
+  const Scene scene = load("file = \"" + file + "\"");
+  EXPECT_EQ(scene.environment->radiance->width, 1024);
+  EXPECT_EQ(scene.environment->radiance->height, 512);
+  for (const float value : scene.environment->radiance->texels) ASSERT_TRUE(std::isfinite(value) && value >= 0.0F);
+}
+
 TEST(EnvironmentFile, BadFilesAndSettingsAreNamed) {
   EXPECT_NE(error_of("file = \"gone.exr\"\npackage = \"blender-data\"").find("install the package blender-data"),
             std::string::npos);

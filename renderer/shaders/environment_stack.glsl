@@ -91,7 +91,7 @@ vec3 lobeRadiance(Effective e, NormalLobe lobe, vec3 f0, vec3 wo, mat3 frame) {
 
 //? if distribution_ggx
 // GGX over slopes is a mixture of Gaussians, 1 / (1 + x)^2 = integral of s e^-s e^-sx ds; two points of Gauss and Laguerre
-// keep its energy and its peak with the first three derivatives in x. The tail is what a single Gaussian lacks.
+// keep its energy and its peak with its first two derivatives in x. The tail is what a single Gaussian lacks.
 const vec2 ggx_shares = vec2(0.8535534, 0.1464466);
 const vec2 ggx_sharpness = vec2(0.5857864, 3.4142136);
 //? end

@@ -75,7 +75,7 @@ uvec3 drawBits(uint draw) {
 }
 //? end
 
-//? if sampling_texel
+//? if random_draws
 vec2 drawTexelOffsets() {
   return vec2(drawBits(0u).xy >> 8u) * (1.0 / 16777216.0);  // 24 bits: exact in a float, below 1
 }
@@ -168,7 +168,7 @@ void main() {
   vec3 along_x = dFdx(world_position);  // before any pixel is discarded
   vec3 along_y = dFdy(world_position);
 //? end
-//? if sampling_texel
+//? if random_draws
   texel_draw = drawTexelOffsets();
 //? end
   vec4 base_color = base_color_factor;

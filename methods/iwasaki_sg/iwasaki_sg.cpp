@@ -1,0 +1,200 @@
+// `iwasaki_sg`: the visible normals of a patch of small-scale geometry as spherical Gaussians, convolved with the base
+// BRDF. Iwasaki, Dobashi, Nishita 2012, "Interactive Bi-scale Editing of Highly Glossy Materials".
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "methods/iwasaki_sg/brdf_lobes.hpp"
+#include "methods/iwasaki_sg/material_table.hpp"
+#include "renderer/microgeometry/direction_grid.hpp"
+#include "renderer/microgeometry/microgeometry.hpp"
+#include "renderer/pipeline/base_surface.hpp"
+#include "renderer/pipeline/method.hpp"
+#include "renderer/pipeline/patch_facets.hpp"
+
+namespace footprint {
+
+namespace embedded {
+extern const std::string_view iwasaki_sg_glsl, iwasaki_sg_lobes_glsl;
+}
+
+namespace {
+
+using namespace iwasaki_sg;
+
+OptionSpec whole_number(std::string name, double value, double minimum, double maximum, std::string meaning) {
+  return {.name = std::move(name),
+          .default_value = value,
+          .minimum = minimum,
+          .maximum = maximum,
+          .choices = {},
+          .meaning = std::move(meaning),
+          .integer = true};
+}
+
+std::vector<OptionSpec> option_table() {
+  return {whole_number("j", 8, 1, most_lobes, "Most spherical Gaussians of the normal distribution."),
+          whole_number("directions", 12, 2, 32, "Side of the grid of incident and outgoing directions."),
+          whole_number("facets", 65536, 64, 1 << 24, "Samples of the patch."),
+          word_option("lobe", {"base", "sg"},
+                      "What a lobe of normals reflects with: the scene's base lobe, widened by that of the normals, or "
+                      "the paper's spherical Gaussians, one or several fitted to the base lobe."),
+          word_option("convolution", {"approximate", "exact"},
+                      "lobe=sg: the convolution of two spherical Gaussians as one (Eq. 14), or exactly (Eq. 11)."),
+          word_option("cosines", {"base", "published"},
+                      "What facets weigh in the specular term: (n.wo), with the base BRDF's own cosine and geometry "
+                      "term, or the paper's (n.wi)(n.wo) without a geometry term."),
+          word_option("energy", {"conserved", "published"},
+                      "Whether the amplitudes are scaled to hold what the visible facets hold; least squares alone, as "
+                      "in the paper, does not."),
+          word_option("storage", {"fp32", "fp16"}, "How the amplitudes are stored: 32-bit or 16-bit floats.")};
+}
+
+bool is_tabulated(const Material& material) { return material.microgeometry && material.microgeometry->brdf; }
+
+TableSettings table_settings(const Material& material, const Options& options, const EffectSet& effects) {
+  return {
+      .lobes = static_cast<int>(options.number("j")),
+      .side = static_cast<int>(options.number("directions")),
+      .facets = static_cast<std::size_t>(options.number("facets")),
+      .cosines = options.word("cosines") == "published" || is_tabulated(material) ? Cosines::published : Cosines::base,
+      .energy = options.word("energy") == "conserved" ? Energy::conserved : Energy::published,
+      .channels = has(effects, Effect::microgeometry_colour) ? std::size_t{3} : std::size_t{1},
+      .paints = paint_factors(material)};
+}
+
+// Row 0: axis and sharpness of each lobe. Row 1: its share of the normals.
+PrefilteredTexture lobe_texture(std::span<const Lobe> lobes, std::span<const double> shares) {
+  Image image(static_cast<int>(lobes.size()), 2, 4);
+  for (std::size_t j = 0; j < lobes.size(); ++j) {
+    const glm::vec4 lobe(glm::vec3(lobes[j].axis), static_cast<float>(lobes[j].sharpness));
+    std::copy_n(&lobe.x, 4, image.at(static_cast<int>(j), 0).begin());
+    image.at(static_cast<int>(j), 1)[0] = static_cast<float>(shares[j]);
+  }
+  return make_texture("iwasaki_lobes", {image}, Storage::fp32, {});
+}
+
+// Whether a table has the facets' cosine to the light in it.
+enum class Irradiance { without, with };
+
+// [channel][wi][wo] as tiles: one for each cell of wo, in it a texel for each cell of wi. With a cosine to the light,
+// values are divided by that of the surface as a whole: the ratio is smooth down to the horizon, and 1 for a plane.
+Image tiled(std::span<const float> values, std::size_t channels, int side, Irradiance irradiance) {
+  const std::vector<glm::dvec3> directions = direction_grid(side);
+  Image image(side * side, side * side, static_cast<int>(channels));
+  const auto n = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+  const auto row = static_cast<std::size_t>(side);
+  for (std::size_t wi = 0; wi < n; ++wi) {
+    for (std::size_t wo = 0; wo < n; ++wo) {
+      const auto x = static_cast<int>(wo % row * row + wi % row);
+      const auto y = static_cast<int>(wo / row * row + wi / row);
+      const float scale = irradiance == Irradiance::with ? static_cast<float>(1.0 / directions[wi].z) : 1.0F;
+      for (std::size_t c = 0; c < channels; ++c) image.at(x, y)[c] = values[(c * n + wi) * n + wo] * scale;
+    }
+  }
+  return image;
+}
+
+// One layer a lobe, and one for the diffuse term.
+PrefilteredTexture amplitude_texture(const Amplitudes& table, const TableSettings& settings, Storage storage) {
+  const Irradiance irradiance = settings.cosines == Cosines::published ? Irradiance::with : Irradiance::without;
+  const std::size_t layer = table.channels * table.directions * table.directions;
+  std::vector<std::vector<Image>> layers;
+  for (std::size_t j = 0; j < table.lobes.size(); ++j) {
+    layers.push_back(
+        {tiled(std::span(table.masses).subspan(j * layer, layer), table.channels, settings.side, irradiance)});
+  }
+  layers.push_back({tiled(table.diffuse, table.channels, settings.side, Irradiance::with)});
+  return make_array_texture("iwasaki_amplitudes", layers, storage, {}, TextureFilter::linear);
+}
+
+PrefilteredTexture brdf_texture(const Material& material) {
+  const std::vector<BrdfLobe> lobes = lobes_of(material.brdf.distribution, lobe_parameter(material));
+  Image image(static_cast<int>(lobes.size()), 1, 2);
+  for (std::size_t i = 0; i < lobes.size(); ++i) {
+    image.texels[2 * i] = static_cast<float>(lobes[i].sharpness);
+    image.texels[2 * i + 1] = static_cast<float>(lobes[i].amplitude);
+  }
+  return make_texture("iwasaki_brdf", {image}, Storage::fp32, {});
+}
+
+// Sharpness and colour of each lobe of the facets' own BRDF.
+PrefilteredTexture table_texture(const Material& material) {
+  std::vector<ColorLobe> lobes{{0.0, glm::vec3(0.0F)}};
+  if (is_tabulated(material)) lobes = lobes_of(*material.microgeometry->brdf);
+  Image image(static_cast<int>(lobes.size()), 1, 4);
+  for (std::size_t i = 0; i < lobes.size(); ++i) {
+    const glm::vec4 texel(static_cast<float>(lobes[i].sharpness), lobes[i].amplitude);
+    std::copy_n(&texel.x, 4, image.at(static_cast<int>(i), 0).begin());
+  }
+  return make_texture("iwasaki_table", {image}, Storage::fp32, {});
+}
+
+class IwasakiSg final : public Method {
+ public:
+  [[nodiscard]] const MethodInfo& info() const override { return info_; }
+
+  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                                       const Progress& progress) const override {
+    const bool seen = has(effects, Effect::microgeometry_visibility);
+    Prefiltered out;
+    if (seen || has(effects, Effect::normal_variation)) {
+      const TableSettings settings = table_settings(material, options, effects);
+      const bool patch = seen && material.microgeometry != nullptr;
+      const MaterialTable table = patch ? patch_table(material.microgeometry->patch, settings, progress)
+                                        : flat_table(bin_normal_map(normal_map_of(material)), settings);
+      out.textures.push_back(lobe_texture(table.amplitudes.lobes, table.shares));
+      if (seen) {
+        out.textures.push_back(amplitude_texture(table.amplitudes, settings, parse_storage(options.word("storage"))));
+      }
+      out.notes = notes(material, table);
+    }
+    if (options.word("lobe") == "sg") out.textures.push_back(brdf_texture(material));
+    if (has(effects, Effect::tabulated_brdf)) {
+      out.textures.push_back(table_texture(material));
+      out.scalars["iwasaki_tabulated"] = is_tabulated(material) ? 1.0F : 0.0F;
+    }
+    return out;
+  }
+
+  [[nodiscard]] int lobe_count(const Options& options) const override { return static_cast<int>(options.number("j")); }
+
+  [[nodiscard]] std::string_view shader() const override { return shader_; }
+
+ private:
+  static std::vector<std::string> notes(const Material& material, const MaterialTable& table) {
+    const std::size_t lobes = table.amplitudes.lobes.size();
+    if (!material.microgeometry) {
+      return {
+          fmt::format("the normal map as a whole stands for the small-scale geometry, all of it seen: {} lobe{} "
+                      "for {} discretised normals; its structure does not show at any distance",
+                      lobes, lobes == 1 ? "" : "s", table.normals)};
+    }
+    return {fmt::format("patch {}: {} lobe{} for {} discretised normals; {:.1f}% of its area is ever seen",
+                        material.microgeometry->patch.name, lobes, lobes == 1 ? "" : "s", table.normals,
+                        100.0 * table.visible_share)};
+  }
+
+  MethodInfo info_{.name = "iwasaki_sg",
+                   .summary =
+                       "Visible normals of small-scale geometry as spherical Gaussians whose amplitudes depend on both "
+                       "directions; one effective BRDF for the whole material.",
+                   .paper =
+                       "Iwasaki, Dobashi and Nishita 2012, Interactive Bi-scale Editing of Highly Glossy Materials, "
+                       "ACM Transactions on Graphics 31(6)",
+                   .options = option_table(),
+                   .honours = all_effects_but({Effect::normal_layers, Effect::roughness_variation, Effect::multi_lobe}),
+                   .resolves_texels = false};
+  std::string shader_ = std::string(embedded::iwasaki_sg_glsl).append(embedded::iwasaki_sg_lobes_glsl);
+};
+
+}  // namespace
+
+const Method& iwasaki_sg_method() {
+  static const IwasakiSg method;
+  return method;
+}
+
+}  // namespace footprint

@@ -242,14 +242,14 @@ std::string text_of(const Node& node) {
     case Kind::call:
       return measure_text(node.measure);
     case Kind::negate:
-      return "-" + text_of(node.parts[0]);
+      return fmt::format("-{}", text_of(node.parts[0]));
     case Kind::absolute:
-      return "abs(" + text_of(node.parts[0]) + ")";
+      return fmt::format("abs({})", text_of(node.parts[0]));
     case Kind::binary:
       break;
   }
   const auto operand = [&](const Node& part) {
-    return part.kind == Kind::binary ? "(" + text_of(part) + ")" : text_of(part);
+    return part.kind == Kind::binary ? fmt::format("({})", text_of(part)) : text_of(part);
   };
   return fmt::format("{} {} {}", operand(node.parts[0]), node.operation, operand(node.parts[1]));
 }

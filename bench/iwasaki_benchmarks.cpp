@@ -7,6 +7,7 @@
 #include <string>
 
 #include "methods/iwasaki_sg/material_table.hpp"
+#include "renderer/core/stage_clock.hpp"
 #include "renderer/microgeometry/patch_kinds.hpp"
 
 namespace footprint::bench {
@@ -20,9 +21,10 @@ void edit(benchmark::State& state, const Patch& patch, std::size_t facets) {
   std::map<std::string, double> milliseconds;
   std::size_t normals = 0;
   for ([[maybe_unused]] auto _ : state) {
-    const auto table = iwasaki_sg::patch_table(
-        patch, settings, no_progress,
-        [&](std::string_view stage, double seconds) { milliseconds[std::string(stage)] += 1e3 * seconds; });
+    StageClock clock;
+    const auto table = iwasaki_sg::patch_table(patch, settings, clock.callback(no_progress));
+    clock.stop();
+    for (const StageTime& time : clock.times()) milliseconds[time.stage] += 1e3 * time.seconds;
     normals = table.normals;
   }
   for (const auto& [stage, sum] : milliseconds) {

@@ -177,11 +177,17 @@ std::array<std::size_t, runs + 1> run_starts(const Bvndf& bvndf) {
 }  // namespace
 
 double Bvndf::gamma(std::size_t bin, std::size_t wi, std::size_t wo) const {
-  std::size_t count = 0;
-  for (std::size_t i = bins[bin].begin; i < bins[bin].end; ++i) {
-    count += static_cast<std::size_t>(visibility.visible(wi, i) && visibility.visible(wo, i));
+  const NormalBin& range = bins[bin];
+  const auto seen_i = visibility.of(wi), seen_o = visibility.of(wo);
+  const std::size_t first = range.begin / 64, last = (range.end - 1) / 64;
+  int count = 0;
+  for (std::size_t w = first; w <= last; ++w) {
+    std::uint64_t both = seen_i[w] & seen_o[w];
+    if (w == first) both &= ~std::uint64_t{0} << (range.begin % 64);
+    if (w == last) both &= ~std::uint64_t{0} >> (63 - (range.end - 1) % 64);
+    count += std::popcount(both);
   }
-  return static_cast<double>(count) * facet_area;
+  return count * facet_area;
 }
 
 double Bvndf::total_area() const { return bins.empty() ? 0.0 : static_cast<double>(bins.back().end) * facet_area; }

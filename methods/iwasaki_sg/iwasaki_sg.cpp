@@ -7,12 +7,16 @@
 #include <utility>
 
 #include "methods/iwasaki_sg/brdf_lobes.hpp"
+#include "methods/iwasaki_sg/fit_error.hpp"
 #include "methods/iwasaki_sg/material_table.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/core/stage_clock.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
 #include "renderer/pipeline/base_surface.hpp"
 #include "renderer/pipeline/method.hpp"
 #include "renderer/pipeline/patch_facets.hpp"
+#include "renderer/pipeline/quantity.hpp"
 
 namespace footprint {
 
@@ -146,7 +150,82 @@ PrefilteredTexture table_texture(const Material& material) {
   return make_texture("iwasaki_table", {image}, Storage::fp32, {});
 }
 
-class IwasakiSg final : public Method {
+double measured_convolution_error(const Material& /*material*/, const Options& /*options*/, const Options& parameters) {
+  return convolution_error(parameters.number("eta1"), parameters.number("eta2"));
+}
+
+// What a fit is measured on: the material's patch by the method's options.
+template <class Figure>
+double of_patch(const Material& material, const Options& options, const Figure& figure) {
+  if (!material.microgeometry) {
+    throw Error(ErrorKind::usage, "material " + material.name, "has no patch of small-scale geometry",
+                "take a scene with [microgeometry]");
+  }
+  return figure(material.microgeometry->patch, table_settings(material, options, {}));
+}
+
+double measured_fit_rms(const Material& material, const Options& options, const Options& /*parameters*/) {
+  return of_patch(material, options, fit_rms);
+}
+
+double measured_relative_fit_rms(const Material& material, const Options& options, const Options& /*parameters*/) {
+  return of_patch(material, options, relative_fit_rms);
+}
+
+double measured_jakob_error(const Material& /*material*/, const Options& /*options*/, const Options& parameters) {
+  return jakob_convolution_error(parameters.number("eta1"), parameters.number("eta2"));
+}
+
+// Milliseconds of one stage of making the patch's table, once.
+double stage_ms(const Material& material, const Options& options, std::string_view stage) {
+  return of_patch(material, options, [&](const Patch& patch, const TableSettings& settings) {
+    StageClock clock;
+    (void)patch_table(patch, settings, clock.callback(no_progress));
+    clock.stop();
+    return 1e3 * std::ranges::find(clock.times(), stage, &StageTime::stage)->seconds;
+  });
+}
+
+Quantity stage_quantity(std::string name, std::string of, decltype(Quantity::measure) measure) {
+  return {std::move(name), "Time of " + of + " of the patch, once, milliseconds.", {}, measure};
+}
+
+std::vector<Quantity> quantity_table() {
+  const auto sharpness = [](std::string name) {
+    return OptionSpec{.name = std::move(name),
+                      .default_value = 100.0,
+                      .minimum = 1e-3,
+                      .maximum = 1e6,
+                      .choices = {},
+                      .meaning = "Sharpness of one of the two spherical Gaussians.",
+                      .integer = false};
+  };
+  return {
+      {"convolution_error",
+       "Largest difference of Eq. 14 from Eq. 11 over all angles, amplitudes of 1.",
+       {sharpness("eta1"), sharpness("eta2")},
+       measured_convolution_error},
+      {"fit_rms",
+       "Root mean square difference of the lobes from the BVNDF over all cells of normals and pairs of directions; "
+       "1 is all that is seen.",
+       {},
+       measured_fit_rms},
+      {"relative_fit_rms", "The same over the root mean square of the BVNDF.", {}, measured_relative_fit_rms},
+      {"jakob_convolution_error",
+       "The same of Jakob's (2012) one spherical Gaussian.",
+       {sharpness("eta1"), sharpness("eta2")},
+       measured_jakob_error},
+      stage_quantity("visibility_ms", "the visibility",
+                     [](const Material& m, const Options& o, const Options&) { return stage_ms(m, o, "visibility"); }),
+      stage_quantity("bvndf_ms", "the BVNDF and its sums",
+                     [](const Material& m, const Options& o, const Options&) { return stage_ms(m, o, "BVNDF"); }),
+      stage_quantity("ndf_ms", "the fit of the NDF",
+                     [](const Material& m, const Options& o, const Options&) { return stage_ms(m, o, "NDF"); }),
+      stage_quantity("amplitudes_ms", "the amplitudes",
+                     [](const Material& m, const Options& o, const Options&) { return stage_ms(m, o, "amplitudes"); })};
+}
+
+class IwasakiSg final : public Method, public HasQuantities {
  public:
   [[nodiscard]] const MethodInfo& info() const override { return info_; }
 
@@ -175,6 +254,8 @@ class IwasakiSg final : public Method {
 
   [[nodiscard]] int lobe_count(const Options& options) const override { return static_cast<int>(options.number("j")); }
 
+  [[nodiscard]] std::span<const Quantity> quantities() const override { return quantities_; }
+
   [[nodiscard]] std::string_view shader() const override { return shader_; }
 
  private:
@@ -201,6 +282,7 @@ class IwasakiSg final : public Method {
                    .options = option_table(),
                    .honours = all_effects_but({Effect::normal_layers, Effect::roughness_variation, Effect::multi_lobe}),
                    .resolves_texels = false};
+  std::vector<Quantity> quantities_ = quantity_table();
   std::string shader_ = std::string(embedded::iwasaki_sg_glsl).append(embedded::iwasaki_sg_lobes_glsl);
 };
 

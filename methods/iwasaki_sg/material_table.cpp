@@ -2,22 +2,12 @@
 #include "methods/iwasaki_sg/material_table.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "renderer/microgeometry/direction_grid.hpp"
 
 namespace footprint::iwasaki_sg {
 namespace {
-
-// Runs a stage and tells the observer how long it took.
-template <class Stage>
-auto timed(std::string_view name, const StageObserver& observer, const Stage& stage) {
-  const auto start = std::chrono::steady_clock::now();
-  auto result = stage();
-  if (observer) observer(name, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  return result;
-}
 
 // How the lobes share what is seen from about straight above: the mean of the grid's central directions.
 std::vector<double> shares_from_above(const Amplitudes& table, int side) {
@@ -41,22 +31,26 @@ std::vector<double> shares_from_above(const Amplitudes& table, int side) {
 
 }  // namespace
 
-MaterialTable patch_table(const Patch& patch, const TableSettings& settings, const Progress& progress,
-                          const StageObserver& observer) {
+Bvndf patch_bvndf(const Patch& patch, const TableSettings& settings, const Progress& progress) {
+  ProgressParts parts(progress, 10.0);  // weights: about the share of the time
+  parts.next(1.0, "")("samples", 0.0);
   std::vector<glm::dvec3> directions = direction_grid(settings.side);
-  BinnedFacets facets = timed("samples", observer,
-                              [&] { return bin_facets(patch, sample_facets(patch, settings.facets, settings.seed)); });
-  FacetVisibility visibility =
-      timed("visibility", observer, [&] { return facet_visibility(patch, facets.samples, directions, progress); });
-  const Bvndf bvndf = timed(
-      "bvndf", observer, [&] { return make_bvndf(std::move(facets), std::move(visibility), std::move(directions)); });
-  const NdfFit ndf = timed("ndf", observer, [&] { return fit_ndf(visible_ndf(bvndf), settings.lobes); });
-  const BvndfSums sums = timed("sums", observer, [&] {
-    return sum_bvndf(bvndf, ndf.lobes, settings.cosines, settings.channels, settings.paints, progress);
-  });
+  BinnedFacets facets = bin_facets(patch, sample_facets(patch, settings.facets, settings.seed));
+  FacetVisibility visibility = facet_visibility(patch, facets.samples, directions, parts.next(8.0, ""));
+  parts.next(1.0, "")("BVNDF", 0.0);
+  return make_bvndf(std::move(facets), std::move(visibility), std::move(directions));
+}
+
+MaterialTable patch_table(const Patch& patch, const TableSettings& settings, const Progress& progress) {
+  ProgressParts parts(progress, 10.0);
+  const Bvndf bvndf = patch_bvndf(patch, settings, parts.next(4.0, ""));
+  parts.next(0.5, "")("NDF", 0.0);
+  const NdfFit ndf = fit_ndf(visible_ndf(bvndf), settings.lobes);
+  const BvndfSums sums =
+      sum_bvndf(bvndf, ndf.lobes, settings.cosines, settings.channels, settings.paints, parts.next(5.0, ""));
+  parts.next(0.5, "")("amplitudes", 0.0);
   MaterialTable table;
-  table.amplitudes =
-      timed("amplitudes", observer, [&] { return solve_amplitudes(bvndf, sums, ndf.lobes, settings.energy); });
+  table.amplitudes = solve_amplitudes(bvndf, sums, ndf.lobes, settings.energy);
   table.shares = shares_from_above(table.amplitudes, settings.side);
   table.normals = bvndf.bins.size();
   double seen = 0.0;

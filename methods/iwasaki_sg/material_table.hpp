@@ -3,9 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "methods/iwasaki_sg/amplitudes.hpp"
@@ -27,9 +25,6 @@ struct TableSettings {
   std::vector<PaintFactors> paints{};  ///< of each paint of the patch
 };
 
-/// Told the name of each stage and the seconds that it took: samples, visibility, bvndf, ndf, sums, amplitudes.
-using StageObserver = std::function<void(std::string_view stage, double seconds)>;
-
 struct MaterialTable {
   Amplitudes amplitudes;
   std::vector<double> shares;  ///< of each lobe in what is seen from straight above; sum 1
@@ -37,9 +32,12 @@ struct MaterialTable {
   double visible_share = 1.0;  ///< of the patch's area that any direction sees
 };
 
-/// The table of a patch (check_patch holds).
-[[nodiscard]] MaterialTable patch_table(const Patch& patch, const TableSettings& settings, const Progress& progress,
-                                        const StageObserver& observer = {});
+/// The BVNDF of a patch (check_patch holds). Reports its stages as they begin: samples, visibility, BVNDF.
+[[nodiscard]] Bvndf patch_bvndf(const Patch& patch, const TableSettings& settings, const Progress& progress);
+
+/// The table of a patch. Reports its stages as they begin: samples, visibility, NDF, BVNDF (before
+/// and after the NDF, whose lobes its sums need), amplitudes.
+[[nodiscard]] MaterialTable patch_table(const Patch& patch, const TableSettings& settings, const Progress& progress);
 
 /// The table of facets that are all seen from everywhere and weigh the same whatever their tilt: those of a normal map.
 /// `normals` have weights that sum to 1.

@@ -2,6 +2,7 @@
 #include "renderer/effects/effects.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -102,29 +103,32 @@ EffectDecision lights(Effect effect, const Scene& scene, std::string_view word) 
           n > 0 ? fmt::format("{} {} light{}", n, word, n == 1 ? "" : "s") : fmt::format("no {} light", word)};
 }
 
-EffectDecision cast_shadow(const Scene& scene) {
-  const auto off = [](std::string_view reason) {
-    return EffectDecision{Effect::cast_shadow, false, std::string(reason)};
-  };
-  if (scene.lights.empty()) return off("no light that could cast one");
-  if (scene.shadows.cast) {
-    return *scene.shadows.cast ? EffectDecision{Effect::cast_shadow, true, "switched on by the scene"}
-                               : off("switched off by the scene");
-  }
-  const std::vector<bool> casting = lights_casting_shadows(scene, Occluders(scene));
-  const auto n = std::ranges::count(casting, true);
-  if (n == 0) return off("nothing stands between a surface and a light");
-  return {Effect::cast_shadow, true,
-          fmt::format("{} of {} light{}: something stands before a surface", n, casting.size(),
-                      casting.size() == 1 ? "" : "s")};
-}
-
 EffectDecision environment_light(const Scene& scene) {
   if (!scene.environment) return {Effect::environment_light, false, "no environment"};
   const Image& map = *scene.environment->radiance;
   const bool lit = std::ranges::any_of(map.texels, [](float value) { return value > 0.0F; });
   const std::string text = fmt::format("the environment {}, {} x {}", scene.environment->name, map.width, map.height);
   return {Effect::environment_light, lit, lit ? text : text + ", is black"};
+}
+
+EffectDecision cast_shadow(const Scene& scene) {
+  const auto off = [](std::string_view reason) {
+    return EffectDecision{Effect::cast_shadow, false, std::string(reason)};
+  };
+  const bool surrounded = environment_light(scene).on;
+  if (scene.lights.empty() && !surrounded) return off("no light that could cast one");
+  if (scene.shadows.cast) {
+    return *scene.shadows.cast ? EffectDecision{Effect::cast_shadow, true, "switched on by the scene"}
+                               : off("switched off by the scene");
+  }
+  const Occluders occluders(scene);
+  const std::vector<bool> casting = lights_casting_shadows(scene, occluders);
+  const auto n = std::ranges::count(casting, true);
+  std::vector<std::string> kept;
+  if (n > 0) kept.push_back(fmt::format("{} of {} light{}", n, casting.size(), casting.size() == 1 ? "" : "s"));
+  if (surrounded && hides_surroundings(scene, occluders)) kept.emplace_back("the environment");
+  if (kept.empty()) return off("nothing stands between a surface and a light");
+  return {Effect::cast_shadow, true, fmt::format("{}: something stands before a surface", fmt::join(kept, " and "))};
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ TEST_P(EveryMethod, IsDeterministic) {
 }
 
 // Over all pixels and colours.
-double mean_radiance(const Image& picture) {
+double mean_of_colours(const Image& picture) {
   double sum = 0.0;
   for (std::size_t i = 0; i < picture.texels.size(); ++i) sum += i % 4 < 3 ? picture.texels[i] : 0.0F;
   return sum / static_cast<double>(3 * picture.texel_count());
@@ -100,7 +100,7 @@ TEST_P(EveryMethod, RepresentsTheBaseBrdfAtItsFinestLevel) {
   if (GetParam()->info().resolves_texels) {
     EXPECT_LT(compare_images(finest, truth, 1.0F).value().relative_rmse, 0.05);
   } else {
-    EXPECT_NEAR(mean_radiance(finest) / mean_radiance(truth), 1.0, 0.05);
+    EXPECT_NEAR(mean_of_colours(finest) / mean_of_colours(truth), 1.0, 0.05);
   }
 }
 

@@ -36,6 +36,7 @@ void run(int argc, const char* const* argv) {
   footprint::add_compare_command(app);
   footprint::add_render_command(app);
   footprint::add_animate_command(app);
+  footprint::add_edit_command(app);
   footprint::add_run_command(app);
   footprint::add_check_command(app);
   footprint::add_explain_command(app);

@@ -1,4 +1,5 @@
-// footprint_bench: what frames, the reference, start-up, mip chains, mixtures and baking cost (docs/performance.md).
+// footprint_bench: what frames, the reference, start-up, mip chains, mixtures, edits of small-scale geometry and baking
+// cost (docs/performance.md).
 #include <benchmark/benchmark.h>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +11,7 @@
 
 #include "bench/frame_benchmarks.hpp"
 #include "bench/frame_builds.hpp"
+#include "bench/iwasaki_benchmarks.hpp"
 #include "bench/mip_benchmarks.hpp"
 #include "bench/ratios.hpp"
 #include "bench/tan_gmm_benchmarks.hpp"
@@ -56,6 +58,7 @@ void run(int argc, char** argv) {
   }
   footprint::bench::register_mip_benchmarks();
   footprint::bench::register_tan_gmm_benchmarks();
+  footprint::bench::register_iwasaki_benchmarks();
   benchmark::RunSpecifiedBenchmarks();
 }
 

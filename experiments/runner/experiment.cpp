@@ -12,7 +12,9 @@
 #include "experiments/runner/compare.hpp"
 #include "experiments/runner/known_methods.hpp"
 #include "experiments/runner/picture_files.hpp"
+#include "experiments/runner/quantities.hpp"
 #include "experiments/runner/zoom.hpp"
+#include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/suggest.hpp"
 #include "renderer/scene/toml_table.hpp"
@@ -131,6 +133,23 @@ void read_reference(const TomlTable& table, Experiment& experiment) {
   }
 }
 
+// The quantity of that name, and that the method which is asked has it.
+void check_quantity(const Measure& measure, const Experiment& experiment) {
+  const auto refuse = [&](const std::string& message, const std::string& mend) {
+    throw Error(ErrorKind::usage, measure_text(measure), message, mend);
+  };
+  if (!measure.quantity) refuse("does not say which", "add name=NAME, of one of [[quantity]]");
+  const auto named = std::ranges::find(experiment.quantities, *measure.quantity, &NamedQuantity::name);
+  if (named == experiment.quantities.end()) {
+    refuse(fmt::format("there is no quantity `{:.80}`", *measure.quantity), "use the name of one of [[quantity]]");
+  }
+  const std::vector<std::string> methods = texts_of(experiment.methods);
+  const MethodSpec& method = experiment.methods[select_method(measure.method, methods)];
+  if (find_quantity(find_method(method.name), named->quantity) == nullptr) {
+    refuse(fmt::format("{} has no figure `{}`", method.name, named->quantity), "ask a method that has it");
+  }
+}
+
 // Every figure that is asked for must be one that the run will have: known before it starts.
 void check_measures(const Expression& expression, const Experiment& experiment) {
   const std::vector<std::string> methods = texts_of(experiment.methods);
@@ -146,6 +165,7 @@ void check_measures(const Expression& expression, const Experiment& experiment) 
                                  experiment.footprints.end()) {
       refuse(fmt::format("there is no footprint `{:.80}`", *measure.footprint), "use the name of one of [[ndf]]");
     }
+    if (is_quantity(measure.function)) check_quantity(measure, experiment);
     if (is_of_supersampling(measure.function)) {
       if (std::ranges::find(supersampling_counts, *measure.spp) == supersampling_counts.end()) {
         refuse(fmt::format("no {} samples are timed", *measure.spp),
@@ -271,6 +291,44 @@ void read_footprints(const TomlTable& root, Experiment& experiment) {
   }
 }
 
+// The methods of an experiment that have a figure, each once.
+std::vector<const Quantity*> quantities_called(const std::string& name, const Experiment& experiment) {
+  std::vector<const Quantity*> found;
+  for (const MethodSpec& method : experiment.methods) {
+    const Quantity* const quantity = find_quantity(find_method(method.name), name);
+    if (quantity != nullptr) found.push_back(quantity);
+  }
+  return found;
+}
+
+NamedQuantity read_quantity(const TomlTable& table, const Experiment& experiment) {
+  NamedQuantity named{required_word(table, "name"), required_word(table, "figure"), {}, table.word("material").value_or("")};
+  if (std::ranges::find(experiment.quantities, named.name, &NamedQuantity::name) != experiment.quantities.end()) {
+    throw table.error_at("name", fmt::format("is `{:.80}` as of another quantity", named.name), "name it otherwise");
+  }
+  const auto found = quantities_called(named.quantity, experiment);
+  if (found.empty()) {
+    throw table.error_at("figure", fmt::format("is `{:.80}`, which no method of the experiment has", named.quantity),
+                         suggestion(named.quantity, quantity_names(experiment.methods)));
+  }
+  std::vector<std::string> names;
+  for (const OptionSpec& spec : found.front()->parameters) names.push_back(spec.name);
+  if (const auto parameters = table.table("parameters", names)) {
+    for (const std::string& name : names) {
+      if (const auto number = parameters->number(name, any_number)) named.parameters[name] = fmt::format("{}", *number);
+    }
+  }
+  at_key(table, "parameters",
+         [&] { return Options(found.front()->parameters, named.parameters, "figure " + named.quantity); });
+  return named;
+}
+
+void read_quantities(const TomlTable& root, Experiment& experiment) {
+  for (const TomlTable& table : root.tables("quantity", {"name", "figure", "parameters", "material"})) {
+    experiment.quantities.push_back(read_quantity(table, experiment));
+  }
+}
+
 std::optional<Crop> read_crop(const TomlTable& table, std::string_view key) {
   const auto sides = table.numbers(key, 4, {0, 1});
   if (!sides) return std::nullopt;
@@ -363,7 +421,7 @@ Experiment read_experiment(const fs::path& file) {
   const toml::table parsed = parse_toml_file(file);
   const TomlTable root(
       parsed, file, "",
-      {"experiment", "zoom", "camera", "reference", "ndf", "published", "claim", "threshold", "figure"});
+      {"experiment", "zoom", "camera", "reference", "ndf", "quantity", "published", "claim", "threshold", "figure"});
   Experiment experiment;
   experiment.name = file.stem().string();
   experiment.file = file;
@@ -383,6 +441,7 @@ Experiment read_experiment(const fs::path& file) {
     read_reference(*reference, experiment);
   }
   read_footprints(root, experiment);
+  read_quantities(root, experiment);
   if (const auto published = root.table("published", {"file", "figures"})) read_published(*published, experiment);
   read_claims(root, experiment);
   read_thresholds(parsed, root, experiment);

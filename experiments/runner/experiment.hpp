@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +44,14 @@ struct PublishedValue {
 struct NamedFootprint {
   std::string name;    ///< letters, digits, `_`, `-`: a folder is called so
   FootprintRect rect;  ///< texture coordinates
+};
+
+/// A figure of a method that no picture shows: of every method of the experiment that has it.
+struct NamedQuantity {
+  std::string name;                               ///< in the experiment's expressions
+  std::string quantity;                           ///< what the method calls it (Method::quantities)
+  std::map<std::string, std::string> parameters;  ///< those that are given
+  std::string material;                           ///< of the scene; empty: its first
 };
 
 /// A rectangle of a picture in shares of its width and height, from the top left: left, top, right, bottom.
@@ -86,6 +95,7 @@ struct Experiment {
   std::vector<Claim> claims;
   std::vector<Threshold> thresholds;
   std::vector<NamedFootprint> footprints;
+  std::vector<NamedQuantity> quantities;
   FigureLayout figure;  ///< no rows: none is composed
 };
 

@@ -182,6 +182,26 @@ TEST_F(ExperimentFile, WrongFilesAreRefusedAtTheirLine) {
   expect_complaint(good + "[[figure.row]]\npictures = [{ method = \"tan\" }]\n", "no method `tan`");
 }
 
+TEST_F(ExperimentFile, TakesQuantitiesThatAMethodHas) {
+  const std::string by = "[experiment]\ntitle = \"t\"\nscene = \"s\"\nmethods = [\"direct\", \"iwasaki_sg\"]\n";
+  const auto quantity = [&](const std::string& more, const std::string& measure) {
+    return by + "[[quantity]]\nname = \"q\"\n" + more + "[threshold]\n\"" + measure + "\" = 1\n";
+  };
+  const std::string figure = "figure = \"convolution_error\"\n", good = "quantity(iwasaki_sg, name=q)";
+  const Experiment experiment = read(quantity(figure + "parameters = { eta1 = 1, eta2 = 10 }\n", good));
+  ASSERT_EQ(experiment.quantities.size(), 1U);
+  EXPECT_EQ(experiment.quantities[0].parameters.at("eta2"), "10");
+  EXPECT_EQ(experiment.thresholds[0].measure.text(), good);
+  expect_complaint(quantity("figure = \"convolution_eror\"\n", good), "did you mean `convolution_error`");
+  expect_complaint(quantity(figure + "parameters = { eta3 = 1 }\n", good), "did you mean `eta");
+  expect_complaint(quantity(figure + "parameters = { eta1 = -1 }\n", good), "does not fit");
+  expect_complaint(quantity(figure, "quantity(direct, name=q)"), "direct has no figure");
+  expect_complaint(quantity(figure, "quantity(iwasaki_sg, name=r)"), "no quantity `r`");
+  expect_complaint(quantity(figure, "quantity(iwasaki_sg)"), "does not say which");
+  expect_complaint(quantity(figure, "error(iwasaki_sg, name=q)"), "selects nothing of error");
+  expect_complaint(quantity(figure + "[[quantity]]\nname = \"q\"\n" + figure, good), "another quantity");
+}
+
 TEST_F(ExperimentFile, ClaimsAreHeldAgainstTheExperiment) {
   const auto claim = [&](const std::string& inequality, const std::string& expect) {
     return std::string(head) + "[zoom]\ndistances = [1, 4]\n[[claim]]\nname = \"n\"\ntext = \"t\"\nreason = \"r\"\n" +

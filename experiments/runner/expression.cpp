@@ -149,6 +149,7 @@ class Parser {
   static std::vector<std::string> selectors_of(const std::string& function) {
     if (is_of_ndf(function)) return {"footprint"};
     if (is_of_supersampling(function)) return {"distance", "spp"};
+    if (is_quantity(function)) return {"name"};
     if (takes_spp(function)) return {"distance", "frame", "spp"};
     return {"distance", "frame"};
   }
@@ -158,8 +159,9 @@ class Parser {
     if (key == "distance") return read(value, measure.distance);
     if (key == "frame") return read(value, measure.frame) && *measure.frame >= 0;
     if (key == "spp") return read(value, measure.spp) && *measure.spp > 0;
-    if (measure.footprint || value.empty()) return false;
-    measure.footprint = value;
+    std::optional<std::string>& word = key == "name" ? measure.quantity : measure.footprint;
+    if (word || value.empty()) return false;
+    word = value;
     return true;
   }
 
@@ -240,14 +242,14 @@ std::string text_of(const Node& node) {
     case Kind::call:
       return measure_text(node.measure);
     case Kind::negate:
-      return "-" + text_of(node.parts[0]);
+      return fmt::format("-{}", text_of(node.parts[0]));
     case Kind::absolute:
-      return "abs(" + text_of(node.parts[0]) + ")";
+      return fmt::format("abs({})", text_of(node.parts[0]));
     case Kind::binary:
       break;
   }
   const auto operand = [&](const Node& part) {
-    return part.kind == Kind::binary ? "(" + text_of(part) + ")" : text_of(part);
+    return part.kind == Kind::binary ? fmt::format("({})", text_of(part)) : text_of(part);
   };
   return fmt::format("{} {} {}", operand(node.parts[0]), node.operation, operand(node.parts[1]));
 }

@@ -83,6 +83,7 @@ const std::array<NdfFunction, 3>& ndf_functions() {
 }
 
 constexpr const char* supersampling_function = "supersampling_time";
+constexpr const char* quantity_function = "quantity";
 
 Measured mean_of(double sum, std::size_t count) {
   const double mean = sum / static_cast<double>(count);
@@ -113,6 +114,13 @@ Measured measured_supersampling(const Measure& measure, const Results& results) 
     ++count;
   }
   return count > 0 ? mean_of(sum, count) : Measured{.value = {}, .problem = "no such count of samples was timed"};
+}
+
+Measured measured_quantity(const Measure& measure, const std::string& method, const Results& results) {
+  for (const QuantityFigure& figure : results.quantities) {
+    if (figure.method == method && figure.name == measure.quantity) return mean_of(figure.value, 1);
+  }
+  return {.value = {}, .problem = "the run has no such figure"};
 }
 
 struct Sample {
@@ -152,6 +160,7 @@ const std::vector<std::string>& measure_functions() {
     for (const Function& function : functions()) all.push_back(function.name);
     for (const NdfFunction& function : ndf_functions()) all.push_back(function.name);
     all.emplace_back(supersampling_function);
+    all.emplace_back(quantity_function);
     return all;
   }();
   return names;
@@ -165,11 +174,14 @@ bool is_of_ndf(const std::string& function) {
   return std::ranges::find(ndf_functions(), function, &NdfFunction::name) != ndf_functions().end();
 }
 
+bool is_quantity(const std::string& function) { return function == quantity_function; }
+
 std::string measure_text(const Measure& measure) {
   std::string text = fmt::format("{}({}", measure.function, measure.method);
   if (measure.distance) text += fmt::format(", distance={}", *measure.distance);
   if (measure.frame) text += fmt::format(", frame={}", *measure.frame);
   if (measure.footprint) text += fmt::format(", footprint={}", *measure.footprint);
+  if (measure.quantity) text += fmt::format(", name={}", *measure.quantity);
   if (measure.spp) text += fmt::format(", spp={}", *measure.spp);
   return text + ")";
 }
@@ -197,6 +209,7 @@ Measured measured(const Measure& measure, const Results& results) {
   const std::string& method = methods[select_method(measure.method, methods)];
   if (is_of_ndf(measure.function)) return measured_ndf(measure, method, results);
   if (is_of_supersampling(measure.function)) return measured_supersampling(measure, results);
+  if (is_quantity(measure.function)) return measured_quantity(measure, method, results);
   const auto function = std::ranges::find(functions(), measure.function, &Function::name);
   double sum = 0;
   std::size_t count = 0, noisy = 0, matching = 0;

@@ -17,6 +17,7 @@ struct Measure {
   std::optional<double> distance;
   std::optional<int> frame;
   std::optional<std::string> footprint;  ///< of the NDF's functions alone
+  std::optional<std::string> quantity;   ///< `quantity` alone: its name in the experiment
   std::optional<int> spp;  ///< `error`: against the reference of so many samples, none: the experiment's own;
                            ///< `supersampling_time`: of so many samples, which must be given
 };
@@ -29,6 +30,9 @@ struct Measure {
 
 /// Whether a function is one of a footprint's NDF: it takes `footprint`, and no other selector.
 [[nodiscard]] bool is_of_ndf(const std::string& function);
+
+/// Whether a function is a figure that no picture shows: it takes `name`, and no other selector.
+[[nodiscard]] bool is_quantity(const std::string& function);
 
 /// "error(toksvig:storage=fp16, distance=4)".
 [[nodiscard]] std::string measure_text(const Measure& measure);

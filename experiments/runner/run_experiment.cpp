@@ -7,6 +7,8 @@
 #include "experiments/runner/composed_figure.hpp"
 #include "experiments/runner/judge.hpp"
 #include "experiments/runner/ndf_inspection.hpp"
+#include "experiments/runner/quantities.hpp"
+#include "renderer/scene/load_scene.hpp"
 
 namespace footprint {
 namespace {
@@ -86,9 +88,14 @@ CompareSettings compare_settings(const Experiment& experiment, const RunSettings
 
 Results run_experiment(const Experiment& experiment, const RunSettings& settings, const std::filesystem::path& folder,
                        const Progress& progress) {
-  ProgressParts parts(progress, experiment.footprints.empty() ? 4 : 5);
+  const bool looks_further = !experiment.footprints.empty() || !experiment.quantities.empty();
+  ProgressParts parts(progress, looks_further ? 6 : 4);
   Results results = run_compare(compare_settings(experiment, settings), folder, {}, parts.next(4, ""));
   inspect_footprints(experiment, settings, folder, results, parts.next(1, ""));
+  if (!experiment.quantities.empty()) {
+    const Scene scene = load_scene(experiment.scene, settings.scene_library);
+    results.quantities = measure_quantities(experiment, scene, parts.next(1, ""));
+  }
   results.experiment = judge(experiment, results);
   results.experiment->quick = settings.quick;
   results.experiment->pictures = write_figures(experiment.figure, experiment, results, folder);

@@ -69,10 +69,11 @@ Stage::Stage(const gl::ContextRequest& request, Scene scene, const StageSettings
       settings_(settings),
       size_(frame_size(scene_, settings.size)),
       decisions_(derive_effects(scene_)),
-      effects_(settings.all_effects ? EffectSet{}.set() : effects_on(decisions_)),
-      gpu_scene_(std::make_unique<GpuScene>(context_.info(), scene_, effects_)) {
+      effects_(settings.all_effects ? EffectSet{}.set() : effects_on(decisions_)) {
   require_pictures(size_, settings.pictures);
-  ProgressParts parts(progress, static_cast<double>(settings.methods.size() + 1));
+  scene_ = refined_for_visibility(std::move(scene_), effects_);
+  ProgressParts parts(progress, static_cast<double>(settings.methods.size() + 2));
+  gpu_scene_ = std::make_unique<GpuScene>(context_.info(), scene_, effects_, parts.next(1, ""));
   for (const MethodSpec& spec : settings.methods) {
     methods_.emplace_back(context_.info(), *gpu_scene_, scene_, effects_, spec, size_, settings,
                           parts.next(1, "bake "));

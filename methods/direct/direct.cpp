@@ -21,7 +21,7 @@ class Direct final : public Method {
                    .summary = "The finest level of every map at the pixel's centre: no filtering.",
                    .paper = "",
                    .options = {},
-                   .honours = EffectSet{}.set()};
+                   .honours = map_effects_but({})};
 };
 
 }  // namespace

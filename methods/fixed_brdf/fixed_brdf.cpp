@@ -35,7 +35,7 @@ class FixedBrdf final : public Method {
       .summary = "The finest level's reflectance at any distance, over geometry that is filtered.",
       .paper = "Tan, Lin, Quan, Guo, Shum 2005, Multiresolution Reflectance Filtering, EGSR (its comparison, figure 8)",
       .options = {storage_option()},
-      .honours = all_effects_but({Effect::normal_layers})};
+      .honours = map_effects_but({Effect::normal_layers})};
 };
 
 }  // namespace

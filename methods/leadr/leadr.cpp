@@ -33,7 +33,7 @@ class Leadr final : public Method {
                                word_option("weighting", {"bump", "displacement"},
                                            "What a texel counts for: all the same, as in a normal map, or its true and "
                                            "visible area, as on a displaced surface.")},
-                   .honours = all_effects_but({Effect::multi_lobe})};
+                   .honours = map_effects_but({Effect::multi_lobe})};
 };
 
 }  // namespace

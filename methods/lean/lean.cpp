@@ -38,7 +38,7 @@ class Lean final : public Method {
                                word_option("variant", {"lean", "clean"},
                                            "The whole covariance of slopes, or its trace alone (CLEAN): a round lobe "
                                            "and three channels instead of five.")},
-                   .honours = all_effects_but({Effect::multi_lobe})};
+                   .honours = map_effects_but({Effect::multi_lobe})};
 };
 
 }  // namespace

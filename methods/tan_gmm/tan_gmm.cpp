@@ -102,7 +102,7 @@ class TanGmm final : public Method {
           "the texture filter blends them.",
       .paper = "Tan et al. 2005, Multiresolution Reflectance Filtering, Eurographics Symposium on Rendering",
       .options = option_table(),
-      .honours = all_effects_but({Effect::normal_layers}),
+      .honours = map_effects_but({Effect::normal_layers}),
       .slow_precompute = true};
 };
 

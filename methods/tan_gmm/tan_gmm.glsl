@@ -111,8 +111,9 @@ float lobeOverComponent(Effective e, int i, vec3 h) {
 }
 
 //? if multi_lobe
-// Of an axis below the horizon nothing is over the disc.
-float lobeOverComponent(Effective e, int i, int k, vec3 h) {
+// Lobe k about its axis, turned with the mean; `own` is h in the mean's frame. Of an axis below the horizon nothing is over
+// the disc.
+float lobeOverComponent(Effective e, int i, int k, vec3 h, vec3 own) {
   vec3 axis = turnedWithNormal(facet_lobes[k].axis, e.mean[i]);
   if (axis.z <= 0.0 || e.amount[i] <= 0.0) return 0.0;
   float base = clamp(facet_lobes[k].variance, 1e-6, 4.0);
@@ -137,9 +138,8 @@ float lobeOverComponent(Effective e, int i, vec3 h) {
 }
 
 //? if multi_lobe
-float lobeOverComponent(Effective e, int i, int k, vec3 h) {
+float lobeOverComponent(Effective e, int i, int k, vec3 h, vec3 own) {
   if (e.amount[i] <= 0.0) return 0.0;
-  vec3 own = inFacetFrame(h, e.mean[i]);
   return e.amount[i] * lobeDensity(widenedLobe(k, e.spread[i]), facet_lobes[k].axis, own);
 }
 //? end
@@ -148,8 +148,9 @@ float lobeOverComponent(Effective e, int i, int k, vec3 h) {
 float componentDensity(Effective e, int i, vec3 h) {
 //? if multi_lobe
   if (facet_lobe_count > 0) {
+    vec3 own = inFacetFrame(h, e.mean[i]);
     float sum = 0.0;
-    for (int k = 0; k < facet_lobe_count; ++k) sum += facet_lobes[k].weight * lobeOverComponent(e, i, k, h);
+    for (int k = 0; k < facet_lobe_count; ++k) sum += facet_lobes[k].weight * lobeOverComponent(e, i, k, h, own);
     return sum;
   }
 //? end
@@ -160,9 +161,10 @@ float componentDensity(Effective e, int i, vec3 h) {
 float componentReflectance(Effective e, int i, vec3 h, vec3 wi, vec3 wo) {
 //? if multi_lobe
   if (facet_lobe_count > 0) {
+    vec3 own = inFacetFrame(h, e.mean[i]);
     float sum = 0.0;
     for (int k = 0; k < facet_lobe_count; ++k) {
-      sum += facet_lobes[k].weight * lobeOverComponent(e, i, k, h) *
+      sum += facet_lobes[k].weight * lobeOverComponent(e, i, k, h, own) *
              geometryFactor(facet_lobes[k].parameter, e.mean[i], h, wi, wo);
     }
     return sum;

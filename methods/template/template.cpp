@@ -73,7 +73,7 @@ class IndependentTexels final : public Method {
                                 .meaning = "Factor on the spread that is added to the lobe's slope variance per axis; "
                                            "0 leaves the base lobe as it is.",
                                 .integer = false}},
-                   .honours = all_effects_but({Effect::normal_layers, Effect::roughness_variation})};
+                   .honours = map_effects_but({Effect::normal_layers, Effect::roughness_variation})};
 };
 
 }  // namespace

@@ -47,7 +47,7 @@ class Toksvig final : public Method {
                       "diffuse", {"mean", "normalized"},
                       "The diffuse term's normal: the mean normal, whose dot product is the mean of the facets' "
                       "own while all face the light, or the renormalised one.")},
-      .honours = EffectSet{}.set()};
+      .honours = map_effects_but({})};
 };
 
 }  // namespace

@@ -208,7 +208,7 @@ class XuVmf final : public Method {
                        "the hemisphere.",
                    .paper = "Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping, Computer Graphics Forum 36(4)",
                    .options = option_table(),
-                   .honours = all_effects_but({Effect::normal_layers})};
+                   .honours = map_effects_but({Effect::normal_layers})};
   std::string shader_ =
       std::string(embedded::xu_vmf_glsl).append(embedded::xu_vmf_conversion_glsl).append(embedded::xu_vmf_cells_glsl);
 };

@@ -2,11 +2,13 @@
 #include "renderer/effects/effects.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <ranges>
 
+#include "renderer/microgeometry/microgeometry.hpp"
 #include "renderer/visibility/cast_shadows.hpp"
 
 namespace footprint {
@@ -28,7 +30,11 @@ constexpr std::array<std::string_view, effect_count> names{"diffuse",
                                                            "spot_light",
                                                            "directional_light",
                                                            "cast_shadow",
-                                                           "environment_light"};
+                                                           "environment_light",
+
+                                                           "microgeometry_visibility",
+                                                           "microgeometry_colour",
+                                                           "tabulated_brdf"};
 
 // Smaller than any step of an 8-bit map; larger than what decoding one leaves in 32 bits.
 constexpr float constant_tolerance = 1e-5F;
@@ -97,29 +103,32 @@ EffectDecision lights(Effect effect, const Scene& scene, std::string_view word) 
           n > 0 ? fmt::format("{} {} light{}", n, word, n == 1 ? "" : "s") : fmt::format("no {} light", word)};
 }
 
-EffectDecision cast_shadow(const Scene& scene) {
-  const auto off = [](std::string_view reason) {
-    return EffectDecision{Effect::cast_shadow, false, std::string(reason)};
-  };
-  if (scene.lights.empty()) return off("no light that could cast one");
-  if (scene.shadows.cast) {
-    return *scene.shadows.cast ? EffectDecision{Effect::cast_shadow, true, "switched on by the scene"}
-                               : off("switched off by the scene");
-  }
-  const std::vector<bool> casting = lights_casting_shadows(scene, Occluders(scene));
-  const auto n = std::ranges::count(casting, true);
-  if (n == 0) return off("nothing stands between a surface and a light");
-  return {Effect::cast_shadow, true,
-          fmt::format("{} of {} light{}: something stands before a surface", n, casting.size(),
-                      casting.size() == 1 ? "" : "s")};
-}
-
 EffectDecision environment_light(const Scene& scene) {
   if (!scene.environment) return {Effect::environment_light, false, "no environment"};
   const Image& map = *scene.environment->radiance;
   const bool lit = std::ranges::any_of(map.texels, [](float value) { return value > 0.0F; });
   const std::string text = fmt::format("the environment {}, {} x {}", scene.environment->name, map.width, map.height);
   return {Effect::environment_light, lit, lit ? text : text + ", is black"};
+}
+
+EffectDecision cast_shadow(const Scene& scene) {
+  const auto off = [](std::string_view reason) {
+    return EffectDecision{Effect::cast_shadow, false, std::string(reason)};
+  };
+  const bool surrounded = environment_light(scene).on;
+  if (scene.lights.empty() && !surrounded) return off("no light that could cast one");
+  if (scene.shadows.cast) {
+    return *scene.shadows.cast ? EffectDecision{Effect::cast_shadow, true, "switched on by the scene"}
+                               : off("switched off by the scene");
+  }
+  const Occluders occluders(scene);
+  const std::vector<bool> casting = lights_casting_shadows(scene, occluders);
+  const auto n = std::ranges::count(casting, true);
+  std::vector<std::string> kept;
+  if (n > 0) kept.push_back(fmt::format("{} of {} light{}", n, casting.size(), casting.size() == 1 ? "" : "s"));
+  if (surrounded && hides_surroundings(scene, occluders)) kept.emplace_back("the environment");
+  if (kept.empty()) return off("nothing stands between a surface and a light");
+  return {Effect::cast_shadow, true, fmt::format("{}: something stands before a surface", fmt::join(kept, " and "))};
 }
 
 }  // namespace
@@ -138,6 +147,7 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
     const Image& image = *m.specular_map->image;
     return channel_varies(image, 0) || channel_varies(image, 1) || channel_varies(image, 2);
   };
+  const auto coloured = [](const Material& m) { return m.microgeometry && has_colors(m.microgeometry->patch); };
   return {
       decide(Effect::diffuse, scene, reflects_diffusely, "a Lambert term with an albedo above 0",
              "no material reflects diffusely"),
@@ -172,6 +182,14 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
       lights<DirectionalLight>(Effect::directional_light, scene, "directional"),
       cast_shadow(scene),
       environment_light(scene),
+      decide(
+          Effect::microgeometry_visibility, scene, [](const Material& m) { return m.microgeometry != nullptr; },
+          "a patch of small-scale geometry", "no small-scale geometry"),
+      decide(Effect::microgeometry_colour, scene, coloured, "a patch of several colours",
+             "no small-scale geometry of several colours"),
+      decide(
+          Effect::tabulated_brdf, scene, [](const Material& m) { return m.microgeometry && m.microgeometry->brdf; },
+          "facets with a tabulated BRDF", "every facet has the base BRDF"),
   };
 }
 

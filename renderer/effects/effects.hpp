@@ -30,11 +30,14 @@ enum class Effect : std::size_t {
   point_light,
   spot_light,
   directional_light,
-  cast_shadow,        ///< parts of the scene that stand between others and a light
-  environment_light,  ///< light from all directions
+  cast_shadow,               ///< parts of the scene that stand between others and a light
+  environment_light,         ///< light from all directions
+  microgeometry_visibility,  ///< small-scale geometry whose facets hide and shadow each other
+  microgeometry_colour,      ///< small-scale geometry of several colours
+  tabulated_brdf,            ///< facets that reflect as a table says, in place of the base BRDF
 };
 
-inline constexpr std::size_t effect_count = static_cast<std::size_t>(Effect::environment_light) + 1;
+inline constexpr std::size_t effect_count = static_cast<std::size_t>(Effect::tabulated_brdf) + 1;
 using EffectSet = std::bitset<effect_count>;
 
 /// The name of an effect as shaders, tables and `explain` write it.
@@ -57,6 +60,13 @@ using EffectSet = std::bitset<effect_count>;
   set.set();
   for (const Effect effect : left_out) set.reset(static_cast<std::size_t>(effect));
   return set;
+}
+
+/// Every effect but those of `left_out` and of small-scale geometry: what a method can honour that knows a surface by
+/// its maps alone.
+[[nodiscard]] inline EffectSet map_effects_but(std::initializer_list<Effect> left_out) {
+  return all_effects_but(left_out) &
+         all_effects_but({Effect::microgeometry_visibility, Effect::microgeometry_colour, Effect::tabulated_brdf});
 }
 
 /// One effect of a scene: on or off, and the reason in words ("the normal map is constant").

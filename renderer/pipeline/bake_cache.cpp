@@ -12,6 +12,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
 #include "renderer/core/hash.hpp"
+#include "renderer/microgeometry/microgeometry.hpp"
 #include "renderer/pipeline/prefiltered_file.hpp"
 #include "renderer/scene/file_bytes.hpp"
 
@@ -61,6 +62,19 @@ void add_map(ContentHash& hash, const std::optional<TextureMap>& map) {
   add_value(hash, map->coordinates.wrap);
 }
 
+template <class Value>
+void add_values(ContentHash& hash, const std::vector<Value>& values) {
+  hash.add(std::as_bytes(std::span(values)));
+}
+
+void add_patch(ContentHash& hash, const Patch& patch) {
+  add_value(hash, patch.period);
+  add_values(hash, patch.vertices);
+  add_values(hash, patch.triangles);
+  add_values(hash, patch.paints);
+  add_values(hash, patch.palette);
+}
+
 // Everything of a material but its name.
 void add_material(ContentHash& hash, const Material& m) {
   add_value(hash, m.brdf.distribution);
@@ -81,6 +95,9 @@ void add_material(ContentHash& hash, const Material& m) {
   add_map(hash, m.specular_map);
   add_value(hash, m.lobes.size());
   for (const FacetLobe& lobe : m.lobes) add_value(hash, lobe);
+  if (!m.microgeometry) return;
+  add_patch(hash, m.microgeometry->patch);
+  if (m.microgeometry->brdf) add_values(hash, m.microgeometry->brdf->values);
 }
 
 struct KeptFile {

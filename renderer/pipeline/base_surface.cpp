@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+
+#include "renderer/microgeometry/microgeometry.hpp"
+#include "renderer/pipeline/patch_facets.hpp"
 
 namespace footprint {
 
@@ -50,7 +54,7 @@ class BaseSurface final : public Method {
   [[nodiscard]] const MethodInfo& info() const override { return info_; }
 
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& /*options*/, const EffectSet& effects,
-                                       const Progress& /*progress*/) const override {
+                                       const Progress& progress) const override {
     Prefiltered out;
     if (has(effects, Effect::normal_variation)) {
       out.textures.push_back(
@@ -63,6 +67,15 @@ class BaseSurface final : public Method {
     if (has(effects, Effect::roughness_variation)) {
       out.textures.push_back(
           make_texture("base_roughness", {roughness_map_of(material)}, Storage::fp32, roughness_coordinates(material)));
+    }
+    if (has(effects, Effect::microgeometry_visibility)) {
+      std::ranges::move(patch_facet_textures(material, progress), std::back_inserter(out.textures));
+      out.scalars["base_has_patch"] = material.microgeometry ? 1.0F : 0.0F;
+    }
+    if (has(effects, Effect::microgeometry_colour)) out.textures.push_back(paint_texture(material));
+    if (has(effects, Effect::tabulated_brdf)) {
+      out.textures.push_back(tabulated_brdf_texture(material));
+      out.scalars["base_has_table"] = material.microgeometry && material.microgeometry->brdf ? 1.0F : 0.0F;
     }
     return out;
   }

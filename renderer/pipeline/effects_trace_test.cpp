@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <map>
+#include <memory>
 #include <string>
 
+#include "renderer/microgeometry/microgeometry.hpp"
+#include "renderer/microgeometry/patch_kinds.hpp"
 #include "renderer/pipeline/base_surface.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/shadow_scenes.hpp"
@@ -30,6 +34,13 @@ Image halves(int channels, float left, float right) {
   Image image(2, 1, channels, left);
   for (auto i = static_cast<std::size_t>(channels); i < image.texels.size(); ++i) image.texels[i] = right;
   return image;
+}
+
+std::shared_ptr<const Microgeometry> microgeometry(const std::string& kind,
+                                                   const std::map<std::string, std::string>& given = {}) {
+  Patch patch = make_patch(find_patch_kind(kind), given);
+  const glm::vec3 mean = patch_maps(patch, 32).mean_color;
+  return std::make_shared<const Microgeometry>(Microgeometry{std::move(patch), mean});
 }
 
 // An effect, text that its code leaves in the shader, and what makes a scene call for it.
@@ -101,6 +112,19 @@ const auto cases = std::to_array<EffectCase>({
      }},
     {Effect::environment_light, "environment_stack",
      [](Scene& s) { s.environment = constant_environment(glm::vec3(0.5F)); }},
+    {Effect::microgeometry_visibility, "base_facets",
+     [](Scene& s) { s.materials[0].microgeometry = microgeometry("pyramids"); }},
+    {Effect::microgeometry_colour, "base_paints",
+     [](Scene& s) {
+       s.materials[0].metallic = 1.0F;
+       s.materials[0].microgeometry = microgeometry("weave", {{"warp_red", "0"}});
+     }},
+    {Effect::tabulated_brdf, "base_table",
+     [](Scene& s) {
+       Microgeometry flat = *microgeometry("flat");
+       flat.brdf = std::make_shared<const TabulatedBrdf>(ward_brdf(glm::vec3(0.5F), glm::vec3(0.1F), 0.3));
+       s.materials[0].microgeometry = std::make_shared<const Microgeometry>(std::move(flat));
+     }},
 });
 
 class EffectTrace : public ::testing::TestWithParam<EffectCase> {};

@@ -19,6 +19,9 @@ class FrameRenderer {
   /// Builds, draws and reads: RGBA, linear radiance and coverage, row 0 at the top.
   [[nodiscard]] Image render(const View& view) const;
 
+  /// Draws `method` from here on: another bake of the same method with the same options.
+  void exchange(const GpuMethod& method) { method_ = &method; }
+
   [[nodiscard]] const SurfaceProgram& program() const { return program_; }
 
  private:

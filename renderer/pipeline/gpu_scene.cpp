@@ -171,6 +171,13 @@ gl::VertexArray vertex_array(const gl::Buffer& vertices, const gl::Buffer& indic
   return array;
 }
 
+void add_visibility(const gl::VertexArray& array, const gl::Buffer& visibility) {
+  constexpr GLuint first_location = 6;  // in surface_vertex.glsl
+  constexpr GLuint vectors = 5;
+  gl::api().VertexArrayVertexBuffer(array.name(), 2, visibility.name(), 0, vectors * sizeof(glm::vec4));
+  for (GLuint i = 0; i < vectors; ++i) add_attribute(array.name(), first_location + i, 4, i * sizeof(glm::vec4), 2);
+}
+
 GLuint SamplerCache::sampler(const TextureCoordinates& coordinates, Lookup lookup) {
   for (const Entry& entry : entries_) {
     if (entry.wrap == coordinates.wrap && entry.lookup == lookup) return entry.sampler.name();
@@ -193,7 +200,8 @@ GpuTexture upload(const PrefilteredTexture& texture) {
   return out;
 }
 
-GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects)
+GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects,
+                   const Progress& progress)
     : context_(&context), effects_(effects), brdf_(scene.materials.front().brdf) {
   for (const Material& material : scene.materials) {
     if (material.brdf != brdf_) {
@@ -213,6 +221,22 @@ GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const Eff
     batches_.push_back(std::move(batch));
   }
   make_lights(context, scene);
+  if (hides_environment(effects)) make_visibility(scene, progress);
+}
+
+void GpuScene::make_visibility(const Scene& scene, const Progress& progress) {
+  if (visibility_) shared_bytes_ -= visibility_->bytes();
+  visibility_.emplace(scene, progress);
+  shared_bytes_ += visibility_->bytes();
+  for (GpuBatch& batch : batches_) {
+    const std::vector<glm::vec4> attributes = visibility_->attributes(scene, batch.material);
+    if (batch.visibility.name() != 0) {
+      batch.visibility.write(std::as_bytes(std::span(attributes)));
+    } else {
+      batch.visibility = gl::Buffer(std::as_bytes(std::span(attributes)), gl::Buffer::Content::changing);
+      add_visibility(batch.vertex_array, batch.visibility);
+    }
+  }
 }
 
 LightBlocks GpuScene::blocks_of(std::span<const Light> lights) const {
@@ -261,6 +285,7 @@ void GpuScene::update(const Scene& scene) {
     shadow_maps_.emplace(*context_, scene, effects_, batches_, samplers_);
     require(shadow_maps_->views().views.size() == light_counts_.shadow_maps, "lights");
   }
+  if (visibility_ && content.geometry != content_.geometry) make_visibility(scene, no_progress);
   const LightBlocks blocks = blocks_of(scene.lights);
   const auto write = [&](const gl::Buffer& buffer, std::span<const glm::vec4> values, std::size_t count) {
     require(values.size() == count, "lights");

@@ -9,8 +9,9 @@
 #include "renderer/effects/effects.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/gl/objects.hpp"
-#include "renderer/pipeline/light_blocks.hpp"
 #include "renderer/pipeline/gpu_environment.hpp"
+#include "renderer/pipeline/gpu_visibility.hpp"
+#include "renderer/pipeline/light_blocks.hpp"
 #include "renderer/pipeline/prefiltered.hpp"
 #include "renderer/pipeline/shadow_maps.hpp"
 #include "renderer/scene/scene.hpp"
@@ -40,8 +41,9 @@ struct GpuTexture {
   TextureCoordinates coordinates;
   TextureFilter filter = TextureFilter::trilinear;
 
-  /// The program's lookup, unless this texture's texels must not be blended.
+  /// The program's lookup, unless this texture says itself whether its texels are blended.
   [[nodiscard]] Lookup lookup(Lookup wanted) const {
+    if (filter == TextureFilter::linear) return Lookup::trilinear;
     return filter == TextureFilter::nearest ? Lookup::nearest : wanted;
   }
 };
@@ -55,6 +57,9 @@ struct GpuTexture {
 [[nodiscard]] gl::VertexArray vertex_array(const gl::Buffer& vertices, const gl::Buffer& indices,
                                            const gl::Buffer* surface = nullptr);
 
+/// Adds the visibility of the environment to a vertex array: five vectors a vertex.
+void add_visibility(const gl::VertexArray& array, const gl::Buffer& visibility);
+
 /// Hashes of what a scene's parts hold: one that differs tells that the part has changed.
 struct SceneContent {
   std::uint64_t geometry = fnv1a_start, materials = fnv1a_start, lights = fnv1a_start;
@@ -65,6 +70,7 @@ struct SceneContent {
 /// The triangles of one material, and what is constant over it.
 struct GpuBatch {
   gl::VertexArray vertex_array;
+  gl::Buffer visibility;  ///< of the environment, at the vertices; none where nothing hides it
   gl::Buffer vertices, indices, material_block;
   GLsizei index_count = 0;
   std::size_t vertex_count = 0;
@@ -76,8 +82,10 @@ struct GpuBatch {
 /// The whole scene. Needs the context that made it to be current, also when destroyed.
 class GpuScene {
  public:
-  /// Errors (usage): materials with different base BRDFs (a comparison needs one); (machine): over GL's limits.
-  GpuScene(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects);
+  /// Errors (usage): materials with different base BRDFs (a comparison needs one); (machine): over GL's limits; those
+  /// of `progress`, which is called where the visibility of an environment takes time.
+  GpuScene(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects,
+           const Progress& progress = no_progress);
 
   /// Takes over vertices, lights and the constants of materials as `scene` has them: the next frame of what moves. Maps,
   /// environment and base BRDF stay. Errors (usage): another number of materials, vertices or lights of a kind than before.
@@ -98,6 +106,8 @@ class GpuScene {
   }
   /// None without its light.
   [[nodiscard]] GpuEnvironment* environment() { return environment_ ? &*environment_ : nullptr; }
+  /// None where nothing hides a part of the environment.
+  [[nodiscard]] const std::optional<GpuVisibility>& visibility() const { return visibility_; }
   [[nodiscard]] SamplerCache& samplers() { return samplers_; }
 
   /// Binds the light blocks, their shadow maps, and sets the light counts of `program`.
@@ -119,12 +129,14 @@ class GpuScene {
   gl::Buffer point_lights_, spot_lights_, directional_lights_;
   LightCounts light_counts_;
   std::optional<GpuEnvironment> environment_;
+  std::optional<GpuVisibility> visibility_;
   SamplerCache samplers_;
   SceneContent content_;
   std::optional<ShadowMaps> shadow_maps_;
 
   [[nodiscard]] LightBlocks blocks_of(std::span<const Light> lights) const;
   void make_lights(const gl::ContextInfo& context, const Scene& scene);
+  void make_visibility(const Scene& scene, const Progress& progress);
 };
 
 }  // namespace footprint

@@ -23,8 +23,9 @@ enum class Storage { fp32, fp16, unorm8 };
 /// Errors (usage) on a word that is no storage.
 [[nodiscard]] Storage parse_storage(std::string_view word);
 
-/// Whether texels may be blended: a mixture's lobes that have no counterpart in the neighbour may not.
-enum class TextureFilter { trilinear, nearest };
+/// Whether texels are blended: as the program looks maps up; never (a mixture's lobes that have no counterpart in the
+/// neighbour); always (a table that is no map: what it holds between texels is the same however the scene is sampled).
+enum class TextureFilter { trilinear, nearest, linear };
 
 /// One level of a texture, encoded in the texture's storage: layer after layer, rows from v = 0.
 struct TextureLevel {

@@ -15,20 +15,24 @@ extern const std::string_view common_base_brdf_glsl;
 extern const std::string_view common_footprint_glsl;
 extern const std::string_view common_lobes_glsl;
 extern const std::string_view common_slopes_glsl;
+extern const std::string_view direction_grid_glsl;
 extern const std::string_view environment_sampling_glsl;
 extern const std::string_view environment_stack_glsl;
+extern const std::string_view environment_visibility_glsl;
 extern const std::string_view facet_lobes_glsl;
 extern const std::string_view facet_normal_lobes_glsl;
 extern const std::string_view facets_module_glsl;
 extern const std::string_view lobe_sampling_glsl;
 extern const std::string_view mean_normal_glsl;
 extern const std::string_view ndf_fragment_glsl;
+extern const std::string_view patch_facets_glsl;
 extern const std::string_view normal_cdf_glsl;
 extern const std::string_view normal_layers_glsl;
 extern const std::string_view normal_lobes_glsl;
 extern const std::string_view resolve_samples_glsl;
 extern const std::string_view screen_vertex_glsl;
 extern const std::string_view shadow_fragment_glsl;
+extern const std::string_view shadow_rays_glsl;
 extern const std::string_view shadow_vertex_glsl;
 extern const std::string_view surface_fragment_glsl;
 extern const std::string_view surface_lights_glsl;
@@ -48,6 +52,8 @@ constexpr std::string_view version_line = "#version 450 core\n";
 std::optional<std::string_view> optional_text(std::string_view file) {
   if (file == "common_slopes.glsl") return embedded::common_slopes_glsl;
   if (file == "beckmann_lambda.glsl") return embedded::beckmann_lambda_glsl;
+  if (file == "direction_grid.glsl") return embedded::direction_grid_glsl;
+  if (file == "patch_facets.glsl") return embedded::patch_facets_glsl;
   if (file == "facet_lobes.glsl") return embedded::facet_lobes_glsl;
   if (file == "facets_module.glsl") return embedded::facets_module_glsl;
   if (file == "mean_normal.glsl") return embedded::mean_normal_glsl;
@@ -58,6 +64,8 @@ std::optional<std::string_view> optional_text(std::string_view file) {
   if (file == "lobe_sampling.glsl") return embedded::lobe_sampling_glsl;
   if (file == "facet_normal_lobes.glsl") return embedded::facet_normal_lobes_glsl;
   if (file == "environment_stack.glsl") return embedded::environment_stack_glsl;
+  if (file == "environment_visibility.glsl") return embedded::environment_visibility_glsl;
+  if (file == "shadow_rays.glsl") return embedded::shadow_rays_glsl;
   if (file == "environment_sampling.glsl") return embedded::environment_sampling_glsl;
   return std::nullopt;
 }
@@ -250,7 +258,12 @@ ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options) {
   if (variant.brdf.fresnel == FresnelTerm::schlick) flags.emplace("fresnel_schlick");
   flags.emplace(sampling_flag(variant.sampling));
   if (samples_environment(variant)) flags.emplace("environment_sampled");
-  if (variant.sampling == Sampling::texel || samples_environment(variant)) flags.emplace("random_draws");
+  if (has(variant.effects, Effect::environment_light) && has(variant.effects, Effect::cast_shadow)) {
+    flags.emplace(variant.environment_sampled ? "environment_rays" : "environment_visibility");
+  }
+  // What is drawn at random: a texel of the maps, directions to an environment, facets of a patch.
+  const bool facets = has(variant.effects, Effect::microgeometry_visibility) && variant.sampling != Sampling::frame;
+  if (variant.sampling == Sampling::texel || samples_environment(variant) || facets) flags.emplace("random_draws");
   if (variant.max_probes > 1) flags.emplace("anisotropic");
   if (variant.orthographic) flags.emplace("orthographic");
   if (variant.shared_coordinates) flags.emplace("shared_coordinates");

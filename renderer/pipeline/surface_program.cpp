@@ -158,6 +158,7 @@ GpuMethod::GpuMethod(const GpuScene& scene, const BakedMethod& baked)
     if (prefiltered.surface_coordinates) {
       part.surface_coordinates = gl::Buffer(std::as_bytes(std::span(*prefiltered.surface_coordinates)));
       part.vertex_array = footprint::vertex_array(batch.vertices, batch.indices, &part.surface_coordinates);
+      if (batch.visibility.name() != 0) add_visibility(part.vertex_array, batch.visibility);
     }
     batches_.push_back(std::move(part));
   }
@@ -243,6 +244,7 @@ void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& 
     gl::api().UniformMatrix3fv(to_camera_space, 1, GL_FALSE, glm::value_ptr(rotation));
   }
   scene.bind_lights(program_);
+  if (environment_light_ && scene.visibility()) scene.visibility()->bind(program_);
   gl::api().Enable(GL_DEPTH_TEST);
   gl::api().DepthFunc(GL_LESS);
   for (const GpuBatch& batch : scene.batches()) {

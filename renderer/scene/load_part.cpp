@@ -11,6 +11,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/geometry.hpp"
+#include "renderer/scene/microgeometry_content.hpp"
 #include "renderer/scene/model_file.hpp"
 #include "renderer/scene/plane.hpp"
 #include "renderer/scene/surface_maps.hpp"
@@ -315,8 +316,11 @@ Model load_part(const PartSettings& settings) {
   std::optional<TextureMap> layer;
   if (settings.layer) layer = load_layer(*settings.layer, model.warnings);
   const LaidMaps maps = load_maps(settings);
+  std::optional<MicrogeometryContent> microgeometry;
+  if (settings.microgeometry) microgeometry = load_microgeometry(*settings.microgeometry);
   for (Material& material : model.materials) {
     apply(settings.brdf, settings.maps, material);
+    if (microgeometry) apply(*microgeometry, material);
     tile(settings.tiling, material);
     material.layer_map = layer;
     lay(maps, settings.brdf, material);

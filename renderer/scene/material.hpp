@@ -12,6 +12,8 @@
 
 namespace footprint {
 
+struct Microgeometry;
+
 enum class NormalDistribution { blinn_phong, beckmann, ggx, vmf };
 enum class GeometryTerm { none, tan, smith };
 enum class FresnelTerm { none, schlick };
@@ -81,6 +83,10 @@ struct Material {
 
   std::optional<float> alpha_cutoff;  ///< MASK: a point with alpha below it is not there
   bool double_sided = false;
+
+  /// The small-scale geometry that the normal map is a view of from above; null where there is none. Shared, never
+  /// changed.
+  std::shared_ptr<const Microgeometry> microgeometry;
 };
 
 /// The map that a material's lobe widens and narrows by: of lobe parameters, or of roughness in its first channel. Null

@@ -166,14 +166,14 @@ MapSettings read_maps(const TomlTable& table, const BrdfSettings& brdf, const st
   return maps;
 }
 
-/// The parameters of [surface], each checked where it stands.
-std::map<std::string, std::string> read_parameters(const TomlTable& table, const Surface& surface) {
+/// The key `parameters`, each number and word checked where it stands.
+std::map<std::string, std::string> read_parameters(const TomlTable& table, const std::vector<OptionSpec>& specs) {
   std::vector<std::string> names;
-  for (const OptionSpec& spec : surface.parameters) names.push_back(spec.name);
+  for (const OptionSpec& spec : specs) names.push_back(spec.name);
   std::map<std::string, std::string> given;
   const auto parameters = table.table("parameters", names);
   if (!parameters) return given;
-  for (const OptionSpec& spec : surface.parameters) {
+  for (const OptionSpec& spec : specs) {
     if (!spec.choices.empty()) {
       if (const auto i = parameters->choice(spec.name, spec.choices)) given[spec.name] = spec.choices[*i];
     } else if (spec.integer) {
@@ -193,7 +193,7 @@ SurfaceContent read_surface(const TomlTable& table, std::span<const Surface> sur
   const auto place = table.choice("name", names);
   if (!place) refuse_missing(table, "name");
   const Surface& surface = surfaces[*place];
-  SurfaceSettings settings = surface_settings(surface, read_parameters(table, surface));
+  SurfaceSettings settings = surface_settings(surface, read_parameters(table, surface.parameters));
   if (const auto resolution = table.whole_number("resolution", {1.0, largest_surface_resolution})) {
     settings.resolution = static_cast<int>(*resolution);
   }
@@ -201,6 +201,46 @@ SurfaceContent read_surface(const TomlTable& table, std::span<const Surface> sur
     settings.seed = static_cast<std::uint32_t>(*seed);
   }
   return {&surface, std::move(settings)};
+}
+
+WardSettings read_ward(const TomlTable& table) {
+  WardSettings ward;
+  ward.alpha = table.number("alpha", {1e-2, 1.0}).value_or(ward.alpha);
+  ward.specular = read_color(table, "specular").value_or(ward.specular);
+  ward.diffuse = read_color(table, "diffuse").value_or(ward.diffuse);
+  return ward;
+}
+
+MicrogeometrySettings read_microgeometry(const TomlTable& table, const std::filesystem::path& folder) {
+  if (table.has("kind") == table.has("model")) {
+    throw table.error_at("kind", "or `model` must be given, and only one of them", "add kind = \"weave\"");
+  }
+  MicrogeometrySettings settings;
+  std::vector<std::string> names;
+  for (const PatchKind& kind : patch_kinds()) names.push_back(kind.name);
+  if (const auto place = table.choice("kind", names)) {
+    settings.kind = &patch_kinds()[*place];
+    settings.parameters = read_parameters(table, settings.kind->parameters);
+  } else {
+    settings.model = folder / *table.word("model");
+    if (table.has("parameters")) throw table.error_at("parameters", "belongs to a kind", "leave it out");
+  }
+  if (const auto period = table.numbers("period", 2, length_range)) {
+    if (settings.kind != nullptr) throw table.error_at("period", "belongs to a model", "leave it out");
+    settings.period = glm::vec2{(*period)[0], (*period)[1]};
+  }
+  if (const auto file = table.word("measured")) settings.measured = folder / *file;
+  if (const auto ward = table.table("ward", {"alpha", "specular", "diffuse"})) {
+    if (settings.measured) throw table.error_at("ward", "excludes `measured`", "give one of the two");
+    settings.ward = read_ward(*ward);
+  }
+  if (const auto seed = table.whole_number("seed", {0.0, std::numeric_limits<std::uint32_t>::max()})) {
+    settings.seed = static_cast<std::uint64_t>(*seed);
+  }
+  if (const auto resolution = table.whole_number("resolution", {1.0, 4096.0})) {
+    settings.resolution = static_cast<int>(*resolution);
+  }
+  return settings;
 }
 
 Placement read_placement(const TomlTable& table) {
@@ -265,6 +305,10 @@ PartSettings read_part(const TomlTable& table, const BrdfSettings& brdf, const s
   if (const auto maps = table.table("maps", {"roughness", "exponent", "alpha", "kappa", "specular", "diffuse"})) {
     part.maps = read_maps(*maps, part.brdf, folder);
   }
+  if (const auto microgeometry = table.table(
+          "microgeometry", {"kind", "model", "period", "measured", "ward", "seed", "resolution", "parameters"})) {
+    part.microgeometry = read_microgeometry(*microgeometry, folder);
+  }
   if (const auto tiling = table.table("tiling", {"uv"})) {
     if (const auto uv = tiling->numbers("uv", 2, repeats)) part.tiling = {(*uv)[0], (*uv)[1]};
   }
@@ -287,21 +331,22 @@ NumberRange lobe_range(NormalDistribution distribution) {
 }
 
 const std::vector<std::string>& part_root_keys() {
-  static const std::vector<std::string> keys{"part", "model", "plane", "surface", "layer", "brdf", "maps", "tiling"};
+  static const std::vector<std::string> keys{"part", "model", "plane",         "surface", "layer",
+                                             "brdf", "maps",  "microgeometry", "tiling"};
   return keys;
 }
 
 std::vector<PartSettings> read_parts(const TomlTable& root, const std::filesystem::path& folder,
                                      std::span<const Surface> surfaces) {
   if (!root.has("part")) return {read_only_part(root, folder, surfaces)};
-  for (const char* key : {"model", "plane", "surface", "layer", "maps", "tiling"}) {
+  for (const char* key : {"model", "plane", "surface", "layer", "maps", "microgeometry", "tiling"}) {
     if (root.has(key)) throw root.error_at(key, "excludes [[part]]", "move it into a [[part]]");
   }
   const auto common_table = root.table("brdf", common_brdf_keys);
   const BrdfSettings common = common_table ? read_common_brdf(*common_table) : BrdfSettings{};
   std::vector<PartSettings> parts;
-  for (const TomlTable& table :
-       root.tables("part", {"name", "model", "plane", "surface", "layer", "brdf", "maps", "tiling", "place"})) {
+  for (const TomlTable& table : root.tables("part", {"name", "model", "plane", "surface", "layer", "brdf", "maps",
+                                                     "microgeometry", "tiling", "place"})) {
     const auto own = table.table("brdf", own_brdf_keys);
     PartSettings& part =
         parts.emplace_back(read_part(table, own ? read_own_brdf(*own, common) : common, folder, surfaces));

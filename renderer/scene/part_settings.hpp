@@ -1,14 +1,17 @@
 // What scene.toml draws: the parts of a scene as plain values; docs/scenes.md is its reference.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "renderer/microgeometry/patch_kinds.hpp"
 #include "renderer/scene/material.hpp"
 #include "renderer/scene/surface.hpp"
 #include "renderer/scene/toml_table.hpp"
@@ -71,6 +74,24 @@ struct MapSettings {
   std::optional<MapFile> roughness, lobe_parameter, specular, diffuse;  ///< at most one of the first two
 };
 
+/// Ward's isotropic BRDF (1992).
+struct WardSettings {
+  double alpha = 0.1;
+  glm::vec3 specular{1.0F}, diffuse{0.0F};
+};
+
+/// The small-scale geometry of a part's materials: a patch of a kind, or a model's triangles.
+struct MicrogeometrySettings {
+  const PatchKind* kind = nullptr;                ///< null: `model`
+  std::map<std::string, std::string> parameters;  ///< of the kind, those that are given
+  std::filesystem::path model;                    ///< glTF file; its y axis points out of the surface
+  std::optional<glm::vec2> period;                ///< of the model's tiles; else its bounds
+  std::optional<std::filesystem::path> measured;  ///< MERL file in place of the base BRDF of the facets
+  std::optional<WardSettings> ward;               ///< or Ward's BRDF
+  std::uint64_t seed = 1;
+  int resolution = 256;  ///< texels a side of the normal map that methods see which know no patches
+};
+
 /// A model's triangles under the maps of a surface, in place of the model's own materials.
 struct DressedModel {
   ModelSettings model;
@@ -91,6 +112,7 @@ struct PartSettings {
   std::optional<LayerSettings> layer;
   BrdfSettings brdf;
   MapSettings maps;
+  std::optional<MicrogeometrySettings> microgeometry;
   glm::vec2 tiling{1.0F};  ///< on the texture coordinates of all maps but those that say their own
   Placement placement;
 };

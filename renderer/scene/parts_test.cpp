@@ -83,7 +83,7 @@ TEST(Parts, TurnAboutXThenYThenZ) {
 TEST(Parts, MoveTheirModelsLightsAndCamera) {
   const auto file = test::write_file("parts/lit.gltf", R"({"asset":{"version":"2.0"},
     "extensionsUsed":["KHR_lights_punctual"],
-    "extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","intensity":5}]}},
+    "extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","intensity":5,"spot":{}}]}},
     "cameras":[{"type":"perspective","perspective":{"yfov":0.5,"znear":0.1}}],
     "nodes":[{"extensions":{"KHR_lights_punctual":{"light":0}},"translation":[1,0,0]},
              {"camera":0,"translation":[0,0,4]}],

@@ -2,13 +2,21 @@
 //? if normal_layers
 //? include normal_layers.glsl
 //? end
+//? if microgeometry_visibility
+//? include patch_facets.glsl
+//? else
 //? include facets_module.glsl
+//? end
 
 Effective effective(Footprints f) {
 //? if normal_variation
   vec4 texel = fetchFinest(base_normal, f.normal);
 //? if not sampling_frame
+//? if microgeometry_visibility
+  if (texel.w < 0.5 && base_has_patch < 0.5) discard;
+//? else
   if (texel.w < 0.5) discard;  // an invalid normal of the map: nothing is there to shade
+//? end
 //? end
   vec3 normal = normalize(texel.xyz);
 //? else
@@ -26,31 +34,31 @@ Effective effective(Footprints f) {
 //? else
   float lobe = lobe_cutoff.x;
 //? end
+//? if microgeometry_visibility
+  return Effective(evenFacets(normal, lobe), drawnFacets());
+//? else
   return Effective(evenFacets(normal, lobe));
-}
-
-vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) { return facetSpecular(e.facets, f0, wi, wo); }
-
-//? if diffuse
-vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
-  return lambert(e.facets.normal, albedo, f0, wi, wo);
-}
 //? end
-
-float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }
+}
 
 //? if environment_light
 //? if environment_sampled
 //? include lobe_sampling.glsl
 
+// One of Lambert's directions about n.
+vec3 lambertDirection(vec3 n, vec2 u) {
+  float azimuth = 2.0 * pi * u.y;
+  return frameAbout(n) * vec3(sqrt(u.x) * vec2(cos(azimuth), sin(azimuth)), sqrt(1.0 - u.x));
+}
+
 // A direction to the light: the mirror image of wo about a normal drawn from the facets, or, one time in two where there
 // is a diffuse term, one of Lambert's. Below the horizon: none.
 vec3 drawDirection(Effective e, vec3 wo, vec3 u) {
+//? if microgeometry_visibility
+  if (base_has_patch > 0.5) return lambertDirection(vec3(0.0, 0.0, 1.0), u.xy);  // facets point everywhere
+//? end
 //? if diffuse
-  if (u.z < 0.5) {
-    float azimuth = 2.0 * pi * u.y;
-    return frameAbout(e.facets.normal) * vec3(sqrt(u.x) * vec2(cos(azimuth), sin(azimuth)), sqrt(1.0 - u.x));
-  }
+  if (u.z < 0.5) return lambertDirection(e.facets.normal, u.xy);
   u.z = 2.0 * u.z - 1.0;
 //? end
   vec3 h = drawnFacet(e.facets, u);
@@ -60,6 +68,9 @@ vec3 drawDirection(Effective e, vec3 wo, vec3 u) {
 
 // Its density over solid angle.
 float directionDensity(Effective e, vec3 wi, vec3 wo) {
+//? if microgeometry_visibility
+  if (base_has_patch > 0.5) return max(wi.z, 0.0) / pi;
+//? end
   if (!halfVectorIsDefined(wi, wo)) return 0.0;
   vec3 h = halfVector(wi, wo);
   float density = drawnFacetDensity(e.facets, h) / (4.0 * max(dot(h, wo), 1e-6));

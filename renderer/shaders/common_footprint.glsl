@@ -88,11 +88,13 @@ vec4 fetchFinest(sampler2DArray map, int layer, Footprint f) { return textureLod
 //? end
 //? end
 
+//? if random_draws
+vec2 texel_draw;  // of this sample, uniform in [0, 1)
+//? end
+
 //? if sampling_texel
 // One texel of the finest level, drawn with the bilinear weights, so that the expectation of what is shaded from it is
 // the bilinear filter of radiance. Two maps of one size and coordinates draw the same texel. The sampler is `nearest`.
-vec2 texel_draw;
-
 vec2 drawnTexel(vec2 size, Footprint f) { return (floor(f.uv * size - 0.5 + texel_draw) + 0.5) / size; }
 
 vec4 fetchFinest(sampler2D map, Footprint f) { return textureLod(map, drawnTexel(vec2(textureSize(map, 0)), f), 0.0); }

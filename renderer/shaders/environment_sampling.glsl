@@ -4,6 +4,10 @@ layout(std140, binding = 5) uniform EnvironmentBlock {
   vec4 environment_size;  // columns, rows; turn of the map about +y in radians; directions of each kind a sample
 };
 
+//? if environment_rays
+//? include shadow_rays.glsl
+//? end
+
 // From 24 bits: exact in a float, below 1.
 float unitInterval(uint bits) { return float(bits >> 8u) * (1.0 / 16777216.0); }
 
@@ -49,6 +53,15 @@ vec3 reflectance(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
   return f_cos;
 }
 
+// Whether light from a direction of the world reaches the pixel.
+bool arrives(vec3 direction) {
+//? if environment_rays
+  return !wayIsBlocked(world_position, seen_facet, direction);
+//? else
+  return true;
+//? end
+}
+
 vec3 environmentLit(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) {
   vec3 radiance = vec3(0.0);
   int count = int(environment_size.w);
@@ -57,13 +70,13 @@ vec3 environmentLit(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) {
     uvec3 inside = drawBits(draw + 1u);
     DrawnDirection light = drawFromEnvironment(drawBits(draw), vec2(unitInterval(inside.x), unitInterval(inside.y)));
     vec3 wi = light.direction * frame;
-    if (wi.z > 0.0 && light.density > 0.0) {
+    if (wi.z > 0.0 && light.density > 0.0 && arrives(light.direction)) {
       radiance += reflectance(e, albedo, f0, wi, wo) * light.radiance / (light.density + directionDensity(e, wi, wo));
     }
     uvec3 of_lobe = drawBits(draw + 2u);
     wi = drawDirection(e, wo, vec3(unitInterval(of_lobe.x), unitInterval(of_lobe.y), unitInterval(of_lobe.z)));
     float density = wi.z > 0.0 ? directionDensity(e, wi, wo) : 0.0;
-    if (density > 0.0) {
+    if (density > 0.0 && arrives(frame * wi)) {
       vec4 held = environmentTexel(frame * wi);
       radiance += reflectance(e, albedo, f0, wi, wo) * held.rgb / (held.a + density);
     }

@@ -68,6 +68,12 @@ VisibleLobe visibleLobe(NormalLobe lobe, vec3 wo) {
   return VisibleLobe(normalize(shifted), sine * deviation * max(mean, 0.0));
 }
 
+//? if environment_visibility
+//? include environment_visibility.glsl
+//? else
+float visibleElevation(vec3 direction, float elevation) { return elevation; }
+//? end
+
 // What a lobe reflects towards wo: integral of F D G' L over wi. With dwi = 4 (h.wo) dh the lobe's energy is 4 times what
 // is visible of it; about the mirror image of the visible normals' mean it is 4 (axis.wo) times wider (Wang 2009). F and
 // G' are taken there, and of what lies below the surface's horizon nothing arrives.
@@ -77,7 +83,8 @@ vec3 lobeRadiance(Effective e, NormalLobe lobe, vec3 f0, vec3 wo, mat3 frame) {
   vec3 mirrored = 2.0 * cosine * visible.axis - wo;
   mirrored /= max(length(mirrored), 1e-6);
   float sharpness = lobe.sharpness / (4.0 * cosine);
-  float reflected = 4.0 * lobe.weight * visible.area * shareAbove(mirrored.z, sharpness);
+  float elevation = visibleElevation(frame * mirrored, mirrored.z);
+  float reflected = 4.0 * lobe.weight * visible.area * shareAbove(elevation, sharpness);
   reflected *= lobeGeometry(e, lobe, visible.axis, mirrored, wo);
   return fresnelTerm(f0, mirrored, wo) * reflected * stackRadiance(frame * mirrored, sharpness);
 }
@@ -135,6 +142,9 @@ vec3 environmentDiffuse(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) 
   vec3 facing = textureLod(environment_irradiance, place, 0.0).rgb;  // irradiance over pi
   vec3 arriving = mix(environment_mean.rgb, facing, min(size, 1.0));
   vec3 reflected = albedo * arriving * clamp(0.5 + 0.5 * m.z, 0.0, 1.0);
+//? if environment_visibility
+  reflected *= visibleDiffuse();
+//? end
 //? if fresnel
   reflected *= meanTransmitted(f0, dot(n, wo));
 //? end

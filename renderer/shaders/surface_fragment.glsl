@@ -75,7 +75,7 @@ uvec3 drawBits(uint draw) {
 }
 //? end
 
-//? if sampling_texel
+//? if random_draws
 vec2 drawTexelOffsets() {
   return vec2(drawBits(0u).xy >> 8u) * (1.0 / 16777216.0);  // 24 bits: exact in a float, below 1
 }
@@ -89,9 +89,6 @@ struct SurfacePoint {
   vec3 f0;
   mat3 frame;
   vec3 wo;  // tangent frame
-//? if cast_shadow
-  vec3 facet;  // the triangle's own normal, on the side that is seen
-//? end
 };
 
 // One light's share. A light below the surface's own horizon does not reach it.
@@ -106,7 +103,9 @@ vec3 reflected(SurfacePoint p, vec3 to_light, vec3 irradiance_at_normal) {
 }
 
 //? if cast_shadow
-// The triangle's normal on the side of the camera; zero where the pixel sees it edge-on.
+vec3 seen_facet;  // the triangle's own normal, on the side of the camera
+
+// Zero where the pixel sees the triangle edge-on.
 vec3 facetNormal(vec3 along_x, vec3 along_y, vec3 to_viewer) {
   vec3 n = cross(along_x, along_y);
   float size = length(n);
@@ -130,7 +129,7 @@ vec3 lit(SurfacePoint p) {
     float d2 = dot(d, d);
     float attenuation = distanceAttenuation(d2, point_lights[i].position_range.w);
 //? if cast_shadow
-    attenuation *= clearOfShadow(point_lights[i].intensity.w, world_position, p.facet, -d);
+    attenuation *= clearOfShadow(point_lights[i].intensity.w, world_position, seen_facet, -d);
 //? end
     radiance += reflected(p, d * inversesqrt(max(d2, 1e-24)), point_lights[i].intensity.rgb * attenuation);
   }
@@ -143,7 +142,7 @@ vec3 lit(SurfacePoint p) {
     float angular = clamp(-dot(spot_lights[i].direction.xyz, to_light) * spot_lights[i].cone.x + spot_lights[i].cone.y, 0.0, 1.0);
     float attenuation = distanceAttenuation(d2, spot_lights[i].position_range.w) * angular * angular;
 //? if cast_shadow
-    attenuation *= clearOfShadow(spot_lights[i].intensity.w, world_position, p.facet, -d);
+    attenuation *= clearOfShadow(spot_lights[i].intensity.w, world_position, seen_facet, -d);
 //? end
     radiance += reflected(p, to_light, spot_lights[i].intensity.rgb * attenuation);
   }
@@ -152,7 +151,7 @@ vec3 lit(SurfacePoint p) {
   for (int i = 0; i < directional_light_count; ++i) {
     vec3 irradiance = directional_lights[i].illuminance.rgb;
 //? if cast_shadow
-    irradiance *= clearOfShadow(directional_lights[i].illuminance.w, world_position, p.facet, vec3(0.0));
+    irradiance *= clearOfShadow(directional_lights[i].illuminance.w, world_position, seen_facet, vec3(0.0));
 //? end
     radiance += reflected(p, directional_lights[i].to_light.xyz, irradiance);
   }
@@ -169,7 +168,7 @@ void main() {
   vec3 along_x = dFdx(world_position);  // before any pixel is discarded
   vec3 along_y = dFdy(world_position);
 //? end
-//? if sampling_texel
+//? if random_draws
   texel_draw = drawTexelOffsets();
 //? end
   vec4 base_color = base_color_factor;
@@ -206,7 +205,7 @@ void main() {
 //? end
   p.wo = to_viewer * p.frame;
 //? if cast_shadow
-  p.facet = facetNormal(along_x, along_y, to_viewer);
+  seen_facet = facetNormal(along_x, along_y, to_viewer);
 //? end
   radiance_coverage = vec4(lit(p), 1.0);
 }

@@ -7,6 +7,10 @@ layout(location = 4) in vec2 in_uv1;
 //? if surface_coordinates
 layout(location = 5) in vec2 in_surface;
 //? end
+//? if environment_visibility
+layout(location = 6) in vec4 in_visibility_weights[4];
+layout(location = 10) in vec3 in_visible_diffuse;
+//? end
 
 uniform mat4 world_to_clip;
 
@@ -18,6 +22,10 @@ out vec2 uv1;
 //? if surface_coordinates
 out vec2 surface_uv;
 //? end
+//? if environment_visibility
+out vec4 visibility_weights[4];
+out vec3 visible_diffuse;
+//? end
 
 void main() {
   world_position = in_position;
@@ -27,6 +35,10 @@ void main() {
   uv1 = in_uv1;
 //? if surface_coordinates
   surface_uv = in_surface;
+//? end
+//? if environment_visibility
+  visibility_weights = in_visibility_weights;
+  visible_diffuse = in_visible_diffuse;
 //? end
   gl_Position = world_to_clip * vec4(in_position, 1.0);
 }

@@ -8,6 +8,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <numbers>
 
 #include "renderer/visibility/light_ray.hpp"
 
@@ -116,7 +117,43 @@ class Search {
   const Light* light_;
 };
 
+constexpr int directions_a_place = 16;
+constexpr float lowest = 0.05F;  // over the plane, as a sine: lower ones meet the surface's own uneven triangles
+
+// Directions of equal solid angle, turned from place to place.
+glm::vec3 spread_direction(std::size_t place, int i) {
+  constexpr double golden = 0.6180339887498949;
+  const double z = 1.0 - (2.0 * i + 1.0) / directions_a_place;
+  const double azimuth = 2.0 * std::numbers::pi * (golden * (static_cast<double>(place) * directions_a_place + i));
+  const double r = std::sqrt(1.0 - z * z);
+  return {static_cast<float>(r * std::cos(azimuth)), static_cast<float>(r * std::sin(azimuth)), static_cast<float>(z)};
+}
+
+bool sees_something(const Scene& scene, const Occluders& occluders, const SurfacePlace& place, std::size_t index) {
+  const glm::vec3 normal = occluders.normal(place.mesh, place.triangle);
+  const bool both_sides = scene.materials[static_cast<std::size_t>(scene.meshes[place.mesh].material)].double_sided;
+  for (int i = 0; i < directions_a_place; ++i) {
+    const glm::vec3 direction = spread_direction(index, i);
+    const float elevation = glm::dot(direction, normal);
+    if ((both_sides ? std::abs(elevation) : elevation) < lowest) continue;
+    const glm::vec3 start = occluders.point(place) + std::copysign(occluders.offset(), elevation) * normal;
+    if (occluders.blocked(start, direction)) return true;
+  }
+  return false;
+}
+
 }  // namespace
+
+bool hides_surroundings(const Scene& scene, const Occluders& occluders, std::size_t limit) {
+  const std::vector<SurfacePlace> places = spread_places(scene, occluders, limit);
+  std::atomic<bool> found = false;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, places.size(), 64), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end() && !found; ++i) {
+      if (sees_something(scene, occluders, places[i], i)) found = true;
+    }
+  });
+  return found;
+}
 
 std::vector<SurfacePlace> spread_places(const Scene& scene, const Occluders& occluders, std::size_t limit) {
   std::vector<TriangleId> triangles = all_triangles(scene);

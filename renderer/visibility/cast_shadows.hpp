@@ -21,4 +21,9 @@ namespace footprint {
 [[nodiscard]] std::vector<bool> lights_casting_shadows(const Scene& scene, const Occluders& occluders,
                                                        std::size_t limit = std::size_t{1} << 16U);
 
+/// Whether anything in a scene hides a part of what lies above the plane of a place: rays from the same places, 16
+/// directions each. Deterministic.
+[[nodiscard]] bool hides_surroundings(const Scene& scene, const Occluders& occluders,
+                                      std::size_t limit = std::size_t{1} << 13U);
+
 }  // namespace footprint

@@ -131,6 +131,7 @@ Results example_results() {
   results.records[0].other_references = {{16, 0.0223, 0.0029}, {36, 0.0217, {}}};
   results.records[4].flicker = Flicker{.mean = 0.031, .p99 = 0.4, .noise_floor = 0.002};
   results.records[5].flicker = Flicker{.mean = 0.013, .p99 = 1.1, .noise_floor = {}};
+  results.quantities = {{"narrow", "toksvig", "fit_error", 1.25e-6}};
   results.ndf = {{"groove", "toksvig", 0.41, 1.002, 3.4, 1, "ndf/groove/ndf.png"}};
   results.experiment = example_experiment("");
   return results;

@@ -115,6 +115,14 @@ NdfFigures parse_ndf(const JsonNode& node) {
           .picture = node["picture"].text()};
 }
 
+QuantityFigure parse_quantity(const JsonNode& node) {
+  node.with_keys({"name", "method", "quantity", "value"});
+  return {.name = node["name"].text(),
+          .method = node["method"].text(),
+          .quantity = node["quantity"].text(),
+          .value = node["value"].number_or(not_a_number)};
+}
+
 SupersamplingPoint parse_supersampling(const JsonNode& node) {
   node.with_keys({"distance", "spp", "normalized_color", "ms"});
   return {node["distance"].number(), node["spp"].whole<int>(1), node["normalized_color"].optional_number(),
@@ -141,7 +149,7 @@ Results parse_document(const JsonNode& node) {
                         std::string("this version reads `") + results_schema + "`");
   }
   node.with_keys({"schema", "tool", "backend", "scene", "reference", "experiment", "error_scale", "supersampling",
-                  "records", "ndf"});
+                  "records", "ndf", "quantities"});
   Results results;
   const JsonNode tool = node["tool"].with_keys({"name", "version"});
   results.tool = {tool["name"].text(), tool["version"].text()};
@@ -159,6 +167,7 @@ Results parse_document(const JsonNode& node) {
   }
   for (const JsonNode& record : node["records"].elements()) results.records.push_back(parse_record(record));
   for (const JsonNode& figures : node["ndf"].elements()) results.ndf.push_back(parse_ndf(figures));
+  for (const JsonNode& figure : node["quantities"].elements()) results.quantities.push_back(parse_quantity(figure));
   return results;
 }
 

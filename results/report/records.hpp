@@ -101,6 +101,14 @@ struct NdfFigures {
   std::string picture;    ///< of all methods and the truth, PNG, from the output folder
 };
 
+/// A figure of a method that no picture shows, as an experiment asks for it by name.
+struct QuantityFigure {
+  std::string name;      ///< in the experiment
+  std::string method;    ///< as written
+  std::string quantity;  ///< what the method calls it
+  double value = 0;
+};
+
 struct ToolInfo {
   std::string name = "footprint";
   std::string version;
@@ -139,6 +147,7 @@ struct Results {
   std::vector<SupersamplingPoint> supersampling;
   std::vector<Record> records;
   std::vector<NdfFigures> ndf;                 ///< empty where no footprint was looked into
+  std::vector<QuantityFigure> quantities;      ///< empty where none was asked for
   std::optional<ExperimentReport> experiment;  ///< none: a plain comparison
   double error_scale = 0;                      ///< the normalised colour error at the top of every false-colour picture
 };

@@ -84,6 +84,13 @@ Json ndf_json(const NdfFigures& figures) {
           {"picture", figures.picture}};
 }
 
+Json quantity_json(const QuantityFigure& figure) {
+  return {{"name", figure.name},
+          {"method", figure.method},
+          {"quantity", figure.quantity},
+          {"value", json_number(figure.value)}};
+}
+
 Json supersampling_json(const SupersamplingPoint& point) {
   return {{"distance", json_number(point.distance)},
           {"spp", point.spp},
@@ -136,6 +143,8 @@ nlohmann::ordered_json results_document(const Results& results) {
   for (const Record& record : results.records) records.push_back(record_json(record));
   Json ndf = Json::array();
   for (const NdfFigures& figures : results.ndf) ndf.push_back(ndf_json(figures));
+  Json quantities = Json::array();
+  for (const QuantityFigure& figure : results.quantities) quantities.push_back(quantity_json(figure));
   return {{"schema", results_schema},
           {"tool", tool_json(results.tool)},
           {"backend", backend_json(results.backend)},
@@ -145,7 +154,8 @@ nlohmann::ordered_json results_document(const Results& results) {
           {"error_scale", json_number(results.error_scale)},
           {"supersampling", std::move(supersampling)},
           {"records", std::move(records)},
-          {"ndf", std::move(ndf)}};
+          {"ndf", std::move(ndf)},
+          {"quantities", std::move(quantities)}};
 }
 
 std::string json_text(const nlohmann::ordered_json& document, int indent) {

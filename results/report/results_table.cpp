@@ -127,6 +127,17 @@ std::string ndf_section(const Results& results) {
          markdown_table({{"Footprint", false}, {"Method", false}, {"Rel. L2"}, {"Energy"}, {"Peak"}, {"Lobes"}}, rows);
 }
 
+/// Figures that no picture shows.
+std::string quantity_section(const Results& results) {
+  if (results.quantities.empty()) return {};
+  Rows rows;
+  for (const QuantityFigure& figure : results.quantities) {
+    rows.push_back({figure.name, figure.method, figure.quantity, fmt::format("{:.3g}", figure.value)});
+  }
+  return "\n## Figures that no picture shows\n\n" +
+         markdown_table({{"Name", false}, {"Method", false}, {"Figure", false}, {"Value"}}, rows);
+}
+
 /// Frame builds, where a method has one: they are part of its price at that distance.
 std::string frame_build_section(const Results& results) {
   Rows rows;
@@ -196,8 +207,9 @@ std::string results_table(const Results& results) {
   }
   if (results.experiment) text += experiment_markdown(*results.experiment);
   for (const double distance : distances_of(results)) text += distance_section(results, distance);
-  return text + flicker_section(results) + ndf_section(results) + preparation_section(results) +
-         frame_build_section(results) + supersampling_section(results) + words_section(results);
+  return text + flicker_section(results) + ndf_section(results) + quantity_section(results) +
+         preparation_section(results) + frame_build_section(results) + supersampling_section(results) +
+         words_section(results);
 }
 
 }  // namespace footprint

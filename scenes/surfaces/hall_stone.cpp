@@ -95,7 +95,8 @@ Height column_radius(const Height& y) {
   const auto ring = [&](double at, double width, double out) { return out * smooth_ridge((y - at) / width); };
   const Height shaft = 0.30 - 0.012 * y;
   const Height base = 0.18 * (1.0 - smooth_step(y, 0.05, 0.4)) + ring(0.5, 0.13, 0.06);
-  const Height capital = 0.22 * smooth_step(y, hall::spring - 0.6, hall::spring) + ring(hall::spring - 0.62, 0.13, 0.05);
+  const Height capital =
+      0.22 * smooth_step(y, hall::spring - 0.6, hall::spring) + ring(hall::spring - 0.62, 0.13, 0.05);
   return shaft + base + capital;
 }
 

@@ -27,7 +27,7 @@ const std::vector<Case> experiment_cases{
     {.name = "HelpOfAnimate",
      .arguments = {"animate", "--help"},
      .output_has = {"Examples:", "footprint animate", "--frames", "--from", "--to", "ffmpeg"}},
-    {.name = "ListExperiments", .arguments = {"list", "experiments"}, .output_has = {"experiments\n  quick\n"}},
+    {.name = "ListExperiments", .arguments = {"list", "experiments"}, .output_has = {"experiments\n", "\n  quick\n"}},
     {.name = "ExperimentsOfAnotherFolder",
      .arguments = {"list", "experiments", "--json"},
      .output_has = {"\"mine\""},

@@ -48,6 +48,7 @@ TEST_P(EveryMethod, EqualsDirectOnAConstantMapAtAnyDistance) {
 
 // Near a map that is flat where the camera looks.
 TEST_P(EveryMethod, EqualsDirectAtMagnificationWhereTheMapIsFlat) {
+  if (!GetParam()->info().resolves_texels) GTEST_SKIP() << "has one BRDF for the whole map";
   Image normals = random_normals(64, 64, 0.5F, 2);
   for (int y = 24; y < 40; ++y) {
     for (int x = 24; x < 40; ++x) {
@@ -83,12 +84,24 @@ TEST_P(EveryMethod, IsDeterministic) {
             GetParam()->precompute(scene.materials[0], options, set, no_progress));
 }
 
+// Over all pixels and colours.
+double mean_of_colours(const Image& picture) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < picture.texels.size(); ++i) sum += i % 4 < 3 ? picture.texels[i] : 0.0F;
+  return sum / static_cast<double>(3 * picture.texel_count());
+}
+
 // At its finest level a method shades texels: it is then the base BRDF, but for what its representation cannot hold.
+// One that knows no texels has at least their mean.
 TEST_P(EveryMethod, RepresentsTheBaseBrdfAtItsFinestLevel) {
   TestRenderer renderer(square_scene(random_normals(64, 64, 0.5F, 5), {}));
   const Image truth = renderer.reference(64).mean;
   const Image finest = renderer.supersampled(*GetParam(), 64).mean;
-  EXPECT_LT(compare_images(finest, truth, 1.0F).value().relative_rmse, 0.05);
+  if (GetParam()->info().resolves_texels) {
+    EXPECT_LT(compare_images(finest, truth, 1.0F).value().relative_rmse, 0.05);
+  } else {
+    EXPECT_NEAR(mean_of_colours(finest) / mean_of_colours(truth), 1.0, 0.05);
+  }
 }
 
 TEST_P(EveryMethod, TakesAnisotropicProbes) {

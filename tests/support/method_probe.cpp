@@ -37,10 +37,17 @@ std::vector<glm::vec4> probe_method(const ProbedMethod& probed, const std::strin
     const auto unit = static_cast<GLuint>(textures.size());
     textures.push_back(upload(texture));
     gl::api().BindTextureUnit(unit, textures.back().texture.name());
-    gl::api().BindSampler(unit, samplers.sampler(texture.coordinates, Lookup::trilinear));
-    text += fmt::format("layout(binding = {}) uniform sampler2D {};\n", unit, texture.name);
+    const GpuTexture& bound = textures.back();
+    gl::api().BindSampler(unit, samplers.sampler(bound.coordinates, bound.lookup(Lookup::trilinear)));
+    text += fmt::format("layout(binding = {}) uniform sampler2D{} {};\n", unit, texture.layers > 0 ? "Array" : "",
+                        texture.name);
   }
-  const ShaderFlags flags = shader_flags(variant, options);
+  ShaderFlags flags = shader_flags(variant, options);
+  flags.merge(texture_flags(baked));
+  for (const auto& [name, value] : options.all()) {
+    if (const auto* number = std::get_if<double>(&value))
+      text += fmt::format("const float option_{} = {:e};\n", name, *number);
+  }
   text += fmt::format("const vec4 lobe_cutoff = vec4({:e});\n", lobe_parameter(*probed.material)) +
           shared_functions(flags) + select_text(probed.method->shader(), flags, probed.method->info().name);
   const std::string footprint = fmt::format(

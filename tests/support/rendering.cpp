@@ -19,10 +19,10 @@ const gl::Context& shared_context() {
 TestRenderer::TestRenderer(const Scene& scene, const glm::ivec2& size, std::optional<EffectSet> effects,
                            const gl::Context& context)
     : context_(&context),
-      scene_(scene),
       size_(size),
       effects_(effects.value_or(effects_on(derive_effects(scene)))),
-      gpu_scene_(context.info(), scene, effects_) {}
+      scene_(refined_for_visibility(scene, effects_)),
+      gpu_scene_(context.info(), scene_, effects_) {}
 
 BakedMethod TestRenderer::baked(const Method& method, const std::string& text) const {
   const MethodSpec spec = parse_methods(text.empty() ? method.info().name : text).front();

@@ -33,9 +33,9 @@ class TestRenderer {
   [[nodiscard]] BakedMethod baked(const Method& method, const std::string& text) const;
 
   const gl::Context* context_;
-  Scene scene_;
   glm::ivec2 size_;
   EffectSet effects_;
+  Scene scene_;
   GpuScene gpu_scene_;
 };
 

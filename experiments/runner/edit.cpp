@@ -1,0 +1,232 @@
+// See edit.hpp.
+#include "experiments/runner/edit.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+#include <utility>
+
+#include "experiments/runner/exposure.hpp"
+#include "experiments/runner/picture_files.hpp"
+#include "experiments/runner/run_info.hpp"
+#include "experiments/runner/stage.hpp"
+#include "methods/registry.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/core/stage_clock.hpp"
+#include "renderer/gl/functions.hpp"
+#include "renderer/pipeline/frame.hpp"
+#include "renderer/scene/load_scene.hpp"
+#include "renderer/scene/microgeometry_content.hpp"
+
+namespace footprint {
+namespace {
+
+template <class Work>
+double seconds_of(const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// The parts whose patch the sweeps change; the others stay as they are.
+SceneSource editable_source(const EditSettings& settings) {
+  SceneSource source = read_scene(settings.scene, settings.scene_library);
+  const PatchKind* kind = nullptr;
+  for (const PartSettings& part : source.settings.parts) {
+    if (!part.microgeometry || part.microgeometry->kind == nullptr) continue;
+    kind = part.microgeometry->kind;
+    if (kind->name == settings.sweeps.front().kind) break;
+  }
+  if (kind == nullptr) {
+    throw Error(ErrorKind::usage, settings.scene, "has no generated small-scale geometry to edit",
+                "take a scene with [microgeometry] and a kind in its scene.toml");
+  }
+  check_sweeps(settings.sweeps, *kind);
+  return source;
+}
+
+// The scene's colours before any patch has its share in them.
+std::vector<glm::vec4> own_colors(SceneSource source) {
+  for (PartSettings& part : source.settings.parts) part.microgeometry.reset();
+  std::vector<glm::vec4> colors;
+  for (const Material& material : assemble(source).materials) colors.push_back(material.base_color);
+  return colors;
+}
+
+// For each part, the materials that have its patch: in a scene, parts follow each other, and those of one part share
+// it.
+std::vector<std::vector<std::size_t>> materials_of_parts(const SceneSettings& settings, const Scene& scene) {
+  std::vector<std::vector<std::size_t>> out(settings.parts.size());
+  std::size_t part = 0, material = 0;
+  const auto has_patch = [&](std::size_t i) { return scene.materials[i].microgeometry != nullptr; };
+  for (; part < settings.parts.size(); ++part) {
+    if (!settings.parts[part].microgeometry) continue;
+    while (material < scene.materials.size() && !has_patch(material)) ++material;
+    const std::size_t first = material;
+    while (material < scene.materials.size() &&
+           scene.materials[material].microgeometry == scene.materials[first].microgeometry) {
+      out[part].push_back(material++);
+    }
+  }
+  return out;
+}
+
+// A method with its program on the GPU, for a set of effects. Pinned: each part keeps the address of those before it.
+struct Drawing {
+  Drawing(const gl::Context& context, const Scene& scene, const EffectSet& wanted, BakedMethod first,
+          const glm::ivec2& size, const EditSettings& settings)
+      : effects(wanted),
+        gpu_scene(context.info(), scene, effects),
+        baked(std::make_unique<BakedMethod>(std::move(first))),
+        method(std::make_unique<GpuMethod>(gpu_scene, *baked)),
+        frames(context.info(), gpu_scene, *method, size,
+               ProgramSettings{.sampling = Sampling::frame,
+                               .lookup = Lookup::trilinear,
+                               .max_probes = settings.anisotropy,
+                               .orthographic = scene.camera.orthographic},
+               settings.tile) {}
+
+  // Takes over what an edit changed. Waits until the GPU has it.
+  void exchange(const Scene& scene, BakedMethod next) {
+    auto next_baked = std::make_unique<BakedMethod>(std::move(next));
+    auto next_method = std::make_unique<GpuMethod>(gpu_scene, *next_baked);
+    gpu_scene.update(scene);
+    frames.exchange(*next_method);
+    method = std::move(next_method);
+    baked = std::move(next_baked);
+    gl::api().Finish();
+  }
+
+  EffectSet effects;
+  GpuScene gpu_scene;
+  std::unique_ptr<BakedMethod> baked;
+  std::unique_ptr<GpuMethod> method;
+  FrameRenderer frames;
+};
+
+class Editor {
+ public:
+  Editor(const EditSettings& settings, std::filesystem::path folder, const Progress& progress)
+      : settings_(settings),
+        folder_(std::move(folder)),
+        source_(editable_source(settings)),
+        own_colors_(own_colors(source_)),
+        scene_(assemble(source_)),
+        materials_(materials_of_parts(source_.settings, scene_)),
+        size_(frame_size(scene_, settings.size)),
+        context_(settings.context),
+        parts_(progress, settings.frames) {
+    constexpr int held = 3;  // the frame, and two while it is written
+    require_pictures(size_, held);
+  }
+
+  EditRun run() {
+    std::filesystem::create_directories(folder_ / "images");
+    for (int frame = 0; frame < settings_.frames; ++frame) add_frame(frame);
+    run_.backend = backend_info(context_.info());
+    run_.scene = scene_info(scene_, exposure_, {});
+    run_.kind = settings_.sweeps.front().kind;
+    run_.method = settings_.method.text;
+    run_.width = size_.x;
+    run_.height = size_.y;
+    return std::move(run_);
+  }
+
+ private:
+  void add_frame(int frame) {
+    const Progress progress = parts_.next(1, fmt::format("frame {} of {}: ", frame + 1, settings_.frames));
+    EditRecord record{.frame = frame,
+                      .parameters = values_at(settings_.sweeps, frame, settings_.frames),
+                      .stages = {},
+                      .bytes = 0,
+                      .notes = {},
+                      .image = {}};
+    progress("geometry", 0.0);
+    record.stages.push_back({"geometry", seconds_of([&] { change_geometry(record.parameters); })});
+    const EffectSet effects = effects_on(derive_effects(scene_));
+    BakedMethod baked = timed_bake(effects, record.stages, progress);
+    record.bytes = baked.bytes;
+    for (const Prefiltered& material : baked.materials) {
+      record.notes.insert(record.notes.end(), material.notes.begin(), material.notes.end());
+    }
+    const View view{.size = size_, .camera = camera_at_distance(scene_, 1.0)};
+    show(std::move(baked), effects, view, record.stages);
+    write(view, record);
+    run_.records.push_back(std::move(record));
+  }
+
+  void change_geometry(const std::map<std::string, std::string>& parameters) {
+    for (std::size_t part = 0; part < materials_.size(); ++part) {
+      auto& geometry = source_.settings.parts[part].microgeometry;
+      if (!geometry || geometry->kind == nullptr || geometry->kind->name != settings_.sweeps.front().kind) continue;
+      for (const auto& [name, value] : parameters) geometry->parameters[name] = value;
+      const MicrogeometryContent content = load_microgeometry(*geometry);
+      for (const std::size_t i : materials_[part]) {
+        scene_.materials[i].base_color = own_colors_[i];
+        apply(content, scene_.materials[i]);
+      }
+    }
+  }
+
+  // The method's own stages by name, and `other` for what of the bake is none of them.
+  BakedMethod timed_bake(const EffectSet& effects, std::vector<StageTime>& stages, const Progress& progress) const {
+    StageClock clock;
+    const auto& [text, name, options] = settings_.method;
+    const Progress report = clock.callback(progress);
+    BakedMethod baked = bake(find_method(name), settings_.method, scene_, effects, report);
+    clock.stop();
+    double other = baked.seconds;
+    for (const StageTime& time : clock.times()) {
+      if (time.stage.starts_with(text + ": ")) continue;  // what bake itself reports of each material
+      stages.push_back(time);
+      other -= time.seconds;
+    }
+    stages.push_back({"other", std::max(other, 0.0)});
+    return baked;
+  }
+
+  void show(BakedMethod baked, const EffectSet& effects, const View& view, std::vector<StageTime>& stages) {
+    if (!drawing_ || drawing_->effects != effects) {
+      BakedMethod first = baked;
+      drawing_.reset();
+      drawing_ = std::make_unique<Drawing>(context_, scene_, effects, std::move(first), size_, settings_);
+      drawing_->frames.draw(view);
+      gl::api().Finish();
+    }
+    stages.push_back({"upload", seconds_of([&] { drawing_->exchange(scene_, std::move(baked)); })});
+    stages.push_back({"frame", seconds_of([&] {
+                        drawing_->frames.draw(view);
+                        gl::api().Finish();
+                      })});
+    context_.check("rendering " + settings_.method.text);
+  }
+
+  void write(const View& view, EditRecord& record) {
+    const Image picture = drawing_->frames.render(view);
+    if (record.frame == 0) exposure_ = choose_exposure(settings_.exposure, scene_, picture);
+    record.image = write_picture(folder_, fmt::format("{}_{:04}", method_stem({&settings_.method, 1}, 0), record.frame),
+                                 picture, exposure_.factor);
+  }
+
+  const EditSettings& settings_;
+  std::filesystem::path folder_;
+  SceneSource source_;
+  std::vector<glm::vec4> own_colors_;
+  Scene scene_;
+  std::vector<std::vector<std::size_t>> materials_;  // of each part
+  glm::ivec2 size_;
+  gl::Context context_;
+  ProgressParts parts_;
+  std::unique_ptr<Drawing> drawing_;
+  ChosenExposure exposure_;
+  EditRun run_;
+};
+
+}  // namespace
+
+EditRun run_edit(const EditSettings& settings, const std::filesystem::path& folder, const Progress& progress) {
+  return Editor(settings, folder, progress).run();
+}
+
+}  // namespace footprint

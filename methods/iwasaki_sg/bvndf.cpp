@@ -1,0 +1,250 @@
+// See bvndf.hpp.
+#include "methods/iwasaki_sg/bvndf.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "methods/iwasaki_sg/ndf_fit.hpp"
+
+namespace footprint::iwasaki_sg {
+namespace {
+
+// Runs of bins that are summed on their own and then added in order, whatever the number of threads.
+constexpr std::size_t runs = 8;
+
+// A lobe's share of a normal below this, over its largest over all normals, is left out.
+constexpr double negligible = 1e-9;
+
+// The bits of one bin alone, for one direction: its first and last word are cut.
+void cut_bits(std::span<const std::uint64_t> words, const NormalBin& bin, std::uint64_t* out) {
+  const std::size_t first = bin.begin / 64, last = (bin.end - 1) / 64;
+  for (std::size_t w = first; w <= last; ++w) out[w - first] = words[w];
+  out[0] &= ~std::uint64_t{0} << (bin.begin % 64);
+  out[last - first] &= ~std::uint64_t{0} >> (63 - (bin.end - 1) % 64);
+}
+
+// The counts of bits that two rows have in common, for row `a` and the rows behind it.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+__attribute__((target_clones("popcnt", "default")))
+#endif
+void common_bits(const std::uint64_t* rows, std::size_t words, std::size_t a, std::size_t count, std::uint32_t* out) {
+  const std::uint64_t* const own = rows + a * words;
+  for (std::size_t b = a; b < count; ++b) {
+    const std::uint64_t* const other = rows + b * words;
+    std::uint32_t sum = 0;
+    for (std::size_t w = 0; w < words; ++w) sum += static_cast<std::uint32_t>(__builtin_popcountll(own[w] & other[w]));
+    out[b] = sum;
+  }
+}
+
+// gamma of one normal over all pairs of the directions that see any of its facets. It is symmetric: half is counted.
+class PairCounts {
+ public:
+  void count(const Bvndf& bvndf, const NormalBin& bin) {
+    const std::size_t words = (bin.end - 1) / 64 - bin.begin / 64 + 1;
+    active_.clear();
+    rows_.resize(bvndf.directions.size() * words);
+    for (std::size_t d = 0; d < bvndf.directions.size(); ++d) {
+      std::uint64_t* const row = rows_.data() + active_.size() * words;
+      cut_bits(bvndf.visibility.of(d), bin, row);
+      if (std::any_of(row, row + words, [](std::uint64_t word) { return word != 0; })) active_.push_back(d);
+    }
+    const std::size_t n = active_.size();
+    counts_.resize(n * n);
+    for (std::size_t a = 0; a < n; ++a) {
+      common_bits(rows_.data(), words, a, n, counts_.data() + a * n);
+      for (std::size_t b = a + 1; b < n; ++b) counts_[b * n + a] = counts_[a * n + b];
+    }
+  }
+
+  /// The directions that see the normal, in order.
+  [[nodiscard]] std::span<const std::size_t> active() const { return active_; }
+  /// The counts of active direction `a` with each active direction.
+  [[nodiscard]] std::span<const std::uint32_t> row(std::size_t a) const {
+    return {counts_.data() + a * active_.size(), active_.size()};
+  }
+
+ private:
+  std::vector<std::size_t> active_;
+  std::vector<std::uint64_t> rows_;
+  std::vector<std::uint32_t> counts_;
+};
+
+double cosine(const glm::dvec3& normal, const glm::dvec3& direction) {
+  return std::max(glm::dot(normal, direction), 0.0);
+}
+
+BvndfSums empty_sums(std::size_t directions, std::size_t lobes, std::size_t channels) {
+  const std::size_t pairs = directions * directions;
+  BvndfSums sums{
+      .directions = directions, .lobes = lobes, .channels = channels, .products = {}, .totals = {}, .diffuse = {}};
+  sums.products.resize(channels * lobes * pairs);
+  sums.totals.resize(channels * pairs);
+  sums.diffuse.resize(channels * pairs);
+  return sums;
+}
+
+void add(std::vector<float>& sum, const std::vector<float>& part) {
+  std::ranges::transform(sum, part, sum.begin(), [](float a, float b) { return a + b; });
+}
+
+// A lobe that reaches a normal: its place, and its integral over the normal's own lobe.
+struct Reach {
+  std::size_t lobe;
+  float product;
+};
+
+class Summer {
+ public:
+  Summer(const Bvndf& bvndf, std::span<const Lobe> lobes, Cosines cosines, std::span<const PaintFactors> paints)
+      : bvndf_(bvndf), lobes_(lobes), cosines_(cosines), paints_(paints) {}
+
+  void add_bin(const NormalBin& bin, BvndfSums& sums) {
+    counts_.count(bvndf_, bin);
+    const auto active = counts_.active();
+    if (active.empty()) return;
+    reaches(bin);
+    cosine_.clear();
+    for (const std::size_t d : active) {
+      cosine_.push_back(static_cast<float>(cosine(bin.normal, bvndf_.directions[d])));
+    }
+    weighted_.resize(bvndf_.directions.size());
+    const auto area = static_cast<float>(bvndf_.facet_area);
+    for (std::size_t a = 0; a < active.size(); ++a) {
+      std::ranges::fill(weighted_, 0.0F);
+      const auto row = counts_.row(a);
+      for (std::size_t b = 0; b < active.size(); ++b) {
+        weighted_[active[b]] = static_cast<float>(row[b]) * cosine_[b] * area;
+      }
+      add_row(bin, active[a], cosine_[a], sums);
+    }
+  }
+
+ private:
+  void reaches(const NormalBin& bin) {
+    reach_.clear();
+    const Lobe own{bin.normal, sharpest};
+    for (std::size_t j = 0; j < lobes_.size(); ++j) {
+      const double product = convolution(own, lobes_[j]) / integral(sharpest);
+      if (product > negligible) reach_.push_back({j, static_cast<float>(product)});
+    }
+  }
+
+  // weighted_ has gamma (n.wo) of all wo for direction `wi`.
+  void add_row(const NormalBin& bin, std::size_t wi, float cosine_i, BvndfSums& sums) const {
+    const std::size_t n = weighted_.size();
+    const float factor = cosines_ == Cosines::published ? cosine_i : 1.0F;
+    const auto add_to = [&](float* row, float scale) {
+      for (std::size_t o = 0; o < n; ++o) row[o] += scale * weighted_[o];
+    };
+    const PaintFactors& paint = paints_[bin.paint];
+    for (std::size_t c = 0; c < sums.channels; ++c) {
+      const float specular = paint.specular[static_cast<int>(c)] * factor;
+      add_to(sums.diffuse.data() + (c * n + wi) * n, paint.diffuse[static_cast<int>(c)] * cosine_i);
+      add_to(sums.totals.data() + (c * n + wi) * n, specular);
+      for (const Reach& reach : reach_) {
+        add_to(sums.products.data() + ((c * lobes_.size() + reach.lobe) * n + wi) * n, specular * reach.product);
+      }
+    }
+  }
+
+  const Bvndf& bvndf_;
+  std::span<const Lobe> lobes_;
+  Cosines cosines_;
+  std::span<const PaintFactors> paints_;
+  PairCounts counts_;
+  std::vector<Reach> reach_;
+  std::vector<float> cosine_, weighted_;
+};
+
+// Where the runs of bins begin: even shares of samples and bins, both of which cost time.
+std::array<std::size_t, runs + 1> run_starts(const Bvndf& bvndf) {
+  constexpr std::size_t samples_like_one_bin = 64;
+  const std::size_t all = bvndf.bins.back().end + samples_like_one_bin * bvndf.bins.size();
+  std::array<std::size_t, runs + 1> starts{};
+  std::size_t run = 1;
+  for (std::size_t i = 0; i < bvndf.bins.size(); ++i) {
+    while (run < runs && bvndf.bins[i].begin + samples_like_one_bin * i >= run * all / runs) starts.at(run++) = i;
+  }
+  for (; run <= runs; ++run) starts.at(run) = bvndf.bins.size();
+  return starts;
+}
+
+}  // namespace
+
+double Bvndf::gamma(std::size_t bin, std::size_t wi, std::size_t wo) const {
+  const NormalBin& range = bins[bin];
+  const auto seen_i = visibility.of(wi), seen_o = visibility.of(wo);
+  const std::size_t first = range.begin / 64, last = (range.end - 1) / 64;
+  int count = 0;
+  for (std::size_t w = first; w <= last; ++w) {
+    std::uint64_t both = seen_i[w] & seen_o[w];
+    if (w == first) both &= ~std::uint64_t{0} << (range.begin % 64);
+    if (w == last) both &= ~std::uint64_t{0} >> (63 - (range.end - 1) % 64);
+    count += std::popcount(both);
+  }
+  return count * facet_area;
+}
+
+double Bvndf::total_area() const { return bins.empty() ? 0.0 : static_cast<double>(bins.back().end) * facet_area; }
+
+Bvndf make_bvndf(BinnedFacets facets, FacetVisibility visibility, std::vector<glm::dvec3> directions) {
+  Bvndf out{.directions = std::move(directions),
+            .bins = std::move(facets.bins),
+            .visibility = std::move(visibility),
+            .facet_area = facets.samples.facet_area,
+            .visible_area = {}};
+  out.visible_area.resize(out.directions.size());
+  std::vector<std::uint64_t> bits;
+  for (std::size_t d = 0; d < out.directions.size(); ++d) {
+    double sum = 0.0;
+    for (const NormalBin& bin : out.bins) {
+      bits.assign((bin.end - 1) / 64 - bin.begin / 64 + 1, 0);
+      cut_bits(out.visibility.of(d), bin, bits.data());
+      int count = 0;
+      for (const std::uint64_t word : bits) count += std::popcount(word);
+      sum += count * cosine(bin.normal, out.directions[d]);
+    }
+    out.visible_area[d] = sum * out.facet_area;
+  }
+  return out;
+}
+
+std::vector<WeightedNormal> visible_ndf(const Bvndf& bvndf) {
+  std::vector<std::uint64_t> seen(bvndf.visibility.of(0).size());
+  for (std::size_t d = 0; d < bvndf.directions.size(); ++d) {
+    std::ranges::transform(seen, bvndf.visibility.of(d), seen.begin(), std::bit_or<>());
+  }
+  std::vector<WeightedNormal> out;
+  for (const NormalBin& bin : bvndf.bins) {
+    std::size_t count = 0;
+    for (std::size_t i = bin.begin; i < bin.end; ++i) count += (seen[i / 64] >> (i % 64)) & 1U;
+    if (count > 0) out.push_back({bin.normal, static_cast<double>(count) * bvndf.facet_area});
+  }
+  return out;
+}
+
+BvndfSums sum_bvndf(const Bvndf& bvndf, std::span<const Lobe> lobes, Cosines cosines, std::size_t channels,
+                    std::span<const PaintFactors> paints, const Progress& progress) {
+  const auto starts = run_starts(bvndf);
+  progress("BVNDF", 0.0);
+  std::vector<BvndfSums> parts(runs);
+  tbb::parallel_for(std::size_t{0}, runs, [&](std::size_t run) {
+    parts[run] = empty_sums(bvndf.directions.size(), lobes.size(), channels);
+    Summer summer(bvndf, lobes, cosines, paints);
+    for (std::size_t i = starts.at(run); i < starts.at(run + 1); ++i) summer.add_bin(bvndf.bins[i], parts[run]);
+  });
+  BvndfSums sums = std::move(parts.front());
+  for (std::size_t run = 1; run < runs; ++run) {
+    add(sums.products, parts[run].products);
+    add(sums.totals, parts[run].totals);
+    add(sums.diffuse, parts[run].diffuse);
+  }
+  return sums;
+}
+
+}  // namespace footprint::iwasaki_sg

@@ -1,0 +1,225 @@
+// Iwasaki, Dobashi, Nishita 2012: the visible normals of a pair of directions are a sum of spherical Gaussians, whose
+// axes and sharpness are the material's and whose amplitudes depend on the pair. Convolved with the base BRDF they are
+// the effective BRDF.
+
+// iwasaki_sg_lobes.glsl, behind this text.
+float sgIntegral(float eta);
+float sgConvolution(vec3 axis1, float eta1, vec3 axis2, float eta2);
+float sgApproximateConvolution(vec3 axis1, float eta1, vec3 axis2, float eta2);
+
+// Nothing that a pixel fetches: the tables hold for the whole material.
+struct Effective {
+  int count;  // of lobes
+};
+
+//? if microgeometry_visibility
+int tableLobes() { return textureSize(iwasaki_lobes, 0).x; }
+vec4 lobeOf(int j) { return texelFetch(iwasaki_lobes, ivec2(j, 0), 0); }   // axis, sharpness
+float shareOf(int j) { return texelFetch(iwasaki_lobes, ivec2(j, 1), 0).x; }
+//? else
+//? if normal_variation
+int tableLobes() { return textureSize(iwasaki_lobes, 0).x; }
+vec4 lobeOf(int j) { return texelFetch(iwasaki_lobes, ivec2(j, 0), 0); }
+float shareOf(int j) { return texelFetch(iwasaki_lobes, ivec2(j, 1), 0).x; }
+//? else
+const float flat_sharpness = 1e6;  // `sharpest` of ndf_fit.hpp
+int tableLobes() { return 1; }
+vec4 lobeOf(int j) { return vec4(0.0, 0.0, 1.0, flat_sharpness); }
+float shareOf(int j) { return 1.0; }
+//? end
+//? end
+
+Effective effective(Footprints f) { return Effective(tableLobes()); }
+
+//? if microgeometry_visibility
+//? include direction_grid.glsl
+
+// Where a pair of directions lies in the table: a tile for each cell of wo, in it a texel for each cell of wi. Between
+// the cells of wi the sampler interpolates, between those of wo the four tiles do.
+struct TablePlace {
+  vec2 uv[4];
+  vec4 weights;
+};
+
+TablePlace placeOf(vec3 wi, vec3 wo) {
+  float side = option_directions;
+  vec2 i = clamp(hemisphereToSquare(wi) * side, 0.5, side - 0.5);
+  vec2 o = clamp(hemisphereToSquare(wo) * side, 0.5, side - 0.5) - 0.5;
+  vec2 low = min(floor(o), side - 2.0);
+  vec2 part = o - low;
+  TablePlace place;
+  for (int k = 0; k < 4; ++k) place.uv[k] = ((low + vec2(k & 1, k >> 1)) * side + i) / (side * side);
+  place.weights = vec4((1.0 - part.x) * (1.0 - part.y), part.x * (1.0 - part.y), (1.0 - part.x) * part.y, part.x * part.y);
+  return place;
+}
+
+vec4 tableLayer(int layer, TablePlace place) {
+  vec4 sum = vec4(0.0);
+  for (int k = 0; k < 4; ++k) sum += place.weights[k] * textureLod(iwasaki_amplitudes, vec3(place.uv[k], layer), 0.0);
+  return sum;
+}
+
+// The values of the table are the lobes' and, behind them, the diffuse term's: a layer each in colour, else four a layer.
+//? if microgeometry_colour
+const int values_per_layer = 1;
+vec3 valueIn(vec4 layer, int value) { return layer.rgb; }
+//? else
+const int values_per_layer = 4;
+vec3 valueIn(vec4 layer, int value) { return vec3(layer[value & 3]); }
+//? end
+
+vec3 tableAt(int value, TablePlace place) { return valueIn(tableLayer(value / values_per_layer, place), value); }
+//? end
+
+// The base BRDF's density of half vectors, averaged over normals that a lobe distributes.
+float convolved(vec4 lobe, vec3 h) {
+//? if lobe_base
+  return lobeDensity(lobeFromVariance(lobeVariance(lobe_cutoff.x) + 1.0 / lobe.w), lobe.xyz, h);
+//? else
+  float sum = 0.0;
+  int count = textureSize(iwasaki_brdf, 0).x;
+  for (int s = 0; s < count; ++s) {
+    vec2 brdf = texelFetch(iwasaki_brdf, ivec2(s, 0), 0).xy;  // sharpness, amplitude
+//? if convolution_exact
+    sum += brdf.y * sgConvolution(lobe.xyz, lobe.w, h, brdf.x);
+//? else
+    sum += brdf.y * sgApproximateConvolution(lobe.xyz, lobe.w, h, brdf.x);
+//? end
+  }
+  return sum / sgIntegral(lobe.w);
+//? end
+}
+
+// The geometry term of the facets of a lobe: taken at the normal where the product of lobe and base BRDF is largest,
+// since it varies slowly (Wang et al. 2009 treat a BRDF's smooth factors so).
+float smoothFactor(vec4 lobe, vec3 h, vec3 wi, vec3 wo) {
+//? if cosines_published
+//? if microgeometry_visibility
+  return max(wi.z, 0.0);  // the table has the facets' cosine over this one
+//? else
+  return max(dot(lobe.xyz, wi), 0.0);
+//? end
+//? else
+//? if masking_shadowing
+  vec3 sum = lobe.w * lobe.xyz + h / lobeVariance(lobe_cutoff.x);
+  vec3 n = sum / max(length(sum), 1e-6);
+  return geometryFactor(lobe_cutoff.x, n, h, wi, wo);
+//? else
+  return 1.0;
+//? end
+//? end
+}
+
+//? if microgeometry_visibility
+//? if tabulated_brdf
+// Facets that reflect by lobes of their own, in colour; that of sharpness 0 is diffuse (equations 9 and 15 in one). The
+// table has the facets' cosine to the light over that of the surface.
+vec3 tabulatedReflection(Effective e, vec3 wi, vec3 wo) {
+  if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
+  vec3 h = halfVector(wi, wo);
+  TablePlace place = placeOf(wi, wo);
+  int count = textureSize(iwasaki_table, 0).x;
+  vec3 sum = vec3(0.0);
+  vec4 layer = vec4(0.0);
+  for (int j = 0; j < e.count; ++j) {
+    if (j % values_per_layer == 0) layer = tableLayer(j / values_per_layer, place);
+    vec4 lobe = lobeOf(j);
+    vec3 reflected = vec3(0.0);
+    for (int s = 0; s < count; ++s) {
+      vec4 brdf = texelFetch(iwasaki_table, ivec2(s, 0), 0);
+      reflected += brdf.yzw * sgConvolution(lobe.xyz, lobe.w, h, brdf.x);
+    }
+    sum += valueIn(layer, j) * reflected / sgIntegral(lobe.w);
+  }
+  return sum * max(wi.z, 0.0);
+}
+//? end
+//? end
+
+vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
+//? if microgeometry_visibility
+//? if tabulated_brdf
+  if (iwasaki_tabulated > 0.5) return tabulatedReflection(e, wi, wo);
+//? end
+//? end
+  if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
+  vec3 h = halfVector(wi, wo);
+//? if microgeometry_visibility
+  TablePlace place = placeOf(wi, wo);
+  vec4 layer = vec4(0.0);
+//? end
+  vec3 sum = vec3(0.0);
+  for (int j = 0; j < e.count; ++j) {
+    vec4 lobe = lobeOf(j);
+    float reflected = convolved(lobe, h) * smoothFactor(lobe, h, wi, wo);
+//? if microgeometry_visibility
+    if (j % values_per_layer == 0) layer = tableLayer(j / values_per_layer, place);
+    sum += valueIn(layer, j) * reflected;
+//? else
+    sum += shareOf(j) * reflected;
+//? end
+  }
+  return fresnelTerm(f0, wi, wo) * sum;
+}
+
+//? if diffuse
+vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
+//? if microgeometry_visibility
+//? if tabulated_brdf
+  if (iwasaki_tabulated > 0.5) return vec3(0.0);  // tabulatedReflection has it
+//? end
+  // The table has the facets' cosines over that of the surface as a whole.
+  return lambert(vec3(0.0, 0.0, 1.0), albedo, f0, wi, wo) * tableAt(e.count, placeOf(wi, wo));
+//? else
+  vec3 sum = vec3(0.0);
+  for (int j = 0; j < e.count; ++j) {
+    vec4 lobe = lobeOf(j);
+    // The length of a lobe's mean unit normal: coth(eta) - 1 / eta.
+    float cosine = lobe.w < 0.3 ? lobe.w / 3.0 : 2.0 / (1.0 - exp(-2.0 * lobe.w)) - 1.0 - 1.0 / lobe.w;
+    sum += shareOf(j) * cosine * lambert(lobe.xyz, albedo, f0, wi, wo);
+  }
+  return sum;
+//? end
+}
+//? end
+
+float ndf(Effective e, vec3 h) {
+  float sum = 0.0;
+  for (int j = 0; j < e.count; ++j) sum += shareOf(j) * convolved(lobeOf(j), h);
+  return sum;
+}
+
+//? if environment_light
+int lobeCount(Effective e) { return e.count; }
+
+// The lobe of normals and the base lobe as one; what the pair of directions makes of it stands in lobeGeometry.
+NormalLobe normalLobe(Effective e, int j) {
+  vec4 lobe = lobeOf(j);
+  return baseNormalLobe(lobe.xyz, lobeFromVariance(lobeVariance(lobe_cutoff.x) + 1.0 / lobe.w), shareOf(j));
+}
+
+// The lobe that a NormalLobe was made of: the one with its axis.
+int lobeAbout(Effective e, vec3 axis) {
+  int nearest = 0;
+  for (int j = 1; j < e.count; ++j) {
+    if (dot(lobeOf(j).xyz, axis) > dot(lobeOf(nearest).xyz, axis)) nearest = j;
+  }
+  return nearest;
+}
+
+float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
+  int j = lobeAbout(e, lobe.axis);
+  float factor = smoothFactor(lobeOf(j), h, wi, wo);
+//? if microgeometry_visibility
+  // Seen and lit, over the share that the lobe was handed over with. One number: colours are left to their mean.
+  factor *= dot(tableAt(j, placeOf(wi, wo)), vec3(1.0 / 3.0)) / max(shareOf(j), 1e-6);
+//? end
+  return factor;
+}
+
+vec3 meanNormal(Effective e) {
+  vec3 sum = vec3(0.0);
+  for (int j = 0; j < e.count; ++j) sum += shareOf(j) * meanCosine(lobeOf(j).w) * lobeOf(j).xyz;
+  return sum;
+}
+//? end

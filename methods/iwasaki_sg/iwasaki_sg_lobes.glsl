@@ -1,0 +1,22 @@
+// Spherical Gaussians of unit amplitude, e^{eta (w.axis - 1)}: twins of spherical_gaussian.cpp.
+
+// 1 - e^{-2 x} for x >= 0: a series where the difference would cancel.
+float oneMinusExp2(float x) { return x < 0.02 ? 2.0 * x * (1.0 - x * (1.0 - x * (2.0 / 3.0 - x / 3.0))) : 1.0 - exp(-2.0 * x); }
+
+// Iwasaki 2012, equation 9.
+float sgIntegral(float eta) { return eta > 0.0 ? 2.0 * pi * oneMinusExp2(eta) / eta : 4.0 * pi; }
+
+// Equation 11. |z| - eta1 - eta2 is taken from the difference of the axes: as printed, sinh overflows.
+float sgConvolution(vec3 axis1, float eta1, vec3 axis2, float eta2) {
+  float sum = eta1 + eta2;
+  float z = length(eta1 * axis1 + eta2 * axis2);
+  if (z < 1e-4) return 4.0 * pi * exp(-sum) * (1.0 + z * z / 6.0);
+  float fall = -2.0 * eta1 * (eta2 / (z + sum)) * oneMinusDot(axis1, axis2);
+  return 2.0 * pi * exp(fall) * (oneMinusExp2(z) / z);
+}
+
+// Equation 14.
+float sgApproximateConvolution(vec3 axis1, float eta1, vec3 axis2, float eta2) {
+  float sum = eta1 + eta2;
+  return 2.0 * pi / sum * exp(-eta1 * (eta2 / sum) * oneMinusDot(axis1, axis2));
+}

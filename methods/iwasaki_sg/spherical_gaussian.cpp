@@ -1,0 +1,34 @@
+// See spherical_gaussian.hpp.
+#include "methods/iwasaki_sg/spherical_gaussian.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace footprint::iwasaki_sg {
+
+using std::numbers::pi;
+
+double value(const Lobe& lobe, const glm::dvec3& direction) {
+  return std::exp(-lobe.sharpness * one_minus_dot(lobe.axis, direction));
+}
+
+double integral(double sharpness) {
+  return sharpness > 0.0 ? -2.0 * pi * std::expm1(-2.0 * sharpness) / sharpness : 4.0 * pi;
+}
+
+double convolution(const Lobe& a, const Lobe& b) {
+  const double sum = a.sharpness + b.sharpness;
+  const double z = glm::length(a.sharpness * a.axis + b.sharpness * b.axis);
+  // sinh(z) / z as z goes to 0.
+  if (z < 1e-4) return 4.0 * pi * std::exp(-sum) * (1.0 + z * z / 6.0);
+  // z - sum without the cancellation: z^2 = sum^2 - 2 eta1 eta2 (1 - cos).
+  const double fall = -2.0 * a.sharpness * b.sharpness * one_minus_dot(a.axis, b.axis) / (z + sum);
+  return -2.0 * pi * std::exp(fall) * std::expm1(-2.0 * z) / z;
+}
+
+double approximate_convolution(const Lobe& a, const Lobe& b) {
+  const double sum = a.sharpness + b.sharpness;
+  return 2.0 * pi / sum * std::exp(-a.sharpness * b.sharpness / sum * one_minus_dot(a.axis, b.axis));
+}
+
+}  // namespace footprint::iwasaki_sg

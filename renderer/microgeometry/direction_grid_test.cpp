@@ -1,0 +1,56 @@
+// The map between square and hemisphere: golden places, the inverse, equal solid angle.
+#include "renderer/microgeometry/direction_grid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace footprint {
+namespace {
+
+TEST(DirectionGrid, HasTheGoldenPlaces) {
+  struct Golden {
+    glm::dvec3 direction;
+    glm::dvec2 place;
+  };
+  const std::array<Golden, 5> golden{{{{0.0, 0.0, 1.0}, {0.5, 0.5}},
+                                      {{0.3, 0.1, 0.9}, {0.6188945404026962, 0.5487069948366342}},
+                                      {{-0.5, 0.2, 0.6}, {0.2471207835424442, 0.6225138521906438}},
+                                      {{0.1, -0.7, 0.4}, {0.5643619020901106, 0.14375779444222608}},
+                                      {{0.9, 0.1, 0.05}, {0.986021659846041, 0.5684771225797622}}}};
+  for (const auto& [direction, place] : golden) {
+    const glm::dvec2 found = hemisphere_to_square(glm::normalize(direction));
+    EXPECT_NEAR(found.x, place.x, 1e-14);
+    EXPECT_NEAR(found.y, place.y, 1e-14);
+  }
+}
+
+TEST(DirectionGrid, TheMapsAreInverse) {
+  for (const glm::dvec3& direction : direction_grid(37)) {
+    EXPECT_NEAR(glm::length(direction), 1.0, 1e-14);
+    EXPECT_LT(glm::length(square_to_hemisphere(hemisphere_to_square(direction)) - direction), 1e-13);
+  }
+}
+
+// Means of z and z^2 over the hemisphere, by solid angle, are 1/2 and 1/3.
+TEST(DirectionGrid, CellsHaveEqualSolidAngle) {
+  double z = 0.0, z2 = 0.0;
+  const std::vector<glm::dvec3> grid = direction_grid(200);
+  for (const glm::dvec3& direction : grid) {
+    z += direction.z;
+    z2 += direction.z * direction.z;
+  }
+  EXPECT_NEAR(z / static_cast<double>(grid.size()), 1.0 / 2.0, 1e-4);
+  EXPECT_NEAR(z2 / static_cast<double>(grid.size()), 1.0 / 3.0, 1e-4);
+}
+
+TEST(DirectionGrid, PutsWhatIsBelowTheHorizonOnTheRim) {
+  const glm::dvec2 place = hemisphere_to_square(glm::normalize(glm::dvec3(0.8, 0.1, -0.4)));
+  EXPECT_NEAR(std::max(std::abs(place.x - 0.5), std::abs(place.y - 0.5)), 0.5, 1e-12);
+  EXPECT_EQ(hemisphere_to_square({0.0, 0.0, -1.0}), glm::dvec2(0.5));
+}
+
+}  // namespace
+}  // namespace footprint

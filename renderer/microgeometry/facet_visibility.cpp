@@ -1,0 +1,197 @@
+// See facet_visibility.hpp.
+#include "renderer/microgeometry/facet_visibility.hpp"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace footprint {
+namespace {
+
+// How far behind a triangle's plane a sample must lie to be hidden by it, over the patch's size: above the rounding of
+// 32-bit positions, so that a facet does not hide itself or its neighbour at a common edge.
+constexpr double behind_tolerance = 4e-6;
+
+// Samples for each cell of the grid over the torus: enough to keep the loops long, few enough to keep tests few.
+constexpr double samples_per_cell = 12.0;
+
+// Where a triangle covers the projection, and what lies behind it: four linear forms of (x, y, z, 1).
+struct Blocker {
+  std::array<glm::vec3, 3> edges;  // a x + b y + c >= 0 inside
+  glm::vec4 plane;                 // a x + b y + c z + d < 0 behind
+};
+
+// Samples of one direction in the order of the torus' cells.
+struct Scratch {
+  std::vector<std::uint32_t> starts, order, cells;
+  std::vector<float> x, y, z;                   // in that order
+  std::vector<float> projected_x, projected_y;  // in the samples' own
+  std::vector<std::uint8_t> blocked;
+  std::vector<std::uint8_t> faces;  // of each triangle
+};
+
+// The loop that nearly all of the time goes into; it has no branch, so that compilers vectorise it.
+void block(const Blocker& b, const Scratch& s, std::size_t begin, std::size_t end, std::uint8_t* blocked) {
+  const float* const x = s.x.data();
+  const float* const y = s.y.data();
+  const float* const z = s.z.data();
+  for (std::size_t i = begin; i < end; ++i) {
+    const float e0 = b.edges[0].x * x[i] + b.edges[0].y * y[i] + b.edges[0].z;
+    const float e1 = b.edges[1].x * x[i] + b.edges[1].y * y[i] + b.edges[1].z;
+    const float e2 = b.edges[2].x * x[i] + b.edges[2].y * y[i] + b.edges[2].z;
+    const float front = b.plane.x * x[i] + b.plane.y * y[i] + b.plane.z * z[i] + b.plane.w;
+    const float inside = std::min(std::min(e0, e1), std::min(e2, -front));
+    blocked[i] = static_cast<std::uint8_t>(blocked[i] | static_cast<std::uint8_t>(inside >= 0.0F));
+  }
+}
+
+class Projector {
+ public:
+  Projector(const Patch& patch, const FacetSamples& samples) : patch_(patch), samples_(samples) {
+    planes_.reserve(patch.triangles.size());
+    float size = std::max(patch.period.x, patch.period.y);
+    for (std::size_t i = 0; i < patch.triangles.size(); ++i) planes_.push_back(facet_plane(patch, i));
+    for (const glm::vec3& p : samples.positions) size = std::max(size, std::abs(p.z));
+    tolerance_ = behind_tolerance * size;
+    const double side = std::sqrt(static_cast<double>(samples.size()) / samples_per_cell);
+    side_ = std::clamp(static_cast<int>(side), 1, 512);
+  }
+
+  void project(const glm::dvec3& direction, Scratch& scratch, std::span<std::uint64_t> visible) const {
+    const glm::dvec2 shear = glm::dvec2(direction) / direction.z;
+    sort_samples(shear, scratch);
+    scratch.faces.resize(planes_.size());
+    for (std::size_t t = 0; t < planes_.size(); ++t) {
+      const double facing = glm::dot(planes_[t].normal, direction);
+      scratch.faces[t] = static_cast<std::uint8_t>(facing > 0.0);
+      if (facing > 0.0) cover(t, shear, facing / direction.z, scratch);
+    }
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      const std::uint32_t sample = scratch.order[i];
+      const bool sees = scratch.faces[samples_.triangles[sample]] != 0 && scratch.blocked[i] == 0;
+      visible[sample / 64] |= std::uint64_t{sees} << (sample % 64);
+    }
+  }
+
+ private:
+  // Counting sort of the projected samples by cell.
+  void sort_samples(const glm::dvec2& shear, Scratch& s) const {
+    const std::size_t count = samples_.size();
+    const auto cells = static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_);
+    s.starts.assign(cells + 1, 0);
+    s.cells.resize(count);
+    for (auto* values : {&s.x, &s.y, &s.z, &s.projected_x, &s.projected_y}) values->resize(count);
+    s.order.resize(count);
+    s.blocked.assign(count, 0);
+    project_samples(glm::vec2(shear), s);
+    for (const std::uint32_t cell : s.cells) ++s.starts[cell + 1];
+    for (std::size_t c = 0; c < cells; ++c) s.starts[c + 1] += s.starts[c];
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t place = s.starts[s.cells[i]]++;
+      s.x[place] = s.projected_x[i];
+      s.y[place] = s.projected_y[i];
+      s.z[place] = samples_.positions[i].z;
+      s.order[place] = static_cast<std::uint32_t>(i);
+    }
+    for (std::size_t c = cells; c > 0; --c) s.starts[c] = s.starts[c - 1];  // the scatter moved each start to the next
+    s.starts[0] = 0;
+  }
+
+  // Where the samples project to, within one period, and the cells that they fall in. No branch, no call.
+  void project_samples(const glm::vec2& shear, Scratch& s) const {
+    // Truncation is the floor of what is above 0: the samples reach below by less than this many periods.
+    constexpr float above_zero = 256.0F;
+    const glm::vec2 per_period = 1.0F / patch_.period;
+    const auto last_cell = side_ - 1;
+    const auto cells = static_cast<float>(side_);
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      const glm::vec3& p = samples_.positions[i];
+      const float x = (p.x - shear.x * p.z) * per_period.x;
+      const float y = (p.y - shear.y * p.z) * per_period.y;
+      const float part_x = x - (static_cast<float>(static_cast<int>(x + above_zero)) - above_zero);
+      const float part_y = y - (static_cast<float>(static_cast<int>(y + above_zero)) - above_zero);
+      s.projected_x[i] = part_x * patch_.period.x;
+      s.projected_y[i] = part_y * patch_.period.y;
+      const int cell_x = std::min(static_cast<int>(std::max(part_x, 0.0F) * cells), last_cell);
+      const int cell_y = std::min(static_cast<int>(std::max(part_y, 0.0F) * cells), last_cell);
+      s.cells[i] = static_cast<std::uint32_t>(cell_y * side_ + cell_x);
+    }
+  }
+
+  // Marks the samples that a triangle hides, in every copy of the period that its projection reaches into.
+  void cover(std::size_t triangle, const glm::dvec2& shear, double slope, Scratch& s) const {
+    std::array<glm::dvec2, 3> corners{};
+    for (int i = 0; i < 3; ++i) {
+      const glm::dvec3 v(patch_.vertices[patch_.triangles[triangle][i]]);
+      corners.at(static_cast<std::size_t>(i)) = glm::dvec2(v) - shear * v.z;
+    }
+    const glm::dvec2 cell = glm::dvec2(patch_.period) / static_cast<double>(side_);
+    // One cell of margin on both sides would be waste: rounding moves a sample by far less than a cell, so that a hair
+    // on the box is enough.
+    const glm::dvec2 hair = 1e-5 * cell;
+    const glm::ivec2 first(glm::floor((glm::min(glm::min(corners[0], corners[1]), corners[2]) - hair) / cell));
+    const glm::ivec2 last(glm::floor((glm::max(glm::max(corners[0], corners[1]), corners[2]) + hair) / cell));
+    for (int copy_y = floor_div(first.y); copy_y <= floor_div(last.y); ++copy_y) {
+      for (int copy_x = floor_div(first.x); copy_x <= floor_div(last.x); ++copy_x) {
+        const glm::ivec2 origin = side_ * glm::ivec2(copy_x, copy_y);
+        const glm::ivec2 low = glm::max(first - origin, glm::ivec2(0));
+        const glm::ivec2 high = glm::min(last - origin, glm::ivec2(side_ - 1));
+        const glm::dvec2 shift = glm::dvec2(copy_x, copy_y) * glm::dvec2(patch_.period);
+        const Blocker blocker = blocker_of(corners, triangle, shear, slope, shift);
+        for (int row = low.y; row <= high.y; ++row) {
+          const auto begin = static_cast<std::size_t>(row * side_ + low.x);
+          const auto end = static_cast<std::size_t>(row * side_ + high.x);
+          block(blocker, s, s.starts[begin], s.starts[end + 1], s.blocked.data());
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] int floor_div(int cell) const { return cell >= 0 ? cell / side_ : -((side_ - 1 - cell) / side_); }
+
+  // The linear forms of a triangle in the coordinates of the copy that is moved by -shift.
+  [[nodiscard]] Blocker blocker_of(const std::array<glm::dvec2, 3>& corners, std::size_t triangle,
+                                   const glm::dvec2& shear, double slope, const glm::dvec2& shift) const {
+    Blocker out{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::dvec2 a = corners.at(i) - shift;
+      const glm::dvec2 along = corners.at((i + 1) % 3) - corners.at(i);
+      out.edges.at(i) = glm::vec3(glm::dvec3(-along.y, along.x, along.y * a.x - along.x * a.y));
+    }
+    // n.(x + shear z, y, z) = n_xy.(x, y) + (n.direction / direction.z) z.
+    const glm::dvec3& n = planes_[triangle].normal;
+    const glm::dvec3 v(patch_.vertices[patch_.triangles[triangle].x]);
+    const glm::dvec2 p = glm::dvec2(v) - shear * v.z - shift;
+    const double offset = n.x * p.x + n.y * p.y + slope * v.z;
+    out.plane = glm::vec4(glm::dvec4(n.x, n.y, slope, tolerance_ - offset));
+    return out;
+  }
+
+  const Patch& patch_;
+  const FacetSamples& samples_;
+  std::vector<FacetPlane> planes_;
+  double tolerance_ = 0.0;
+  int side_ = 1;
+};
+
+}  // namespace
+
+FacetVisibility facet_visibility(const Patch& patch, const FacetSamples& samples,
+                                 std::span<const glm::dvec3> directions, const Progress& progress) {
+  FacetVisibility out(directions.size(), samples.size());
+  const Projector projector(patch, samples);
+  tbb::enumerable_thread_specific<Scratch> scratch;
+  // Progress is reported between batches, by the calling thread alone: it may throw.
+  constexpr std::size_t batch = 36;
+  for (std::size_t begin = 0; begin < directions.size(); begin += batch) {
+    progress("visibility", static_cast<double>(begin) / static_cast<double>(directions.size()));
+    const std::size_t end = std::min(begin + batch, directions.size());
+    tbb::parallel_for(begin, end, [&](std::size_t i) { projector.project(directions[i], scratch.local(), out.of(i)); });
+  }
+  return out;
+}
+
+}  // namespace footprint

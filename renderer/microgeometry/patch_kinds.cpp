@@ -1,0 +1,158 @@
+// See patch_kinds.hpp.
+#include "renderer/microgeometry/patch_kinds.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "renderer/core/error.hpp"
+#include "renderer/core/suggest.hpp"
+#include "renderer/microgeometry/patch_builders.hpp"
+
+namespace footprint {
+namespace {
+
+using std::numbers::pi;
+
+OptionSpec number(std::string name, double value, double minimum, double maximum, std::string meaning) {
+  return {.name = std::move(name),
+          .default_value = value,
+          .minimum = minimum,
+          .maximum = maximum,
+          .choices = {},
+          .meaning = std::move(meaning),
+          .integer = false};
+}
+
+OptionSpec whole(std::string name, double value, double minimum, double maximum, std::string meaning) {
+  OptionSpec spec = number(std::move(name), value, minimum, maximum, std::move(meaning));
+  spec.integer = true;
+  return spec;
+}
+
+double tangent_of(const Options& parameters, std::string_view name) {
+  return std::tan(parameters.number(name) * pi / 180.0);
+}
+
+// Distance along one axis from the nearest border of the period.
+double from_border(double x) { return std::min(x, 1.0 - x); }
+
+Patch flat_patch(const Options& /*parameters*/, std::uint64_t /*seed*/) {
+  return height_field_patch("flat", 1, 1, [](double, double) { return 0.0; });
+}
+
+// One groove a period, along y: a land of width `land`, then a V or, with `rounded`, half a wave.
+Patch grooves_patch(const Options& parameters, std::uint64_t /*seed*/) {
+  const double land = parameters.number("land");
+  const double flank = 0.5 * (1.0 - land);
+  const double depth = flank * tangent_of(parameters, "flank_degrees");
+  const bool rounded = parameters.word("profile") == "round";
+  const int steps = rounded ? static_cast<int>(parameters.number("steps")) : 2;
+  Patch patch;
+  patch.name = "grooves";
+  const auto across = [&](int u) {
+    const double t = static_cast<double>(u) / steps;  // across the groove
+    const double fall = rounded ? 0.5 - 0.5 * std::cos(2.0 * pi * t) : 1.0 - std::abs(2.0 * t - 1.0);
+    return glm::dvec2(land + (1.0 - land) * t, -depth * fall);
+  };
+  add_grid(patch, steps, 1, 0, [&](int u, int v) { return glm::vec3(across(u).x, v, across(u).y); });
+  if (land > 0.0) {
+    add_grid(patch, 1, 1, 0, [&](int u, int v) { return glm::vec3(land * u, v, 0.0); });
+  }
+  return patch;
+}
+
+// One pyramid a period on a floor that it leaves `floor` of along each axis; below 0 degrees it is a pit.
+Patch pyramids_patch(const Options& parameters, std::uint64_t /*seed*/) {
+  const double margin = 0.5 * parameters.number("floor");
+  const double rise = tangent_of(parameters, "slope_degrees");
+  const std::array<double, 5> places{0.0, margin, 0.5, 1.0 - margin, 1.0};
+  Patch patch;
+  patch.name = "pyramids";
+  const auto corner = [&](int u, int v) {
+    const double x = places.at(static_cast<std::size_t>(u));
+    const double y = places.at(static_cast<std::size_t>(v));
+    return glm::vec3(x, y, rise * std::max(std::min(from_border(x), from_border(y)) - margin, 0.0));
+  };
+  // The diagonals must run towards the tip: one fan of quadrants, each cut along its own diagonal.
+  add_grid(patch, 4, 4, 0, corner);
+  for (std::size_t i = 0; i + 1 < patch.triangles.size(); i += 2) {
+    const glm::uvec3 a = patch.triangles[i];      // corner, +u, +u+v
+    const glm::uvec3 b = patch.triangles[i + 1];  // corner, +u+v, +v
+    const glm::vec3 middle = 0.5F * (patch.vertices[a.x] + patch.vertices[a.z]);
+    if ((middle.x < 0.5F) == (middle.y < 0.5F)) continue;
+    patch.triangles[i] = {a.x, a.y, b.z};
+    patch.triangles[i + 1] = {a.y, a.z, b.z};
+  }
+  return patch;
+}
+
+std::vector<PatchKind> make_kinds() {
+  std::vector<PatchKind> kinds;
+  kinds.push_back({"flat", "A plane: the effective BRDF is the facets' own.", {}, flat_patch});
+  kinds.push_back({"grooves",
+                   "Parallel grooves along y, with flat lands between them.",
+                   {number("land", 0.2, 0.0, 0.95, "Width of the flat between two grooves, in periods."),
+                    number("flank_degrees", 35.0, 0.0, 80.0, "Mean tilt of a groove's flanks, degrees."),
+                    word_option("profile", {"v", "round"}, "Straight flanks, or a cosine."),
+                    whole("steps", 24.0, 2.0, 1024.0, "profile=round: quadrilaterals across a groove.")},
+                   grooves_patch});
+  kinds.push_back({"pyramids",
+                   "Four-sided pyramids, or pits, on a floor.",
+                   {number("floor", 0.2, 0.0, 0.95, "Share of the floor along each axis."),
+                    number("slope_degrees", 30.0, -80.0, 80.0, "Tilt of the sides, degrees; below 0 a pit.")},
+                   pyramids_patch});
+  kinds.push_back({"spheres",
+                   "Balls half sunk into a floor, one a period.",
+                   {number("radius", 0.4, 0.01, 0.5, "Radius, in periods."),
+                    number("height", 0.0, -0.5, 2.0, "Height of the centre above the floor, in radii."),
+                    whole("steps", 24.0, 3.0, 512.0, "Quadrilaterals around a ball; half as many from pole to pole.")},
+                   spheres_patch});
+  kinds.push_back(
+      {"weave",
+       "Plain weave of warp threads along y and weft threads along x, two of each a period, each of its own colour.",
+       {number("warp_width", 0.8, 0.02, 1.0, "Width of a warp thread over their distance."),
+        number("weft_width", 0.8, 0.02, 1.0, "Width of a weft thread over their distance."),
+        number("height", 0.06, 0.001, 0.5, "How far a thread rises and falls, and half its thickness, in periods."),
+        number("warp_red", 1.0, 0.0, 1.0, "The warp's colour, linear."),
+        number("warp_green", 1.0, 0.0, 1.0, "The warp's colour, linear."),
+        number("warp_blue", 1.0, 0.0, 1.0, "The warp's colour, linear."),
+        number("weft_red", 1.0, 0.0, 1.0, "The weft's colour, linear."),
+        number("weft_green", 1.0, 0.0, 1.0, "The weft's colour, linear."),
+        number("weft_blue", 1.0, 0.0, 1.0, "The weft's colour, linear."),
+        whole("steps_along", 16.0, 4.0, 512.0, "Quadrilaterals along a thread in a period."),
+        whole("steps_across", 8.0, 2.0, 256.0, "Quadrilaterals across a thread.")},
+       weave_patch});
+  kinds.push_back({"noise",
+                   "A rough height field: a sum of waves of random directions and phases.",
+                   {number("slope", 0.4, 0.0, 4.0, "Root mean square slope."),
+                    whole("waves", 6.0, 1.0, 64.0, "Highest number of waves a period along an axis."),
+                    whole("steps", 48.0, 4.0, 1024.0, "Squares a side.")},
+                   noise_patch});
+  return kinds;
+}
+
+}  // namespace
+
+std::span<const PatchKind> patch_kinds() {
+  static const std::vector<PatchKind> kinds = make_kinds();
+  return kinds;
+}
+
+const PatchKind& find_patch_kind(const std::string& name) {
+  std::vector<std::string> names;
+  for (const PatchKind& kind : patch_kinds()) {
+    if (kind.name == name) return kind;
+    names.push_back(kind.name);
+  }
+  throw Error(ErrorKind::usage, "microgeometry", fmt::format("unknown kind `{:.80}`", name), suggestion(name, names));
+}
+
+Patch make_patch(const PatchKind& kind, const std::map<std::string, std::string>& given, std::uint64_t seed) {
+  return kind.build(Options(kind.parameters, given, "microgeometry " + kind.name), seed);
+}
+
+}  // namespace footprint

@@ -1,0 +1,51 @@
+// Large-scale visibility of the environment on the GPU: distances at vertices for the methods, shadow rays for the
+// reference.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "renderer/core/progress.hpp"
+#include "renderer/effects/effects.hpp"
+#include "renderer/gl/objects.hpp"
+#include "renderer/visibility/visibility_field.hpp"
+
+namespace footprint {
+
+/// Whether a scene's effects ask for it: an environment, and something that hides a part of it.
+[[nodiscard]] bool hides_environment(const EffectSet& effects);
+
+/// The scene with the edges of its meshes no longer than a 24th of the bounds' radius, where visibility is to be kept
+/// at vertices; else as it is. What looks at vertices must be made from what comes out.
+[[nodiscard]] Scene refined_for_visibility(Scene scene, const EffectSet& effects);
+
+/// The maps of the field's components, and the tree of shadow_rays.glsl. Needs the context that made it to be current,
+/// also when destroyed.
+class GpuVisibility {
+ public:
+  /// Asks the visibility of all vertices. Errors: those of visibility_field and ray_tree; (machine): over GL's limits.
+  GpuVisibility(const Scene& scene, const Progress& progress);
+
+  /// The attributes of a material's vertices in the order of the scene's meshes: five vectors each, the weights (1 for
+  /// the mean, then the components) and the diffuse share.
+  [[nodiscard]] std::vector<glm::vec4> attributes(const Scene& scene, std::size_t material) const;
+
+  /// Binds all of it for a program.
+  void bind(const gl::Program& program) const;
+
+  /// Of the maps and the vertices' values; the reference's tree is no part of any method's cost.
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
+  /// What the components leave out of the distances, root mean square, radians.
+  [[nodiscard]] double error() const { return field_.error; }
+
+ private:
+  VisibilityField field_;
+  float offset_ = 0.0F;
+  GLint node_count_ = 0;
+  std::size_t bytes_ = 0;
+  gl::Texture maps_;
+  gl::Sampler sampler_;
+  gl::Buffer nodes_, triangles_;
+};
+
+}  // namespace footprint

@@ -1,0 +1,31 @@
+// What large bodies leave visible of the environment: signed distance functions at the vertices (Wang et al. 2009) as
+// weights of common components, docs/shadows.md.
+in vec4 visibility_weights[4];  // the first is 1, of the mean
+in vec3 visible_diffuse;        // of a Lambert surface's irradiance, the visible share
+layout(binding = 14) uniform sampler2DArray visibility_maps;
+
+// The angle from a direction of the world to the nearest edge between visible and hidden; below 0 where it is hidden.
+float signedDistance(vec3 direction) {
+  vec2 place = borderedPlace(octahedral(direction), vec2(textureSize(visibility_maps, 0).xy));
+  float distance = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    distance += dot(visibility_weights[i], textureLod(visibility_maps, vec3(place, i), 0.0));
+  }
+  return distance;
+}
+
+// The sine of a direction's elevation over the nearest edge, the surface's own horizon being one: `elevation` is that
+// over the horizon. Nothing is known of the back of a surface that is seen from both sides.
+float visibleElevation(vec3 direction, float elevation) {
+//? if double_sided
+  if (!gl_FrontFacing) return elevation;
+//? end
+  return min(elevation, sin(clamp(signedDistance(direction), -0.5 * pi, 0.5 * pi)));
+}
+
+vec3 visibleDiffuse() {
+//? if double_sided
+  if (!gl_FrontFacing) return vec3(1.0);
+//? end
+  return visible_diffuse;
+}

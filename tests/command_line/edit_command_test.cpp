@@ -1,0 +1,78 @@
+// `edit` as a user meets it: help, wrong parameters and scenes, an interrupt, a full disk.
+#include "tests/command_line/program_case.hpp"
+
+namespace footprint::test {
+namespace {
+
+// A method with few facets: what is tested here is not its picture.
+const std::string quick_method = "iwasaki_sg:j=2:directions=4:facets=500";
+
+std::vector<std::string> edit(const std::vector<std::string>& more) {
+  std::vector<std::string> arguments{"edit",     "woven_cloth", "--size", "16x16",
+                                     "--method", quick_method,  "-o",     "{}/out"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+const std::vector<Case> edit_cases{
+    {.name = "HelpOfEdit",
+     .arguments = {"edit", "--help"},
+     .output_has = {"Examples:", "footprint edit woven_cloth", "--set", "--frames", "KIND.PARAMETER=FROM:TO"}},
+    {.name = "NothingToEdit", .arguments = edit({}), .exit_code = 2, .errors_have = {"--set"}},
+    {.name = "WrongParameter",
+     .arguments = edit({"--set", "weave.warp_widht=0.1:0.5"}),
+     .exit_code = 2,
+     .errors_have = {"--set weave.warp_widht=0.1:0.5", "did you mean `warp_width`?"}},
+    {.name = "WrongKind",
+     .arguments = edit({"--set", "weeve.warp_width=0.1:0.5"}),
+     .exit_code = 2,
+     .errors_have = {"did you mean `weave`?"}},
+    {.name = "KindOfAnotherScene",
+     .arguments = edit({"--set", "noise.slope=0.1:0.5"}),
+     .exit_code = 2,
+     .errors_have = {"--set noise.slope", "small-scale geometry is weave"}},
+    {.name = "ParameterOutOfRange",
+     .arguments = edit({"--set", "weave.warp_width=0.1:5"}),
+     .exit_code = 2,
+     .errors_have = {"option warp_width", "from 0.02 to 1"}},
+    {.name = "ParameterTwice",
+     .arguments = edit({"--set", "weave.height=0.1", "--set", "weave.height=0.2"}),
+     .exit_code = 2,
+     .errors_have = {"--set weave.height", "is given twice"}},
+    {.name = "NoFramesToEdit",
+     .arguments = edit({"--set", "weave.height=0.1", "--frames", "0"}),
+     .exit_code = 2,
+     .errors_have = {"--frames"}},
+    {.name = "SceneWithoutSmallScaleGeometry",
+     .arguments = {"edit", "ribbed_plane", "--set", "weave.height=0.1", "-o", "{}/out"},
+     .exit_code = 2,
+     .errors_have = {"ribbed_plane", "[microgeometry]"}},
+    {.name = "EditByTheReference",
+     .arguments = {"edit", "woven_cloth", "--set", "weave.height=0.1", "--method", "reference", "-o", "{}/out"},
+     .exit_code = 2,
+     .errors_have = {"--method", "name a method"}},
+    {.name = "Edit",
+     .arguments = edit({"--set", "weave.warp_width=0.1:0.5", "--set", "weave.height=0.1", "--frames", "2"}),
+     .output_has = {"visibility", "BVNDF", "NDF", "amplitudes", "upload", "frame", "edits a second", "frames: "},
+     .leaves = {"out/edit.json", "out/edit.csv", "out/table.md", "out/images"}},
+    {.name = "EditByAMethodOfMaps",
+     .arguments = {"edit", "woven_cloth", "--size", "16x16", "--set", "weave.warp_width=0.1:0.5", "--frames", "2",
+                   "--method", "toksvig", "-o", "{}/out"},
+     .output_has = {"toksvig", "edits a second"},
+     .leaves = {"out/edit.json", "out/images/toksvig_0001.exr"}},
+    {.name = "FullDiskUnderEdit",
+     .arguments = edit({"--set", "weave.height=0.1", "--frames", "1"}),
+     .exit_code = 3,
+     .errors_have = {"work/out/images/", "free some space"},
+     .file_size_limit = 256},
+    {.name = "ControlCOfEdit",
+     .arguments = {"edit", "woven_cloth", "--set", "weave.warp_width=0.1:0.5", "--frames", "1000", "-o", "{}/out"},
+     .exit_code = 130,
+     .errors_have = {"interrupted"},
+     .interrupt_at = "frame 1 of 1000"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Edit, CommandLine, ::testing::ValuesIn(edit_cases), case_name);
+
+}  // namespace
+}  // namespace footprint::test

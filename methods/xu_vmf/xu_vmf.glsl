@@ -147,7 +147,7 @@ Part wholeAt(Footprint f, int own) {
 
 // A part's lobe, where `weight` of it counts.
 void addLobe(inout Effective e, Part part, float weight) {
-  if (part.r.w < least_share) return;
+  if (part.r.w < least_share || weight <= 0.0) return;
   vec3 r = part.r.xyz / part.r.w;
   float size = length(r);
   float q = max(1.0 - size - dead_zone, part.least / part.r.w);
@@ -172,10 +172,17 @@ struct Probe {
   int own;
   vec2 uv;
   float level;
-  vec4 texel[4];
-  float least[4];
-  int part[4];
+  mat4 texel;    // a column each, by its share
+  vec4 least;
+  ivec4 part;
 };
+
+// The four texels about a place come by their channels, gathered from the middle between them, where no hardware rounds
+// to others.
+mat4 texelsAbout(sampler2DArray map, vec3 middle) {
+  return transpose(mat4(textureGather(map, middle, 0), textureGather(map, middle, 1), textureGather(map, middle, 2),
+                        textureGather(map, middle, 3)));
+}
 
 Probe probeAt(int own, vec2 uv, float level) {
   Probe p;
@@ -186,38 +193,36 @@ Probe probeAt(int own, vec2 uv, float level) {
   vec2 place = uv * size - 0.5;
   vec2 corner = floor(place);
   vec2 beyond = place - corner;
-  for (int i = 0; i < 4 && level < 1.0; ++i) {
-    vec2 side = vec2(i & 1, i >> 1);
-    vec2 near = mix(1.0 - beyond, beyond, side);
-    float share = near.x * near.y * (1.0 - max(level, 0.0));
-    vec2 centre = (corner + side + 0.5) / size;
-    vec4 texel = textureLod(xu_vmf_whole, vec3(centre, own), 0.0);
-    p.texel[i] = share * texel;
-    p.part[i] = partOfCell(cellOf(texel.xyz));
-    p.least[i] = 0.0;
+  vec3 middle = vec3((corner + 1.0) / size, own);
+  vec4 share = vec4(1.0 - beyond.x, beyond.x, beyond.x, 1.0 - beyond.x) *
+               vec4(beyond.y, beyond.y, 1.0 - beyond.y, 1.0 - beyond.y);  // in the order of textureGather
+  share *= 1.0 - clamp(level, 0.0, 1.0);
+  p.texel = texelsAbout(xu_vmf_whole, middle);
+  for (int i = 0; i < 4; ++i) {
+    p.part[i] = partOfCell(cellOf(p.texel[i].xyz));
+    p.texel[i] *= share[i];
+  }
+  p.least = vec4(0.0);
 //? if storage_fp16
 //? if roughness_variation
-    p.least[i] = share * textureLod(xu_vmf_whole_guard, vec3(centre, 0), 0.0).r;
+  p.least = share * textureGather(xu_vmf_whole_guard, middle, 0);
 //? end
 //? end
-  }
   return p;
 }
 
 // One part under one probe.
 Part partAt(Probe p, int part) {
-  vec4 r = vec4(0.0);
+  float share = clamp(p.level, 0.0, 1.0);
+  vec3 place = vec3(p.uv, p.own * part_count + part);
+  vec4 r = share * textureLod(xu_vmf_parts, place, p.level - 1.0);
   float least = 0.0;
-  if (p.level > 0.0) {
-    float share = min(p.level, 1.0);
-    r = share * textureLod(xu_vmf_parts, vec3(p.uv, p.own * part_count + part), p.level - 1.0);
 //? if storage_fp16
 //? if roughness_variation
-    least = share * textureLod(xu_vmf_parts_guard, vec3(p.uv, part), p.level - 1.0).r;
+  least = share * textureLod(xu_vmf_parts_guard, place, p.level - 1.0).r;
 //? end
 //? end
-  }
-  for (int i = 0; i < 4 && p.level < 1.0; ++i) {
+  for (int i = 0; i < 4; ++i) {
     bool own = p.part[i] == part;
     r += own ? p.texel[i] : vec4(0.0);
     least += own ? p.least[i] : 0.0;
@@ -247,7 +252,8 @@ float unityOf(Part part, float threshold) {
 }
 
 // Loops run over the layers that the map has: a count that the compiler does not know, so that it unrolls nothing and
-// compiles in a fraction of the time.
+// compiles in a fraction of the time. They ask at their end: a software renderer runs a body that is asked for first
+// once more than needed.
 void addParts(inout Effective e, Footprint f, int own, float weight) {
   int layers = textureSize(xu_vmf_parts, 0).z / ownLobeCount();
 //? if not anisotropic
@@ -255,7 +261,8 @@ void addParts(inout Effective e, Footprint f, int own, float weight) {
 //? end
 //? if j_adaptive
   // A coarse cell is the sum of its two fine ones, so that it needs no layer of its own.
-  for (int i = 0; i < layers; i += 2) {
+  int i = 0;
+  do {
 //? if anisotropic
     Part first = partUnder(f, own, i), second = partUnder(f, own, i + 1);
 //? else
@@ -263,18 +270,29 @@ void addParts(inout Effective e, Footprint f, int own, float weight) {
 //? end
     Part both = sumOf(first, second);
     float unity = unityOf(both, option_eps1);
-    if (unity > 0.0) addLobe(e, both, weight * unity);
-    if (unity < 1.0) {
-      addLobe(e, first, weight * (1.0 - unity));
-      addLobe(e, second, weight * (1.0 - unity));
+//? if thresholds_blended
+    addLobe(e, both, weight * unity);
+    addLobe(e, first, weight * (1.0 - unity));
+    addLobe(e, second, weight * (1.0 - unity));
+//? else
+    if (unity > 0.0) {
+      first = both;
+      second.r.w = 0.0;
     }
-  }
-//? else
-//? if anisotropic
-  for (int i = 0; i < layers; ++i) addLobe(e, partUnder(f, own, i), weight);
-//? else
-  for (int i = 0; i < layers; ++i) addLobe(e, partAt(probe, i), weight);
+    addLobe(e, first, weight);
+    addLobe(e, second, weight);
 //? end
+    i += 2;
+  } while (i < layers);
+//? else
+  int i = 0;
+  do {
+//? if anisotropic
+    addLobe(e, partUnder(f, own, i), weight);
+//? else
+    addLobe(e, partAt(probe, i), weight);
+//? end
+  } while (++i < layers);
 //? end
 }
 //? end
@@ -291,7 +309,7 @@ void addLobes(inout Effective e, Footprint f, int own) {
 //? if j_adaptive
   Part whole = wholeAt(f, own);
   float unity = unityOf(whole, option_eps0);
-  if (unity > 0.0) addLobe(e, whole, unity);
+  addLobe(e, whole, unity);
   if (unity < 1.0 && whole.r.w >= least_share) addParts(e, f, own, 1.0 - unity);
 //? else
   addParts(e, f, own, 1.0);
@@ -304,38 +322,46 @@ void addLobes(inout Effective e, Footprint f, int own) {
 // The lobes that came of one of the facets' own, from `first` on: shares sum to one, amounts to its weight.
 void weigh(inout Effective e, int first, float weight) {
   float covered = 0.0;
-  for (int i = first; i < e.count; ++i) covered += e.share[i];
-  for (int i = first; i < e.count; ++i) {
+  int i = first;
+  do {
+    covered += e.share[i];
+  } while (++i < e.count);
+  i = first;
+  do {
     e.share[i] /= covered;
 //? if variant_corrected
     e.amount[i] = weight * e.share[i];
 //? else
     e.amount[i] *= weight;
 //? end
-  }
+  } while (++i < e.count);
+}
+
+void addOwnLobe(inout Effective e, Footprints f, int k) {
+  OwnLobe own = ownLobe(k);
+  int first = e.count;
+//? if texture_arrays
+//? if not roughness_variation
+  facet_shortfall = shortfallOf(kappaOfLobe(own.parameter));
+//? end
+  addLobes(e, placeOf(f), k);
+//? end
+  if (e.count == first) addFlat(e, own);
+  weigh(e, first, own.weight);
 }
 
 Effective effective(Footprints f) {
   Effective e;
   e.count = 0;
-  for (int k = 0; k < ownLobeCount(); ++k) {
-    OwnLobe own = ownLobe(k);
-    int first = e.count;
-//? if texture_arrays
-//? if not roughness_variation
-    facet_shortfall = shortfallOf(kappaOfLobe(own.parameter));
-//? end
-    addLobes(e, placeOf(f), k);
-//? end
-    if (e.count == first) addFlat(e, own);
-    weigh(e, first, own.weight);
-  }
 //? if multi_lobe
+  for (int k = 0; k < ownLobeCount(); ++k) addOwnLobe(e, f, k);
   e.normal = vec3(0.0, 0.0, 1.0);
 //? if texture_arrays
   vec4 normals = fetch(xu_vmf_whole, facet_lobe_count, placeOf(f));
   if (normals.w >= least_share) e.normal = axisOf(normals.xyz / normals.w);
 //? end
+//? else
+  addOwnLobe(e, f, 0);
 //? end
   return e;
 }
@@ -353,9 +379,10 @@ vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
   if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
   vec3 h = halfVector(wi, wo);
   float sum = 0.0;
-  for (int i = 0; i < e.count; ++i) {
+  int i = 0;
+  do {
     sum += e.amount[i] * densityOf(e, i, h) * geometryFactor(e.lobe[i], geometryAxis(e, i), h, wi, wo);
-  }
+  } while (++i < e.count);
   return fresnelTerm(f0, wi, wo) * sum;
 }
 
@@ -368,7 +395,10 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
   }
 //? end
   vec3 sum = vec3(0.0);
-  for (int i = 0; i < e.count; ++i) sum += e.share[i] * e.cosine[i] * lambert(e.mean[i], albedo, f0, wi, wo);
+  int i = 0;
+  do {
+    sum += e.share[i] * e.cosine[i] * lambert(e.mean[i], albedo, f0, wi, wo);
+  } while (++i < e.count);
   return sum;
 }
 //? end

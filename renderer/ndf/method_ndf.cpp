@@ -22,6 +22,7 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, int pr
   variant.effects = scene.effects() & baked.method->info().honours;
   variant.brdf = scene.brdf();
   variant.max_probes = probes;
+  variant.facet_lobes = scene.facet_lobes();
   variant.surface_coordinates = baked.materials.front().surface_coordinates.has_value();
   return variant;
 }

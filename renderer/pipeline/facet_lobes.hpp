@@ -13,8 +13,8 @@ namespace footprint {
 /// turnedWithNormal in facet_lobes.glsl.
 [[nodiscard]] glm::dvec3 turned_with_normal(const glm::dvec3& axis, const glm::dvec3& normal);
 
-/// Slope variance per axis of a material's lobes about their own axes, by weight; of the one lobe about the normal where
-/// it has no others.
+/// Slope variance per axis of a material's lobes about their own axes, by weight; of the one lobe about the normal
+/// where it has no others.
 [[nodiscard]] double mean_lobe_variance(const Material& material);
 
 /// The std140 members of surface_material.glsl that the effect `multi_lobe` adds: the number of lobes, then all

@@ -12,8 +12,8 @@ class FrameRenderer {
   FrameRenderer(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method, const glm::ivec2& size,
                 const ProgramSettings& settings, int tile_edge = 0);
 
-  /// Runs the method's frame build, where one is due, and draws a view; the pixels stay on the GPU. What a frame costs is the time of this
-  /// call up to glFinish.
+  /// Runs the method's frame build, where one is due, and draws a view; the pixels stay on the GPU. What a frame costs
+  /// is the time of this call up to glFinish.
   void draw(const View& view) const;
 
   /// Builds, draws and reads: RGBA, linear radiance and coverage, row 0 at the top.

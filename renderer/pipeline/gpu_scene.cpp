@@ -102,6 +102,12 @@ void add_attribute(GLuint array, GLuint location, GLint size, std::size_t offset
   gl::api().VertexArrayAttribBinding(array, location, binding);
 }
 
+std::size_t most_lobes_of(std::span<const Material> materials) {
+  std::size_t most = 1;
+  for (const Material& material : materials) most = std::max(most, material.lobes.size());
+  return most;
+}
+
 void count_in(std::uint64_t& hash, std::span<const std::byte> bytes) { hash = fnv1a(bytes, hash); }
 
 // All triangles of a material in one draw call, counted into `content`.
@@ -202,7 +208,10 @@ GpuTexture upload(const PrefilteredTexture& texture) {
 
 GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects,
                    const Progress& progress)
-    : context_(&context), effects_(effects), brdf_(scene.materials.front().brdf) {
+    : context_(&context),
+      effects_(effects),
+      brdf_(scene.materials.front().brdf),
+      facet_lobes_(most_lobes_of(scene.materials)) {
   for (const Material& material : scene.materials) {
     if (material.brdf != brdf_) {
       throw Error(ErrorKind::usage, scene.source,
@@ -269,6 +278,7 @@ void GpuScene::update(const Scene& scene) {
     throw Error(ErrorKind::usage, scene.source, fmt::format("it has other {} than the scene that is drawn", what),
                 "set it up anew");
   };
+  require(most_lobes_of(scene.materials) <= facet_lobes_, "lobes");
   SceneContent content;
   for (const GpuBatch& batch : batches_) {
     require(batch.material < scene.materials.size(), "materials");

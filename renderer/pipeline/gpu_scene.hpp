@@ -87,8 +87,9 @@ class GpuScene {
   GpuScene(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects,
            const Progress& progress = no_progress);
 
-  /// Takes over vertices, lights and the constants of materials as `scene` has them: the next frame of what moves. Maps,
-  /// environment and base BRDF stay. Errors (usage): another number of materials, vertices or lights of a kind than before.
+  /// Takes over vertices, lights and the constants of materials as `scene` has them: the next frame of what moves.
+  /// Maps, environment and base BRDF stay. Errors (usage): another number of materials, vertices or lights of a kind
+  /// than before.
   void update(const Scene& scene);
   [[nodiscard]] const SceneContent& content() const { return content_; }
 
@@ -118,6 +119,8 @@ class GpuScene {
     std::size_t shadow_maps = 0;
   };
   [[nodiscard]] const LightCounts& light_counts() const { return light_counts_; }
+  /// The most lobes that a facet of any material has, at least 1.
+  [[nodiscard]] std::size_t facet_lobes() const { return facet_lobes_; }
 
  private:
   const gl::ContextInfo* context_;
@@ -128,6 +131,7 @@ class GpuScene {
   std::vector<GpuBatch> batches_;
   gl::Buffer point_lights_, spot_lights_, directional_lights_;
   LightCounts light_counts_;
+  std::size_t facet_lobes_ = 1;
   std::optional<GpuEnvironment> environment_;
   std::optional<GpuVisibility> visibility_;
   SamplerCache samplers_;

@@ -306,8 +306,10 @@ std::string shared_functions(const ShaderFlags& flags) {
   return text;
 }
 
-std::string material_block(const ShaderFlags& flags) {
-  return select_text(embedded::surface_material_glsl, flags, "surface_material.glsl");
+std::string material_block(const ShaderFlags& flags, std::size_t facet_lobes) {
+  const std::string room =
+      flags.contains("multi_lobe") ? fmt::format("const int most_facet_lobes = {};\n", facet_lobes) : "";
+  return room + select_text(embedded::surface_material_glsl, flags, "surface_material.glsl");
 }
 
 std::string vertex_shader(const ShaderVariant& variant) {
@@ -331,7 +333,7 @@ std::string method_program(const ShaderVariant& variant, const Module& module, c
   std::string text = fmt::format("{}#line {}\n", version_line, first_shared_line) + first;
   if (variant.max_probes > 1) text += fmt::format("const float max_probes = {}.0;\n", variant.max_probes);
   text += number_options(options) + declarations(variant.effects, prefiltered);
-  text += material_block(flags) + shared_functions(flags);
+  text += material_block(flags, variant.facet_lobes) + shared_functions(flags);
   constexpr std::string_view split = "//# module\n";
   const std::size_t place = pass.find(split);
   text += pass.substr(0, place);
@@ -365,7 +367,8 @@ std::string frame_build_shader(const ShaderVariant& variant, std::string_view pa
   ShaderFlags flags = shader_flags(variant, options);
   flags.insert(own.begin(), own.end());
   return fmt::format("{}#line {}\n", version_line, first_shared_line) + number_options(options) +
-         material_block(flags) + shared_functions(flags) + select_text(pass, flags, pass_name, true);
+         material_block(flags, variant.facet_lobes) + shared_functions(flags) +
+         select_text(pass, flags, pass_name, true);
 }
 
 std::string shadow_vertex_shader(const EffectSet& effects) {

@@ -31,6 +31,7 @@ struct ShaderVariant {
   bool shared_coordinates = false;   ///< every map of the scene is looked up at one place
   bool surface_coordinates = false;  ///< the method has coordinates of its own (Prefiltered::surface_coordinates)
   bool environment_sampled = false;  ///< the module draws directions itself, as the reference does, and gives no lobes
+  std::size_t facet_lobes = most_facet_lobes;  ///< room for so many a material: what has less compiles faster
   std::size_t point_lights = 0, spot_lights = 0, directional_lights = 0;
   std::size_t shadow_maps = 0;
 };
@@ -60,8 +61,9 @@ inline constexpr int first_shared_line = 10001;
 /// The environment's textures in the order of their units; none without its light.
 [[nodiscard]] std::vector<std::string> environment_texture_names(const ShaderVariant& variant);
 
-/// The material's uniform block, in front of the shared functions: with `multi_lobe` they read it.
-[[nodiscard]] std::string material_block(const ShaderFlags& flags);
+/// The material's uniform block, in front of the shared functions: with `multi_lobe` they read it, and it has room for
+/// `facet_lobes`.
+[[nodiscard]] std::string material_block(const ShaderFlags& flags, std::size_t facet_lobes = most_facet_lobes);
 
 /// The lobes, base BRDF terms and footprint functions alone, for programs that evaluate a module outside of a frame.
 [[nodiscard]] std::string shared_functions(const ShaderFlags& flags);

@@ -41,6 +41,7 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
           .shared_coordinates = scene.shared_coordinates(),
           .surface_coordinates = baked.materials.front().surface_coordinates.has_value(),
           .environment_sampled = draws_directions(*baked.method, settings),
+          .facet_lobes = scene.facet_lobes(),
           .point_lights = scene.light_counts().point,
           .spot_lights = scene.light_counts().spot,
           .directional_lights = scene.light_counts().directional,
@@ -147,8 +148,9 @@ BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scen
 GpuMethod::GpuMethod(const GpuScene& scene, const BakedMethod& baked)
     : baked_(&baked),
       scene_(&scene),
-      build_(baked.method->frame_build({.effects = effects_of(scene, *baked.method), .brdf = scene.brdf()},
-                                       baked.options)) {
+      build_(baked.method->frame_build(
+          {.effects = effects_of(scene, *baked.method), .brdf = scene.brdf(), .facet_lobes = scene.facet_lobes()},
+          baked.options)) {
   for (const GpuBatch& batch : scene.batches()) {
     const Prefiltered& prefiltered = baked.materials.at(batch.material);
     PerBatch part;

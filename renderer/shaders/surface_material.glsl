@@ -1,6 +1,5 @@
 // What is constant over a material: factors, the lobe or lobes, and where each map is looked up.
 //? if multi_lobe
-const int most_facet_lobes = 8;
 struct FacetLobe {
   vec3 axis;  // z is the facet's normal
   float parameter;

@@ -99,7 +99,7 @@ std::vector<Case> surfaces_in_scenes() {
       row("FractionsOfTexels", {"scene.toml:3: ", "`resolution`", "whole number"}, bumps + "resolution = 64.5\n"),
       row("TexelsInWords", {"scene.toml:3: ", "`resolution`", "must be a number"}, bumps + "resolution = \"big\"\n"),
       row("NegativeSeedInScene", {"scene.toml:3: ", "`seed`"}, bumps + "seed = -1\n"),
-      row("SurfaceAndPlane", {"scene.toml:1: ", "only one"}, bumps + "[plane]\n"),
+      row("SurfaceAndPlane", {"scene.toml:3: ", "`plane` excludes"}, bumps + "[plane]\n"),
   };
 }
 

@@ -94,7 +94,7 @@ class Fournier final : public Method {
                        "pixel sums up to 8 times as many.",
                    .integer = true},
                   peak_storage_option()},
-      .honours = map_effects_but({Effect::normal_layers, Effect::environment_light}),
+      .honours = map_effects_but({Effect::normal_layers}),
       .slow_precompute = true};
 };
 

@@ -5,7 +5,12 @@ struct Effective {
   Footprint footprint;
   float variance;  // the base lobe's slope variance per axis
   vec3 mean;       // of the normals, for the diffuse term
+  float total;     // under an environment: the weight of all peaks, below 1 where texels have no normal
 };
+
+//? if environment_light
+float weightOfPeaks(Footprint f);
+//? end
 
 Effective effective(Footprints f) {
   Effective e;
@@ -21,6 +26,11 @@ Effective effective(Footprints f) {
   e.variance = deviation * deviation;
 //? else
   e.variance = lobeVariance(lobe_cutoff.x);
+//? end
+//? if environment_light
+  e.total = weightOfPeaks(f.normal);
+//? else
+  e.total = 1.0;
 //? end
   return e;
 }
@@ -82,3 +92,50 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
 //? end
 
 float ndf(Effective e, vec3 h) { return sumOfPeaks(e, h, false, h, h); }
+
+//? if environment_light
+Facets upFacets(Effective e) { return spreadFacets(vec3(0.0, 0.0, 1.0), e.variance, 0.0); }
+
+//? if normal_variation
+// Peak `number` of a texel; of weight 0 where it has none.
+vec4 peakOrNone(FootprintTexel texel, int number) {
+  bool there = texel.weight > 0.0 && (number == 0 || texel.level >= 0.5);
+  return there ? peakOf(texel, number) : vec4(0.0);
+}
+
+float weightOfPeaks(Footprint f) {
+  float total = 0.0;
+  int texels = footprintTexelCount(fournier_first, f);
+  for (int t = 0; t < texels; ++t) {
+    FootprintTexel texel = footprintTexel(fournier_first, f, t);
+    for (int i = 0; i < int(option_peaks); ++i) total += texel.weight * max(peakOrNone(texel, i).w, 0.0);
+  }
+  return total;
+}
+
+int lobeCount(Effective e) {
+  if (e.total <= 0.0) return facetLobeCount();
+  return facetLobeCount() * int(option_peaks) * footprintTexelCount(fournier_first, e.footprint);
+}
+
+NormalLobe normalLobe(Effective e, int i) {
+  int k = i % facetLobeCount();
+  if (e.total <= 0.0) return facetNormalLobe(upFacets(e), k, 1.0);
+  int number = i / facetLobeCount();
+  FootprintTexel texel = footprintTexel(fournier_first, e.footprint, number / int(option_peaks));
+  vec4 peak = peakOrNone(texel, number % int(option_peaks));
+  Facets facets = spreadFacets(directionFromDisc(peak.xy), e.variance, peak.z * peak.z);
+  return facetNormalLobe(facets, k, texel.weight * max(peak.w, 0.0) / e.total);
+}
+//? else
+float weightOfPeaks(Footprint f) { return 1.0; }
+int lobeCount(Effective e) { return facetLobeCount(); }
+NormalLobe normalLobe(Effective e, int i) { return facetNormalLobe(upFacets(e), i, 1.0); }
+//? end
+
+float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
+  return geometryFactor(lobe.base, lobe.normal, h, wi, wo);
+}
+
+vec3 meanNormal(Effective e) { return e.mean; }
+//? end

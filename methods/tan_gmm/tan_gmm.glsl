@@ -243,13 +243,40 @@ float ndf(Effective e, vec3 h) {
 }
 
 //? if environment_light
-int lobeCount(Effective e) { return components; }
+int lobeCount(Effective e) { return components * facetLobeCount(); }
 
-NormalLobe normalLobe(Effective e, int i) {
 //? if lobe_gaussian
-  // The round lobe of the solid angle above the Gaussian's area of the disc.
-  float width = e.width[i];
-  return vmfNormalLobe(e.mean[i], max(e.mean[i].z, sqrt(width)) / width, 2.0 * pi * width * e.amount[i], e.lobe);
+// The round lobe of the solid angle above a Gaussian's area of the disc.
+NormalLobe discNormalLobe(vec3 axis, float width, float amount, float base) {
+  return vmfNormalLobe(axis, max(axis.z, sqrt(width)) / width, 2.0 * pi * width * amount, base);
+}
+//? end
+
+//? if multi_lobe
+NormalLobe facetLobeOfComponent(Effective e, int i, int k) {
+  vec3 axis = turnedWithNormal(facet_lobes[k].axis, e.mean[i]);
+//? if lobe_gaussian
+  bool there = axis.z > 0.0 && e.amount[i] > 0.0;
+  float base = clamp(facet_lobes[k].variance, 1e-6, 4.0);
+  float width = widthOverDisc(e.spread[i], base, axis.z);
+  float amount = there ? amountOverDisc(e.share[i], axis.xy, width, axis.z, base) : 0.0;
+  NormalLobe lobe = discNormalLobe(axis, width, facet_lobes[k].weight * amount, facet_lobes[k].parameter);
+//? else
+  NormalLobe lobe = baseNormalLobe(axis, widenedLobe(k, e.spread[i]), facet_lobes[k].weight * e.amount[i]);
+  lobe.base = facet_lobes[k].parameter;
+//? end
+  lobe.normal = e.mean[i];
+  return lobe;
+}
+//? end
+
+NormalLobe normalLobe(Effective e, int number) {
+  int i = number / facetLobeCount();
+//? if multi_lobe
+  if (facet_lobe_count > 0) return facetLobeOfComponent(e, i, number % facet_lobe_count);
+//? end
+//? if lobe_gaussian
+  return discNormalLobe(e.mean[i], e.width[i], e.amount[i], e.lobe);
 //? else
   NormalLobe lobe = baseNormalLobe(e.mean[i], e.width[i], e.amount[i]);
   lobe.base = e.lobe;
@@ -258,7 +285,7 @@ NormalLobe normalLobe(Effective e, int i) {
 }
 
 float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
-  return geometryFactor(lobe.base, lobe.axis, h, wi, wo);
+  return geometryFactor(lobe.base, lobe.normal, h, wi, wo);
 }
 
 vec3 meanNormal(Effective e) {

@@ -147,7 +147,7 @@ TEST(EnvironmentLight, VisibleLobesAreTheFacetsThatFaceTheViewer) {
     }
   }
   const auto visible = evaluate_glsl(functions_of(NormalDistribution::vmf),
-                                     "VisibleLobe v = visibleLobe(NormalLobe(vec3(0, 0, 1), a.w, 1.0, 1.0, false), "
+                                     "VisibleLobe v = visibleLobe(NormalLobe(vec3(0, 0, 1), a.w, 1.0, 1.0, false, vec3(0, 0, 1)), "
                                      "a.xyz);\nreturn vec4(v.axis, v.area);",
                                      inputs);
   for (std::size_t i = 0; i < inputs.size(); ++i) {

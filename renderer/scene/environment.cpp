@@ -32,6 +32,7 @@ std::vector<Overlap> overlaps(const std::vector<double>& source, const std::vect
 
 std::vector<double> column_edges(int width) {
   std::vector<double> edges;
+  edges.reserve(static_cast<std::size_t>(width) + 1);
   for (int i = 0; i <= width; ++i) edges.push_back(static_cast<double>(i) / width);
   return edges;
 }
@@ -39,6 +40,7 @@ std::vector<double> column_edges(int width) {
 // In -cos theta, in which equal lengths are equal solid angles.
 std::vector<double> row_edges(int height) {
   std::vector<double> edges;
+  edges.reserve(static_cast<std::size_t>(height) + 1);
   for (int i = 0; i <= height; ++i) edges.push_back(-std::cos(pi * i / height));
   return edges;
 }
@@ -66,6 +68,7 @@ glm::vec3 environment_radiance(const Environment& environment, const glm::dvec3&
 
 std::vector<double> row_solid_angles(int width, int height) {
   std::vector<double> out;
+  out.reserve(static_cast<std::size_t>(height));
   // cos a - cos b as a product: near the poles the difference would cancel.
   for (int row = 0; row < height; ++row)
     out.push_back(2.0 * pi / width * 2.0 * std::sin(pi * (row + 0.5) / height) * std::sin(0.5 * pi / height));

@@ -1,18 +1,8 @@
 // For environment light, the lobes of a module whose Effective holds its NDF as `facets`.
-//? if multi_lobe
-int lobeCount(Effective e) { return max(facet_lobe_count, 1); }
+int lobeCount(Effective e) { return facetLobeCount(); }
 
-NormalLobe normalLobe(Effective e, int i) {
-  if (facet_lobe_count == 0) return baseNormalLobe(e.facets.normal, e.facets.lobe, 1.0);
-  vec3 axis = turnedWithNormal(facet_lobes[i].axis, e.facets.normal);
-  return baseNormalLobe(axis, widenedLobe(i, e.facets.spread), facet_lobes[i].weight);
-}
-//? else
-int lobeCount(Effective e) { return 1; }
-
-NormalLobe normalLobe(Effective e, int i) { return baseNormalLobe(e.facets.normal, e.facets.lobe, 1.0); }
-//? end
+NormalLobe normalLobe(Effective e, int i) { return facetNormalLobe(e.facets, i, 1.0); }
 
 float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
-  return geometryFactor(lobe.base, e.facets.normal, h, wi, wo);
+  return geometryFactor(lobe.base, lobe.normal, h, wi, wo);
 }

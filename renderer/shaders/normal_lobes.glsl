@@ -9,6 +9,7 @@ struct NormalLobe {
   float weight;     // the lobe's integral of D(h) (axis.h): what its facets cover seen along its axis
   float base;       // parameter of the base lobe that the geometry factor takes for it
   bool tailed;      // with GGX's tail: two Gaussians stand for it, not one
+  vec3 normal;      // of the facets, for the geometry factor: the axis, but for facets with lobes about other axes
 };
 
 // The mean of axis.h over a vMF lobe: coth kappa - 1 / kappa.
@@ -20,22 +21,38 @@ float meanCosine(float kappa) {
 
 // A von Mises-Fisher lobe that holds `share` of the footprint.
 NormalLobe vmfNormalLobe(vec3 axis, float kappa, float share, float base) {
-  return NormalLobe(axis, max(kappa, 1e-3), share * meanCosine(kappa), base, false);
+  return NormalLobe(axis, max(kappa, 1e-3), share * meanCosine(kappa), base, false, axis);
 }
 
 // The base lobe about an axis that holds `share` of the footprint. The widths are those of the lobe near its peak; a
 // microfacet lobe's integral of D(h) (axis.h) is one, a Blinn-Phong lobe's (s + 1) / (s + 2).
 NormalLobe baseNormalLobe(vec3 axis, float lobe, float share) {
 //? if distribution_blinn_phong
-  return NormalLobe(axis, lobe + 1.0, share * (lobe + 1.0) / (lobe + 2.0), lobe, false);
+  return NormalLobe(axis, lobe + 1.0, share * (lobe + 1.0) / (lobe + 2.0), lobe, false, axis);
 //? end
 //? if distribution_vmf
   return vmfNormalLobe(axis, lobe, share, lobe);
 //? end
 //? if distribution_beckmann
-  return NormalLobe(axis, 2.0 / (lobe * lobe), share, lobe, false);
+  return NormalLobe(axis, 2.0 / (lobe * lobe), share, lobe, false, axis);
 //? end
 //? if distribution_ggx
-  return NormalLobe(axis, 2.0 / (lobe * lobe), share, lobe, true);
+  return NormalLobe(axis, 2.0 / (lobe * lobe), share, lobe, true, axis);
 //? end
 }
+
+// The lobes of facets that hold `share` of the footprint.
+//? if multi_lobe
+int facetLobeCount() { return max(facet_lobe_count, 1); }
+
+NormalLobe facetNormalLobe(Facets f, int k, float share) {
+  if (facet_lobe_count == 0) return baseNormalLobe(f.normal, f.lobe, share);
+  vec3 axis = turnedWithNormal(facet_lobes[k].axis, f.normal);
+  NormalLobe lobe = baseNormalLobe(axis, widenedLobe(k, f.spread), share * facet_lobes[k].weight);
+  lobe.normal = f.normal;
+  return lobe;
+}
+//? else
+int facetLobeCount() { return 1; }
+NormalLobe facetNormalLobe(Facets f, int k, float share) { return baseNormalLobe(f.normal, f.lobe, share); }
+//? end

@@ -17,7 +17,11 @@ namespace footprint::bench {
 std::optional<Scene> load_bench_scene(const std::string& name) {
   const SceneLibrary library{.folder = FOOTPRINT_SCENES_FOLDER, .surfaces = all_surfaces()};
   if (!name.empty()) return load_scene(name, library);
-  if (std::filesystem::exists(FOOTPRINT_BENCH_MODEL)) return load_scene(FOOTPRINT_BENCH_MODEL, library);
+  if (std::filesystem::exists(FOOTPRINT_BENCH_MODEL)) {
+    Scene scene = load_scene(FOOTPRINT_BENCH_MODEL, library);
+    scene.shadows.cast = false;  // the bare shader has none: what they cost is told apart (docs/performance.md)
+    return scene;
+  }
   (void)std::fprintf(stderr, "footprint_bench: no frames are timed: %s is not there (install assimp-testmodels)\n",
                      FOOTPRINT_BENCH_MODEL);
   return {};

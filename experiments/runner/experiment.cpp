@@ -302,7 +302,8 @@ std::vector<const Quantity*> quantities_called(const std::string& name, const Ex
 }
 
 NamedQuantity read_quantity(const TomlTable& table, const Experiment& experiment) {
-  NamedQuantity named{required_word(table, "name"), required_word(table, "figure"), {}, table.word("material").value_or("")};
+  NamedQuantity named{
+      required_word(table, "name"), required_word(table, "figure"), {}, table.word("material").value_or("")};
   if (std::ranges::find(experiment.quantities, named.name, &NamedQuantity::name) != experiment.quantities.end()) {
     throw table.error_at("name", fmt::format("is `{:.80}` as of another quantity", named.name), "name it otherwise");
   }

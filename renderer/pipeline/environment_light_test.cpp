@@ -146,10 +146,11 @@ TEST(EnvironmentLight, VisibleLobesAreTheFacetsThatFaceTheViewer) {
                      vmf_mean({0, 0, 1}, kappa, [&](const glm::dvec3& h) { return h.z * facing(h); }))));
     }
   }
-  const auto visible = evaluate_glsl(functions_of(NormalDistribution::vmf),
-                                     "VisibleLobe v = visibleLobe(NormalLobe(vec3(0, 0, 1), a.w, 1.0, 1.0, false, vec3(0, 0, 1)), "
-                                     "a.xyz);\nreturn vec4(v.axis, v.area);",
-                                     inputs);
+  const auto visible =
+      evaluate_glsl(functions_of(NormalDistribution::vmf),
+                    "VisibleLobe v = visibleLobe(NormalLobe(vec3(0, 0, 1), a.w, 1.0, 1.0, false, vec3(0, 0, 1)), "
+                    "a.xyz);\nreturn vec4(v.axis, v.area);",
+                    inputs);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     EXPECT_NEAR(visible[i].w, area[i], 0.035 * area[i] + 2e-3) << i;
     EXPECT_LT(glm::length(glm::dvec3(glm::vec3(visible[i])) - mean[i]), 0.02) << i;

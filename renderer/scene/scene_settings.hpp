@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "renderer/scene/camera.hpp"
-#include "renderer/scene/part_settings.hpp"
 #include "renderer/scene/environment_settings.hpp"
+#include "renderer/scene/part_settings.hpp"
 #include "renderer/scene/scene.hpp"
 #include "renderer/scene/toml_table.hpp"
 

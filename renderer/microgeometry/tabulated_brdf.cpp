@@ -10,7 +10,9 @@ namespace {
 
 using std::numbers::pi;
 
-int cell_of(double share, int cells) { return std::clamp(static_cast<int>(share * cells), 0, cells - 1); }
+std::size_t cell_of(double share, int cells) {
+  return static_cast<std::size_t>(std::clamp(static_cast<int>(share * cells), 0, cells - 1));
+}
 
 // Cosines of both directions to the normal: wi and wo stand theta_d to either side of the half vector, in the plane
 // that phi_d turns about it.
@@ -24,10 +26,10 @@ glm::dvec2 cosines_of(const glm::dvec3& angles) {
 
 glm::vec3 TabulatedBrdf::at(double theta_h, double theta_d, double phi_d) const {
   const double turn = phi_d / pi - std::floor(phi_d / pi);
-  const int h = cell_of(std::sqrt(std::max(theta_h, 0.0) / (0.5 * pi)), theta_h_cells);
-  const int d = cell_of(theta_d / (0.5 * pi), theta_d_cells);
-  const int p = cell_of(turn, phi_d_cells);
-  return values[static_cast<std::size_t>((h * theta_d_cells + d) * phi_d_cells + p)];
+  const std::size_t h = cell_of(std::sqrt(std::max(theta_h, 0.0) / (0.5 * pi)), theta_h_cells);
+  const std::size_t d = cell_of(theta_d / (0.5 * pi), theta_d_cells);
+  const std::size_t p = cell_of(turn, phi_d_cells);
+  return values[(h * theta_d_cells + d) * phi_d_cells + p];
 }
 
 glm::vec3 TabulatedBrdf::at(const glm::dvec3& normal, const glm::dvec3& wi, const glm::dvec3& wo) const {

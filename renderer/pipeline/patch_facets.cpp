@@ -151,11 +151,11 @@ PrefilteredTexture tabulated_brdf_texture(const Material& material) {
   if (material.microgeometry && material.microgeometry->brdf) {
     const std::vector<glm::vec3>& values = material.microgeometry->brdf->values;
     constexpr int width = TabulatedBrdf::theta_d_cells, height = TabulatedBrdf::theta_h_cells;
-    for (int p = 0; p < TabulatedBrdf::phi_d_cells; ++p) {
+    for (std::size_t p = 0; p < TabulatedBrdf::phi_d_cells; ++p) {
       Image image(width, height, 3);
-      for (int i = 0; i < width * height; ++i) {
-        const glm::vec3& value = values[static_cast<std::size_t>(i * TabulatedBrdf::phi_d_cells + p)];
-        std::copy_n(&value.x, 3, image.texels.begin() + static_cast<std::ptrdiff_t>(3 * i));
+      for (std::size_t i = 0; i < image.texel_count(); ++i) {
+        const glm::vec3& value = values[i * TabulatedBrdf::phi_d_cells + p];
+        std::copy_n(&value.x, 3, &image.texels[3 * i]);
       }
       layers.push_back({std::move(image)});
     }

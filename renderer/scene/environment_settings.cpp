@@ -1,12 +1,8 @@
 // See environment_settings.hpp.
 #include "renderer/scene/environment_settings.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <cmath>
 #include <numbers>
-#include <ranges>
 
 #include "renderer/core/error.hpp"
 #include "renderer/scene/toml_table.hpp"
@@ -42,7 +38,7 @@ EnvironmentKind read_kind(const TomlTable& table) {
 void read_files(const TomlTable& table, const std::filesystem::path& folder, EnvironmentSettings& settings) {
   if (table.has("file") == table.has("files")) {
     throw table.error_at("file", "or `files` must be given, and only one of them",
-                         "name the picture, or give kind = \"constant\" or \"sky\"");
+                         R"(name the picture, or give kind = "constant" or "sky")");
   }
   const auto names = table.has("file") ? std::vector{*table.word("file")} : *table.words("files");
   for (const std::string& name : names) settings.candidates.push_back(folder / name);
@@ -65,9 +61,9 @@ Environment load_first(const EnvironmentSettings& settings, std::vector<std::str
   for (const auto& candidate : settings.candidates) {
     if (std::filesystem::exists(candidate, ignored)) return load_environment(candidate, warnings);
   }
-  const auto names =
-      settings.candidates | std::views::transform([](const std::filesystem::path& path) { return path.string(); });
-  throw Error(ErrorKind::usage, fmt::format("{}", fmt::join(names, ", ")), "there is no such environment",
+  std::string tried;
+  for (const auto& candidate : settings.candidates) tried += (tried.empty() ? "" : ", ") + candidate.string();
+  throw Error(ErrorKind::usage, tried, "there is no such environment",
               settings.package.empty() ? "check the path" : "install the package " + settings.package);
 }
 

@@ -33,15 +33,19 @@ const int most_lobes = most_of_one * most_facet_lobes;
 const int most_lobes = most_of_one;
 //? end
 
-// Lobes 0 to count - 1.
+// A pixel's lobes, 0 to count - 1. They are no member of Effective: functions take structs by value, and a software
+// renderer copies the whole of an array whose index it does not know, at every call.
+struct Lobe {
+  vec3 mean;
+  float kappa;
+  float share;   // of the footprint; all sum to one
+  float amount;  // what the lobe adds with
+  float cosine;  // length of the mean of the unit normals
+};
+Lobe lobes[most_lobes];
+
 struct Effective {
   int count;
-  vec3 mean[most_lobes];
-  float kappa[most_lobes];
-  float lobe[most_lobes];    // the base lobe of that width
-  float share[most_lobes];   // of the footprint; all sum to one
-  float amount[most_lobes];  // what the lobe adds with
-  float cosine[most_lobes];  // length of the mean of the unit normals
 //? if multi_lobe
   vec3 normal;  // mean of the unit normals of facets with lobes of their own axes
 //? end
@@ -56,14 +60,14 @@ const float least_share = 1e-4;
 //? end
 //? end
 
-float densityOf(Effective e, int i, vec3 h) {
+float densityOf(Lobe lobe, vec3 h) {
 //? if lobe_base
-  return lobeDensity(e.lobe[i], e.mean[i], h);
+  return lobeDensity(lobeOfKappa(lobe.kappa), lobe.mean, h);
 //? else
 //? if distribution_vmf
-  return lobeDensity(e.kappa[i], e.mean[i], h);
+  return lobeDensity(lobe.kappa, lobe.mean, h);
 //? else
-  return vmfDensity(e.kappa[i], e.mean[i], h);
+  return vmfDensity(lobe.kappa, lobe.mean, h);
 //? end
 //? end
 }
@@ -87,13 +91,7 @@ OwnLobe ownLobe(int k) { return OwnLobe(vec3(0.0, 0.0, 1.0), lobe_cutoff.x, 1.0)
 
 // The lobe of flat facets.
 void addFlat(inout Effective e, OwnLobe own) {
-  int i = e.count++;
-  e.mean[i] = own.axis;
-  e.lobe[i] = own.parameter;
-  e.kappa[i] = kappaOfLobe(own.parameter);
-  e.share[i] = 1.0;
-  e.amount[i] = 1.0;
-  e.cosine[i] = 1.0;
+  lobes[e.count++] = Lobe(own.axis, kappaOfLobe(own.parameter), 1.0, 1.0, 1.0);
 }
 
 //? if texture_arrays
@@ -151,17 +149,17 @@ void addLobe(inout Effective e, Part part, float weight) {
   vec3 r = part.r.xyz / part.r.w;
   float size = length(r);
   float q = max(1.0 - size - dead_zone, part.least / part.r.w);
-  int i = e.count++;
-  e.mean[i] = size < 1e-6 ? vec3(0.0, 0.0, 1.0) : axisOf(r / size);
-  e.kappa[i] = kappaOf(clamp(q, 1.0 / largest_exponent, 1.0));
-  e.lobe[i] = lobeOfKappa(e.kappa[i]);
-  e.share[i] = weight * part.r.w;
-  e.amount[i] = weight;  // Algorithm 1 as printed adds every lobe whole, whatever it covers
+  Lobe lobe;
+  lobe.mean = size < 1e-6 ? vec3(0.0, 0.0, 1.0) : axisOf(r / size);
+  lobe.kappa = kappaOf(clamp(q, 1.0 / largest_exponent, 1.0));
+  lobe.share = weight * part.r.w;
+  lobe.amount = weight;  // Algorithm 1 as printed adds every lobe whole, whatever it covers
 //? if roughness_variation
-  e.cosine[i] = 1.0;  // what of |r| is the normals' and what the lobes' is not known
+  lobe.cosine = 1.0;  // what of |r| is the normals' and what the lobes' is not known
 //? else
-  e.cosine[i] = min(size / max(1.0 - part.least / part.r.w, 1e-6), 1.0);  // over |r| of a single facet
+  lobe.cosine = min(size / max(1.0 - part.least / part.r.w, 1e-6), 1.0);  // over |r| of a single facet
 //? end
+  lobes[e.count++] = lobe;
 }
 
 //? if sampling_frame
@@ -324,15 +322,15 @@ void weigh(inout Effective e, int first, float weight) {
   float covered = 0.0;
   int i = first;
   do {
-    covered += e.share[i];
+    covered += lobes[i].share;
   } while (++i < e.count);
   i = first;
   do {
-    e.share[i] /= covered;
+    lobes[i].share /= covered;
 //? if variant_corrected
-    e.amount[i] = weight * e.share[i];
+    lobes[i].amount = weight * lobes[i].share;
 //? else
-    e.amount[i] *= weight;
+    lobes[i].amount *= weight;
 //? end
   } while (++i < e.count);
 }
@@ -368,11 +366,11 @@ Effective effective(Footprints f) {
 
 //? if multi_lobe
 // Facets with lobes of their own axes hide each other by their normals, whatever the axes.
-vec3 geometryAxis(Effective e, int i) {
-  return facet_lobe_count > 0 ? e.normal / max(length(e.normal), 1e-6) : e.mean[i];
+vec3 geometryAxis(Effective e, vec3 mean) {
+  return facet_lobe_count > 0 ? e.normal / max(length(e.normal), 1e-6) : mean;
 }
 //? else
-vec3 geometryAxis(Effective e, int i) { return e.mean[i]; }
+vec3 geometryAxis(Effective e, vec3 mean) { return mean; }
 //? end
 
 vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
@@ -381,7 +379,9 @@ vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
   float sum = 0.0;
   int i = 0;
   do {
-    sum += e.amount[i] * densityOf(e, i, h) * geometryFactor(e.lobe[i], geometryAxis(e, i), h, wi, wo);
+    Lobe lobe = lobes[i];
+    sum += lobe.amount * densityOf(lobe, h) *
+           geometryFactor(lobeOfKappa(lobe.kappa), geometryAxis(e, lobe.mean), h, wi, wo);
   } while (++i < e.count);
   return fresnelTerm(f0, wi, wo) * sum;
 }
@@ -397,7 +397,7 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
   vec3 sum = vec3(0.0);
   int i = 0;
   do {
-    sum += e.share[i] * e.cosine[i] * lambert(e.mean[i], albedo, f0, wi, wo);
+    sum += lobes[i].share * lobes[i].cosine * lambert(lobes[i].mean, albedo, f0, wi, wo);
   } while (++i < e.count);
   return sum;
 }
@@ -405,7 +405,7 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
 
 float ndf(Effective e, vec3 h) {
   float sum = 0.0;
-  for (int i = 0; i < e.count; ++i) sum += e.amount[i] * densityOf(e, i, h);
+  for (int i = 0; i < e.count; ++i) sum += lobes[i].amount * densityOf(lobes[i], h);
   return sum;
 }
 
@@ -414,15 +414,15 @@ int lobeCount(Effective e) { return e.count; }
 
 NormalLobe normalLobe(Effective e, int i) {
 //? if lobe_base
-  return baseNormalLobe(e.mean[i], e.lobe[i], e.amount[i]);
+  return baseNormalLobe(lobes[i].mean, lobeOfKappa(lobes[i].kappa), lobes[i].amount);
 //? else
-  return vmfNormalLobe(e.mean[i], e.kappa[i], e.amount[i], e.lobe[i]);
+  return vmfNormalLobe(lobes[i].mean, lobes[i].kappa, lobes[i].amount, lobeOfKappa(lobes[i].kappa));
 //? end
 }
 
 float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
 //? if multi_lobe
-  if (facet_lobe_count > 0) return geometryFactor(lobe.base, geometryAxis(e, 0), h, wi, wo);
+  if (facet_lobe_count > 0) return geometryFactor(lobe.base, geometryAxis(e, lobe.axis), h, wi, wo);
 //? end
   return geometryFactor(lobe.base, lobe.axis, h, wi, wo);
 }
@@ -432,7 +432,7 @@ vec3 meanNormal(Effective e) {
   if (facet_lobe_count > 0) return e.normal;
 //? end
   vec3 sum = vec3(0.0);
-  for (int i = 0; i < e.count; ++i) sum += e.share[i] * e.cosine[i] * e.mean[i];
+  for (int i = 0; i < e.count; ++i) sum += lobes[i].share * lobes[i].cosine * lobes[i].mean;
   return sum;
 }
 //? end

@@ -91,6 +91,7 @@ spp = 256
 other_spp = [16, 36]
 seed = 7
 filter = "nearest"
+environment = "dense"
 [published]
 file = "paper.toml"
 figures = ["Figure 1"]
@@ -121,6 +122,7 @@ TEST_F(ExperimentFile, EveryKeyIsRead) {
   EXPECT_TRUE(std::holds_alternative<Camera>(experiment.camera));
   EXPECT_EQ(experiment.other_spp, (std::vector<int>{16, 36}));
   EXPECT_EQ(experiment.filter, ReferenceFilter::nearest);
+  EXPECT_EQ(experiment.environment, EnvironmentUse::dense);
   ASSERT_EQ(experiment.published.size(), 1U);  // that of figure 2 names a method that is not here, and is not asked for
   EXPECT_EQ(experiment.published[0].value, 0.5);
   ASSERT_EQ(experiment.footprints.size(), 1U);

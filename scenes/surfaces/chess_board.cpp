@@ -11,7 +11,7 @@ namespace {
 constexpr int squares = 8;
 
 /// Metres; the field lies a little over its frame.
-constexpr double square = 0.057, frame = 0.024, inlay = 0.0005, thickness = 0.02;
+constexpr double square = 0.057, frame = 0.024, inlay = 0.0015, thickness = 0.02;
 
 Image base_color(const SurfaceSettings& settings) {
   return fill_colors(glm::ivec2{settings.resolution}, [](const glm::dvec2& place) {

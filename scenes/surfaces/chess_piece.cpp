@@ -76,7 +76,7 @@ Mesh rook() {
     const double first = 2.0 * pi * i / merlons;
     append(mesh, block_mesh(6, [&](const Height& x, const Height& y, const Height& z) -> BentPoint {
              const Height angle = first + width * x, radius = 8.5 + 4.0 * z;
-             return {radius * sin(angle), 47.0 + 8.0 * y, radius * cos(angle)};
+             return {radius * sin(angle), 48.0 + 7.0 * y, radius * cos(angle)};
            }));
   }
   return mesh;
@@ -87,8 +87,8 @@ Mesh bishop() {
                              {{9.5, 44.0}},
                              {{9.5, 45.5}, 0.5},
                              {{6.0, 47.0}},
-                             {{6.0, 49.0}},
-                             {{1.5, 67.0}, 0.5},
+                             {{7.0, 49.0}},
+                             {{1.5, 67.0}, 0.36},
                              {{0.0, 71.7}, arc(144.8)}}));
 }
 
@@ -162,22 +162,31 @@ Mesh limb_mesh(std::span<const Rib> ribs) {
 /// The horse looks along x.
 Mesh knight() {
   Mesh mesh = turn(on_foot(15.5, {{{11.0, 14.0}, -0.3}, {{11.0, 15.5}, 0.5}, {{0.0, 15.5}}}));
-  constexpr std::array<Rib, 11> head{{{0.0, 4.0, 90.0, 10.0, 9.0},
-                                      {-1.0, 12.0, 92.0, 9.5, 8.5},
-                                      {-2.5, 20.0, 96.0, 9.0, 7.5},
-                                      {-4.0, 28.0, 94.0, 8.4, 6.6},
-                                      {-4.5, 36.0, 84.0, 7.6, 5.8},
-                                      {-3.0, 44.0, 60.0, 6.8, 5.2},
-                                      {2.0, 50.0, 10.0, 6.2, 5.0},
-                                      {8.0, 48.0, -35.0, 5.4, 4.4},
-                                      {13.0, 43.5, -45.0, 4.2, 3.6},
-                                      {17.0, 39.0, -48.0, 3.8, 3.2},
-                                      {20.0, 36.0, -48.0, 3.6, 3.0}}};
+  constexpr std::array<Rib, 11> head{{{0.0, 4.0, 90.0, 10.5, 9.5},
+                                      {-1.5, 12.0, 90.0, 10.4, 9.0},
+                                      {-3.5, 20.0, 88.0, 10.0, 8.0},
+                                      {-5.5, 28.0, 84.0, 9.4, 7.0},
+                                      {-6.0, 36.0, 80.0, 8.8, 6.2},
+                                      {-4.0, 43.5, 53.0, 8.2, 5.8},
+                                      {1.0, 47.5, 5.0, 7.8, 5.4},
+                                      {7.0, 45.5, -33.0, 6.4, 4.8},
+                                      {12.0, 41.0, -46.0, 4.8, 4.0},
+                                      {16.0, 36.5, -48.0, 4.6, 3.8},
+                                      {21.0, 31.0, -48.0, 4.8, 3.6}}};
+  constexpr std::array<Rib, 8> mane{{{-9.0, 14.0, 100.0, 3.0, 1.6},
+                                     {-10.5, 20.0, 98.0, 3.2, 1.8},
+                                     {-12.5, 28.0, 94.0, 3.6, 1.8},
+                                     {-13.5, 36.0, 84.0, 3.8, 1.8},
+                                     {-12.0, 44.0, 66.0, 3.8, 1.8},
+                                     {-7.5, 51.0, 40.0, 3.6, 1.7},
+                                     {-1.0, 54.0, 5.0, 2.6, 1.5},
+                                     {5.0, 53.0, -20.0, 1.8, 1.2}}};
   append(mesh, limb_mesh(head));
+  append(mesh, limb_mesh(mane));
   for (const double side : {-1.0, 1.0}) {
-    const std::array<Cut, 2> ear{{{{2.0, 50.0}}, {{0.0, 61.0}, 0.15}}};
+    const std::array<Cut, 2> ear{{{{2.0, 50.0}}, {{0.0, 60.0}, 0.15}}};
     Mesh cone = turned_mesh({.start = 50.0, .cuts = ear}, 16, row);
-    for (Vertex& vertex : cone.vertices) vertex.position += glm::vec3(-2.0, 0.0, 2.6 * side);
+    for (Vertex& vertex : cone.vertices) vertex.position += glm::vec3(-1.0, 0.0, 3.0 * side);
     append(mesh, cone);
   }
   return mesh;

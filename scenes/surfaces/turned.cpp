@@ -12,6 +12,9 @@ namespace {
 
 using std::numbers::pi;
 
+/// Between two rows of an arc.
+constexpr double widest_turn = pi / 10.0;
+
 /// A point of a profile as a formula.
 struct ProfilePoint {
   Height radius, height;
@@ -84,7 +87,7 @@ Mesh turned_mesh(const Profile& profile, int columns, double row) {
       const Height lift = (wave + (cut.wave - wave) * at.y) * cos(profile.waves * angle);
       return {on.radius * sin(angle), on.height + lift, on.radius * cos(angle)};
     };
-    const int rows = std::max(1, static_cast<int>(std::ceil(length / row)));
+    const int rows = static_cast<int>(std::ceil(std::max({1.0, length / row, std::abs(arc_angle(cut)) / widest_turn})));
     append(mesh, pinched_grid_mesh(columns, rows, point, [&](const glm::dvec2& place) {
              return glm::dvec2{place.x, 1.0 - (done + length * place.y) / whole};
            }));

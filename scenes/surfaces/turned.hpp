@@ -24,7 +24,8 @@ struct Profile {
 };
 
 /// The solid. Its first texture coordinate runs around it, its second down along the profile; the tangent goes around.
-/// Cuts meet in edges, and are smooth in themselves. `columns` around, and a row for every `row` of a cut's length.
+/// Cuts meet in edges, and are smooth in themselves. `columns` around, and a row for every `row` of a cut's length and
+/// every 18 degrees of its arc.
 [[nodiscard]] Mesh turned_mesh(const Profile& profile, int columns, double row);
 
 /// grid_mesh of a point as a formula of its place, without the triangles that have no area because a row of the grid

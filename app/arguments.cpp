@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <sstream>
 
 #include "app/options.hpp"
 #include "renderer/core/error.hpp"
@@ -86,6 +87,14 @@ MethodSpec parse_known_method(std::string_view option, const std::string& text) 
   const std::vector<MethodSpec> methods = parse_known_methods(text);
   if (methods.size() == 1) return methods.front();
   throw Error(ErrorKind::usage, std::string(option), fmt::format("`{}` is more than one method", text), "name one");
+}
+
+EffectSet parse_effects(std::string_view option, const std::string& text) {
+  const std::vector<std::string> names = effect_names(EffectSet{}.set());
+  EffectSet effects;
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) effects.set(parse_choice(option, word, names));
+  return effects;
 }
 
 std::filesystem::path experiments_folder() { return folder_of("FOOTPRINT_EXPERIMENTS", FOOTPRINT_EXPERIMENTS_FOLDER); }

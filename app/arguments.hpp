@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "experiments/runner/known_methods.hpp"
+#include "renderer/effects/effects.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/scene/surface.hpp"
 
@@ -59,6 +60,10 @@ void add_quiet_flag(CLI::App& command, bool& quiet);
 
 /// The one method that `option` gives; `reference` counts as one. Errors (usage): more than one, or not known.
 [[nodiscard]] MethodSpec parse_known_method(std::string_view option, const std::string& text);
+
+/// The effects that `text` names, commas between; none if it is empty. Errors (usage) name `option` and the nearest
+/// right name.
+[[nodiscard]] EffectSet parse_effects(std::string_view option, const std::string& text);
 
 /// Where the experiments that have a name lie: the environment variable FOOTPRINT_EXPERIMENTS, or the source tree's
 /// experiments/.

@@ -9,7 +9,6 @@
 #include <system_error>
 #include <utility>
 
-#include "experiments/runner/compare.hpp"
 #include "experiments/runner/known_methods.hpp"
 #include "experiments/runner/picture_files.hpp"
 #include "experiments/runner/quantities.hpp"
@@ -126,6 +125,10 @@ void read_reference(const TomlTable& table, Experiment& experiment) {
   if (const auto others = table.numbers("other_spp", 0, whole_positive)) {
     for (const double spp : *others) experiment.other_spp.push_back(whole(table, "other_spp", spp));
   }
+  if (const auto counts = table.numbers("supersampling", 0, whole_positive)) {
+    experiment.supersampling.clear();
+    for (const double spp : *counts) experiment.supersampling.push_back(whole(table, "supersampling", spp));
+  }
   experiment.seed =
       static_cast<std::uint64_t>(whole_number(table, "seed", {0, 2147483647}, static_cast<int>(experiment.seed)));
   if (const auto filter = table.word("filter")) {
@@ -167,9 +170,10 @@ void check_measures(const Expression& expression, const Experiment& experiment) 
     }
     if (is_quantity(measure.function)) check_quantity(measure, experiment);
     if (is_of_supersampling(measure.function)) {
-      if (std::ranges::find(supersampling_counts, *measure.spp) == supersampling_counts.end()) {
-        refuse(fmt::format("no {} samples are timed", *measure.spp),
-               fmt::format("timed are {}", fmt::join(supersampling_counts, ", ")));
+      if (std::ranges::find(experiment.supersampling, *measure.spp) == experiment.supersampling.end()) {
+        refuse(
+            fmt::format("no {} samples are timed", *measure.spp),
+            fmt::format("timed are [{}]: see supersampling of [reference]", fmt::join(experiment.supersampling, ", ")));
       }
     } else if (measure.spp && std::ranges::find(experiment.other_spp, *measure.spp) == experiment.other_spp.end()) {
       refuse(fmt::format("other_spp of [reference] does not have {}", *measure.spp), "add it there, or leave spp out");
@@ -438,7 +442,7 @@ Experiment read_experiment(const fs::path& file) {
   read_head(*head, experiment);
   if (const auto zoom = root.table("zoom", {"distances", "from", "to", "frames"})) read_zoom(*zoom, experiment);
   if (const auto camera = root.table("camera", camera_keys())) experiment.camera = read_camera(*camera);
-  if (const auto reference = root.table("reference", {"spp", "other_spp", "seed", "filter"})) {
+  if (const auto reference = root.table("reference", {"spp", "other_spp", "supersampling", "seed", "filter"})) {
     read_reference(*reference, experiment);
   }
   read_footprints(root, experiment);

@@ -171,6 +171,10 @@ TEST_F(ExperimentFile, WrongFilesAreRefusedAtTheirLine) {
   expect_complaint(good + "[threshold]\n\"error(direct)\" = \"low\"\n", "must be a number");
   expect_complaint(good + "[threshold]\n\"flicker(direct)\" = 1\n", "frames of a zoom");
   expect_complaint(good + "[threshold]\n\"error(direct, spp=16)\" = 1\n", "other_spp");
+  expect_complaint(
+      good + "[reference]\nsupersampling = [1, 4]\n[threshold]\n\"supersampling_time(direct, spp=16)\" = 1\n",
+      "timed are [1, 4]");
+  expect_complaint(good + "[reference]\nsupersampling = [0]\n", "not within 1");
   expect_complaint(good + "[threshold]\n\"ndf_l2(direct)\" = 1\n", "add [[ndf]]");
   expect_complaint(good + "[[ndf]]\nname = \"../a\"\nfootprint = [0, 0, 1, 1]\n", "names no folder");
   expect_complaint(good + "[[ndf]]\nname = \"a\"\nfootprint = [0, 0, 0, 1]\n", "`footprint` in [[ndf]]");

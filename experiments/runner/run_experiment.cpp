@@ -74,6 +74,7 @@ CompareSettings compare_settings(const Experiment& experiment, const RunSettings
   compare.size = experiment.size;
   compare.spp = experiment.spp;
   compare.other_spp = experiment.other_spp;
+  compare.supersampling = experiment.supersampling;
   compare.seed = experiment.seed;
   compare.filter = experiment.filter;
   compare.exposure = experiment.exposure;

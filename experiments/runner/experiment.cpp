@@ -82,6 +82,19 @@ std::vector<MethodSpec> read_methods(const TomlTable& table) {
   return at_key(table, "methods", [&] { return parse_known_methods(fmt::format("{}", fmt::join(*words, ","))); });
 }
 
+EffectSet read_without(const TomlTable& table) {
+  const std::vector<std::string> names = effect_names(EffectSet{}.set());
+  EffectSet effects;
+  for (const std::string& word : table.words("without").value_or(std::vector<std::string>())) {
+    const auto found = std::ranges::find(names, word);
+    if (found == names.end()) {
+      throw table.error_at("without", fmt::format("has `{:.80}`, which is no effect", word), suggestion(word, names));
+    }
+    effects.set(static_cast<std::size_t>(found - names.begin()));
+  }
+  return effects;
+}
+
 void read_head(const TomlTable& table, Experiment& experiment) {
   experiment.title = required_word(table, "title");
   experiment.description = table.word("description").value_or("");
@@ -94,6 +107,7 @@ void read_head(const TomlTable& table, Experiment& experiment) {
   }
   experiment.methods = read_methods(table);
   if (const auto exposure = table.number("exposure", {1e-9, 1e9})) experiment.exposure = static_cast<float>(*exposure);
+  experiment.without = read_without(table);
   experiment.anisotropy = whole_number(table, "anisotropy", {1, 16}, experiment.anisotropy);
   experiment.repeats = whole_number(table, "repeats", {1, 10000}, experiment.repeats);
 }
@@ -375,7 +389,7 @@ void read_figure(const TomlTable& table, Experiment& experiment) {
 
 // An experiment that is made of others has nothing but their names.
 std::vector<fs::path> read_members(const TomlTable& root, const TomlTable& head, const fs::path& folder) {
-  for (const char* key : {"scene", "size", "methods", "exposure", "anisotropy", "repeats"}) {
+  for (const char* key : {"scene", "size", "methods", "exposure", "without", "anisotropy", "repeats"}) {
     if (head.has(key)) throw head.error_at(key, "excludes `members`", "move it into one of them");
   }
   for (const char* key : {"zoom", "camera", "reference", "ndf", "published", "claim", "threshold", "figure"}) {
@@ -430,7 +444,7 @@ Experiment read_experiment(const fs::path& file) {
   Experiment experiment;
   experiment.name = file.stem().string();
   experiment.file = file;
-  const auto head = root.table("experiment", {"title", "description", "scene", "size", "methods", "exposure",
+  const auto head = root.table("experiment", {"title", "description", "scene", "size", "methods", "exposure", "without",
                                               "anisotropy", "repeats", "members"});
   if (!head) missing(root, "experiment");
   if (head->has("members")) {

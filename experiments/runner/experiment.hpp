@@ -91,6 +91,7 @@ struct Experiment {
   std::vector<int> supersampling{supersampling_counts.begin(), supersampling_counts.end()};
   std::uint64_t seed = 1;
   ReferenceFilter filter = ReferenceFilter::after_shading;
+  EffectSet without;  ///< effects that every method and the reference leave out
   int anisotropy = 1;
   int repeats = 9;
   std::vector<PublishedValue> published;

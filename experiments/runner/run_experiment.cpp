@@ -78,6 +78,7 @@ CompareSettings compare_settings(const Experiment& experiment, const RunSettings
   compare.seed = experiment.seed;
   compare.filter = experiment.filter;
   compare.exposure = experiment.exposure;
+  compare.without = experiment.without;
   compare.repeats = experiment.repeats;
   compare.anisotropy = experiment.anisotropy;
   compare.tile = settings.tile;

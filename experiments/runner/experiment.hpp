@@ -92,6 +92,7 @@ struct Experiment {
   std::uint64_t seed = 1;
   ReferenceFilter filter = ReferenceFilter::after_shading;
   EffectSet without;  ///< effects that every method and the reference leave out
+  EnvironmentUse environment = EnvironmentUse::sampled;
   int anisotropy = 1;
   int repeats = 9;
   std::vector<PublishedValue> published;

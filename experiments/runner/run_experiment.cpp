@@ -77,6 +77,7 @@ CompareSettings compare_settings(const Experiment& experiment, const RunSettings
   compare.supersampling = experiment.supersampling;
   compare.seed = experiment.seed;
   compare.filter = experiment.filter;
+  compare.environment = experiment.environment;
   compare.exposure = experiment.exposure;
   compare.without = experiment.without;
   compare.repeats = experiment.repeats;

@@ -18,7 +18,8 @@
 
 namespace footprint {
 
-/// Samples a pixel at which plain supersampling is measured and timed, beside the methods.
+/// Samples a pixel at which plain supersampling is measured and timed beside the methods, unless other counts are
+/// given.
 inline constexpr std::array supersampling_counts{1, 2, 4, 8, 16, 32, 64};
 
 /// What `footprint compare` is asked for.
@@ -32,6 +33,7 @@ struct CompareSettings {
   CameraSettings camera;           ///< monostate: the scene's own
   int spp = 64;                    ///< samples a pixel of the reference, 1 to 4096
   std::vector<int> other_spp;      ///< of further references that errors are measured against
+  std::vector<int> supersampling{supersampling_counts.begin(), supersampling_counts.end()};
   std::uint64_t seed = 1;
   ReferenceFilter filter = ReferenceFilter::after_shading;
   EnvironmentUse environment = EnvironmentUse::sampled;  ///< how the reference integrates one

@@ -75,6 +75,7 @@ AnimateSettings settings_from(const Arguments& arguments) {
   settings.stage.methods = parse_known_methods(arguments.methods);
   settings.stage.size = parse_optional_size(arguments.size);
   settings.stage.filter = parse_filter(arguments.reference.filter);
+  settings.stage.environment = parse_environment_use(arguments.reference.environment);
   settings.stage.anisotropy = arguments.anisotropy;
   settings.stage.tile = arguments.backend.tile;
   settings.stage.cache = cache_folder(arguments.no_cache);

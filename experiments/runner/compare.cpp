@@ -25,7 +25,6 @@
 namespace footprint {
 namespace {
 
-constexpr int curve_samples = 286;  // of its renders and timed draws: what the curve weighs beside the reference
 constexpr double scale_quantile = 0.99;
 constexpr double smallest_error_scale = 0.01;
 constexpr std::uint64_t curve_seed = 0x9e3779b97f4a7c15;  // keeps the curve's samples apart from the reference's
@@ -34,6 +33,7 @@ StageSettings stage_settings(const CompareSettings& settings) {
   return {.methods = settings.methods,
           .size = settings.size,
           .filter = settings.filter,
+          .environment = settings.environment,
           .anisotropy = settings.anisotropy,
           .tile = settings.tile,
           .without = settings.without,
@@ -103,7 +103,7 @@ class Comparison {
                timing_settings(settings), whole_.next(1, "")),
         distances_(distances_of(settings, stage_.scene())),
         parts_(whole_.next(3, ""), static_cast<double>(distances_.size()) *
-                                       (settings.spp + other_samples() + curve_samples + method_weight())) {
+                                       (settings.spp + other_samples() + curve_samples() + method_weight())) {
     require_pictures(stage_.view(1.0).size, pictures_held(settings.methods.size(), distances_.size()));
   }
 
@@ -130,6 +130,13 @@ class Comparison {
  private:
   [[nodiscard]] double other_samples() const {
     return std::accumulate(settings_.other_spp.begin(), settings_.other_spp.end(), 0.0);
+  }
+
+  // Of the renders and timed draws of plain supersampling: what it weighs beside the reference.
+  [[nodiscard]] double curve_samples() const {
+    double samples = 0.0;
+    for (const int spp : settings_.supersampling) samples += spp * (1.0 + curve_repeats(spp));
+    return samples;
   }
 
   [[nodiscard]] double method_weight() const {
@@ -175,7 +182,7 @@ class Comparison {
 
   std::vector<SupersamplingPoint> supersampling_curve(const Truth& truth, const std::string& prefix) {
     std::vector<SupersamplingPoint> curve;
-    for (const int spp : supersampling_counts) {
+    for (const int spp : settings_.supersampling) {
       const std::uint64_t seed = settings_.seed ^ (curve_seed * static_cast<std::uint64_t>(spp));
       const Supersampled picture =
           stage_.reference().render(truth.view, spp, seed, parts_.next(spp, prefix + "supersampling, "));
@@ -353,6 +360,8 @@ class Comparison {
     results_.reference.spp = settings_.spp;
     results_.reference.filter = filter_name(settings_.filter);
     results_.reference.seed = settings_.seed;
+    if (has(stage_.effects(), Effect::environment_light))
+      results_.reference.environment = environment_use_name(settings_.environment);
     results_.scene = scene_info(stage_.scene(), chosen_exposure_, results_.reference);
     add_left_out();
     add_precompute_notes();

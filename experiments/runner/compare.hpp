@@ -18,7 +18,8 @@
 
 namespace footprint {
 
-/// Samples a pixel at which plain supersampling is measured and timed, beside the methods.
+/// Samples a pixel at which plain supersampling is measured and timed beside the methods, unless other counts are
+/// given.
 inline constexpr std::array supersampling_counts{1, 2, 4, 8, 16, 32, 64};
 
 /// What `footprint compare` is asked for.
@@ -32,11 +33,13 @@ struct CompareSettings {
   CameraSettings camera;           ///< monostate: the scene's own
   int spp = 64;                    ///< samples a pixel of the reference, 1 to 4096
   std::vector<int> other_spp;      ///< of further references that errors are measured against
+  std::vector<int> supersampling{supersampling_counts.begin(), supersampling_counts.end()};
   std::uint64_t seed = 1;
   ReferenceFilter filter = ReferenceFilter::after_shading;
-  std::optional<float> exposure;  ///< none: the scene's own, else automatic
-  EffectSet without;  ///< effects that every method and the reference leave out
-  int repeats = 9;  ///< timed frames of each method and distance in each process
+  EnvironmentUse environment = EnvironmentUse::sampled;  ///< how the reference integrates one
+  std::optional<float> exposure;                         ///< none: the scene's own, else automatic
+  EffectSet without;                                     ///< effects that every method and the reference leave out
+  int repeats = 9;                                       ///< timed frames of each method and distance in each process
   int anisotropy = 1;
   int tile = 0;
   std::optional<std::filesystem::path> cache;  ///< where slow precomputes are kept; none: they are not

@@ -9,7 +9,6 @@
 #include <system_error>
 #include <utility>
 
-#include "experiments/runner/compare.hpp"
 #include "experiments/runner/known_methods.hpp"
 #include "experiments/runner/picture_files.hpp"
 #include "experiments/runner/quantities.hpp"
@@ -83,6 +82,19 @@ std::vector<MethodSpec> read_methods(const TomlTable& table) {
   return at_key(table, "methods", [&] { return parse_known_methods(fmt::format("{}", fmt::join(*words, ","))); });
 }
 
+EffectSet read_without(const TomlTable& table) {
+  const std::vector<std::string> names = effect_names(EffectSet{}.set());
+  EffectSet effects;
+  for (const std::string& word : table.words("without").value_or(std::vector<std::string>())) {
+    const auto found = std::ranges::find(names, word);
+    if (found == names.end()) {
+      throw table.error_at("without", fmt::format("has `{:.80}`, which is no effect", word), suggestion(word, names));
+    }
+    effects.set(static_cast<std::size_t>(found - names.begin()));
+  }
+  return effects;
+}
+
 void read_head(const TomlTable& table, Experiment& experiment) {
   experiment.title = required_word(table, "title");
   experiment.description = table.word("description").value_or("");
@@ -95,6 +107,7 @@ void read_head(const TomlTable& table, Experiment& experiment) {
   }
   experiment.methods = read_methods(table);
   if (const auto exposure = table.number("exposure", {1e-9, 1e9})) experiment.exposure = static_cast<float>(*exposure);
+  experiment.without = read_without(table);
   experiment.anisotropy = whole_number(table, "anisotropy", {1, 16}, experiment.anisotropy);
   experiment.repeats = whole_number(table, "repeats", {1, 10000}, experiment.repeats);
 }
@@ -126,10 +139,17 @@ void read_reference(const TomlTable& table, Experiment& experiment) {
   if (const auto others = table.numbers("other_spp", 0, whole_positive)) {
     for (const double spp : *others) experiment.other_spp.push_back(whole(table, "other_spp", spp));
   }
+  if (const auto counts = table.numbers("supersampling", 0, whole_positive)) {
+    experiment.supersampling.clear();
+    for (const double spp : *counts) experiment.supersampling.push_back(whole(table, "supersampling", spp));
+  }
   experiment.seed =
       static_cast<std::uint64_t>(whole_number(table, "seed", {0, 2147483647}, static_cast<int>(experiment.seed)));
   if (const auto filter = table.word("filter")) {
     experiment.filter = at_key(table, "filter", [&] { return parse_filter(*filter); });
+  }
+  if (const auto way = table.word("environment")) {
+    experiment.environment = at_key(table, "environment", [&] { return parse_environment_use(*way); });
   }
 }
 
@@ -167,9 +187,10 @@ void check_measures(const Expression& expression, const Experiment& experiment) 
     }
     if (is_quantity(measure.function)) check_quantity(measure, experiment);
     if (is_of_supersampling(measure.function)) {
-      if (std::ranges::find(supersampling_counts, *measure.spp) == supersampling_counts.end()) {
-        refuse(fmt::format("no {} samples are timed", *measure.spp),
-               fmt::format("timed are {}", fmt::join(supersampling_counts, ", ")));
+      if (std::ranges::find(experiment.supersampling, *measure.spp) == experiment.supersampling.end()) {
+        refuse(
+            fmt::format("no {} samples are timed", *measure.spp),
+            fmt::format("timed are [{}]: see supersampling of [reference]", fmt::join(experiment.supersampling, ", ")));
       }
     } else if (measure.spp && std::ranges::find(experiment.other_spp, *measure.spp) == experiment.other_spp.end()) {
       refuse(fmt::format("other_spp of [reference] does not have {}", *measure.spp), "add it there, or leave spp out");
@@ -371,7 +392,7 @@ void read_figure(const TomlTable& table, Experiment& experiment) {
 
 // An experiment that is made of others has nothing but their names.
 std::vector<fs::path> read_members(const TomlTable& root, const TomlTable& head, const fs::path& folder) {
-  for (const char* key : {"scene", "size", "methods", "exposure", "anisotropy", "repeats"}) {
+  for (const char* key : {"scene", "size", "methods", "exposure", "without", "anisotropy", "repeats"}) {
     if (head.has(key)) throw head.error_at(key, "excludes `members`", "move it into one of them");
   }
   for (const char* key : {"zoom", "camera", "reference", "ndf", "published", "claim", "threshold", "figure"}) {
@@ -426,7 +447,7 @@ Experiment read_experiment(const fs::path& file) {
   Experiment experiment;
   experiment.name = file.stem().string();
   experiment.file = file;
-  const auto head = root.table("experiment", {"title", "description", "scene", "size", "methods", "exposure",
+  const auto head = root.table("experiment", {"title", "description", "scene", "size", "methods", "exposure", "without",
                                               "anisotropy", "repeats", "members"});
   if (!head) missing(root, "experiment");
   if (head->has("members")) {
@@ -438,7 +459,8 @@ Experiment read_experiment(const fs::path& file) {
   read_head(*head, experiment);
   if (const auto zoom = root.table("zoom", {"distances", "from", "to", "frames"})) read_zoom(*zoom, experiment);
   if (const auto camera = root.table("camera", camera_keys())) experiment.camera = read_camera(*camera);
-  if (const auto reference = root.table("reference", {"spp", "other_spp", "seed", "filter"})) {
+  if (const auto reference =
+          root.table("reference", {"spp", "other_spp", "supersampling", "seed", "filter", "environment"})) {
     read_reference(*reference, experiment);
   }
   read_footprints(root, experiment);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/runner/compare.hpp"
 #include "experiments/runner/expression.hpp"
 #include "renderer/core/options.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
@@ -87,8 +88,11 @@ struct Experiment {
   std::optional<float> exposure;  ///< none: the scene's, else automatic
   int spp = 64;
   std::vector<int> other_spp;
+  std::vector<int> supersampling{supersampling_counts.begin(), supersampling_counts.end()};
   std::uint64_t seed = 1;
   ReferenceFilter filter = ReferenceFilter::after_shading;
+  EffectSet without;  ///< effects that every method and the reference leave out
+  EnvironmentUse environment = EnvironmentUse::sampled;
   int anisotropy = 1;
   int repeats = 9;
   std::vector<PublishedValue> published;

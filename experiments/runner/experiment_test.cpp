@@ -77,6 +77,7 @@ constexpr const char* every_key = R"toml(
 description = "words"
 size = [500, 400]
 exposure = 0.25
+without = ["fresnel", "cast_shadow"]
 anisotropy = 8
 repeats = 3
 [zoom]
@@ -89,8 +90,10 @@ target = [0, 0, 0]
 [reference]
 spp = 256
 other_spp = [16, 36]
+supersampling = [1, 4]
 seed = 7
 filter = "nearest"
+environment = "dense"
 [published]
 file = "paper.toml"
 figures = ["Figure 1"]
@@ -120,7 +123,11 @@ TEST_F(ExperimentFile, EveryKeyIsRead) {
   EXPECT_TRUE(experiment.consecutive);
   EXPECT_TRUE(std::holds_alternative<Camera>(experiment.camera));
   EXPECT_EQ(experiment.other_spp, (std::vector<int>{16, 36}));
+  EXPECT_EQ(experiment.supersampling, (std::vector<int>{1, 4}));
+  EXPECT_EQ(experiment.without.count(), 2U);
+  EXPECT_TRUE(has(experiment.without, Effect::fresnel) && has(experiment.without, Effect::cast_shadow));
   EXPECT_EQ(experiment.filter, ReferenceFilter::nearest);
+  EXPECT_EQ(experiment.environment, EnvironmentUse::dense);
   ASSERT_EQ(experiment.published.size(), 1U);  // that of figure 2 names a method that is not here, and is not asked for
   EXPECT_EQ(experiment.published[0].value, 0.5);
   ASSERT_EQ(experiment.footprints.size(), 1U);
@@ -154,6 +161,7 @@ TEST_F(ExperimentFile, WrongFilesAreRefusedAtTheirLine) {
   expect_complaint("[experiment]\nscene = \"s\"\n", "`title` in [experiment] is missing");
   expect_complaint(good + "sizes = [1, 2]\n", "mine.toml:5: unknown key `sizes` in [experiment]");
   expect_complaint(good + "size = [0, 2]\n", "not within 1");
+  expect_complaint(good + "without = [\"fresnell\"]\n", "did you mean `fresnel`");
   expect_complaint(good + "size = [1.5, 2]\n", "whole numbers");
   expect_complaint("[experiment]\ntitle = \"t\"\nscene = \"s\"\nmethods = [\"toksvg\"]\n", "did you mean `toksvig`");
   expect_complaint("[experiment]\ntitle = \"t\"\nscene = \"s\"\nmethods = [\"toksvig:storag=fp16\"]\n", "storage");
@@ -171,6 +179,10 @@ TEST_F(ExperimentFile, WrongFilesAreRefusedAtTheirLine) {
   expect_complaint(good + "[threshold]\n\"error(direct)\" = \"low\"\n", "must be a number");
   expect_complaint(good + "[threshold]\n\"flicker(direct)\" = 1\n", "frames of a zoom");
   expect_complaint(good + "[threshold]\n\"error(direct, spp=16)\" = 1\n", "other_spp");
+  expect_complaint(
+      good + "[reference]\nsupersampling = [1, 4]\n[threshold]\n\"supersampling_time(direct, spp=16)\" = 1\n",
+      "timed are [1, 4]");
+  expect_complaint(good + "[reference]\nsupersampling = [0]\n", "not within 1");
   expect_complaint(good + "[threshold]\n\"ndf_l2(direct)\" = 1\n", "add [[ndf]]");
   expect_complaint(good + "[[ndf]]\nname = \"../a\"\nfootprint = [0, 0, 1, 1]\n", "names no folder");
   expect_complaint(good + "[[ndf]]\nname = \"a\"\nfootprint = [0, 0, 0, 1]\n", "`footprint` in [[ndf]]");

@@ -74,9 +74,12 @@ CompareSettings compare_settings(const Experiment& experiment, const RunSettings
   compare.size = experiment.size;
   compare.spp = experiment.spp;
   compare.other_spp = experiment.other_spp;
+  compare.supersampling = experiment.supersampling;
   compare.seed = experiment.seed;
   compare.filter = experiment.filter;
+  compare.environment = experiment.environment;
   compare.exposure = experiment.exposure;
+  compare.without = experiment.without;
   compare.repeats = experiment.repeats;
   compare.anisotropy = experiment.anisotropy;
   compare.tile = settings.tile;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -25,31 +26,47 @@ std::uint32_t turned_cell(const glm::dvec3& normal) {
   return cube_cell(turn * normal, cube_side);
 }
 
+// The point of a face of the cube, (u, v) from -1 to 1.
+glm::dvec3 cube_point(int face, double u, double v) {
+  glm::dvec3 place(0.0);
+  place[face / 2] = face % 2 == 0 ? 1.0 : -1.0;
+  place[(face / 2 + 1) % 3] = u;
+  place[(face / 2 + 2) % 3] = v;
+  return place;
+}
+
+// Adds what a lobe holds in the cell of a face about (u, v), by steps^2 sub-cells, to the cells of the turned cube map.
+void add_shares(const Lobe& lobe, int face, glm::dvec2 middle, int steps, std::span<double> own) {
+  constexpr double cell_width = 2.0 / cube_side;
+  const double width = cell_width / steps;
+  for (int y = 0; y < steps; ++y) {
+    for (int x = 0; x < steps; ++x) {
+      const glm::dvec2 at = middle + (glm::dvec2(x, y) + 0.5) * width - 0.5 * cell_width;
+      const glm::dvec3 place = cube_point(face, at.x, at.y);
+      const double length = glm::length(place);
+      const glm::dvec3 direction = place / length;
+      own[turned_cell(direction)] += value(lobe, direction) * width * width / (length * length * length);
+    }
+  }
+}
+
 // Each lobe's share in each cell of the cube map, [lobe][cell]: sub-cells as fine as its width asks for.
 std::vector<std::vector<double>> shares_in_cells(std::span<const Lobe> lobes) {
   std::vector<std::vector<double>> shares;
   constexpr double cell_width = 2.0 / cube_side;
   constexpr int finest = 32;
-  constexpr double nothing = 40.0;  // an exponent below which a sub-cell adds nothing
+  constexpr double nothing = 40.0;  // an exponent below which a lobe adds nothing
   for (const Lobe& lobe : lobes) {
     const int steps = std::clamp(static_cast<int>(std::ceil(2.0 * cell_width * std::sqrt(lobe.sharpness))), 1, finest);
-    const int side = cube_side * steps;
-    const double width = 2.0 / side;
+    // From the axis to the middle of the last cell that the lobe reaches.
+    const double reach = std::acos(std::max(1.0 - nothing / lobe.sharpness, -1.0)) + cell_width;
+    const double beyond = 1.0 - std::cos(std::min(reach, std::numbers::pi));
     std::vector<double>& own = shares.emplace_back(6 * cube_side * cube_side);
-    for (int face = 0; face < 6; ++face) {
-      for (int y = 0; y < side; ++y) {
-        for (int x = 0; x < side; ++x) {
-          const double u = (x + 0.5) * width - 1.0, v = (y + 0.5) * width - 1.0;
-          glm::dvec3 place(0.0);
-          place[face / 2] = face % 2 == 0 ? 1.0 : -1.0;
-          place[(face / 2 + 1) % 3] = u;
-          place[(face / 2 + 2) % 3] = v;
-          const double length = glm::length(place);
-          const glm::dvec3 direction = place / length;
-          if (lobe.sharpness * one_minus_dot(direction, lobe.axis) > nothing) continue;
-          own[turned_cell(direction)] += value(lobe, direction) * width * width / (length * length * length);
-        }
-      }
+    for (int cell = 0; cell < 6 * cube_side * cube_side; ++cell) {
+      const glm::dvec2 middle = (glm::dvec2(cell % cube_side, cell / cube_side % cube_side) + 0.5) * cell_width - 1.0;
+      const int face = cell / (cube_side * cube_side);
+      const glm::dvec3 direction = glm::normalize(cube_point(face, middle.x, middle.y));
+      if (one_minus_dot(direction, lobe.axis) <= beyond) add_shares(lobe, face, middle, steps, own);
     }
     const double sum = std::accumulate(own.begin(), own.end(), 0.0);
     for (double& share : own) share /= sum;

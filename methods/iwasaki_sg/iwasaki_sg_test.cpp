@@ -8,10 +8,10 @@
 #include <numbers>
 
 #include "methods/iwasaki_sg/material_table.hpp"
+#include "methods/iwasaki_sg/settings.hpp"
+#include "methods/iwasaki_sg/test_materials.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
-#include "renderer/microgeometry/microgeometry.hpp"
-#include "renderer/microgeometry/patch_kinds.hpp"
 #include "tests/support/method_probe.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/slope_twin.hpp"
@@ -19,7 +19,6 @@
 
 namespace footprint {
 const Method& direct_method();
-const Method& iwasaki_sg_method();
 }  // namespace footprint
 
 namespace footprint::testing {
@@ -27,30 +26,9 @@ namespace {
 
 using namespace iwasaki_sg;
 
-std::shared_ptr<const Microgeometry> microgeometry(Patch patch) {
-  const glm::vec3 mean = patch_maps(patch, 64).mean_color;
-  return std::make_shared<const Microgeometry>(Microgeometry{std::move(patch), mean});
-}
-
-Patch patch_of(const std::string& kind, const std::map<std::string, std::string>& given = {}) {
-  return make_patch(find_patch_kind(kind), given);
-}
-
-Material material_of(const Patch& patch, const BaseBrdf& brdf, float lobe) {
-  Material material = square_scene({}, {.brdf = brdf}).materials[0];
-  material.lobe_parameter = lobe;
-  material.microgeometry = microgeometry(patch);
-  return material;
-}
-
 constexpr BaseBrdf blinn_phong{NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, true};
 
-EffectSet effects_of(const Material& material) {
-  EffectSet effects = ProbedMethod::default_effects();
-  effects.set(static_cast<std::size_t>(Effect::microgeometry_visibility));
-  effects.set(static_cast<std::size_t>(Effect::microgeometry_colour), has_colors(material.microgeometry->patch));
-  return effects;
-}
+EffectSet effects_of(const Material& material) { return ProbedMethod::default_effects() | patch_effects(material); }
 
 double density(double exponent, const glm::dvec3& n, const glm::dvec3& h) {
   return base_density(NormalDistribution::blinn_phong, exponent, n, h);
@@ -81,7 +59,7 @@ struct Compared {
 // The method's own shader against the sum, over pairs of the grid's directions.
 Compared against_sum(const Patch& patch, float exponent, const std::map<std::string, std::string>& options) {
   constexpr std::size_t facets = 16384;
-  const Material material = material_of(patch, blinn_phong, exponent);
+  const Material material = patch_material(patch, blinn_phong, exponent);
   std::vector<glm::dvec3> directions = direction_grid(12);
   BinnedFacets binned = bin_facets(patch, sample_facets(patch, facets, 1));
   FacetVisibility visibility = facet_visibility(patch, binned.samples, directions, no_progress);
@@ -146,7 +124,7 @@ TEST(IwasakiSg, FlatPatchGivesItsBaseBrdfBack) {
        {NormalDistribution::vmf, GeometryTerm::tan, FresnelTerm::schlick, true}}};
   for (const BaseBrdf& brdf : brdfs) {
     Scene scene = square_scene({}, {.brdf = brdf});
-    scene.materials[0].microgeometry = microgeometry(patch_of("flat"));
+    scene.materials[0].microgeometry = microgeometry_of(patch_of("flat"));
     TestRenderer renderer(scene);
     const Image direct = renderer.frame(direct_method());
     const Image picture = renderer.frame(iwasaki_sg_method(), "iwasaki_sg:facets=1024");
@@ -188,7 +166,7 @@ TEST(IwasakiSg, StaysFiniteForHardPatches) {
     for (const char* options : {"iwasaki_sg:facets=500", "iwasaki_sg:facets=500:energy=published:cosines=published",
                                 "iwasaki_sg:facets=500:lobe=sg:convolution=exact:storage=fp16"}) {
       Scene scene = square_scene({}, {});
-      scene.materials[0].microgeometry = microgeometry(patch_of(kind, given));
+      scene.materials[0].microgeometry = microgeometry_of(patch_of(kind, given));
       for (const float v : TestRenderer(scene).frame(iwasaki_sg_method(), options).texels) {
         ASSERT_TRUE(std::isfinite(v) && v >= 0.0F) << kind << " " << options;
       }
@@ -212,7 +190,7 @@ TEST(IwasakiSg, TabulatedBrdfOfAFlatPatchIsThatOfTheReference) {
 // The reference's facets, drawn at random, against the method's sum of lobes that hold flat facets exactly.
 TEST(IwasakiSg, MeetsTheReferenceOfAPatch) {
   Scene scene = square_scene({}, {.brdf = blinn_phong, .roughness = 0.7F});
-  scene.materials[0].microgeometry = microgeometry(patch_of("pyramids", {{"slope_degrees", "25"}}));
+  scene.materials[0].microgeometry = microgeometry_of(patch_of("pyramids", {{"slope_degrees", "25"}}));
   TestRenderer renderer(scene, {32, 32});
   const Image truth = renderer.reference(64).mean;
   const Image picture = renderer.frame(iwasaki_sg_method(), "iwasaki_sg:facets=4096");
@@ -221,7 +199,7 @@ TEST(IwasakiSg, MeetsTheReferenceOfAPatch) {
 
 // The paper's 2.3 MB for eight lobes in colour.
 TEST(IwasakiSg, TakesWhatThePaperTakes) {
-  const Material material = material_of(patch_of("weave", {{"warp_blue", "0"}}), blinn_phong, 100.0F);
+  const Material material = patch_material(patch_of("weave", {{"warp_blue", "0"}}), blinn_phong, 100.0F);
   const Options options(iwasaki_sg_method().info().options, {{"facets", "2000"}, {"j", "8"}}, "test");
   const Prefiltered baked = iwasaki_sg_method().precompute(material, options, effects_of(material), no_progress);
   EXPECT_LT(byte_count(baked), 2'300'000U);

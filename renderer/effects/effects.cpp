@@ -147,7 +147,7 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
     const Image& image = *m.specular_map->image;
     return channel_varies(image, 0) || channel_varies(image, 1) || channel_varies(image, 2);
   };
-  const auto coloured = [](const Material& m) { return m.microgeometry && has_colors(m.microgeometry->patch); };
+  const auto coloured = [](const Material& m) { return m.microgeometry && needs_colors(*m.microgeometry); };
   return {
       decide(Effect::diffuse, scene, reflects_diffusely, "a Lambert term with an albedo above 0",
              "no material reflects diffusely"),
@@ -185,8 +185,8 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
       decide(
           Effect::microgeometry_visibility, scene, [](const Material& m) { return m.microgeometry != nullptr; },
           "a patch of small-scale geometry", "no small-scale geometry"),
-      decide(Effect::microgeometry_colour, scene, coloured, "a patch of several colours",
-             "no small-scale geometry of several colours"),
+      decide(Effect::microgeometry_colour, scene, coloured, "a patch with colours of its own",
+             "no small-scale geometry with colours of its own"),
       decide(
           Effect::tabulated_brdf, scene, [](const Material& m) { return m.microgeometry && m.microgeometry->brdf; },
           "facets with a tabulated BRDF", "every facet has the base BRDF"),

@@ -33,7 +33,7 @@ enum class Effect : std::size_t {
   cast_shadow,               ///< parts of the scene that stand between others and a light
   environment_light,         ///< light from all directions
   microgeometry_visibility,  ///< small-scale geometry whose facets hide and shadow each other
-  microgeometry_colour,      ///< small-scale geometry of several colours
+  microgeometry_colour,      ///< small-scale geometry with colours of its own
   tabulated_brdf,            ///< facets that reflect as a table says, in place of the base BRDF
 };
 

@@ -40,4 +40,15 @@ std::vector<glm::dvec3> direction_grid(int side) {
   return directions;
 }
 
+GridCells cells_around(const glm::dvec3& direction, int side) {
+  const double last = side - 1.0;
+  const glm::dvec2 place = glm::clamp(hemisphere_to_square(direction) * static_cast<double>(side) - 0.5, 0.0, last);
+  const glm::dvec2 low = glm::min(glm::floor(place), last - 1.0);
+  const glm::dvec2 part = place - low;
+  const auto row = static_cast<std::size_t>(side);
+  const std::size_t first = static_cast<std::size_t>(low.y) * row + static_cast<std::size_t>(low.x);
+  return {{first, first + 1, first + row, first + row + 1},
+          {(1.0 - part.x) * (1.0 - part.y), part.x * (1.0 - part.y), (1.0 - part.x) * part.y, part.x * part.y}};
+}
+
 }  // namespace footprint

@@ -1,6 +1,7 @@
 // Directions of the upper hemisphere on a square grid of cells of equal solid angle (Shirley and Chiu 1997).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <vector>
@@ -16,5 +17,13 @@ namespace footprint {
 
 /// The centres of side x side cells; cell (x, y) has the index y * side + x.
 [[nodiscard]] std::vector<glm::dvec3> direction_grid(int side);
+
+/// The four cells of such a grid (`side` at least 2) around a direction, with the weights of bilinear interpolation
+/// between their centres: outside of the outermost centres held.
+struct GridCells {
+  std::array<std::size_t, 4> cells;
+  std::array<double, 4> weights;
+};
+[[nodiscard]] GridCells cells_around(const glm::dvec3& direction, int side);
 
 }  // namespace footprint

@@ -52,5 +52,24 @@ TEST(DirectionGrid, PutsWhatIsBelowTheHorizonOnTheRim) {
   EXPECT_EQ(hemisphere_to_square({0.0, 0.0, -1.0}), glm::dvec2(0.5));
 }
 
+// Bilinear on the square: a function that is linear on it comes back between the outermost centres.
+TEST(DirectionGrid, InterpolatesBetweenCells) {
+  constexpr int side = 5;
+  for (const glm::dvec2 place : {glm::dvec2(0.1, 0.1), glm::dvec2(0.37, 0.81), glm::dvec2(0.9, 0.5), glm::dvec2(0.0)}) {
+    const GridCells around = cells_around(square_to_hemisphere(place), side);
+    glm::dvec2 mean(0.0);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      ASSERT_LT(around.cells.at(k), 25U);
+      mean += around.weights.at(k) * (glm::dvec2(around.cells.at(k) % side, around.cells.at(k) / side) + 0.5);
+      sum += around.weights.at(k);
+    }
+    const glm::dvec2 held = glm::clamp(place * 5.0, 0.5, 4.5);
+    EXPECT_NEAR(mean.x, held.x, 1e-9);
+    EXPECT_NEAR(mean.y, held.y, 1e-9);
+    EXPECT_NEAR(sum, 1.0, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace footprint

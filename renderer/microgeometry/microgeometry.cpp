@@ -73,6 +73,11 @@ class TopView {
 
 }  // namespace
 
+bool needs_colors(const Microgeometry& microgeometry) {
+  return has_colors(microgeometry.patch) ||
+         (microgeometry.brdf && facet_color(microgeometry.patch, 0) != glm::vec3(1.0F));
+}
+
 PatchMaps patch_maps(const Patch& patch, int size) {
   TopView view(patch, size);
   for (std::size_t t = 0; t < patch.triangles.size(); ++t) view.draw(t);

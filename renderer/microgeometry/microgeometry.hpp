@@ -18,6 +18,10 @@ struct Microgeometry {
   std::shared_ptr<const TabulatedBrdf> brdf{};  ///< of the facets, diffuse light and all; null: the material's own
 };
 
+/// Whether the facets' paints must be told apart: there are several, or one that is in no base colour, since the
+/// facets' BRDF is tabulated.
+[[nodiscard]] bool needs_colors(const Microgeometry& microgeometry);
+
 /// A patch as it is seen from straight above, size x size texels over its period.
 struct PatchMaps {
   Image normals;  ///< 4 channels: unit normal, weight 0 where nothing is or faces up

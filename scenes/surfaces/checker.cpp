@@ -19,10 +19,6 @@ class Board {
   double squares_;
 };
 
-Image normals(const SurfaceSettings& settings) {
-  return fill_normals(settings.resolution, [](const glm::dvec2&) { return glm::dvec3{0.0, 0.0, 1.0}; });
-}
-
 Image base_color(const SurfaceSettings& settings) {
   const Board board(settings);
   return fill_colors(glm::ivec2{settings.resolution}, [&](const glm::dvec2& place) {
@@ -64,7 +60,7 @@ Surface checker_surface() {
             .meaning = "exponent of one square's lobe"},
            {.name = "dull", .default_value = 8.0, .minimum = 1, .maximum = 1e6, .meaning = "exponent of the other's"}},
       .default_resolution = 512,
-      .normals = normals,
+      .normals = flat_normals,
       .base_color = base_color,
       .specular = specular,
       .lobe_parameter = exponents,

@@ -22,10 +22,6 @@ Jacquard cloth(const SurfaceSettings& settings) {
   return {glm::ivec2{static_cast<int>(settings.parameters.number("threads"))}, {5, 4}, settings.seed};
 }
 
-Image normals(const SurfaceSettings& settings) {
-  return fill_normals(settings.resolution, [](const glm::dvec2&) { return glm::dvec3{0.0, 0.0, 1.0}; });
-}
-
 /// Darker at a thread's edges, where it dives under its neighbours.
 Image base_color(const SurfaceSettings& settings) {
   const Jacquard silk = cloth(settings);
@@ -121,7 +117,7 @@ Surface pillow_surface() {
                           .meaning = "warp threads along the map's width, and as many weft threads",
                           .integer = true}},
           .default_resolution = 1024,
-          .normals = normals,
+          .normals = flat_normals,
           .base_color = base_color,
           .specular = specular,
           .lobe_parameter = exponents,

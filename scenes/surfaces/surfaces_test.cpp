@@ -5,9 +5,12 @@
 
 #include <cmath>
 #include <ostream>
+#include <set>
+#include <string>
 
 #include "renderer/core/error.hpp"
 #include "scenes/surfaces/registry.hpp"
+#include "scenes/surfaces/test_meshes.hpp"
 
 namespace footprint {
 
@@ -69,10 +72,12 @@ std::vector<Image> maps(const Surface& surface, const SurfaceSettings& settings)
 }
 
 /// Whether chance has no part in a surface.
-bool is_regular(const Surface& surface) { return surface.name == "checker"; }
+bool is_regular(const Surface& surface) {
+  return std::set<std::string>{"checker", "chess_board", "chess_piece", "sphere"}.contains(surface.name);
+}
 
-/// Whether a surface has colours and gloss alone.
-bool has_relief(const Surface& surface) { return surface.name != "checker" && surface.name != "pillow"; }
+/// Whether a surface has a shape, colours or gloss alone.
+bool has_relief(const Surface& surface) { return !is_regular(surface) && surface.name != "pillow"; }
 
 TEST_P(EverySurface, IsAFunctionOfItsSeedAlone) {
   const auto made = maps(GetParam(), settings(129));
@@ -127,47 +132,13 @@ TEST_P(EverySurface, HasTheSameStatisticsAtEverySize) {
   EXPECT_EQ(fine.variance.x > 1e-4, has_relief(GetParam()));
 }
 
-TEST_P(EverySurface, HasAMeshWithUnitFrames) {
-  const Mesh mesh = GetParam().mesh(settings(64));
-  ASSERT_FALSE(mesh.indices.empty());
-  EXPECT_EQ(mesh.indices.size() % 3, 0U);
-  EXPECT_EQ(mesh.material, 0);
-  for (const Vertex& vertex : mesh.vertices) {
-    ASSERT_NEAR(glm::length(vertex.normal), 1.0F, 1e-5F);
-    ASSERT_NEAR(glm::length(glm::vec3(vertex.tangent)), 1.0F, 1e-5F);
-    ASSERT_NEAR(glm::dot(glm::vec3(vertex.tangent), vertex.normal), 0.0F, 1e-5F);
-    ASSERT_EQ(std::abs(vertex.tangent.w), 1.0F);
-    ASSERT_TRUE(std::isfinite(glm::dot(vertex.position, vertex.position) + glm::dot(vertex.uv0, vertex.uv0)));
-  }
-  for (const std::uint32_t index : mesh.indices) ASSERT_LT(index, mesh.vertices.size());
-}
+TEST_P(EverySurface, HasAMeshWithUnitFrames) { testing::expect_unit_frames(GetParam().mesh(settings(64))); }
 
 TEST_P(EverySurface, FacesTheSideThatItsNormalsPointTo) {
-  const Mesh mesh = GetParam().mesh(settings(64));
-  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-    const Vertex& a = mesh.vertices[mesh.indices[i]];
-    const Vertex& b = mesh.vertices[mesh.indices[i + 1]];
-    const Vertex& c = mesh.vertices[mesh.indices[i + 2]];
-    const glm::vec3 face = glm::cross(b.position - a.position, c.position - a.position);
-    ASSERT_GT(glm::dot(face, a.normal + b.normal + c.normal), 0.0F) << "triangle " << i / 3;
-  }
+  testing::expect_faces_its_normals(GetParam().mesh(settings(64)));
 }
 
-TEST_P(EverySurface, MapRunsAlongItsTangents) {
-  const Mesh mesh = GetParam().mesh(settings(64));
-  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-    const Vertex& a = mesh.vertices[mesh.indices[i]];
-    const Vertex& b = mesh.vertices[mesh.indices[i + 1]];
-    const Vertex& c = mesh.vertices[mesh.indices[i + 2]];
-    const glm::mat2 coordinates{b.uv0 - a.uv0, c.uv0 - a.uv0};
-    ASSERT_NE(glm::determinant(coordinates), 0.0F);
-    const glm::mat2x3 along = glm::mat2x3{b.position - a.position, c.position - a.position} * glm::inverse(coordinates);
-    const glm::vec3 tangent = glm::normalize(glm::vec3(a.tangent + b.tangent + c.tangent));
-    const glm::vec3 bitangent = glm::cross(glm::normalize(a.normal + b.normal + c.normal), tangent) * a.tangent.w;
-    ASSERT_GT(glm::dot(glm::normalize(along[0]), tangent), 0.8F) << "triangle " << i / 3;
-    ASSERT_LT(glm::dot(glm::normalize(along[1]), bitangent), -0.8F);  // v runs downwards on a map
-  }
-}
+TEST_P(EverySurface, MapRunsAlongItsTangents) { testing::expect_map_along_tangents(GetParam().mesh(settings(64))); }
 
 TEST_P(EverySurface, RefusesSizesThatNoMapHas) {
   for (const int resolution : {0, -1, largest_surface_resolution + 1, 1'000'000}) {

@@ -27,6 +27,10 @@ Image fill(glm::ivec2 size, int channels, const ValueAtPlace& value_at) {
 
 Image fill_normals(int resolution, const NormalAt& normal_at) { return fill<3>(glm::ivec2{resolution}, 4, normal_at); }
 
+Image flat_normals(const SurfaceSettings& settings) {
+  return fill_normals(settings.resolution, [](const glm::dvec2&) { return glm::dvec3{0.0, 0.0, 1.0}; });
+}
+
 Image fill_colors(glm::ivec2 size, const ColorAt& color_at) { return fill<3>(size, 4, color_at); }
 
 Image fill_rgb(glm::ivec2 size, const ColorAt& color_at) { return fill<3>(size, 3, color_at); }

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "renderer/image/image.hpp"
+#include "renderer/scene/surface.hpp"
 
 namespace footprint {
 
@@ -19,6 +20,9 @@ using ValueAt = std::function<double(const glm::dvec2& place)>;
 
 /// The normals at the texels' centres, with weight 1. The functions are called from several threads at once.
 [[nodiscard]] Image fill_normals(int resolution, const NormalAt& normal_at);
+
+/// Those of a surface without relief: (0, 0, 1). Surface::normals of what has colours or a shape alone.
+[[nodiscard]] Image flat_normals(const SurfaceSettings& settings);
 
 /// The colours at the texels' centres of a map of any width and height, with alpha 1 in a fourth channel.
 [[nodiscard]] Image fill_colors(glm::ivec2 size, const ColorAt& color_at);

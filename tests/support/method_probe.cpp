@@ -48,6 +48,7 @@ std::vector<glm::vec4> probe_method(const ProbedMethod& probed, const std::strin
     if (const auto* number = std::get_if<double>(&value))
       text += fmt::format("const float option_{} = {:e};\n", name, *number);
   }
+  for (const auto& [name, value] : baked.scalars) text += fmt::format("const float {} = {:e};\n", name, value);
   text += fmt::format("const vec4 lobe_cutoff = vec4({:e});\n", lobe_parameter(*probed.material)) +
           shared_functions(flags) + select_text(probed.method->shader(), flags, probed.method->info().name);
   const std::string footprint = fmt::format(

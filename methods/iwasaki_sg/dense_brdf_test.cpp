@@ -1,0 +1,98 @@
+// The sum over facets and the table of it, against cases that are known, and the figures that compare them with lobes.
+#include "methods/iwasaki_sg/dense_brdf.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "methods/iwasaki_sg/quantities.hpp"
+#include "methods/iwasaki_sg/settings.hpp"
+#include "methods/iwasaki_sg/test_materials.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/microgeometry/direction_grid.hpp"
+
+namespace footprint::iwasaki_sg {
+namespace {
+
+using testing::patch_material;
+using testing::patch_of;
+
+constexpr BaseBrdf blinn_phong{NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, true};
+
+double figure(const std::string& name, const Material& material, const std::map<std::string, std::string>& options,
+              const std::map<std::string, std::string>& parameters = {}) {
+  for (const Quantity& quantity : quantity_table()) {
+    if (quantity.name != name) continue;
+    return quantity.measure(material, Options(option_table(), options, "test"),
+                            Options(quantity.parameters, parameters, "test"));
+  }
+  ADD_FAILURE() << "no figure " << name;
+  return 0.0;
+}
+
+// Pyramids of 40 degrees hide nothing from directions within 50 degrees of the axis: the sum over their planes by hand.
+TEST(FacetSum, IsTheSumOverPlanes) {
+  const Material material =
+      patch_material(patch_of("pyramids", {{"slope_degrees", "40"}, {"floor", "0"}}), blinn_phong, 50.0F);
+  const TableSettings settings = table_settings(material, Options(option_table(), {}, "test"), {});
+  const Patch& patch = material.microgeometry->patch;
+  const std::vector<glm::dvec3> directions{glm::normalize(glm::dvec3(0.1, 0.2, 1.0)),
+                                           glm::normalize(glm::dvec3(-0.5, 0.1, 1.0))};
+  const FacetSum sum(material, settings, bin_facets(patch, sample_facets(patch, 20000, 3)), directions, no_progress);
+  const glm::dvec3 h = glm::normalize(directions[0] + directions[1]);
+  double seen = 0.0, area = 0.0;
+  for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
+    const FacetPlane plane = facet_plane(patch, t);
+    const double projected = plane.area * glm::dot(plane.normal, directions[1]);
+    area += projected;
+    seen += projected * 51.0 / (2.0 * std::numbers::pi) * std::pow(std::max(glm::dot(plane.normal, h), 0.0), 50.0);
+  }
+  EXPECT_NEAR(sum(0, 1).x / (seen / area), 1.0, 2e-3);
+  EXPECT_EQ(sum(0, 1).x, sum(0, 1).y);
+}
+
+// At its own directions the table is the sum.
+TEST(DenseTable, HoldsTheSumAndInterpolatesIt) {
+  const Material material = patch_material(patch_of("grooves"), blinn_phong, 20.0F);
+  TableSettings settings = table_settings(material, Options(option_table(), {{"facets", "2000"}}, "test"), {});
+  const Patch& patch = material.microgeometry->patch;
+  for (const Cosines cosines : {Cosines::base, Cosines::published}) {
+    settings.cosines = cosines;
+    const DenseTable table(material, settings, 5, no_progress);
+    const FacetSum sum(material, settings, bin_facets(patch, sample_facets(patch, settings.facets, settings.seed)),
+                       direction_grid(5), no_progress);
+    for (const std::size_t i : {0U, 7U, 12U, 24U}) {
+      for (const std::size_t o : {3U, 12U, 20U}) {
+        const glm::dvec3 truth = sum(i, o);
+        EXPECT_NEAR(table(sum.directions()[i], sum.directions()[o]).y, truth.y, 1e-5 * (1.0 + truth.y));
+      }
+    }
+  }
+  EXPECT_EQ(DenseTable::byte_count(5, 3), 625U * 12U);
+}
+
+// Few planes: the lobes hold them and the table of the same size does not; a larger table comes nearer.
+TEST(BrdfFigures, LobesAgainstTables) {
+  const Material material = patch_material(patch_of("grooves"), blinn_phong, 200.0F);
+  const std::map<std::string, std::string> options{{"facets", "8192"}};
+  const double lobes = figure("brdf_error", material, options);
+  const double coarse = figure("table_error", material, options, {{"side", "6"}});
+  const double fine = figure("table_error", material, options, {{"side", "12"}});
+  EXPECT_LT(lobes, 0.1);
+  EXPECT_LT(lobes, 0.5 * fine);
+  EXPECT_LT(fine, 0.9 * coarse);
+  EXPECT_EQ(figure("table_bytes", material, options, {{"side", "12"}}), 144.0 * 144.0 * 4.0);
+  EXPECT_GT(figure("brdf_bytes", material, options), 144.0 * 144.0 * 4.0);
+  EXPECT_GT(figure("brdf_ms", material, options), 0.0);
+  EXPECT_GT(figure("table_ms", material, options, {{"side", "6"}}), 0.0);
+}
+
+TEST(BrdfFigures, OfAMaterialWithoutAPatchAreAnError) {
+  const Material material = testing::square_scene({}, {}).materials[0];
+  EXPECT_THROW((void)figure("brdf_error", material, {}), Error);
+  EXPECT_THROW((void)figure("table_error", material, {}), Error);
+}
+
+}  // namespace
+}  // namespace footprint::iwasaki_sg

@@ -1,0 +1,90 @@
+// See effective_brdf.hpp.
+#include "methods/iwasaki_sg/effective_brdf.hpp"
+
+#include <utility>
+
+#include "methods/iwasaki_sg/settings.hpp"
+#include "methods/iwasaki_sg/spherical_gaussian.hpp"
+#include "renderer/microgeometry/direction_grid.hpp"
+#include "renderer/microgeometry/microgeometry.hpp"
+#include "renderer/pipeline/base_surface.hpp"
+
+namespace footprint::iwasaki_sg {
+namespace {
+
+// The base lobe as wide as it and the normals' lobe are together: variances add.
+double widened(const BaseLobe& base, const Lobe& lobe, const glm::dvec3& h) {
+  const auto variance = lobe_variance(base.distribution, static_cast<float>(base.parameter));
+  const float both = lobe_from_variance(base.distribution, variance + static_cast<float>(1.0 / lobe.sharpness));
+  const BaseLobe wide{base.distribution, both};
+  return lobe_peak(wide) * lobe_shape(wide, one_minus_dot(lobe.axis, h));
+}
+
+}  // namespace
+
+FacetReflection facet_reflection(const Material& material, const Options& options) {
+  if (is_tabulated(material)) return lobes_of(*material.microgeometry->brdf);
+  const double parameter = lobe_parameter(material);
+  if (options.word("lobe") == "sg") return lobes_of(material.brdf.distribution, parameter);
+  return BaseLobe{material.brdf.distribution, parameter};
+}
+
+EffectiveBrdf::EffectiveBrdf(const MaterialTable& table, const TableSettings& settings, FacetReflection reflection,
+                             bool approximate)
+    : table_(table),
+      side_(settings.side),
+      directions_(direction_grid(settings.side)),
+      with_cosine_(settings.cosines == Cosines::published),
+      reflection_(std::move(reflection)),
+      approximate_(approximate) {}
+
+glm::dvec3 EffectiveBrdf::operator()(const glm::dvec3& wi, const glm::dvec3& wo) const {
+  const glm::dvec3 sum_of_directions = wi + wo;
+  const double length = glm::length(sum_of_directions);
+  if (length < 1e-4) return glm::dvec3(0.0);
+  const glm::dvec3 h = sum_of_directions / length;
+  const std::vector<glm::dvec3> amounts = masses(wi, wo);
+  glm::dvec3 sum(0.0);
+  for (std::size_t j = 0; j < amounts.size(); ++j) sum += amounts[j] * convolved(table_.amplitudes.lobes[j], h);
+  return with_cosine_ ? sum * wi.z : sum;
+}
+
+glm::dvec3 EffectiveBrdf::convolved(const Lobe& lobe, const glm::dvec3& h) const {
+  if (const auto* const base = std::get_if<BaseLobe>(&reflection_)) return glm::dvec3(widened(*base, lobe, h));
+  glm::dvec3 sum(0.0);
+  if (const auto* const colored = std::get_if<std::vector<ColorLobe>>(&reflection_)) {
+    for (const ColorLobe& own : *colored) {
+      sum += glm::dvec3(own.amplitude) * convolution(lobe, Lobe{h, own.sharpness});
+    }
+  } else {
+    for (const BrdfLobe& own : std::get<std::vector<BrdfLobe>>(reflection_)) {
+      const Lobe about_h{h, own.sharpness};
+      sum += own.amplitude * (approximate_ ? approximate_convolution(lobe, about_h) : convolution(lobe, about_h));
+    }
+  }
+  return sum / integral(lobe.sharpness);
+}
+
+// Interpolated as the shader does it: with the cosine to the light over that of the surface.
+std::vector<glm::dvec3> EffectiveBrdf::masses(const glm::dvec3& wi, const glm::dvec3& wo) const {
+  const Amplitudes& table = table_.amplitudes;
+  const GridCells in = cells_around(wi, side_), out = cells_around(wo, side_);
+  const std::size_t pairs = table.directions * table.directions;
+  std::vector<glm::dvec3> sums(table.lobes.size(), glm::dvec3(0.0));
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double scale = with_cosine_ ? 1.0 / directions_[in.cells.at(i)].z : 1.0;
+    for (std::size_t o = 0; o < 4; ++o) {
+      const double weight = in.weights.at(i) * out.weights.at(o) * scale;
+      const std::size_t pair = in.cells.at(i) * table.directions + out.cells.at(o);
+      for (std::size_t j = 0; j < sums.size(); ++j) {
+        for (int c = 0; c < 3; ++c) {
+          const std::size_t channel = table.channels == 1 ? 0 : static_cast<std::size_t>(c);
+          sums[j][c] += weight * table.masses[(j * table.channels + channel) * pairs + pair];
+        }
+      }
+    }
+  }
+  return sums;
+}
+
+}  // namespace footprint::iwasaki_sg

@@ -1,0 +1,139 @@
+// See table_textures.hpp.
+#include "methods/iwasaki_sg/table_textures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "methods/iwasaki_sg/brdf_lobes.hpp"
+#include "methods/iwasaki_sg/material_table.hpp"
+#include "methods/iwasaki_sg/settings.hpp"
+#include "renderer/microgeometry/direction_grid.hpp"
+#include "renderer/microgeometry/microgeometry.hpp"
+#include "renderer/pipeline/base_surface.hpp"
+
+namespace footprint::iwasaki_sg {
+namespace {
+
+// Row 0: axis and sharpness of each lobe. Row 1: its share of the normals.
+PrefilteredTexture lobe_texture(std::span<const Lobe> lobes, std::span<const double> shares) {
+  Image image(static_cast<int>(lobes.size()), 2, 4);
+  for (std::size_t j = 0; j < lobes.size(); ++j) {
+    const glm::vec4 lobe(glm::vec3(lobes[j].axis), static_cast<float>(lobes[j].sharpness));
+    std::copy_n(&lobe.x, 4, image.at(static_cast<int>(j), 0).begin());
+    image.at(static_cast<int>(j), 1)[0] = static_cast<float>(shares[j]);
+  }
+  return make_texture("iwasaki_lobes", {image}, Storage::fp32, {});
+}
+
+// Whether a table has the facets' cosine to the light in it.
+enum class Irradiance { without, with };
+
+// [channel][wi][wo] as tiles: one for each cell of wo, in it a texel for each cell of wi. With a cosine to the light,
+// values are divided by that of the surface as a whole: the ratio is smooth down to the horizon, and 1 for a plane.
+Image tiled(std::span<const float> values, std::size_t channels, int side, Irradiance irradiance) {
+  const std::vector<glm::dvec3> directions = direction_grid(side);
+  Image image(side * side, side * side, static_cast<int>(channels));
+  const auto n = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+  const auto row = static_cast<std::size_t>(side);
+  for (std::size_t wi = 0; wi < n; ++wi) {
+    for (std::size_t wo = 0; wo < n; ++wo) {
+      const auto x = static_cast<int>(wo % row * row + wi % row);
+      const auto y = static_cast<int>(wo / row * row + wi / row);
+      const float scale = irradiance == Irradiance::with ? static_cast<float>(1.0 / directions[wi].z) : 1.0F;
+      for (std::size_t c = 0; c < channels; ++c) image.at(x, y)[c] = values[(c * n + wi) * n + wo] * scale;
+    }
+  }
+  return image;
+}
+
+// One channel of images, four to an image: a shader fetches them together. What is left over is 0.
+std::vector<Image> packed(const std::vector<Image>& values) {
+  std::vector<Image> out;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (k % 4 == 0) out.emplace_back(values[k].width, values[k].height, 4);
+    for (std::size_t i = 0; i < values[k].texels.size(); ++i) out.back().texels[4 * i + k % 4] = values[k].texels[i];
+  }
+  return out;
+}
+
+// The values of the lobes and, behind them, of the diffuse term: a layer each in colour, else four a layer.
+PrefilteredTexture amplitude_texture(const Amplitudes& table, const TableSettings& settings, Storage storage) {
+  const Irradiance irradiance = settings.cosines == Cosines::published ? Irradiance::with : Irradiance::without;
+  const std::size_t size = table.channels * table.directions * table.directions;
+  std::vector<Image> values;
+  for (std::size_t j = 0; j < table.lobes.size(); ++j) {
+    values.push_back(tiled(std::span(table.masses).subspan(j * size, size), table.channels, settings.side, irradiance));
+  }
+  values.push_back(tiled(table.diffuse, table.channels, settings.side, Irradiance::with));
+  if (table.channels == 1) values = packed(values);
+  std::vector<std::vector<Image>> layers;
+  for (Image& value : values) layers.push_back({std::move(value)});
+  return make_array_texture("iwasaki_amplitudes", layers, storage, {}, TextureFilter::linear);
+}
+
+PrefilteredTexture brdf_texture(const Material& material) {
+  const std::vector<BrdfLobe> lobes = lobes_of(material.brdf.distribution, lobe_parameter(material));
+  Image image(static_cast<int>(lobes.size()), 1, 2);
+  for (std::size_t i = 0; i < lobes.size(); ++i) {
+    image.texels[2 * i] = static_cast<float>(lobes[i].sharpness);
+    image.texels[2 * i + 1] = static_cast<float>(lobes[i].amplitude);
+  }
+  return make_texture("iwasaki_brdf", {image}, Storage::fp32, {});
+}
+
+// Sharpness and colour of each lobe of the facets' own BRDF.
+PrefilteredTexture table_texture(const Material& material) {
+  std::vector<ColorLobe> lobes{{0.0, glm::vec3(0.0F)}};
+  if (is_tabulated(material)) lobes = lobes_of(*material.microgeometry->brdf);
+  Image image(static_cast<int>(lobes.size()), 1, 4);
+  for (std::size_t i = 0; i < lobes.size(); ++i) {
+    const glm::vec4 texel(static_cast<float>(lobes[i].sharpness), lobes[i].amplitude);
+    std::copy_n(&texel.x, 4, image.at(static_cast<int>(i), 0).begin());
+  }
+  return make_texture("iwasaki_table", {image}, Storage::fp32, {});
+}
+
+std::vector<std::string> notes_of(const Material& material, const MaterialTable& table) {
+  const std::size_t lobes = table.amplitudes.lobes.size();
+  if (!material.microgeometry) {
+    return {
+        fmt::format("the normal map as a whole stands for the small-scale geometry, all of it seen: {} lobe{} "
+                    "for {} discretised normals; its structure does not show at any distance",
+                    lobes, lobes == 1 ? "" : "s", table.normals)};
+  }
+  return {fmt::format("patch {}: {} lobe{} for {} discretised normals; {:.1f}% of its area is ever seen",
+                      material.microgeometry->patch.name, lobes, lobes == 1 ? "" : "s", table.normals,
+                      100.0 * table.visible_share)};
+}
+
+}  // namespace
+
+Prefiltered baked_material(const Material& material, const Options& options, const EffectSet& effects,
+                           const Progress& progress) {
+  const bool seen = has(effects, Effect::microgeometry_visibility);
+  Prefiltered out;
+  if (seen || has(effects, Effect::normal_variation)) {
+    const TableSettings settings = table_settings(material, options, effects);
+    const bool patch = seen && material.microgeometry != nullptr;
+    const MaterialTable table = patch ? patch_table(material.microgeometry->patch, settings, progress)
+                                      : flat_table(bin_normal_map(normal_map_of(material)), settings);
+    out.textures.push_back(lobe_texture(table.amplitudes.lobes, table.shares));
+    if (seen) {
+      out.textures.push_back(amplitude_texture(table.amplitudes, settings, parse_storage(options.word("storage"))));
+    }
+    out.notes = notes_of(material, table);
+  }
+  if (options.word("lobe") == "sg") out.textures.push_back(brdf_texture(material));
+  if (has(effects, Effect::tabulated_brdf)) {
+    out.textures.push_back(table_texture(material));
+    out.scalars["iwasaki_tabulated"] = is_tabulated(material) ? 1.0F : 0.0F;
+  }
+  return out;
+}
+
+}  // namespace footprint::iwasaki_sg

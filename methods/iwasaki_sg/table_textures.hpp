@@ -1,0 +1,17 @@
+// A material's table as the textures that the shader reads.
+#pragma once
+
+#include "renderer/core/options.hpp"
+#include "renderer/core/progress.hpp"
+#include "renderer/effects/effects.hpp"
+#include "renderer/pipeline/prefiltered.hpp"
+#include "renderer/scene/material.hpp"
+
+namespace footprint::iwasaki_sg {
+
+/// The method's precompute: `iwasaki_lobes` (axes, sharpness, shares), `iwasaki_amplitudes` (tiles of wo, texels of
+/// wi), and by options and effects `iwasaki_brdf` and `iwasaki_table`, the lobes of the facets' own BRDF.
+[[nodiscard]] Prefiltered baked_material(const Material& material, const Options& options, const EffectSet& effects,
+                                         const Progress& progress);
+
+}  // namespace footprint::iwasaki_sg

@@ -130,7 +130,7 @@ std::string text_of(const ShadowPass& pass) {
 }
 
 std::string text_of(const VisibilityPass& pass) {
-  return fmt::format("\nvisibility of the environment, asked once\n  {:<21} {}\n  {:<21} {:.3f} rad\n  {:<21} {}\n",
+  return fmt::format("\nvisibility of the environment, asked once\n  {:<24} {}\n  {:<24} {:.3f} rad\n  {:<24} {}\n",
                      "vertices", pass.vertices, "error of the distance", pass.error, "bytes",
                      readable_bytes(pass.bytes));
 }

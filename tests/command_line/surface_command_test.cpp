@@ -28,7 +28,7 @@ const std::vector<Case> good_surfaces{
      .leaves = {"a.png"}},
     {.name = "ExplainSurface",
      .arguments = {"explain", "v_grooves", "--size", "16x16"},
-     .output_has = {"normal_variation      on"}},
+     .output_has = {"normal_variation         on"}},
 };
 
 std::vector<Case> wrong_surfaces() {

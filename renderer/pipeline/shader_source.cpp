@@ -261,6 +261,10 @@ ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options) {
   if (has(variant.effects, Effect::environment_light) && has(variant.effects, Effect::cast_shadow)) {
     flags.emplace(variant.environment_sampled ? "environment_rays" : "environment_visibility");
   }
+  // A tabulated BRDF has a diffuse term of its own.
+  if (has(variant.effects, Effect::diffuse) || has(variant.effects, Effect::tabulated_brdf)) {
+    flags.emplace("environment_diffuse");
+  }
   // What is drawn at random: a texel of the maps, directions to an environment, facets of a patch.
   const bool facets = has(variant.effects, Effect::microgeometry_visibility) && variant.sampling != Sampling::frame;
   if (variant.sampling == Sampling::texel || samples_environment(variant) || facets) flags.emplace("random_draws");

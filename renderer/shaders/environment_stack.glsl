@@ -74,10 +74,20 @@ VisibleLobe visibleLobe(NormalLobe lobe, vec3 wo) {
 float visibleElevation(vec3 direction, float elevation) { return elevation; }
 //? end
 
+// What stands beside the density of lobe i in f cos: F G', or all that a module with small-scale geometry knows of it.
+// `sharpness` is that of the lobe of directions to the light about wi.
+vec3 besideDensity(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 h, vec3 wi, vec3 wo, float sharpness) {
+//? if microgeometry_visibility
+  return lobeReflectance(e, i, f0, h, wi, wo, sharpness);
+//? else
+  return fresnelTerm(f0, wi, wo) * lobeGeometry(e, lobe, h, wi, wo);
+//? end
+}
+
 // What a lobe reflects towards wo: integral of F D G' L over wi. With dwi = 4 (h.wo) dh the lobe's energy is 4 times what
 // is visible of it; about the mirror image of the visible normals' mean it is 4 (axis.wo) times wider (Wang 2009). F and
 // G' are taken there, and of what lies below the surface's horizon nothing arrives.
-vec3 lobeRadiance(Effective e, NormalLobe lobe, vec3 f0, vec3 wo, mat3 frame) {
+vec3 lobeRadiance(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wo, mat3 frame) {
   VisibleLobe visible = visibleLobe(lobe, wo);
   float cosine = max(dot(visible.axis, wo), 0.01);
   vec3 mirrored = 2.0 * cosine * visible.axis - wo;
@@ -85,8 +95,8 @@ vec3 lobeRadiance(Effective e, NormalLobe lobe, vec3 f0, vec3 wo, mat3 frame) {
   float sharpness = lobe.sharpness / (4.0 * cosine);
   float elevation = visibleElevation(frame * mirrored, mirrored.z);
   float reflected = 4.0 * lobe.weight * visible.area * shareAbove(elevation, sharpness);
-  reflected *= lobeGeometry(e, lobe, visible.axis, mirrored, wo);
-  return fresnelTerm(f0, mirrored, wo) * reflected * stackRadiance(frame * mirrored, sharpness);
+  vec3 beside = besideDensity(e, i, lobe, f0, visible.axis, mirrored, wo, sharpness);
+  return beside * reflected * stackRadiance(frame * mirrored, sharpness);
 }
 
 //? if distribution_ggx
@@ -107,17 +117,17 @@ vec3 environmentSpecular(Effective e, vec3 f0, vec3 wo, mat3 frame) {
       NormalLobe tail = lobe;
       tail.sharpness *= ggx_sharpness.x;
       tail.weight *= ggx_shares.x;
-      radiance += lobeRadiance(e, tail, f0, wo, frame);
+      radiance += lobeRadiance(e, i, tail, f0, wo, frame);
       lobe.sharpness *= ggx_sharpness.y;
       lobe.weight *= ggx_shares.y;
     }
 //? end
-    radiance += lobeRadiance(e, lobe, f0, wo, frame);
+    radiance += lobeRadiance(e, i, lobe, f0, wo, frame);
   }
   return radiance;
 }
 
-//? if diffuse
+//? if environment_diffuse
 //? if fresnel
 // The mean over a hemisphere of light, weighted by the cosine, of what Schlick's term lets through: (1 - v.h)^5 has the
 // mean 0.0282 (1 - n.v)^2.6 + 0.0001, to 5e-4.
@@ -130,21 +140,31 @@ vec3 meanTransmitted(vec3 f0, float cosine) {
 }
 //? end
 
+DiffuseFacets diffuseFacets(Effective e, vec3 wo) {
+//? if microgeometry_visibility
+  return visibleFacets(e, wo);
+//? else
+  vec3 m = meanNormal(e);
+  return DiffuseFacets(m, vec3(clamp(0.5 + 0.5 * m.z, 0.0, 1.0)), false);
+//? end
+}
+
 // Lambert's term over all directions. Irradiance is close to linear in the normal, so that normals with the mean m get
 // the mean over all directions and |m| of the difference to it. A facet that leans loses what its surface hides: of a
 // constant environment (1 - n_z) / 2.
 vec3 environmentDiffuse(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) {
-  vec3 m = meanNormal(e);
-  float size = length(m);
-  vec3 n = size > 1e-6 ? m / size : vec3(0.0, 0.0, 1.0);
+  DiffuseFacets facets = diffuseFacets(e, wo);
+  float size = length(facets.mean_normal);
+  vec3 n = size > 1e-6 ? facets.mean_normal / size : vec3(0.0, 0.0, 1.0);
   vec2 irradiance_size = vec2(textureSize(environment_irradiance, 0));
   vec2 place = borderedPlace(octahedral(frame * n), irradiance_size);
   vec3 facing = textureLod(environment_irradiance, place, 0.0).rgb;  // irradiance over pi
-  vec3 arriving = mix(environment_mean.rgb, facing, min(size, 1.0));
-  vec3 reflected = albedo * arriving * clamp(0.5 + 0.5 * m.z, 0.0, 1.0);
+  vec3 reflected = facets.share * mix(environment_mean.rgb, facing, min(size, 1.0));
 //? if environment_visibility
   reflected *= visibleDiffuse();
 //? end
+  if (facets.whole) return reflected;
+  reflected *= albedo;
 //? if fresnel
   reflected *= meanTransmitted(f0, dot(n, wo));
 //? end
@@ -154,7 +174,7 @@ vec3 environmentDiffuse(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) 
 
 vec3 environmentLit(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) {
   vec3 radiance = environmentSpecular(e, f0, wo, frame);
-//? if diffuse
+//? if environment_diffuse
   radiance += environmentDiffuse(e, albedo, f0, wo, frame);
 //? end
   return radiance;

@@ -86,6 +86,15 @@ const auto cases = std::to_array<EffectCase>({
      }},
     {Effect::specular_variation, "specular_map",
      [](Scene& s) { s.materials[0].specular_map = map_of(halves(3, 1.0F, 0.25F)); }},
+    {Effect::material_index, "material_share",
+     [](Scene& s) {
+       s.materials.push_back(s.materials[0]);
+       s.materials[1].dielectric_specular = glm::vec3(0.1F);
+       s.materials[0].share = SurfaceShare{map_of(halves(1, 1.0F, 0.0F)), true};
+       s.materials[1].share = SurfaceShare{map_of(halves(1, 0.0F, 1.0F)), false};
+       s.meshes.push_back(s.meshes[0]);
+       s.meshes[1].material = 1;
+     }},
     {Effect::alpha_mask, "discard",
      [](Scene& s) {
        s.materials[0].base_color.a = 0.3F;

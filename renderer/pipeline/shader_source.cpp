@@ -292,6 +292,7 @@ std::vector<std::string> texture_names(const EffectSet& effects, const Prefilter
   if (has(effects, Effect::base_color_variation)) names.emplace_back("base_color_map");
   if (has(effects, Effect::metallic_variation)) names.emplace_back("metallic_map");
   if (has(effects, Effect::specular_variation)) names.emplace_back("specular_map");
+  if (has(effects, Effect::material_index)) names.emplace_back("material_share");
   for (const PrefilteredTexture& texture : prefiltered.textures) names.push_back(texture.name);
   return names;
 }

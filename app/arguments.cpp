@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <sstream>
 
 #include "app/options.hpp"
 #include "renderer/core/error.hpp"
@@ -35,6 +36,16 @@ void add_backend_options(CLI::App& command, BackendArguments& arguments) {
 
 gl::ContextRequest context_request(const BackendArguments& arguments) {
   return {.backend = gl::parse_backend(arguments.backend), .device = arguments.device};
+}
+
+void add_frame_options(CLI::App& command, FrameArguments& arguments, const std::string& exposed) {
+  command.add_option("scene", arguments.scene, "What to render")->required();
+  add_size_option(command, arguments.size);
+  add_anisotropy_option(command, arguments.anisotropy);
+  command.add_option("--exposure", arguments.exposure, fmt::format("Factor on radiance {}, or auto", exposed))
+      ->capture_default_str();
+  add_backend_options(command, arguments.backend);
+  add_quiet_flag(command, arguments.quiet);
 }
 
 void add_reference_options(CLI::App& command, ReferenceArguments& arguments) {
@@ -86,6 +97,14 @@ MethodSpec parse_known_method(std::string_view option, const std::string& text) 
   const std::vector<MethodSpec> methods = parse_known_methods(text);
   if (methods.size() == 1) return methods.front();
   throw Error(ErrorKind::usage, std::string(option), fmt::format("`{}` is more than one method", text), "name one");
+}
+
+EffectSet parse_effects(std::string_view option, const std::string& text) {
+  const std::vector<std::string> names = effect_names(EffectSet{}.set());
+  EffectSet effects;
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) effects.set(parse_choice(option, word, names));
+  return effects;
 }
 
 std::filesystem::path experiments_folder() { return folder_of("FOOTPRINT_EXPERIMENTS", FOOTPRINT_EXPERIMENTS_FOLDER); }

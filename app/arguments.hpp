@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "experiments/runner/known_methods.hpp"
+#include "renderer/effects/effects.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/scene/surface.hpp"
 
@@ -27,6 +28,20 @@ void add_backend_options(CLI::App& command, BackendArguments& arguments);
 
 /// Errors (usage): no such backend.
 [[nodiscard]] gl::ContextRequest context_request(const BackendArguments& arguments);
+
+/// What every command needs that renders frames of a scene.
+struct FrameArguments {
+  std::string scene;
+  std::string size;  ///< empty: the scene's
+  std::string exposure = "auto";
+  int anisotropy = 1;
+  BackendArguments backend;
+  bool quiet = false;
+};
+
+/// Adds the scene, --size, --anisotropy, --exposure (a factor on radiance for what `exposed` says), --quiet, and the
+/// backend's options.
+void add_frame_options(CLI::App& command, FrameArguments& arguments, const std::string& exposed);
 
 /// What the reference is made with.
 struct ReferenceArguments {
@@ -59,6 +74,10 @@ void add_quiet_flag(CLI::App& command, bool& quiet);
 
 /// The one method that `option` gives; `reference` counts as one. Errors (usage): more than one, or not known.
 [[nodiscard]] MethodSpec parse_known_method(std::string_view option, const std::string& text);
+
+/// The effects that `text` names, commas between; none if it is empty. Errors (usage) name `option` and the nearest
+/// right name.
+[[nodiscard]] EffectSet parse_effects(std::string_view option, const std::string& text);
 
 /// Where the experiments that have a name lie: the environment variable FOOTPRINT_EXPERIMENTS, or the source tree's
 /// experiments/.

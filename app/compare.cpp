@@ -34,7 +34,7 @@ struct Arguments {
   std::string distances;  // empty: the scene's zoom path
   std::string size;       // empty: the scene's
   std::string exposure = "auto";
-  std::string effects = "auto";
+  std::string without;
   int repeats = 9;
   int processes = 1;
   int anisotropy = 1;
@@ -55,9 +55,8 @@ void add_options(CLI::App& command, Arguments& arguments) {
   add_anisotropy_option(command, arguments.anisotropy);
   command.add_option("--exposure", arguments.exposure, "Factor on radiance for display and clamped errors, or auto")
       ->capture_default_str();
-  command
-      .add_option("--effects", arguments.effects, "auto: those that the scene calls for; all: every one compiled in")
-      ->capture_default_str();
+  command.add_option("--without", arguments.without,
+                     "Effects that every method and the reference leave out, commas between, as `explain` names them");
   command.add_option("--repeats", arguments.repeats, "Timed frames of each method in each process, interleaved")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
@@ -74,11 +73,6 @@ void add_options(CLI::App& command, Arguments& arguments) {
   add_quiet_flag(command, arguments.quiet);
 }
 
-bool parse_effects(const std::string& word) {
-  const std::array<std::string, 2> choices{"auto", "all"};
-  return parse_choice("--effects", word, choices) == 1;
-}
-
 CompareSettings settings_from(const Arguments& arguments) {
   CompareSettings settings;
   settings.scene = arguments.scene;
@@ -90,7 +84,7 @@ CompareSettings settings_from(const Arguments& arguments) {
   settings.seed = arguments.reference.seed;
   settings.filter = parse_filter(arguments.reference.filter);
   settings.exposure = parse_exposure(arguments.exposure);
-  settings.all_effects = parse_effects(arguments.effects);
+  settings.without = parse_effects("--without", arguments.without);
   settings.repeats = arguments.repeats;
   settings.anisotropy = arguments.anisotropy;
   settings.tile = arguments.backend.tile;

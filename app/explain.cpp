@@ -114,7 +114,7 @@ Explanation explain(const Arguments& arguments, const Progress& progress) {
 }
 
 std::string text_of(const ShadowPass& pass) {
-  return fmt::format("\nshadow maps, drawn once\n  {:<21} {}\n  {:<21} {} of {}x{}\n  {:<21} {}\n", "draws", pass.draws,
+  return fmt::format("\nshadow maps, drawn once\n  {:<24} {}\n  {:<24} {} of {}x{}\n  {:<24} {}\n", "draws", pass.draws,
                      "maps", pass.maps, pass.resolution, pass.resolution, "bytes", readable_bytes(pass.bytes));
 }
 
@@ -122,23 +122,23 @@ std::string text_of(const Explanation& explanation) {
   std::string text = "effects\n";
   for (const EffectDecision& decision : explanation.effects) {
     text +=
-        fmt::format("  {:<21} {:<4} {}\n", effect_name(decision.effect), decision.on ? "on" : "off", decision.reason);
+        fmt::format("  {:<24} {:<4} {}\n", effect_name(decision.effect), decision.on ? "on" : "off", decision.reason);
   }
   if (explanation.shadows) text += text_of(*explanation.shadows);
-  text += fmt::format("\nforward pass with {}\n  {:<21} {}\n  {:<21} {} lines\n  {:<21} {}\n", explanation.method,
+  text += fmt::format("\nforward pass with {}\n  {:<24} {}\n  {:<24} {} lines\n  {:<24} {}\n", explanation.method,
                       "draws", explanation.draws, "fragment shader", explanation.shader_lines, "shared by all methods",
                       readable_bytes(explanation.shared_bytes));
-  text += fmt::format("  {:<21} {}\n", "the method's own", readable_bytes(explanation.method_bytes));
+  text += fmt::format("  {:<24} {}\n", "the method's own", readable_bytes(explanation.method_bytes));
   for (const TextureUse& use : explanation.textures) {
     text += fmt::format("    {:<19} {}\n", use.name, readable_bytes(use.bytes));
   }
   if (!explanation.left_out.empty()) {
-    text += fmt::format("  {:<21} {}\n", "left out", fmt::join(explanation.left_out, ", "));
+    text += fmt::format("  {:<24} {}\n", "left out", fmt::join(explanation.left_out, ", "));
   }
   if (explanation.costs.empty()) return text;
   text += fmt::format("\n{:<23} {:>10} {:>12} {:>10}\n", "cost, ms a frame", "with", "without", "adds");
   for (const EffectCost& cost : explanation.costs) {
-    text += fmt::format("  {:<21} {:>10.3f} {:>12.3f} {:>10.3f}\n", effect_name(cost.effect), cost.with_ms,
+    text += fmt::format("  {:<24} {:>10.3f} {:>12.3f} {:>10.3f}\n", effect_name(cost.effect), cost.with_ms,
                         cost.without_ms, cost.added_ms);
   }
   return text;

@@ -1,6 +1,6 @@
 // footprint_em_library_ratio: the time of Tan's mixtures over a map, aligned and each texel on its own, against that of
 // Armadillo's EM for Gaussian mixtures, run texel by texel on the same normals, and what log-likelihood each comes to.
-// Built where Armadillo's headers are; no part of the checks.
+// Takes names of surfaces; without one, all of them. Built where Armadillo's headers are; no part of the checks.
 #define ARMA_DONT_USE_WRAPPER  // headers alone: a diagonal mixture needs no LAPACK
 #define ARMA_DONT_USE_HDF5
 #include <tbb/global_control.h>
@@ -174,9 +174,13 @@ void print_ratios(const Surface& surface) {
 }  // namespace
 }  // namespace footprint::bench
 
-int main() {
+int main(int count, char** words) {
+  const std::vector<std::string> wanted(words + 1, words + count);
   try {
-    for (const footprint::Surface& surface : footprint::all_surfaces()) footprint::bench::print_ratios(surface);
+    for (const footprint::Surface& surface : footprint::all_surfaces()) {
+      if (!wanted.empty() && std::ranges::find(wanted, surface.name) == wanted.end()) continue;
+      footprint::bench::print_ratios(surface);
+    }
     return 0;
   } catch (const std::exception& error) {
     (void)std::fprintf(stderr, "footprint_em_library_ratio: %s\n", error.what());

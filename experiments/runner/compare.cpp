@@ -2,6 +2,7 @@
 #include "experiments/runner/compare.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -35,7 +36,7 @@ StageSettings stage_settings(const CompareSettings& settings) {
           .filter = settings.filter,
           .anisotropy = settings.anisotropy,
           .tile = settings.tile,
-          .all_effects = settings.all_effects,
+          .without = settings.without,
           .cache = settings.cache};
 }
 
@@ -353,7 +354,15 @@ class Comparison {
     results_.reference.filter = filter_name(settings_.filter);
     results_.reference.seed = settings_.seed;
     results_.scene = scene_info(stage_.scene(), chosen_exposure_, results_.reference);
+    add_left_out();
     add_precompute_notes();
+  }
+
+  void add_left_out() {
+    const EffectSet left_out = effects_on(stage_.decisions()) & settings_.without;
+    if (left_out.none()) return;
+    results_.scene.warnings.push_back(fmt::format("left out of every picture, the reference's too, as was asked: {}",
+                                                  fmt::join(effect_names(left_out), ", ")));
   }
 
   void add_precompute_notes() {

@@ -35,7 +35,7 @@ struct CompareSettings {
   std::uint64_t seed = 1;
   ReferenceFilter filter = ReferenceFilter::after_shading;
   std::optional<float> exposure;  ///< none: the scene's own, else automatic
-  bool all_effects = false;
+  EffectSet without;  ///< effects that every method and the reference leave out
   int repeats = 9;  ///< timed frames of each method and distance in each process
   int anisotropy = 1;
   int tile = 0;

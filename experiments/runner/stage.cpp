@@ -69,7 +69,7 @@ Stage::Stage(const gl::ContextRequest& request, Scene scene, const StageSettings
       settings_(settings),
       size_(frame_size(scene_, settings.size)),
       decisions_(derive_effects(scene_)),
-      effects_(settings.all_effects ? EffectSet{}.set() : effects_on(decisions_)) {
+      effects_(effects_on(decisions_) & ~settings.without) {
   require_pictures(size_, settings.pictures);
   scene_ = refined_for_visibility(std::move(scene_), effects_);
   ProgressParts parts(progress, static_cast<double>(settings.methods.size() + 2));

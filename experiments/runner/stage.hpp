@@ -20,7 +20,7 @@ struct StageSettings {
   ReferenceFilter filter = ReferenceFilter::after_shading;
   int anisotropy = 1;        ///< probes along the major axis, at most
   int tile = 0;              ///< pixels a side drawn at once; 0: as many as fit
-  bool all_effects = false;  ///< every effect compiled in, also those that the scene gives nothing to do
+  EffectSet without = {};    ///< effects that are left out, by every method and the reference
   std::optional<std::filesystem::path> cache = {};  ///< folder where slow precomputes are kept; none: they are not
   int pictures = 3;  ///< as large as the frame, that are held at once: the frame, and two while it is written
 };

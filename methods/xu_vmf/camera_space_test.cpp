@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "methods/xu_vmf/built_map.hpp"
+#include "methods/xu_vmf/shortfall_twin.hpp"
 #include "renderer/pipeline/frame.hpp"
 #include "renderer/scene/plane.hpp"
 #include "tests/support/rendering.hpp"
@@ -69,11 +70,11 @@ TEST(CameraSpace, LeavesOutWhatFacesAwayAndTurnsTwoSidedSurfacesRound) {
   }
 }
 
-// Two planes under one flat map: the second is tilted, and looks up the same texels.
-Scene two_planes() {
+// Two planes under one flat map: the second is turned, and looks up the same texels.
+Scene two_planes(double degrees = 60) {
   Scene scene = blinn_phong_square(constant_normals(24, 24, {0, 0, 1}), 100);
   Mesh tilted = make_plane({1, 1}, {1, 1});
-  turn_vertices(tilted.vertices, turn(60, {0, 1, 0}));
+  turn_vertices(tilted.vertices, turn(degrees, {0, 1, 0}));
   scene.meshes.push_back(tilted);
   return scene;
 }
@@ -89,11 +90,11 @@ TEST(CameraSpace, MixesNoChartsUpToTheThirdLevel) {
       for (int x = 0; x < whole.width; ++x) {
         const float covered = whole.at(x, y)[3];
         if (covered == 0.0F) continue;
-        const glm::vec3 n = direction(whole, x, y) / covered / (1.0F - 1.0F / 100.5F);
-        if (glm::length(n - tilted) < 1e-3F) {
+        const glm::vec3 n = direction(whole, x, y) / covered / static_cast<float>(1.0 - shortfall_twin(101.0));
+        if (glm::length(n - tilted) < 1e-5F) {
           ++slanted;
         } else {
-          EXPECT_LT(glm::length(n - glm::vec3(0, 0, 1)), 1e-3F) << level << ": " << x << ", " << y;
+          EXPECT_LT(glm::length(n - glm::vec3(0, 0, 1)), 1e-5F) << level << ": " << x << ", " << y;
           ++facing;
         }
       }
@@ -101,6 +102,30 @@ TEST(CameraSpace, MixesNoChartsUpToTheThirdLevel) {
     EXPECT_GT(facing, 0) << level;
     EXPECT_GT(slanted, 0) << level;
   }
+}
+
+// One of two planes faces away: at every level, of the whole and of its parts, what is covered has the other one's
+// mean.
+TEST(CameraSpace, MeansLeaveOutWhatIsCulled) {
+  const BuiltMap map(two_planes(150), camera_space);
+  const auto expect_facing = [&](std::string_view name, std::size_t levels) {
+    int covered = 0;
+    for (std::size_t level = 0; level < levels; ++level) {
+      const Image values = map.level(name, level);
+      for (int y = 0; y < values.height; ++y) {
+        for (int x = 0; x < values.width; ++x) {
+          const float share = values.at(x, y)[3];
+          if (share == 0.0F) continue;
+          ++covered;
+          const glm::dvec3 mean = glm::dvec3(direction(values, x, y)) / static_cast<double>(share);
+          EXPECT_LT(glm::length(mean - glm::dvec3(0, 0, 1.0 - shortfall_twin(101.0))), 1e-5) << name << level;
+        }
+      }
+    }
+    EXPECT_GT(covered, 0) << name;
+  };
+  expect_facing("xu_vmf_whole", map.baked().textures[0].levels.size());
+  expect_facing("xu_vmf_parts", map.baked().textures[1].levels.size());
 }
 
 TEST(CameraSpace, FallsBackToTheTangentFrameAndSaysSo) {

@@ -33,15 +33,17 @@ const int most_lobes = most_of_one * most_facet_lobes;
 const int most_lobes = most_of_one;
 //? end
 
-// Lobes 0 to count - 1.
+// A pixel's lobes, 0 to count - 1: its mean direction times its share of the footprint, and 1 - |r|. Few numbers, since an
+// array whose index is not known is dear to write and to read. They are no member of Effective, which functions take by
+// value: a software renderer would copy them all at every call.
+vec4 lobes[most_lobes];
+//? if variant_published
+float amounts[most_lobes];  // what each adds with; it is the share where lobes weigh what they cover
+//? end
+
 struct Effective {
   int count;
-  vec3 mean[most_lobes];
-  float kappa[most_lobes];
-  float lobe[most_lobes];    // the base lobe of that width
-  float share[most_lobes];   // of the footprint; all sum to one
-  float amount[most_lobes];  // what the lobe adds with
-  float cosine[most_lobes];  // length of the mean of the unit normals
+  float covered;  // of the footprint, by the lobes of one of the facets'
 //? if multi_lobe
   vec3 normal;  // mean of the unit normals of facets with lobes of their own axes
 //? end
@@ -56,14 +58,32 @@ const float least_share = 1e-4;
 //? end
 //? end
 
-float densityOf(Effective e, int i, vec3 h) {
+struct Lobe {
+  vec3 mean;
+  float kappa;
+  float base;    // the base lobe of that width
+  float amount;
+};
+
+Lobe lobeAt(int i) {
+  vec4 lobe = lobes[i];
+  float share = length(lobe.xyz);
+  float kappa = kappaOf(lobe.w);
+//? if variant_published
+  return Lobe(lobe.xyz / max(share, 1e-30), kappa, lobeOfKappa(kappa), amounts[i]);
+//? else
+  return Lobe(lobe.xyz / max(share, 1e-30), kappa, lobeOfKappa(kappa), share);
+//? end
+}
+
+float densityOf(Lobe lobe, vec3 h) {
 //? if lobe_base
-  return lobeDensity(e.lobe[i], e.mean[i], h);
+  return lobeDensity(lobe.base, lobe.mean, h);
 //? else
 //? if distribution_vmf
-  return lobeDensity(e.kappa[i], e.mean[i], h);
+  return lobeDensity(lobe.kappa, lobe.mean, h);
 //? else
-  return vmfDensity(e.kappa[i], e.mean[i], h);
+  return vmfDensity(lobe.kappa, lobe.mean, h);
 //? end
 //? end
 }
@@ -85,15 +105,14 @@ int ownLobeCount() { return 1; }
 OwnLobe ownLobe(int k) { return OwnLobe(vec3(0.0, 0.0, 1.0), lobe_cutoff.x, 1.0); }
 //? end
 
-// The lobe of flat facets.
-void addFlat(inout Effective e, OwnLobe own) {
-  int i = e.count++;
-  e.mean[i] = own.axis;
-  e.lobe[i] = own.parameter;
-  e.kappa[i] = kappaOfLobe(own.parameter);
-  e.share[i] = 1.0;
-  e.amount[i] = 1.0;
-  e.cosine[i] = 1.0;
+float facet_shortfall;  // 1 - |r| of a facet of the lobe that is looked up, where all have the same
+
+void pushLobe(inout Effective e, vec3 mean, float q, float share, float amount) {
+  lobes[e.count] = vec4(share * mean, q);
+//? if variant_published
+  amounts[e.count] = amount;
+//? end
+  ++e.count;
 }
 
 //? if texture_arrays
@@ -131,7 +150,6 @@ Part partOf(vec4 r, float least) { return Part(r, least); }
 Part partOf(vec4 r, float least) { return Part(r, 0.0); }
 //? end
 //? else
-float facet_shortfall;  // 1 - |r| of every texel of the lobe that is looked up
 Part partOf(vec4 r, float least) { return Part(r, r.w * facet_shortfall); }
 //? end
 
@@ -151,17 +169,10 @@ void addLobe(inout Effective e, Part part, float weight) {
   vec3 r = part.r.xyz / part.r.w;
   float size = length(r);
   float q = max(1.0 - size - dead_zone, part.least / part.r.w);
-  int i = e.count++;
-  e.mean[i] = size < 1e-6 ? vec3(0.0, 0.0, 1.0) : axisOf(r / size);
-  e.kappa[i] = kappaOf(clamp(q, 1.0 / largest_exponent, 1.0));
-  e.lobe[i] = lobeOfKappa(e.kappa[i]);
-  e.share[i] = weight * part.r.w;
-  e.amount[i] = weight;  // Algorithm 1 as printed adds every lobe whole, whatever it covers
-//? if roughness_variation
-  e.cosine[i] = 1.0;  // what of |r| is the normals' and what the lobes' is not known
-//? else
-  e.cosine[i] = min(size / max(1.0 - part.least / part.r.w, 1e-6), 1.0);  // over |r| of a single facet
-//? end
+  vec3 mean = size < 1e-6 ? vec3(0.0, 0.0, 1.0) : axisOf(r / size);
+  float share = weight * part.r.w;
+  pushLobe(e, mean, clamp(q, 1.0 / largest_exponent, 1.0), share, weight);
+  e.covered += share;
 }
 
 //? if sampling_frame
@@ -253,101 +264,98 @@ float unityOf(Part part, float threshold) {
 
 // Loops run over the layers that the map has: a count that the compiler does not know, so that it unrolls nothing and
 // compiles in a fraction of the time. They ask at their end: a software renderer runs a body that is asked for first
-// once more than needed.
-void addParts(inout Effective e, Footprint f, int own, float weight) {
+// once more than needed. It runs what a condition leaves out as well, but not a loop's further rounds: so the lobe of the
+// whole hemisphere, which serves most footprints, is the first round.
+void addParts(inout Effective e, Footprint f, int own) {
   int layers = textureSize(xu_vmf_parts, 0).z / ownLobeCount();
 //? if not anisotropic
   Probe probe = probeAt(own, f.uv, levelOf(vec2(textureSize(xu_vmf_whole, 0).xy), f));
 //? end
 //? if j_adaptive
-  // A coarse cell is the sum of its two fine ones, so that it needs no layer of its own.
+  Part whole = wholeAt(f, own);
+  float whole_unity = unityOf(whole, option_eps0);
+  Part first = whole;
+  Effective before = e;
+  int i = -1;
+//? else
   int i = 0;
+//? end
   do {
 //? if anisotropic
-    Part first = partUnder(f, own, i), second = partUnder(f, own, i + 1);
+    Part part = partUnder(f, own, max(i, 0));
 //? else
-    Part first = partAt(probe, i), second = partAt(probe, i + 1);
+    Part part = partAt(probe, max(i, 0));
 //? end
-    Part both = sumOf(first, second);
-    float unity = unityOf(both, option_eps1);
+    float weight = 1.0;
+//? if j_adaptive
+    // A coarse cell is the sum of its two fine ones, so that it needs no layer of its own. Where it is not to be cut, it
+    // takes the place of both.
+    weight = 1.0 - whole_unity;
+    if (i < 0) {
+      part = whole;
+      weight = whole_unity;
+    } else if (i % 2 == 0) {
+      before = e;
+      first = part;
+    } else {
+      Part both = sumOf(first, part);
+      float unity = unityOf(both, option_eps1);
 //? if thresholds_blended
-    addLobe(e, both, weight * unity);
-    addLobe(e, first, weight * (1.0 - unity));
-    addLobe(e, second, weight * (1.0 - unity));
+      e = before;
+      addLobe(e, first, weight * (1.0 - unity));
+      addLobe(e, both, weight * unity);
+      weight *= 1.0 - unity;
 //? else
-    if (unity > 0.0) {
-      first = both;
-      second.r.w = 0.0;
-    }
-    addLobe(e, first, weight);
-    addLobe(e, second, weight);
+      if (unity > 0.0) {
+        e = before;
+        part = both;
+      }
 //? end
-    i += 2;
-  } while (i < layers);
-//? else
-  int i = 0;
-  do {
-//? if anisotropic
-    addLobe(e, partUnder(f, own, i), weight);
-//? else
-    addLobe(e, partAt(probe, i), weight);
+    }
+//? end
+    addLobe(e, part, weight);
+//? if j_adaptive
+    if (whole_unity >= 1.0) break;
 //? end
   } while (++i < layers);
-//? end
 }
 //? end
 //? end
 
 // Algorithm 1. A sample of the finest level has one texel, or what is blended of texels: one lobe.
 void addLobes(inout Effective e, Footprint f, int own) {
-//? if not sampling_frame
-  addLobe(e, wholeAt(f, own), 1.0);
-//? else
+//? if sampling_frame
 //? if j_1
   addLobe(e, wholeAt(f, own), 1.0);
 //? else
-//? if j_adaptive
-  Part whole = wholeAt(f, own);
-  float unity = unityOf(whole, option_eps0);
-  addLobe(e, whole, unity);
-  if (unity < 1.0 && whole.r.w >= least_share) addParts(e, f, own, 1.0 - unity);
+  addParts(e, f, own);
+//? end
 //? else
-  addParts(e, f, own, 1.0);
-//? end
-//? end
+  addLobe(e, wholeAt(f, own), 1.0);
 //? end
 }
 //? end
-
-// The lobes that came of one of the facets' own, from `first` on: shares sum to one, amounts to its weight.
-void weigh(inout Effective e, int first, float weight) {
-  float covered = 0.0;
-  int i = first;
-  do {
-    covered += e.share[i];
-  } while (++i < e.count);
-  i = first;
-  do {
-    e.share[i] /= covered;
-//? if variant_corrected
-    e.amount[i] = weight * e.share[i];
-//? else
-    e.amount[i] *= weight;
-//? end
-  } while (++i < e.count);
-}
 
 void addOwnLobe(inout Effective e, Footprints f, int k) {
   OwnLobe own = ownLobe(k);
+  float q = shortfallOf(kappaOfLobe(own.parameter));
+  facet_shortfall = q;
   int first = e.count;
+  e.covered = 0.0;
 //? if texture_arrays
-//? if not roughness_variation
-  facet_shortfall = shortfallOf(kappaOfLobe(own.parameter));
-//? end
   addLobes(e, placeOf(f), k);
 //? end
-  if (e.count == first) addFlat(e, own);
-  weigh(e, first, own.weight);
+  if (e.count == first) {  // flat facets
+    pushLobe(e, own.axis, q, 1.0, 1.0);
+    e.covered = 1.0;
+  }
+  int i = first;
+  do {
+    lobes[i] *= vec4(vec3(own.weight / e.covered), 1.0);  // whole: Mesa 22.3 loses w where x, y and z alone are written
+//? if variant_published
+    amounts[i] *= own.weight;
+//? end
+  } while (++i < e.count);
 }
 
 Effective effective(Footprints f) {
@@ -366,14 +374,13 @@ Effective effective(Footprints f) {
   return e;
 }
 
-//? if multi_lobe
 // Facets with lobes of their own axes hide each other by their normals, whatever the axes.
-vec3 geometryAxis(Effective e, int i) {
-  return facet_lobe_count > 0 ? e.normal / max(length(e.normal), 1e-6) : e.mean[i];
-}
-//? else
-vec3 geometryAxis(Effective e, int i) { return e.mean[i]; }
+vec3 geometryAxis(Effective e, vec3 mean) {
+//? if multi_lobe
+  if (facet_lobe_count > 0) return e.normal / max(length(e.normal), 1e-6);
 //? end
+  return mean;
+}
 
 vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
   if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
@@ -381,9 +388,20 @@ vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
   float sum = 0.0;
   int i = 0;
   do {
-    sum += e.amount[i] * densityOf(e, i, h) * geometryFactor(e.lobe[i], geometryAxis(e, i), h, wi, wo);
+    Lobe lobe = lobeAt(i);
+    sum += lobe.amount * densityOf(lobe, h) * geometryFactor(lobe.base, geometryAxis(e, lobe.mean), h, wi, wo);
   } while (++i < e.count);
   return fresnelTerm(f0, wi, wo) * sum;
+}
+
+// A lobe's mean direction times its share and the length of the mean of its facets' unit normals: |r| over that of a
+// single facet. Where roughness varies, what of |r| is the normals' and what the lobes' is not known.
+vec3 meanNormalOf(vec4 lobe) {
+//? if roughness_variation
+  return lobe.xyz;
+//? else
+  return min((1.0 - lobe.w) / max(1.0 - facet_shortfall, 1e-6), 1.0) * lobe.xyz;
+//? end
 }
 
 //? if diffuse
@@ -397,7 +415,7 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
   vec3 sum = vec3(0.0);
   int i = 0;
   do {
-    sum += e.share[i] * e.cosine[i] * lambert(e.mean[i], albedo, f0, wi, wo);
+    sum += lambert(meanNormalOf(lobes[i]), albedo, f0, wi, wo);
   } while (++i < e.count);
   return sum;
 }
@@ -405,7 +423,10 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
 
 float ndf(Effective e, vec3 h) {
   float sum = 0.0;
-  for (int i = 0; i < e.count; ++i) sum += e.amount[i] * densityOf(e, i, h);
+  for (int i = 0; i < e.count; ++i) {
+    Lobe lobe = lobeAt(i);
+    sum += lobe.amount * densityOf(lobe, h);
+  }
   return sum;
 }
 
@@ -413,16 +434,17 @@ float ndf(Effective e, vec3 h) {
 int lobeCount(Effective e) { return e.count; }
 
 NormalLobe normalLobe(Effective e, int i) {
+  Lobe lobe = lobeAt(i);
 //? if lobe_base
-  return baseNormalLobe(e.mean[i], e.lobe[i], e.amount[i]);
+  return baseNormalLobe(lobe.mean, lobe.base, lobe.amount);
 //? else
-  return vmfNormalLobe(e.mean[i], e.kappa[i], e.amount[i], e.lobe[i]);
+  return vmfNormalLobe(lobe.mean, lobe.kappa, lobe.amount, lobe.base);
 //? end
 }
 
 float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
 //? if multi_lobe
-  if (facet_lobe_count > 0) return geometryFactor(lobe.base, geometryAxis(e, 0), h, wi, wo);
+  if (facet_lobe_count > 0) return geometryFactor(lobe.base, geometryAxis(e, lobe.axis), h, wi, wo);
 //? end
   return geometryFactor(lobe.base, lobe.axis, h, wi, wo);
 }
@@ -432,7 +454,7 @@ vec3 meanNormal(Effective e) {
   if (facet_lobe_count > 0) return e.normal;
 //? end
   vec3 sum = vec3(0.0);
-  for (int i = 0; i < e.count; ++i) sum += e.share[i] * e.cosine[i] * e.mean[i];
+  for (int i = 0; i < e.count; ++i) sum += meanNormalOf(lobes[i]);
   return sum;
 }
 //? end

@@ -10,6 +10,7 @@
 #include "renderer/environment/octahedral.hpp"
 #include "renderer/pipeline/gpu_environment.hpp"
 #include "renderer/pipeline/shader_source.hpp"
+#include "tests/support/rendering.hpp"
 #include "tests/support/shader_probe.hpp"
 #include "tests/support/slope_twin.hpp"
 
@@ -74,6 +75,15 @@ Environment banded_environment() {
   return {.name = "band", .radiance = std::make_shared<const Image>(std::move(map)), .rotation = 0.4F};
 }
 
+// The maps of an environment where `functions_of` reads them.
+GpuEnvironment bound(Environment environment) {
+  shared_context().make_current();
+  GpuEnvironment gpu(std::move(environment));
+  gpu.prepare(false);
+  gpu.bind(0, false);
+  return gpu;
+}
+
 const std::vector<glm::dvec3> axes{
     {0.1, 0.9, 0.2}, {-0.7, 0.1, 0.4}, {0.5, -0.6, -0.5}, {0.02, -0.9, 0.01}, {0.4, 0.3, -1}};
 
@@ -93,9 +103,7 @@ TEST(EnvironmentLight, OctahedralMapIsItsTwin) {
 TEST(EnvironmentLight, StackHoldsMeansOverLobes) {
   const Environment environment = banded_environment();
   const std::string functions = functions_of(NormalDistribution::vmf);
-  GpuEnvironment gpu(environment);
-  gpu.prepare(false);
-  gpu.bind(0, false);
+  const GpuEnvironment gpu = bound(environment);
   for (const double kappa : {0.05, 0.5, 1.7, 6.0, 13.0, 40.0, 70.0}) {
     Inputs inputs;
     for (const glm::dvec3& axis : axes)
@@ -234,13 +242,11 @@ double brute_force(const DrawnCase& c, const Environment& environment, const glm
   return sum * 2.0 * pi / (rings * sectors);
 }
 
-// The whole approximation but for geometry and Fresnel terms: 8% of the exact radiance, 20% with GGX's tail, which is
-// stretched most where the view is oblique; plus 1% of what a lobe could reflect at most.
+// The whole approximation but for geometry and Fresnel terms: 8% of the exact radiance, plus 1% of what a lobe could
+// reflect at most.
 TEST(EnvironmentLight, LobesReflectWhatTheSumOverDirectionsSays) {
   const Environment environment = banded_environment();
-  GpuEnvironment gpu(environment);
-  gpu.prepare(false);
-  gpu.bind(0, false);
+  const GpuEnvironment gpu = bound(environment);
   for (const DrawnCase& c : {DrawnCase{NormalDistribution::blinn_phong, 60.0F},
                              {NormalDistribution::vmf, 25.0F},
                              {NormalDistribution::beckmann, 0.25F},
@@ -259,13 +265,121 @@ TEST(EnvironmentLight, LobesReflectWhatTheSumOverDirectionsSays) {
         functions_of(c.distribution),
         "return vec4(environmentSpecular(Effective(evenFacets(a.xyz, a.w)), vec3(1.0), b.xyz, mat3(1.0)), 1.0);",
         inputs);
-    const double bound = c.distribution == NormalDistribution::ggx ? 0.2 : 0.08;
+    const double bound = 0.08;
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       for (int channel = 0; channel < 2; ++channel) {
         const double exact = truth[i][static_cast<std::size_t>(channel)];
         EXPECT_NEAR(radiance[i][channel], exact, bound * exact + 0.04)
             << "distribution " << static_cast<int>(c.distribution) << ", view " << i << ", channel " << channel;
       }
+    }
+  }
+}
+
+// G2 / (4 n.v) of GGX as in Heitz 2014: two Lambdas, where the shader has one fraction.
+double ggx_smith(double alpha, double nl, double nv) {
+  if (nl <= 0.0) return 0.0;
+  nv = std::max(nv, 1e-4);
+  const auto lambda = [&](double c) { return 0.5 * (std::sqrt(1.0 + alpha * alpha * (1.0 / (c * c) - 1.0)) - 1.0); };
+  return 0.25 / ((1.0 + lambda(nv) + lambda(nl)) * nv);
+}
+
+// What GGX facets about a normal under Smith's masking reflect, by a sum over their normals: equal parts of D (n.h).
+double ggx_reflects(double alpha, const glm::dvec3& n, const glm::dvec3& wo,
+                    const std::function<double(const glm::dvec3&)>& light) {
+  constexpr int rings = 300;
+  constexpr int sectors = 100;
+  double sum = 0;
+  for (int i = 0; i < rings; ++i) {
+    const double u = (i + 0.5) / rings;
+    const double cosine = 1.0 / std::sqrt(1.0 + alpha * alpha * u / (1.0 - u));
+    for (int j = 0; j < sectors; ++j) {
+      const glm::dvec3 h = about(n, cosine, 2.0 * pi * (j + 0.5) / sectors);
+      const glm::dvec3 wi = 2.0 * glm::dot(h, wo) * h - wo;
+      if (glm::dot(h, wo) <= 0.0 || wi.z <= 0.0) continue;
+      sum += 4.0 * glm::dot(h, wo) / cosine * ggx_smith(alpha, glm::dot(n, wi), glm::dot(n, wo)) * light(wi);
+    }
+  }
+  return sum / (rings * sectors);
+}
+
+// A GGX facet: alpha, its lean towards the viewer's side and the view, in the plane of both.
+struct Facet {
+  double alpha, lean, view;
+
+  [[nodiscard]] glm::dvec3 normal() const { return in_plane(lean); }
+  [[nodiscard]] glm::dvec3 wo() const { return in_plane(view); }
+
+ private:
+  static glm::dvec3 in_plane(double degrees) {
+    return {std::sin(degrees * pi / 180.0), 0.0, std::cos(degrees * pi / 180.0)};
+  }
+};
+
+std::vector<Facet> facets() {
+  std::vector<Facet> all;
+  for (const double alpha : {0.05, 0.1, 0.25, 0.5, 0.75, 1.0}) {
+    for (const double lean : {0.0, 25.0, -25.0, 50.0}) {
+      for (const double view : {0.0, 30.0, 60.0, 85.0}) all.push_back({alpha, lean, view});
+    }
+  }
+  return all;
+}
+
+std::vector<glm::vec4> facet_radiance(const Environment& environment) {
+  const GpuEnvironment gpu = bound(environment);
+  Inputs inputs;
+  for (const Facet& f : facets()) {
+    inputs.push_back(
+        {glm::vec4(glm::vec3(f.normal()), static_cast<float>(f.alpha)), glm::vec4(glm::vec3(f.wo()), 0), {}});
+  }
+  return evaluate_glsl(
+      functions_of(NormalDistribution::ggx, GeometryTerm::smith),
+      "return vec4(environmentSpecular(Effective(evenFacets(a.xyz, a.w)), vec3(1.0), b.xyz, mat3(1.0)), 1.0);", inputs);
+}
+
+// Rough facets lose much of a white furnace to masking and to the horizon, and those that turn away from the viewer
+// shine by their tail alone: at most 9% of what arrives is off, 3% on average.
+TEST(EnvironmentLight, GgxFacetsKeepTheEnergyOfAFurnace) {
+  const auto radiance = facet_radiance(constant_environment(glm::vec3(1.0F)));
+  double squares = 0;
+  const std::vector<Facet> all = facets();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double truth =
+        ggx_reflects(all[i].alpha, all[i].normal(), all[i].wo(), [](const glm::dvec3&) { return 1.0; });
+    EXPECT_NEAR(radiance[i].x, truth, 0.09)
+        << "alpha " << all[i].alpha << ", lean " << all[i].lean << ", view " << all[i].view;
+    squares += std::pow(radiance[i].x - truth, 2.0);
+  }
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(all.size())), 0.03);
+}
+
+// Of light that is below the horizon alone nothing may be reflected; at most 11% of it is. (A coarse map would
+// blur across the horizon by itself.)
+TEST(EnvironmentLight, LightFromBelowTheHorizonStaysOut) {
+  Image map(512, 256, 3);
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) std::ranges::fill(map.at(x, y), y < map.height / 2 ? 0.0F : 1.0F);
+  }
+  const GpuEnvironment gpu =
+      bound({.name = "ground", .radiance = std::make_shared<const Image>(std::move(map)), .rotation = 0.0F});
+  for (const NormalDistribution distribution :
+       {NormalDistribution::ggx, NormalDistribution::beckmann, NormalDistribution::blinn_phong}) {
+    Inputs inputs;
+    for (const Facet& f : facets()) {
+      if (distribution == NormalDistribution::blinn_phong && f.alpha > 0.9) continue;
+      inputs.push_back(
+          {glm::vec4(glm::vec3(f.normal()), static_cast<float>(f.alpha)), glm::vec4(glm::vec3(f.wo()), 0), {}});
+    }
+    const auto radiance = evaluate_glsl(functions_of(distribution, GeometryTerm::smith),
+                                        "mat3 up = mat3(vec3(1, 0, 0), vec3(0, 0, -1), vec3(0, 1, 0));\n"
+                                        "Facets f = evenFacets(a.xyz, lobeFromAlpha(a.w));\n"
+                                        "return vec4(environmentSpecular(Effective(f), vec3(1.0), b.xyz, up), 1.0);",
+                                        inputs);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      EXPECT_LT(radiance[i].x, 0.11) << "distribution " << static_cast<int>(distribution) << ", alpha "
+                                     << inputs[i][0].w << ", normal x " << inputs[i][0].x << ", view x "
+                                     << inputs[i][1].x;
     }
   }
 }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr GLuint block_binding = 5;
 constexpr float directions_a_sample = 2.0F;  // of each kind: docs/base-brdf.md
+constexpr float nodes_around = 4.0F;         // a ring of a lobe with a tail: docs/base-brdf.md
 
 gl::Buffer block_of(const std::array<glm::vec4, 2>& values) { return gl::Buffer(std::as_bytes(std::span(values))); }
 
@@ -31,7 +32,7 @@ GpuEnvironment::Part GpuEnvironment::stack_part() const {
   part.second = plain_texture(stack.irradiance, GL_RGBA32F, GL_RGBA);
   part.sampler = gl::trilinear_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
   part.block = block_of({glm::vec4(stack.mean, 0.0F),
-                         glm::vec4(stack.finest_sharpness, static_cast<float>(stack.map_count()), 0.0F, 0.0F)});
+                         glm::vec4(stack.finest_sharpness, static_cast<float>(stack.map_count()), nodes_around, 0.0F)});
   part.bytes = byte_count(maps) + stack.irradiance.texels.size() * sizeof(float);
   return part;
 }

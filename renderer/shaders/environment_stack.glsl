@@ -2,7 +2,7 @@
 // that its mirror images make about the viewer (Wang 2009), from a stack of prefiltered maps (Kautz 2000).
 layout(std140, binding = 5) uniform EnvironmentBlock {
   vec4 environment_mean;         // radiance over all directions
-  vec4 environment_stack_range;  // sharpness of the finest map's lobe, number of maps: two a level
+  vec4 environment_stack_range;  // sharpness of the finest map's lobe, number of maps: two a level; nodes around a ring
 };
 
 const float inverse_root_two_pi = 0.3989423;
@@ -74,13 +74,44 @@ VisibleLobe visibleLobe(NormalLobe lobe, vec3 wo) {
 float visibleElevation(vec3 direction, float elevation) { return elevation; }
 //? end
 
-// What stands beside the density of lobe i in f cos: F G', or all that a module with small-scale geometry knows of it.
-// `sharpness` is that of the lobe of directions to the light about wi.
-vec3 besideDensity(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 h, vec3 wi, vec3 wo, float sharpness) {
+// The directions that a lobe reflects to: mean and sharpness.
+struct ReflectedLobe {
+  vec3 axis;
+  float sharpness;
+};
+
+// A hemisphere of light from all sides, seen as a vMF lobe: mean cosine 1/2.
+const float hemisphere_sharpness = 1.83;
+
+// What of a lobe is above the surface's horizon, as a lobe of its own, so that no light from below gets in. Across the
+// plane that touches the sphere at the axis it is a Gaussian cut off along a line, whose mean moves away from the line
+// and whose variance shrinks; a wide lobe becomes a hemisphere.
+ReflectedLobe aboveHorizon(ReflectedLobe lobe, float share) {
+  float a = max(lobe.axis.z * sqrt(lobe.sharpness), -5.0);
+  float shift = inverse_root_two_pi * exp(-0.5 * a * a) / max(normalCdf(a), 1e-7);
+  vec3 across = vec3(0.0, 0.0, 1.0) - lobe.axis.z * lobe.axis;
+  float sine2 = dot(across, across);
+  vec3 moved = lobe.axis;
+  if (sine2 > 1e-8) moved += across * (shift * inversesqrt(lobe.sharpness * sine2));
+  float lost = sine2 * min(shift * (a + shift), 0.98);  // of the variance across the line
+  float sharpness = lobe.sharpness * 2.0 / (2.0 - lost) + hemisphere_sharpness * min(2.0 - 2.0 * share, 1.0);
+  return ReflectedLobe(normalize(moved), sharpness);
+}
+
+// What stands beside the density of lobe i in f cos, G' and F apart, or all that a module with small-scale geometry knows
+// of it. `sharpness` is that of the lobe of directions to the light about wi.
+struct Beside {
+  float weight;
+  vec3 color;
+};
+
+Beside besideDensity(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 h, vec3 wi, vec3 wo, float sharpness) {
 //? if microgeometry_visibility
-  return lobeReflectance(e, i, f0, h, wi, wo, sharpness);
+  vec3 all = lobeReflectance(e, i, f0, h, wi, wo, sharpness);
+  float mean = dot(all, vec3(1.0 / 3.0));
+  return Beside(mean, all / max(mean, 1e-12));
 //? else
-  return fresnelTerm(f0, wi, wo) * lobeGeometry(e, lobe, h, wi, wo);
+  return Beside(lobeGeometry(e, lobe, h, wi, wo), fresnelTerm(f0, wi, wo));
 //? end
 }
 
@@ -91,19 +122,85 @@ vec3 lobeRadiance(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wo, mat3 fr
   VisibleLobe visible = visibleLobe(lobe, wo);
   float cosine = max(dot(visible.axis, wo), 0.01);
   vec3 mirrored = 2.0 * cosine * visible.axis - wo;
-  mirrored /= max(length(mirrored), 1e-6);
-  float sharpness = lobe.sharpness / (4.0 * cosine);
-  float elevation = visibleElevation(frame * mirrored, mirrored.z);
-  float reflected = 4.0 * lobe.weight * visible.area * shareAbove(elevation, sharpness);
-  vec3 beside = besideDensity(e, i, lobe, f0, visible.axis, mirrored, wo, sharpness);
-  return beside * reflected * stackRadiance(frame * mirrored, sharpness);
+  ReflectedLobe whole = ReflectedLobe(mirrored / max(length(mirrored), 1e-6), lobe.sharpness / (4.0 * cosine));
+  ReflectedLobe above = aboveHorizon(whole, shareAbove(whole.axis.z, whole.sharpness));
+  float share = shareAbove(visibleElevation(frame * whole.axis, whole.axis.z), whole.sharpness);
+  Beside beside = besideDensity(e, i, lobe, f0, visible.axis, whole.axis, wo, whole.sharpness);
+  float reflected = 4.0 * lobe.weight * visible.area * share * beside.weight;
+  return beside.color * reflected * stackRadiance(frame * above.axis, above.sharpness);
 }
 
 //? if distribution_ggx
-// GGX over slopes is a mixture of Gaussians, 1 / (1 + x)^2 = integral of s e^-s e^-sx ds; two points of Gauss and Laguerre
-// keep its energy and its peak with its first two derivatives in x. The tail is what a single Gaussian lacks.
-const vec2 ggx_shares = vec2(0.8535534, 0.1464466);
-const vec2 ggx_sharpness = vec2(0.5857864, 3.4142136);
+// GGX has a tail that no Gaussian has, and wide facets of it reflect below the horizon, where masking is strongest: the
+// centre of a lobe says little of it. So its visible normals are sampled, as quadrature: once slopes are divided by
+// alpha, wo reflected by them fills a spherical cap evenly (Dupuy and Benyoub 2023). Rings of the cap, by the part of
+// its area within them: the core, half of the energy, and two rings of the tail.
+const vec2 ggx_rings[3] = vec2[](vec2(0.25, 0.5), vec2(0.605662, 0.25), vec2(0.894338, 0.25));  // place, share
+const float ggx_node_sharpness = 4.0;  // of what a node stands for, over the lobe's own
+// Variance of what the core's and the tail's nodes stand for, over that of the nodes alone.
+const vec2 ggx_spread = vec2(1.76, 1.11);
+
+// x along the part of wo across the axis.
+mat3 frameTowards(vec3 axis, vec3 wo) {
+  vec3 x = wo - dot(wo, axis) * axis;
+  if (dot(x, x) < 1e-8) x = cross(axis, abs(axis.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
+  x = normalize(x);
+  return mat3(x, cross(axis, x), axis);
+}
+
+// The mean of max(h.wo, 0) over GGX's normals, c the cosine of wo and axis (Walter 2007's Smith term).
+float ggxVisibleArea(float c, float alpha2) {
+  float root = sqrt(c * c + alpha2 * max(1.0 - c * c, 0.0));
+  return c >= 0.0 ? 0.5 * (root + c) : 0.5 * alpha2 * (1.0 - c * c) / (root - c);
+}
+
+// What nodes reflect: energy, and their directions weighted by it.
+struct NodeSum {
+  vec3 energy;
+  vec3 direction;
+  float weight;
+};
+
+// Adds one node of lobe i, `place` of environment_stack_range.z around a ring.
+void addNode(inout NodeSum sum, Effective e, int i, NormalLobe lobe, vec2 ring, int place, vec3 f0, vec3 wo, mat3 axes) {
+  float alpha = sqrt(2.0 / lobe.sharpness);
+  vec3 seen = wo * axes;
+  vec3 stretched = normalize(vec3(alpha * seen.xy, seen.z));
+  float z = 1.0 - ring.x * (1.0 + stretched.z);
+  float around = environment_stack_range.z;
+  float azimuth = 2.0 * pi / around * (float(place) + (ring.x == ggx_rings[1].x ? 0.0 : 0.5));
+  vec3 cap = vec3(sqrt(max(1.0 - z * z, 0.0)) * vec2(cos(azimuth), sin(azimuth)), z) + stretched;
+  vec3 h = axes * normalize(vec3(alpha * cap.xy, max(cap.z, 1e-6)));
+  vec3 wi = 2.0 * dot(h, wo) * h - wo;
+  float sharpness = ggx_node_sharpness * lobe.sharpness;
+  Beside beside = besideDensity(e, i, lobe, f0, h, wi, wo, sharpness);
+  float reflected = ring.y / around * shareAbove(wi.z, sharpness);
+  reflected *= 4.0 * lobe.weight * ggxVisibleArea(seen.z, alpha * alpha) * beside.weight;
+  sum.energy += reflected * beside.color;
+  sum.direction += reflected * wi;
+  sum.weight += reflected;
+}
+
+// The environment's mean over the vMF lobe whose mean direction is that of the nodes.
+vec3 nodesRadiance(NodeSum sum, float spread, mat3 frame) {
+  float size = length(sum.direction);
+  if (size < 1e-6) return vec3(0.0);
+  float r = min(size / sum.weight, 0.9999);
+  float sharpness = max(r * (3.0 - r * r) / (spread * (1.0 - r * r)), hemisphere_sharpness);
+  vec3 axis = sum.direction / size;
+  float share = shareAbove(visibleElevation(frame * axis, axis.z), sharpness) / shareAbove(axis.z, sharpness);
+  return sum.energy * share * stackRadiance(frame * axis, sharpness);
+}
+
+vec3 tailedRadiance(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wo, mat3 frame) {
+  mat3 axes = frameTowards(lobe.axis, wo);
+  NodeSum core = NodeSum(vec3(0.0), vec3(0.0), 0.0);
+  NodeSum tail = core;
+  int around = int(environment_stack_range.z);  // no constant: unrolled, the loop takes compilers seconds
+  for (int k = 0; k < around; ++k) addNode(core, e, i, lobe, ggx_rings[0], k, f0, wo, axes);
+  for (int k = 0; k < 2 * around; ++k) addNode(tail, e, i, lobe, ggx_rings[1 + k / around], k % around, f0, wo, axes);
+  return nodesRadiance(core, ggx_spread.x, frame) + nodesRadiance(tail, ggx_spread.y, frame);
+}
 //? end
 
 vec3 environmentSpecular(Effective e, vec3 f0, vec3 wo, mat3 frame) {
@@ -114,12 +211,8 @@ vec3 environmentSpecular(Effective e, vec3 f0, vec3 wo, mat3 frame) {
     if (lobe.weight <= 0.0) continue;
 //? if distribution_ggx
     if (lobe.tailed) {
-      NormalLobe tail = lobe;
-      tail.sharpness *= ggx_sharpness.x;
-      tail.weight *= ggx_shares.x;
-      radiance += lobeRadiance(e, i, tail, f0, wo, frame);
-      lobe.sharpness *= ggx_sharpness.y;
-      lobe.weight *= ggx_shares.y;
+      radiance += tailedRadiance(e, i, lobe, f0, wo, frame);
+      continue;
     }
 //? end
     radiance += lobeRadiance(e, i, lobe, f0, wo, frame);

@@ -8,7 +8,7 @@ struct NormalLobe {
   float sharpness;  // kappa, above 0
   float weight;     // the lobe's integral of D(h) (axis.h): what its facets cover seen along its axis
   float base;       // parameter of the base lobe that the geometry factor takes for it
-  bool tailed;      // with GGX's tail: two Gaussians stand for it, not one
+  bool tailed;      // GGX of alpha^2 = 2 / sharpness, its tail included
   vec3 normal;      // of the facets, for the geometry factor: the axis, but for facets with lobes about other axes
 };
 

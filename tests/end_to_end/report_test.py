@@ -117,6 +117,16 @@ class Report(WholeRunTest):
         self.assertIsNone(one["reference"]["standard_error"])
         self.assertEqual([record["error"]["noise_floor"] for record in one["records"]], [None] * len(METHODS))
 
+    def test_an_effect_can_be_left_out(self):
+        flat = results_of(
+            self.compare("flat", "ribbed_plane", "--size", "64x64", "--spp", "4", "--distance", NEAR, "--without", "normal_variation")
+        )
+        self.assertTrue(any("as was asked: normal_variation" in warning for warning in flat["scene"]["warnings"]))
+        errors = {record["error"]["normalized_color"] for record in flat["records"]}
+        self.assertEqual(len(errors), 1, "without bumps every method draws the same")
+        for record in flat["records"]:
+            self.assertNotIn("normal_variation", record["effects"]["on"])
+
     def test_a_far_object_has_no_error(self):
         far = results_of(self.compare("far", "ribbed_plane", "--size", "16x16", "--spp", "4", "--distance", "1000"))
         for record in far["records"]:

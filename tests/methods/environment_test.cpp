@@ -1,5 +1,5 @@
-// What must hold for every method under an environment: it meets `direct` where nothing is filtered, keeps the energy
-// of a white furnace within a bound, and stays finite; and what the reference integrates.
+// What must hold for every method under an environment: it meets `direct` where nothing is filtered and stays finite;
+// and what the reference integrates.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -49,7 +49,6 @@ double mean_of(const Image& picture) {
 }
 
 constexpr BaseBrdf lambert{NormalDistribution::ggx, GeometryTerm::none, FresnelTerm::none, true};
-constexpr BaseBrdf microfacet{NormalDistribution::ggx, GeometryTerm::smith, FresnelTerm::none, false};
 
 class UnderAnEnvironment : public ::testing::TestWithParam<const Method*> {
  protected:
@@ -70,23 +69,6 @@ TEST_P(UnderAnEnvironment, EqualsDirectOnAConstantMapAtAnyDistance) {
       const Image picture = renderer.frame(*GetParam(), {}, 1, 0, distance);
       EXPECT_LT(compare_images(picture, direct, 1.0F).value().relative_rmse, 2e-3)
           << "distribution " << static_cast<int>(distribution) << ", distance " << distance;
-    }
-  }
-}
-
-// All that arrives leaves: a white Lambert surface whose texels lean up to 30 degrees, and a white metal.
-TEST_P(UnderAnEnvironment, KeepsTheEnergyOfAWhiteFurnace) {
-  const Environment white = constant_environment(glm::vec3(1.0F));
-  const Image normals = random_normals(16, 16, 0.5F, 7);
-  const SquareMaterial plaster{.brdf = lambert, .base_color = glm::vec3(1.0F), .specular = glm::vec3(0.0F)};
-  const SquareMaterial metal{.brdf = microfacet, .roughness = 0.5F, .specular = glm::vec3(1.0F)};
-  for (const SquareMaterial& material : {plaster, metal}) {
-    TestRenderer renderer(lit_square(normals, material, white), {32, 32});
-    const double truth = mean_of(renderer.reference(64).mean);
-    for (const double distance : {0.5, 4.0}) {
-      const Image picture = renderer.frame(*GetParam(), {}, 1, 0, distance);
-      EXPECT_NEAR(mean_of(picture) / truth, 1.0, 0.12) << GetParam()->info().name << ", distance " << distance;
-      for (const float value : picture.texels) ASSERT_LE(value, 1.1F);
     }
   }
 }

@@ -1,0 +1,107 @@
+// White furnace: under light from all sides every method keeps the energy of the reference within the bound that its
+// README states.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <regex>
+
+#include "methods/registry.hpp"
+#include "tests/support/rendering.hpp"
+#include "tests/support/test_scenes.hpp"
+
+namespace footprint::testing {
+namespace {
+
+// The README's "White furnace: within X%", as a share; NaN where it has no such words.
+double stated_bound(const std::string& method) {
+  std::ifstream file(std::string(FOOTPRINT_SOURCE_DIR) + "/methods/" + method + "/README.md");
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::smatch found;
+  if (!std::regex_search(text, found, std::regex(R"(White furnace: within ([0-9.]+)%)"))) return std::nan("");
+  return std::stod(found[1].str()) / 100.0;
+}
+
+// Texels that lean up to 30 degrees, lit by 1 from everywhere.
+Scene furnace(const SquareMaterial& material, float light = 1.0F) {
+  Scene scene = square_scene(random_normals(16, 16, 0.5F, 7), material);
+  scene.lights.clear();
+  scene.environment = constant_environment(glm::vec3(light));
+  return scene;
+}
+
+// White Lambert, and white metals of alpha 1/16, 1/4 and 1/2.
+std::vector<SquareMaterial> white_materials() {
+  constexpr BaseBrdf lambert{NormalDistribution::ggx, GeometryTerm::none, FresnelTerm::none, true};
+  constexpr BaseBrdf metal{NormalDistribution::ggx, GeometryTerm::smith, FresnelTerm::none, false};
+  std::vector<SquareMaterial> materials{{.brdf = lambert, .base_color = glm::vec3(1.0F), .specular = glm::vec3(0.0F)}};
+  for (const float alpha : {0.0625F, 0.25F, 0.5F})
+    materials.push_back({.brdf = metal, .roughness = std::sqrt(alpha), .specular = glm::vec3(1.0F)});
+  return materials;
+}
+
+double mean_of(const Image& picture) {
+  double sum = 0;
+  double count = 0;
+  for (std::size_t i = 0; i < picture.texels.size(); i += 4) {
+    if (picture.texels[i + 3] < 1.0F) continue;
+    sum += (picture.texels[i] + picture.texels[i + 1] + picture.texels[i + 2]) / 3.0;
+    count += 1.0;
+  }
+  return sum / count;
+}
+
+// The gate: energy off by no more than the bound, and no pixel brighter than the furnace by more than a tenth.
+::testing::AssertionResult keeps_energy(const Image& picture, double truth, double bound) {
+  const double ratio = mean_of(picture) / truth;
+  if (!(std::abs(ratio - 1.0) <= bound)) {
+    return ::testing::AssertionFailure() << "energy " << ratio << " of the reference's, bound " << bound;
+  }
+  for (const float value : picture.texels) {
+    if (!(value <= 1.1F)) return ::testing::AssertionFailure() << "a pixel of " << value;
+  }
+  return ::testing::AssertionSuccess() << ratio;
+}
+
+class InAWhiteFurnace : public ::testing::TestWithParam<const Method*> {};
+
+TEST_P(InAWhiteFurnace, KeepsItsEnergyWithinTheBoundOfItsReadme) {
+  const std::string& name = GetParam()->info().name;
+  if (!has(GetParam()->info().honours, Effect::environment_light)) GTEST_SKIP() << "leaves environment light out";
+  const double bound = stated_bound(name);
+  ASSERT_TRUE(std::isfinite(bound)) << "methods/" << name << "/README.md has no `White furnace: within X%`";
+  for (const SquareMaterial& material : white_materials()) {
+    TestRenderer renderer(furnace(material), {32, 32});
+    const double truth = mean_of(renderer.reference(36).mean);
+    for (const double distance : {0.5, 4.0}) {
+      EXPECT_TRUE(keeps_energy(renderer.frame(*GetParam(), {}, 1, 0, distance), truth, bound))
+          << name << ", roughness " << material.roughness << ", diffuse " << material.brdf.diffuse << ", distance "
+          << distance;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, InAWhiteFurnace, ::testing::ValuesIn(all_methods().begin(), all_methods().end()),
+                         [](const auto& test) { return test.param->info().name; });
+
+// The gate closes: on a picture that is as much too bright as the widest bound allows and some more, on one with a
+// single bright pixel, and on one that is not finite.
+TEST(InAWhiteFurnaceGate, RefusesWhatGainsOrLosesEnergy) {
+  const SquareMaterial plaster = white_materials().front();
+  const Method& direct = find_method("direct");
+  const double truth = mean_of(TestRenderer(furnace(plaster), {32, 32}).reference(36).mean);
+  const double bound = stated_bound("direct");
+  const Image kept = TestRenderer(furnace(plaster), {32, 32}).frame(direct);
+  EXPECT_TRUE(keeps_energy(kept, truth, bound));
+  EXPECT_FALSE(keeps_energy(TestRenderer(furnace(plaster, 1.3F), {32, 32}).frame(direct), truth, bound));
+  EXPECT_FALSE(keeps_energy(TestRenderer(furnace(plaster, 0.7F), {32, 32}).frame(direct), truth, bound));
+  for (const float value : {1.2F, std::nanf("")}) {
+    Image spoilt = kept;
+    spoilt.texels[4 * 100] = value;
+    EXPECT_FALSE(keeps_energy(spoilt, truth, bound)) << value;
+  }
+}
+
+}  // namespace
+}  // namespace footprint::testing

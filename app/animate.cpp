@@ -64,6 +64,7 @@ AnimateSettings settings_from(const Arguments& arguments) {
   settings.stage.methods = parse_known_methods(arguments.methods);
   settings.stage.size = parse_optional_size(arguments.frame.size);
   settings.stage.filter = parse_filter(arguments.reference.filter);
+  settings.stage.environment = parse_environment_use(arguments.reference.environment);
   settings.stage.anisotropy = arguments.frame.anisotropy;
   settings.stage.tile = arguments.frame.backend.tile;
   settings.stage.cache = cache_folder(arguments.no_cache);

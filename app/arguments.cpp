@@ -57,6 +57,11 @@ void add_reference_options(CLI::App& command, ReferenceArguments& arguments) {
       ->capture_default_str();
   command.add_option("--filter", arguments.filter, "The reference's filter: after_shading, nearest or bilinear")
       ->capture_default_str();
+  command
+      .add_option(
+          "--environment", arguments.environment,
+          "How the reference integrates an environment: sampled, or dense (6 x 32 x 32 lights for every sample)")
+      ->capture_default_str();
 }
 
 void add_size_option(CLI::App& command, std::string& text) {

@@ -48,9 +48,10 @@ struct ReferenceArguments {
   int spp = 64;
   std::uint64_t seed = 1;
   std::string filter = "after_shading";
+  std::string environment = "sampled";
 };
 
-/// Adds --spp, --seed and --filter.
+/// Adds --spp, --seed, --filter and --environment.
 void add_reference_options(CLI::App& command, ReferenceArguments& arguments);
 
 /// Adds --size; `text` stays empty if it is not given, and the scene's own size counts.

@@ -83,6 +83,7 @@ CompareSettings settings_from(const Arguments& arguments) {
   settings.spp = arguments.reference.spp;
   settings.seed = arguments.reference.seed;
   settings.filter = parse_filter(arguments.reference.filter);
+  settings.environment = parse_environment_use(arguments.reference.environment);
   settings.exposure = parse_exposure(arguments.exposure);
   settings.without = parse_effects("--without", arguments.without);
   settings.repeats = arguments.repeats;

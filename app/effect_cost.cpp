@@ -27,9 +27,9 @@ struct Variant {
 };
 
 Variant make_variant(const Stage& stage, const StageSettings& settings, const EffectSet& effects,
-                     const glm::ivec2& size) {
+                     const glm::ivec2& size, const Progress& progress) {
   const gl::ContextInfo& context = stage.context().info();
-  auto scene = std::make_unique<GpuScene>(context, stage.scene(), effects);
+  auto scene = std::make_unique<GpuScene>(context, stage.scene(), effects, progress);
   StagedMethod method(context, *scene, stage.scene(), effects, settings.methods.front(), size, settings, no_progress);
   return {std::move(scene), std::move(method)};
 }
@@ -41,12 +41,15 @@ std::vector<EffectCost> measure_effect_costs(const Stage& stage, const StageSett
   const View view = stage.view(1.0);
   std::vector<Effect> measured;
   std::vector<Variant> variants;
+  ProgressParts parts([&](std::string_view what, double done) { progress(what, 0.5 * done); },
+                      static_cast<double>(stage.effects().count()));
   for (const Effect effect : all_effects()) {
     if (!has(stage.effects(), effect)) continue;
-    progress("preparing", 0.5 * static_cast<double>(variants.size()) / static_cast<double>(stage.effects().count()));
     measured.push_back(effect);
     const EffectSet kept = EffectSet(stage.effects()).reset(static_cast<std::size_t>(effect));
-    variants.push_back(make_variant(stage, settings, kept, view.size));
+    const Progress preparing = parts.next(1, "preparing: ");
+    preparing(effect_name(effect), 0.0);
+    variants.push_back(make_variant(stage, settings, kept, view.size, preparing));
   }
   std::vector<DrawFrame> frames{[&] { stage.methods().front().frames().draw(view); }};
   for (const Variant& variant : variants) frames.emplace_back([&] { variant.method.frames().draw(view); });

@@ -57,6 +57,12 @@ struct ShadowPass {
   int resolution = 0;
 };
 
+// The environment's visibility at the vertices, asked once before the first frame; none where nothing hides it.
+struct VisibilityPass {
+  std::size_t vertices = 0, bytes = 0;
+  double error = 0;  // radians
+};
+
 // Everything that `explain` has to say.
 struct Explanation {
   std::vector<EffectDecision> effects;
@@ -67,6 +73,7 @@ struct Explanation {
   std::vector<TextureUse> textures;
   std::size_t shader_lines = 0;
   std::optional<ShadowPass> shadows;
+  std::optional<VisibilityPass> visibility;
   std::vector<EffectCost> costs;
 };
 
@@ -109,6 +116,10 @@ Explanation explain(const Arguments& arguments, const Progress& progress) {
                    .bytes = maps->bytes(),
                    .resolution = maps->resolution()};
   }
+  if (const auto& visibility = stage.gpu_scene().visibility()) {
+    out.visibility = {
+        .vertices = visibility->vertex_count(), .bytes = visibility->bytes(), .error = visibility->error()};
+  }
   if (arguments.cost) out.costs = measure_effect_costs(stage, settings, arguments.repeats, parts.next(2, ""));
   return out;
 }
@@ -118,6 +129,12 @@ std::string text_of(const ShadowPass& pass) {
                      "maps", pass.maps, pass.resolution, pass.resolution, "bytes", readable_bytes(pass.bytes));
 }
 
+std::string text_of(const VisibilityPass& pass) {
+  return fmt::format("\nvisibility of the environment, asked once\n  {:<21} {}\n  {:<21} {:.3f} rad\n  {:<21} {}\n",
+                     "vertices", pass.vertices, "error of the distance", pass.error, "bytes",
+                     readable_bytes(pass.bytes));
+}
+
 std::string text_of(const Explanation& explanation) {
   std::string text = "effects\n";
   for (const EffectDecision& decision : explanation.effects) {
@@ -125,6 +142,7 @@ std::string text_of(const Explanation& explanation) {
         fmt::format("  {:<24} {:<4} {}\n", effect_name(decision.effect), decision.on ? "on" : "off", decision.reason);
   }
   if (explanation.shadows) text += text_of(*explanation.shadows);
+  if (explanation.visibility) text += text_of(*explanation.visibility);
   text += fmt::format("\nforward pass with {}\n  {:<24} {}\n  {:<24} {} lines\n  {:<24} {}\n", explanation.method,
                       "draws", explanation.draws, "fragment shader", explanation.shader_lines, "shared by all methods",
                       readable_bytes(explanation.shared_bytes));
@@ -158,6 +176,13 @@ std::string json_of(const Explanation& explanation) {
                               {"maps", shadows->maps},
                               {"resolution", shadows->resolution},
                               {"bytes", shadows->bytes},
+                              {"once", true}});
+  }
+  if (const auto& visibility = explanation.visibility) {
+    json["passes"].push_back({{"name", "environment_visibility"},
+                              {"vertices", visibility->vertices},
+                              {"error_radians", visibility->error},
+                              {"bytes", visibility->bytes},
                               {"once", true}});
   }
   json["passes"].push_back(

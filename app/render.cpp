@@ -83,6 +83,7 @@ void run_render(const Arguments& arguments) {
   StageSettings settings;
   settings.size = parse_optional_size(arguments.frame.size);
   settings.filter = parse_filter(arguments.reference.filter);
+  settings.environment = parse_environment_use(arguments.reference.environment);
   settings.anisotropy = arguments.frame.anisotropy;
   settings.tile = arguments.frame.backend.tile;
   settings.cache = cache_folder(arguments.no_cache);
@@ -109,7 +110,7 @@ void run_render(const Arguments& arguments) {
 // Options that only the reference heeds: given with a method, they would be a silent misunderstanding.
 void check_reference_options(const CLI::App& command, const std::string& method) {
   if (method == "reference") return;
-  for (const char* option : {"--spp", "--seed", "--filter"}) {
+  for (const char* option : {"--spp", "--seed", "--filter", "--environment"}) {
     if (command.count(option) == 0) continue;
     throw Error(ErrorKind::usage, option, fmt::format("`{}` takes one sample a pixel", method),
                 "give it with --method reference");

@@ -90,7 +90,10 @@ class Animator {
     animation_.reference = {.spp = settings_.spp,
                             .filter = std::string(filter_name(settings_.stage.filter)),
                             .seed = settings_.seed,
-                            .standard_error = relative_standard_error(first)};
+                            .standard_error = relative_standard_error(first),
+                            .environment = {}};
+    if (has(stage_.effects(), Effect::environment_light))
+      animation_.reference.environment = environment_use_name(settings_.stage.environment);
   }
 
   void add_picture(std::size_t frame, std::size_t method, const View& view, const std::optional<HeldFrame>& before,

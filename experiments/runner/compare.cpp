@@ -34,6 +34,7 @@ StageSettings stage_settings(const CompareSettings& settings) {
   return {.methods = settings.methods,
           .size = settings.size,
           .filter = settings.filter,
+          .environment = settings.environment,
           .anisotropy = settings.anisotropy,
           .tile = settings.tile,
           .without = settings.without,
@@ -353,6 +354,8 @@ class Comparison {
     results_.reference.spp = settings_.spp;
     results_.reference.filter = filter_name(settings_.filter);
     results_.reference.seed = settings_.seed;
+    if (has(stage_.effects(), Effect::environment_light))
+      results_.reference.environment = environment_use_name(settings_.environment);
     results_.scene = scene_info(stage_.scene(), chosen_exposure_, results_.reference);
     add_left_out();
     add_precompute_notes();

@@ -34,9 +34,10 @@ struct CompareSettings {
   std::vector<int> other_spp;      ///< of further references that errors are measured against
   std::uint64_t seed = 1;
   ReferenceFilter filter = ReferenceFilter::after_shading;
-  std::optional<float> exposure;  ///< none: the scene's own, else automatic
-  EffectSet without;  ///< effects that every method and the reference leave out
-  int repeats = 9;  ///< timed frames of each method and distance in each process
+  EnvironmentUse environment = EnvironmentUse::sampled;  ///< how the reference integrates one
+  std::optional<float> exposure;                         ///< none: the scene's own, else automatic
+  EffectSet without;                                     ///< effects that every method and the reference leave out
+  int repeats = 9;                                       ///< timed frames of each method and distance in each process
   int anisotropy = 1;
   int tile = 0;
   std::optional<std::filesystem::path> cache;  ///< where slow precomputes are kept; none: they are not

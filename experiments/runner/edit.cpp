@@ -16,6 +16,7 @@
 #include "renderer/core/stage_clock.hpp"
 #include "renderer/gl/functions.hpp"
 #include "renderer/pipeline/frame.hpp"
+#include "renderer/pipeline/gpu_visibility.hpp"
 #include "renderer/scene/load_scene.hpp"
 #include "renderer/scene/microgeometry_content.hpp"
 
@@ -158,6 +159,7 @@ class Editor {
     progress("geometry", 0.0);
     record.stages.push_back({"geometry", seconds_of([&] { change_geometry(record.parameters); })});
     const EffectSet effects = effects_on(derive_effects(scene_));
+    if (!drawing_) scene_ = refined_for_visibility(std::move(scene_), effects);
     BakedMethod baked = timed_bake(effects, record.stages, progress);
     record.bytes = baked.bytes;
     for (const Prefiltered& material : baked.materials) {

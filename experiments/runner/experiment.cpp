@@ -131,6 +131,9 @@ void read_reference(const TomlTable& table, Experiment& experiment) {
   if (const auto filter = table.word("filter")) {
     experiment.filter = at_key(table, "filter", [&] { return parse_filter(*filter); });
   }
+  if (const auto way = table.word("environment")) {
+    experiment.environment = at_key(table, "environment", [&] { return parse_environment_use(*way); });
+  }
 }
 
 // The quantity of that name, and that the method which is asked has it.
@@ -438,7 +441,7 @@ Experiment read_experiment(const fs::path& file) {
   read_head(*head, experiment);
   if (const auto zoom = root.table("zoom", {"distances", "from", "to", "frames"})) read_zoom(*zoom, experiment);
   if (const auto camera = root.table("camera", camera_keys())) experiment.camera = read_camera(*camera);
-  if (const auto reference = root.table("reference", {"spp", "other_spp", "seed", "filter"})) {
+  if (const auto reference = root.table("reference", {"spp", "other_spp", "seed", "filter", "environment"})) {
     read_reference(*reference, experiment);
   }
   read_footprints(root, experiment);

@@ -89,6 +89,7 @@ struct Experiment {
   std::vector<int> other_spp;
   std::uint64_t seed = 1;
   ReferenceFilter filter = ReferenceFilter::after_shading;
+  EnvironmentUse environment = EnvironmentUse::sampled;
   int anisotropy = 1;
   int repeats = 9;
   std::vector<PublishedValue> published;

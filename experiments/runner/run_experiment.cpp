@@ -76,6 +76,7 @@ CompareSettings compare_settings(const Experiment& experiment, const RunSettings
   compare.other_spp = experiment.other_spp;
   compare.seed = experiment.seed;
   compare.filter = experiment.filter;
+  compare.environment = experiment.environment;
   compare.exposure = experiment.exposure;
   compare.repeats = experiment.repeats;
   compare.anisotropy = experiment.anisotropy;

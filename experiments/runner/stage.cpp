@@ -81,7 +81,7 @@ Stage::Stage(const gl::ContextRequest& request, Scene scene, const StageSettings
   base_ = std::make_unique<BakedMethod>(bake_base(scene_, effects_, parts.next(1, "bake ")));
   gpu_base_ = std::make_unique<GpuMethod>(*gpu_scene_, *base_);
   reference_ = std::make_unique<Supersampler>(context_.info(), *gpu_scene_, *gpu_base_, settings.filter,
-                                              scene_.camera.orthographic, settings.tile);
+                                              scene_.camera.orthographic, settings.tile, settings.environment);
   context_.check("setting up the scene");
 }
 

@@ -18,9 +18,10 @@ struct StageSettings {
   std::vector<MethodSpec> methods;
   std::optional<glm::ivec2> size;  ///< none: the scene's own, or 512 wide in the camera's aspect
   ReferenceFilter filter = ReferenceFilter::after_shading;
-  int anisotropy = 1;        ///< probes along the major axis, at most
-  int tile = 0;              ///< pixels a side drawn at once; 0: as many as fit
-  EffectSet without = {};    ///< effects that are left out, by every method and the reference
+  EnvironmentUse environment = EnvironmentUse::sampled;  ///< how the reference integrates one
+  int anisotropy = 1;                                    ///< probes along the major axis, at most
+  int tile = 0;                                          ///< pixels a side drawn at once; 0: as many as fit
+  EffectSet without = {};                           ///< effects that are left out, by every method and the reference
   std::optional<std::filesystem::path> cache = {};  ///< folder where slow precomputes are kept; none: they are not
   int pictures = 3;  ///< as large as the frame, that are held at once: the frame, and two while it is written
 };

@@ -170,7 +170,7 @@ TEST(XuFrames, OfWhatMovesAreThoseOfAColdStart) {
   frames[3].materials[0].lobe_parameter = 30.0F;                             // the BRDF
   frames[4].camera.world = glm::translate(glm::mat4(1.0F), {0.3F, 0.0F, 3.0F});
   for (const std::string text :
-       {"xu_vmf:space=camera", "xu_vmf:space=camera:rebuild=changed", "xu_vmf:space=tangent:rebuild=changed"}) {
+       {"xu_vmf", "xu_vmf:rebuild=changed", "xu_vmf:space=camera", "xu_vmf:space=camera:rebuild=changed"}) {
     const MethodSpec spec = parse_methods(text).front();
     GoingOn going_on(frames.front(), spec);
     Image before;

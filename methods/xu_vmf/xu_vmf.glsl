@@ -33,9 +33,9 @@ const int most_lobes = most_of_one * most_facet_lobes;
 const int most_lobes = most_of_one;
 //? end
 
-// A pixel's lobes, 0 to count - 1: its mean direction times its share of the footprint, and 1 - |r|. Few numbers, since an
-// array whose index is not known is dear to write and to read. They are no member of Effective, which functions take by
-// value: a software renderer would copy them all at every call.
+// A pixel's lobes, 0 to count - 1: mean direction times share of the footprint, and 1 - |r|. Few numbers, since an array
+// whose index is not known is dear to write and to read. They are no member of Effective, which functions take by value:
+// a software renderer would copy them all at every call.
 vec4 lobes[most_lobes];
 //? if variant_published
 float amounts[most_lobes];  // what each adds with; it is the share where lobes weigh what they cover
@@ -177,8 +177,8 @@ void addLobe(inout Effective e, Part part, float weight) {
 
 //? if sampling_frame
 //? if not j_1
-// Where a part of one of the facets' lobes is looked up. Its finest level is not stored: the texels of the whole hemisphere's stand in for it below
-// level 1, each for the part that its lobe is in.
+// Where a part of one of the facets' lobes is looked up. Its finest level is not stored: the texels of the whole
+// hemisphere's stand in for it below level 1, each for the part that its lobe is in.
 struct Probe {
   int own;
   vec2 uv;
@@ -264,8 +264,8 @@ float unityOf(Part part, float threshold) {
 
 // Loops run over the layers that the map has: a count that the compiler does not know, so that it unrolls nothing and
 // compiles in a fraction of the time. They ask at their end: a software renderer runs a body that is asked for first
-// once more than needed. It runs what a condition leaves out as well, but not a loop's further rounds: so the lobe of the
-// whole hemisphere, which serves most footprints, is the first round.
+// once more than needed. It runs what a condition leaves out as well, but not a loop's further rounds: so the lobe of
+// the whole hemisphere, which serves most footprints, is the first round.
 void addParts(inout Effective e, Footprint f, int own) {
   int layers = textureSize(xu_vmf_parts, 0).z / ownLobeCount();
 //? if not anisotropic
@@ -351,7 +351,8 @@ void addOwnLobe(inout Effective e, Footprints f, int k) {
   }
   int i = first;
   do {
-    lobes[i] *= vec4(vec3(own.weight / e.covered), 1.0);  // whole: Mesa 22.3 loses w where x, y and z alone are written
+    // Whole: Mesa 22.3 loses w where x, y and z alone are written.
+    lobes[i] *= vec4(vec3(own.weight / e.covered), 1.0);
 //? if variant_published
     amounts[i] *= own.weight;
 //? end

@@ -1,6 +1,7 @@
 // First pass of the frame build: the base BRDF and the normal map joined into one lobe a texel (Xu 2017, section 4), of
-// facets with several lobes one for each, for the whole hemisphere: (r, 1), or 0 where the surface has no valid normal, faces away, or is not at all. Means of
-// texels are (w r, w): the share of the footprint that is covered, and its lobes' mean.
+// facets with several lobes one for each, for the whole hemisphere: (r, 1), or 0 where the surface has no valid normal,
+// faces away, or is not at all. Means of texels are (w r, w): the share of the footprint that is covered, and its lobes'
+// mean.
 layout(location = 0) out vec4 joined;
 //? if guard
 layout(location = 1) out vec4 guard;  // 1 - |r|, which no rounding of r reaches

@@ -136,7 +136,7 @@ TEST(XuMixture, SubdividesWhereThresholdsSay) {
 TEST(XuMixture, BlendsBelowAThreshold) {
   const Scene scene = blinn_phong_square(four_texel_normals(), 100);
   const auto shares = [&](const std::string& eps0) {
-    const std::vector<MapLobe> lobes = BuiltMap(scene, {{"thresholds", "blended"}, {"eps0", eps0}}).lobes();
+    std::vector<MapLobe> lobes = BuiltMap(scene, {{"thresholds", "blended"}, {"eps0", eps0}}).lobes();
     double sum = 0;
     for (const MapLobe& lobe : lobes) sum += lobe.share;
     EXPECT_NEAR(sum, 1.0, 1e-6);

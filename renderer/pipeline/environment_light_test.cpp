@@ -79,8 +79,8 @@ Environment banded_environment() {
 GpuEnvironment bound(Environment environment) {
   shared_context().make_current();
   GpuEnvironment gpu(std::move(environment));
-  gpu.prepare(false);
-  gpu.bind(0, false);
+  gpu.prepare(EnvironmentUse::prefiltered);
+  gpu.bind(0, EnvironmentUse::prefiltered);
   return gpu;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/glm.hpp>
 
+#include "renderer/environment/cell_light.hpp"
 #include "renderer/environment/direction_table.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
 
@@ -51,16 +52,44 @@ GpuEnvironment::Part GpuEnvironment::table_part() const {
   return part;
 }
 
-void GpuEnvironment::prepare(bool sampled) {
-  if (sampled) {
-    if (!tables_) tables_ = table_part();
-  } else if (!stack_) {
-    stack_ = stack_part();
+// A texture is never empty: of a black environment it holds one dark light.
+GpuEnvironment::Part GpuEnvironment::light_part() const {
+  std::vector<DenseLight> lights = dense_lights(environment_);
+  if (lights.empty()) lights.push_back({.direction = {0, 1, 0}, .irradiance = glm::vec3(0.0F)});
+  Image irradiance(static_cast<int>(lights.size()), 1, 4), directions(static_cast<int>(lights.size()), 1, 4);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      irradiance.texels[4 * i + static_cast<std::size_t>(c)] = lights[i].irradiance[c];
+      directions.texels[4 * i + static_cast<std::size_t>(c)] = lights[i].direction[c];
+    }
+  }
+  Part part;
+  part.first = plain_texture(irradiance, GL_RGBA32F, GL_RGBA);
+  part.second = plain_texture(directions, GL_RGBA32F, GL_RGBA);
+  part.sampler = gl::nearest_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+  part.block = block_of({glm::vec4(0.0F), glm::vec4(0.0F)});
+  part.bytes = (irradiance.texels.size() + directions.texels.size()) * sizeof(float);
+  return part;
+}
+
+void GpuEnvironment::prepare(EnvironmentUse use) {
+  std::optional<Part>& part = parts_.at(static_cast<std::size_t>(use));
+  if (part) return;
+  switch (use) {
+    case EnvironmentUse::prefiltered:
+      part = stack_part();
+      return;
+    case EnvironmentUse::sampled:
+      part = table_part();
+      return;
+    case EnvironmentUse::dense:
+      part = light_part();
+      return;
   }
 }
 
-void GpuEnvironment::bind(GLuint first_unit, bool sampled) const {
-  const Part& part = sampled ? *tables_ : *stack_;
+void GpuEnvironment::bind(GLuint first_unit, EnvironmentUse use) const {
+  const Part& part = parts_.at(static_cast<std::size_t>(use)).value();
   for (const gl::Texture* const texture : {&part.first, &part.second}) {
     gl::api().BindTextureUnit(first_unit, texture->name());
     gl::api().BindSampler(first_unit++, part.sampler.name());

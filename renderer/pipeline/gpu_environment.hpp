@@ -1,28 +1,30 @@
-// An environment on the GPU: prefiltered maps for the methods, tables to draw directions for the reference.
+// An environment on the GPU: prefiltered maps for the methods, tables to draw directions or lights for the reference.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "renderer/environment/radiance_stack.hpp"
 #include "renderer/gl/objects.hpp"
+#include "renderer/pipeline/environment_use.hpp"
 
 namespace footprint {
 
-/// The textures and the block that environment_stack.glsl or environment_sampling.glsl read. Each kind is made where a
-/// program first asks for it: the reference needs no stack, a method no tables. Needs the context that made it to be
+/// The textures and the block that environment_stack.glsl or environment_sampling.glsl read. Each use's are made where
+/// a program first asks for it: the reference needs no stack, a method no tables. Needs the context that made it to be
 /// current, also when destroyed.
 class GpuEnvironment {
  public:
   explicit GpuEnvironment(Environment environment) : environment_(std::move(environment)) {}
 
   /// Makes what a program needs, if it is not there yet. Errors (machine): over the GL limits, out of memory.
-  void prepare(bool sampled);
+  void prepare(EnvironmentUse use);
 
   /// Binds it: two textures from `first_unit` on, and the block.
-  void bind(GLuint first_unit, bool sampled) const;
+  void bind(GLuint first_unit, EnvironmentUse use) const;
 
   /// Bytes of the prefiltered maps, 0 before they are made. The reference's tables are no part of any method's cost.
-  [[nodiscard]] std::size_t stack_bytes() const { return stack_ ? stack_->bytes : 0; }
+  [[nodiscard]] std::size_t stack_bytes() const { return parts_[0] ? parts_[0]->bytes : 0; }
 
  private:
   struct Part {
@@ -33,9 +35,10 @@ class GpuEnvironment {
   };
   [[nodiscard]] Part stack_part() const;
   [[nodiscard]] Part table_part() const;
+  [[nodiscard]] Part light_part() const;
 
   Environment environment_;
-  std::optional<Part> stack_, tables_;
+  std::array<std::optional<Part>, 3> parts_;  // in the order of EnvironmentUse
 };
 
 }  // namespace footprint

@@ -269,7 +269,7 @@ LightBlocks GpuScene::blocks_of(std::span<const Light> lights) const {
 }
 
 void GpuScene::make_lights(const gl::ContextInfo& context, const Scene& scene) {
-  if (has(effects_, Effect::cast_shadow)) {
+  if (calls_for_shadow_maps(effects_)) {
     shadow_maps_.emplace(context, scene, effects_, batches_, samplers_);
     shared_bytes_ += shadow_maps_->bytes();
   }

@@ -99,10 +99,10 @@ class GpuScene {
   [[nodiscard]] const BaseBrdf& brdf() const { return brdf_; }
   /// Every map of every material is looked up at the same place.
   [[nodiscard]] bool shared_coordinates() const { return shared_coordinates_; }
-  /// None where the effect is off.
+  /// None where the effect is off, or without lights but an environment.
   [[nodiscard]] const std::optional<ShadowMaps>& shadow_maps() const { return shadow_maps_; }
-  /// Bytes of what every method reads: shared textures, shadow maps and, once a method's program is there, the
-  /// prefiltered environment.
+  /// Bytes of what every method reads: shared textures, shadow maps, the environment's visibility and, once a method's
+  /// program is there, the prefiltered environment.
   [[nodiscard]] std::size_t shared_bytes() const {
     return shared_bytes_ + (environment_ ? environment_->stack_bytes() : 0);
   }

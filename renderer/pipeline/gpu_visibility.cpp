@@ -4,17 +4,16 @@
 #include <array>
 
 #include "renderer/pipeline/gpu_scene.hpp"
-#include "renderer/visibility/ray_tree.hpp"
 #include "renderer/visibility/subdivide.hpp"
 
 namespace footprint {
 namespace {
 
-// In environment_visibility.glsl and shadow_rays.glsl.
+// In environment_visibility.glsl.
 constexpr GLuint maps_unit = 14;
-constexpr GLuint nodes_binding = 0, triangles_binding = 1;
 
 constexpr float edges_in_radius = 24.0F;
+constexpr std::size_t vectors_a_vertex = 5;
 
 }  // namespace
 
@@ -32,19 +31,14 @@ Scene refined_for_visibility(Scene scene, const EffectSet& effects) {
 GpuVisibility::GpuVisibility(const Scene& scene, const Progress& progress)
     : sampler_(gl::trilinear_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE)) {
   const Occluders occluders(scene);
-  offset_ = occluders.offset();
   field_ =
       visibility_field(scene, occluders, scene.environment.value_or(constant_environment(glm::vec3(1.0F))), progress);
   std::vector<std::vector<Image>> chains;
   for (const Image& layer : field_.layers) chains.push_back({layer});
   const PrefilteredTexture maps = make_array_texture("visibility_maps", chains, Storage::fp32, {});
   maps_ = std::move(upload(maps).texture);
-  bytes_ = byte_count(maps);
-  for (const Mesh& mesh : scene.meshes) bytes_ += mesh.vertices.size() * 5 * sizeof(glm::vec4);
-  const RayTree tree = ray_tree(scene);
-  node_count_ = static_cast<GLint>(tree.nodes.size());
-  nodes_ = gl::Buffer(std::as_bytes(std::span(tree.nodes)));
-  triangles_ = gl::Buffer(std::as_bytes(std::span(tree.triangles)));
+  for (const Mesh& mesh : scene.meshes) vertex_count_ += mesh.vertices.size();
+  bytes_ = byte_count(maps) + vertex_count_ * vectors_a_vertex * sizeof(glm::vec4);
 }
 
 std::vector<glm::vec4> GpuVisibility::attributes(const Scene& scene, std::size_t material) const {
@@ -63,15 +57,9 @@ std::vector<glm::vec4> GpuVisibility::attributes(const Scene& scene, std::size_t
   return values;
 }
 
-void GpuVisibility::bind(const gl::Program& program) const {
+void GpuVisibility::bind() const {
   gl::api().BindTextureUnit(maps_unit, maps_.name());
   gl::api().BindSampler(maps_unit, sampler_.name());
-  gl::api().BindBufferBase(GL_SHADER_STORAGE_BUFFER, nodes_binding, nodes_.name());
-  gl::api().BindBufferBase(GL_SHADER_STORAGE_BUFFER, triangles_binding, triangles_.name());
-  const GLint count = program.uniform("tree_node_count");
-  if (count >= 0) gl::api().ProgramUniform1i(program.name(), count, node_count_);
-  const GLint offset = program.uniform("ray_offset");
-  if (offset >= 0) gl::api().ProgramUniform1f(program.name(), offset, offset_);
 }
 
 }  // namespace footprint

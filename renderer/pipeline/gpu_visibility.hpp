@@ -1,5 +1,4 @@
-// Large-scale visibility of the environment on the GPU: distances at vertices for the methods, shadow rays for the
-// reference.
+// Large-scale visibility of the environment on the GPU: signed distances at vertices.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -19,33 +18,31 @@ namespace footprint {
 /// at vertices; else as it is. What looks at vertices must be made from what comes out.
 [[nodiscard]] Scene refined_for_visibility(Scene scene, const EffectSet& effects);
 
-/// The maps of the field's components, and the tree of shadow_rays.glsl. Needs the context that made it to be current,
-/// also when destroyed.
+/// The maps of the field's components, and what the vertices weigh them by. Needs the context that made it to be
+/// current, also when destroyed.
 class GpuVisibility {
  public:
-  /// Asks the visibility of all vertices. Errors: those of visibility_field and ray_tree; (machine): over GL's limits.
+  /// Asks the visibility of all vertices. Errors: those of visibility_field; (machine): over GL's limits.
   GpuVisibility(const Scene& scene, const Progress& progress);
 
   /// The attributes of a material's vertices in the order of the scene's meshes: five vectors each, the weights (1 for
   /// the mean, then the components) and the diffuse share.
   [[nodiscard]] std::vector<glm::vec4> attributes(const Scene& scene, std::size_t material) const;
 
-  /// Binds all of it for a program.
-  void bind(const gl::Program& program) const;
+  /// Binds the maps.
+  void bind() const;
 
-  /// Of the maps and the vertices' values; the reference's tree is no part of any method's cost.
+  /// Of the maps and the vertices' values.
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
+  [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
   /// What the components leave out of the distances, root mean square, radians.
   [[nodiscard]] double error() const { return field_.error; }
 
  private:
   VisibilityField field_;
-  float offset_ = 0.0F;
-  GLint node_count_ = 0;
-  std::size_t bytes_ = 0;
+  std::size_t vertex_count_ = 0, bytes_ = 0;
   gl::Texture maps_;
   gl::Sampler sampler_;
-  gl::Buffer nodes_, triangles_;
 };
 
 }  // namespace footprint

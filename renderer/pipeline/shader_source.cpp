@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "renderer/core/error.hpp"
+#include "renderer/pipeline/shadow_maps.hpp"
 
 namespace footprint {
 
@@ -16,6 +17,8 @@ extern const std::string_view common_footprint_glsl;
 extern const std::string_view common_lobes_glsl;
 extern const std::string_view common_slopes_glsl;
 extern const std::string_view direction_grid_glsl;
+extern const std::string_view environment_dense_glsl;
+extern const std::string_view environment_drawn_glsl;
 extern const std::string_view environment_sampling_glsl;
 extern const std::string_view environment_stack_glsl;
 extern const std::string_view environment_visibility_glsl;
@@ -25,6 +28,7 @@ extern const std::string_view facets_module_glsl;
 extern const std::string_view lobe_sampling_glsl;
 extern const std::string_view mean_normal_glsl;
 extern const std::string_view ndf_fragment_glsl;
+extern const std::string_view octahedral_glsl;
 extern const std::string_view patch_facets_glsl;
 extern const std::string_view normal_cdf_glsl;
 extern const std::string_view normal_layers_glsl;
@@ -32,7 +36,6 @@ extern const std::string_view normal_lobes_glsl;
 extern const std::string_view resolve_samples_glsl;
 extern const std::string_view screen_vertex_glsl;
 extern const std::string_view shadow_fragment_glsl;
-extern const std::string_view shadow_rays_glsl;
 extern const std::string_view shadow_vertex_glsl;
 extern const std::string_view surface_fragment_glsl;
 extern const std::string_view surface_lights_glsl;
@@ -65,7 +68,9 @@ std::optional<std::string_view> optional_text(std::string_view file) {
   if (file == "facet_normal_lobes.glsl") return embedded::facet_normal_lobes_glsl;
   if (file == "environment_stack.glsl") return embedded::environment_stack_glsl;
   if (file == "environment_visibility.glsl") return embedded::environment_visibility_glsl;
-  if (file == "shadow_rays.glsl") return embedded::shadow_rays_glsl;
+  if (file == "octahedral.glsl") return embedded::octahedral_glsl;
+  if (file == "environment_dense.glsl") return embedded::environment_dense_glsl;
+  if (file == "environment_drawn.glsl") return embedded::environment_drawn_glsl;
   if (file == "environment_sampling.glsl") return embedded::environment_sampling_glsl;
   return std::nullopt;
 }
@@ -188,7 +193,7 @@ std::string_view sampling_flag(Sampling sampling) {
 }
 
 bool samples_environment(const ShaderVariant& v) {
-  return has(v.effects, Effect::environment_light) && v.environment_sampled;
+  return has(v.effects, Effect::environment_light) && v.environment != EnvironmentUse::prefiltered;
 }
 
 std::string light_capacities(const ShaderVariant& v) {
@@ -200,7 +205,7 @@ std::string light_capacities(const ShaderVariant& v) {
   capacity(Effect::point_light, "point_light", v.point_lights);
   capacity(Effect::spot_light, "spot_light", v.spot_lights);
   capacity(Effect::directional_light, "directional_light", v.directional_lights);
-  capacity(Effect::cast_shadow, "shadow_view", v.shadow_maps);
+  if (calls_for_shadow_maps(v.effects)) capacity(Effect::cast_shadow, "shadow_view", v.shadow_maps);
   return text;
 }
 
@@ -258,8 +263,9 @@ ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options) {
   if (variant.brdf.fresnel == FresnelTerm::schlick) flags.emplace("fresnel_schlick");
   flags.emplace(sampling_flag(variant.sampling));
   if (samples_environment(variant)) flags.emplace("environment_sampled");
+  if (variant.environment == EnvironmentUse::dense) flags.emplace("environment_dense");
   if (has(variant.effects, Effect::environment_light) && has(variant.effects, Effect::cast_shadow)) {
-    flags.emplace(variant.environment_sampled ? "environment_rays" : "environment_visibility");
+    flags.emplace("environment_visibility");
   }
   // A tabulated BRDF has a diffuse term of its own.
   if (has(variant.effects, Effect::diffuse) || has(variant.effects, Effect::tabulated_brdf)) {
@@ -299,7 +305,14 @@ std::vector<std::string> texture_names(const EffectSet& effects, const Prefilter
 
 std::vector<std::string> environment_texture_names(const ShaderVariant& variant) {
   if (!has(variant.effects, Effect::environment_light)) return {};
-  if (variant.environment_sampled) return {"environment_radiance", "environment_alias"};
+  switch (variant.environment) {
+    case EnvironmentUse::prefiltered:
+      break;
+    case EnvironmentUse::sampled:
+      return {"environment_radiance", "environment_alias"};
+    case EnvironmentUse::dense:
+      return {"environment_lights", "environment_directions"};
+  }
   return {"environment_stack", "environment_irradiance"};
 }
 
@@ -355,7 +368,7 @@ std::string fragment_shader(const ShaderVariant& variant, std::string_view modul
   std::string lights = light_capacities(variant) +
                        environment_declarations(variant, texture_names(variant.effects, prefiltered).size()) +
                        select_text(embedded::surface_lights_glsl, flags, "surface_lights.glsl");
-  if (has(variant.effects, Effect::cast_shadow)) lights += embedded::surface_shadows_glsl;
+  if (calls_for_shadow_maps(variant.effects)) lights += embedded::surface_shadows_glsl;
   const std::string forward = select_text(embedded::surface_fragment_glsl, flags, "surface_fragment.glsl");
   return method_program(variant, {module, module_name}, options, prefiltered, lights, forward);
 }

@@ -9,6 +9,7 @@
 
 #include "renderer/core/options.hpp"
 #include "renderer/effects/effects.hpp"
+#include "renderer/pipeline/environment_use.hpp"
 #include "renderer/pipeline/prefiltered.hpp"
 #include "renderer/scene/material.hpp"
 
@@ -30,7 +31,7 @@ struct ShaderVariant {
   bool orthographic = false;
   bool shared_coordinates = false;   ///< every map of the scene is looked up at one place
   bool surface_coordinates = false;  ///< the method has coordinates of its own (Prefiltered::surface_coordinates)
-  bool environment_sampled = false;  ///< the module draws directions itself, as the reference does, and gives no lobes
+  EnvironmentUse environment = EnvironmentUse::prefiltered;  ///< the others need a module with `draws_directions`
   std::size_t facet_lobes = most_facet_lobes;  ///< room for so many a material: what has less compiles faster
   std::size_t point_lights = 0, spot_lights = 0, directional_lights = 0;
   std::size_t shadow_maps = 0;

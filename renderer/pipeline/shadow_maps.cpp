@@ -58,6 +58,11 @@ void draw_batch(const GpuBatch& batch, const EffectSet& effects, SamplerCache& s
 
 }  // namespace
 
+bool calls_for_shadow_maps(const EffectSet& effects) {
+  return has(effects, Effect::cast_shadow) && (has(effects, Effect::point_light) || has(effects, Effect::spot_light) ||
+                                               has(effects, Effect::directional_light));
+}
+
 ShadowMaps::ShadowMaps(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects,
                        std::span<const GpuBatch> batches, SamplerCache& samplers)
     : views_(shadow_views(scene)),

@@ -14,6 +14,9 @@ namespace footprint {
 struct GpuBatch;
 class SamplerCache;
 
+/// Whether a scene's effects ask for shadow maps: something casts shadows, and there are lights that it may hide.
+[[nodiscard]] bool calls_for_shadow_maps(const EffectSet& effects);
+
 /// Depth maps of all lights in the layers of one array, 32-bit floats, and how to look them up. Needs the context that
 /// made it to be current, also when destroyed.
 class ShadowMaps {
@@ -23,7 +26,7 @@ class ShadowMaps {
   ShadowMaps(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects,
              std::span<const GpuBatch> batches, SamplerCache& samplers);
 
-  /// Binds maps and views for a program whose effects have cast_shadow.
+  /// Binds maps and views for a program whose effects call for them.
   void bind() const;
 
   [[nodiscard]] const ShadowViews& views() const { return views_; }

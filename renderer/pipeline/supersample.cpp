@@ -14,17 +14,33 @@ namespace footprint {
 namespace {
 
 constexpr int default_tile_edge = 512;
+constexpr std::array<std::pair<EnvironmentUse, std::string_view>, 2> integrals{{
+    {EnvironmentUse::sampled, "sampled"},
+    {EnvironmentUse::dense, "dense"},
+}};
 constexpr std::array<std::pair<ReferenceFilter, std::string_view>, 3> filters{{
     {ReferenceFilter::after_shading, "after_shading"},
     {ReferenceFilter::nearest, "nearest"},
     {ReferenceFilter::bilinear, "bilinear"},
 }};
 
-ProgramSettings settings_of(ReferenceFilter filter, bool orthographic) {
+template <class Value, std::size_t count>
+Value parse_word(const std::array<std::pair<Value, std::string_view>, count>& words, const std::string& word,
+                 const char* option, std::string_view what) {
+  std::vector<std::string> names;
+  for (const auto& [value, name] : words) {
+    if (name == word) return value;
+    names.emplace_back(name);
+  }
+  throw Error(ErrorKind::usage, option, fmt::format("unknown {} `{}`", what, word), suggestion(word, names));
+}
+
+ProgramSettings settings_of(ReferenceFilter filter, bool orthographic, EnvironmentUse environment) {
   return {.sampling = filter == ReferenceFilter::after_shading ? Sampling::texel : Sampling::point,
           .lookup = filter == ReferenceFilter::bilinear ? Lookup::trilinear : Lookup::nearest,
           .max_probes = 1,
-          .orthographic = orthographic};
+          .orthographic = orthographic,
+          .environment = environment};
 }
 
 // Fills `other` with the mean of the samples of `mean` that are not in `half`; alpha of both is a number of samples.
@@ -65,13 +81,14 @@ std::string_view filter_name(ReferenceFilter filter) {
   return std::ranges::find(filters, filter, &std::pair<ReferenceFilter, std::string_view>::first)->second;
 }
 
-ReferenceFilter parse_filter(const std::string& word) {
-  std::vector<std::string> names;
-  for (const auto& [filter, name] : filters) {
-    if (name == word) return filter;
-    names.emplace_back(name);
-  }
-  throw Error(ErrorKind::usage, "--filter", fmt::format("unknown filter `{}`", word), suggestion(word, names));
+ReferenceFilter parse_filter(const std::string& word) { return parse_word(filters, word, "--filter", "filter"); }
+
+std::string_view environment_use_name(EnvironmentUse use) {
+  return std::ranges::find(integrals, use, &std::pair<EnvironmentUse, std::string_view>::first)->second;
+}
+
+EnvironmentUse parse_environment_use(const std::string& word) {
+  return parse_word(integrals, word, "--environment", "way to integrate an environment");
 }
 
 // What a tile's samples are drawn into and added up in. Sums are read from one target and written to the other.
@@ -134,11 +151,11 @@ class Supersampler::Accumulator {
 };
 
 Supersampler::Supersampler(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method,
-                           ReferenceFilter filter, bool orthographic, int tile_edge)
+                           ReferenceFilter filter, bool orthographic, int tile_edge, EnvironmentUse environment)
     : scene_(&scene),
       method_(&method),
       tile_edge_(std::min(tile_edge > 0 ? tile_edge : default_tile_edge, context.max_framebuffer_size / 4)),
-      program_(scene, method.baked(), settings_of(filter, orthographic)),
+      program_(scene, method.baked(), settings_of(filter, orthographic, environment)),
       resolve_("resolve samples", screen_vertex_shader(), resolve_shader()) {}
 
 Supersampler::Supersampler(Supersampler&&) noexcept = default;

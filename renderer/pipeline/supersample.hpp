@@ -34,8 +34,9 @@ struct Supersampled {
 class Supersampler {
  public:
   /// `tile_edge` bounds the pixels accumulated at once; 0: 512. The result does not depend on it but for rounding.
+  /// `environment` is for the base surface alone: `sampled` or `dense`.
   Supersampler(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method, ReferenceFilter filter,
-               bool orthographic, int tile_edge = 0);
+               bool orthographic, int tile_edge = 0, EnvironmentUse environment = EnvironmentUse::sampled);
   Supersampler(Supersampler&&) noexcept;
   ~Supersampler();
 

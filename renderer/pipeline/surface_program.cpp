@@ -28,9 +28,10 @@ EffectSet effects_of(const GpuScene& scene, const Method& method) {
   return scene.effects() & (method.info().honours | shared);
 }
 
-// A method whose samples are many, and whose module can, draws directions; one sample a pixel would be all noise.
-bool draws_directions(const Method& method, const ProgramSettings& settings) {
-  return method.info().draws_directions && settings.sampling != Sampling::frame;
+// A method whose samples are many, and whose module can, integrates itself; one sample a pixel would be all noise.
+EnvironmentUse environment_of(const Method& method, const ProgramSettings& settings) {
+  const bool itself = method.info().draws_directions && settings.sampling != Sampling::frame;
+  return itself ? settings.environment : EnvironmentUse::prefiltered;
 }
 
 ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings) {
@@ -41,7 +42,7 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
           .orthographic = settings.orthographic,
           .shared_coordinates = scene.shared_coordinates(),
           .surface_coordinates = baked.materials.front().surface_coordinates.has_value(),
-          .environment_sampled = draws_directions(*baked.method, settings),
+          .environment = environment_of(*baked.method, settings),
           .facet_lobes = scene.facet_lobes(),
           .point_lights = scene.light_counts().point,
           .spot_lights = scene.light_counts().spot,
@@ -229,12 +230,12 @@ void GpuMethod::bind(const GpuBatch& batch, GpuScene& scene, Lookup lookup) cons
 SurfaceProgram::SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings)
     : settings_(settings),
       environment_light_(has(effects_of(scene, *baked.method), Effect::environment_light)),
-      environment_sampled_(draws_directions(*baked.method, settings)),
+      environment_(environment_of(*baked.method, settings)),
       fragment_text_(fragment_shader(variant_of(scene, baked, settings), baked.method->shader(), baked.spec.name,
                                      baked.options, baked.materials.front())),
       program_(fmt::format("{} (lines below {} are of {}.glsl)", baked.spec.text, first_shared_line, baked.spec.name),
                vertex_shader(variant_of(scene, baked, settings)), fragment_text_) {
-  if (environment_light_) scene.environment()->prepare(environment_sampled_);
+  if (environment_light_) scene.environment()->prepare(environment_);
 }
 
 void SurfaceProgram::set_sample(const glm::ivec2& origin, std::uint32_t seed, std::uint32_t pass) const {
@@ -257,7 +258,7 @@ void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& 
     gl::api().UniformMatrix3fv(to_camera_space, 1, GL_FALSE, glm::value_ptr(rotation));
   }
   scene.bind_lights(program_);
-  if (environment_light_ && scene.visibility()) scene.visibility()->bind(program_);
+  if (environment_light_ && scene.visibility()) scene.visibility()->bind();
   gl::api().Enable(GL_DEPTH_TEST);
   for (const GpuBatch& batch : scene.batches()) {
     set_state(batch);
@@ -265,7 +266,7 @@ void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& 
     GLuint unit = 0;
     for (const GpuTexture& texture : batch.shared_textures) bind_texture(unit++, texture, scene, settings_.lookup);
     method.bind(batch, scene, settings_.lookup);
-    if (environment_light_) scene.environment()->bind(method.units(batch), environment_sampled_);
+    if (environment_light_) scene.environment()->bind(method.units(batch), environment_);
     gl::api().BindVertexArray(method.vertex_array(batch));
     gl::api().DrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT, nullptr);
   }

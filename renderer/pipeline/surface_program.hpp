@@ -80,6 +80,7 @@ struct ProgramSettings {
   Lookup lookup = Lookup::trilinear;
   int max_probes = 1;
   bool orthographic = false;
+  EnvironmentUse environment = EnvironmentUse::sampled;  ///< of a module that integrates it itself
 };
 
 /// One compiled forward pass.
@@ -100,7 +101,7 @@ class SurfaceProgram {
  private:
   ProgramSettings settings_;
   bool environment_light_;
-  bool environment_sampled_;
+  EnvironmentUse environment_;
   std::string fragment_text_;
   gl::Program program_;
 };

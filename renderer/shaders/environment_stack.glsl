@@ -7,16 +7,7 @@ layout(std140, binding = 5) uniform EnvironmentBlock {
 
 const float inverse_root_two_pi = 0.3989423;
 
-// The octahedral map of the sphere, +y in the middle, on the unit square (Praun and Hoppe 2003).
-vec2 octahedral(vec3 d) {
-  vec3 p = d / (abs(d.x) + abs(d.y) + abs(d.z));
-  if (p.y >= 0.0) return 0.5 + 0.5 * p.xz;
-  vec2 folded = 1.0 - abs(p.zx);
-  return 0.5 + 0.5 * vec2(p.x >= 0.0 ? folded.x : -folded.x, p.z >= 0.0 ? folded.y : -folded.y);
-}
-
-// A border of one texel repeats what lies across the edge, so that linear filtering has no seam.
-vec2 borderedPlace(vec2 place, vec2 size) { return (1.0 + place * (size - 2.0)) / size; }
+//? include octahedral.glsl
 
 // Map 2 l is level l of layer 0, map 2 l + 1 that of layer 1.
 vec3 stackMap(int map, vec2 place) {

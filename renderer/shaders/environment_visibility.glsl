@@ -23,6 +23,14 @@ float visibleElevation(vec3 direction, float elevation) {
   return min(elevation, sin(clamp(signedDistance(direction), -0.5 * pi, 0.5 * pi)));
 }
 
+// For single directions: no light comes from behind an edge.
+bool isVisible(vec3 direction) {
+//? if double_sided
+  if (!gl_FrontFacing) return true;
+//? end
+  return signedDistance(direction) > 0.0;
+}
+
 vec3 visibleDiffuse() {
 //? if double_sided
   if (!gl_FrontFacing) return vec3(1.0);

@@ -125,6 +125,19 @@ bool Occluders::blocked(const glm::vec3& origin, const glm::vec3& direction, flo
   return ray.tfar < 0.0F;
 }
 
+std::vector<bool> Occluders::blocked(const glm::vec3& origin, std::span<const glm::vec3> directions) const {
+  RTCIntersectContext context{};
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  std::vector<RTCRay> rays;
+  rays.reserve(directions.size());
+  for (const glm::vec3& direction : directions) rays.push_back(ray_of(origin, direction, 0.0F, unlimited));
+  rtcOccluded1M(rays_.get(), &context, rays.data(), static_cast<unsigned>(rays.size()), sizeof(RTCRay));
+  std::vector<bool> out;
+  for (const RTCRay& ray : rays) out.push_back(ray.tfar < 0.0F);
+  return out;
+}
+
 std::optional<SurfacePlace> Occluders::nearest(const glm::vec3& origin, const glm::vec3& direction, float least) const {
   RTCIntersectContext context{};
   rtcInitIntersectContext(&context);

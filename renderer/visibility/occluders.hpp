@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "renderer/scene/scene.hpp"
@@ -32,6 +33,9 @@ class Occluders {
 
   /// Whether anything lies on the ray, from `origin` along the unit vector `direction`, nearer than `distance`.
   [[nodiscard]] bool blocked(const glm::vec3& origin, const glm::vec3& direction, float distance = unlimited) const;
+
+  /// The same for many rays without an end from one place; a value a direction.
+  [[nodiscard]] std::vector<bool> blocked(const glm::vec3& origin, std::span<const glm::vec3> directions) const;
 
   /// The first place on the ray at `least` or further, if there is one.
   [[nodiscard]] std::optional<SurfacePlace> nearest(const glm::vec3& origin, const glm::vec3& direction,

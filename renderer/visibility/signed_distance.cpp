@@ -1,6 +1,7 @@
 // See signed_distance.hpp.
 #include "renderer/visibility/signed_distance.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -62,20 +63,31 @@ const std::vector<glm::vec3>& visibility_directions() {
 SphereVisibility visibility_at(const Occluders& occluders, const glm::vec3& point, const glm::vec3& normal) {
   const std::vector<glm::vec3>& directions = visibility_directions();
   const glm::vec3 start = point + occluders.offset() * normal;
-  SphereVisibility visible;
+  std::vector<glm::vec3> above;
+  std::vector<std::size_t> cells;
   for (std::size_t i = 0; i < directions.size(); ++i) {
-    visible[i] = glm::dot(directions[i], normal) > 0.0F && !occluders.blocked(start, directions[i]);
+    if (glm::dot(directions[i], normal) <= 0.0F) continue;
+    above.push_back(directions[i]);
+    cells.push_back(i);
   }
+  const std::vector<bool> blocked = occluders.blocked(start, above);
+  SphereVisibility visible;
+  for (std::size_t i = 0; i < cells.size(); ++i) visible[cells[i]] = !blocked[i];
   return visible;
 }
 
 std::vector<float> signed_distances(const SphereVisibility& visible, std::span<const glm::vec3> directions) {
   const std::vector<glm::vec3> edges = edges_of(visible);
+  using Columns = Eigen::Map<const Eigen::Matrix3Xf>;
+  static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+  const Columns edge_columns(&edges.data()->x, 3, static_cast<Eigen::Index>(edges.size()));
   std::vector<float> distances;
   for (const glm::vec3& direction : directions) {
-    float nearest = -1.0F;
-    for (const glm::vec3& edge : edges) nearest = std::max(nearest, glm::dot(direction, edge));
-    const float angle = edges.empty() ? std::numbers::pi_v<float> : std::acos(std::min(nearest, 1.0F));
+    float angle = std::numbers::pi_v<float>;
+    if (!edges.empty()) {
+      const Eigen::Vector3f d(direction.x, direction.y, direction.z);
+      angle = std::acos(std::clamp((d.transpose() * edge_columns).maxCoeff(), -1.0F, 1.0F));
+    }
     distances.push_back(visible[visibility_cell(direction)] ? angle : -angle);
   }
   return distances;

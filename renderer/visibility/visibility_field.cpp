@@ -11,7 +11,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
+#include "renderer/environment/cell_light.hpp"
 #include "renderer/environment/octahedral.hpp"
 
 namespace footprint {
@@ -65,11 +67,18 @@ struct Measured {
   std::vector<glm::vec3> diffuse_shares;
 };
 
+void require_room(std::size_t vertices, const std::string& source) {
+  constexpr const char* mend = "set `cast = false` in [shadows] of a scene.toml, or use a coarser model";
+  const std::string what = fmt::format("visibility at {} vertices", vertices);
+  if (vertices > most_visibility_vertices) {
+    throw Error(ErrorKind::machine, source,
+                fmt::format("{} of the environment: the most is {}", what, most_visibility_vertices), mend);
+  }
+  require_memory(vertices * (map_texels * sizeof(float) + sizeof(VertexVisibility)), what, mend);
+}
+
 Measured measure(const std::vector<const Vertex*>& vertices, const Occluders& occluders,
                  std::span<const glm::dvec3> light, const Progress& progress) {
-  require_memory(vertices.size() * (map_texels * sizeof(float) + sizeof(VertexVisibility)),
-                 fmt::format("visibility at {} vertices", vertices.size()),
-                 "set `cast = false` in [shadows] of a scene.toml, or use a coarser model");
   Measured measured{Distances(static_cast<Eigen::Index>(vertices.size()), map_texels),
                     std::vector<glm::vec3>(vertices.size())};
   const std::vector<glm::vec3> directions = map_directions();
@@ -118,29 +127,17 @@ std::vector<Image> make_layers(const Eigen::RowVectorXf& mean, const Eigen::Matr
 
 }  // namespace
 
-std::vector<glm::dvec3> light_of_cells(const Environment& environment) {
-  // A small map is cut up, so that every cell gets its share of a texel.
-  const auto times = [](int texels, int least) { return (least + texels - 1) / texels; };
-  const Image& given = *environment.radiance;
-  const Image map = resampled_environment(given, given.width * times(given.width, fewest_columns),
-                                          given.height * times(given.height, fewest_columns / 2));
-  const std::vector<double> solid_angles = row_solid_angles(map.width, map.height);
-  std::vector<glm::dvec3> light(visibility_directions().size(), glm::dvec3(0.0));
-  for (int y = 0; y < map.height; ++y) {
-    for (int x = 0; x < map.width; ++x) {
-      const glm::dvec3 direction = environment_direction(environment, (x + 0.5) / map.width, (y + 0.5) / map.height);
-      const auto texel = map.at(x, y);
-      light[visibility_cell(direction)] +=
-          solid_angles[static_cast<std::size_t>(y)] * glm::dvec3(texel[0], texel[1], texel[2]);
-    }
-  }
-  return light;
+std::vector<glm::dvec3> visibility_light(const Environment& environment) {
+  return light_of_cells(
+      environment,
+      {.count = visibility_directions().size(), .cell_of = visibility_cell, .fewest_columns = fewest_columns});
 }
 
 VisibilityField visibility_field(const Scene& scene, const Occluders& occluders, const Environment& environment,
                                  const Progress& progress) {
   const std::vector<const Vertex*> vertices = all_vertices(scene);
-  Measured measured = measure(vertices, occluders, light_of_cells(environment), progress);
+  require_room(vertices.size(), scene.source);
+  Measured measured = measure(vertices, occluders, visibility_light(environment), progress);
   const Eigen::RowVectorXf mean = measured.distances.colwise().mean();
   measured.distances.rowwise() -= mean;
   const Eigen::MatrixXf components = principal_components(measured.distances);

@@ -17,9 +17,12 @@ inline constexpr std::size_t visibility_components = 15;
 /// Texels a side of the maps of mean and components, without their border.
 inline constexpr int visibility_map_edge = 16;
 
+/// The most vertices of a scene: ten minutes of two cores.
+inline constexpr std::size_t most_visibility_vertices = std::size_t{1} << 22U;
+
 /// Light from each cell of the visibility grid: radiance integrated over its solid angle, in the order of
 /// visibility_directions.
-[[nodiscard]] std::vector<glm::dvec3> light_of_cells(const Environment& environment);
+[[nodiscard]] std::vector<glm::dvec3> visibility_light(const Environment& environment);
 
 /// One vertex.
 struct VertexVisibility {
@@ -35,7 +38,8 @@ struct VisibilityField {
 };
 
 /// Asks the visibility of every vertex (1024 rays each, TBB and Embree) and compresses the distances by principal
-/// components. Equal scenes give equal fields at any number of threads. Errors: (machine) more than memory holds; those
+/// components. Equal scenes give equal fields at any number of threads. Errors: (machine) more vertices than
+/// that, or than memory holds; those
 /// of `progress`.
 [[nodiscard]] VisibilityField visibility_field(const Scene& scene, const Occluders& occluders,
                                                const Environment& environment, const Progress& progress);

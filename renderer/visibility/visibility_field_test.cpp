@@ -183,10 +183,10 @@ TEST(VisibilityField, DiffuseShareIsThatOfTheCosine) {
 TEST(VisibilityField, LightOfCellsIsAllOfTheLight) {
   const Environment sky = sky_environment({});
   glm::dvec3 sum(0.0);
-  for (const glm::dvec3& cell : light_of_cells(sky)) sum += cell;
+  for (const glm::dvec3& cell : visibility_light(sky)) sum += cell;
   const glm::dvec3 truth = 4.0 * std::numbers::pi * mean_radiance(*sky.radiance);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], truth[c], 1e-3 * truth[c]);
-  for (const glm::dvec3& cell : light_of_cells(constant_environment(glm::vec3(1.0F)))) {
+  for (const glm::dvec3& cell : visibility_light(constant_environment(glm::vec3(1.0F)))) {
     EXPECT_GT(cell.x, 0.2 * 4.0 * std::numbers::pi / 1024.0);
     EXPECT_LT(cell.x, 5.0 * 4.0 * std::numbers::pi / 1024.0);
   }

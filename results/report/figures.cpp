@@ -27,6 +27,7 @@ std::string worth(const Record& record) {
 std::string reference_text(const ReferenceInfo& reference) {
   std::string text = fmt::format("{} a pixel, filter {}, seed {}", plural(std::to_string(reference.spp), "sample"),
                                  reference.filter, reference.seed);
+  if (!reference.environment.empty()) text += fmt::format(", environment {}", reference.environment);
   if (reference.standard_error) text += fmt::format(", standard error {}", error_text(*reference.standard_error));
   return text;
 }

@@ -157,9 +157,10 @@ Results parse_document(const JsonNode& node) {
   results.backend = {backend["name"].text(), backend["renderer"].text(), backend["version"].text(),
                      backend["cpu"].text()};
   results.scene = parse_scene(node["scene"]);
-  const JsonNode reference = node["reference"].with_keys({"spp", "filter", "seed", "standard_error"});
+  const JsonNode reference = node["reference"].with_keys({"spp", "filter", "seed", "standard_error", "environment"});
   results.reference = {reference["spp"].whole<int>(1), reference["filter"].text(),
-                       reference["seed"].whole<std::uint64_t>(), reference["standard_error"].optional_number()};
+                       reference["seed"].whole<std::uint64_t>(), reference["standard_error"].optional_number(),
+                       reference["environment"].is_null() ? "" : reference["environment"].text()};
   if (!node["experiment"].is_null()) results.experiment = parse_experiment(node["experiment"]);
   results.error_scale = node["error_scale"].number();
   for (const JsonNode& point : node["supersampling"].elements()) {

@@ -136,6 +136,7 @@ struct ReferenceInfo {
   std::uint64_t seed = 0;
   std::optional<double>
       standard_error;  ///< root mean square of the per-pixel standard error over mean radiance, first distance
+  std::string environment = {};  ///< sampled or dense; empty without one
 };
 
 /// A whole run.

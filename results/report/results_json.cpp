@@ -133,7 +133,8 @@ Json reference_json(const ReferenceInfo& reference) {
   return {{"spp", reference.spp},
           {"filter", reference.filter},
           {"seed", reference.seed},
-          {"standard_error", json_number(reference.standard_error)}};
+          {"standard_error", json_number(reference.standard_error)},
+          {"environment", reference.environment.empty() ? Json(nullptr) : Json(reference.environment)}};
 }
 
 nlohmann::ordered_json results_document(const Results& results) {

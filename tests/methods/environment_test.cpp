@@ -145,6 +145,35 @@ TEST(ReferenceUnderAnEnvironment, IntegratesItWithinItsStandardError) {
   }
 }
 
+// 6144 lights against a sum over 320000 directions, and against drawn directions, on lobes wider than a light's cell.
+TEST(ReferenceUnderAnEnvironment, DenseLightsComeToTheSame) {
+  constexpr BaseBrdf brdf{NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, false};
+  Scene scene = lit_square({}, {.brdf = brdf, .specular = glm::vec3(0.25F)}, uneven_environment());
+  scene.camera.orthographic = true;
+  scene.camera.ymag = 1.0F;
+  for (const float exponent : {8.0F, 60.0F}) {
+    scene.materials[0].lobe_parameter = exponent;
+    TestRenderer renderer(scene, {16, 16});
+    const Image dense = renderer.reference(1, 1, ReferenceFilter::after_shading, 0, EnvironmentUse::dense).mean;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double truth = 0.25 * blinn_phong_under(*scene.environment, exponent, c);
+      EXPECT_NEAR(dense.at(8, 8)[c], truth, 0.01 * truth) << "exponent " << exponent << ", channel " << c;
+    }
+    const double drawn = mean_of(renderer.reference(64).mean);
+    EXPECT_NEAR(mean_of(dense), drawn, 0.01 * drawn) << "exponent " << exponent;
+  }
+}
+
+// Filtering after shading and the Lambert term are the same for both ways.
+TEST(ReferenceUnderAnEnvironment, DenseLightsComeToTheSamePicture) {
+  TestRenderer renderer(
+      lit_square(random_normals(8, 8, 0.4F, 5), {.brdf = {}, .roughness = 0.7F}, uneven_environment()), {16, 16});
+  const Image drawn = renderer.reference(1024).mean;
+  const Image dense = renderer.reference(64, 1, ReferenceFilter::after_shading, 0, EnvironmentUse::dense).mean;
+  EXPECT_LT(compare_images(dense, drawn, 1.0F).value().relative_rmse, 0.02);
+  EXPECT_LT(std::abs(mean_of(dense) / mean_of(drawn) - 1.0), 0.005);
+}
+
 TEST(ReferenceUnderAnEnvironment, ReflectsAllOfAWhiteFurnace) {
   const SquareMaterial plaster{.brdf = lambert, .base_color = glm::vec3(1.0F), .specular = glm::vec3(0.0F)};
   TestRenderer renderer(lit_square({}, plaster, constant_environment(glm::vec3(1.0F))), {16, 16});

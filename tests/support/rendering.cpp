@@ -44,17 +44,18 @@ Image TestRenderer::frame(const Method& method, const std::string& text, int ani
 }
 
 Supersampled TestRenderer::supersampled(const Method& method, int spp, std::uint64_t seed, ReferenceFilter filter,
-                                        int tile) {
+                                        int tile, EnvironmentUse environment) {
   const BakedMethod bake_result = baked(method, {});
   const GpuMethod gpu(gpu_scene_, bake_result);
-  const Supersampler sampler(context_->info(), gpu_scene_, gpu, filter, scene_.camera.orthographic, tile);
+  const Supersampler sampler(context_->info(), gpu_scene_, gpu, filter, scene_.camera.orthographic, tile, environment);
   Supersampled picture = sampler.render({.size = size_, .camera = scene_.camera}, spp, seed, no_progress);
   context_->check("supersampling a test picture");
   return picture;
 }
 
-Supersampled TestRenderer::reference(int spp, std::uint64_t seed, ReferenceFilter filter, int tile) {
-  return supersampled(base_surface(), spp, seed, filter, tile);
+Supersampled TestRenderer::reference(int spp, std::uint64_t seed, ReferenceFilter filter, int tile,
+                                     EnvironmentUse environment) {
+  return supersampled(base_surface(), spp, seed, filter, tile, environment);
 }
 
 std::string TestRenderer::fragment_text(const Method& method) {

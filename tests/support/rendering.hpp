@@ -21,9 +21,11 @@ class TestRenderer {
   [[nodiscard]] Image frame(const Method& method, const std::string& text = {}, int anisotropy = 1, int tile = 0,
                             double distance = 1.0);
   [[nodiscard]] Supersampled supersampled(const Method& method, int spp, std::uint64_t seed = 1,
-                                          ReferenceFilter filter = ReferenceFilter::after_shading, int tile = 0);
+                                          ReferenceFilter filter = ReferenceFilter::after_shading, int tile = 0,
+                                          EnvironmentUse environment = EnvironmentUse::sampled);
   [[nodiscard]] Supersampled reference(int spp, std::uint64_t seed = 1,
-                                       ReferenceFilter filter = ReferenceFilter::after_shading, int tile = 0);
+                                       ReferenceFilter filter = ReferenceFilter::after_shading, int tile = 0,
+                                       EnvironmentUse environment = EnvironmentUse::sampled);
   [[nodiscard]] std::string fragment_text(const Method& method);
   /// Goes on with another scene of the same parts (GpuScene::update).
   void update(const Scene& scene);

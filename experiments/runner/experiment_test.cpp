@@ -93,6 +93,7 @@ other_spp = [16, 36]
 supersampling = [1, 4]
 seed = 7
 filter = "nearest"
+environment = "dense"
 [published]
 file = "paper.toml"
 figures = ["Figure 1"]
@@ -126,6 +127,7 @@ TEST_F(ExperimentFile, EveryKeyIsRead) {
   EXPECT_EQ(experiment.without.count(), 2U);
   EXPECT_TRUE(has(experiment.without, Effect::fresnel) && has(experiment.without, Effect::cast_shadow));
   EXPECT_EQ(experiment.filter, ReferenceFilter::nearest);
+  EXPECT_EQ(experiment.environment, EnvironmentUse::dense);
   ASSERT_EQ(experiment.published.size(), 1U);  // that of figure 2 names a method that is not here, and is not asked for
   EXPECT_EQ(experiment.published[0].value, 0.5);
   ASSERT_EQ(experiment.footprints.size(), 1U);

@@ -28,22 +28,17 @@ constexpr const char* examples =
     "  footprint animate ribbed_plane --method direct,toksvig --frames 30 --from 1 --to 16 --spp 64 -o out";
 
 struct Arguments {
-  std::string scene;
+  FrameArguments frame;
   std::string methods;
   int frames = 30;
   std::string from, to;  // empty: the scene's zoom path
   ReferenceArguments reference;
-  std::string size;  // empty: the scene's
-  std::string exposure = "auto";
-  int anisotropy = 1;
-  BackendArguments backend;
   std::string output = "out";
   bool no_cache = false;
-  bool quiet = false;
 };
 
 void add_options(CLI::App& command, Arguments& arguments) {
-  command.add_option("scene", arguments.scene, "What to render")->required();
+  add_frame_options(command, arguments.frame, "for display and clamped errors");
   command.add_option("--method,--methods", arguments.methods, "Methods, commas between")->required();
   command.add_option("--frames", arguments.frames, "Frames of the zoom, at equal ratios of distance")
       ->check(CLI::Range(2, 10000))
@@ -53,15 +48,9 @@ void add_options(CLI::App& command, Arguments& arguments) {
   command.add_option("--to", arguments.to,
                      "Last factor; if not given the last of the scene's zoom path, or 8 times the first");
   add_reference_options(command, arguments.reference);
-  add_size_option(command, arguments.size);
-  add_anisotropy_option(command, arguments.anisotropy);
-  command.add_option("--exposure", arguments.exposure, "Factor on radiance for display and clamped errors, or auto")
-      ->capture_default_str();
-  add_backend_options(command, arguments.backend);
   command.add_option("-o,--output", arguments.output, "Folder for animation.json, animation.csv, table.md, images/")
       ->capture_default_str();
   add_cache_flag(command, arguments.no_cache);
-  add_quiet_flag(command, arguments.quiet);
 }
 
 std::optional<double> optional_distance(const std::string& text) {
@@ -70,22 +59,22 @@ std::optional<double> optional_distance(const std::string& text) {
 
 AnimateSettings settings_from(const Arguments& arguments) {
   AnimateSettings settings;
-  settings.scene = arguments.scene;
+  settings.scene = arguments.frame.scene;
   settings.scene_library = scene_library();
   settings.stage.methods = parse_known_methods(arguments.methods);
-  settings.stage.size = parse_optional_size(arguments.size);
+  settings.stage.size = parse_optional_size(arguments.frame.size);
   settings.stage.filter = parse_filter(arguments.reference.filter);
   settings.stage.environment = parse_environment_use(arguments.reference.environment);
-  settings.stage.anisotropy = arguments.anisotropy;
-  settings.stage.tile = arguments.backend.tile;
+  settings.stage.anisotropy = arguments.frame.anisotropy;
+  settings.stage.tile = arguments.frame.backend.tile;
   settings.stage.cache = cache_folder(arguments.no_cache);
   settings.from = optional_distance(arguments.from);
   settings.to = optional_distance(arguments.to);
   settings.frames = arguments.frames;
   settings.spp = arguments.reference.spp;
   settings.seed = arguments.reference.seed;
-  settings.exposure = parse_exposure(arguments.exposure);
-  settings.context = context_request(arguments.backend);
+  settings.exposure = parse_exposure(arguments.frame.exposure);
+  settings.context = context_request(arguments.frame.backend);
   return settings;
 }
 
@@ -97,7 +86,7 @@ Animation animate_into(OutputFolder& folder, const AnimateSettings& settings, co
 
 void run_animate(const Arguments& arguments) {
   const AnimateSettings settings = settings_from(arguments);
-  ProgressDisplay display(progress_style(arguments.quiet));
+  ProgressDisplay display(progress_style(arguments.frame.quiet));
   const auto [animation, place] = write_whole(
       arguments.output, [&](OutputFolder& folder) { return animate_into(folder, settings, display.callback()); });
   display.finish();

@@ -38,6 +38,16 @@ gl::ContextRequest context_request(const BackendArguments& arguments) {
   return {.backend = gl::parse_backend(arguments.backend), .device = arguments.device};
 }
 
+void add_frame_options(CLI::App& command, FrameArguments& arguments, const std::string& exposed) {
+  command.add_option("scene", arguments.scene, "What to render")->required();
+  add_size_option(command, arguments.size);
+  add_anisotropy_option(command, arguments.anisotropy);
+  command.add_option("--exposure", arguments.exposure, fmt::format("Factor on radiance {}, or auto", exposed))
+      ->capture_default_str();
+  add_backend_options(command, arguments.backend);
+  add_quiet_flag(command, arguments.quiet);
+}
+
 void add_reference_options(CLI::App& command, ReferenceArguments& arguments) {
   command.add_option("--spp", arguments.spp, "Samples a pixel of the reference")
       ->check(CLI::Range(1, 4096))

@@ -29,6 +29,20 @@ void add_backend_options(CLI::App& command, BackendArguments& arguments);
 /// Errors (usage): no such backend.
 [[nodiscard]] gl::ContextRequest context_request(const BackendArguments& arguments);
 
+/// What every command needs that renders frames of a scene.
+struct FrameArguments {
+  std::string scene;
+  std::string size;  ///< empty: the scene's
+  std::string exposure = "auto";
+  int anisotropy = 1;
+  BackendArguments backend;
+  bool quiet = false;
+};
+
+/// Adds the scene, --size, --anisotropy, --exposure (a factor on radiance for what `exposed` says), --quiet, and the
+/// backend's options.
+void add_frame_options(CLI::App& command, FrameArguments& arguments, const std::string& exposed);
+
 /// What the reference is made with.
 struct ReferenceArguments {
   int spp = 64;

@@ -28,20 +28,15 @@ constexpr const char* examples =
     "  footprint edit woven_cloth --set weave.warp_width=0.9:0.3 --set weave.height=0.1 --method iwasaki_sg:j=4 -o out";
 
 struct Arguments {
-  std::string scene;
+  FrameArguments frame;
   std::vector<std::string> sets;
   std::string method = "iwasaki_sg";
   int frames = 10;
-  std::string size;  // empty: the scene's
-  std::string exposure = "auto";
-  int anisotropy = 1;
-  BackendArguments backend;
   std::string output = "out";
-  bool quiet = false;
 };
 
 void add_options(CLI::App& command, Arguments& arguments) {
-  command.add_option("scene", arguments.scene, "What to render")->required();
+  add_frame_options(command, arguments.frame, "for display");
   command.add_option("--set", arguments.sets, "KIND.PARAMETER=FROM:TO, or =VALUE; may be given several times")
       ->required()
       ->expected(1)
@@ -50,19 +45,13 @@ void add_options(CLI::App& command, Arguments& arguments) {
   command.add_option("--frames", arguments.frames, "Edits, at equal steps of the parameters")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  add_size_option(command, arguments.size);
-  add_anisotropy_option(command, arguments.anisotropy);
-  command.add_option("--exposure", arguments.exposure, "Factor on radiance for display, or auto")
-      ->capture_default_str();
-  add_backend_options(command, arguments.backend);
   command.add_option("-o,--output", arguments.output, "Folder for edit.json, edit.csv, table.md, images/")
       ->capture_default_str();
-  add_quiet_flag(command, arguments.quiet);
 }
 
 EditSettings settings_from(const Arguments& arguments) {
   EditSettings settings;
-  settings.scene = arguments.scene;
+  settings.scene = arguments.frame.scene;
   settings.scene_library = scene_library();
   for (const std::string& set : arguments.sets) settings.sweeps.push_back(parse_sweep(set));
   settings.method = parse_known_method("--method", arguments.method);
@@ -70,11 +59,11 @@ EditSettings settings_from(const Arguments& arguments) {
     throw Error(ErrorKind::usage, "--method", "`reference` has no precompute to time", "name a method");
   }
   settings.frames = arguments.frames;
-  settings.size = parse_optional_size(arguments.size);
-  settings.anisotropy = arguments.anisotropy;
-  settings.tile = arguments.backend.tile;
-  settings.exposure = parse_exposure(arguments.exposure);
-  settings.context = context_request(arguments.backend);
+  settings.size = parse_optional_size(arguments.frame.size);
+  settings.anisotropy = arguments.frame.anisotropy;
+  settings.tile = arguments.frame.backend.tile;
+  settings.exposure = parse_exposure(arguments.frame.exposure);
+  settings.context = context_request(arguments.frame.backend);
   return settings;
 }
 
@@ -86,7 +75,7 @@ EditRun edit_into(OutputFolder& folder, const EditSettings& settings, const Prog
 
 void run_edit_command(const Arguments& arguments) {
   const EditSettings settings = settings_from(arguments);
-  ProgressDisplay display(progress_style(arguments.quiet));
+  ProgressDisplay display(progress_style(arguments.frame.quiet));
   const auto [run, place] = write_whole(
       arguments.output, [&](OutputFolder& folder) { return edit_into(folder, settings, display.callback()); });
   display.finish();

@@ -35,18 +35,13 @@ constexpr const char* examples =
 constexpr int reference_pictures = 6;  // mean, squares, two halves, error, and one to spare
 
 struct Arguments {
-  std::string scene;
+  FrameArguments frame;
   std::string method;
   ReferenceArguments reference;
   std::string distance = "1";
-  std::optional<std::size_t> frame;
-  std::string size;  // empty: the scene's
-  std::string exposure = "auto";
-  int anisotropy = 1;
-  BackendArguments backend;
+  std::optional<std::size_t> zoom_frame;
   std::string output;
   bool no_cache = false;
-  bool quiet = false;
 };
 
 std::filesystem::path picture_path(const std::string& text) {
@@ -83,32 +78,32 @@ void save_picture(const std::filesystem::path& path, const Image& picture, std::
 void run_render(const Arguments& arguments) {
   const std::filesystem::path path = picture_path(arguments.output);
   const MethodSpec method = parse_known_method("--method", arguments.method);
-  const std::optional<float> exposure = parse_exposure(arguments.exposure);
+  const std::optional<float> exposure = parse_exposure(arguments.frame.exposure);
   const double given_distance = parse_distance(arguments.distance);
   StageSettings settings;
-  settings.size = parse_optional_size(arguments.size);
+  settings.size = parse_optional_size(arguments.frame.size);
   settings.filter = parse_filter(arguments.reference.filter);
   settings.environment = parse_environment_use(arguments.reference.environment);
-  settings.anisotropy = arguments.anisotropy;
-  settings.tile = arguments.backend.tile;
+  settings.anisotropy = arguments.frame.anisotropy;
+  settings.tile = arguments.frame.backend.tile;
   settings.cache = cache_folder(arguments.no_cache);
   if (is_reference(method)) {
     settings.pictures = reference_pictures;
   } else {
     settings.methods = {method};
   }
-  const gl::ContextRequest request = context_request(arguments.backend);
-  Scene scene = load_scene(arguments.scene, scene_library());
-  const double distance = distance_factor(given_distance, arguments.frame, scene);
+  const gl::ContextRequest request = context_request(arguments.frame.backend);
+  Scene scene = load_scene(arguments.frame.scene, scene_library());
+  const double distance = distance_factor(given_distance, arguments.zoom_frame, scene);
 
-  ProgressDisplay display(progress_style(arguments.quiet));
+  ProgressDisplay display(progress_style(arguments.frame.quiet));
   ProgressParts parts(display.callback(), 3);
   const Stage stage(request, std::move(scene), settings, parts.next(1, ""));
   const Image picture = render_picture(stage, distance, arguments.reference, parts.next(2, ""));
   throw_if_interrupted();
   save_picture(path, picture, exposure ? exposure : stage.scene().exposure);
   display.finish();
-  write_scene_notes(stage.scene(), arguments.quiet);
+  write_scene_notes(stage.scene(), arguments.frame.quiet);
   write_output(fmt::format("{}\n", path.string()));
 }
 
@@ -127,22 +122,16 @@ void check_reference_options(const CLI::App& command, const std::string& method)
 void add_render_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("render", "Render one picture by a method or by the reference");
   const auto arguments = std::make_shared<Arguments>();
-  command->add_option("scene", arguments->scene, "What to render")->required();
+  add_frame_options(*command, arguments->frame, "of a .png");
   command->add_option("--method", arguments->method, "name or name:option=value, or `reference`")->required();
   command->add_option("-o,--output", arguments->output, "The picture, .exr or .png")->required();
-  add_size_option(*command, arguments->size);
   auto* distance =
       command->add_option("--distance", arguments->distance, "Factor on the camera's distance")->capture_default_str();
-  command->add_option("--frame", arguments->frame, "Frame of the scene's zoom path, from 0")
+  command->add_option("--frame", arguments->zoom_frame, "Frame of the scene's zoom path, from 0")
       ->check(CLI::NonNegativeNumber)
       ->excludes(distance);
   add_reference_options(*command, arguments->reference);
-  add_anisotropy_option(*command, arguments->anisotropy);
-  command->add_option("--exposure", arguments->exposure, "Factor on radiance of a .png, or auto")
-      ->capture_default_str();
-  add_backend_options(*command, arguments->backend);
   add_cache_flag(*command, arguments->no_cache);
-  add_quiet_flag(*command, arguments->quiet);
   command->footer(examples);
   command->callback([arguments, command] {
     check_reference_options(*command, arguments->method);

@@ -35,9 +35,10 @@ SceneSource editable_source(const EditSettings& settings) {
   SceneSource source = read_scene(settings.scene, settings.scene_library);
   const PatchKind* kind = nullptr;
   for (const PartSettings& part : source.settings.parts) {
-    if (!part.microgeometry || part.microgeometry->kind == nullptr) continue;
-    kind = part.microgeometry->kind;
-    if (kind->name == settings.sweeps.front().kind) break;
+    for (const MicrogeometrySettings& patch : part.microgeometry) {
+      const bool wanted = kind != nullptr && kind->name == settings.sweeps.front().kind;
+      if (patch.kind != nullptr && !wanted) kind = patch.kind;
+    }
   }
   if (kind == nullptr) {
     throw Error(ErrorKind::usage, settings.scene, "has no generated small-scale geometry to edit",
@@ -49,25 +50,37 @@ SceneSource editable_source(const EditSettings& settings) {
 
 // The scene's colours before any patch has its share in them.
 std::vector<glm::vec4> own_colors(SceneSource source) {
-  for (PartSettings& part : source.settings.parts) part.microgeometry.reset();
+  MicrogeometrySettings white;
+  white.kind = &find_patch_kind("flat");
+  for (PartSettings& part : source.settings.parts) {
+    for (MicrogeometrySettings& patch : part.microgeometry) patch = white;
+  }
   std::vector<glm::vec4> colors;
   for (const Material& material : assemble(source).materials) colors.push_back(material.base_color);
   return colors;
 }
 
-// For each part, the materials that have its patch: in a scene, parts follow each other, and those of one part share
-// it.
-std::vector<std::vector<std::size_t>> materials_of_parts(const SceneSettings& settings, const Scene& scene) {
-  std::vector<std::vector<std::size_t>> out(settings.parts.size());
-  std::size_t part = 0, material = 0;
-  const auto has_patch = [&](std::size_t i) { return scene.materials[i].microgeometry != nullptr; };
-  for (; part < settings.parts.size(); ++part) {
-    if (!settings.parts[part].microgeometry) continue;
-    while (material < scene.materials.size() && !has_patch(material)) ++material;
-    const std::size_t first = material;
-    while (material < scene.materials.size() &&
-           scene.materials[material].microgeometry == scene.materials[first].microgeometry) {
-      out[part].push_back(material++);
+// A patch of the settings and the materials that have it.
+struct EditedPatch {
+  std::size_t part, place;  // in the part
+  std::vector<std::size_t> materials;
+};
+
+// In a scene, parts follow each other, and the materials of one part share its patches, which come in turn.
+std::vector<EditedPatch> patches_of(const SceneSettings& settings, const Scene& scene) {
+  std::vector<EditedPatch> out;
+  std::size_t material = 0;
+  const auto patch_of = [&](std::size_t i) { return scene.materials[i].microgeometry; };
+  for (std::size_t part = 0; part < settings.parts.size(); ++part) {
+    const std::size_t count = settings.parts[part].microgeometry.size();
+    if (count == 0) continue;
+    while (material < scene.materials.size() && !patch_of(material)) ++material;
+    const std::size_t first = material, own = out.size();
+    for (std::size_t place = 0; place < count; ++place) out.push_back({part, place, {}});
+    for (; material < scene.materials.size() && patch_of(material); ++material) {
+      const std::size_t place = (material - first) % count;
+      if (material >= first + count && patch_of(material) != patch_of(first + place)) break;  // the next part's
+      out[own + place].materials.push_back(material);
     }
   }
   return out;
@@ -114,7 +127,7 @@ class Editor {
         source_(editable_source(settings)),
         own_colors_(own_colors(source_)),
         scene_(assemble(source_)),
-        materials_(materials_of_parts(source_.settings, scene_)),
+        patches_(patches_of(source_.settings, scene_)),
         size_(frame_size(scene_, settings.size)),
         context_(settings.context),
         parts_(progress, settings.frames) {
@@ -159,12 +172,12 @@ class Editor {
   }
 
   void change_geometry(const std::map<std::string, std::string>& parameters) {
-    for (std::size_t part = 0; part < materials_.size(); ++part) {
-      auto& geometry = source_.settings.parts[part].microgeometry;
-      if (!geometry || geometry->kind == nullptr || geometry->kind->name != settings_.sweeps.front().kind) continue;
-      for (const auto& [name, value] : parameters) geometry->parameters[name] = value;
-      const MicrogeometryContent content = load_microgeometry(*geometry);
-      for (const std::size_t i : materials_[part]) {
+    for (const EditedPatch& patch : patches_) {
+      MicrogeometrySettings& geometry = source_.settings.parts[patch.part].microgeometry[patch.place];
+      if (geometry.kind == nullptr || geometry.kind->name != settings_.sweeps.front().kind) continue;
+      for (const auto& [name, value] : parameters) geometry.parameters[name] = value;
+      const MicrogeometryContent content = load_microgeometry(geometry);
+      for (const std::size_t i : patch.materials) {
         scene_.materials[i].base_color = own_colors_[i];
         apply(content, scene_.materials[i]);
       }
@@ -216,7 +229,7 @@ class Editor {
   SceneSource source_;
   std::vector<glm::vec4> own_colors_;
   Scene scene_;
-  std::vector<std::vector<std::size_t>> materials_;  // of each part
+  std::vector<EditedPatch> patches_;
   glm::ivec2 size_;
   gl::Context context_;
   ProgressParts parts_;

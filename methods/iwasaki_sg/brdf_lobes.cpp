@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "methods/iwasaki_sg/amplitudes.hpp"
 #include "methods/iwasaki_sg/spherical_gaussian.hpp"
@@ -30,25 +31,73 @@ std::vector<BrdfLobe> without_empty(std::vector<BrdfLobe> lobes) {
   return lobes;
 }
 
-// The mean over theta_d up to 45 degrees and all phi_d, of each cell of theta_h; the last that have values only below
-// the horizon take what comes before them.
-std::vector<glm::dvec3> half_angle_profile(const TabulatedBrdf& brdf) {
-  std::vector<glm::dvec3> profile;
-  constexpr int d_cells = TabulatedBrdf::theta_d_cells, p_cells = TabulatedBrdf::phi_d_cells;
-  for (int h = 0; h < TabulatedBrdf::theta_h_cells; ++h) {
+constexpr std::size_t h_cells = TabulatedBrdf::theta_h_cells, d_cells = TabulatedBrdf::theta_d_cells;
+
+// The mean over all phi_d of each cell of theta_h and theta_d, [theta_h][theta_d]; below 0 where the table has no
+// value: not measured, or below the horizon.
+std::vector<glm::dvec3> means_over_phi(const TabulatedBrdf& brdf) {
+  constexpr std::size_t p_cells = TabulatedBrdf::phi_d_cells;
+  std::vector<glm::dvec3> means;
+  for (std::size_t cell = 0; cell < h_cells * d_cells; ++cell) {
     glm::dvec3 sum(0.0);
     int count = 0;
-    for (int d = 0; d < d_cells / 2; ++d) {
-      for (int p = 0; p < p_cells; ++p) {
-        const glm::vec3& value = brdf.values[static_cast<std::size_t>((h * d_cells + d) * p_cells + p)];
-        if (value == glm::vec3(0.0F)) continue;  // not measured, or below the horizon
-        sum += glm::dvec3(value);
-        ++count;
-      }
+    for (std::size_t p = 0; p < p_cells; ++p) {
+      const glm::vec3& value = brdf.values[cell * p_cells + p];
+      if (value == glm::vec3(0.0F)) continue;
+      sum += glm::dvec3(value);
+      ++count;
+    }
+    means.push_back(count > 0 ? sum / static_cast<double>(count) : glm::dvec3(-1.0));
+  }
+  return means;
+}
+
+// The mean over theta_d up to 45 degrees of each cell of theta_h; the last that have values only below the horizon take
+// what comes before them.
+std::vector<glm::dvec3> half_angle_profile(std::span<const glm::dvec3> means) {
+  std::vector<glm::dvec3> profile;
+  for (std::size_t h = 0; h < h_cells; ++h) {
+    glm::dvec3 sum(0.0);
+    int count = 0;
+    for (std::size_t d = 0; d < d_cells / 2; ++d) {
+      const glm::dvec3& mean = means[h * d_cells + d];
+      if (mean.x < 0.0) continue;
+      sum += mean;
+      ++count;
     }
     profile.push_back(count > 0 ? sum / static_cast<double>(count) : (h > 0 ? profile.back() : glm::dvec3(0.0)));
   }
   return profile;
+}
+
+glm::dvec3 lobe_sum(std::span<const ColorLobe> lobes, double u) {
+  glm::dvec3 sum(0.0);
+  for (const ColorLobe& lobe : lobes) sum += glm::dvec3(lobe.amplitude) * std::exp(-lobe.sharpness * u);
+  return sum;
+}
+
+// The factor on the lobes that is nearest to each cell of theta_d, over the solid angle of half vectors. A cell without
+// values, and a channel without lobes, has that of the cell before it.
+std::vector<glm::vec3> rise_of(std::span<const glm::dvec3> means, const TabulatedLobes& fitted) {
+  std::vector<glm::vec3> rise;
+  for (std::size_t d = 0; d < d_cells; ++d) {
+    glm::dvec3 products(0.0), squares(0.0);
+    for (std::size_t h = 0; h < h_cells; ++h) {
+      const glm::dvec3& mean = means[h * d_cells + d];
+      if (mean.x < 0.0) continue;
+      const double theta = tabulated_angles(static_cast<int>(h), 0, 0).x;
+      const double solid_angle = std::sin(theta) * std::sqrt(theta);  // cells are even in the root of theta
+      const glm::dvec3 own = lobe_sum(fitted.lobes, 1.0 - std::cos(theta));
+      products += solid_angle * own * (mean - glm::dvec3(fitted.diffuse));
+      squares += solid_angle * own * own;
+    }
+    glm::vec3 factor = rise.empty() ? glm::vec3(1.0F) : rise.back();
+    for (int c = 0; c < 3; ++c) {
+      if (squares[c] > 0.0) factor[c] = static_cast<float>(std::max(products[c] / squares[c], 0.0));
+    }
+    rise.push_back(factor);
+  }
+  return rise;
 }
 
 }  // namespace
@@ -108,8 +157,9 @@ std::vector<BrdfLobe> lobes_of(NormalDistribution distribution, double parameter
       p2));
 }
 
-std::vector<ColorLobe> lobes_of(const TabulatedBrdf& brdf) {
-  const std::vector<glm::dvec3> profile = half_angle_profile(brdf);
+TabulatedLobes lobes_of(const TabulatedBrdf& brdf) {
+  const std::vector<glm::dvec3> means = means_over_phi(brdf);
+  const std::vector<glm::dvec3> profile = half_angle_profile(means);
   glm::dvec3 diffuse = profile.front();
   for (const glm::dvec3& value : profile) diffuse = glm::min(diffuse, value);
   const auto at = [&](double u) {
@@ -123,17 +173,26 @@ std::vector<ColorLobe> lobes_of(const TabulatedBrdf& brdf) {
   const auto gray = [&](double u) { return at(u).x + at(u).y + at(u).z; };
   double width = 1e-6;
   while (width < 0.5 && gray(width) > gray(0.0) / std::numbers::e) width *= 1.1;
-  std::vector<ColorLobe> lobes{{0.0, glm::vec3(diffuse)}};
+  TabulatedLobes out;
+  out.diffuse = glm::vec3(diffuse);
   for (int c = 0; c < 3; ++c) {
     const std::vector<BrdfLobe> fitted = fit_lobes([&](double u) { return at(u)[c]; }, width);
-    lobes.resize(1 + fitted.size(), {0.0, glm::vec3(0.0F)});
+    out.lobes.resize(fitted.size(), {0.0, glm::vec3(0.0F)});
     for (std::size_t i = 0; i < fitted.size(); ++i) {
-      lobes[1 + i].sharpness = fitted[i].sharpness;
-      lobes[1 + i].amplitude[c] = static_cast<float>(fitted[i].amplitude);
+      out.lobes[i].sharpness = fitted[i].sharpness;
+      out.lobes[i].amplitude[c] = static_cast<float>(fitted[i].amplitude);
     }
   }
-  std::erase_if(lobes, [](const ColorLobe& lobe) { return lobe.sharpness > 0.0 && lobe.amplitude == glm::vec3(0.0F); });
-  return lobes;
+  std::erase_if(out.lobes, [](const ColorLobe& lobe) { return lobe.amplitude == glm::vec3(0.0F); });
+  out.rise = rise_of(means, out);
+  return out;
+}
+
+glm::dvec3 rise_at(const TabulatedLobes& lobes, double theta_d) {
+  const double last = static_cast<double>(lobes.rise.size()) - 1.0;
+  const double place = std::clamp(theta_d / (0.5 * pi) * (last + 1.0) - 0.5, 0.0, last);
+  const auto low = std::min(static_cast<std::size_t>(place), lobes.rise.size() - 2);
+  return glm::mix(glm::dvec3(lobes.rise[low]), glm::dvec3(lobes.rise[low + 1]), place - static_cast<double>(low));
 }
 
 double value(const std::vector<BrdfLobe>& lobes, double u) {

@@ -28,13 +28,24 @@ struct BrdfLobe {
 
 /// A lobe in colour.
 struct ColorLobe {
-  double sharpness;     ///< 0: the same in all directions, the diffuse term
+  double sharpness;
   glm::vec3 amplitude;  ///< 1/sr
 };
 
-/// A tabulated BRDF as lobes of the half vector: its mean over difference angles up to 45 degrees as a function of
-/// theta_h, of which the least is the diffuse term and the rest fitted in each channel.
-[[nodiscard]] std::vector<ColorLobe> lobes_of(const TabulatedBrdf& brdf);
+/// A tabulated BRDF as diffuse + (lobes of the half vector) * rise: what pairs of directions at a difference angle have
+/// over the mean of those up to 45 degrees, Fresnel's rise to grazing angles among it.
+struct TabulatedLobes {
+  glm::vec3 diffuse{0.0F};  ///< 1/sr
+  std::vector<ColorLobe> lobes;
+  std::vector<glm::vec3> rise;  ///< of each cell of theta_d
+};
+
+/// The lobes are fitted in each channel to the mean over difference angles up to 45 degrees as a function of theta_h,
+/// of which the least is the diffuse term; the rise of each cell of theta_d to the whole by least squares.
+[[nodiscard]] TabulatedLobes lobes_of(const TabulatedBrdf& brdf);
+
+/// The rise at a difference angle (radians), linear between the cells' centres.
+[[nodiscard]] glm::dvec3 rise_at(const TabulatedLobes& lobes, double theta_d);
 
 /// The sum at u = 1 - n.h.
 [[nodiscard]] double value(const std::vector<BrdfLobe>& lobes, double u);

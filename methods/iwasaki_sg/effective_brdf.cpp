@@ -1,6 +1,8 @@
 // See effective_brdf.hpp.
 #include "methods/iwasaki_sg/effective_brdf.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "methods/iwasaki_sg/settings.hpp"
@@ -45,24 +47,26 @@ glm::dvec3 EffectiveBrdf::operator()(const glm::dvec3& wi, const glm::dvec3& wo)
   const glm::dvec3 h = sum_of_directions / length;
   const std::vector<glm::dvec3> amounts = masses(wi, wo);
   glm::dvec3 sum(0.0);
-  for (std::size_t j = 0; j < amounts.size(); ++j) sum += amounts[j] * convolved(table_.amplitudes.lobes[j], h);
+  for (std::size_t j = 0; j < amounts.size(); ++j) sum += amounts[j] * convolved(table_.amplitudes.lobes[j], h, wi);
   return with_cosine_ ? sum * wi.z : sum;
 }
 
-glm::dvec3 EffectiveBrdf::convolved(const Lobe& lobe, const glm::dvec3& h) const {
+glm::dvec3 EffectiveBrdf::convolved(const Lobe& lobe, const glm::dvec3& h, const glm::dvec3& wi) const {
   if (const auto* const base = std::get_if<BaseLobe>(&reflection_)) return glm::dvec3(widened(*base, lobe, h));
-  glm::dvec3 sum(0.0);
-  if (const auto* const colored = std::get_if<std::vector<ColorLobe>>(&reflection_)) {
-    for (const ColorLobe& own : *colored) {
+  if (const auto* const table = std::get_if<TabulatedLobes>(&reflection_)) {
+    glm::dvec3 sum(0.0);
+    for (const ColorLobe& own : table->lobes) {
       sum += glm::dvec3(own.amplitude) * convolution(lobe, Lobe{h, own.sharpness});
     }
-  } else {
-    for (const BrdfLobe& own : std::get<std::vector<BrdfLobe>>(reflection_)) {
-      const Lobe about_h{h, own.sharpness};
-      sum += own.amplitude * (approximate_ ? approximate_convolution(lobe, about_h) : convolution(lobe, about_h));
-    }
+    const double theta_d = std::acos(std::clamp(glm::dot(wi, h), 0.0, 1.0));
+    return glm::dvec3(table->diffuse) + sum * rise_at(*table, theta_d) / integral(lobe.sharpness);
   }
-  return sum / integral(lobe.sharpness);
+  double sum = 0.0;
+  for (const BrdfLobe& own : std::get<std::vector<BrdfLobe>>(reflection_)) {
+    const Lobe about_h{h, own.sharpness};
+    sum += own.amplitude * (approximate_ ? approximate_convolution(lobe, about_h) : convolution(lobe, about_h));
+  }
+  return glm::dvec3(sum / integral(lobe.sharpness));
 }
 
 // Interpolated as the shader does it: with the cosine to the light over that of the surface.

@@ -11,7 +11,7 @@
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view iwasaki_sg_glsl, iwasaki_sg_lobes_glsl;
+extern const std::string_view iwasaki_sg_glsl, iwasaki_sg_environment_glsl, iwasaki_sg_lobes_glsl;
 }
 
 namespace {
@@ -45,7 +45,9 @@ class IwasakiSg final : public Method, public HasQuantities {
                    .honours = all_effects_but({Effect::normal_layers, Effect::roughness_variation, Effect::multi_lobe}),
                    .resolves_texels = false};
   std::vector<Quantity> quantities_ = quantity_table();
-  std::string shader_ = std::string(embedded::iwasaki_sg_glsl).append(embedded::iwasaki_sg_lobes_glsl);
+  std::string shader_ = std::string(embedded::iwasaki_sg_glsl)
+                            .append(embedded::iwasaki_sg_lobes_glsl)
+                            .append(embedded::iwasaki_sg_environment_glsl);
 };
 
 }  // namespace

@@ -112,26 +112,37 @@ float smoothFactor(vec4 lobe, vec3 h, vec3 wi, vec3 wo) {
 
 //? if microgeometry_visibility
 //? if tabulated_brdf
-// Facets that reflect by lobes of their own, in colour; that of sharpness 0 is diffuse (equations 9 and 15 in one). The
-// table has the facets' cosine to the light over that of the surface.
+// The factor on a tabulated BRDF's lobes by the difference angle.
+vec3 riseOf(vec3 h, vec3 wi) {
+  int last = textureSize(iwasaki_rise, 0).x - 1;
+  float angle = atan(length(cross(wi, h)), max(dot(wi, h), 0.0));  // acos is coarse on some machines
+  float place = clamp(angle / (0.5 * pi) * float(last + 1) - 0.5, 0.0, float(last));
+  int low = min(int(place), max(last - 1, 0));
+  vec3 below = texelFetch(iwasaki_rise, ivec2(low, 0), 0).rgb;
+  return mix(below, texelFetch(iwasaki_rise, ivec2(min(low + 1, last), 0), 0).rgb, place - float(low));
+}
+
+// Facets that reflect by lobes of their own, in colour, of which the first is diffuse (equations 9 and 15 in one). The table
+// has the facets' cosine to the light over that of the surface.
 vec3 tabulatedReflection(Effective e, vec3 wi, vec3 wo) {
   if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
   vec3 h = halfVector(wi, wo);
   TablePlace place = placeOf(wi, wo);
   int count = textureSize(iwasaki_table, 0).x;
-  vec3 sum = vec3(0.0);
+  vec3 shine = vec3(0.0), matte = vec3(0.0);
   vec4 layer = vec4(0.0);
   for (int j = 0; j < e.count; ++j) {
     if (j % values_per_layer == 0) layer = tableLayer(j / values_per_layer, place);
     vec4 lobe = lobeOf(j);
     vec3 reflected = vec3(0.0);
-    for (int s = 0; s < count; ++s) {
+    for (int s = 1; s < count; ++s) {
       vec4 brdf = texelFetch(iwasaki_table, ivec2(s, 0), 0);
       reflected += brdf.yzw * sgConvolution(lobe.xyz, lobe.w, h, brdf.x);
     }
-    sum += valueIn(layer, j) * reflected / sgIntegral(lobe.w);
+    shine += valueIn(layer, j) * reflected / sgIntegral(lobe.w);
+    matte += valueIn(layer, j);
   }
-  return sum * max(wi.z, 0.0);
+  return (shine * riseOf(h, wi) + matte * texelFetch(iwasaki_table, ivec2(0), 0).yzw) * max(wi.z, 0.0);
 }
 //? end
 //? end
@@ -188,38 +199,3 @@ float ndf(Effective e, vec3 h) {
   for (int j = 0; j < e.count; ++j) sum += shareOf(j) * convolved(lobeOf(j), h);
   return sum;
 }
-
-//? if environment_light
-int lobeCount(Effective e) { return e.count; }
-
-// The lobe of normals and the base lobe as one; what the pair of directions makes of it stands in lobeGeometry.
-NormalLobe normalLobe(Effective e, int j) {
-  vec4 lobe = lobeOf(j);
-  return baseNormalLobe(lobe.xyz, lobeFromVariance(lobeVariance(lobe_cutoff.x) + 1.0 / lobe.w), shareOf(j));
-}
-
-// The lobe that a NormalLobe was made of: the one with its axis.
-int lobeAbout(Effective e, vec3 axis) {
-  int nearest = 0;
-  for (int j = 1; j < e.count; ++j) {
-    if (dot(lobeOf(j).xyz, axis) > dot(lobeOf(nearest).xyz, axis)) nearest = j;
-  }
-  return nearest;
-}
-
-float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
-  int j = lobeAbout(e, lobe.axis);
-  float factor = smoothFactor(lobeOf(j), h, wi, wo);
-//? if microgeometry_visibility
-  // Seen and lit, over the share that the lobe was handed over with. One number: colours are left to their mean.
-  factor *= dot(tableAt(j, placeOf(wi, wo)), vec3(1.0 / 3.0)) / max(shareOf(j), 1e-6);
-//? end
-  return factor;
-}
-
-vec3 meanNormal(Effective e) {
-  vec3 sum = vec3(0.0);
-  for (int j = 0; j < e.count; ++j) sum += shareOf(j) * meanCosine(lobeOf(j).w) * lobeOf(j).xyz;
-  return sum;
-}
-//? end

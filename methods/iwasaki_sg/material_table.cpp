@@ -62,7 +62,7 @@ MaterialTable patch_table(const Patch& patch, const TableSettings& settings, con
 MaterialTable flat_table(std::span<const WeightedNormal> normals, const TableSettings& settings) {
   const std::vector<glm::dvec3> directions = direction_grid(settings.side);
   const NdfFit ndf = fit_ndf(normals, settings.lobes);
-  const std::size_t n = directions.size(), pairs = n * n;
+  const std::size_t n = directions.size();
   MaterialTable table;
   table.shares = ndf.shares;
   table.normals = normals.size();
@@ -70,10 +70,14 @@ MaterialTable flat_table(std::span<const WeightedNormal> normals, const TableSet
   out.lobes = ndf.lobes;
   out.directions = n;
   out.channels = settings.channels;
-  for (const double share : ndf.shares) {
-    out.masses.insert(out.masses.end(), settings.channels * pairs, static_cast<float>(share));
+  for (std::size_t j = 0; j < ndf.lobes.size(); ++j) {
+    for (std::size_t i = 0; i < settings.channels * n; ++i) {
+      const double cosine = std::max(glm::dot(ndf.lobes[j].axis, directions[i % n]), 0.0);
+      const double mass = ndf.shares[j] * (settings.cosines == Cosines::published ? cosine : 1.0);
+      out.masses.insert(out.masses.end(), n, static_cast<float>(mass));
+    }
   }
-  out.diffuse.resize(settings.channels * pairs);
+  out.diffuse.resize(settings.channels * n * n);
   for (std::size_t i = 0; i < settings.channels * n; ++i) {
     double sum = 0.0;
     for (const WeightedNormal& normal : normals) {

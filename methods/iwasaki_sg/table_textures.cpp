@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <string>
 #include <utility>
@@ -76,6 +77,35 @@ PrefilteredTexture amplitude_texture(const Amplitudes& table, const TableSetting
   return make_array_texture("iwasaki_amplitudes", layers, storage, {}, TextureFilter::linear);
 }
 
+// For each direction to the viewer, the share of a constant environment that the diffuse term reflects, in colour, and
+// a normal whose irradiance is about what it gets: that of a surface, a cosine over the hemisphere, has a mean
+// direction 2/3 long.
+PrefilteredTexture diffuse_texture(const Amplitudes& table, int side) {
+  const std::vector<glm::dvec3> directions = direction_grid(side);
+  const std::size_t n = table.directions;
+  Image share(side, side, 4), normal(side, side, 4);
+  for (std::size_t wo = 0; wo < n; ++wo) {
+    glm::dvec3 sum(0.0), mean(0.0);
+    double irradiance = 0.0;
+    for (std::size_t wi = 0; wi < n; ++wi) {
+      glm::dvec3 reflected(0.0);
+      for (std::size_t c = 0; c < 3; ++c) {
+        reflected[static_cast<int>(c)] = table.diffuse[((table.channels == 1 ? 0 : c) * n + wi) * n + wo];
+      }
+      sum += reflected;
+      irradiance += directions[wi].z;
+      mean += (reflected.x + reflected.y + reflected.z) * directions[wi];
+    }
+    const double total = sum.x + sum.y + sum.z;
+    const glm::vec4 texel(glm::vec3(sum / irradiance), 0.0F);
+    const glm::vec4 leaning(total > 0.0 ? glm::vec3(1.5 / total * mean) : glm::vec3(0.0F, 0.0F, 1.0F), 0.0F);
+    std::copy_n(&texel.x, 4, share.texels.begin() + static_cast<std::ptrdiff_t>(4 * wo));
+    std::copy_n(&leaning.x, 4, normal.texels.begin() + static_cast<std::ptrdiff_t>(4 * wo));
+  }
+  const std::vector<std::vector<Image>> layers{{std::move(share)}, {std::move(normal)}};
+  return make_array_texture("iwasaki_diffuse", layers, Storage::fp32, {}, TextureFilter::linear);
+}
+
 PrefilteredTexture brdf_texture(const Material& material) {
   const std::vector<BrdfLobe> lobes = lobes_of(material.brdf.distribution, lobe_parameter(material));
   Image image(static_cast<int>(lobes.size()), 1, 2);
@@ -86,16 +116,21 @@ PrefilteredTexture brdf_texture(const Material& material) {
   return make_texture("iwasaki_brdf", {image}, Storage::fp32, {});
 }
 
-// Sharpness and colour of each lobe of the facets' own BRDF.
-PrefilteredTexture table_texture(const Material& material) {
-  std::vector<ColorLobe> lobes{{0.0, glm::vec3(0.0F)}};
-  if (is_tabulated(material)) lobes = lobes_of(*material.microgeometry->brdf);
-  Image image(static_cast<int>(lobes.size()), 1, 4);
-  for (std::size_t i = 0; i < lobes.size(); ++i) {
-    const glm::vec4 texel(static_cast<float>(lobes[i].sharpness), lobes[i].amplitude);
-    std::copy_n(&texel.x, 4, image.at(static_cast<int>(i), 0).begin());
+// The diffuse term as a lobe of sharpness 0, and sharpness and colour of each lobe of a tabulated BRDF; its rise.
+std::array<PrefilteredTexture, 2> table_textures(const Material& material) {
+  TabulatedLobes fitted{.diffuse = glm::vec3(0.0F), .lobes = {}, .rise = {glm::vec3(1.0F)}};
+  if (is_tabulated(material)) fitted = lobes_of(*material.microgeometry->brdf);
+  fitted.lobes.insert(fitted.lobes.begin(), {0.0, fitted.diffuse});
+  Image lobes(static_cast<int>(fitted.lobes.size()), 1, 4), rise(static_cast<int>(fitted.rise.size()), 1, 4);
+  for (std::size_t i = 0; i < fitted.lobes.size(); ++i) {
+    const glm::vec4 texel(static_cast<float>(fitted.lobes[i].sharpness), fitted.lobes[i].amplitude);
+    std::copy_n(&texel.x, 4, lobes.at(static_cast<int>(i), 0).begin());
   }
-  return make_texture("iwasaki_table", {image}, Storage::fp32, {});
+  for (std::size_t i = 0; i < fitted.rise.size(); ++i) {
+    std::copy_n(&fitted.rise[i].x, 3, rise.at(static_cast<int>(i), 0).begin());
+  }
+  return {make_texture("iwasaki_table", {lobes}, Storage::fp32, {}),
+          make_texture("iwasaki_rise", {rise}, Storage::fp32, {})};
 }
 
 std::vector<std::string> notes_of(const Material& material, const MaterialTable& table) {
@@ -125,12 +160,16 @@ Prefiltered baked_material(const Material& material, const Options& options, con
     out.textures.push_back(lobe_texture(table.amplitudes.lobes, table.shares));
     if (seen) {
       out.textures.push_back(amplitude_texture(table.amplitudes, settings, parse_storage(options.word("storage"))));
+      if (has(effects, Effect::environment_light) &&
+          (has(effects, Effect::diffuse) || has(effects, Effect::tabulated_brdf))) {
+        out.textures.push_back(diffuse_texture(table.amplitudes, settings.side));
+      }
     }
     out.notes = notes_of(material, table);
   }
   if (options.word("lobe") == "sg") out.textures.push_back(brdf_texture(material));
   if (has(effects, Effect::tabulated_brdf)) {
-    out.textures.push_back(table_texture(material));
+    for (PrefilteredTexture& texture : table_textures(material)) out.textures.push_back(std::move(texture));
     out.scalars["iwasaki_tabulated"] = is_tabulated(material) ? 1.0F : 0.0F;
   }
   return out;

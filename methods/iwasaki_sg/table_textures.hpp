@@ -10,7 +10,9 @@
 namespace footprint::iwasaki_sg {
 
 /// The method's precompute: `iwasaki_lobes` (axes, sharpness, shares), `iwasaki_amplitudes` (tiles of wo, texels of
-/// wi), and by options and effects `iwasaki_brdf` and `iwasaki_table`, the lobes of the facets' own BRDF.
+/// wi), and by options and effects
+/// `iwasaki_diffuse` (the diffuse term under an environment), `iwasaki_brdf`, `iwasaki_table` and `iwasaki_rise` (the
+/// lobes of the facets' own BRDF, and its factor by difference angle).
 [[nodiscard]] Prefiltered baked_material(const Material& material, const Options& options, const EffectSet& effects,
                                          const Progress& progress);
 

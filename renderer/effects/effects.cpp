@@ -24,6 +24,7 @@ constexpr std::array<std::string_view, effect_count> names{"diffuse",
                                                            "base_color_variation",
                                                            "metallic_variation",
                                                            "specular_variation",
+                                                           "material_index",
                                                            "alpha_mask",
                                                            "double_sided",
                                                            "point_light",
@@ -171,6 +172,9 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
              "metalness is constant over each material"),
       decide(Effect::specular_variation, scene, specular_varies, "a specular map that varies",
              "the specular colour is constant over each material"),
+      decide(
+          Effect::material_index, scene, [](const Material& m) { return m.share.has_value(); },
+          "one of several on its surface, by a map of indices", "one material a surface"),
       decide(
           Effect::alpha_mask, scene, [](const Material& m) { return m.alpha_cutoff.has_value(); },
           "parts cut out by alpha", "no material is cut out by alpha"),

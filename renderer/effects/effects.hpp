@@ -25,6 +25,7 @@ enum class Effect : std::size_t {
   base_color_variation,  ///< a base-colour map
   metallic_variation,    ///< a metallic map that is not constant
   specular_variation,    ///< a map of reflectance at normal incidence that is not constant
+  material_index,        ///< several materials on one surface, chosen by a map of indices
   alpha_mask,            ///< parts cut out by alpha
   double_sided,          ///< surfaces seen from behind
   point_light,

@@ -48,6 +48,32 @@ void block(const Blocker& b, const Scratch& s, std::size_t begin, std::size_t en
   }
 }
 
+// Rounding moves a sample by far less than a cell: this much of one on all sides of a triangle is enough.
+constexpr double hair = 1e-5;
+
+// Triangles of more cells than this along both axes are followed row by row: near the horizon they are slivers, and
+// most cells of the box around one are empty.
+constexpr int least_slant = 3;
+
+// Those of the cells `within` (first and last) of a row that a triangle, its corners in units of cells, reaches.
+glm::ivec2 reached_cells(const std::array<glm::dvec2, 3>& corners, int row, const glm::ivec2& within) {
+  const std::array<double, 2> borders{row - hair, row + 1.0 + hair};
+  double left = within.y + 1.0, right = within.x - 1.0;
+  const auto take = [&](double x) {
+    left = std::min(left, x);
+    right = std::max(right, x);
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::dvec2 a = corners.at(i), b = corners.at((i + 1) % 3);
+    if (a.y >= borders[0] && a.y <= borders[1]) take(a.x);
+    for (const double y : borders) {
+      if ((a.y < y) != (b.y < y)) take(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+    }
+  }
+  return {std::max(within.x, static_cast<int>(std::floor(std::max(left, within.x - 1.0) - hair))),
+          std::min(within.y, static_cast<int>(std::floor(std::min(right, within.y + 1.0) + hair)))};
+}
+
 class Projector {
  public:
   Projector(const Patch& patch, const FacetSamples& samples) : patch_(patch), samples_(samples) {
@@ -129,11 +155,11 @@ class Projector {
       corners.at(static_cast<std::size_t>(i)) = glm::dvec2(v) - shear * v.z;
     }
     const glm::dvec2 cell = glm::dvec2(patch_.period) / static_cast<double>(side_);
-    // One cell of margin on both sides would be waste: rounding moves a sample by far less than a cell, so that a hair
-    // on the box is enough.
-    const glm::dvec2 hair = 1e-5 * cell;
-    const glm::ivec2 first(glm::floor((glm::min(glm::min(corners[0], corners[1]), corners[2]) - hair) / cell));
-    const glm::ivec2 last(glm::floor((glm::max(glm::max(corners[0], corners[1]), corners[2]) + hair) / cell));
+    std::array<glm::dvec2, 3> in_cells{};
+    std::ranges::transform(corners, in_cells.begin(), [&](const glm::dvec2& corner) { return corner / cell; });
+    const glm::ivec2 first(glm::floor(glm::min(glm::min(in_cells[0], in_cells[1]), in_cells[2]) - hair));
+    const glm::ivec2 last(glm::floor(glm::max(glm::max(in_cells[0], in_cells[1]), in_cells[2]) + hair));
+    const bool slanted = last.x - first.x >= least_slant && last.y - first.y >= least_slant;
     for (int copy_y = floor_div(first.y); copy_y <= floor_div(last.y); ++copy_y) {
       for (int copy_x = floor_div(first.x); copy_x <= floor_div(last.x); ++copy_x) {
         const glm::ivec2 origin = side_ * glm::ivec2(copy_x, copy_y);
@@ -142,8 +168,11 @@ class Projector {
         const glm::dvec2 shift = glm::dvec2(copy_x, copy_y) * glm::dvec2(patch_.period);
         const Blocker blocker = blocker_of(corners, triangle, shear, slope, shift);
         for (int row = low.y; row <= high.y; ++row) {
-          const auto begin = static_cast<std::size_t>(row * side_ + low.x);
-          const auto end = static_cast<std::size_t>(row * side_ + high.x);
+          glm::ivec2 reach(low.x, high.x);
+          if (slanted) reach = reached_cells(in_cells, origin.y + row, origin.x + reach) - origin.x;
+          if (reach.x > reach.y) continue;
+          const auto begin = static_cast<std::size_t>(row * side_ + reach.x);
+          const auto end = static_cast<std::size_t>(row * side_ + reach.y);
           block(blocker, s, s.starts[begin], s.starts[end + 1], s.blocked.data());
         }
       }

@@ -86,6 +86,15 @@ const auto cases = std::to_array<EffectCase>({
      }},
     {Effect::specular_variation, "specular_map",
      [](Scene& s) { s.materials[0].specular_map = map_of(halves(3, 1.0F, 0.25F)); }},
+    {Effect::material_index, "material_share",
+     [](Scene& s) {
+       s.materials.push_back(s.materials[0]);
+       s.materials[1].dielectric_specular = glm::vec3(0.1F);
+       s.materials[0].share = SurfaceShare{map_of(halves(1, 1.0F, 0.0F)), true};
+       s.materials[1].share = SurfaceShare{map_of(halves(1, 0.0F, 1.0F)), false};
+       s.meshes.push_back(s.meshes[0]);
+       s.meshes[1].material = 1;
+     }},
     {Effect::alpha_mask, "discard",
      [](Scene& s) {
        s.materials[0].base_color.a = 0.3F;
@@ -173,6 +182,36 @@ TEST_P(EffectTrace, ChangesThePictureWhereItHasSomethingToDo) {
 
 INSTANTIATE_TEST_SUITE_P(AllEffects, EffectTrace, ::testing::ValuesIn(cases),
                          [](const auto& test) { return std::string(effect_name(test.param.effect)); });
+
+// Half of a surface each: what two materials leave is the sum of their shares, and covers as one does, at any filter.
+TEST(MaterialIndex, SharesAddUpAndCoverOnce) {
+  Scene both = least_scene(), single[2] = {least_scene(), least_scene()};
+  single[1].materials[0].dielectric_specular = glm::vec3(0.1F, 0.3F, 0.2F);
+  both.materials.push_back(single[1].materials[0]);
+  both.meshes.push_back(both.meshes[0]);
+  both.meshes[1].material = 1;
+  both.materials[0].share = SurfaceShare{map_of(halves(1, 1.0F, 0.0F)), true};
+  both.materials[1].share = SurfaceShare{map_of(halves(1, 0.0F, 1.0F)), false};
+  for (auto& material : both.materials) material.share->map.coordinates.transform[0].x = 2.0F;
+  const Image first = TestRenderer(single[0]).frame(base_surface());
+  const Image second = TestRenderer(single[1]).frame(base_surface());
+  TestRenderer renderer(both);
+  const Image picture = renderer.frame(base_surface());
+  const Image samples = renderer.reference(4).mean;
+  for (std::size_t i = 0; i < picture.texel_count(); ++i) {
+    const double whole = first.texels[4 * i] - second.texels[4 * i];
+    const double share = (picture.texels[4 * i] - second.texels[4 * i]) / whole;
+    ASSERT_GE(share, -1e-3);
+    ASSERT_LE(share, 1.001);
+    ASSERT_NEAR(picture.texels[4 * i + 1], share * first.texels[4 * i + 1] + (1.0 - share) * second.texels[4 * i + 1],
+                1e-3);
+    ASSERT_EQ(picture.texels[4 * i + 3], 1.0F);
+    ASSERT_EQ(samples.texels[4 * i + 3], 1.0F);
+  }
+  // Texel centres of the map: at an eighth and three eighths of the picture's width.
+  EXPECT_NEAR(picture.at(8, 32)[1], first.at(8, 32)[1], 0.07 * first.at(8, 32)[1]);
+  EXPECT_NEAR(picture.at(24, 32)[1], second.at(24, 32)[1], 0.07 * first.at(24, 32)[1]);
+}
 
 TEST(EffectTrace, EveryEffectHasACase) { EXPECT_EQ(std::size(cases), effect_count); }
 

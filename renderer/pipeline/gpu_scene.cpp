@@ -50,6 +50,9 @@ glm::vec4 linear_part(const TextureCoordinates& c) { return {c.transform[0], c.t
 
 glm::vec4 offset_and_set(const TextureCoordinates& c) { return {c.transform[2], static_cast<float>(c.set), 0.0F}; }
 
+// Whether others of its surface are drawn before it.
+bool adds_to_surface(const Material& material) { return material.share && !material.share->first; }
+
 // The std140 members of MaterialBlock in surface_material.glsl. What multi_lobe adds comes last: a program whose method
 // leaves it out has a block without it.
 std::vector<glm::vec4> material_block(const Material& material, const EffectSet& effects) {
@@ -66,6 +69,12 @@ std::vector<glm::vec4> material_block(const Material& material, const EffectSet&
   if (specular_varies) {
     block.push_back(linear_part(specular_coordinates(material)));
     block.push_back(offset_and_set(specular_coordinates(material)));
+  }
+  if (has(effects, Effect::material_index)) {
+    const TextureCoordinates coordinates = material.share ? material.share->map.coordinates : TextureCoordinates{};
+    block.push_back(linear_part(coordinates));
+    block.push_back(offset_and_set(coordinates));
+    block.back().w = adds_to_surface(material) ? 0.0F : 1.0F;
   }
   if (has(effects, Effect::multi_lobe)) {
     const std::vector<glm::vec4> lobes = facet_lobe_block(material);
@@ -125,6 +134,7 @@ GpuBatch batch_of(const Scene& scene, std::size_t material, const EffectSet& eff
   batch.vertex_count = vertices.size();
   batch.material = material;
   batch.double_sided = scene.materials[material].double_sided;
+  batch.adds = adds_to_surface(scene.materials[material]);
   const std::vector<glm::vec4> block = material_block(scene.materials[material], effects);
   batch.material_block = gl::Buffer(std::as_bytes(std::span(block)), gl::Buffer::Content::changing);
   count_in(content.geometry, std::as_bytes(std::span(vertices)));
@@ -146,6 +156,11 @@ std::vector<PrefilteredTexture> shared_textures(const Material& material, const 
   if (has(effects, Effect::specular_variation)) {
     textures.push_back(make_texture("specular_map", mip_chain(specular_map_of(material)), Storage::fp32,
                                     specular_coordinates(material)));
+  }
+  if (has(effects, Effect::material_index)) {
+    const Image share = material.share ? *material.share->map.image : Image(1, 1, 1, 1.0F);
+    textures.push_back(make_texture("material_share", mip_chain(share), Storage::fp32,
+                                    material.share ? material.share->map.coordinates : TextureCoordinates{}));
   }
   return textures;
 }

@@ -76,7 +76,8 @@ struct GpuBatch {
   std::size_t vertex_count = 0;
   std::size_t material = 0;
   bool double_sided = false;
-  std::vector<GpuTexture> shared_textures;  ///< base_color_map, metallic_map, specular_map: those whose effect is on
+  bool adds = false;  ///< to what the material before it left on the same triangles
+  std::vector<GpuTexture> shared_textures;  ///< base_color_map, metallic_map, specular_map, material_share: if their effect is on
 };
 
 /// The whole scene. Needs the context that made it to be current, also when destroyed.

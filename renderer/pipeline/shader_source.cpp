@@ -267,6 +267,10 @@ ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options) {
   if (has(variant.effects, Effect::environment_light) && has(variant.effects, Effect::cast_shadow)) {
     flags.emplace("environment_visibility");
   }
+  // A tabulated BRDF has a diffuse term of its own.
+  if (has(variant.effects, Effect::diffuse) || has(variant.effects, Effect::tabulated_brdf)) {
+    flags.emplace("environment_diffuse");
+  }
   // What is drawn at random: a texel of the maps, directions to an environment, facets of a patch.
   const bool facets = has(variant.effects, Effect::microgeometry_visibility) && variant.sampling != Sampling::frame;
   if (variant.sampling == Sampling::texel || samples_environment(variant) || facets) flags.emplace("random_draws");
@@ -294,6 +298,7 @@ std::vector<std::string> texture_names(const EffectSet& effects, const Prefilter
   if (has(effects, Effect::base_color_variation)) names.emplace_back("base_color_map");
   if (has(effects, Effect::metallic_variation)) names.emplace_back("metallic_map");
   if (has(effects, Effect::specular_variation)) names.emplace_back("specular_map");
+  if (has(effects, Effect::material_index)) names.emplace_back("material_share");
   for (const PrefilteredTexture& texture : prefiltered.textures) names.push_back(texture.name);
   return names;
 }

@@ -23,6 +23,7 @@ EffectSet effects_of(const GpuScene& scene, const Method& method) {
   shared.set(static_cast<std::size_t>(Effect::base_color_variation));
   shared.set(static_cast<std::size_t>(Effect::metallic_variation));
   shared.set(static_cast<std::size_t>(Effect::specular_variation));
+  shared.set(static_cast<std::size_t>(Effect::material_index));
   shared.set(static_cast<std::size_t>(Effect::cast_shadow));
   return scene.effects() & (method.info().honours | shared);
 }
@@ -93,6 +94,16 @@ class StateKeeper {
   std::array<GLint, 4> viewport_{};
   std::array<bool, switches.size()> on_{};
 };
+
+// The triangles of a further material of a surface are those of the first, drawn by the same program: they meet its
+// depths exactly, and add their share.
+void set_state(const GpuBatch& batch) {
+  const auto set = [](GLenum name, bool on) { on ? gl::api().Enable(name) : gl::api().Disable(name); };
+  set(GL_CULL_FACE, !batch.double_sided);
+  set(GL_BLEND, batch.adds);
+  gl::api().BlendFunc(GL_ONE, GL_ONE);
+  gl::api().DepthFunc(batch.adds ? GL_EQUAL : GL_LESS);
+}
 
 struct Outcome {
   Prefiltered prefiltered;
@@ -249,13 +260,8 @@ void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& 
   scene.bind_lights(program_);
   if (environment_light_ && scene.visibility()) scene.visibility()->bind();
   gl::api().Enable(GL_DEPTH_TEST);
-  gl::api().DepthFunc(GL_LESS);
   for (const GpuBatch& batch : scene.batches()) {
-    if (batch.double_sided) {
-      gl::api().Disable(GL_CULL_FACE);
-    } else {
-      gl::api().Enable(GL_CULL_FACE);
-    }
+    set_state(batch);
     gl::api().BindBufferBase(GL_UNIFORM_BUFFER, material_binding, batch.material_block.name());
     GLuint unit = 0;
     for (const GpuTexture& texture : batch.shared_textures) bind_texture(unit++, texture, scene, settings_.lookup);
@@ -264,6 +270,7 @@ void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& 
     gl::api().BindVertexArray(method.vertex_array(batch));
     gl::api().DrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT, nullptr);
   }
+  gl::api().Disable(GL_BLEND);
 }
 
 }  // namespace footprint

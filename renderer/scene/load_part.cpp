@@ -256,6 +256,52 @@ void lay(const LaidMaps& maps, const BrdfSettings& settings, Material& material)
   }
 }
 
+// The shares of several materials of a surface. An 8-bit picture holds a number in the 255 steps of its red channel.
+std::vector<TextureMap> load_shares(const MapFile& from, glm::vec2 tiling, std::size_t count) {
+  Image stored = read_image(from.file, Transfer::linear);
+  if (!is_exr(from.file)) {
+    for (float& value : stored.texels) value *= 255.0F;
+  }
+  std::vector<TextureMap> shares;
+  try {
+    for (Image& share : decode_indices(stored, count)) {
+      shares.push_back(make_map(from.file, std::move(share), from.uv.value_or(tiling)));
+    }
+  } catch (const Error& error) {
+    throw error.within(from.file.string());
+  }
+  return shares;
+}
+
+// Gives a model its patches. Of several each material gets one copy for each, and each mesh one for each of those: the
+// copies of a material follow one another.
+void lay_patches(const PartSettings& settings, Model& model) {
+  const std::size_t count = settings.microgeometry.size();
+  std::vector<MicrogeometryContent> patches;
+  for (const MicrogeometrySettings& patch : settings.microgeometry) patches.push_back(load_microgeometry(patch));
+  if (count == 1) {
+    for (Material& material : model.materials) apply(patches.front(), material);
+  }
+  if (count < 2) return;
+  const std::vector<TextureMap> shares = load_shares(*settings.maps.material, settings.tiling, count);
+  std::vector<Material> materials;
+  for (const Material& material : model.materials) {
+    for (std::size_t k = 0; k < count; ++k) {
+      Material& copy = materials.emplace_back(material);
+      copy.name += fmt::format("/{}", k);
+      copy.share = SurfaceShare{shares[k], k == 0};
+      apply(patches[k], copy);
+    }
+  }
+  std::vector<Mesh> meshes;
+  for (const Mesh& mesh : model.meshes) {
+    for (std::size_t k = 0; k < count; ++k)
+      meshes.emplace_back(mesh).material = mesh.material * static_cast<int>(count) + static_cast<int>(k);
+  }
+  model.materials = std::move(materials);
+  model.meshes = std::move(meshes);
+}
+
 /// A placement's turn, and all of it.
 struct Placed {
   explicit Placed(const Placement& placement) {
@@ -316,11 +362,9 @@ Model load_part(const PartSettings& settings) {
   std::optional<TextureMap> layer;
   if (settings.layer) layer = load_layer(*settings.layer, model.warnings);
   const LaidMaps maps = load_maps(settings);
-  std::optional<MicrogeometryContent> microgeometry;
-  if (settings.microgeometry) microgeometry = load_microgeometry(*settings.microgeometry);
+  for (Material& material : model.materials) apply(settings.brdf, settings.maps, material);
+  lay_patches(settings, model);
   for (Material& material : model.materials) {
-    apply(settings.brdf, settings.maps, material);
-    if (microgeometry) apply(*microgeometry, material);
     tile(settings.tiling, material);
     material.layer_map = layer;
     lay(maps, settings.brdf, material);

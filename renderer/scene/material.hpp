@@ -59,6 +59,12 @@ struct FacetLobe {
 /// The most lobes of a facet.
 inline constexpr std::size_t most_facet_lobes = 8;
 
+/// Where a material is on a surface that has several, chosen by a map of indices.
+struct SurfaceShare {
+  TextureMap map;     ///< 1 channel: 1 where the map of indices names this material, 0 elsewhere; they sum to 1
+  bool first = true;  ///< the materials of a surface follow one another, each with a copy of its triangles
+};
+
 /// A surface's material. Without a map the factor alone counts; with one, factor * map as in glTF 2.0.
 struct Material {
   std::string name;
@@ -80,6 +86,8 @@ struct Material {
   std::optional<TextureMap> specular_map;  ///< RGB, linear: times dielectric_specular
   std::optional<TextureMap> normal_map;    ///< 4 channels: unit normal xyz (z > 0 out of the surface), weight 0 or 1
   std::optional<TextureMap> layer_map;     ///< detail over the normal map, of the same kind: their slopes add
+
+  std::optional<SurfaceShare> share;  ///< none: all of its surface
 
   std::optional<float> alpha_cutoff;  ///< MASK: a point with alpha below it is not there
   bool double_sided = false;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderer/core/error.hpp"
+#include "renderer/image/image_io.hpp"
 #include "renderer/scene/gltf_test_builder.hpp"
 #include "renderer/scene/load_scene.hpp"
 
@@ -54,6 +55,51 @@ TEST(MicrogeometryContent, MistakesNameTheirLine) {
     const std::string error = test::usage_error([&] { return load(text); });
     EXPECT_NE(error.find(wanted), std::string::npos) << text << "got: " << error;
   }
+}
+
+// A plane with two weaves and a map of indices beside the scene.
+Scene load_two(const std::string& maps, const Image& indices) {
+  const std::string text =
+      "[plane]\n" + maps + "[[microgeometry]]\nkind = \"flat\"\n[[microgeometry]]\nkind = \"weave\"\n";
+  const auto file = test::write_file("indices/scene.toml", text);
+  write_exr(file.parent_path() / "indices.exr", indices);
+  Image bytes = indices;
+  for (float& value : bytes.texels) value /= 255.0F;
+  write_png(file.parent_path() / "indices.png", bytes);
+  return load_scene(file.string(), {});
+}
+
+TEST(MicrogeometryContent, AMapOfIndicesChoosesAmongSeveral) {
+  Image indices(2, 2, 1);
+  indices.texels = {0.0F, 1.0F, 1.0F, 1.0F};
+  for (const char* file : {"indices.exr", "indices.png"}) {
+    const Scene scene = load_two(std::string("[maps]\nmaterial = { file = \"") + file + "\", uv = [3, 2] }\n", indices);
+    ASSERT_EQ(scene.materials.size(), 2U);
+    EXPECT_EQ(scene.materials[0].microgeometry->patch.name, "flat");
+    EXPECT_EQ(scene.materials[1].microgeometry->patch.name, "weave");
+    EXPECT_TRUE(scene.materials[0].share->first);
+    EXPECT_FALSE(scene.materials[1].share->first);
+    EXPECT_EQ(scene.materials[0].share->map.image->texels, (std::vector{1.0F, 0.0F, 0.0F, 0.0F}));
+    EXPECT_EQ(scene.materials[1].share->map.image->texels, (std::vector{0.0F, 1.0F, 1.0F, 1.0F}));
+    EXPECT_EQ(scene.materials[1].share->map.coordinates.transform[0].x, 3.0F);
+    ASSERT_EQ(scene.meshes.size(), 2U);
+    EXPECT_EQ(scene.meshes[1].material, 1);
+    EXPECT_EQ(scene.meshes[0].indices, scene.meshes[1].indices);
+  }
+}
+
+TEST(MicrogeometryContent, MistakesAroundAMapOfIndicesAreNamed) {
+  const auto error_of = [](const std::string& maps, float index) {
+    return test::usage_error([&] { return load_two(maps, Image(2, 1, 1, index)); });
+  };
+  const std::string map = "[maps]\nmaterial = { file = \"indices.png\" }\n";
+  EXPECT_NE(error_of("", 0.0F).find("without a map"), std::string::npos);
+  EXPECT_NE(error_of(map, 2.0F).find("indices.png"), std::string::npos);
+  EXPECT_NE(error_of(map, 2.0F).find("names none of the 2"), std::string::npos);
+  EXPECT_NE(error_of("[maps]\nmaterial = { file = \"none.png\" }\n", 0.0F).find("none.png"), std::string::npos);
+  const std::string one =
+      test::usage_error([] { return load("kind = \"flat\"\n[maps]\nmaterial = { file = \"a.png\" }\n"); });
+  EXPECT_NE(one.find("several [[microgeometry]]"), std::string::npos) << one;
 }
 
 }  // namespace

@@ -163,6 +163,7 @@ MapSettings read_maps(const TomlTable& table, const BrdfSettings& brdf, const st
   maps.roughness = read_map(table, "roughness", folder);
   maps.specular = read_map(table, "specular", folder);
   maps.diffuse = read_map(table, "diffuse", folder);
+  maps.material = read_map(table, "material", folder);
   return maps;
 }
 
@@ -243,6 +244,35 @@ MicrogeometrySettings read_microgeometry(const TomlTable& table, const std::file
   return settings;
 }
 
+// [microgeometry], or several [[microgeometry]] with the map that chooses among them.
+std::vector<MicrogeometrySettings> read_patches(const TomlTable& table, const MapSettings& maps,
+                                                const std::filesystem::path& folder) {
+  const std::vector<std::string> keys{"kind", "model", "period",     "measured",
+                                      "ward", "seed",  "resolution", "parameters"};
+  std::vector<MicrogeometrySettings> patches;
+  if (table.is_table("microgeometry")) {
+    patches.push_back(read_microgeometry(*table.table("microgeometry", keys), folder));
+  } else {
+    const auto several = table.tables("microgeometry", keys);
+    for (const TomlTable& one : several) patches.push_back(read_microgeometry(one, folder));
+  }
+  if (patches.size() > most_surface_materials) {
+    throw table.error_at(
+        "microgeometry",
+        fmt::format("stands {} times, and a map of indices names at most {}", patches.size(), most_surface_materials),
+        "leave some out");
+  }
+  if (patches.size() > 1 && !maps.material) {
+    throw table.error_at("microgeometry", "stands several times without a map that chooses",
+                         "add [maps] material = { file = \"INDICES.png\" }");
+  }
+  if (patches.size() < 2 && maps.material) {
+    throw table.error_at("maps", "has a map of indices and nothing that it could choose among",
+                         "write several [[microgeometry]]");
+  }
+  return patches;
+}
+
 Placement read_placement(const TomlTable& table) {
   Placement placement;
   placement.translation = read_vector(table, "translate", coordinate_range).value_or(placement.translation);
@@ -302,13 +332,11 @@ PartSettings read_part(const TomlTable& table, const BrdfSettings& brdf, const s
   if (const auto layer = table.table("layer", {"bump_map", "normal_map", "surface", "uv", "strength"})) {
     part.layer = read_layer(*layer, folder, surfaces);
   }
-  if (const auto maps = table.table("maps", {"roughness", "exponent", "alpha", "kappa", "specular", "diffuse"})) {
+  if (const auto maps =
+          table.table("maps", {"roughness", "exponent", "alpha", "kappa", "specular", "diffuse", "material"})) {
     part.maps = read_maps(*maps, part.brdf, folder);
   }
-  if (const auto microgeometry = table.table(
-          "microgeometry", {"kind", "model", "period", "measured", "ward", "seed", "resolution", "parameters"})) {
-    part.microgeometry = read_microgeometry(*microgeometry, folder);
-  }
+  part.microgeometry = read_patches(table, part.maps, folder);
   if (const auto tiling = table.table("tiling", {"uv"})) {
     if (const auto uv = tiling->numbers("uv", 2, repeats)) part.tiling = {(*uv)[0], (*uv)[1]};
   }

@@ -72,6 +72,7 @@ struct MapFile {
 /// What [maps] lays over every material.
 struct MapSettings {
   std::optional<MapFile> roughness, lobe_parameter, specular, diffuse;  ///< at most one of the first two
+  std::optional<MapFile> material;  ///< whole numbers that choose among several patches; there where there are several
 };
 
 /// Ward's isotropic BRDF (1992).
@@ -79,6 +80,9 @@ struct WardSettings {
   double alpha = 0.1;
   glm::vec3 specular{1.0F}, diffuse{0.0F};
 };
+
+/// The most materials of a surface.
+inline constexpr std::size_t most_surface_materials = 16;
 
 /// The small-scale geometry of a part's materials: a patch of a kind, or a model's triangles.
 struct MicrogeometrySettings {
@@ -112,7 +116,7 @@ struct PartSettings {
   std::optional<LayerSettings> layer;
   BrdfSettings brdf;
   MapSettings maps;
-  std::optional<MicrogeometrySettings> microgeometry;
+  std::vector<MicrogeometrySettings> microgeometry;  ///< none, one, or several that a map chooses among
   glm::vec2 tiling{1.0F};  ///< on the texture coordinates of all maps but those that say their own
   Placement placement;
 };

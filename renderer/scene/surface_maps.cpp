@@ -166,6 +166,24 @@ Image decode_lobe_parameter(const Image& stored, double least, double most) {
   return map;
 }
 
+std::vector<Image> decode_indices(const Image& stored, std::size_t count) {
+  constexpr float rounding = 1e-3F;  // of 8 bits as floats from 0 to 1
+  std::vector<Image> shares(count, Image(stored.width, stored.height, 1));
+  for (std::size_t i = 0; i < stored.texel_count(); ++i) {
+    const float value = stored.texels[i * static_cast<std::size_t>(stored.channels)];
+    const float whole = std::round(value);
+    if (!(std::abs(value - whole) <= rounding && whole >= 0.0F && whole < static_cast<float>(count))) {
+      const auto width = static_cast<std::size_t>(stored.width);
+      throw Error(ErrorKind::usage, "map of indices",
+                  fmt::format("texel ({}, {}) holds {}, which names none of the {} materials", i % width, i / width,
+                              value, count),
+                  fmt::format("store whole numbers from 0 to {} in the red channel", count - 1));
+    }
+    shares[static_cast<std::size_t>(whole)].texels[i] = 1.0F;
+  }
+  return shares;
+}
+
 Image to_rgb(const Image& stored) {
   const bool color = stored.channels >= 3;
   Image map(stored.width, stored.height, 3);

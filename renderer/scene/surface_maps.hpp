@@ -44,6 +44,10 @@ void scale_slopes(Image& normals, double strength);
 /// not within `least` to `most`.
 [[nodiscard]] Image decode_lobe_parameter(const Image& stored, double least, double most);
 
+/// A map of whole numbers 0 to `count` - 1 in the first channel, as a map for each: 1 where the number is its own, else 0.
+/// Errors (usage), which name the texel: a value that is no whole number within that range.
+[[nodiscard]] std::vector<Image> decode_indices(const Image& stored, std::size_t count);
+
 /// Three channels, each clamped to [0, 1], from one (grey), two (grey, alpha), three or four.
 [[nodiscard]] Image to_rgb(const Image& stored);
 

@@ -131,5 +131,30 @@ TEST(SurfaceMaps, EveryChannelCountBecomesRgba) {
   EXPECT_EQ(to_rgba(one_texel({0.1F, -2.0F, 7.0F, 0.5F})).texels, (std::vector{0.1F, 0.0F, 1.0F, 0.5F}));
 }
 
+TEST(SurfaceMaps, IndicesBecomeAMapEach) {
+  Image stored(3, 1, 2);
+  stored.texels = {0.0F, 9.0F, 2.0F, 9.0F, 0.9999F, 9.0F};
+  const std::vector<Image> shares = decode_indices(stored, 3);
+  ASSERT_EQ(shares.size(), 3U);
+  EXPECT_EQ(shares[0].texels, (std::vector{1.0F, 0.0F, 0.0F}));
+  EXPECT_EQ(shares[1].texels, (std::vector{0.0F, 0.0F, 1.0F}));
+  EXPECT_EQ(shares[2].texels, (std::vector{0.0F, 1.0F, 0.0F}));
+}
+
+TEST(SurfaceMaps, IndicesOutOfRangeNameTheirTexel) {
+  for (const float wrong :
+       {3.0F, -1.0F, 0.5F, 1e30F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    Image stored(2, 2, 1);
+    stored.texels[3] = wrong;
+    try {
+      (void)decode_indices(stored, 3);
+      ADD_FAILURE() << wrong << " passed";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("texel (1, 1)"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("0 to 2"), std::string::npos) << error.what();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace footprint

@@ -89,18 +89,36 @@ ReflectedLobe aboveHorizon(ReflectedLobe lobe, float share) {
   return ReflectedLobe(normalize(moved), sharpness);
 }
 
+// What stands beside the density of lobe i in f cos, G' and F apart, or all that a module with small-scale geometry knows
+// of it. `sharpness` is that of the lobe of directions to the light about wi.
+struct Beside {
+  float weight;
+  vec3 color;
+};
+
+Beside besideDensity(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 h, vec3 wi, vec3 wo, float sharpness) {
+//? if microgeometry_visibility
+  vec3 all = lobeReflectance(e, i, f0, h, wi, wo, sharpness);
+  float mean = dot(all, vec3(1.0 / 3.0));
+  return Beside(mean, all / max(mean, 1e-12));
+//? else
+  return Beside(lobeGeometry(e, lobe, h, wi, wo), fresnelTerm(f0, wi, wo));
+//? end
+}
+
 // What a lobe reflects towards wo: integral of F D G' L over wi. With dwi = 4 (h.wo) dh the lobe's energy is 4 times what
 // is visible of it; about the mirror image of the visible normals' mean it is 4 (axis.wo) times wider (Wang 2009). F and
 // G' are taken there, and of what lies below the surface's horizon nothing arrives.
-vec3 lobeRadiance(Effective e, NormalLobe lobe, vec3 f0, vec3 wo, mat3 frame) {
+vec3 lobeRadiance(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wo, mat3 frame) {
   VisibleLobe visible = visibleLobe(lobe, wo);
   float cosine = max(dot(visible.axis, wo), 0.01);
   vec3 mirrored = 2.0 * cosine * visible.axis - wo;
   ReflectedLobe whole = ReflectedLobe(mirrored / max(length(mirrored), 1e-6), lobe.sharpness / (4.0 * cosine));
   ReflectedLobe above = aboveHorizon(whole, shareAbove(whole.axis.z, whole.sharpness));
   float share = shareAbove(visibleElevation(frame * whole.axis, whole.axis.z), whole.sharpness);
-  float reflected = 4.0 * lobe.weight * visible.area * share * lobeGeometry(e, lobe, visible.axis, whole.axis, wo);
-  return fresnelTerm(f0, whole.axis, wo) * reflected * stackRadiance(frame * above.axis, above.sharpness);
+  Beside beside = besideDensity(e, i, lobe, f0, visible.axis, whole.axis, wo, whole.sharpness);
+  float reflected = 4.0 * lobe.weight * visible.area * share * beside.weight;
+  return beside.color * reflected * stackRadiance(frame * above.axis, above.sharpness);
 }
 
 //? if distribution_ggx
@@ -134,20 +152,22 @@ struct NodeSum {
   float weight;
 };
 
-// Adds one node, i of environment_stack_range.z around a ring.
-void addNode(inout NodeSum sum, Effective e, NormalLobe lobe, vec2 ring, int i, vec3 f0, vec3 wo, mat3 axes) {
+// Adds one node of lobe i, `place` of environment_stack_range.z around a ring.
+void addNode(inout NodeSum sum, Effective e, int i, NormalLobe lobe, vec2 ring, int place, vec3 f0, vec3 wo, mat3 axes) {
   float alpha = sqrt(2.0 / lobe.sharpness);
   vec3 seen = wo * axes;
   vec3 stretched = normalize(vec3(alpha * seen.xy, seen.z));
   float z = 1.0 - ring.x * (1.0 + stretched.z);
   float around = environment_stack_range.z;
-  float azimuth = 2.0 * pi / around * (float(i) + (ring.x == ggx_rings[1].x ? 0.0 : 0.5));
+  float azimuth = 2.0 * pi / around * (float(place) + (ring.x == ggx_rings[1].x ? 0.0 : 0.5));
   vec3 cap = vec3(sqrt(max(1.0 - z * z, 0.0)) * vec2(cos(azimuth), sin(azimuth)), z) + stretched;
   vec3 h = axes * normalize(vec3(alpha * cap.xy, max(cap.z, 1e-6)));
   vec3 wi = 2.0 * dot(h, wo) * h - wo;
-  float reflected = ring.y / around * shareAbove(wi.z, ggx_node_sharpness * lobe.sharpness);
-  reflected *= 4.0 * lobe.weight * ggxVisibleArea(seen.z, alpha * alpha) * lobeGeometry(e, lobe, h, wi, wo);
-  sum.energy += reflected * fresnelTerm(f0, wi, wo);
+  float sharpness = ggx_node_sharpness * lobe.sharpness;
+  Beside beside = besideDensity(e, i, lobe, f0, h, wi, wo, sharpness);
+  float reflected = ring.y / around * shareAbove(wi.z, sharpness);
+  reflected *= 4.0 * lobe.weight * ggxVisibleArea(seen.z, alpha * alpha) * beside.weight;
+  sum.energy += reflected * beside.color;
   sum.direction += reflected * wi;
   sum.weight += reflected;
 }
@@ -163,13 +183,13 @@ vec3 nodesRadiance(NodeSum sum, float spread, mat3 frame) {
   return sum.energy * share * stackRadiance(frame * axis, sharpness);
 }
 
-vec3 tailedRadiance(Effective e, NormalLobe lobe, vec3 f0, vec3 wo, mat3 frame) {
+vec3 tailedRadiance(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wo, mat3 frame) {
   mat3 axes = frameTowards(lobe.axis, wo);
   NodeSum core = NodeSum(vec3(0.0), vec3(0.0), 0.0);
   NodeSum tail = core;
   int around = int(environment_stack_range.z);  // no constant: unrolled, the loop takes compilers seconds
-  for (int i = 0; i < around; ++i) addNode(core, e, lobe, ggx_rings[0], i, f0, wo, axes);
-  for (int i = 0; i < 2 * around; ++i) addNode(tail, e, lobe, ggx_rings[1 + i / around], i % around, f0, wo, axes);
+  for (int k = 0; k < around; ++k) addNode(core, e, i, lobe, ggx_rings[0], k, f0, wo, axes);
+  for (int k = 0; k < 2 * around; ++k) addNode(tail, e, i, lobe, ggx_rings[1 + k / around], k % around, f0, wo, axes);
   return nodesRadiance(core, ggx_spread.x, frame) + nodesRadiance(tail, ggx_spread.y, frame);
 }
 //? end
@@ -182,16 +202,16 @@ vec3 environmentSpecular(Effective e, vec3 f0, vec3 wo, mat3 frame) {
     if (lobe.weight <= 0.0) continue;
 //? if distribution_ggx
     if (lobe.tailed) {
-      radiance += tailedRadiance(e, lobe, f0, wo, frame);
+      radiance += tailedRadiance(e, i, lobe, f0, wo, frame);
       continue;
     }
 //? end
-    radiance += lobeRadiance(e, lobe, f0, wo, frame);
+    radiance += lobeRadiance(e, i, lobe, f0, wo, frame);
   }
   return radiance;
 }
 
-//? if diffuse
+//? if environment_diffuse
 //? if fresnel
 // The mean over a hemisphere of light, weighted by the cosine, of what Schlick's term lets through: (1 - v.h)^5 has the
 // mean 0.0282 (1 - n.v)^2.6 + 0.0001, to 5e-4.
@@ -204,21 +224,31 @@ vec3 meanTransmitted(vec3 f0, float cosine) {
 }
 //? end
 
+DiffuseFacets diffuseFacets(Effective e, vec3 wo) {
+//? if microgeometry_visibility
+  return visibleFacets(e, wo);
+//? else
+  vec3 m = meanNormal(e);
+  return DiffuseFacets(m, vec3(clamp(0.5 + 0.5 * m.z, 0.0, 1.0)), false);
+//? end
+}
+
 // Lambert's term over all directions. Irradiance is close to linear in the normal, so that normals with the mean m get
 // the mean over all directions and |m| of the difference to it. A facet that leans loses what its surface hides: of a
 // constant environment (1 - n_z) / 2.
 vec3 environmentDiffuse(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) {
-  vec3 m = meanNormal(e);
-  float size = length(m);
-  vec3 n = size > 1e-6 ? m / size : vec3(0.0, 0.0, 1.0);
+  DiffuseFacets facets = diffuseFacets(e, wo);
+  float size = length(facets.mean_normal);
+  vec3 n = size > 1e-6 ? facets.mean_normal / size : vec3(0.0, 0.0, 1.0);
   vec2 irradiance_size = vec2(textureSize(environment_irradiance, 0));
   vec2 place = borderedPlace(octahedral(frame * n), irradiance_size);
   vec3 facing = textureLod(environment_irradiance, place, 0.0).rgb;  // irradiance over pi
-  vec3 arriving = mix(environment_mean.rgb, facing, min(size, 1.0));
-  vec3 reflected = albedo * arriving * clamp(0.5 + 0.5 * m.z, 0.0, 1.0);
+  vec3 reflected = facets.share * mix(environment_mean.rgb, facing, min(size, 1.0));
 //? if environment_visibility
   reflected *= visibleDiffuse();
 //? end
+  if (facets.whole) return reflected;
+  reflected *= albedo;
 //? if fresnel
   reflected *= meanTransmitted(f0, dot(n, wo));
 //? end
@@ -228,7 +258,7 @@ vec3 environmentDiffuse(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) 
 
 vec3 environmentLit(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) {
   vec3 radiance = environmentSpecular(e, f0, wo, frame);
-//? if diffuse
+//? if environment_diffuse
   radiance += environmentDiffuse(e, albedo, f0, wo, frame);
 //? end
   return radiance;

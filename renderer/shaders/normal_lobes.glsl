@@ -12,6 +12,13 @@ struct NormalLobe {
   vec3 normal;      // of the facets, for the geometry factor: the axis, but for facets with lobes about other axes
 };
 
+// What the diffuse term of a footprint sees of an environment.
+struct DiffuseFacets {
+  vec3 mean_normal;  // not renormalised
+  vec3 share;        // reflected of a constant environment, over the albedo
+  bool whole;        // `share` has the albedo in it, and no Fresnel term takes from it
+};
+
 // The mean of axis.h over a vMF lobe: coth kappa - 1 / kappa.
 float meanCosine(float kappa) {
   if (kappa < 0.1) return kappa * (1.0 / 3.0 - kappa * kappa / 45.0);

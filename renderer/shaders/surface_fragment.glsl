@@ -171,12 +171,21 @@ void main() {
 //? if random_draws
   texel_draw = drawTexelOffsets();
 //? end
+//? if material_index
+  float share = fetch(material_share, footprintOf(share_uv_linear, share_uv_offset_set)).r;
+//? end
   vec4 base_color = base_color_factor;
 //? if base_color_variation
   base_color *= fetch(base_color_map, f.base_color);
 //? end
 //? if alpha_mask
   if (base_color.a < lobe_cutoff.y) discard;
+//? end
+//? if material_index
+  if (share <= 0.0) {
+    radiance_coverage = vec4(0.0, 0.0, 0.0, share_uv_offset_set.w);
+    return;
+  }
 //? end
   float metallic = dielectric_specular_metallic.w;
 //? if metallic_variation
@@ -207,5 +216,9 @@ void main() {
 //? if cast_shadow
   seen_facet = facetNormal(along_x, along_y, to_viewer);
 //? end
+//? if material_index
+  radiance_coverage = vec4(share * lit(p), share_uv_offset_set.w);
+//? else
   radiance_coverage = vec4(lit(p), 1.0);
+//? end
 }

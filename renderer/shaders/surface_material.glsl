@@ -17,6 +17,10 @@ layout(std140, binding = 0) uniform MaterialBlock {
   vec4 specular_uv_linear;
   vec4 specular_uv_offset_set;
 //? end
+//? if material_index
+  vec4 share_uv_linear;
+  vec4 share_uv_offset_set;  // w: 1 for the first material of a surface, 0 for those that add to it
+//? end
 //? if multi_lobe
   int facet_lobe_count;  // 0: one lobe about the normal
   FacetLobe facet_lobes[most_facet_lobes];

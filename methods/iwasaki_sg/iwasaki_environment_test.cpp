@@ -1,0 +1,146 @@
+// Patches under an environment: against sums over facets and directions, and against the reference.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "methods/iwasaki_sg/dense_brdf.hpp"
+#include "methods/iwasaki_sg/settings.hpp"
+#include "methods/iwasaki_sg/test_materials.hpp"
+#include "renderer/microgeometry/direction_grid.hpp"
+#include "renderer/scene/camera.hpp"
+#include "renderer/scene/environment.hpp"
+#include "tests/support/rendering.hpp"
+
+namespace footprint::testing {
+namespace {
+
+using namespace iwasaki_sg;
+using std::numbers::pi;
+
+// Bright above the surface and, in another colour, on one side.
+Environment uneven_environment() {
+  Image map(32, 16, 3);
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      const glm::dvec3 d = environment_direction({.name = "", .radiance = nullptr}, (x + 0.5) / 32.0, (y + 0.5) / 16.0);
+      map.at(x, y)[0] = static_cast<float>(0.2 + std::exp(4.0 * (d.z - 1.0)));
+      map.at(x, y)[1] = 0.3F;
+      map.at(x, y)[2] = static_cast<float>(0.1 + 2.0 * std::exp(4.0 * (0.8 * d.x + 0.6 * d.z - 1.0)));
+    }
+  }
+  return {.name = "uneven", .radiance = std::make_shared<const Image>(std::move(map))};
+}
+
+// A patch with a tabulated BRDF, seen from a direction by parallel rays, all its light from around.
+Scene patch_scene(const Patch& patch, const TabulatedBrdf& brdf, const glm::dvec3& wo, Environment environment) {
+  Scene scene = square_scene({}, {});
+  scene.materials[0] = patch_material(patch, {}, 0.3F);
+  Microgeometry geometry = *scene.materials[0].microgeometry;
+  geometry.brdf = std::make_shared<const TabulatedBrdf>(brdf);
+  scene.materials[0].microgeometry = std::make_shared<const Microgeometry>(std::move(geometry));
+  scene.lights.clear();
+  scene.environment = std::move(environment);
+  scene.camera.world = look_at(3.0 * wo, glm::dvec3(0.0), {0.0, 1.0, 0.0});
+  scene.camera.orthographic = true;
+  scene.camera.ymag = 0.2F;
+  return scene;
+}
+
+// Radiance by the sum over facets and directions (Eq. 1), which shares no code with the shaders.
+glm::dvec3 sum_of_facets(const Scene& scene, const glm::dvec3& wo) {
+  const Material& material = scene.materials[0];
+  const TableSettings settings = table_settings(material, Options(option_table(), {}, "test"), patch_effects(material));
+  const Patch& patch = material.microgeometry->patch;
+  constexpr int side = 32;
+  std::vector<glm::dvec3> directions = direction_grid(side);
+  directions.push_back(wo);
+  const FacetSum sum(material, settings, bin_facets(patch, sample_facets(patch, 8192, 9)), std::move(directions),
+                     no_progress);
+  glm::dvec3 radiance(0.0);
+  for (std::size_t i = 0; i < side * side; ++i) {
+    radiance += sum(i, side * side) * glm::dvec3(environment_radiance(*scene.environment, sum.directions()[i]));
+  }
+  return radiance * (2.0 * pi / (side * side));
+}
+
+glm::dvec3 mean_of(const Image& picture) {
+  glm::dvec3 sum(0.0);
+  for (std::size_t i = 0; i < picture.texels.size(); i += 4) {
+    for (int c = 0; c < 3; ++c) sum[c] += picture.texels[i + static_cast<std::size_t>(c)];
+  }
+  return sum / static_cast<double>(picture.texel_count());
+}
+
+glm::dvec3 drawn(const Scene& scene) {
+  return mean_of(TestRenderer(scene, {4, 4}).frame(iwasaki_sg_method(), "iwasaki_sg:facets=8192"));
+}
+
+void expect_near(const glm::dvec3& found, const glm::dvec3& truth, double bound) {
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c] / truth[c], 1.0, bound) << "channel " << c;
+}
+
+const glm::dvec3 above(0.0, 0.0, 1.0), oblique = glm::normalize(glm::dvec3(0.7, 0.2, 0.8));
+
+// Facets that reflect diffusely and, by their table, in colours of their own.
+TEST(IwasakiUnderAnEnvironment, DiffuseTermIsThatOfTheFacets) {
+  const TabulatedBrdf matte = ward_brdf({0.5F, 0.4F, 0.2F}, glm::vec3(0.0F), 0.3);
+  for (const char* kind : {"flat", "grooves"}) {
+    for (const glm::dvec3& wo : {above, oblique}) {
+      const Scene white = patch_scene(patch_of(kind), matte, wo, constant_environment(glm::vec3(1.0F)));
+      expect_near(drawn(white), sum_of_facets(white, wo), 0.005);
+      const Scene uneven = patch_scene(patch_of(kind), matte, wo, uneven_environment());
+      expect_near(drawn(uneven), sum_of_facets(uneven, wo), 0.05);
+    }
+  }
+}
+
+// The lobes of a tabulated BRDF, in colour. On grooves each meets three planes; a weave's normals are too many for
+// seven lobes.
+TEST(IwasakiUnderAnEnvironment, TabulatedBrdfIsNearTheSumOverFacets) {
+  const TabulatedBrdf rough = ward_brdf({0.3F, 0.2F, 0.1F}, {0.1F, 0.3F, 0.4F}, 0.3);
+  const TabulatedBrdf glossy = ward_brdf({0.05F, 0.05F, 0.1F}, {0.5F, 0.4F, 0.2F}, 0.1);
+  const std::vector<std::tuple<const char*, const TabulatedBrdf*, double>> rows{{"flat", &rough, 0.05},
+                                                                                {"flat", &glossy, 0.04},
+                                                                                {"grooves", &rough, 0.14},
+                                                                                {"grooves", &glossy, 0.07},
+                                                                                {"weave", &glossy, 0.11}};
+  for (const auto& [kind, brdf, bound] : rows) {
+    for (const glm::dvec3& wo : {above, oblique}) {
+      SCOPED_TRACE(fmt::format("{} {} {}", kind, brdf == &rough ? "rough" : "glossy", wo.z));
+      const Scene uneven = patch_scene(patch_of(kind), *brdf, wo, uneven_environment());
+      expect_near(drawn(uneven), sum_of_facets(uneven, wo), bound);
+      const Scene white = patch_scene(patch_of(kind), *brdf, wo, constant_environment(glm::vec3(1.0F)));
+      expect_near(drawn(white), sum_of_facets(white, wo), bound);
+    }
+  }
+}
+
+// The reference's facets and directions, drawn at random.
+TEST(IwasakiUnderAnEnvironment, ReferenceIsTheSumOverFacets) {
+  const TabulatedBrdf rough = ward_brdf({0.3F, 0.2F, 0.1F}, {0.1F, 0.3F, 0.4F}, 0.3);
+  for (const char* kind : {"grooves", "weave"}) {
+    const Scene uneven = patch_scene(patch_of(kind), rough, oblique, uneven_environment());
+    expect_near(mean_of(TestRenderer(uneven, {8, 8}).reference(256).mean), sum_of_facets(uneven, oblique), 0.02);
+  }
+}
+
+// Threads of two colours over a base BRDF: the specular term's colour is that of the visible threads, not their mean.
+TEST(IwasakiUnderAnEnvironment, AmplitudesKeepTheirColours) {
+  const Patch weave = patch_of("weave", {{"warp_width", "0.9"}, {"weft_width", "0.3"}, {"warp_blue", "0"}});
+  constexpr BaseBrdf metal{NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, false};
+  Scene scene = square_scene({}, {});
+  scene.materials[0] = patch_material(weave, metal, 40.0F);
+  scene.materials[0].metallic = 1.0F;
+  scene.materials[0].base_color *= glm::vec4(scene.materials[0].microgeometry->mean_color, 1.0F);
+  scene.lights.clear();
+  scene.environment = constant_environment(glm::vec3(1.0F));
+  const glm::dvec3 found = drawn(scene);
+  expect_near(found, mean_of(TestRenderer(scene, {8, 8}).reference(256).mean), 0.1);
+  EXPECT_LT(found.b, 0.5 * found.r);
+}
+
+}  // namespace
+}  // namespace footprint::testing

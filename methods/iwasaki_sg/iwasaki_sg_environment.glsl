@@ -1,0 +1,116 @@
+// Environment light: each lobe of normals with each lobe of the facets' own BRDF is one lobe over half vectors (equation
+// 14). What the pair of directions makes of it stands in lobeReflectance, the diffuse term apart from it in visibleFacets.
+//? if environment_light
+
+//? if lobe_base
+int baseLobeCount() { return 1; }
+//? else
+int baseLobeCount() { return textureSize(iwasaki_brdf, 0).x; }
+//? end
+
+//? if tabulated_brdf
+int ownLobeCount() { return iwasaki_tabulated > 0.5 ? textureSize(iwasaki_table, 0).x - 1 : baseLobeCount(); }
+vec4 tabulatedLobe(int s) { return texelFetch(iwasaki_table, ivec2(s + 1, 0), 0); }  // the first is the diffuse term
+//? else
+int ownLobeCount() { return baseLobeCount(); }
+//? end
+
+int lobeCount(Effective e) { return e.count * ownLobeCount(); }
+
+// A spherical Gaussian of the facets' BRDF, convolved with a lobe of normals.
+NormalLobe convolvedLobe(vec4 normals, float sharpness, float share) {
+  return vmfNormalLobe(normals.xyz, normals.w * (sharpness / (normals.w + sharpness)), share, lobe_cutoff.x);
+}
+
+NormalLobe normalLobe(Effective e, int i) {
+  int own = ownLobeCount();
+  int j = i / own;
+  vec4 lobe = lobeOf(j);
+//? if microgeometry_visibility
+  float share = 1.0;  // the table has what a pair of directions sees
+//? else
+  float share = shareOf(j);
+//? end
+//? if tabulated_brdf
+  if (iwasaki_tabulated > 0.5) {
+    float sharpness = tabulatedLobe(i % own).x;
+    return convolvedLobe(lobe, sharpness, share * sgIntegral(sharpness));
+  }
+//? end
+//? if lobe_base
+  return baseNormalLobe(lobe.xyz, lobeFromVariance(lobeVariance(lobe_cutoff.x) + 1.0 / lobe.w), share);
+//? else
+  vec2 brdf = texelFetch(iwasaki_brdf, ivec2(i % own, 0), 0).xy;
+  return convolvedLobe(lobe, brdf.x, share * brdf.y * sgIntegral(brdf.x));
+//? end
+}
+
+//? if microgeometry_visibility
+const float inverse_root_of_two_pi = 0.3989423;
+
+// The mean height over the horizon of a vMF lobe's part above it: that of a Gaussian in the plane that touches the sphere
+// at the lobe's centre, which at the zenith is the mean cosine to the axis.
+float meanHeight(float height, float sharpness) {
+  float deviation = sqrt(max(1.0 - height * height, 0.0) / sharpness);
+  if (deviation < 1e-4) return max(height, 0.0) * meanCosine(sharpness);
+  float a = clamp(height / deviation, -5.0, 40.0);
+  float above = normalCdf(a);
+  float mean = deviation * (a + inverse_root_of_two_pi * exp(-0.5 * a * a) / max(above, 1e-7));
+  return max(mean, 0.0) * mix(1.0, meanCosine(sharpness), clamp(height, 0.0, 1.0));
+}
+
+// What stands beside the lobe's density in f cos, in colour: the amplitude of its pair of directions with the rest. The
+// table has the facets' cosine to the light over that of the surface, whose mean over the lobe is taken.
+vec3 lobeReflectance(Effective e, int i, vec3 f0, vec3 h, vec3 wi, vec3 wo, float sharpness) {
+  int own = ownLobeCount();
+  int j = i / own;
+  vec3 amplitude = tableAt(j, placeOf(wi, wo));
+//? if tabulated_brdf
+  if (iwasaki_tabulated > 0.5) {
+    return amplitude * tabulatedLobe(i % own).yzw * riseOf(h, wi) * meanHeight(wi.z, sharpness);
+  }
+//? end
+//? if cosines_published
+  return fresnelTerm(f0, wi, wo) * amplitude * meanHeight(wi.z, sharpness);
+//? else
+  return fresnelTerm(f0, wi, wo) * amplitude * smoothFactor(lobeOf(j), h, wi, wo);
+//? end
+}
+
+//? if environment_diffuse
+// The diffuse term of the facets that a viewer sees: what it reflects of a constant environment, and a mean of normals
+// whose irradiance is about what they get.
+DiffuseFacets visibleFacets(Effective e, vec3 wo) {
+  float side = option_directions;
+  vec2 place = clamp(hemisphereToSquare(wo) * side, 0.5, side - 0.5) / side;
+  vec3 share = textureLod(iwasaki_diffuse, vec3(place, 0.0), 0.0).rgb;
+  vec3 mean_normal = textureLod(iwasaki_diffuse, vec3(place, 1.0), 0.0).xyz;
+//? if tabulated_brdf
+  if (iwasaki_tabulated > 0.5) {
+    return DiffuseFacets(mean_normal, share * pi * texelFetch(iwasaki_table, ivec2(0), 0).yzw, true);
+  }
+//? end
+  return DiffuseFacets(mean_normal, share, false);
+}
+//? end
+//? else
+// The lobe that a NormalLobe was made of: the one with its axis.
+int lobeAbout(Effective e, vec3 axis) {
+  int nearest = 0;
+  for (int j = 1; j < e.count; ++j) {
+    if (dot(lobeOf(j).xyz, axis) > dot(lobeOf(nearest).xyz, axis)) nearest = j;
+  }
+  return nearest;
+}
+
+float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
+  return smoothFactor(lobeOf(lobeAbout(e, lobe.axis)), h, wi, wo);
+}
+
+vec3 meanNormal(Effective e) {
+  vec3 sum = vec3(0.0);
+  for (int j = 0; j < e.count; ++j) sum += shareOf(j) * meanCosine(lobeOf(j).w) * lobeOf(j).xyz;
+  return sum;
+}
+//? end
+//? end

@@ -68,7 +68,7 @@ std::vector<DenseLight> dense_lights(const Environment& environment) {
   std::vector<DenseLight> lights;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (cells[i] == glm::dvec3(0.0)) continue;
-    const int face = static_cast<int>(i / (dense_edge * dense_edge));
+    const int face = static_cast<int>(i / dense_edge / dense_edge);
     const glm::dvec2 middle(static_cast<double>(i % dense_edge) + 0.5,
                             static_cast<double>(i / dense_edge % dense_edge) + 0.5);
     lights.push_back({.direction = cube_direction({face, middle * side - 1.0}), .irradiance = cells[i]});

@@ -134,6 +134,7 @@ std::vector<bool> Occluders::blocked(const glm::vec3& origin, std::span<const gl
   for (const glm::vec3& direction : directions) rays.push_back(ray_of(origin, direction, 0.0F, unlimited));
   rtcOccluded1M(rays_.get(), &context, rays.data(), static_cast<unsigned>(rays.size()), sizeof(RTCRay));
   std::vector<bool> out;
+  out.reserve(rays.size());
   for (const RTCRay& ray : rays) out.push_back(ray.tfar < 0.0F);
   return out;
 }

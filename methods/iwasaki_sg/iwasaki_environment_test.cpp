@@ -142,5 +142,19 @@ TEST(IwasakiUnderAnEnvironment, AmplitudesKeepTheirColours) {
   EXPECT_LT(found.b, 0.5 * found.r);
 }
 
+// What other parts of a scene call for compiles their terms in: here the diffuse term of a table.
+TEST(IwasakiUnderAnEnvironment, ATableElsewhereInTheSceneChangesNothing) {
+  constexpr BaseBrdf shine{NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, false};
+  Scene scene = square_scene({}, {});
+  scene.materials[0] = patch_material(patch_of("grooves"), shine, 40.0F);
+  scene.lights.clear();
+  scene.environment = uneven_environment();
+  EffectSet effects = effects_on(derive_effects(scene));
+  const glm::dvec3 alone = drawn(scene);
+  effects.set(static_cast<std::size_t>(Effect::tabulated_brdf));
+  expect_near(mean_of(TestRenderer(scene, {4, 4}, effects).frame(iwasaki_sg_method(), "iwasaki_sg:facets=8192")), alone,
+              1e-6);
+}
+
 }  // namespace
 }  // namespace footprint::testing

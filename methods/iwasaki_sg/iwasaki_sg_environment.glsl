@@ -90,7 +90,11 @@ DiffuseFacets visibleFacets(Effective e, vec3 wo) {
     return DiffuseFacets(mean_normal, share * pi * texelFetch(iwasaki_table, ivec2(0), 0).yzw, true);
   }
 //? end
+//? if diffuse
   return DiffuseFacets(mean_normal, share, false);
+//? else
+  return DiffuseFacets(mean_normal, vec3(0.0), false);  // tables alone have a diffuse term here
+//? end
 }
 //? end
 //? else

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "methods/iwasaki_sg/quantities.hpp"
 #include "methods/iwasaki_sg/settings.hpp"
@@ -86,6 +88,23 @@ TEST(BrdfFigures, LobesAgainstTables) {
   EXPECT_GT(figure("brdf_bytes", material, options), 144.0 * 144.0 * 4.0);
   EXPECT_GT(figure("brdf_ms", material, options), 0.0);
   EXPECT_GT(figure("table_ms", material, options, {{"side", "6"}}), 0.0);
+}
+
+// The patches of scenes/bi_scale_spheres under their lobe, by 1, 4 and 8 lobes: as many as normals are enough (grooves
+// 3, pyramids 5), fewer are not. Bounds are what was measured, rounded up.
+TEST(BrdfFigures, LobesAgainstTheSumOverFacetsByTheirNumber) {
+  const std::vector<std::tuple<Patch, std::array<double, 3>>> rows{
+      {patch_of("spheres", {{"radius", "0.3"}}), {0.99, 0.14, 0.13}},
+      {patch_of("pyramids", {{"floor", "0.3"}, {"slope_degrees", "15"}}), {0.82, 0.66, 0.08}},
+      {patch_of("grooves", {{"land", "0.25"}, {"flank_degrees", "20"}}), {0.98, 0.04, 0.04}}};
+  for (const auto& [patch, bounds] : rows) {
+    const Material material = patch_material(patch, blinn_phong, 512.0F);
+    constexpr std::array counts{"1", "4", "8"};
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      EXPECT_LT(figure("brdf_error", material, {{"facets", "8192"}, {"j", counts[i]}}), bounds[i])
+          << patch.name << ", " << counts[i] << " lobes";
+    }
+  }
 }
 
 TEST(BrdfFigures, OfAMaterialWithoutAPatchAreAnError) {

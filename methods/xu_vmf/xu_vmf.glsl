@@ -40,6 +40,9 @@ vec4 lobes[most_lobes];
 //? if variant_published
 float amounts[most_lobes];  // what each adds with; it is the share where lobes weigh what they cover
 //? end
+//? if multi_lobe
+float facet_energies[most_lobes];  // of the facets' lobe that each stands for
+//? end
 
 struct Effective {
   int count;
@@ -58,22 +61,51 @@ const float least_share = 1e-4;
 //? end
 //? end
 
+// Of a facet of the lobe that is looked up, where all have the same: 1 - |r|, and the energy of its base lobe.
+float facet_shortfall, facet_energy;
+
+// The energy of a base lobe over solid angle. That of a microfacet lobe grows with its width, while the mean of narrow
+// ones keeps theirs: a wide lobe that stands for them is scaled by the ratio. Where roughness varies, how wide the
+// facets' own lobes are is not known.
+float energyOf(float base) {
+//? if lobe_base
+//? if roughness_variation
+  return 1.0;
+//? else
+  return lobeEnergy(base);
+//? end
+//? else
+  return 1.0;
+//? end
+}
+
+float facetEnergy(int i) {
+//? if multi_lobe
+  return facet_energies[i];
+//? else
+  return facet_energy;
+//? end
+}
+
 struct Lobe {
   vec3 mean;
   float kappa;
   float base;    // the base lobe of that width
-  float amount;
+  float share;   // of the footprint's facets, but as published
+  float amount;  // what its density is multiplied by
 };
 
 Lobe lobeAt(int i) {
   vec4 lobe = lobes[i];
-  float share = length(lobe.xyz);
+  float size = length(lobe.xyz);
   float kappa = kappaOf(lobe.w);
+  float base = lobeOfKappa(kappa);
 //? if variant_published
-  return Lobe(lobe.xyz / max(share, 1e-30), kappa, lobeOfKappa(kappa), amounts[i]);
+  float share = amounts[i];
 //? else
-  return Lobe(lobe.xyz / max(share, 1e-30), kappa, lobeOfKappa(kappa), share);
+  float share = size;
 //? end
+  return Lobe(lobe.xyz / max(size, 1e-30), kappa, base, share, share * facetEnergy(i) / energyOf(base));
 }
 
 float densityOf(Lobe lobe, vec3 h) {
@@ -104,8 +136,6 @@ OwnLobe ownLobe(int k) {
 int ownLobeCount() { return 1; }
 OwnLobe ownLobe(int k) { return OwnLobe(vec3(0.0, 0.0, 1.0), lobe_cutoff.x, 1.0); }
 //? end
-
-float facet_shortfall;  // 1 - |r| of a facet of the lobe that is looked up, where all have the same
 
 void pushLobe(inout Effective e, vec3 mean, float q, float share, float amount) {
   lobes[e.count] = vec4(share * mean, q);
@@ -340,6 +370,7 @@ void addOwnLobe(inout Effective e, Footprints f, int k) {
   OwnLobe own = ownLobe(k);
   float q = shortfallOf(kappaOfLobe(own.parameter));
   facet_shortfall = q;
+  facet_energy = energyOf(own.parameter);
   int first = e.count;
   e.covered = 0.0;
 //? if texture_arrays
@@ -355,6 +386,9 @@ void addOwnLobe(inout Effective e, Footprints f, int k) {
     lobes[i] *= vec4(vec3(own.weight / e.covered), 1.0);
 //? if variant_published
     amounts[i] *= own.weight;
+//? end
+//? if multi_lobe
+    facet_energies[i] = facet_energy;
 //? end
   } while (++i < e.count);
 }
@@ -434,12 +468,14 @@ float ndf(Effective e, vec3 h) {
 //? if environment_light
 int lobeCount(Effective e) { return e.count; }
 
+// What its facets cover, seen along their own normals, is what they reflect: the share, which is no integral of the
+// density.
 NormalLobe normalLobe(Effective e, int i) {
   Lobe lobe = lobeAt(i);
 //? if lobe_base
-  return baseNormalLobe(lobe.mean, lobe.base, lobe.amount);
+  return baseNormalLobe(lobe.mean, lobe.base, lobe.share);
 //? else
-  return vmfNormalLobe(lobe.mean, lobe.kappa, lobe.amount, lobe.base);
+  return vmfNormalLobe(lobe.mean, lobe.kappa, lobe.share, lobe.base);
 //? end
 }
 

@@ -107,6 +107,17 @@ TEST_P(EveryMethodsNdf, KeepsTheEnergyOfSeveralLobesOverBumps) {
   EXPECT_NEAR(Inspection(with_two_lobes(surface_normals(bumps, settings))).figures(name()).energy, 1.0, 0.01);
 }
 
+// The lobes of facets, each widened, keep their facets' energy.
+TEST(JoinedLobesNdf, KeepTheEnergyOfSeveralMicrofacetLobes) {
+  Material material = with_two_lobes(random_normals(16, 16, 0.25F, 12));
+  material.brdf.distribution = ggx;
+  material.lobes = {{.axis = {0.28F, 0.0F, 0.96F}, .parameter = 0.03F, .weight = 0.75F},
+                    {.axis = {-0.28F, 0.0F, 0.96F}, .parameter = 0.06F, .weight = 0.25F}};
+  Inspection inspection(material);
+  for (const std::string j : {"1", "4", "8", "adaptive"})
+    EXPECT_NEAR(inspection.figures("xu_vmf:j=" + j).energy, 1.0, 0.01) << j;
+}
+
 // Hard cases 5, 6, 25, 28: narrow lobes, directions far from every lobe, texels without a normal, normals on the
 // horizon, sizes that are no power of two, footprints within a texel.
 TEST_P(EveryMethodsNdf, IsFiniteAndNotNegativeAtTheLimits) {

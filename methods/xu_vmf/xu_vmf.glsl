@@ -61,19 +61,15 @@ const float least_share = 1e-4;
 //? end
 //? end
 
-// Of a facet of the lobe that is looked up, where all have the same: 1 - |r|, and the energy of its base lobe.
+// Of the facets' lobe that is looked up: 1 - |r|, and the energy of its base lobe. Where roughness varies, of the lobe
+// of their mean variance.
 float facet_shortfall, facet_energy;
 
 // The energy of a base lobe over solid angle. That of a microfacet lobe grows with its width, while the mean of narrow
-// ones keeps theirs: a wide lobe that stands for them is scaled by the ratio. Where roughness varies, how wide the
-// facets' own lobes are is not known.
+// ones keeps theirs: a wide lobe that stands for them is scaled by the ratio.
 float energyOf(float base) {
 //? if lobe_base
-//? if roughness_variation
-  return 1.0;
-//? else
   return lobeEnergy(base);
-//? end
 //? else
   return 1.0;
 //? end
@@ -126,15 +122,23 @@ struct OwnLobe {
   float parameter, weight;
 };
 
+OwnLobe baseLobe(Footprints f) {
+//? if roughness_variation
+  return OwnLobe(vec3(0.0, 0.0, 1.0), lobeFromVariance(fetch(xu_vmf_variances, f.roughness).r), 1.0);
+//? else
+  return OwnLobe(vec3(0.0, 0.0, 1.0), lobe_cutoff.x, 1.0);
+//? end
+}
+
 //? if multi_lobe
 int ownLobeCount() { return max(facet_lobe_count, 1); }
-OwnLobe ownLobe(int k) {
+OwnLobe ownLobe(Footprints f, int k) {
   if (facet_lobe_count > 0) return OwnLobe(facet_lobes[k].axis, facet_lobes[k].parameter, facet_lobes[k].weight);
-  return OwnLobe(vec3(0.0, 0.0, 1.0), lobe_cutoff.x, 1.0);
+  return baseLobe(f);
 }
 //? else
 int ownLobeCount() { return 1; }
-OwnLobe ownLobe(int k) { return OwnLobe(vec3(0.0, 0.0, 1.0), lobe_cutoff.x, 1.0); }
+OwnLobe ownLobe(Footprints f, int k) { return baseLobe(f); }
 //? end
 
 void pushLobe(inout Effective e, vec3 mean, float q, float share, float amount) {
@@ -367,7 +371,7 @@ void addLobes(inout Effective e, Footprint f, int own) {
 //? end
 
 void addOwnLobe(inout Effective e, Footprints f, int k) {
-  OwnLobe own = ownLobe(k);
+  OwnLobe own = ownLobe(f, k);
   float q = shortfallOf(kappaOfLobe(own.parameter));
   facet_shortfall = q;
   facet_energy = energyOf(own.parameter);
@@ -380,6 +384,11 @@ void addOwnLobe(inout Effective e, Footprints f, int k) {
     pushLobe(e, own.axis, q, 1.0, 1.0);
     e.covered = 1.0;
   }
+//? if sampling_texel
+  // The lobe of the one texel that was drawn is a facet's own. The roughness map may have drawn another.
+  facet_shortfall = lobes[first].w;
+  facet_energy = energyOf(lobeOfKappa(kappaOf(facet_shortfall)));
+//? end
   int i = first;
   do {
     // Whole: Mesa 22.3 loses w where x, y and z alone are written.
@@ -430,14 +439,8 @@ vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
 }
 
 // A lobe's mean direction times its share and the length of the mean of its facets' unit normals: |r| over that of a
-// single facet. Where roughness varies, what of |r| is the normals' and what the lobes' is not known.
-vec3 meanNormalOf(vec4 lobe) {
-//? if roughness_variation
-  return lobe.xyz;
-//? else
-  return min((1.0 - lobe.w) / max(1.0 - facet_shortfall, 1e-6), 1.0) * lobe.xyz;
-//? end
-}
+// single facet.
+vec3 meanNormalOf(vec4 lobe) { return min((1.0 - lobe.w) / max(1.0 - facet_shortfall, 1e-6), 1.0) * lobe.xyz; }
 
 //? if diffuse
 vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {

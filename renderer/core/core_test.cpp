@@ -13,9 +13,12 @@
 #include "renderer/core/interrupt.hpp"
 #include "renderer/core/options.hpp"
 #include "renderer/core/suggest.hpp"
+#include "tests/support/says.hpp"
 
 namespace footprint {
 namespace {
+
+using test::says;
 
 // The text of the usage error that `action` ends in.
 std::string refusal(const std::function<void()>& action) {
@@ -26,11 +29,6 @@ std::string refusal(const std::function<void()>& action) {
     return error.what();
   }
   return "no error";
-}
-
-testing::AssertionResult says(const std::string& text, const std::string& expected) {
-  if (text.find(expected) != std::string::npos) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "`" << text << "` does not say `" << expected << "`";
 }
 
 // --- error.hpp

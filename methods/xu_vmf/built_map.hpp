@@ -35,6 +35,11 @@ struct MapLobe {
 /// The same with a roughness map.
 [[nodiscard]] Scene rough_square(const Image& normals, const Image& roughness);
 
+[[nodiscard]] glm::mat3 turn(double degrees, const glm::vec3& axis);
+
+/// Turns a scene's meshes about the origin.
+void turn_meshes(Scene& scene, const glm::mat3& by);
+
 /// The map of a scene's first material.
 class BuiltMap {
  public:

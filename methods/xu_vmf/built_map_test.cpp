@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
 #include "renderer/pipeline/base_surface.hpp"
@@ -42,6 +43,20 @@ Scene rough_square(const Image& normals, const Image& roughness) {
   for (std::size_t i = 0; i < roughness.texels.size(); ++i) map.texels[2 * i] = roughness.texels[i];
   scene.materials[0].metallic_roughness_map = TextureMap{"roughness", std::make_shared<const Image>(map), {}};
   return scene;
+}
+
+glm::mat3 turn(double degrees, const glm::vec3& axis) {
+  return glm::mat3(glm::rotate(glm::mat4(1.0F), static_cast<float>(glm::radians(degrees)), axis));
+}
+
+void turn_meshes(Scene& scene, const glm::mat3& by) {
+  for (Mesh& mesh : scene.meshes) {
+    for (Vertex& vertex : mesh.vertices) {
+      vertex.position = by * vertex.position;
+      vertex.normal = by * vertex.normal;
+      vertex.tangent = glm::vec4(by * glm::vec3(vertex.tangent), vertex.tangent.w);
+    }
+  }
 }
 
 BuiltMap::BuiltMap(const Scene& scene, const Words& words)

@@ -17,21 +17,9 @@ namespace {
 
 const Words camera_space{{"space", "camera"}};
 
-glm::mat3 turn(double degrees, const glm::vec3& axis) {
-  return glm::mat3(glm::rotate(glm::mat4(1.0F), static_cast<float>(glm::radians(degrees)), axis));
-}
-
-void turn_vertices(std::vector<Vertex>& vertices, const glm::mat3& by) {
-  for (Vertex& vertex : vertices) {
-    vertex.position = by * vertex.position;
-    vertex.normal = by * vertex.normal;
-    vertex.tangent = glm::vec4(by * glm::vec3(vertex.tangent), vertex.tangent.w);
-  }
-}
-
 Scene turned_square(double degrees, bool two_sided = false) {
   Scene scene = blinn_phong_square(random_normals(16, 8, 0.7F, 31), 100);
-  turn_vertices(scene.meshes[0].vertices, turn(degrees, {0, 1, 0}));
+  turn_meshes(scene, turn(degrees, {0, 1, 0}));
   scene.materials[0].double_sided = two_sided;
   return scene;
 }
@@ -73,9 +61,10 @@ TEST(CameraSpace, LeavesOutWhatFacesAwayAndTurnsTwoSidedSurfacesRound) {
 // Two planes under one flat map: the second is turned, and looks up the same texels.
 Scene two_planes(double degrees = 60) {
   Scene scene = blinn_phong_square(constant_normals(24, 24, {0, 0, 1}), 100);
-  Mesh tilted = make_plane({1, 1}, {1, 1});
-  turn_vertices(tilted.vertices, turn(degrees, {0, 1, 0}));
-  scene.meshes.push_back(tilted);
+  Scene tilted;
+  tilted.meshes.push_back(make_plane({1, 1}, {1, 1}));
+  turn_meshes(tilted, turn(degrees, {0, 1, 0}));
+  scene.meshes.push_back(tilted.meshes.front());
   return scene;
 }
 
@@ -138,6 +127,33 @@ TEST(CameraSpace, FallsBackToTheTangentFrameAndSaysSo) {
   const std::vector<MapLobe> lobes = map.lobes();
   ASSERT_EQ(lobes.size(), 1U);
   EXPECT_NEAR(lobes[0].kappa, 101.0, 0.01);
+}
+
+// A plane has one frame for all of its texels: turned to the camera's axes as a whole, one lobe a footprint is the same
+// lobe. Mirrored as well, and from behind. (Texels past the map's edge are others: the picture's middle.)
+TEST(CameraSpace, ShowsAPlaneAsTheTangentFrameDoes) {
+  for (const bool mirrored : {false, true}) {
+    for (const double degrees : {35.0, 145.0}) {
+      Scene scene = blinn_phong_square(random_normals(64, 64, 0.6F, 32), 100);
+      if (mirrored) {
+        for (Vertex& vertex : scene.meshes[0].vertices) {
+          vertex.uv0.x = 1.0F - vertex.uv0.x;
+          vertex.tangent = {-1.0F, 0.0F, 0.0F, -1.0F};
+        }
+      }
+      turn_meshes(scene, turn(degrees, {0.6F, 0.8F, 0.0F}));
+      scene.materials[0].double_sided = true;
+      scene.camera.yfov *= 0.25F;
+      TestRenderer renderer(scene, {32, 32});
+      for (const double distance : {1.0, 2.0}) {
+        const Image tangent = renderer.frame(xu_vmf_method(), "xu_vmf:j=1", 1, 0, distance);
+        const Image camera = renderer.frame(xu_vmf_method(), "xu_vmf:j=1:space=camera", 1, 0, distance);
+        ASSERT_GT(covered_mean(tangent), 1e-3);
+        EXPECT_LT(largest_difference(camera, tangent), 1e-3 * covered_mean(tangent))
+            << mirrored << ", " << degrees << ", " << distance;
+      }
+    }
+  }
 }
 
 // One renderer that goes on, frame after frame.

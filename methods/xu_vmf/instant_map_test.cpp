@@ -26,7 +26,7 @@ int cell_twin(const glm::dvec3& n, bool azimuth) {
 
 struct MapCase {
   std::string j;
-  bool azimuth;
+  bool azimuth, camera;
 };
 
 class XuMap : public ::testing::TestWithParam<MapCase> {};
@@ -38,14 +38,15 @@ Image checked_normals() {
   return normals;
 }
 
-// (r, 1) of the texels of a map with a roughness map: of all, and of those whose lobes lie in each of 8 cells.
-std::vector<Image> finest_twin(const Image& normals, const Image& roughness, bool azimuth) {
+// (r, 1) of the texels of a map with a roughness map: of all, and of those whose lobes lie in each of 8 cells, where
+// the surface is turned.
+std::vector<Image> finest_twin(const Image& normals, const Image& roughness, bool azimuth, const glm::dmat3& turned) {
   std::vector<Image> out(9, Image(normals.width, normals.height, 4, 0.0F));
   for (int y = 0; y < normals.height; ++y) {
     for (int x = 0; x < normals.width; ++x) {
       const auto texel = normals.at(x, y);
       if (texel[3] < 0.5F) continue;
-      const glm::dvec3 n = glm::normalize(glm::dvec3(texel[0], texel[1], texel[2]));
+      const glm::dvec3 n = turned * glm::normalize(glm::dvec3(texel[0], texel[1], texel[2]));
       const double alpha = std::pow(roughness.at(x, y)[0], 2.0);
       const glm::dvec3 r = (1.0 - shortfall_twin(2.0 / (alpha * alpha) - 1.0)) * n;  // kappa = s + 1
       for (const std::size_t layer : {0, 1 + cell_twin(n, azimuth)}) {
@@ -58,15 +59,20 @@ std::vector<Image> finest_twin(const Image& normals, const Image& roughness, boo
   return out;
 }
 
+// Half floats are rounded at each of 3 levels, to 1e-3 of one; others give the mean of what is covered, xyz / w, to
+// 1e-5.
 void expect_levels(const BuiltMap& map, std::string_view name, const std::vector<Image>& layers, std::size_t first,
-                   float tolerance) {
+                   bool half) {
   for (std::size_t layer = 0; layer < layers.size(); ++layer) {
     const std::vector<Image> chain = mip_chain(layers[layer]);
     for (std::size_t level = first; level < chain.size(); ++level) {
       const Image got = map.level(name, level - first);
       const Image& want = chain[level];
-      for (std::size_t i = 0; i < want.texels.size(); ++i)
-        EXPECT_NEAR(got.texels[layer * want.texels.size() + i], want.texels[i], tolerance) << layer << ", " << level;
+      for (std::size_t i = 0; i < want.texels.size(); ++i) {
+        const float covered = want.texels[i / 4 * 4 + 3];
+        EXPECT_NEAR(got.texels[layer * want.texels.size() + i], want.texels[i], half ? 1e-3F : 1e-5F * covered)
+            << layer << ", " << level;
+      }
     }
   }
 }
@@ -74,13 +80,18 @@ void expect_levels(const BuiltMap& map, std::string_view name, const std::vector
 // Every level of every layer of a map of odd sizes with holes and a roughness map: the mean of (r, 1) over the texels
 // under it, so that (xyz / w) is the mean of the covered ones.
 TEST_P(XuMap, HoldsTheMeansOfTheCoveredTexels) {
-  const auto& [j, azimuth] = GetParam();
+  const auto& [j, azimuth, camera] = GetParam();
   const Image normals = checked_normals();
   Image roughness(13, 7, 1);
   for (std::size_t i = 0; i < roughness.texels.size(); ++i)
     roughness.texels[i] = 0.2F + 0.7F * static_cast<float>(i % 9) / 9.0F;
-  const Words words{{"j", j}, {"partition", azimuth ? "azimuth" : "latitude"}};
-  const std::vector<Image> finest = finest_twin(normals, roughness, azimuth);
+  const Words words{
+      {"j", j}, {"partition", azimuth ? "azimuth" : "latitude"}, {"space", camera ? "camera" : "tangent"}};
+  const glm::mat3 turned = turn(40, {0.6F, 0.8F, 0.0F});
+  Scene scene = rough_square(normals, roughness);
+  turn_meshes(scene, turned);
+  const std::vector<Image> finest =
+      finest_twin(normals, roughness, azimuth, glm::dmat3(camera ? turned : glm::mat3(1)));
   std::vector<Image> parts(finest.begin() + 1, finest.end());
   if (j == "4") {
     for (std::size_t i = 0; i < 4; ++i) {
@@ -91,20 +102,26 @@ TEST_P(XuMap, HoldsTheMeansOfTheCoveredTexels) {
   for (const bool half : {false, true}) {
     Words stored = words;
     if (half) stored["storage"] = "fp16";
-    const BuiltMap map(rough_square(normals, roughness), stored);
-    const float tolerance = half ? 1e-3F : 1e-5F;  // rounded to half floats at each of 3 levels
-    if (j == "1" || j == "adaptive") expect_levels(map, "xu_vmf_whole", {finest[0]}, 0, tolerance);
-    if (j != "1") expect_levels(map, "xu_vmf_parts", parts, 1, tolerance);
+    const BuiltMap map(scene, stored);
+    if (j == "1" || j == "adaptive") expect_levels(map, "xu_vmf_whole", {finest[0]}, 0, half);
+    if (j != "1") expect_levels(map, "xu_vmf_parts", parts, 1, half);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, XuMap,
-                         ::testing::Values(MapCase{"1", true}, MapCase{"4", true}, MapCase{"8", true},
-                                           MapCase{"adaptive", true}, MapCase{"4", false}, MapCase{"8", false},
-                                           MapCase{"adaptive", false}),
-                         [](const auto& test) {
-                           return "j_" + test.param.j + (test.param.azimuth ? "_azimuth" : "_latitude");
-                         });
+std::vector<MapCase> map_cases() {
+  std::vector<MapCase> cases;
+  for (const std::string j : {"1", "4", "8", "adaptive"}) {
+    for (const bool azimuth : {true, false}) {
+      for (const bool camera : {false, true}) cases.push_back({j, azimuth, camera});
+    }
+  }
+  return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, XuMap, ::testing::ValuesIn(map_cases()), [](const auto& test) {
+  return "j_" + test.param.j + (test.param.azimuth ? "_azimuth" : "_latitude") +
+         (test.param.camera ? "_camera" : "_tangent");
+});
 
 // The map is what the frame's BRDF says, and nothing of the frame before stays in it.
 TEST(XuFrameBuild, AChangedBrdfGivesTheMapOfAColdStart) {

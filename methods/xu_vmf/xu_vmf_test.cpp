@@ -92,6 +92,33 @@ TEST(XuConversion, TheTableErrsAsTheGoldenOne) {
   }
 }
 
+// Where the table ends, the root's own limits go on.
+TEST(XuConversion, TheTableGoesOnBeyondItsEnds) {
+  for (const auto& [first, last] : {std::pair(1e-6, 9.9e-3), std::pair(1.01e5, 1e6)}) {
+    const ProbeInputs inputs = kappas(first, last, 101);
+    for (std::size_t i = 0; const glm::vec4& got : converted("return vec4(tabulatedShortfall(table, a.x));", inputs)) {
+      const float kappa = inputs[i++][0].x;
+      EXPECT_NEAR(got.x / shortfall_twin(kappa), 1.0, 5e-7) << kappa;
+    }
+  }
+}
+
+// Of the map that is built and of what it reflects, from lobes that know no direction to such as no float can follow.
+TEST(XuDensity, IsFiniteForEveryKappa) {
+  std::vector<glm::dvec3> directions = hemisphere_grid(8, 16);
+  const Image normals = random_normals(5, 3, 0.9F, 17);
+  for (int x = 0; x < 5; ++x) directions.emplace_back(normals.at(x, 1)[0], normals.at(x, 1)[1], normals.at(x, 1)[2]);
+  for (const float kappa : {0.0F, 1e-6F, 1e6F}) {
+    Scene scene = blinn_phong_square(normals, kappa);
+    scene.materials[0].brdf.distribution = NormalDistribution::vmf;
+    for (const Words& words : {Words{{"space", "camera"}}, Words{{"j", "8"}, {"storage", "fp16"}},
+                               Words{{"lobe", "vmf"}, {"conversion", "table"}}}) {
+      for (const double density : BuiltMap(scene, words).densities(directions))
+        EXPECT_TRUE(std::isfinite(density) && density >= 0.0) << kappa << " " << words.begin()->second;
+    }
+  }
+}
+
 TEST(XuConversion, IsFiniteForEveryKappa) {
   ProbeInputs inputs = kappas(1e-30, 1e6, 2001);
   inputs.push_back({glm::vec4(0), glm::vec4(0), glm::vec4(0)});

@@ -29,6 +29,15 @@ EffectSet effects_of_map(const Material& material) {
   return set;
 }
 
+// What a frame before may have left in a texture that the build fills.
+void spoil(const GpuTexture& texture, const PrefilteredTexture& declared) {
+  constexpr std::array<float, 4> anything{0.1F, -0.2F, 0.3F, 0.4F};
+  for (std::size_t level = 0; level < declared.levels.size(); ++level) {
+    gl::api().ClearTexImage(texture.texture.name(), static_cast<GLint>(level),
+                            declared.channels == 4 ? GL_RGBA : GL_RED, GL_FLOAT, anything.data());
+  }
+}
+
 }  // namespace
 
 Scene blinn_phong_square(const Image& normals, float exponent) {
@@ -66,7 +75,10 @@ BuiltMap::BuiltMap(const Scene& scene, const Words& words)
       scene_(shared_context().info(), scene, variant_.effects),
       baked_(xu_vmf_method().precompute_on(scene, 0, options_, variant_.effects, no_progress)),
       build_(xu_vmf_method().frame_build(variant_, options_)) {
-  for (const PrefilteredTexture& texture : baked_.textures) textures_.push_back(upload(texture));
+  for (const PrefilteredTexture& texture : baked_.textures) {
+    textures_.push_back(upload(texture));
+    if (texture.built) spoil(textures_.back(), texture);
+  }
   variant_.surface_coordinates = baked_.surface_coordinates.has_value();
   if (baked_.surface_coordinates)
     surface_coordinates_ = gl::Buffer(std::as_bytes(std::span(*baked_.surface_coordinates)));

@@ -35,6 +35,7 @@ Image checked_normals() {
   Image normals = random_normals(13, 7, 0.9F, 11);
   for (int x = 0; x < 5; ++x) normals.at(x, 3)[3] = 0.0F;
   std::ranges::fill(normals.at(6, 2), 0.0F);
+  std::fill_n(normals.at(7, 2).begin(), 3, 0.0F);  // no direction, though the map says that it has one
   return normals;
 }
 
@@ -45,7 +46,7 @@ std::vector<Image> finest_twin(const Image& normals, const Image& roughness, boo
   for (int y = 0; y < normals.height; ++y) {
     for (int x = 0; x < normals.width; ++x) {
       const auto texel = normals.at(x, y);
-      if (texel[3] < 0.5F) continue;
+      if (texel[3] < 0.5F || (texel[0] == 0.0F && texel[2] == 0.0F)) continue;
       const glm::dvec3 n = turned * glm::normalize(glm::dvec3(texel[0], texel[1], texel[2]));
       const double alpha = std::pow(roughness.at(x, y)[0], 2.0);
       const glm::dvec3 r = (1.0 - shortfall_twin(2.0 / (alpha * alpha) - 1.0)) * n;  // kappa = s + 1
@@ -59,8 +60,8 @@ std::vector<Image> finest_twin(const Image& normals, const Image& roughness, boo
   return out;
 }
 
-// Half floats are rounded at each of 3 levels, to 1e-3 of one; others give the mean of what is covered, xyz / w, to
-// 1e-5.
+// Half floats are rounded to the nearest, by up to 2^-12, at each level; others give the mean of what is covered, xyz /
+// w, to 1e-5.
 void expect_levels(const BuiltMap& map, std::string_view name, const std::vector<Image>& layers, std::size_t first,
                    bool half) {
   for (std::size_t layer = 0; layer < layers.size(); ++layer) {
@@ -68,9 +69,10 @@ void expect_levels(const BuiltMap& map, std::string_view name, const std::vector
     for (std::size_t level = first; level < chain.size(); ++level) {
       const Image got = map.level(name, level - first);
       const Image& want = chain[level];
+      const float rounded = 2.5e-4F * static_cast<float>(level + 1);
       for (std::size_t i = 0; i < want.texels.size(); ++i) {
         const float covered = want.texels[i / 4 * 4 + 3];
-        EXPECT_NEAR(got.texels[layer * want.texels.size() + i], want.texels[i], half ? 1e-3F : 1e-5F * covered)
+        EXPECT_NEAR(got.texels[layer * want.texels.size() + i], want.texels[i], half ? rounded : 1e-5F * covered)
             << layer << ", " << level;
       }
     }
@@ -122,6 +124,29 @@ INSTANTIATE_TEST_SUITE_P(All, XuMap, ::testing::ValuesIn(map_cases()), [](const 
   return "j_" + test.param.j + (test.param.azimuth ? "_azimuth" : "_latitude") +
          (test.param.camera ? "_camera" : "_tangent");
 });
+
+// What the parts hold of r under a footprint is what the whole hemisphere has there, between the texels and between the
+// levels too, where the finest level of a part is put together from the whole's.
+TEST(XuParts, MakeUpTheWholeUnderAnyFootprint) {
+  const Scene scene = blinn_phong_square(random_normals(16, 8, 0.7F, 41), 100);
+  ProbeInputs footprints;
+  for (const float texels : {0.3F, 1.0F, 1.4F, 2.0F, 3.0F, 9.0F}) {
+    for (int i = 0; i < 40; ++i) {
+      const auto along = static_cast<float>(i);
+      footprints.push_back({glm::vec4(0.137F * along, 0.071F * along, texels / 16.0F, texels / 8.0F), {}, {}});
+    }
+  }
+  const std::string sum =
+      "places.normal = Footprint(a.xy, vec2(a.z, 0.0), vec2(0.0, a.w));\ne = effective(places);\n"
+      "vec3 sum = vec3(0.0);\nfor (int i = 0; i < e.count; ++i) sum += (1.0 - lobes[i].w) * lobes[i].xyz;\n"
+      "return vec4(sum, 0.0);";
+  const std::vector<glm::vec4> whole = BuiltMap(scene, {{"j", "1"}}).probe(sum, footprints);
+  for (const std::string j : {"4", "8"}) {
+    const std::vector<glm::vec4> parts = BuiltMap(scene, {{"j", j}}).probe(sum, footprints);
+    for (std::size_t i = 0; i < whole.size(); ++i)
+      EXPECT_LT(glm::length(parts[i] - whole[i]), 5e-4F) << j << ", footprint " << i;
+  }
+}
 
 // The map is what the frame's BRDF says, and nothing of the frame before stays in it.
 TEST(XuFrameBuild, AChangedBrdfGivesTheMapOfAColdStart) {

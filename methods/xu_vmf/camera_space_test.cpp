@@ -215,6 +215,7 @@ TEST(XuFrames, OfWhatMovesAreThoseOfAColdStart) {
                             turned_square(20), turned_square(20), turned_square(0)};
   std::get<PointLight>(frames[2].lights[0]).position = {-0.6F, 0.2F, 1.2F};  // a light
   frames[3].materials[0].lobe_parameter = 30.0F;                             // the BRDF
+  frames[4] = frames[3];                                                     // the camera alone
   frames[4].camera.world = glm::translate(glm::mat4(turn(8, {1, 0, 0})), {0.3F, 0.0F, 3.0F});
   for (const std::string text :
        {"xu_vmf", "xu_vmf:rebuild=changed", "xu_vmf:space=camera", "xu_vmf:space=camera:rebuild=changed"}) {

@@ -29,7 +29,7 @@ struct SurfaceLayout {
 /// whole texels, so that a texel of the atlas shows exactly one of the map. None where coordinates are not finite, a
 /// chart overlaps itself, the atlas is over `largest_atlas`, or more than 1/1000 of the surface's area would have no
 /// texel: coordinates that are not there or lie on a line, charts smaller than a texel.
-[[nodiscard]] SurfaceLayout lay_out(const TriangleSoup& triangles, const TextureCoordinates& coordinates,
+[[nodiscard]] SurfaceLayout lay_out(const TriangleSoup& soup, const TextureCoordinates& coordinates,
                                     const glm::ivec2& map_size);
 
 }  // namespace footprint::xu_vmf

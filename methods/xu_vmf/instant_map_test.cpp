@@ -9,6 +9,7 @@
 #include "methods/xu_vmf/built_map.hpp"
 #include "methods/xu_vmf/shortfall_twin.hpp"
 #include "renderer/image/mipmap.hpp"
+#include "tests/support/rendering.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint::testing {
@@ -210,6 +211,17 @@ TEST(XuMap, HasTheLobesOfAFacetInLayersOfTheirOwn) {
       }
     }
   }
+}
+
+// Each with its own parts and half the weight.
+TEST(XuMap, OfTwoEqualLobesShowsOne) {
+  Scene scene = blinn_phong_square(random_normals(64, 64, 0.6F, 42), 100);
+  scene.materials[0].brdf.diffuse = false;
+  const Image one = TestRenderer(scene).frame(xu_vmf_method(), "xu_vmf:j=8", 1, 0, 2.0);
+  ASSERT_GT(covered_mean(one), 1e-3);
+  scene.materials[0].lobe_parameter.reset();
+  scene.materials[0].lobes = {{{0.0F, 0.0F, 1.0F}, 100.0F, 0.5F}, {{0.0F, 0.0F, 1.0F}, 100.0F, 0.5F}};
+  EXPECT_LT(largest_difference(TestRenderer(scene).frame(xu_vmf_method(), "xu_vmf:j=8", 1, 0, 2.0), one), 1e-4);
 }
 
 }  // namespace

@@ -19,13 +19,7 @@ extern const std::string_view xu_vmf_glsl, xu_vmf_conversion_glsl, xu_vmf_cells_
 namespace {
 
 OptionSpec threshold_option(std::string name, double value, std::string meaning) {
-  return {.name = std::move(name),
-          .default_value = value,
-          .minimum = 0.0,
-          .maximum = 1.0,
-          .choices = {},
-          .meaning = std::move(meaning),
-          .integer = false};
+  return number_option(std::move(name), value, 0.0, 1.0, std::move(meaning));
 }
 
 std::vector<OptionSpec> option_table() {

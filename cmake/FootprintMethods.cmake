@@ -2,8 +2,8 @@
 
 # footprint_add_method(NAME [SOURCES extra.cpp ...] [SHADERS extra ...] [LIBRARIES ...]): a prefiltering method in the
 # folder NAME, or in the current folder where that holds NAME.cpp, with NAME.cpp (which defines `const Method&
-# NAME_method()`), NAME.glsl (its text is footprint::embedded::NAME_glsl; that of a further extra.glsl is extra_glsl) and a
-# test program of all its *_test.cpp. Nothing else has to change: the registry is written from these lines.
+# NAME_method()`), NAME.glsl (its text is footprint::embedded::NAME_glsl; that of a further extra.glsl is extra_glsl)
+# and a test program of all its *_test.cpp. Nothing else has to change: the registry is written from these lines.
 function(footprint_add_method name)
   cmake_parse_arguments(ARG "" "" "SOURCES;SHADERS;LIBRARIES" ${ARGN})
   set(folder "${CMAKE_CURRENT_SOURCE_DIR}/${name}")
@@ -51,7 +51,8 @@ function(footprint_finish_methods target)
 endfunction()
 
 # footprint_add_program(TARGET): the program `footprint` with all methods added so far, those of other projects too. Its
-# own registry takes the place of the one in footprint_methods: a linker looks into an archive only for what it still lacks.
+# own registry takes the place of the one in footprint_methods: a linker looks into an archive only for what it still
+# lacks.
 function(footprint_add_program target)
   footprint_write_registry("${CMAKE_CURRENT_BINARY_DIR}/registry.cpp" libraries)
   add_executable(${target} "${FOOTPRINT_CMAKE_DIR}/../app/main.cpp" "${CMAKE_CURRENT_BINARY_DIR}/registry.cpp")

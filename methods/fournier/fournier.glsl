@@ -1,6 +1,6 @@
 // Fournier 1992: every texel of the mip chain holds Phong peaks fitted to its distribution of normals. Peaks of
-// neighbouring texels have nothing to do with each other, so none is blended: the peaks of all texels of the footprint are
-// scaled by the texels' weights and summed, 8 times as many as a texel has, again for every light.
+// neighbouring texels have nothing to do with each other, so none is blended: the peaks of all texels of the footprint
+// are scaled by the texels' weights and summed, 8 times as many as a texel has, again for every light.
 struct Effective {
   Footprint footprint;
   float variance;  // the base lobe's slope variance per axis

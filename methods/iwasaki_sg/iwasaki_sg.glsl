@@ -122,8 +122,8 @@ vec3 riseOf(vec3 h, vec3 wi) {
   return mix(below, texelFetch(iwasaki_rise, ivec2(min(low + 1, last), 0), 0).rgb, place - float(low));
 }
 
-// Facets that reflect by lobes of their own, in colour, of which the first is diffuse (equations 9 and 15 in one). The table
-// has the facets' cosine to the light over that of the surface.
+// Facets that reflect by lobes of their own, in colour, of which the first is diffuse (equations 9 and 15 in one). The
+// table has the facets' cosine to the light over that of the surface.
 vec3 tabulatedReflection(Effective e, vec3 wi, vec3 wo) {
   if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
   vec3 h = halfVector(wi, wo);

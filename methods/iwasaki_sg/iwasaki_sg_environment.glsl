@@ -48,8 +48,8 @@ NormalLobe normalLobe(Effective e, int i) {
 //? if microgeometry_visibility
 const float inverse_root_of_two_pi = 0.3989423;
 
-// The mean height over the horizon of a vMF lobe's part above it: that of a Gaussian in the plane that touches the sphere
-// at the lobe's centre, which at the zenith is the mean cosine to the axis.
+// The mean height over the horizon of a vMF lobe's part above it: that of a Gaussian in the plane that touches the
+// sphere at the lobe's centre, which at the zenith is the mean cosine to the axis.
 float meanHeight(float height, float sharpness) {
   float deviation = sqrt(max(1.0 - height * height, 0.0) / sharpness);
   if (deviation < 1e-4) return max(height, 0.0) * meanCosine(sharpness);

@@ -74,6 +74,7 @@ PrefilteredTexture amplitude_texture(const Amplitudes& table, const TableSetting
   values.push_back(tiled(table.diffuse, table.channels, settings.side, Irradiance::with));
   if (table.channels == 1) values = packed(values);
   std::vector<std::vector<Image>> layers;
+  layers.reserve(values.size());
   for (Image& value : values) layers.push_back({std::move(value)});
   return make_array_texture("iwasaki_amplitudes", layers, storage, {}, TextureFilter::linear);
 }

@@ -13,8 +13,8 @@ struct Effective {
 
 //? if diffuse
 //? if normal_layers
-// The mean of the unit normals of both layers together: no texture holds it, but their slopes' distribution tells it, by
-// 3 x 3 points of Gauss and Hermite.
+// The mean of the unit normals of both layers together: no texture holds it, but their slopes' distribution tells it,
+// by 3 x 3 points of Gauss and Hermite.
 vec3 meanNormal(SlopeLobe lobe) {
   mat2 root = covarianceRoot(lobe.spread);
   vec3 sum = vec3(0.0);

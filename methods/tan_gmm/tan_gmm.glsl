@@ -1,15 +1,15 @@
 // Tan et al. 2005, "Multiresolution Reflectance Filtering": the normals under a footprint are a mixture of isotropic
-// Gaussians over the unit disc of (n_x, n_y). A component's weight, mean and second moment are linear in its samples, so
-// that the texture filter blends them; mean and variance are recovered behind the filter (section 4.2).
+// Gaussians over the unit disc of (n_x, n_y). A component's weight, mean and second moment are linear in its samples,
+// so that the texture filter blends them; mean and variance are recovered behind the filter (section 4.2).
 //? if normal_variation
 const int components = int(option_n);
 //? else
 const int components = 1;
 //? end
 
-// Components. Gaussian: `amount` is the share of the energy over the density's norm, `width` the variance per axis of the
-// disc, normals and base lobe together. Else `amount` is the share and `width` the parameter of the widened base lobe. An
-// amount of 0: the component is not there.
+// Components. Gaussian: `amount` is the share of the energy over the density's norm, `width` the variance per axis of
+// the disc, normals and base lobe together. Else `amount` is the share and `width` the parameter of the widened base
+// lobe. An amount of 0: the component is not there.
 struct Effective {
   vec3 mean[components];
   float share[components];
@@ -82,8 +82,8 @@ float rimFactor(vec2 mean, float variance, float height, float base_variance) {
 //? end
 }
 
-// The Gaussian over the disc that stands for normals and base lobe together (Tan 2005, section 3): its variance, and its
-// share of the energy over the density's norm. `base` is the base lobe's variance.
+// The Gaussian over the disc that stands for normals and base lobe together (Tan 2005, section 3): its variance, and
+// its share of the energy over the density's norm. `base` is the base lobe's variance.
 float widthOverDisc(float spread, float base, float height) {
   return clamp(spread + baseOverDisc(base, height), 1e-6, 4.0);
 }
@@ -111,8 +111,8 @@ float lobeOverComponent(Effective e, int i, vec3 h) {
 }
 
 //? if multi_lobe
-// Lobe k about its axis, turned with the mean; `own` is h in the mean's frame. Of an axis below the horizon nothing is over
-// the disc.
+// Lobe k about its axis, turned with the mean; `own` is h in the mean's frame. Of an axis below the horizon nothing is
+// over the disc.
 float lobeOverComponent(Effective e, int i, int k, vec3 h, vec3 own) {
   vec3 axis = turnedWithNormal(facet_lobes[k].axis, e.mean[i]);
   if (axis.z <= 0.0 || e.amount[i] <= 0.0) return 0.0;

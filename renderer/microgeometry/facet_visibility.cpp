@@ -128,8 +128,9 @@ class Projector {
 
   // Where the samples project to, within one period, and the cells that they fall in. No branch, no call.
   void project_samples(const glm::vec2& shear, Scratch& s) const {
-    // Truncation is the floor of what is above 0: the samples reach below by less than this many periods.
-    constexpr float above_zero = 256.0F;
+    // Truncation is the floor of what is above 0: the samples reach below by less than this many periods, 16 up and 24
+    // along for each in the lowest direction of a grid of 48 x 48.
+    constexpr float above_zero = 512.0F;
     const glm::vec2 per_period = 1.0F / patch_.period;
     const auto last_cell = side_ - 1;
     const auto cells = static_cast<float>(side_);

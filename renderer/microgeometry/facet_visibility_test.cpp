@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "renderer/core/error.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
@@ -58,6 +60,32 @@ TEST(FacetVisibility, FollowsRaysThroughManyPeriods) {
   const Patch patch = make_patch(find_patch_kind("pyramids"), {{"slope_degrees", "70"}, {"floor", "0.6"}});
   const Agreement found = against_rays(patch, 1000, 12, 9);
   EXPECT_LT(static_cast<double>(found.different), 2e-4 * static_cast<double>(found.all)) << found.different;
+}
+
+// A floor under squares half as wide as the period: hidden is what a square, moved along the ray, lies over. As high up
+// and seen from as low as can be, rays reach several hundred periods far.
+TEST(FacetVisibility, FollowsRaysThroughHundredsOfPeriods) {
+  constexpr float floor = 15.0F, roof = 16.0F;
+  Patch patch;
+  patch.name = "squares";
+  patch.vertices = {{0, 0, floor},        {1, 0, floor},        {1, 1, floor},        {0, 1, floor},
+                    {0.25F, 0.25F, roof}, {0.75F, 0.25F, roof}, {0.75F, 0.75F, roof}, {0.25F, 0.75F, roof}};
+  patch.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+  check_patch(patch, "test");
+  const FacetSamples samples = sample_facets(patch, 4000, 7);
+  const glm::dvec2 shear(24.2, 3.3);
+  const FacetVisibility visibility =
+      facet_visibility(patch, samples, std::vector{glm::normalize(glm::dvec3(shear, 1.0))}, no_progress);
+  std::size_t different = 0, hidden = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const glm::vec3& p = samples.positions[i];
+    const glm::dvec2 above = glm::fract(glm::dvec2(p) + shear);
+    const bool covered = p.z < 15.5F && std::max(std::abs(above.x - 0.5), std::abs(above.y - 0.5)) < 0.25;
+    hidden += covered;
+    different += visibility.visible(0, i) == covered;
+  }
+  EXPECT_NEAR(static_cast<double>(hidden), 800.0, 100.0);  // a quarter of the floor, which has 4 of 5 samples
+  EXPECT_LT(different, 10U);
 }
 
 // A triangle may be wider than the period: its copies overlap it.

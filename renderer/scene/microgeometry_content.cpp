@@ -23,21 +23,24 @@ Patch patch_of_model(const MicrogeometrySettings& settings) {
   patch.name = file;
   patch.palette.clear();
   for (const Material& material : model.materials) patch.palette.emplace_back(material.base_color);
-  glm::vec2 lower(std::numeric_limits<float>::max()), upper(std::numeric_limits<float>::lowest());
+  glm::vec3 lower(std::numeric_limits<float>::max()), upper(std::numeric_limits<float>::lowest());
   for (const Mesh& mesh : model.meshes) {
     const auto base = static_cast<std::uint32_t>(patch.vertices.size());
     for (const Vertex& vertex : mesh.vertices) {
       const glm::vec3 p(vertex.position.x, -vertex.position.z, vertex.position.y);
       patch.vertices.push_back(p);
-      lower = glm::min(lower, glm::vec2(p));
-      upper = glm::max(upper, glm::vec2(p));
+      lower = glm::min(lower, p);
+      upper = glm::max(upper, p);
     }
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
       patch.triangles.push_back(base + glm::uvec3(mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]));
       patch.paints.push_back(static_cast<std::uint8_t>(mesh.material));
     }
   }
-  patch.period = settings.period.value_or(upper - lower);
+  patch.period = settings.period.value_or(glm::vec2(upper - lower));
+  // The same tiling from about the origin: what lies far off it would lose the digits that tell facets apart.
+  const glm::vec3 corner(glm::floor(glm::vec2(lower) / patch.period) * patch.period, lower.z);
+  for (glm::vec3& vertex : patch.vertices) vertex -= corner;
   return patch;
 }
 

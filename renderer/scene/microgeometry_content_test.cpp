@@ -37,8 +37,13 @@ TEST(MicrogeometryContent, TakesAModelsTriangles) {
   const auto model = std::filesystem::path("/usr/share/assimp/models/glTF2/BoxTextured-glTF/BoxTextured.gltf");
   if (!std::filesystem::exists(model)) GTEST_SKIP() << "the package assimp-testmodels is not there";
   const Scene scene = load("model = \"" + model.string() + "\"\nperiod = [2, 2]\n");
-  EXPECT_EQ(scene.materials.at(0).microgeometry->patch.triangles.size(), 12U);
-  EXPECT_EQ(scene.materials.at(0).microgeometry->patch.period, glm::vec2(2.0F));
+  const Patch& patch = scene.materials.at(0).microgeometry->patch;
+  EXPECT_EQ(patch.triangles.size(), 12U);
+  EXPECT_EQ(patch.period, glm::vec2(2.0F));
+  // The cube about the origin, a whole period further and on the ground.
+  glm::vec3 lower(1e9F);
+  for (const glm::vec3& vertex : patch.vertices) lower = glm::min(lower, vertex);
+  EXPECT_EQ(lower, glm::vec3(1.5F, 1.5F, 0.0F));
 }
 
 TEST(MicrogeometryContent, MistakesNameTheirLine) {

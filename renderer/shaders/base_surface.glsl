@@ -51,8 +51,8 @@ vec3 lambertDirection(vec3 n, vec2 u) {
   return frameAbout(n) * vec3(sqrt(u.x) * vec2(cos(azimuth), sin(azimuth)), sqrt(1.0 - u.x));
 }
 
-// A direction to the light: the mirror image of wo about a normal drawn from the facets, or, one time in two where there
-// is a diffuse term, one of Lambert's. Below the horizon: none.
+// A direction to the light: the mirror image of wo about a normal drawn from the facets, or, one time in two where
+// there is a diffuse term, one of Lambert's. Below the horizon: none.
 vec3 drawDirection(Effective e, vec3 wo, vec3 u) {
 //? if microgeometry_visibility
   if (base_has_patch > 0.5) return lambertDirection(vec3(0.0, 0.0, 1.0), u.xy);  // facets point everywhere

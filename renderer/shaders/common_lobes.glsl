@@ -60,8 +60,8 @@ float lobeVariance(float alpha) { return 0.5 * alpha * alpha; }
 float lobeFromVariance(float variance) { return max(sqrt(2.0 * variance), smallest_alpha); }
 float lobeAlpha(float alpha) { return alpha; }
 // int sqrt(1 + alpha^2 t) e^-t dt = 1 + sqrt(pi) / 2 alpha e^(x^2) erfc(x), x = 1 / alpha. Abramowitz and Stegun 7.1.13
-// bounds it by this form with c = 2, exact for narrow lobes, and 4 / pi, exact for wide ones; with c between them as fitted
-// here it is within 5e-4.
+// bounds it by this form with c = 2, exact for narrow lobes, and 4 / pi, exact for wide ones; with c between them as
+// fitted here it is within 5e-4.
 float lobeEnergy(float alpha) {
   float a2 = alpha * alpha;
   float side = 1.0 + 1.588 * alpha;

@@ -1,5 +1,5 @@
-// Directions drawn from the environment's texels and from the module's own lobe, weighed by the balance heuristic (Veach
-// and Guibas 1995).
+// Directions drawn from the environment's texels and from the module's own lobe, weighed by the balance heuristic
+// (Veach and Guibas 1995).
 layout(std140, binding = 5) uniform EnvironmentBlock {
   vec4 environment_size;  // columns, rows; turn of the map about +y in radians; directions of each kind a sample
 };

@@ -1,5 +1,5 @@
-// Environment light for prefiltered footprints: each lobe of the module's NDF takes the environment's mean over the lobe
-// that its mirror images make about the viewer (Wang 2009), from a stack of prefiltered maps (Kautz 2000).
+// Environment light for prefiltered footprints: each lobe of the module's NDF takes the environment's mean over the
+// lobe that its mirror images make about the viewer (Wang 2009), from a stack of prefiltered maps (Kautz 2000).
 layout(std140, binding = 5) uniform EnvironmentBlock {
   vec4 environment_mean;         // radiance over all directions
   vec4 environment_stack_range;  // sharpness of the finest map's lobe, number of maps: two a level; nodes around a ring
@@ -16,10 +16,10 @@ vec3 stackMap(int map, vec2 place) {
   return textureLod(environment_stack, vec3(borderedPlace(place, size), map & 1), float(level)).rgb;
 }
 
-// The environment's mean over a vMF lobe. Every map's lobe is half as sharp as the one before it. Between two of them the
-// mean is taken as linear in the logarithm of the sharpness: in a smooth environment it is so in 1 / sharpness, at a lamp
-// in the sharpness itself, and between the two nothing is off by more than 6%. Behind the last map it goes to the mean
-// over all directions as the sharpness goes to 0.
+// The environment's mean over a vMF lobe. Every map's lobe is half as sharp as the one before it. Between two of them
+// the mean is taken as linear in the logarithm of the sharpness: in a smooth environment it is so in 1 / sharpness, at
+// a lamp in the sharpness itself, and between the two nothing is off by more than 6%. Behind the last map it goes to
+// the mean over all directions as the sharpness goes to 0.
 vec3 stackRadiance(vec3 axis, float sharpness) {
   vec2 place = octahedral(axis);
   float finest = environment_stack_range.x;
@@ -89,8 +89,8 @@ ReflectedLobe aboveHorizon(ReflectedLobe lobe, float share) {
   return ReflectedLobe(normalize(moved), sharpness);
 }
 
-// What stands beside the density of lobe i in f cos, G' and F apart, or all that a module with small-scale geometry knows
-// of it. `sharpness` is that of the lobe of directions to the light about wi.
+// What stands beside the density of lobe i in f cos, G' and F apart, or all that a module with small-scale geometry
+// knows of it. `sharpness` is that of the lobe of directions to the light about wi.
 struct Beside {
   float weight;
   vec3 color;
@@ -106,9 +106,9 @@ Beside besideDensity(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 h, vec3 
 //? end
 }
 
-// What a lobe reflects towards wo: integral of F D G' L over wi. With dwi = 4 (h.wo) dh the lobe's energy is 4 times what
-// is visible of it; about the mirror image of the visible normals' mean it is 4 (axis.wo) times wider (Wang 2009). F and
-// G' are taken there, and of what lies below the surface's horizon nothing arrives.
+// What a lobe reflects towards wo: integral of F D G' L over wi. With dwi = 4 (h.wo) dh the lobe's energy is 4 times
+// what is visible of it; about the mirror image of the visible normals' mean it is 4 (axis.wo) times wider (Wang 2009).
+// F and G' are taken there, and of what lies below the surface's horizon nothing arrives.
 vec3 lobeRadiance(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wo, mat3 frame) {
   VisibleLobe visible = visibleLobe(lobe, wo);
   float cosine = max(dot(visible.axis, wo), 0.01);

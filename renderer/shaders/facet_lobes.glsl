@@ -1,7 +1,7 @@
 // Facets that reflect with several lobes, whose axes turn with the facet's normal (docs/base-brdf.md).
 
-// The shortest rotation that takes z to n, of an axis. 1 / (1 + n_z) is (1 - n_z) / |n_xy|^2 where the sum cancels; n = -z
-// turns about the bitangent.
+// The shortest rotation that takes z to n, of an axis. 1 / (1 + n_z) is (1 - n_z) / |n_xy|^2 where the sum cancels; n =
+// -z turns about the bitangent.
 vec3 turnedWithNormal(vec3 axis, vec3 n) {
   vec2 side = n.xy;
   float share = 1.0 / (1.0 + max(n.z, 0.0));

@@ -8,11 +8,7 @@ float kappaOfLobe(float lobe);
 float lobeOfKappa(float kappa);
 int cellOf(vec3 r);
 int partOfCell(int cell);
-//? if j_4
-const int part_count = 4;
-//? else
-const int part_count = 8;
-//? end
+int beyondPart(int part);
 
 //? if j_1
 const int most_of_one = 1;
@@ -255,7 +251,8 @@ Probe probeAt(int own, vec2 uv, float level) {
 // One part under one probe.
 Part partAt(Probe p, int part) {
   float share = clamp(p.level, 0.0, 1.0);
-  vec3 place = vec3(p.uv, p.own * part_count + part);
+  int layers = textureSize(xu_vmf_parts, 0).z / ownLobeCount();
+  vec3 place = vec3(p.uv, p.own * layers + part);
   vec4 r = share * textureLod(xu_vmf_parts, place, p.level - 1.0);
   float least = 0.0;
 //? if storage_fp16
@@ -263,91 +260,85 @@ Part partAt(Probe p, int part) {
   least = share * textureLod(xu_vmf_parts_guard, place, p.level - 1.0).r;
 //? end
 //? end
+  int beyond = beyondPart(part);
   for (int i = 0; i < 4; ++i) {
-    bool own = p.part[i] == part;
-    r += own ? p.texel[i] : vec4(0.0);
-    least += own ? p.least[i] : 0.0;
+    bool holds = part <= p.part[i] && p.part[i] < beyond;
+    r += holds ? p.texel[i] : vec4(0.0);
+    least += holds ? p.least[i] : 0.0;
   }
   return partOf(r, least);
 }
 
-Part sumOf(Part a, Part b) { return Part(a.r + b.r, a.least + b.least); }
-
 //? if anisotropic
 Part partUnder(Footprint f, int own, int part) {
   Probes p = probesOf(vec2(textureSize(xu_vmf_whole, 0).xy), f);
-  Part sum = Part(vec4(0.0), 0.0);
-  for (int i = 0; i < p.count; ++i) sum = sumOf(sum, partAt(probeAt(own, probeUv(f, p, i), p.level), part));
-  return Part(sum.r / float(p.count), sum.least / float(p.count));
+  vec4 r = vec4(0.0);
+  float least = 0.0;
+  for (int i = 0; i < p.count; ++i) {
+    Part one = partAt(probeAt(own, probeUv(f, p, i), p.level), part);
+    r += one.r;
+    least += one.least;
+  }
+  return Part(r / float(p.count), least / float(p.count));
 }
 //? end
 
-// How far one lobe serves a part: 1 wholly, 0 not at all. Algorithm 1 steps at the threshold.
-float unityOf(Part part, float threshold) {
-  float size = length(part.r.xyz) / max(part.r.w, 1e-30);
+//? if j_adaptive
+// How far one lobe serves a part: 1 wholly, 0 not at all. Algorithm 1 steps at the threshold. A cell is not cut, nor
+// what nothing is in.
+float unityOf(Part part, int i) {
+  if (beyondPart(i) == i + 1 || part.r.w < least_share) return 1.0;
+  float size = length(part.r.xyz) / part.r.w;
+  float threshold = i == 0 ? option_eps0 : option_eps1;
 //? if thresholds_blended
   return clamp((size - threshold) / 0.02 + 1.0, 0.0, 1.0);
 //? else
   return size > threshold ? 1.0 : 0.0;
 //? end
 }
+//? end
 
-// Loops run over the layers that the map has: a count that the compiler does not know, so that it unrolls nothing and
-// compiles in a fraction of the time. They ask at their end: a software renderer runs a body that is asked for first
-// once more than needed. It runs what a condition leaves out as well, but not a loop's further rounds: so the lobe of
-// the whole hemisphere, which serves most footprints, is the first round.
+// The loop runs over the layers that the map has: a count that the compiler does not know, so that it unrolls nothing
+// and compiles in a fraction of the time. It asks at its end: a software renderer runs a body that is asked for first
+// once more than needed. It runs what a condition leaves out as well, but not a loop's further rounds: so every part is
+// a round of its own, the whole hemisphere, which serves most footprints, the first, and a pixel goes on to what it
+// needs next: the parts that this one is cut into, or those beyond it.
 void addParts(inout Effective e, Footprint f, int own) {
   int layers = textureSize(xu_vmf_parts, 0).z / ownLobeCount();
 //? if not anisotropic
   Probe probe = probeAt(own, f.uv, levelOf(vec2(textureSize(xu_vmf_whole, 0).xy), f));
 //? end
 //? if j_adaptive
-  Part whole = wholeAt(f, own);
-  float whole_unity = unityOf(whole, option_eps0);
-  Part first = whole;
-  Effective before = e;
-  int i = -1;
-//? else
-  int i = 0;
+//? if thresholds_blended
+  float coarse_weight = 0.0;  // what the hemisphere leaves to the coarse parts, and such a part to its cells
+  float cell_weight = 0.0;
 //? end
+//? end
+  int i = 0;
   do {
 //? if anisotropic
-    Part part = partUnder(f, own, max(i, 0));
+    Part part = partUnder(f, own, i);
 //? else
-    Part part = partAt(probe, max(i, 0));
+    Part part = partAt(probe, i);
 //? end
-    float weight = 1.0;
 //? if j_adaptive
-    // A coarse cell is the sum of its two fine ones, so that it needs no layer of its own. Where it is not to be cut, it
-    // takes the place of both.
-    weight = 1.0 - whole_unity;
-    if (i < 0) {
-      part = whole;
-      weight = whole_unity;
-    } else if (i % 2 == 0) {
-      before = e;
-      first = part;
-    } else {
-      Part both = sumOf(first, part);
-      float unity = unityOf(both, option_eps1);
+    float unity = unityOf(part, i);
+    int beyond = beyondPart(i);
 //? if thresholds_blended
-      e = before;
-      addLobe(e, first, weight * (1.0 - unity));
-      addLobe(e, both, weight * unity);
-      weight *= 1.0 - unity;
+    bool is_cell = beyond == i + 1;
+    float weight = i == 0 ? 1.0 : is_cell ? cell_weight : coarse_weight;
+    addLobe(e, part, weight * unity);
+    if (!is_cell) cell_weight = weight * (1.0 - unity);
+    if (i == 0) coarse_weight = 1.0 - unity;
 //? else
-      if (unity > 0.0) {
-        e = before;
-        part = both;
-      }
+    addLobe(e, part, unity);
 //? end
-    }
+    i = unity >= 1.0 ? beyond : i + 1;
+//? else
+    addLobe(e, part, 1.0);
+    ++i;
 //? end
-    addLobe(e, part, weight);
-//? if j_adaptive
-    if (whole_unity >= 1.0) break;
-//? end
-  } while (++i < layers);
+  } while (i < layers);
 }
 //? end
 //? end

@@ -29,20 +29,19 @@ const int most_lobes = most_of_one * most_facet_lobes;
 const int most_lobes = most_of_one;
 //? end
 
-// A pixel's lobes, 0 to count - 1: mean direction times share of the footprint, and 1 - |r|. Few numbers, since an array
+// A pixel's lobes, 0 to count - 1, with what all lights take of them: mean direction and width (the parameter of the base
+// lobe, or kappa), and what the density and the cosine of the mean normal are multiplied by. Few numbers, since an array
 // whose index is not known is dear to write and to read. They are no member of Effective, which functions take by value:
 // a software renderer would copy them all at every call.
 vec4 lobes[most_lobes];
-//? if variant_published
-float amounts[most_lobes];  // what each adds with; it is the share where lobes weigh what they cover
-//? end
-//? if multi_lobe
-float facet_energies[most_lobes];  // of the facets' lobe that each stands for
+vec2 weights[most_lobes];
+//? if environment_light
+float shares[most_lobes];  // of the footprint's facets, but as published
 //? end
 
 struct Effective {
   int count;
-  float covered;  // of the footprint, by the lobes of one of the facets'
+  float covered;  // of the footprint, by the lobes: what their weights are still to be divided by
 //? if multi_lobe
   vec3 normal;  // mean of the unit normals of facets with lobes of their own axes
 //? end
@@ -75,33 +74,22 @@ float energyOf(float base) {
 //? end
 }
 
-float facetEnergy(int i) {
-//? if multi_lobe
-  return facet_energies[i];
-//? else
-  return facet_energy;
-//? end
-}
-
 struct Lobe {
   vec3 mean;
+//? if not lobe_base
   float kappa;
+//? end
   float base;    // the base lobe of that width
-  float share;   // of the footprint's facets, but as published
   float amount;  // what its density is multiplied by
 };
 
 Lobe lobeAt(int i) {
   vec4 lobe = lobes[i];
-  float size = length(lobe.xyz);
-  float kappa = kappaOf(lobe.w);
-  float base = lobeOfKappa(kappa);
-//? if variant_published
-  float share = amounts[i];
+//? if lobe_base
+  return Lobe(lobe.xyz, lobe.w, weights[i].x);
 //? else
-  float share = size;
+  return Lobe(lobe.xyz, lobe.w, lobeOfKappa(lobe.w), weights[i].x);
 //? end
-  return Lobe(lobe.xyz / max(size, 1e-30), kappa, base, share, share * facetEnergy(i) / energyOf(base));
 }
 
 float densityOf(Lobe lobe, vec3 h) {
@@ -133,10 +121,31 @@ int ownLobeCount() { return 1; }
 OwnLobe ownLobe(int k) { return OwnLobe(vec3(0.0, 0.0, 1.0), lobe_cutoff.x, 1.0); }
 //? end
 
+// The length of the mean of a lobe's facets' unit normals: |r| over that of a single facet. Where roughness varies, what
+// of |r| is the normals' and what the lobes' is not known.
+float meanNormalLength(float q) {
+//? if roughness_variation
+  return 1.0;
+//? else
+  return min((1.0 - q) / max(1.0 - facet_shortfall, 1e-6), 1.0);
+//? end
+}
+
+// `amount` is what the lobe adds with as published: it is the share where lobes weigh what they cover.
 void pushLobe(inout Effective e, vec3 mean, float q, float share, float amount) {
-  lobes[e.count] = vec4(share * mean, q);
-//? if variant_published
-  amounts[e.count] = amount;
+  float kappa = kappaOf(q);
+  float base = lobeOfKappa(kappa);
+//? if not variant_published
+  amount = share;
+//? end
+//? if lobe_base
+  lobes[e.count] = vec4(mean, base);
+//? else
+  lobes[e.count] = vec4(mean, kappa);
+//? end
+  weights[e.count] = vec2(amount * facet_energy / energyOf(base), share * meanNormalLength(q));
+//? if environment_light
+  shares[e.count] = amount;
 //? end
   ++e.count;
 }
@@ -215,10 +224,13 @@ struct Probe {
 };
 
 // The four texels about a place come by their channels, gathered from the middle between them, where no hardware rounds
-// to others.
+// to others. Each is (r, 1), or 0: the fourth channel needs no look.
 mat4 texelsAbout(sampler2DArray map, vec3 middle) {
-  return transpose(mat4(textureGather(map, middle, 0), textureGather(map, middle, 1), textureGather(map, middle, 2),
-                        textureGather(map, middle, 3)));
+  vec4 x = textureGather(map, middle, 0);
+  vec4 y = textureGather(map, middle, 1);
+  vec4 z = textureGather(map, middle, 2);
+  vec4 covered = vec4(notEqual(abs(x) + abs(y) + abs(z), vec4(0.0)));
+  return transpose(mat4(x, y, z, covered));
 }
 
 Probe probeAt(int own, vec2 uv, float level) {
@@ -357,31 +369,42 @@ void addLobes(inout Effective e, Footprint f, int own) {
 }
 //? end
 
+// What the amounts are still to be divided by.
+float amountsOf(Effective e) {
+//? if variant_published
+  return 1.0;
+//? else
+  return e.covered;
+//? end
+}
+
 void addOwnLobe(inout Effective e, Footprints f, int k) {
   OwnLobe own = ownLobe(k);
   float q = shortfallOf(kappaOfLobe(own.parameter));
   facet_shortfall = q;
   facet_energy = energyOf(own.parameter);
   int first = e.count;
+  pushLobe(e, own.axis, q, 1.0, 1.0);  // flat facets, unless others take their place
+  e.count = first;
   e.covered = 0.0;
 //? if texture_arrays
   addLobes(e, placeOf(f), k);
 //? end
-  if (e.count == first) {  // flat facets
-    pushLobe(e, own.axis, q, 1.0, 1.0);
+  if (e.count == first) {
     e.covered = 1.0;
+    ++e.count;
   }
+//? if multi_lobe
+  // Each of the facets' lobes has parts of its own, which cover what they cover.
   int i = first;
   do {
-    // Whole: Mesa 22.3 loses w where x, y and z alone are written.
-    lobes[i] *= vec4(vec3(own.weight / e.covered), 1.0);
-//? if variant_published
-    amounts[i] *= own.weight;
-//? end
-//? if multi_lobe
-    facet_energies[i] = facet_energy;
+    weights[i] *= own.weight / vec2(amountsOf(e), e.covered);
+//? if environment_light
+    shares[i] *= own.weight / amountsOf(e);
 //? end
   } while (++i < e.count);
+  e.covered = 1.0;
+//? end
 }
 
 Effective effective(Footprints f) {
@@ -408,26 +431,30 @@ vec3 geometryAxis(Effective e, vec3 mean) {
   return mean;
 }
 
+//? if diffuse
+float last_cosine;  // of the facets' unit normals with the light, their mean: found by `specular`, for `diffuse` after it
+//? end
+
+// One loop for both terms: a lobe is dear to read.
 vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
-  if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
   vec3 h = halfVector(wi, wo);
   float sum = 0.0;
+//? if diffuse
+  float cosine = 0.0;
+//? end
   int i = 0;
   do {
     Lobe lobe = lobeAt(i);
     sum += lobe.amount * densityOf(lobe, h) * geometryFactor(lobe.base, geometryAxis(e, lobe.mean), h, wi, wo);
-  } while (++i < e.count);
-  return fresnelTerm(f0, wi, wo) * sum;
-}
-
-// A lobe's mean direction times its share and the length of the mean of its facets' unit normals: |r| over that of a
-// single facet. Where roughness varies, what of |r| is the normals' and what the lobes' is not known.
-vec3 meanNormalOf(vec4 lobe) {
-//? if roughness_variation
-  return lobe.xyz;
-//? else
-  return min((1.0 - lobe.w) / max(1.0 - facet_shortfall, 1e-6), 1.0) * lobe.xyz;
+//? if diffuse
+    cosine += weights[i].y * max(dot(lobe.mean, wi), 0.0);
 //? end
+  } while (++i < e.count);
+//? if diffuse
+  last_cosine = cosine / e.covered;
+//? end
+  if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
+  return fresnelTerm(f0, wi, wo) * (sum / amountsOf(e));
 }
 
 //? if diffuse
@@ -438,12 +465,7 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
     return size * lambert(e.normal / size, albedo, f0, wi, wo);
   }
 //? end
-  vec3 sum = vec3(0.0);
-  int i = 0;
-  do {
-    sum += lambert(meanNormalOf(lobes[i]), albedo, f0, wi, wo);
-  } while (++i < e.count);
-  return sum;
+  return lambert(last_cosine * wi, albedo, f0, wi, wo);
 }
 //? end
 
@@ -453,7 +475,7 @@ float ndf(Effective e, vec3 h) {
     Lobe lobe = lobeAt(i);
     sum += lobe.amount * densityOf(lobe, h);
   }
-  return sum;
+  return sum / amountsOf(e);
 }
 
 //? if environment_light
@@ -464,9 +486,9 @@ int lobeCount(Effective e) { return e.count; }
 NormalLobe normalLobe(Effective e, int i) {
   Lobe lobe = lobeAt(i);
 //? if lobe_base
-  return baseNormalLobe(lobe.mean, lobe.base, lobe.share);
+  return baseNormalLobe(lobe.mean, lobe.base, shares[i] / amountsOf(e));
 //? else
-  return vmfNormalLobe(lobe.mean, lobe.kappa, lobe.share, lobe.base);
+  return vmfNormalLobe(lobe.mean, lobe.kappa, shares[i] / amountsOf(e), lobe.base);
 //? end
 }
 
@@ -482,7 +504,7 @@ vec3 meanNormal(Effective e) {
   if (facet_lobe_count > 0) return e.normal;
 //? end
   vec3 sum = vec3(0.0);
-  for (int i = 0; i < e.count; ++i) sum += meanNormalOf(lobes[i]);
-  return sum;
+  for (int i = 0; i < e.count; ++i) sum += weights[i].y * lobes[i].xyz;
+  return sum / e.covered;
 }
 //? end

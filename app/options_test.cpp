@@ -6,9 +6,12 @@
 #include <array>
 
 #include "renderer/core/error.hpp"
+#include "tests/support/says.hpp"
 
 namespace footprint {
 namespace {
+
+using test::says;
 
 // The text of the usage error that `parse` throws; fails the test if it throws none or another.
 template <typename Parse>
@@ -24,8 +27,6 @@ std::string refusal(Parse parse) {
   return {};
 }
 
-bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
-
 TEST(ParseSize, TakesWidthThenHeight) {
   EXPECT_EQ(parse_size("640x480"), glm::ivec2(640, 480));
   EXPECT_EQ(parse_size("1x1"), glm::ivec2(1, 1));
@@ -35,12 +36,12 @@ TEST(ParseSize, TakesWidthThenHeight) {
 TEST(ParseSize, RefusesWhatIsNoSize) {
   for (const std::string_view text :
        {"", "x", "512", "512x", "x512", "512 x 512", "-5x5", "+5x5", "1.5x2", "3x4x5", "5X5", "axb", "5x5 "}) {
-    EXPECT_TRUE(contains(refusal([&] { (void)parse_size(text); }), "is no frame size")) << text;
+    EXPECT_TRUE(says(refusal([&] { (void)parse_size(text); }), "is no frame size")) << text;
   }
-  EXPECT_TRUE(contains(refusal([] { (void)parse_size("0x0"); }), "has no pixels"));
-  EXPECT_TRUE(contains(refusal([] { (void)parse_size("512x0"); }), "has no pixels"));
-  EXPECT_TRUE(contains(refusal([] { (void)parse_size("10000001x1"); }), "more than 10000000 pixels"));
-  EXPECT_TRUE(contains(refusal([] { (void)parse_size("1x99999999999999999999999"); }), "more than 10000000 pixels"));
+  EXPECT_TRUE(says(refusal([] { (void)parse_size("0x0"); }), "has no pixels"));
+  EXPECT_TRUE(says(refusal([] { (void)parse_size("512x0"); }), "has no pixels"));
+  EXPECT_TRUE(says(refusal([] { (void)parse_size("10000001x1"); }), "more than 10000000 pixels"));
+  EXPECT_TRUE(says(refusal([] { (void)parse_size("1x99999999999999999999999"); }), "more than 10000000 pixels"));
 }
 
 TEST(ParseDistances, KeepsTheOrder) {
@@ -49,12 +50,12 @@ TEST(ParseDistances, KeepsTheOrder) {
 
 TEST(ParseDistances, RefusesWhatIsNoDistance) {
   for (const std::string_view text : {"", ",", "1,", ",1", "0", "-1", "1,nan", "inf", "1e400", "one", "1;2", "1, 2"}) {
-    EXPECT_TRUE(contains(refusal([&] { (void)parse_distances(text); }), "is no positive number")) << text;
+    EXPECT_TRUE(says(refusal([&] { (void)parse_distances(text); }), "is no positive number")) << text;
   }
   for (const std::string_view text : {"1e-4", "1,1000001", "1e300"}) {
-    EXPECT_TRUE(contains(refusal([&] { (void)parse_distances(text); }), "is not within 0.001 to 1000000")) << text;
+    EXPECT_TRUE(says(refusal([&] { (void)parse_distances(text); }), "is not within 0.001 to 1000000")) << text;
   }
-  EXPECT_TRUE(contains(refusal([] { (void)parse_distances("1,2,1.0"); }), "given twice"));
+  EXPECT_TRUE(says(refusal([] { (void)parse_distances("1,2,1.0"); }), "given twice"));
 }
 
 TEST(ParseExposure, TakesAutoOrAFactor) {
@@ -64,7 +65,7 @@ TEST(ParseExposure, TakesAutoOrAFactor) {
 
 TEST(ParseExposure, RefusesWhatIsNoExposure) {
   for (const std::string_view text : {"", "0", "-1", "nan", "inf", "1e60", "1e-60", "Auto", "1x"}) {
-    EXPECT_TRUE(contains(refusal([&] { (void)parse_exposure(text); }), "is no exposure")) << text;
+    EXPECT_TRUE(says(refusal([&] { (void)parse_exposure(text); }), "is no exposure")) << text;
   }
 }
 
@@ -72,8 +73,8 @@ TEST(ParseChoice, NamesTheNearestChoice) {
   const std::array<std::string, 3> choices{"after_shading", "nearest", "bilinear"};
   EXPECT_EQ(parse_choice("--filter", "bilinear", choices), 2U);
   const std::string text = refusal([&] { (void)parse_choice("--filter", "bilinaer", choices); });
-  EXPECT_TRUE(contains(text, "--filter")) << text;
-  EXPECT_TRUE(contains(text, "did you mean `bilinear`")) << text;
+  EXPECT_TRUE(says(text, "--filter")) << text;
+  EXPECT_TRUE(says(text, "did you mean `bilinear`")) << text;
 }
 
 }  // namespace

@@ -84,15 +84,10 @@ class Fournier final : public Method {
       .name = "fournier",
       .summary = "Phong peaks fitted to every texel's distribution of normals; those of eight texels are summed.",
       .paper = "Fournier 1992, Normal Distribution Functions and Multiple Surfaces (as Tan 2005 compares with it)",
-      .options = {{.name = "peaks",
-                   .default_value = 7.0,
-                   .minimum = 1.0,
-                   .maximum = 8.0,
-                   .choices = {},
-                   .meaning =
-                       "Peaks a texel above the finest level: 7 as Fournier has them, 4 in Tan 2005, figure 7. A "
-                       "pixel sums up to 8 times as many.",
-                   .integer = true},
+      .options = {whole_option(
+                      "peaks", 7, 1, 8,
+                      "Peaks a texel above the finest level: 7 as Fournier has them, 4 in Tan 2005, figure 7. A "
+                      "pixel sums up to 8 times as many."),
                   peak_storage_option()},
       .honours = map_effects_but({Effect::normal_layers}),
       .slow_precompute = true};

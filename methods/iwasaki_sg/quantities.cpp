@@ -107,13 +107,7 @@ double measured_table_bytes(const Material& material, const Options& options, co
 }
 
 OptionSpec sharpness(std::string name) {
-  return {.name = std::move(name),
-          .default_value = 100.0,
-          .minimum = 1e-3,
-          .maximum = 1e6,
-          .choices = {},
-          .meaning = "Sharpness of one of the two spherical Gaussians.",
-          .integer = false};
+  return number_option(std::move(name), 100.0, 1e-3, 1e6, "Sharpness of one of the two spherical Gaussians.");
 }
 
 std::vector<Quantity> lobe_quantities() {
@@ -150,13 +144,8 @@ std::vector<Quantity> stage_quantities() {
 }
 
 std::vector<Quantity> brdf_quantities() {
-  const OptionSpec side{.name = "side",
-                        .default_value = 12.0,
-                        .minimum = 2.0,
-                        .maximum = 48.0,
-                        .choices = {},
-                        .meaning = "Side of the table's grids of directions; its time grows as the fourth power.",
-                        .integer = true};
+  const OptionSpec side =
+      whole_option("side", 12, 2, 48, "Side of the table's grids of directions; its time grows as the fourth power.");
   return {{"brdf_error",
            "Root mean square difference of the effective BRDF from the sum over facets, for random pairs of "
            "directions, over the root mean square of the sum.",

@@ -1,33 +1,17 @@
 // See settings.hpp.
 #include "methods/iwasaki_sg/settings.hpp"
 
-#include <string>
-#include <utility>
-
 #include "renderer/microgeometry/microgeometry.hpp"
 #include "renderer/pipeline/patch_facets.hpp"
 
 namespace footprint::iwasaki_sg {
-namespace {
-
-OptionSpec whole_number(std::string name, double value, double minimum, double maximum, std::string meaning) {
-  return {.name = std::move(name),
-          .default_value = value,
-          .minimum = minimum,
-          .maximum = maximum,
-          .choices = {},
-          .meaning = std::move(meaning),
-          .integer = true};
-}
-
-}  // namespace
 
 std::vector<OptionSpec> option_table() {
-  return {whole_number("j", 7, 1, most_lobes,
+  return {whole_option("j", 7, 1, most_lobes,
                        "Most spherical Gaussians of the normal distribution; 3 and 7 fill texels of four with the "
                        "diffuse term."),
-          whole_number("directions", 12, 2, 32, "Side of the grid of incident and outgoing directions."),
-          whole_number("facets", 65536, 64, 1 << 24, "Samples of the patch."),
+          whole_option("directions", 12, 2, 32, "Side of the grid of incident and outgoing directions."),
+          whole_option("facets", 65536, 64, 1 << 24, "Samples of the patch."),
           word_option("lobe", {"base", "sg"},
                       "What a lobe of normals reflects with: the scene's base lobe, widened by that of the normals, or "
                       "the paper's spherical Gaussians, one or several fitted to the base lobe."),

@@ -17,13 +17,7 @@ namespace {
 
 std::vector<OptionSpec> option_table() {
   return {
-      {.name = "n",
-       .default_value = 4.0,
-       .minimum = 1.0,
-       .maximum = tan_gmm::most_components,
-       .choices = {},
-       .meaning = "Gaussians of a mixture.",
-       .integer = true},
+      whole_option("n", 4, 1, tan_gmm::most_components, "Gaussians of a mixture."),
       word_option("align", {"on", "off"},
                   "Whether EM draws the means to those of the neighbouring texels, so that components correspond; off "
                   "fits each texel on its own."),
@@ -38,13 +32,7 @@ std::vector<OptionSpec> option_table() {
                   "Where EM starts: from the coarser texel's mixture (the coarsest, and texels fitted on their own, as "
                   "dense_seed); from the best of clusters, a narrow component on the densest spot and the coarser "
                   "texel's mixture; from clusters alone, as in the paper."),
-      {.name = "c",
-       .default_value = 1.0,
-       .minimum = 0.0,
-       .maximum = 1e6,
-       .choices = {},
-       .meaning = "Weight of the prior that aligns the means, in samples; the paper's is 1.",
-       .integer = false},
+      number_option("c", 1.0, 0.0, 1e6, "Weight of the prior that aligns the means, in samples; the paper's is 1."),
       word_option("storage", {"fp32", "fp16"}, "How the mixtures are stored: 32-bit or 16-bit floats."),
       word_option("lobe", {"base", "gaussian"},
                   "What a component reflects with: the scene's base lobe, widened by the component's spread, or the "

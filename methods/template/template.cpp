@@ -62,18 +62,14 @@ class IndependentTexels final : public Method {
   [[nodiscard]] std::string_view shader() const override { return embedded::template_glsl; }
 
  private:
-  MethodInfo info_{.name = "template",
-                   .summary = "One lobe about the mean normal, widened as if texels were independent.",
-                   .paper = "none: an example to copy",
-                   .options = {{.name = "share",
-                                .default_value = 1.0,
-                                .minimum = 0.0,
-                                .maximum = 4.0,
-                                .choices = {},
-                                .meaning = "Factor on the spread that is added to the lobe's slope variance per axis; "
-                                           "0 leaves the base lobe as it is.",
-                                .integer = false}},
-                   .honours = map_effects_but({Effect::normal_layers, Effect::roughness_variation})};
+  MethodInfo info_{
+      .name = "template",
+      .summary = "One lobe about the mean normal, widened as if texels were independent.",
+      .paper = "none: an example to copy",
+      .options = {number_option("share", 1.0, 0.0, 4.0,
+                                "Factor on the spread that is added to the lobe's slope variance per axis; "
+                                "0 leaves the base lobe as it is.")},
+      .honours = map_effects_but({Effect::normal_layers, Effect::roughness_variation})};
 };
 
 }  // namespace

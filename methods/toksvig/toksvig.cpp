@@ -34,15 +34,10 @@ class Toksvig final : public Method {
       .summary = "One lobe about the mean normal, widened by the spread that the mean normal's length tells.",
       .paper = "Toksvig 2005, Mipmapping Normal Maps, Journal of Graphics Tools 10(3)",
       .options = {storage_option(),
-                  {.name = "spread",
-                   .default_value = 1.0,
-                   .minimum = 0.0,
-                   .maximum = 4.0,
-                   .choices = {},
-                   .meaning =
-                       "Factor on the spread (1 - |Na|) / |Na| before it is added to the lobe's slope variance per "
-                       "axis; 1 is Toksvig's. Engines' recipes for alpha^2 differ: alpha^2 += 2 spread / kappa.",
-                   .integer = false},
+                  number_option(
+                      "spread", 1.0, 0.0, 4.0,
+                      "Factor on the spread (1 - |Na|) / |Na| before it is added to the lobe's slope variance per "
+                      "axis; 1 is Toksvig's. Engines' recipes for alpha^2 differ: alpha^2 += 2 spread / kappa."),
                   word_option(
                       "diffuse", {"mean", "normalized"},
                       "The diffuse term's normal: the mean normal, whose dot product is the mean of the facets' "

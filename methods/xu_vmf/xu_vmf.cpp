@@ -19,13 +19,7 @@ extern const std::string_view xu_vmf_glsl, xu_vmf_conversion_glsl, xu_vmf_cells_
 namespace {
 
 OptionSpec threshold_option(std::string name, double value, std::string meaning) {
-  return {.name = std::move(name),
-          .default_value = value,
-          .minimum = 0.0,
-          .maximum = 1.0,
-          .choices = {},
-          .meaning = std::move(meaning),
-          .integer = false};
+  return number_option(std::move(name), value, 0.0, 1.0, std::move(meaning));
 }
 
 std::vector<OptionSpec> option_table() {
@@ -128,12 +122,14 @@ void declare_maps(Prefiltered& out, const glm::ivec2& size, const TextureCoordin
 }
 
 void add_inputs(Prefiltered& out, const Inputs& inputs, const Material& material, const Options& options) {
-  const auto add = [&](std::string_view name, const Image& image, const TextureCoordinates& place) {
-    out.textures.push_back(make_texture(std::string(name), {image}, Storage::fp32, place));
+  const auto add = [&](std::string_view name, std::vector<Image> levels, const TextureCoordinates& place) {
+    out.textures.push_back(make_texture(std::string(name), std::move(levels), Storage::fp32, place));
   };
-  if (inputs.normals_vary) add(xu_vmf::normals_name, inputs.normals, normal_coordinates(material));
-  if (inputs.roughness_varies) add(xu_vmf::variances_name, inputs.variances, roughness_coordinates(material));
-  if (options.word("conversion") == "table") add(xu_vmf::table_name, shortfall_table(), {});
+  if (inputs.normals_vary) add(xu_vmf::normals_name, {inputs.normals}, normal_coordinates(material));
+  // Its further levels are for shading, which asks what of a lobe's width is the facets' own.
+  if (inputs.roughness_varies)
+    add(xu_vmf::variances_name, mip_chain(inputs.variances), roughness_coordinates(material));
+  if (options.word("conversion") == "table") add(xu_vmf::table_name, {shortfall_table()}, {});
 }
 
 Prefiltered in_tangent_space(Inputs inputs, const Material& material, const Options& options,

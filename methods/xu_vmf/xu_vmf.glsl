@@ -56,19 +56,15 @@ const float least_share = 1e-4;
 //? end
 //? end
 
-// Of a facet of the lobe that is looked up, where all have the same: 1 - |r|, and the energy of its base lobe.
+// Of the facets' lobe that is looked up: 1 - |r|, and the energy of its base lobe. Where roughness varies, of the lobe
+// of their mean variance.
 float facet_shortfall, facet_energy;
 
 // The energy of a base lobe over solid angle. That of a microfacet lobe grows with its width, while the mean of narrow
-// ones keeps theirs: a wide lobe that stands for them is scaled by the ratio. Where roughness varies, how wide the
-// facets' own lobes are is not known.
+// ones keeps theirs: a wide lobe that stands for them is scaled by the ratio.
 float energyOf(float base) {
 //? if lobe_base
-//? if roughness_variation
-  return 1.0;
-//? else
   return lobeEnergy(base);
-//? end
 //? else
   return 1.0;
 //? end
@@ -110,26 +106,27 @@ struct OwnLobe {
   float parameter, weight;
 };
 
+OwnLobe baseLobe(Footprints f) {
+//? if roughness_variation
+  return OwnLobe(vec3(0.0, 0.0, 1.0), lobeFromVariance(fetch(xu_vmf_variances, f.roughness).r), 1.0);
+//? else
+  return OwnLobe(vec3(0.0, 0.0, 1.0), lobe_cutoff.x, 1.0);
+//? end
+}
+
 //? if multi_lobe
 int ownLobeCount() { return max(facet_lobe_count, 1); }
-OwnLobe ownLobe(int k) {
+OwnLobe ownLobe(Footprints f, int k) {
   if (facet_lobe_count > 0) return OwnLobe(facet_lobes[k].axis, facet_lobes[k].parameter, facet_lobes[k].weight);
-  return OwnLobe(vec3(0.0, 0.0, 1.0), lobe_cutoff.x, 1.0);
+  return baseLobe(f);
 }
 //? else
 int ownLobeCount() { return 1; }
-OwnLobe ownLobe(int k) { return OwnLobe(vec3(0.0, 0.0, 1.0), lobe_cutoff.x, 1.0); }
+OwnLobe ownLobe(Footprints f, int k) { return baseLobe(f); }
 //? end
 
-// The length of the mean of a lobe's facets' unit normals: |r| over that of a single facet. Where roughness varies, what
-// of |r| is the normals' and what the lobes' is not known.
-float meanNormalLength(float q) {
-//? if roughness_variation
-  return 1.0;
-//? else
-  return min((1.0 - q) / max(1.0 - facet_shortfall, 1e-6), 1.0);
-//? end
-}
+// The length of the mean of a lobe's facets' unit normals: |r| over that of a single facet.
+float meanNormalLength(float q) { return min((1.0 - q) / max(1.0 - facet_shortfall, 1e-6), 1.0); }
 
 // `amount` is what the lobe adds with as published: it is the share where lobes weigh what they cover.
 void pushLobe(inout Effective e, vec3 mean, float q, float share, float amount) {
@@ -137,6 +134,11 @@ void pushLobe(inout Effective e, vec3 mean, float q, float share, float amount) 
   float base = lobeOfKappa(kappa);
 //? if not variant_published
   amount = share;
+//? end
+//? if sampling_texel
+  // The lobe of the one texel that was drawn is a facet's own. The roughness map may have drawn another.
+  facet_shortfall = q;
+  facet_energy = energyOf(base);
 //? end
 //? if lobe_base
   lobes[e.count] = vec4(mean, base);
@@ -379,7 +381,7 @@ float amountsOf(Effective e) {
 }
 
 void addOwnLobe(inout Effective e, Footprints f, int k) {
-  OwnLobe own = ownLobe(k);
+  OwnLobe own = ownLobe(f, k);
   float q = shortfallOf(kappaOfLobe(own.parameter));
   facet_shortfall = q;
   facet_energy = energyOf(own.parameter);

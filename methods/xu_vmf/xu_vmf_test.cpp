@@ -204,6 +204,11 @@ Scene spread_facets(NormalDistribution distribution) {
   return scene;
 }
 
+double ggx_energy(double alpha) {
+  const double t = std::sqrt(1.0 - alpha * alpha);
+  return 1.0 + alpha * alpha * std::atanh(t) / t;
+}
+
 constexpr std::array distributions{NormalDistribution::blinn_phong, NormalDistribution::vmf,
                                    NormalDistribution::beckmann, NormalDistribution::ggx};
 
@@ -258,8 +263,44 @@ TEST(XuDensity, LeavesAConstantMapItsEnergy) {
   Scene scene = blinn_phong_square(constant_normals(8, 8, {0.0F, 0.0F, 1.0F}), 300);
   scene.materials[0].brdf.distribution = NormalDistribution::ggx;
   scene.materials[0].lobe_parameter = 0.5F;
-  const double t = std::sqrt(0.75);
-  EXPECT_NEAR(BuiltMap(scene).energy(), 1.0 + 0.25 * std::atanh(t) / t, 0.005);
+  EXPECT_NEAR(BuiltMap(scene).energy(), ggx_energy(0.5), 0.005);
+}
+
+// Facets of two roughnesses, one in every other column: alpha 0.04 and 0.2.
+Scene facets_of_two_roughnesses(const Image& normals) {
+  Image roughness(normals.width, normals.height, 1, std::sqrt(0.04F));
+  for (int y = 0; y < roughness.height; ++y)
+    for (int x = 0; x < roughness.width; x += 2) roughness.at(x, y)[0] = std::sqrt(0.2F);
+  Scene scene = rough_square(normals, roughness);
+  scene.materials[0].brdf.distribution = NormalDistribution::ggx;
+  return scene;
+}
+
+TEST(XuDensity, KeepsTheMeanEnergyOfFacetsOfTwoRoughnesses) {
+  const Scene scene = facets_of_two_roughnesses(random_normals(16, 16, 0.5F, 12));
+  const double truth = 0.5 * (ggx_energy(0.04) + ggx_energy(0.2));
+  for (const Words& words : {Words{{"j", "1"}}, Words{{"j", "4"}}, Words{{"j", "8"}}, Words{},
+                             Words{{"storage", "fp16"}}, Words{{"space", "camera"}}})
+    EXPECT_NEAR(BuiltMap(scene, words).energy() / truth, 1.0, 0.01) << (words.empty() ? "" : words.begin()->second);
+}
+
+// What diffuse light sees: the facets' mean normal, as long as it is, however rough they are.
+TEST(XuMeanNormal, IsThatOfTheFacets) {
+  const Image normals = random_normals(16, 16, 0.65F, 12);
+  glm::dvec3 truth(0.0);
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x) truth += glm::dvec3(normals.at(x, y)[0], normals.at(x, y)[1], normals.at(x, y)[2]);
+  truth /= 256.0;
+  ASSERT_LT(glm::length(truth), 0.95);
+  const std::string sum =
+      "vec3 sum = vec3(0.0);\nfor (int i = 0; i < e.count; ++i) sum += weights[i].y * lobes[i].xyz;\n"
+      "return vec4(sum / e.covered, 0.0);";
+  for (const Scene& scene : {facets_of_two_roughnesses(normals), blinn_phong_square(normals, 30)}) {
+    for (const std::string j : {"1", "4", "8", "adaptive"}) {
+      const glm::dvec3 got(glm::vec3(BuiltMap(scene, {{"j", j}}).probe(sum, {{}}).front()));
+      EXPECT_LT(glm::length(got - truth), 0.005) << j << ", lengths " << glm::length(got) << ", " << glm::length(truth);
+    }
+  }
 }
 
 double squared_distance(const std::vector<double>& a, const std::vector<double>& b) {

@@ -13,9 +13,12 @@
 #include "renderer/core/interrupt.hpp"
 #include "renderer/core/options.hpp"
 #include "renderer/core/suggest.hpp"
+#include "tests/support/says.hpp"
 
 namespace footprint {
 namespace {
+
+using test::says;
 
 // The text of the usage error that `action` ends in.
 std::string refusal(const std::function<void()>& action) {
@@ -26,11 +29,6 @@ std::string refusal(const std::function<void()>& action) {
     return error.what();
   }
   return "no error";
-}
-
-testing::AssertionResult says(const std::string& text, const std::string& expected) {
-  if (text.find(expected) != std::string::npos) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "`" << text << "` does not say `" << expected << "`";
 }
 
 // --- error.hpp
@@ -91,21 +89,30 @@ TEST(Suggestion, NamesTheNearestAndAllKnown) {
 // --- options.hpp
 
 std::vector<OptionSpec> table() {
-  return {{.name = "n",
-           .default_value = 4.0,
-           .minimum = 1,
-           .maximum = 8,
-           .choices = {},
-           .meaning = "lobes",
-           .integer = true},
-          {.name = "scale", .default_value = 0.5, .minimum = -1, .maximum = 2.5, .choices = {}, .meaning = "a factor"},
-          {.name = "storage",
-           .default_value = std::string("fp32"),
-           .choices = {"fp32", "fp16", "unorm8"},
-           .meaning = "texel format"}};
+  return {whole_option("n", 4, 1, 8, "lobes"), number_option("scale", 0.5, -1, 2.5, "a factor"),
+          word_option("storage", {"fp32", "fp16", "unorm8"}, "texel format")};
 }
 
 Options given(const std::map<std::string, std::string>& values) { return {table(), values, "toksvig"}; }
+
+TEST(OptionSpec, HoldsItsRangeOrItsChoices) {
+  const OptionSpec number = number_option("scale", 0.5, -1, 2.5, "a factor");
+  EXPECT_EQ(number.name, "scale");
+  EXPECT_EQ(std::get<double>(number.default_value), 0.5);
+  EXPECT_EQ(number.minimum, -1);
+  EXPECT_EQ(number.maximum, 2.5);
+  EXPECT_TRUE(number.choices.empty());
+  EXPECT_EQ(number.meaning, "a factor");
+  EXPECT_FALSE(number.integer);
+  const OptionSpec whole = whole_option("n", 4, 1, 8, "lobes");
+  EXPECT_EQ(whole.name, "n");
+  EXPECT_EQ(std::get<double>(whole.default_value), 4.0);
+  EXPECT_EQ(whole.minimum, 1);
+  EXPECT_EQ(whole.maximum, 8);
+  EXPECT_TRUE(whole.choices.empty());
+  EXPECT_EQ(whole.meaning, "lobes");
+  EXPECT_TRUE(whole.integer);
+}
 
 TEST(Options, DefaultsFillWhatIsNotGiven) {
   const Options options = given({{"n", "6"}});

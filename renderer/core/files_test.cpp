@@ -15,19 +15,13 @@
 #include <string>
 
 #include "renderer/core/error.hpp"
+#include "tests/support/fresh_folder.hpp"
 
 namespace footprint {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path fresh_folder() {
-  fs::path folder =
-      fs::path(testing::TempDir()) / "footprint_files" / testing::UnitTest::GetInstance()->current_test_info()->name();
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  return folder;
-}
+using test::fresh_folder;
 
 std::string text_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);

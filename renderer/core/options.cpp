@@ -65,6 +65,22 @@ MethodSpec parse_method(std::string_view text) {
 
 }  // namespace
 
+OptionSpec number_option(std::string name, double value, double minimum, double maximum, std::string meaning) {
+  return {.name = std::move(name),
+          .default_value = value,
+          .minimum = minimum,
+          .maximum = maximum,
+          .choices = {},
+          .meaning = std::move(meaning),
+          .integer = false};
+}
+
+OptionSpec whole_option(std::string name, int value, int minimum, int maximum, std::string meaning) {
+  OptionSpec spec = number_option(std::move(name), value, minimum, maximum, std::move(meaning));
+  spec.integer = true;
+  return spec;
+}
+
 OptionSpec word_option(std::string name, const std::vector<std::string>& choices, std::string meaning) {
   return {.name = std::move(name),
           .default_value = choices.front(),

@@ -19,6 +19,13 @@ struct OptionSpec {
   bool integer = false;                 ///< numbers only: whole numbers
 };
 
+/// An option with numbers of a range for values, both ends inclusive.
+[[nodiscard]] OptionSpec number_option(std::string name, double value, double minimum, double maximum,
+                                       std::string meaning);
+
+/// The same with whole numbers alone.
+[[nodiscard]] OptionSpec whole_option(std::string name, int value, int minimum, int maximum, std::string meaning);
+
 /// An option with words for values, of which the first is the default.
 [[nodiscard]] OptionSpec word_option(std::string name, const std::vector<std::string>& choices, std::string meaning);
 

@@ -10,20 +10,16 @@
 #include "renderer/core/files.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/test_png.hpp"
+#include "tests/support/fresh_folder.hpp"
+#include "tests/support/says.hpp"
 
 namespace footprint {
 namespace {
 
 namespace fs = std::filesystem;
+using test::fresh_folder;
 using test::PngColor;
-
-fs::path fresh_folder() {
-  fs::path folder = fs::path(testing::TempDir()) / "footprint_hostile_image" /
-                    testing::UnitTest::GetInstance()->current_test_info()->name();
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  return folder;
-}
+using test::says;
 
 // The text of the usage error that reading ends in, which names the file and leaves nothing in OpenImageIO's queue.
 std::string refusal(const std::function<Image()>& read) {
@@ -45,11 +41,6 @@ std::string refusal(const fs::path& file) {
 
 std::string refusal(const std::vector<std::uint8_t>& bytes) {
   return refusal([&] { return read_image(bytes, "buffer 3", Transfer::linear); });
-}
-
-testing::AssertionResult says(const std::string& text, const std::string& expected) {
-  if (text.find(expected) != std::string::npos) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "`" << text << "` does not say `" << expected << "`";
 }
 
 std::vector<std::uint8_t> encoded(const std::string& format, int channels = 3) {

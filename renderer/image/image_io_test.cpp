@@ -17,21 +17,15 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/image/test_png.hpp"
+#include "tests/support/fresh_folder.hpp"
 
 namespace footprint {
 namespace {
 
 namespace fs = std::filesystem;
 using namespace std::string_literals;
+using test::fresh_folder;
 using test::PngColor;
-
-fs::path fresh_folder() {
-  fs::path folder = fs::path(testing::TempDir()) / "footprint_image_io" /
-                    testing::UnitTest::GetInstance()->current_test_info()->name();
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  return folder;
-}
 
 std::vector<std::uint8_t> bytes_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);

@@ -17,22 +17,6 @@ namespace {
 
 using std::numbers::pi;
 
-OptionSpec number(std::string name, double value, double minimum, double maximum, std::string meaning) {
-  return {.name = std::move(name),
-          .default_value = value,
-          .minimum = minimum,
-          .maximum = maximum,
-          .choices = {},
-          .meaning = std::move(meaning),
-          .integer = false};
-}
-
-OptionSpec whole(std::string name, double value, double minimum, double maximum, std::string meaning) {
-  OptionSpec spec = number(std::move(name), value, minimum, maximum, std::move(meaning));
-  spec.integer = true;
-  return spec;
-}
-
 double tangent_of(const Options& parameters, std::string_view name) {
   return std::tan(parameters.number(name) * pi / 180.0);
 }
@@ -95,42 +79,43 @@ std::vector<PatchKind> make_kinds() {
   kinds.push_back({"flat", "A plane: the effective BRDF is the facets' own.", {}, flat_patch});
   kinds.push_back({"grooves",
                    "Parallel grooves along y, with flat lands between them.",
-                   {number("land", 0.2, 0.0, 0.95, "Width of the flat between two grooves, in periods."),
-                    number("flank_degrees", 35.0, 0.0, 80.0, "Mean tilt of a groove's flanks, degrees."),
+                   {number_option("land", 0.2, 0.0, 0.95, "Width of the flat between two grooves, in periods."),
+                    number_option("flank_degrees", 35.0, 0.0, 80.0, "Mean tilt of a groove's flanks, degrees."),
                     word_option("profile", {"v", "round"}, "Straight flanks, or a cosine."),
-                    whole("steps", 24.0, 2.0, 1024.0, "profile=round: quadrilaterals across a groove.")},
+                    whole_option("steps", 24, 2, 1024, "profile=round: quadrilaterals across a groove.")},
                    grooves_patch});
   kinds.push_back({"pyramids",
                    "Four-sided pyramids, or pits, on a floor.",
-                   {number("floor", 0.2, 0.0, 0.95, "Share of the floor along each axis."),
-                    number("slope_degrees", 30.0, -80.0, 80.0, "Tilt of the sides, degrees; below 0 a pit.")},
+                   {number_option("floor", 0.2, 0.0, 0.95, "Share of the floor along each axis."),
+                    number_option("slope_degrees", 30.0, -80.0, 80.0, "Tilt of the sides, degrees; below 0 a pit.")},
                    pyramids_patch});
   kinds.push_back({"spheres",
                    "Balls half sunk into a floor, one a period.",
-                   {number("radius", 0.4, 0.01, 0.5, "Radius, in periods."),
-                    number("height", 0.0, -0.5, 2.0, "Height of the centre above the floor, in radii."),
-                    whole("steps", 24.0, 3.0, 512.0, "Quadrilaterals around a ball; half as many from pole to pole.")},
+                   {number_option("radius", 0.4, 0.01, 0.5, "Radius, in periods."),
+                    number_option("height", 0.0, -0.5, 2.0, "Height of the centre above the floor, in radii."),
+                    whole_option("steps", 24, 3, 512, "Quadrilaterals around a ball; half as many from pole to pole.")},
                    spheres_patch});
   kinds.push_back(
       {"weave",
        "Plain weave of warp threads along y and weft threads along x, two of each a period, each of its own colour.",
-       {number("warp_width", 0.8, 0.02, 1.0, "Width of a warp thread over their distance."),
-        number("weft_width", 0.8, 0.02, 1.0, "Width of a weft thread over their distance."),
-        number("height", 0.06, 0.001, 0.5, "How far a thread rises and falls, and half its thickness, in periods."),
-        number("warp_red", 1.0, 0.0, 1.0, "The warp's colour, linear."),
-        number("warp_green", 1.0, 0.0, 1.0, "The warp's colour, linear."),
-        number("warp_blue", 1.0, 0.0, 1.0, "The warp's colour, linear."),
-        number("weft_red", 1.0, 0.0, 1.0, "The weft's colour, linear."),
-        number("weft_green", 1.0, 0.0, 1.0, "The weft's colour, linear."),
-        number("weft_blue", 1.0, 0.0, 1.0, "The weft's colour, linear."),
-        whole("steps_along", 16.0, 4.0, 512.0, "Quadrilaterals along a thread in a period."),
-        whole("steps_across", 8.0, 2.0, 256.0, "Quadrilaterals across a thread.")},
+       {number_option("warp_width", 0.8, 0.02, 1.0, "Width of a warp thread over their distance."),
+        number_option("weft_width", 0.8, 0.02, 1.0, "Width of a weft thread over their distance."),
+        number_option("height", 0.06, 0.001, 0.5,
+                      "How far a thread rises and falls, and half its thickness, in periods."),
+        number_option("warp_red", 1.0, 0.0, 1.0, "The warp's colour, linear."),
+        number_option("warp_green", 1.0, 0.0, 1.0, "The warp's colour, linear."),
+        number_option("warp_blue", 1.0, 0.0, 1.0, "The warp's colour, linear."),
+        number_option("weft_red", 1.0, 0.0, 1.0, "The weft's colour, linear."),
+        number_option("weft_green", 1.0, 0.0, 1.0, "The weft's colour, linear."),
+        number_option("weft_blue", 1.0, 0.0, 1.0, "The weft's colour, linear."),
+        whole_option("steps_along", 16, 4, 512, "Quadrilaterals along a thread in a period."),
+        whole_option("steps_across", 8, 2, 256, "Quadrilaterals across a thread.")},
        weave_patch});
   kinds.push_back({"noise",
                    "A rough height field: a sum of waves of random directions and phases.",
-                   {number("slope", 0.4, 0.0, 4.0, "Root mean square slope."),
-                    whole("waves", 6.0, 1.0, 64.0, "Highest number of waves a period along an axis."),
-                    whole("steps", 48.0, 4.0, 1024.0, "Squares a side.")},
+                   {number_option("slope", 0.4, 0.0, 4.0, "Root mean square slope."),
+                    whole_option("waves", 6, 1, 64, "Highest number of waves a period along an axis."),
+                    whole_option("steps", 48, 4, 1024, "Squares a side.")},
                    noise_patch});
   return kinds;
 }

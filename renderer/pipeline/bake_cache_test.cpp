@@ -83,8 +83,7 @@ TEST(BakeCache, TheLeastRecentlyUsedGoes) {
 TEST(BakeCache, TheKeyFollowsEverythingThatABakeDependsOn) {
   const BakeCache cache(fresh_cache("key"));
   const Material material = testing::square_scene(testing::constant_normals(4, 4, {0, 0, 1}), {}).materials[0];
-  const std::vector<OptionSpec> specs{
-      {.name = "n", .default_value = 4.0, .minimum = 1, .maximum = 8, .choices = {}, .meaning = "lobes"}};
+  const std::vector<OptionSpec> specs{number_option("n", 4.0, 1, 8, "lobes")};
   const Options options(specs, {}, "test");
   const std::string key = cache.key("m", material, options, {});
   EXPECT_EQ(cache.key("m", material, options, {}), key);

@@ -10,6 +10,7 @@
 #include "renderer/pipeline/base_surface.hpp"
 #include "renderer/visibility/occluders.hpp"
 #include "tests/support/rendering.hpp"
+#include "tests/support/says.hpp"
 #include "tests/support/shadow_scenes.hpp"
 
 namespace footprint::testing {
@@ -50,8 +51,6 @@ Scene metal_by_a_wall() {
 double relative_rmse(const Image& picture, const Image& truth) {
   return compare_images(picture, truth, 1.0F).value().relative_rmse;
 }
-
-bool has_text(const std::string& text, std::string_view word) { return text.find(word) != std::string::npos; }
 
 // An endless wall of height H at distance d hides (1 - cos atan(H / d)) / 2 of a floor's irradiance.
 TEST(GpuVisibility, AWallHidesItsPartOfTheIrradiance) {
@@ -136,13 +135,13 @@ TEST(GpuVisibility, ABallDarkensTheFloorAsRaysSay) {
 TEST(GpuVisibility, IsNowhereWhereNothingHidesTheEnvironment) {
   TestRenderer plain(under_white_sky(white_floor()), {size, size});
   EXPECT_FALSE(plain.gpu_scene().visibility());
-  EXPECT_FALSE(has_text(plain.fragment_text(base_surface()), "visibility_maps"));
+  EXPECT_FALSE(test::says(plain.fragment_text(base_surface()), "visibility_maps"));
   Scene covered = under_white_sky(box_over_floor());
   TestRenderer hidden(covered, {size, size});
   ASSERT_TRUE(hidden.gpu_scene().visibility());
   EXPECT_FALSE(hidden.gpu_scene().shadow_maps());
-  EXPECT_FALSE(has_text(hidden.fragment_text(base_surface()), "shadow_maps"));
-  EXPECT_TRUE(has_text(hidden.fragment_text(base_surface()), "visibility_maps"));
+  EXPECT_FALSE(test::says(hidden.fragment_text(base_surface()), "shadow_maps"));
+  EXPECT_TRUE(test::says(hidden.fragment_text(base_surface()), "visibility_maps"));
   const GpuVisibility& visibility = *hidden.gpu_scene().visibility();
   EXPECT_EQ(visibility.bytes(), visibility.vertex_count() * 80 + std::size_t{4} * 18 * 18 * 16);
   covered.environment.reset();

@@ -43,13 +43,7 @@ TEST(SelectText, TakesInASharedTextWhereItsFlagIsOn) {
 }
 
 TEST(ShaderFlags, FollowEffectsTermsAndWordOptions) {
-  const std::vector<OptionSpec> specs{{.name = "storage",
-                                       .default_value = std::string("fp32"),
-                                       .minimum = 0,
-                                       .maximum = 0,
-                                       .choices = {"fp32", "fp16"},
-                                       .meaning = "",
-                                       .integer = false}};
+  const std::vector<OptionSpec> specs{word_option("storage", {"fp32", "fp16"}, "")};
   ShaderVariant variant;
   variant.effects.set(static_cast<std::size_t>(Effect::fresnel));
   variant.max_probes = 4;

@@ -8,13 +8,12 @@
 #include <numbers>
 
 #include "renderer/scene/plane.hpp"
+#include "tests/support/expect_near.hpp"
 
 namespace footprint {
 namespace {
 
-void expect_near(const glm::vec3& actual, const glm::vec3& expected, float tolerance = 1e-5F) {
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(actual[i], expected[i], tolerance) << "component " << i;
-}
+using test::expect_near;
 
 glm::vec3 bitangent(const Vertex& vertex) {
   return glm::cross(vertex.normal, glm::vec3{vertex.tangent}) * vertex.tangent.w;

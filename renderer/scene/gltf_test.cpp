@@ -7,17 +7,15 @@
 
 #include "renderer/scene/gltf_model.hpp"
 #include "renderer/scene/gltf_test_builder.hpp"
+#include "tests/support/expect_near.hpp"
 
 namespace footprint {
 namespace {
 
 using nlohmann::json;
+using test::expect_near;
 using test::GltfBuilder;
 using test::make_quad;
-
-void expect_near(const glm::vec3& actual, const glm::vec3& expected, float tolerance = 1e-5F) {
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(actual[i], expected[i], tolerance) << "component " << i;
-}
 
 glm::vec3 triangle_normal(const Mesh& mesh, std::size_t triangle) {
   const auto corner = [&](std::size_t k) { return mesh.vertices[mesh.indices[3 * triangle + k]].position; };

@@ -26,10 +26,9 @@ Image marked(const SurfaceSettings& settings) {
 Image green(const SurfaceSettings& settings) { return {settings.resolution, settings.resolution, 4, 0.5F}; }
 
 std::vector<Surface> made_up_surfaces() {
-  const std::vector<OptionSpec> parameters{
-      {.name = "height", .default_value = 2.0, .minimum = 0, .maximum = 10, .meaning = "a number"},
-      {.name = "count", .default_value = 3.0, .minimum = 1, .maximum = 9, .meaning = "a whole number", .integer = true},
-      {.name = "kind", .default_value = "sharp", .choices = {"sharp", "round"}, .meaning = "a word"}};
+  const std::vector<OptionSpec> parameters{number_option("height", 2.0, 0, 10, "a number"),
+                                           whole_option("count", 3, 1, 9, "a whole number"),
+                                           word_option("kind", {"sharp", "round"}, "a word")};
   return {{.name = "hills",
            .summary = "",
            .parameters = parameters,

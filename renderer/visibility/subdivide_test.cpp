@@ -9,20 +9,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "tests/support/mesh_area.hpp"
 #include "tests/support/shadow_scenes.hpp"
 
 namespace footprint::testing {
 namespace {
-
-double area_of(const Mesh& mesh) {
-  double area = 0;
-  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-    const glm::dvec3 a = mesh.vertices[mesh.indices[i]].position, b = mesh.vertices[mesh.indices[i + 1]].position,
-                     c = mesh.vertices[mesh.indices[i + 2]].position;
-    area += 0.5 * glm::length(glm::cross(b - a, c - a));
-  }
-  return area;
-}
 
 float longest_edge(const Mesh& mesh) {
   float longest = 0;
@@ -38,8 +29,8 @@ TEST(Subdivided, EdgesAreShortAndTheSurfaceIsTheSame) {
   for (const Mesh& mesh : {white_floor().meshes[0], box_mesh({0, 0, 0}, {1, 2, 0.3F}), sphere_mesh({0, 0, 0}, 1, 5)}) {
     const Mesh fine = subdivided(mesh, 0.11F);
     EXPECT_LE(longest_edge(fine), 0.11F);
-    EXPECT_NEAR(area_of(fine), area_of(mesh), 1e-5 * area_of(mesh));
-    EXPECT_LT(fine.indices.size() / 3, 40.0 * area_of(mesh) / (0.11 * 0.11));
+    EXPECT_NEAR(mesh_area(fine), mesh_area(mesh), 1e-5 * mesh_area(mesh));
+    EXPECT_LT(fine.indices.size() / 3, 40.0 * mesh_area(mesh) / (0.11 * 0.11));
     ASSERT_GE(fine.vertices.size(), mesh.vertices.size());
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
       EXPECT_EQ(fine.vertices[i].position, mesh.vertices[i].position);

@@ -4,11 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "results/report/example_results.hpp"
+#include "tests/support/says.hpp"
 
 namespace footprint {
 namespace {
 
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+using test::says;
 
 TEST(ExperimentSection, WhatFellShortIsListedWithItsFigures) {
   const std::vector<std::string> lines = example_results().experiment->shortfalls();
@@ -22,26 +23,26 @@ TEST(ExperimentSection, WhatFellShortIsListedWithItsFigures) {
 
 TEST(ExperimentSection, MeasuredStandsBesidePublished) {
   const std::string text = experiment_markdown(*example_results().experiment);
-  EXPECT_TRUE(holds(text, "| Figure 4   | fps(toksvig)        |   125 fps |  400 fps |")) << text;
-  EXPECT_TRUE(holds(text, "300 s |      n/a | from the cache")) << text;
-  EXPECT_TRUE(holds(text, "3 of 5 claims and thresholds fell short. Quick")) << text;
-  EXPECT_TRUE(holds(text, "error(toksvig) = 0.01100 \\*; error(direct) = 0.02100")) << text;
+  EXPECT_TRUE(says(text, "| Figure 4   | fps(toksvig)        |   125 fps |  400 fps |")) << text;
+  EXPECT_TRUE(says(text, "300 s |      n/a | from the cache")) << text;
+  EXPECT_TRUE(says(text, "3 of 5 claims and thresholds fell short. Quick")) << text;
+  EXPECT_TRUE(says(text, "error(toksvig) = 0.01100 \\*; error(direct) = 0.02100")) << text;
 }
 
 TEST(ExperimentSection, TextOfOthersIsEscaped) {
   const ExperimentReport report = *hostile_results().experiment;
-  EXPECT_FALSE(holds(experiment_html(report), "<script>"));
-  EXPECT_TRUE(holds(experiment_markdown(report), "\\<script"));
-  EXPECT_FALSE(holds(experiment_markdown(report), " <script"));
-  EXPECT_TRUE(holds(experiment_html(report), "&lt;script&gt;"));
+  EXPECT_FALSE(says(experiment_html(report), "<script>"));
+  EXPECT_TRUE(says(experiment_markdown(report), "\\<script"));
+  EXPECT_FALSE(says(experiment_markdown(report), " <script"));
+  EXPECT_TRUE(says(experiment_html(report), "&lt;script&gt;"));
 }
 
 TEST(ExperimentSection, AnExperimentWithoutChecksSaysNothingOfThem) {
   ExperimentReport report;
   report.name = report.title = "bare";
   EXPECT_TRUE(report.shortfalls().empty());
-  EXPECT_FALSE(holds(experiment_markdown(report), "###"));
-  EXPECT_FALSE(holds(experiment_html(report), "<table"));
+  EXPECT_FALSE(says(experiment_markdown(report), "###"));
+  EXPECT_FALSE(says(experiment_html(report), "<table"));
 }
 
 }  // namespace

@@ -8,11 +8,12 @@
 #include "results/report/figures.hpp"
 #include "results/report/markdown_table.hpp"
 #include "results/report/report.hpp"
+#include "tests/support/says.hpp"
 
 namespace footprint {
 namespace {
 
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+using test::says;
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
@@ -56,7 +57,7 @@ TEST(Figures, ReadingUsesMeasuredFiguresOnly) {
   record.equivalent_bound = "n/a";
   EXPECT_EQ(reading(record), "toksvig at distance 4 is off by 0.02000 at 2.50 ms a frame.");
   record.error->noise_floor = 0.02;
-  EXPECT_TRUE(holds(reading(record), "within the noise of the reference"));
+  EXPECT_TRUE(says(reading(record), "within the noise of the reference"));
   record.error.reset();
   EXPECT_EQ(reading(record), "toksvig at distance 4 has no error: the object covers no whole pixel.");
 }
@@ -97,19 +98,19 @@ TEST(ResultsTable, SaysWhatWasMeasuredAndUnderWhatConditions) {
   for (const char* part : {"llvmpipe", "AMD EPYC", "0.840 (automatic)", "256 samples a pixel", "after_shading",
                            "seed 7", "a rig of two lights", "KHR_materials_clearcoat", "## Distance 16",
                            "Plain supersampling", "roughness_variation", "16.0 MiB", "0.31"}) {
-    EXPECT_TRUE(holds(table, part)) << part;
+    EXPECT_TRUE(says(table, part)) << part;
   }
-  EXPECT_TRUE(holds(table, "0.00060 *")) << "an error below the noise floor carries the mark";
+  EXPECT_TRUE(says(table, "0.00060 *")) << "an error below the noise floor carries the mark";
   EXPECT_EQ(lines_of(table).front(), "# ClearCoatTest");
 }
 
 TEST(ResultsTable, NamesCannotBreakIt) {
   const Results results = hostile_results();
   const std::string table = results_table(results);
-  EXPECT_FALSE(holds(table, " <img"));
-  EXPECT_TRUE(holds(table, "\\<img src=x"));
-  EXPECT_FALSE(holds(table, "n/a (")) << "figures that were not measured have no spread";
-  EXPECT_TRUE(holds(table, "\\[link](javascript"));
+  EXPECT_FALSE(says(table, " <img"));
+  EXPECT_TRUE(says(table, "\\<img src=x"));
+  EXPECT_FALSE(says(table, "n/a (")) << "figures that were not measured have no spread";
+  EXPECT_TRUE(says(table, "\\[link](javascript"));
 }
 
 }  // namespace

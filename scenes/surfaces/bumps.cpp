@@ -68,17 +68,9 @@ Image normals(const SurfaceSettings& settings) {
 Surface bumps_surface() {
   return {.name = "bumps",
           .summary = "round bumps of random place, width and height, close together",
-          .parameters = {{.name = "count",
-                          .default_value = 16.0,
-                          .minimum = 1,
-                          .maximum = 1024,
-                          .meaning = "bumps along a side",
-                          .integer = true},
-                         {.name = "steepness",
-                          .default_value = 0.7,
-                          .minimum = 0,
-                          .maximum = 10,
-                          .meaning = "slope half a cell away from the middle of a mean bump, rise over run"}},
+          .parameters = {whole_option("count", 16, 1, 1024, "bumps along a side"),
+                         number_option("steepness", 0.7, 0, 10,
+                                       "slope half a cell away from the middle of a mean bump, rise over run")},
           .normals = normals,
           .mesh = square_mesh};
 }

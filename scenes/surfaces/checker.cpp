@@ -43,29 +43,18 @@ Image exponents(const SurfaceSettings& settings) {
 }  // namespace
 
 Surface checker_surface() {
-  return {
-      .name = "checker",
-      .summary = "two base BRDFs in a checkerboard, without relief",
-      .parameters =
-          {{.name = "squares",
-            .default_value = 64.0,
-            .minimum = 1,
-            .maximum = 16384,
-            .meaning = "squares along the map's width; an even number tiles",
-            .integer = true},
-           {.name = "glossy",
-            .default_value = 800.0,
-            .minimum = 1,
-            .maximum = 1e6,
-            .meaning = "exponent of one square's lobe"},
-           {.name = "dull", .default_value = 8.0, .minimum = 1, .maximum = 1e6, .meaning = "exponent of the other's"}},
-      .default_resolution = 512,
-      .normals = flat_normals,
-      .base_color = base_color,
-      .specular = specular,
-      .lobe_parameter = exponents,
-      .distribution = NormalDistribution::blinn_phong,
-      .mesh = square_mesh};
+  return {.name = "checker",
+          .summary = "two base BRDFs in a checkerboard, without relief",
+          .parameters = {whole_option("squares", 64, 1, 16384, "squares along the map's width; an even number tiles"),
+                         number_option("glossy", 800.0, 1, 1e6, "exponent of one square's lobe"),
+                         number_option("dull", 8.0, 1, 1e6, "exponent of the other's")},
+          .default_resolution = 512,
+          .normals = flat_normals,
+          .base_color = base_color,
+          .specular = specular,
+          .lobe_parameter = exponents,
+          .distribution = NormalDistribution::blinn_phong,
+          .mesh = square_mesh};
 }
 
 }  // namespace footprint

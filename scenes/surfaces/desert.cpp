@@ -149,11 +149,7 @@ Mesh mesh(const SurfaceSettings& settings) {
 Surface desert_surface() {
   return {.name = "desert",
           .summary = "dunes under wind ripples of several widths, down to grains",
-          .parameters = {{.name = "steepness",
-                          .default_value = 1.0,
-                          .minimum = 0,
-                          .maximum = 10,
-                          .meaning = "factor on the slopes of ripples and grains"}},
+          .parameters = {number_option("steepness", 1.0, 0, 10, "factor on the slopes of ripples and grains")},
           .default_resolution = 1024,
           .normals = normals,
           .base_color = base_color,

@@ -110,11 +110,7 @@ Mesh mesh(const SurfaceSettings& /*settings*/) {
 Surface hall_floor_surface() {
   return {.name = "hall_floor",
           .summary = "the floor of a hall: squares of polished and honed marble with inlaid lozenges",
-          .parameters = {{.name = "tilt_degrees",
-                          .default_value = 0.7,
-                          .minimum = 0,
-                          .maximum = 30,
-                          .meaning = "largest tilt of a square along x and y, degrees"}},
+          .parameters = {number_option("tilt_degrees", 0.7, 0, 30, "largest tilt of a square along x and y, degrees")},
           .default_resolution = 2048,
           .normals = normals,
           .base_color = base_color,

@@ -23,31 +23,17 @@ Image normals(const SurfaceSettings& settings) {
 }  // namespace
 
 Surface scales_surface() {
-  return {.name = "scales",
-          .summary = "hemispheres in staggered rows on a flat ground",
-          .parameters = {{.name = "count",
-                          .default_value = 8.0,
-                          .minimum = 1,
-                          .maximum = 1024,
-                          .meaning = "scales along the map's width",
-                          .integer = true},
-                         {.name = "fill",
-                          .default_value = 0.95,
-                          .minimum = 0.1,
-                          .maximum = 1,
-                          .meaning = "radius of the largest scale as a share of that of touching ones"},
-                         {.name = "variation",
-                          .default_value = 0.2,
-                          .minimum = 0,
-                          .maximum = 0.9,
-                          .meaning = "how much smaller than the largest the smallest scale is, as a share of it"},
-                         {.name = "edge_degrees",
-                          .default_value = 90.0,
-                          .minimum = 0,
-                          .maximum = 90,
-                          .meaning = "tilt at a scale's edge, degrees; 90: hemispheres"}},
-          .normals = normals,
-          .mesh = square_mesh};
+  return {
+      .name = "scales",
+      .summary = "hemispheres in staggered rows on a flat ground",
+      .parameters = {whole_option("count", 8, 1, 1024, "scales along the map's width"),
+                     number_option("fill", 0.95, 0.1, 1,
+                                   "radius of the largest scale as a share of that of touching ones"),
+                     number_option("variation", 0.2, 0, 0.9,
+                                   "how much smaller than the largest the smallest scale is, as a share of it"),
+                     number_option("edge_degrees", 90.0, 0, 90, "tilt at a scale's edge, degrees; 90: hemispheres")},
+      .normals = normals,
+      .mesh = square_mesh};
 }
 
 }  // namespace footprint

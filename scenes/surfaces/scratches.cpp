@@ -104,31 +104,15 @@ Image normals(const SurfaceSettings& settings) {
 }  // namespace
 
 Surface scratches_surface() {
-  return {.name = "scratches",
-          .summary = "thin straight scratches in random directions on a flat ground",
-          .parameters = {{.name = "count",
-                          .default_value = 160.0,
-                          .minimum = 0,
-                          .maximum = 10000,
-                          .meaning = "scratches on the map",
-                          .integer = true},
-                         {.name = "width",
-                          .default_value = 0.004,
-                          .minimum = 1e-4,
-                          .maximum = 0.1,
-                          .meaning = "of the widest scratch, in map widths"},
-                         {.name = "length",
-                          .default_value = 0.4,
-                          .minimum = 0.01,
-                          .maximum = 1,
-                          .meaning = "of the longest scratch, in map widths"},
-                         {.name = "tilt_degrees",
-                          .default_value = 45.0,
-                          .minimum = 0,
-                          .maximum = 89,
-                          .meaning = "tilt at the edge of the deepest scratch, degrees"}},
-          .normals = normals,
-          .mesh = square_mesh};
+  return {
+      .name = "scratches",
+      .summary = "thin straight scratches in random directions on a flat ground",
+      .parameters = {whole_option("count", 160, 0, 10000, "scratches on the map"),
+                     number_option("width", 0.004, 1e-4, 0.1, "of the widest scratch, in map widths"),
+                     number_option("length", 0.4, 0.01, 1, "of the longest scratch, in map widths"),
+                     number_option("tilt_degrees", 45.0, 0, 89, "tilt at the edge of the deepest scratch, degrees")},
+      .normals = normals,
+      .mesh = square_mesh};
 }
 
 }  // namespace footprint

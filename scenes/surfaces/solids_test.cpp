@@ -7,21 +7,12 @@
 
 #include "scenes/surfaces/test_meshes.hpp"
 #include "scenes/surfaces/turned.hpp"
+#include "tests/support/mesh_area.hpp"
 
 namespace footprint {
 namespace {
 
 using std::numbers::pi;
-
-double area(const Mesh& mesh) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-    const glm::dvec3 a = mesh.vertices[mesh.indices[i]].position, b = mesh.vertices[mesh.indices[i + 1]].position,
-                     c = mesh.vertices[mesh.indices[i + 2]].position;
-    sum += 0.5 * glm::length(glm::cross(b - a, c - a));
-  }
-  return sum;
-}
 
 // By the divergence theorem: right for closed meshes alone.
 double volume(const Mesh& mesh) {
@@ -37,7 +28,7 @@ double volume(const Mesh& mesh) {
 TEST(TurnedSolid, HasTheAreaAndVolumeOfAConeOnACylinder) {
   const std::array<Cut, 3> cuts{{{{2.0, 0.0}}, {{2.0, 3.0}}, {{0.0, 4.5}}}};
   const Mesh mesh = turned_mesh({.cuts = cuts}, 400, 0.5);
-  EXPECT_NEAR(area(mesh), pi * (4.0 + 12.0 + 2.0 * 2.5), 0.01);
+  EXPECT_NEAR(testing::mesh_area(mesh), pi * (4.0 + 12.0 + 2.0 * 2.5), 0.01);
   EXPECT_NEAR(volume(mesh), pi * (12.0 + 2.0), 0.01);
 }
 
@@ -45,7 +36,7 @@ TEST(TurnedSolid, HasTheAreaAndVolumeOfABallThatBulgesAndOfAHollowOne) {
   const double quarter = std::tan(pi / 8.0);
   const std::array<Cut, 2> ball{{{{1.0, 0.0}, quarter}, {{0.0, 1.0}, quarter}}};
   const Mesh mesh = turned_mesh({.start = -1.0, .cuts = ball}, 400, 0.01);
-  EXPECT_NEAR(area(mesh), 4.0 * pi, 0.002);
+  EXPECT_NEAR(testing::mesh_area(mesh), 4.0 * pi, 0.002);
   EXPECT_NEAR(volume(mesh), 4.0 / 3.0 * pi, 0.002);
   for (const Vertex& vertex : mesh.vertices) ASSERT_LT(glm::distance(vertex.position, vertex.normal), 1e-5F);
   // A cylinder of radius and height 1, less a quarter circle's ring from its upper edge: Pappus.

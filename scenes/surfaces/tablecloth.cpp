@@ -84,11 +84,7 @@ Mesh mesh(const SurfaceSettings& settings) {
 Surface tablecloth_surface() {
   return {.name = "tablecloth",
           .summary = "a square cloth draped over a round table, creased by noise of five octaves",
-          .parameters = {{.name = "steepness",
-                          .default_value = 1.0,
-                          .minimum = 0,
-                          .maximum = 10,
-                          .meaning = "factor on the slopes of the creases"}},
+          .parameters = {number_option("steepness", 1.0, 0, 10, "factor on the slopes of the creases")},
           .default_resolution = 1024,
           .normals = normals,
           .mesh = mesh};

@@ -37,17 +37,6 @@ Environment uneven_environment() {
   return {.name = "uneven", .radiance = std::make_shared<const Image>(std::move(map)), .rotation = 0.7F};
 }
 
-double mean_of(const Image& picture) {
-  double sum = 0;
-  double count = 0;
-  for (std::size_t i = 0; i < picture.texels.size(); i += 4) {
-    if (picture.texels[i + 3] < 1.0F) continue;
-    sum += (picture.texels[i] + picture.texels[i + 1] + picture.texels[i + 2]) / 3.0;
-    count += 1.0;
-  }
-  return sum / count;
-}
-
 constexpr BaseBrdf lambert{NormalDistribution::ggx, GeometryTerm::none, FresnelTerm::none, true};
 
 class UnderAnEnvironment : public ::testing::TestWithParam<const Method*> {
@@ -159,8 +148,8 @@ TEST(ReferenceUnderAnEnvironment, DenseLightsComeToTheSame) {
       const double truth = 0.25 * blinn_phong_under(*scene.environment, exponent, c);
       EXPECT_NEAR(dense.at(8, 8)[c], truth, 0.01 * truth) << "exponent " << exponent << ", channel " << c;
     }
-    const double drawn = mean_of(renderer.reference(64).mean);
-    EXPECT_NEAR(mean_of(dense), drawn, 0.01 * drawn) << "exponent " << exponent;
+    const double drawn = covered_mean(renderer.reference(64).mean);
+    EXPECT_NEAR(covered_mean(dense), drawn, 0.01 * drawn) << "exponent " << exponent;
   }
 }
 
@@ -171,14 +160,14 @@ TEST(ReferenceUnderAnEnvironment, DenseLightsComeToTheSamePicture) {
   const Image drawn = renderer.reference(1024).mean;
   const Image dense = renderer.reference(64, 1, ReferenceFilter::after_shading, 0, EnvironmentUse::dense).mean;
   EXPECT_LT(compare_images(dense, drawn, 1.0F).value().relative_rmse, 0.02);
-  EXPECT_LT(std::abs(mean_of(dense) / mean_of(drawn) - 1.0), 0.005);
+  EXPECT_LT(std::abs(covered_mean(dense) / covered_mean(drawn) - 1.0), 0.005);
 }
 
 TEST(ReferenceUnderAnEnvironment, ReflectsAllOfAWhiteFurnace) {
   const SquareMaterial plaster{.brdf = lambert, .base_color = glm::vec3(1.0F), .specular = glm::vec3(0.0F)};
   TestRenderer renderer(lit_square({}, plaster, constant_environment(glm::vec3(1.0F))), {16, 16});
-  EXPECT_NEAR(mean_of(renderer.reference(256).mean), 1.0, 2e-3);
-  EXPECT_NEAR(mean_of(renderer.frame(find_method("direct"))), 1.0, 1e-3);
+  EXPECT_NEAR(covered_mean(renderer.reference(256).mean), 1.0, 2e-3);
+  EXPECT_NEAR(covered_mean(renderer.frame(find_method("direct"))), 1.0, 1e-3);
 }
 
 TEST(ReferenceUnderAnEnvironment, IsDeterministicAndNotOfTheTile) {

@@ -79,4 +79,15 @@ double largest_difference(const Image& a, const Image& b) {
   return largest;
 }
 
+double covered_mean(const Image& picture) {
+  double sum = 0;
+  double count = 0;
+  for (std::size_t i = 0; i < picture.texels.size(); i += 4) {
+    if (picture.texels[i + 3] < 1.0F) continue;
+    sum += (picture.texels[i] + picture.texels[i + 1] + picture.texels[i + 2]) / 3.0;
+    count += 1.0;
+  }
+  return sum / count;
+}
+
 }  // namespace footprint::testing

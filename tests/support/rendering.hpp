@@ -44,4 +44,7 @@ class TestRenderer {
 /// The largest absolute difference of any channel; infinite for different sizes or a NaN.
 [[nodiscard]] double largest_difference(const Image& a, const Image& b);
 
+/// The mean of the three colour channels over the pixels of four channels that are wholly covered; NaN where none is.
+[[nodiscard]] double covered_mean(const Image& picture);
+
 }  // namespace footprint::testing

@@ -150,7 +150,7 @@ std::vector<MapLobe> BuiltMap::lobes() const {
   const auto got = probe(
       "int i = int(a.x);\nif (i >= e.count) return vec4(0.0);\n"
       "Lobe lobe = lobeAt(i);\n"
-      "return b.x == 0.0 ? vec4(lobe.mean, length(lobes[i].xyz)) : vec4(lobe.kappa);",
+      "return b.x == 0.0 ? vec4(lobe.mean, lobe.amount / amountsOf(e)) : vec4(kappaOfLobe(lobe.base));",
       inputs);
   std::vector<MapLobe> lobes;
   for (std::size_t i = 0; i < got.size(); i += 2) {

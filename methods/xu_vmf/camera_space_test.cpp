@@ -69,7 +69,7 @@ Scene two_planes(double degrees = 60) {
 }
 
 TEST(CameraSpace, MixesNoChartsUpToTheThirdLevel) {
-  const BuiltMap map(two_planes(), camera_space);
+  const BuiltMap map(two_planes(), {{"space", "camera"}, {"j", "1"}});
   ASSERT_EQ(map.baked().notes.size(), 1U);
   const glm::vec3 tilted = turn(60, {0, 1, 0}) * glm::vec3(0, 0, 1);
   for (std::size_t level = 0; level < 4; ++level) {

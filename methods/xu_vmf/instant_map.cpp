@@ -68,18 +68,20 @@ const PrefilteredTexture& declared(const FrameBuildJob& job, std::string_view na
   return *std::ranges::find(job.baked.textures, name, &PrefilteredTexture::name);
 }
 
-// Lobes that each facet has.
-int own_lobes(const FrameBuildJob& job) { return std::max(declared(job, whole_name).layers - 1, 1); }
-
 }  // namespace
 
 int whole_layers(const Material& material) {
   return material.lobes.empty() ? 1 : static_cast<int>(material.lobes.size()) + 1;
 }
 
+int most_lobes(const Options& options) {
+  const std::string& j = options.word("j");
+  return j == "1" ? 1 : j == "4" ? 4 : 8;
+}
+
 int part_count(const Options& options) {
   const std::string& j = options.word("j");
-  return j == "1" ? 0 : j == "4" ? 4 : 8;
+  return j == "1" ? 0 : j == "adaptive" ? 13 : most_lobes(options);
 }
 
 bool keeps_guard(const Options& options, const EffectSet& effects) {
@@ -89,7 +91,8 @@ bool keeps_guard(const Options& options, const EffectSet& effects) {
 InstantMap::InstantMap(const ShaderVariant& variant, const Options& options)
     : options_(options),
       effects_(variant.effects),
-      parts_(static_cast<GLuint>(part_count(options))),
+      parts_(part_count(options)),
+      first_cut_(options.word("j") == "adaptive" ? 1 : 0),
       guards_(keeps_guard(options, variant.effects)),
       no_vertices_(empty_vertex_array()),
       joined_(framebuffer(guards_ ? 2 : 1)) {
@@ -105,8 +108,9 @@ InstantMap::InstantMap(const ShaderVariant& variant, const Options& options)
                              embedded::xu_vmf_storing_glsl, embedded::xu_vmf_join_glsl});
   };
   const auto layer_count = [](GLuint layers) { return fmt::format("const int layer_count = {};\n", layers); };
+  const GLuint at_once = options.word("j") == "adaptive" ? 6 : static_cast<GLuint>(parts_);
   const auto split_text = [&] {
-    return fragment("split", {layer_count(parts_), embedded::xu_vmf_cells_glsl, embedded::xu_vmf_storing_glsl,
+    return fragment("split", {layer_count(at_once), embedded::xu_vmf_cells_glsl, embedded::xu_vmf_storing_glsl,
                               embedded::xu_vmf_split_glsl});
   };
   const auto stage = [&](GLuint layers) {
@@ -119,7 +123,7 @@ InstantMap::InstantMap(const ShaderVariant& variant, const Options& options)
   join_flat_ = {"xu_vmf_join", screen_vertex_shader(), join_text()};
   whole_ = stage(1);
   if (parts_ > 0) {
-    split_stage_ = stage(parts_);
+    split_stage_ = stage(at_once);
     if (guards_) split_guard_.emplace("xu_vmf_split, guard", screen_vertex_shader(), split_text());
     flags.clear();
     split_.emplace("xu_vmf_split", screen_vertex_shader(), split_text());
@@ -143,10 +147,10 @@ void InstantMap::run(const FrameBuildJob& job) const {
   for (const GLenum off : {GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND}) gl::api().Disable(off);
   gl::api().BindBufferBase(GL_UNIFORM_BUFFER, material_binding, job.batch.material_block.name());
   join(job);
-  for (const std::string_view name : {whole_name, whole_guard_name}) coarsen(whole_, job, name);
+  for (const std::string_view name : {whole_name, whole_guard_name}) coarsen(job, name);
   if (parts_ == 0) return;
   split(job);
-  for (const std::string_view name : {parts_name, parts_guard_name}) coarsen(split_stage_, job, name);
+  for (const std::string_view name : {parts_name, parts_guard_name}) coarsen(job, name);
 }
 
 // Binds what the program reads.
@@ -198,17 +202,31 @@ void InstantMap::join(const FrameBuildJob& job) const {
 }
 
 void InstantMap::split(const FrameBuildJob& job) const {
-  bind(0, texture_of(job, whole_name)->texture);
-  gl::api().UseProgram(split_->name());
-  for (int own = 0; own < own_lobes(job); ++own) {
-    gl::api().Uniform1i(split_->uniform("source"), own);
-    draw_into(split_stage_, texture_of(job, parts_name)->texture, 0, own * static_cast<int>(parts_));
+  split(job, *split_, whole_name, parts_name);
+  if (guards_) split(job, *split_guard_, whole_guard_name, parts_guard_name);
+}
+
+// Level 1 of the parts, from the finest level of the whole hemisphere's texture `from`.
+void InstantMap::split(const FrameBuildJob& job, const gl::Program& program, std::string_view from,
+                       std::string_view to) const {
+  const gl::Texture& parts = texture_of(job, to)->texture;
+  const int own_lobes = declared(job, to).layers / parts_;
+  for (int own = 0; own < own_lobes; ++own) {
+    if (first_cut_ > 0) {  // the hemisphere itself
+      bind(0, texture_of(job, from)->texture);
+      gl::api().UseProgram(whole_.coarsen.name());
+      gl::api().Uniform1i(whole_.coarsen.uniform("first_layer"), own);
+      draw_into(whole_, parts, 0, own * parts_);
+    }
+    bind(0, texture_of(job, whole_name)->texture);
+    bind(1, texture_of(job, from)->texture);
+    gl::api().UseProgram(program.name());
+    gl::api().Uniform1i(program.uniform("source"), own);
+    for (int first = first_cut_; first < parts_; first += static_cast<int>(split_stage_.layers)) {
+      gl::api().Uniform1i(program.uniform("first_part"), first);
+      draw_into(split_stage_, parts, 0, own * parts_ + first);
+    }
   }
-  if (!guards_) return;
-  bind(1, texture_of(job, whole_guard_name)->texture);
-  gl::api().UseProgram(split_guard_->name());
-  gl::api().Uniform1i(split_guard_->uniform("source"), 0);
-  draw_into(split_stage_, texture_of(job, parts_guard_name)->texture, 0, 0);
 }
 
 void InstantMap::draw_into(const Stage& stage, const gl::Texture& map, int level, int first_layer) const {
@@ -223,18 +241,21 @@ void InstantMap::draw_into(const Stage& stage, const gl::Texture& map, int level
 }
 
 // Fills the further levels of a texture, if the job has it.
-void InstantMap::coarsen(const Stage& stage, const FrameBuildJob& job, std::string_view name) const {
+void InstantMap::coarsen(const FrameBuildJob& job, std::string_view name) const {
   const GpuTexture* built = texture_of(job, name);
   if (built == nullptr) return;
+  const bool of_parts = name == parts_name || name == parts_guard_name;
   const int levels = static_cast<int>(declared(job, name).levels.size());
   const int layers = declared(job, name).layers;
   bind(0, built->texture);
-  gl::api().UseProgram(stage.coarsen.name());
   for (int level = 1; level < levels; ++level) {
     show_one_level(built->texture, level - 1);
-    for (int first = 0; first < layers; first += static_cast<int>(stage.layers)) {
+    for (int first = 0; first < layers;) {
+      const Stage& stage = of_parts && first % parts_ >= first_cut_ ? split_stage_ : whole_;
+      gl::api().UseProgram(stage.coarsen.name());
       gl::api().Uniform1i(stage.coarsen.uniform("first_layer"), first);
       draw_into(stage, built->texture, level, first);
+      first += static_cast<int>(stage.layers);
     }
   }
   show_all_levels(built->texture, levels);

@@ -23,7 +23,11 @@ inline constexpr std::string_view table_name = "xu_vmf_shortfalls";
 /// The scalar that tells whether a material's map has the camera's axes.
 inline constexpr std::string_view camera_space_name = "xu_vmf_in_camera_space";
 
-/// Lobes a texel of the map beside the one of the whole hemisphere: 0, 4 or 8.
+/// Lobes that a pixel can have of one of its facets': the whole hemisphere's, or one of each of 4 or 8 parts.
+[[nodiscard]] int most_lobes(const Options& options);
+
+/// Layers of the parts' texture for one of the facets' lobes: none, 4 or 8 parts, or the tree of `adaptive`: the whole
+/// hemisphere, 4 parts and their 8 cells, as xu_vmf_cells.glsl numbers them.
 [[nodiscard]] int part_count(const Options& options);
 
 /// Whether a guard is kept beside r: in half floats, where 1 - |r| of the texels is not one for all.
@@ -48,12 +52,14 @@ class InstantMap final : public FrameBuild {
   void join(const FrameBuildJob& job) const;
   void prepare_join(const FrameBuildJob& job, const gl::Program& program, bool camera) const;
   void split(const FrameBuildJob& job) const;
-  void coarsen(const Stage& stage, const FrameBuildJob& job, std::string_view name) const;
+  void split(const FrameBuildJob& job, const gl::Program& program, std::string_view from, std::string_view to) const;
+  void coarsen(const FrameBuildJob& job, std::string_view name) const;
   void draw_into(const Stage& stage, const gl::Texture& map, int level, int first_layer) const;
 
   Options options_;
   EffectSet effects_;
-  GLuint parts_;
+  int parts_;  // layers of each of the facets' lobes, and the first of them that is a cut of the hemisphere
+  int first_cut_;
   bool guards_;
   gl::VertexArray no_vertices_;
   gl::Framebuffer joined_;

@@ -102,7 +102,7 @@ void declare_maps(Prefiltered& out, const glm::ivec2& size, const TextureCoordin
                   const Options& options, const EffectSet& effects) {
   const int parts = xu_vmf::part_count(options);
   const bool guard = xu_vmf::keeps_guard(options, effects);
-  const bool whole_is_averaged = parts == 0 || options.word("j") == "adaptive" || layers > 1;
+  const bool whole_is_averaged = parts == 0 || layers > 1;
   const auto declare = [&](std::string_view name, const glm::ivec2& texels, int count, int channels, bool whole_chain) {
     out.textures.push_back(make_built_texture({.name = std::string(name),
                                                .width = texels.x,
@@ -191,9 +191,7 @@ class XuVmf final : public Method {
     return anything ? std::make_unique<xu_vmf::InstantMap>(variant, options) : nullptr;
   }
 
-  [[nodiscard]] int lobe_count(const Options& options) const override {
-    return std::max(xu_vmf::part_count(options), 1);
-  }
+  [[nodiscard]] int lobe_count(const Options& options) const override { return xu_vmf::most_lobes(options); }
 
   [[nodiscard]] std::string_view shader() const override { return shader_; }
 

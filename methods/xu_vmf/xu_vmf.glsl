@@ -8,11 +8,7 @@ float kappaOfLobe(float lobe);
 float lobeOfKappa(float kappa);
 int cellOf(vec3 r);
 int partOfCell(int cell);
-//? if j_4
-const int part_count = 4;
-//? else
-const int part_count = 8;
-//? end
+int beyondPart(int part);
 
 //? if j_1
 const int most_of_one = 1;
@@ -33,20 +29,19 @@ const int most_lobes = most_of_one * most_facet_lobes;
 const int most_lobes = most_of_one;
 //? end
 
-// A pixel's lobes, 0 to count - 1: mean direction times share of the footprint, and 1 - |r|. Few numbers, since an array
+// A pixel's lobes, 0 to count - 1, with what all lights take of them: mean direction and width (the parameter of the base
+// lobe, or kappa), and what the density and the cosine of the mean normal are multiplied by. Few numbers, since an array
 // whose index is not known is dear to write and to read. They are no member of Effective, which functions take by value:
 // a software renderer would copy them all at every call.
 vec4 lobes[most_lobes];
-//? if variant_published
-float amounts[most_lobes];  // what each adds with; it is the share where lobes weigh what they cover
-//? end
-//? if multi_lobe
-float facet_energies[most_lobes];  // of the facets' lobe that each stands for
+vec2 weights[most_lobes];
+//? if environment_light
+float shares[most_lobes];  // of the footprint's facets, but as published
 //? end
 
 struct Effective {
   int count;
-  float covered;  // of the footprint, by the lobes of one of the facets'
+  float covered;  // of the footprint, by the lobes: what their weights are still to be divided by
 //? if multi_lobe
   vec3 normal;  // mean of the unit normals of facets with lobes of their own axes
 //? end
@@ -75,33 +70,22 @@ float energyOf(float base) {
 //? end
 }
 
-float facetEnergy(int i) {
-//? if multi_lobe
-  return facet_energies[i];
-//? else
-  return facet_energy;
-//? end
-}
-
 struct Lobe {
   vec3 mean;
+//? if not lobe_base
   float kappa;
+//? end
   float base;    // the base lobe of that width
-  float share;   // of the footprint's facets, but as published
   float amount;  // what its density is multiplied by
 };
 
 Lobe lobeAt(int i) {
   vec4 lobe = lobes[i];
-  float size = length(lobe.xyz);
-  float kappa = kappaOf(lobe.w);
-  float base = lobeOfKappa(kappa);
-//? if variant_published
-  float share = amounts[i];
+//? if lobe_base
+  return Lobe(lobe.xyz, lobe.w, weights[i].x);
 //? else
-  float share = size;
+  return Lobe(lobe.xyz, lobe.w, lobeOfKappa(lobe.w), weights[i].x);
 //? end
-  return Lobe(lobe.xyz / max(size, 1e-30), kappa, base, share, share * facetEnergy(i) / energyOf(base));
 }
 
 float densityOf(Lobe lobe, vec3 h) {
@@ -141,10 +125,29 @@ int ownLobeCount() { return 1; }
 OwnLobe ownLobe(Footprints f, int k) { return baseLobe(f); }
 //? end
 
+// The length of the mean of a lobe's facets' unit normals: |r| over that of a single facet.
+float meanNormalLength(float q) { return min((1.0 - q) / max(1.0 - facet_shortfall, 1e-6), 1.0); }
+
+// `amount` is what the lobe adds with as published: it is the share where lobes weigh what they cover.
 void pushLobe(inout Effective e, vec3 mean, float q, float share, float amount) {
-  lobes[e.count] = vec4(share * mean, q);
-//? if variant_published
-  amounts[e.count] = amount;
+  float kappa = kappaOf(q);
+  float base = lobeOfKappa(kappa);
+//? if not variant_published
+  amount = share;
+//? end
+//? if sampling_texel
+  // The lobe of the one texel that was drawn is a facet's own. The roughness map may have drawn another.
+  facet_shortfall = q;
+  facet_energy = energyOf(base);
+//? end
+//? if lobe_base
+  lobes[e.count] = vec4(mean, base);
+//? else
+  lobes[e.count] = vec4(mean, kappa);
+//? end
+  weights[e.count] = vec2(amount * facet_energy / energyOf(base), share * meanNormalLength(q));
+//? if environment_light
+  shares[e.count] = amount;
 //? end
   ++e.count;
 }
@@ -223,10 +226,13 @@ struct Probe {
 };
 
 // The four texels about a place come by their channels, gathered from the middle between them, where no hardware rounds
-// to others.
+// to others. Each is (r, 1), or 0: the fourth channel needs no look.
 mat4 texelsAbout(sampler2DArray map, vec3 middle) {
-  return transpose(mat4(textureGather(map, middle, 0), textureGather(map, middle, 1), textureGather(map, middle, 2),
-                        textureGather(map, middle, 3)));
+  vec4 x = textureGather(map, middle, 0);
+  vec4 y = textureGather(map, middle, 1);
+  vec4 z = textureGather(map, middle, 2);
+  vec4 covered = vec4(notEqual(abs(x) + abs(y) + abs(z), vec4(0.0)));
+  return transpose(mat4(x, y, z, covered));
 }
 
 Probe probeAt(int own, vec2 uv, float level) {
@@ -259,7 +265,8 @@ Probe probeAt(int own, vec2 uv, float level) {
 // One part under one probe.
 Part partAt(Probe p, int part) {
   float share = clamp(p.level, 0.0, 1.0);
-  vec3 place = vec3(p.uv, p.own * part_count + part);
+  int layers = textureSize(xu_vmf_parts, 0).z / ownLobeCount();
+  vec3 place = vec3(p.uv, p.own * layers + part);
   vec4 r = share * textureLod(xu_vmf_parts, place, p.level - 1.0);
   float least = 0.0;
 //? if storage_fp16
@@ -267,91 +274,85 @@ Part partAt(Probe p, int part) {
   least = share * textureLod(xu_vmf_parts_guard, place, p.level - 1.0).r;
 //? end
 //? end
+  int beyond = beyondPart(part);
   for (int i = 0; i < 4; ++i) {
-    bool own = p.part[i] == part;
-    r += own ? p.texel[i] : vec4(0.0);
-    least += own ? p.least[i] : 0.0;
+    bool holds = part <= p.part[i] && p.part[i] < beyond;
+    r += holds ? p.texel[i] : vec4(0.0);
+    least += holds ? p.least[i] : 0.0;
   }
   return partOf(r, least);
 }
 
-Part sumOf(Part a, Part b) { return Part(a.r + b.r, a.least + b.least); }
-
 //? if anisotropic
 Part partUnder(Footprint f, int own, int part) {
   Probes p = probesOf(vec2(textureSize(xu_vmf_whole, 0).xy), f);
-  Part sum = Part(vec4(0.0), 0.0);
-  for (int i = 0; i < p.count; ++i) sum = sumOf(sum, partAt(probeAt(own, probeUv(f, p, i), p.level), part));
-  return Part(sum.r / float(p.count), sum.least / float(p.count));
+  vec4 r = vec4(0.0);
+  float least = 0.0;
+  for (int i = 0; i < p.count; ++i) {
+    Part one = partAt(probeAt(own, probeUv(f, p, i), p.level), part);
+    r += one.r;
+    least += one.least;
+  }
+  return Part(r / float(p.count), least / float(p.count));
 }
 //? end
 
-// How far one lobe serves a part: 1 wholly, 0 not at all. Algorithm 1 steps at the threshold.
-float unityOf(Part part, float threshold) {
-  float size = length(part.r.xyz) / max(part.r.w, 1e-30);
+//? if j_adaptive
+// How far one lobe serves a part: 1 wholly, 0 not at all. Algorithm 1 steps at the threshold. A cell is not cut, nor
+// what nothing is in.
+float unityOf(Part part, int i) {
+  if (beyondPart(i) == i + 1 || part.r.w < least_share) return 1.0;
+  float size = length(part.r.xyz) / part.r.w;
+  float threshold = i == 0 ? option_eps0 : option_eps1;
 //? if thresholds_blended
   return clamp((size - threshold) / 0.02 + 1.0, 0.0, 1.0);
 //? else
   return size > threshold ? 1.0 : 0.0;
 //? end
 }
+//? end
 
-// Loops run over the layers that the map has: a count that the compiler does not know, so that it unrolls nothing and
-// compiles in a fraction of the time. They ask at their end: a software renderer runs a body that is asked for first
-// once more than needed. It runs what a condition leaves out as well, but not a loop's further rounds: so the lobe of
-// the whole hemisphere, which serves most footprints, is the first round.
+// The loop runs over the layers that the map has: a count that the compiler does not know, so that it unrolls nothing
+// and compiles in a fraction of the time. It asks at its end: a software renderer runs a body that is asked for first
+// once more than needed. It runs what a condition leaves out as well, but not a loop's further rounds: so every part is
+// a round of its own, the whole hemisphere, which serves most footprints, the first, and a pixel goes on to what it
+// needs next: the parts that this one is cut into, or those beyond it.
 void addParts(inout Effective e, Footprint f, int own) {
   int layers = textureSize(xu_vmf_parts, 0).z / ownLobeCount();
 //? if not anisotropic
   Probe probe = probeAt(own, f.uv, levelOf(vec2(textureSize(xu_vmf_whole, 0).xy), f));
 //? end
 //? if j_adaptive
-  Part whole = wholeAt(f, own);
-  float whole_unity = unityOf(whole, option_eps0);
-  Part first = whole;
-  Effective before = e;
-  int i = -1;
-//? else
-  int i = 0;
+//? if thresholds_blended
+  float coarse_weight = 0.0;  // what the hemisphere leaves to the coarse parts, and such a part to its cells
+  float cell_weight = 0.0;
 //? end
+//? end
+  int i = 0;
   do {
 //? if anisotropic
-    Part part = partUnder(f, own, max(i, 0));
+    Part part = partUnder(f, own, i);
 //? else
-    Part part = partAt(probe, max(i, 0));
+    Part part = partAt(probe, i);
 //? end
-    float weight = 1.0;
 //? if j_adaptive
-    // A coarse cell is the sum of its two fine ones, so that it needs no layer of its own. Where it is not to be cut, it
-    // takes the place of both.
-    weight = 1.0 - whole_unity;
-    if (i < 0) {
-      part = whole;
-      weight = whole_unity;
-    } else if (i % 2 == 0) {
-      before = e;
-      first = part;
-    } else {
-      Part both = sumOf(first, part);
-      float unity = unityOf(both, option_eps1);
+    float unity = unityOf(part, i);
+    int beyond = beyondPart(i);
 //? if thresholds_blended
-      e = before;
-      addLobe(e, first, weight * (1.0 - unity));
-      addLobe(e, both, weight * unity);
-      weight *= 1.0 - unity;
+    bool is_cell = beyond == i + 1;
+    float weight = i == 0 ? 1.0 : is_cell ? cell_weight : coarse_weight;
+    addLobe(e, part, weight * unity);
+    if (!is_cell) cell_weight = weight * (1.0 - unity);
+    if (i == 0) coarse_weight = 1.0 - unity;
 //? else
-      if (unity > 0.0) {
-        e = before;
-        part = both;
-      }
+    addLobe(e, part, unity);
 //? end
-    }
+    i = unity >= 1.0 ? beyond : i + 1;
+//? else
+    addLobe(e, part, 1.0);
+    ++i;
 //? end
-    addLobe(e, part, weight);
-//? if j_adaptive
-    if (whole_unity >= 1.0) break;
-//? end
-  } while (++i < layers);
+  } while (i < layers);
 }
 //? end
 //? end
@@ -370,36 +371,42 @@ void addLobes(inout Effective e, Footprint f, int own) {
 }
 //? end
 
+// What the amounts are still to be divided by.
+float amountsOf(Effective e) {
+//? if variant_published
+  return 1.0;
+//? else
+  return e.covered;
+//? end
+}
+
 void addOwnLobe(inout Effective e, Footprints f, int k) {
   OwnLobe own = ownLobe(f, k);
   float q = shortfallOf(kappaOfLobe(own.parameter));
   facet_shortfall = q;
   facet_energy = energyOf(own.parameter);
   int first = e.count;
+  pushLobe(e, own.axis, q, 1.0, 1.0);  // flat facets, unless others take their place
+  e.count = first;
   e.covered = 0.0;
 //? if texture_arrays
   addLobes(e, placeOf(f), k);
 //? end
-  if (e.count == first) {  // flat facets
-    pushLobe(e, own.axis, q, 1.0, 1.0);
+  if (e.count == first) {
     e.covered = 1.0;
+    ++e.count;
   }
-//? if sampling_texel
-  // The lobe of the one texel that was drawn is a facet's own. The roughness map may have drawn another.
-  facet_shortfall = lobes[first].w;
-  facet_energy = energyOf(lobeOfKappa(kappaOf(facet_shortfall)));
-//? end
+//? if multi_lobe
+  // Each of the facets' lobes has parts of its own, which cover what they cover.
   int i = first;
   do {
-    // Whole: Mesa 22.3 loses w where x, y and z alone are written.
-    lobes[i] *= vec4(vec3(own.weight / e.covered), 1.0);
-//? if variant_published
-    amounts[i] *= own.weight;
-//? end
-//? if multi_lobe
-    facet_energies[i] = facet_energy;
+    weights[i] *= own.weight / vec2(amountsOf(e), e.covered);
+//? if environment_light
+    shares[i] *= own.weight / amountsOf(e);
 //? end
   } while (++i < e.count);
+  e.covered = 1.0;
+//? end
 }
 
 Effective effective(Footprints f) {
@@ -426,21 +433,31 @@ vec3 geometryAxis(Effective e, vec3 mean) {
   return mean;
 }
 
+//? if diffuse
+float last_cosine;  // of the facets' unit normals with the light, their mean: found by `specular`, for `diffuse` after it
+//? end
+
+// One loop for both terms: a lobe is dear to read.
 vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
-  if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
   vec3 h = halfVector(wi, wo);
   float sum = 0.0;
+//? if diffuse
+  float cosine = 0.0;
+//? end
   int i = 0;
   do {
     Lobe lobe = lobeAt(i);
     sum += lobe.amount * densityOf(lobe, h) * geometryFactor(lobe.base, geometryAxis(e, lobe.mean), h, wi, wo);
+//? if diffuse
+    cosine += weights[i].y * max(dot(lobe.mean, wi), 0.0);
+//? end
   } while (++i < e.count);
-  return fresnelTerm(f0, wi, wo) * sum;
+//? if diffuse
+  last_cosine = cosine / e.covered;
+//? end
+  if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
+  return fresnelTerm(f0, wi, wo) * (sum / amountsOf(e));
 }
-
-// A lobe's mean direction times its share and the length of the mean of its facets' unit normals: |r| over that of a
-// single facet.
-vec3 meanNormalOf(vec4 lobe) { return min((1.0 - lobe.w) / max(1.0 - facet_shortfall, 1e-6), 1.0) * lobe.xyz; }
 
 //? if diffuse
 vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
@@ -450,12 +467,7 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
     return size * lambert(e.normal / size, albedo, f0, wi, wo);
   }
 //? end
-  vec3 sum = vec3(0.0);
-  int i = 0;
-  do {
-    sum += lambert(meanNormalOf(lobes[i]), albedo, f0, wi, wo);
-  } while (++i < e.count);
-  return sum;
+  return lambert(last_cosine * wi, albedo, f0, wi, wo);
 }
 //? end
 
@@ -465,7 +477,7 @@ float ndf(Effective e, vec3 h) {
     Lobe lobe = lobeAt(i);
     sum += lobe.amount * densityOf(lobe, h);
   }
-  return sum;
+  return sum / amountsOf(e);
 }
 
 //? if environment_light
@@ -476,9 +488,9 @@ int lobeCount(Effective e) { return e.count; }
 NormalLobe normalLobe(Effective e, int i) {
   Lobe lobe = lobeAt(i);
 //? if lobe_base
-  return baseNormalLobe(lobe.mean, lobe.base, lobe.share);
+  return baseNormalLobe(lobe.mean, lobe.base, shares[i] / amountsOf(e));
 //? else
-  return vmfNormalLobe(lobe.mean, lobe.kappa, lobe.share, lobe.base);
+  return vmfNormalLobe(lobe.mean, lobe.kappa, shares[i] / amountsOf(e), lobe.base);
 //? end
 }
 
@@ -494,7 +506,7 @@ vec3 meanNormal(Effective e) {
   if (facet_lobe_count > 0) return e.normal;
 //? end
   vec3 sum = vec3(0.0);
-  for (int i = 0; i < e.count; ++i) sum += meanNormalOf(lobes[i]);
-  return sum;
+  for (int i = 0; i < e.count; ++i) sum += weights[i].y * lobes[i].xyz;
+  return sum / e.covered;
 }
 //? end

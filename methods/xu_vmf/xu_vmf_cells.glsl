@@ -11,8 +11,20 @@ int cellOf(vec3 r) {
 int cellOf(vec3 r) { return 2 * min(int(4.0 * sqrt(dot(r.xy, r.xy) / max(dot(r, r), 1e-30))), 3) + (r.x >= 0.0 ? 0 : 1); }
 //? end
 
+// The parts that the map stores, a layer each. `adaptive` has a tree of them, parents before what they are cut into: the
+// whole hemisphere (0), and the 4 coarse parts (1, 4, 7, 10), each before its two cells. What follows a part that is not
+// cut is beyondPart, what it holds are the parts between the two.
+//? if j_adaptive
+const int part_count = 13;
+int partOfCell(int cell) { return 2 + cell + cell / 2; }
+int beyondPart(int part) { return part == 0 ? part_count : part % 3 == 1 ? part + 3 : part + 1; }
+//? else
 //? if j_4
+const int part_count = 4;
 int partOfCell(int cell) { return cell / 2; }
 //? else
+const int part_count = 8;
 int partOfCell(int cell) { return cell; }
+//? end
+int beyondPart(int part) { return part + 1; }
 //? end

@@ -1,8 +1,9 @@
-// Second pass of the frame build: from the finest level, where a texel has one lobe, to the next one of every part. The
+// Second pass of the frame build: from the finest level, where a texel has one lobe, to the next one of some parts. The
 // finest level of a part is not stored: whether a texel's lobe is in it, its direction tells.
 layout(location = 0) out vec4 part[layer_count];
 
-uniform int source;  // the layer that is split
+uniform int source;      // the layer that is split
+uniform int first_part;  // of those that are drawn
 layout(binding = 0) uniform sampler2DArray finest;
 //? if guard
 layout(binding = 1) uniform sampler2DArray values;
@@ -25,7 +26,10 @@ void main() {
 //? if guard
       value = across[x] * down[y] * texelFetch(values, texel, 0);
 //? end
-      for (int i = 0; i < layer_count; ++i) part[i] += i == own ? value : vec4(0.0);
+      for (int i = 0; i < layer_count; ++i) {
+        bool holds = first_part + i <= own && own < beyondPart(first_part + i);
+        part[i] += holds ? value : vec4(0.0);
+      }
     }
   }
   for (int i = 0; i < layer_count; ++i) part[i] = stored(part[i]);

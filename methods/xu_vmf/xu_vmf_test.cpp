@@ -320,7 +320,8 @@ TEST(XuMeanNormal, IsThatOfTheFacets) {
   truth /= 256.0;
   ASSERT_LT(glm::length(truth), 0.95);
   const std::string sum =
-      "vec3 sum = vec3(0.0);\nfor (int i = 0; i < e.count; ++i) sum += meanNormalOf(lobes[i]);\nreturn vec4(sum, 0.0);";
+      "vec3 sum = vec3(0.0);\nfor (int i = 0; i < e.count; ++i) sum += weights[i].y * lobes[i].xyz;\n"
+      "return vec4(sum / e.covered, 0.0);";
   for (const Scene& scene : {facets_of_two_roughnesses(normals), blinn_phong_square(normals, 30)}) {
     for (const std::string j : {"1", "4", "8", "adaptive"}) {
       const glm::dvec3 got(glm::vec3(BuiltMap(scene, {{"j", j}}).probe(sum, {{}}).front()));

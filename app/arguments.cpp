@@ -84,6 +84,12 @@ std::optional<std::filesystem::path> cache_folder(bool no_cache) {
   return no_cache ? std::nullopt : default_cache_folder();
 }
 
+void add_processes_option(CLI::App& command, int& processes) {
+  command.add_option("--processes", processes, "Processes that time frames, one after the other")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+}
+
 void add_quiet_flag(CLI::App& command, bool& quiet) {
   command.add_flag("-q,--quiet", quiet, "No progress on standard error");
 }

@@ -60,6 +60,9 @@ void add_size_option(CLI::App& command, std::string& text);
 /// Adds --anisotropy.
 void add_anisotropy_option(CLI::App& command, int& probes);
 
+/// `--processes`: how many processes time frames.
+void add_processes_option(CLI::App& command, int& processes);
+
 /// Adds --no-cache.
 void add_cache_flag(CLI::App& command, bool& no_cache);
 

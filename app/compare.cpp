@@ -60,9 +60,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
   command.add_option("--repeats", arguments.repeats, "Timed frames of each method in each process, interleaved")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  command.add_option("--processes", arguments.processes, "Processes that time frames, one after the other")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
+  add_processes_option(command, arguments.processes);
   add_backend_options(command, arguments.backend);
   command
       .add_option("-o,--output", arguments.output,
@@ -98,7 +96,7 @@ CompareSettings settings_from(const Arguments& arguments) {
 Results compare_into(OutputFolder& folder, const CompareSettings& settings, int processes, const Progress& progress) {
   constexpr double weight = 10;  // of the main process's work, where a further process's is 1
   ProgressParts parts(progress, weight + processes - 1);
-  const auto further = times_of_processes(processes - 1, folder.path(), parts.next(processes - 1, ""));
+  const auto further = times_of_processes(processes - 1, {}, folder.path(), parts.next(processes - 1, ""));
   Results results = run_compare(settings, folder.path(), further, parts.next(weight, ""));
   keep_results(results, folder, write_report);
   return results;

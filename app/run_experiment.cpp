@@ -11,6 +11,7 @@
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/standard_output.hpp"
+#include "app/timing_process.hpp"
 #include "experiments/runner/run_experiment.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
@@ -28,6 +29,7 @@ constexpr const char* run_examples =
     "Examples:\n"
     "  footprint run tan2005_fig4 -o out            the figures beside the published ones, and the claims\n"
     "  footprint run tan2005_fig4 --quick -o out    a quarter of the size: whether it runs and how it looks\n"
+    "  footprint run xu2017_table1 --processes 5 -o out    times over five processes\n"
     "  footprint run mine.toml -o out";
 
 constexpr const char* check_examples =
@@ -42,6 +44,9 @@ struct Arguments {
   std::string experiment;
   std::string output = "out";
   bool quick = false;
+  int processes = 1;
+  std::string timing_file;    // not empty: this is a process that only takes times
+  std::string timing_member;  // and of this experiment alone
   BackendArguments backend;
   bool no_cache = false;
   bool quiet = false;
@@ -53,14 +58,21 @@ void add_options(CLI::App& command, Arguments& arguments) {
       .add_option("-o,--output", arguments.output,
                   "Folder for results.json, results.csv, table.md, index.html, images/")
       ->capture_default_str();
+  add_processes_option(command, arguments.processes);
+  command.add_option(timing_file_option, arguments.timing_file)->group("");  // no part of the help
+  command.add_option(timing_member_option, arguments.timing_member)->group("");
   add_backend_options(command, arguments.backend);
   add_cache_flag(command, arguments.no_cache);
   add_quiet_flag(command, arguments.quiet);
 }
 
-Results run_into(const Experiment& experiment, const RunSettings& settings, OutputFolder& folder,
+Results run_into(const Experiment& experiment, const RunSettings& settings, int processes, OutputFolder& folder,
                  const Progress& progress) {
-  Results results = run_experiment(experiment, settings, folder.path(), progress);
+  constexpr double weight = 10;  // of the main process's work, where a further process's is 1
+  ProgressParts parts(progress, weight + processes - 1);
+  const auto further = times_of_processes(processes - 1, {timing_member_option, experiment.name}, folder.path(),
+                                          parts.next(processes - 1, ""));
+  Results results = run_experiment(experiment, settings, further, folder.path(), parts.next(weight, ""));
   keep_results(results, folder, write_report);
   return results;
 }
@@ -79,22 +91,39 @@ std::vector<Experiment> named_experiments(const std::string& name) {
   return members;
 }
 
-// Runs the experiment, or each of its members into a folder of its own, prints the tables and gives what fell short.
-std::vector<std::string> run_and_print(const Arguments& arguments) {
-  const std::vector<Experiment> experiments = named_experiments(arguments.experiment);
+RunSettings settings_from(const Arguments& arguments) {
   RunSettings settings;
   settings.scene_library = scene_library();
   settings.quick = arguments.quick;
   settings.tile = arguments.backend.tile;
   settings.cache = cache_folder(arguments.no_cache);
   settings.context = context_request(arguments.backend);
+  return settings;
+}
+
+// What a further process does: times the frames of one member.
+void take_times(const Arguments& arguments) {
+  for (const Experiment& experiment : named_experiments(arguments.experiment)) {
+    if (experiment.name != arguments.timing_member) continue;
+    const CompareSettings settings = compare_settings(experiment, settings_from(arguments));
+    return write_frame_times(arguments.timing_file, time_frames(settings, no_progress));
+  }
+  throw Error(ErrorKind::usage, timing_member_option, fmt::format("no experiment `{}` here", arguments.timing_member),
+              "it is for processes that this program starts itself");
+}
+
+// Runs the experiment, or each of its members into a folder of its own, prints the tables and gives what fell short.
+std::vector<std::string> run_and_print(const Arguments& arguments) {
+  const std::vector<Experiment> experiments = named_experiments(arguments.experiment);
+  const RunSettings settings = settings_from(arguments);
   std::vector<std::string> shortfalls;
   for (const Experiment& experiment : experiments) {
     const std::filesystem::path output = arguments.output;
     ProgressDisplay display(progress_style(arguments.quiet));
     const auto [results, place] =
-        write_whole(experiments.size() > 1 ? output / experiment.name : output,
-                    [&](OutputFolder& folder) { return run_into(experiment, settings, folder, display.callback()); });
+        write_whole(experiments.size() > 1 ? output / experiment.name : output, [&](OutputFolder& folder) {
+          return run_into(experiment, settings, arguments.processes, folder, display.callback());
+        });
     display.finish();
     print_results(results, place);
     for (const std::string& line : results.experiment->shortfalls()) {
@@ -105,6 +134,7 @@ std::vector<std::string> run_and_print(const Arguments& arguments) {
 }
 
 void check(const Arguments& arguments) {
+  if (!arguments.timing_file.empty()) return take_times(arguments);
   const std::vector<std::string> shortfalls = run_and_print(arguments);
   if (shortfalls.empty()) return;
   std::string list;
@@ -124,7 +154,10 @@ void add_run_command(CLI::App& app) {
   add_options(*command, *arguments);
   command->add_flag("--quick", arguments->quick, "A quarter of the size and few samples: no measurement");
   command->footer(std::string(experiment_words) + run_examples);
-  command->callback([arguments] { (void)run_and_print(*arguments); });
+  command->callback([arguments] {
+    if (!arguments->timing_file.empty()) return take_times(*arguments);
+    (void)run_and_print(*arguments);
+  });
 }
 
 void add_check_command(CLI::App& app) {

@@ -86,10 +86,12 @@ Error failure_of(int exit_code, std::string text) {
   return {known ? static_cast<ErrorKind>(exit_code) : ErrorKind::machine, "--processes", text};
 }
 
-FrameTimes times_of_one(const fs::path& scratch, const std::function<void()>& tick) {
+FrameTimes times_of_one(const std::vector<std::string>& further, const fs::path& scratch,
+                        const std::function<void()>& tick) {
   const fs::path file = scratch / "times.json";
   const fs::path errors = scratch / "times.log";
   std::vector<std::string> arguments = own_arguments();
+  arguments.insert(arguments.end(), further.begin(), further.end());
   arguments.insert(arguments.end(), {timing_file_option, file.string(), "--quiet"});
   Child child(std::move(arguments), errors);
   std::optional<int> exit_code;
@@ -111,11 +113,12 @@ void write_frame_times(const fs::path& file, const FrameTimes& times) {
   write_file_atomically(file, std::string_view(nlohmann::json(times).dump()));
 }
 
-std::vector<FrameTimes> times_of_processes(int count, const fs::path& scratch, const Progress& progress) {
+std::vector<FrameTimes> times_of_processes(int count, const std::vector<std::string>& further, const fs::path& scratch,
+                                           const Progress& progress) {
   std::vector<FrameTimes> times;
   for (int process = 0; process < count; ++process) {
     const std::string what = fmt::format("timing in process {} of {}", process + 2, count + 1);
-    times.push_back(times_of_one(scratch, [&] { progress(what, static_cast<double>(process) / count); }));
+    times.push_back(times_of_one(further, scratch, [&] { progress(what, static_cast<double>(process) / count); }));
   }
   return times;
 }

@@ -10,15 +10,20 @@
 
 namespace footprint {
 
-/// The option that makes `compare` take times, write them to its file and do nothing else.
+/// The option that makes a command take times, write them to its file and do nothing else.
 inline constexpr const char* timing_file_option = "--timing-file";
+
+/// Of `run` and `check`: which of an experiment's members such a process times.
+inline constexpr const char* timing_member_option = "--timing-member";
 
 /// Writes times for the process that asked for them. Errors (machine): the file cannot be written.
 void write_frame_times(const std::filesystem::path& file, const FrameTimes& times);
 
-/// Runs this program `count` times, one after the other, each with this process's own arguments and `--timing-file`
-/// in `scratch`, which exists; nothing is left there. Errors: those of such a process, or Error{interrupted}.
-[[nodiscard]] std::vector<FrameTimes> times_of_processes(int count, const std::filesystem::path& scratch,
+/// Runs this program `count` times, one after the other, each with this process's own arguments, `further` ones, and
+/// `--timing-file` in `scratch`, which exists; nothing is left there. Errors: those of such a process, or
+/// Error{interrupted}.
+[[nodiscard]] std::vector<FrameTimes> times_of_processes(int count, const std::vector<std::string>& further,
+                                                         const std::filesystem::path& scratch,
                                                          const Progress& progress);
 
 }  // namespace footprint

@@ -19,37 +19,70 @@
 
 namespace {
 
-void run(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);  // takes the --benchmark_... options out
-  CLI::App app("Benchmarks of Footprint; all --benchmark_... options of Google Benchmark work too.", "footprint_bench");
-  int repeats = 0;
-  app.add_option("--ratios", repeats, "Print ratios of interleaved frame times over this many rounds, and nothing else")
-      ->check(CLI::Range(1, 100000));
-  int build_repeats = 0;
-  app.add_option("--builds", build_repeats,
+// What the command line asks for.
+struct Request {
+  int ratio_rounds = 0, build_rounds = 0;  // 0: not asked for
+  std::string scene, methods, over = "direct";
+};
+
+constexpr const char* examples = R"(
+Examples:
+  footprint_bench
+  footprint_bench --benchmark_filter=mip
+  footprint_bench --ratios 31
+  footprint_bench --ratios 15 --scene carved_disk --methods toksvig,tan_gmm --over tan_gmm
+  footprint_bench --builds 5 --methods xu_vmf:rebuild=changed,xu_vmf:rebuild=changed:conversion=table
+)";
+
+void declare_options(CLI::App& app, Request& request) {
+  const CLI::Range rounds(1, 100000);
+  app.add_option("--ratios", request.ratio_rounds,
+                 "Print ratios of interleaved frame times over this many rounds, and nothing else")
+      ->check(rounds);
+  app.add_option("--builds", request.build_rounds,
                  "Print what frame builds of --methods cost by the size of the map, over this many rounds")
-      ->check(CLI::Range(1, 100000));
-  std::string scene_name;
-  app.add_option("--scene", scene_name, "What to draw: as `footprint compare` takes it; if not given, ClearCoatTest");
-  std::string methods;
-  app.add_option("--methods", methods, "Methods to draw by; if not given, all whose precompute takes no seconds");
-  std::string over = "direct";
-  app.add_option("--over", over, "The method that --ratios takes every other to")->capture_default_str();
+      ->check(rounds);
+  app.add_option("--scene", request.scene,
+                 "What to draw: as `footprint compare` takes it; if not given, ClearCoatTest");
+  app.add_option("--methods", request.methods,
+                 "Methods to draw by; if not given, all whose precompute takes no seconds");
+  app.add_option("--over", request.over, "The method that --ratios takes every other to")->capture_default_str();
+  app.footer(examples);
+}
+
+constexpr const char* description =
+    "Benchmarks of Footprint; all --benchmark_... options of Google Benchmark work too.";
+
+// Google Benchmark looks for --help first and knows nothing of the options above.
+void print_help() {
+  CLI::App app(description, "footprint_bench");
+  Request request;
+  declare_options(app, request);
+  (void)std::fputs(app.help().c_str(), stdout);
+  benchmark::PrintDefaultHelp();
+}
+
+void run(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv, print_help);  // takes the --benchmark_... options out
+  CLI::App app(description, "footprint_bench");
+  Request request;
+  declare_options(app, request);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    std::exit(app.exit(error));
+    std::exit(app.exit(error) == 0 ? 0 : static_cast<int>(footprint::ErrorKind::usage));
   }
-  if (build_repeats > 0) {
-    if (methods.empty()) methods = "xu_vmf:rebuild=changed";
-    (void)std::fputs(footprint::bench::frame_build_table(methods, build_repeats).c_str(), stdout);
+  if (request.build_rounds > 0) {
+    if (request.methods.empty()) request.methods = "xu_vmf:rebuild=changed";
+    (void)std::fputs(footprint::bench::frame_build_table(request.methods, request.build_rounds).c_str(), stdout);
     return;
   }
-  std::optional<footprint::Scene> scene = footprint::bench::load_bench_scene(scene_name);
+  std::optional<footprint::Scene> scene = footprint::bench::load_bench_scene(request.scene);
   std::optional<footprint::bench::BenchScene> subject;
-  if (scene) subject.emplace(std::move(*scene), footprint::bench::bench_settings(methods));
-  if (repeats > 0) {
-    if (subject) (void)std::fputs(footprint::bench::ratio_table(*subject, over, repeats).c_str(), stdout);
+  if (scene) subject.emplace(std::move(*scene), footprint::bench::bench_settings(request.methods));
+  if (request.ratio_rounds > 0) {
+    if (subject)
+      (void)std::fputs(footprint::bench::ratio_table(*subject, request.over, request.ratio_rounds).c_str(), stdout);
     return;
   }
   if (subject) {

@@ -117,7 +117,7 @@ class Comparison {
       before_ = std::move(truth.reference);
     }
     finish_error_pictures();
-    describe();
+    describe(static_cast<int>(further_times.size()) + 1);
     return std::move(results_);
   }
 
@@ -355,11 +355,12 @@ class Comparison {
     }
   }
 
-  void describe() {
+  void describe(int processes) {
     results_.backend = backend_info(stage_.context().info());
     results_.reference.spp = settings_.spp;
     results_.reference.filter = filter_name(settings_.filter);
     results_.reference.seed = settings_.seed;
+    results_.timing = {.frames = settings_.repeats, .processes = processes};
     if (has(stage_.effects(), Effect::environment_light))
       results_.reference.environment = environment_use_name(settings_.environment);
     results_.scene = scene_info(stage_.scene(), chosen_exposure_, results_.reference);

@@ -395,7 +395,8 @@ std::vector<fs::path> read_members(const TomlTable& root, const TomlTable& head,
   for (const char* key : {"scene", "size", "methods", "exposure", "without", "anisotropy", "repeats"}) {
     if (head.has(key)) throw head.error_at(key, "excludes `members`", "move it into one of them");
   }
-  for (const char* key : {"zoom", "camera", "reference", "ndf", "published", "claim", "threshold", "figure"}) {
+  for (const char* key :
+       {"zoom", "camera", "reference", "ndf", "quantity", "published", "claim", "threshold", "figure"}) {
     if (root.has(key)) throw root.error_at(key, "excludes `members`", "move it into one of them");
   }
   std::vector<fs::path> members;

@@ -317,6 +317,7 @@ TEST_F(ExperimentFile, MayBeMadeOfOthersAndThenHasNothingElse) {
   expect_complaint(title + "members = [\"first\", \"first\"]\n", "`first` twice");
   expect_complaint(title + "members = [\"first\"]\nscene = \"bumps\"\n", "excludes `members`");
   expect_complaint(title + "members = [\"first\"]\n[zoom]\ndistances = [1]\n", "excludes `members`");
+  expect_complaint(title + "members = [\"first\"]\n[[quantity]]\nname = \"a\"\n", "excludes `members`");
 }
 
 }  // namespace

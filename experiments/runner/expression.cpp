@@ -236,21 +236,21 @@ void fill_in(Node& node, const std::string& method) {
 }
 
 std::string text_of(const Node& node) {
+  const auto operand = [](const Node& part) {
+    return part.kind == Kind::binary ? fmt::format("({})", text_of(part)) : text_of(part);
+  };
   switch (node.kind) {
     case Kind::number:
       return fmt::format("{}", node.number);
     case Kind::call:
       return measure_text(node.measure);
     case Kind::negate:
-      return fmt::format("-{}", text_of(node.parts[0]));
+      return fmt::format("-{}", operand(node.parts[0]));
     case Kind::absolute:
       return fmt::format("abs({})", text_of(node.parts[0]));
     case Kind::binary:
       break;
   }
-  const auto operand = [&](const Node& part) {
-    return part.kind == Kind::binary ? fmt::format("({})", text_of(part)) : text_of(part);
-  };
   return fmt::format("{} {} {}", operand(node.parts[0]), node.operation, operand(node.parts[1]));
 }
 

@@ -152,6 +152,15 @@ TEST(Expression, TheStarStandsForAMethod) {
   EXPECT_EQ(Expression("abs(error(*) - error(a))", "").with_method("b").text(), "abs(error(b) - error(a))");
 }
 
+// Read again, the text of an expression is worth the same.
+TEST(Expression, TextKeepsItsParentheses) {
+  for (const char* text : {"-(1 - 3)", "2 - (3 - 4)", "-(-5)", "8 / (2 * 4)", "-2 * 3 + abs(-(1 + 1))"}) {
+    const Expression expression(text, "");
+    const Expression again(expression.text(), "again");
+    EXPECT_EQ(again.evaluate({}).value, expression.evaluate({}).value) << text << " became " << expression.text();
+  }
+}
+
 TEST(Expression, WhatIsWrongIsNamedWithItsColumn) {
   EXPECT_NE(complaint("eror(a)").find("here, column 1: there is no function `eror` (did you mean `error`?"),
             std::string::npos);

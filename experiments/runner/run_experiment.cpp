@@ -89,11 +89,12 @@ CompareSettings compare_settings(const Experiment& experiment, const RunSettings
   return compare;
 }
 
-Results run_experiment(const Experiment& experiment, const RunSettings& settings, const std::filesystem::path& folder,
+Results run_experiment(const Experiment& experiment, const RunSettings& settings,
+                       std::span<const FrameTimes> further_times, const std::filesystem::path& folder,
                        const Progress& progress) {
   const bool looks_further = !experiment.footprints.empty() || !experiment.quantities.empty();
   ProgressParts parts(progress, looks_further ? 6 : 4);
-  Results results = run_compare(compare_settings(experiment, settings), folder, {}, parts.next(4, ""));
+  Results results = run_compare(compare_settings(experiment, settings), folder, further_times, parts.next(4, ""));
   inspect_footprints(experiment, settings, folder, results, parts.next(1, ""));
   if (!experiment.quantities.empty()) {
     const Scene scene = load_scene(experiment.scene, settings.scene_library);

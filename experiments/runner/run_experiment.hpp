@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 
 #include "experiments/runner/compare.hpp"
 #include "experiments/runner/experiment.hpp"
@@ -20,9 +21,10 @@ struct RunSettings {
 /// The comparison that an experiment asks for.
 [[nodiscard]] CompareSettings compare_settings(const Experiment& experiment, const RunSettings& settings);
 
-/// Runs it and writes its pictures into FOLDER/images; the results hold its report. Errors: those of run_compare, and
-/// of the figures.
+/// Runs it and writes its pictures into FOLDER/images; the results hold its report. `further_times` are those of other
+/// processes, as run_compare takes them. Errors: those of run_compare, and of the figures.
 [[nodiscard]] Results run_experiment(const Experiment& experiment, const RunSettings& settings,
-                                     const std::filesystem::path& folder, const Progress& progress);
+                                     std::span<const FrameTimes> further_times, const std::filesystem::path& folder,
+                                     const Progress& progress);
 
 }  // namespace footprint

@@ -54,16 +54,16 @@ glm::dvec3 sum_of_facets(const Scene& scene, const glm::dvec3& wo) {
   const Material& material = scene.materials[0];
   const TableSettings settings = table_settings(material, Options(option_table(), {}, "test"), patch_effects(material));
   const Patch& patch = material.microgeometry->patch;
-  constexpr int side = 32;
-  std::vector<glm::dvec3> directions = direction_grid(side);
+  std::vector<glm::dvec3> directions = direction_grid(32);
+  const std::size_t cells = directions.size();
   directions.push_back(wo);
   const FacetSum sum(material, settings, bin_facets(patch, sample_facets(patch, 8192, 9)), std::move(directions),
                      no_progress);
   glm::dvec3 radiance(0.0);
-  for (std::size_t i = 0; i < side * side; ++i) {
-    radiance += sum(i, side * side) * glm::dvec3(environment_radiance(*scene.environment, sum.directions()[i]));
+  for (std::size_t i = 0; i < cells; ++i) {
+    radiance += sum(i, cells) * glm::dvec3(environment_radiance(*scene.environment, sum.directions()[i]));
   }
-  return radiance * (2.0 * pi / (side * side));
+  return radiance * (2.0 * pi / static_cast<double>(cells));
 }
 
 glm::dvec3 mean_of(const Image& picture) {

@@ -13,11 +13,12 @@ namespace {
 std::vector<double> shares_from_above(const Amplitudes& table, int side) {
   std::vector<double> shares(table.lobes.size());
   const std::size_t n = table.directions, pairs = n * n;
-  const int low = (side - 1) / 2, high = side / 2;
+  const auto row = static_cast<std::size_t>(side);
+  const std::size_t low = (row - 1) / 2, high = row / 2;
   double total = 0.0;
-  for (const int y : {low, high}) {
-    for (const int x : {low, high}) {
-      const auto d = static_cast<std::size_t>(y * side + x);
+  for (const std::size_t y : {low, high}) {
+    for (const std::size_t x : {low, high}) {
+      const std::size_t d = y * row + x;
       for (std::size_t j = 0; j < shares.size(); ++j) {
         const double mass = table.masses[j * table.channels * pairs + d * n + d];
         shares[j] += mass;

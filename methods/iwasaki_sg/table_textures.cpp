@@ -67,6 +67,7 @@ PrefilteredTexture amplitude_texture(const Amplitudes& table, const TableSetting
   const Irradiance irradiance = settings.cosines == Cosines::published ? Irradiance::with : Irradiance::without;
   const std::size_t size = table.channels * table.directions * table.directions;
   std::vector<Image> values;
+  values.reserve(table.lobes.size() + 1);
   for (std::size_t j = 0; j < table.lobes.size(); ++j) {
     values.push_back(tiled(std::span(table.masses).subspan(j * size, size), table.channels, settings.side, irradiance));
   }

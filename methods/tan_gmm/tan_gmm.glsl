@@ -127,7 +127,7 @@ float lobeOverComponent(Effective e, int i, int k, vec3 h, vec3 own) {
 void setLobe(inout Effective e, int i, float share, vec2 mean, float height, float spread) {
   float around = spread <= 0.0 ? 0.0 : spread / max(height, sqrt(spread));
   e.width[i] = spread <= 0.0 ? e.lobe : lobeFromVariance(lobeVariance(e.lobe) + around);
-  e.amount[i] = share;
+  e.amount[i] = share * lobeEnergy(e.lobe) / lobeEnergy(e.width[i]);
 //? if multi_lobe
   e.spread[i] = around;
 //? end
@@ -140,7 +140,9 @@ float lobeOverComponent(Effective e, int i, vec3 h) {
 //? if multi_lobe
 float lobeOverComponent(Effective e, int i, int k, vec3 h, vec3 own) {
   if (e.amount[i] <= 0.0) return 0.0;
-  return e.amount[i] * lobeDensity(widenedLobe(k, e.spread[i]), facet_lobes[k].axis, own);
+  float widened = widenedLobe(k, e.spread[i]);
+  float kept = lobeEnergy(facet_lobes[k].parameter) / lobeEnergy(widened);
+  return e.share[i] * kept * lobeDensity(widened, facet_lobes[k].axis, own);
 }
 //? end
 //? end
@@ -262,7 +264,7 @@ NormalLobe facetLobeOfComponent(Effective e, int i, int k) {
   float amount = there ? amountOverDisc(e.share[i], axis.xy, width, axis.z, base) : 0.0;
   NormalLobe lobe = discNormalLobe(axis, width, facet_lobes[k].weight * amount, facet_lobes[k].parameter);
 //? else
-  NormalLobe lobe = baseNormalLobe(axis, widenedLobe(k, e.spread[i]), facet_lobes[k].weight * e.amount[i]);
+  NormalLobe lobe = baseNormalLobe(axis, widenedLobe(k, e.spread[i]), facet_lobes[k].weight * e.share[i]);
   lobe.base = facet_lobes[k].parameter;
 //? end
   lobe.normal = e.mean[i];
@@ -278,7 +280,7 @@ NormalLobe normalLobe(Effective e, int number) {
 //? if lobe_gaussian
   return discNormalLobe(e.mean[i], e.width[i], e.amount[i], e.lobe);
 //? else
-  NormalLobe lobe = baseNormalLobe(e.mean[i], e.width[i], e.amount[i]);
+  NormalLobe lobe = baseNormalLobe(e.mean[i], e.width[i], e.share[i]);
   lobe.base = e.lobe;
   return lobe;
 //? end

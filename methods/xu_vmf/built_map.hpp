@@ -55,9 +55,11 @@ class BuiltMap {
   [[nodiscard]] std::vector<double> densities(const std::vector<glm::dvec3>& directions) const;
   /// Over the upper hemisphere.
   [[nodiscard]] double energy() const;
+  [[nodiscard]] double energy_over_sphere() const;
 
  private:
   [[nodiscard]] std::string shader_text() const;
+  [[nodiscard]] double energy_over(const std::vector<glm::dvec3>& hemisphere) const;
 
   Scene values_;
   Options options_;

@@ -140,11 +140,18 @@ std::vector<double> BuiltMap::densities(const std::vector<glm::dvec3>& direction
   return out;
 }
 
-double BuiltMap::energy() const {
-  const std::vector<double> density = densities(hemisphere_grid(128, 256));
+double BuiltMap::energy() const { return energy_over(hemisphere_grid(128, 256)); }
+
+double BuiltMap::energy_over_sphere() const {
+  std::vector<glm::dvec3> below = hemisphere_grid(128, 256);
+  for (glm::dvec3& h : below) h.z = -h.z;
+  return energy() + energy_over(below);
+}
+
+double BuiltMap::energy_over(const std::vector<glm::dvec3>& hemisphere) const {
   double sum = 0;
-  for (const double d : density) sum += d;
-  return sum * 2.0 * std::numbers::pi / static_cast<double>(density.size());
+  for (const double d : densities(hemisphere)) sum += d;
+  return sum * 2.0 * std::numbers::pi / static_cast<double>(hemisphere.size());
 }
 
 TEST(BuiltMapOfAConstantMap, HasItsOneLobe) {

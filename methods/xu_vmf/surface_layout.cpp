@@ -18,6 +18,8 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 constexpr double tolerance = 1e-2;          // texels that rounding may carry a coordinate over the map's edge
 constexpr double permitted_overlap = 1e-3;  // of the covered texels: rounding along shared edges
+constexpr double permitted_loss = 1e-3;     // of the surface's area: slivers between the texels
+constexpr double thinnest = 1e-3;           // texels; a triangle that is thinner in the map is a line there
 constexpr double largest_coordinate = 1e6;  // texels; what lies beyond is no layout
 
 // A rectangle of texels, `end` excluded.
@@ -57,6 +59,21 @@ class Coverage {
 
   [[nodiscard]] bool overlaps() const { return twice_ > permitted_overlap * once_; }
 
+  // Whether a fetch in the middle of a triangle that has been added finds something that was drawn.
+  [[nodiscard]] bool shows(std::span<const glm::dvec2, 3> corners) const {
+    double longest = 0;
+    for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, glm::distance(corners[i], corners[(i + 1) % 3]));
+    if (std::abs(cross(corners[1] - corners[0], corners[2] - corners[0])) <= thinnest * longest) return false;
+    const glm::ivec2 corner(glm::floor((corners[0] + corners[1] + corners[2]) / 3.0 - 0.5));
+    for (const glm::ivec2 step : {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(1, 1)}) {
+      const glm::ivec2 texel = corner + step;
+      const bool inside =
+          glm::all(glm::greaterThanEqual(texel, box_.first)) && glm::all(glm::lessThan(texel, box_.end));
+      if (inside && covered_[index_of(texel)]) return true;
+    }
+    return false;
+  }
+
  private:
   static double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
@@ -71,10 +88,13 @@ class Coverage {
     return true;
   }
 
+  [[nodiscard]] std::size_t index_of(const glm::ivec2& texel) const {
+    const glm::ivec2 at = texel - box_.first;
+    return static_cast<std::size_t>(at.y) * static_cast<std::size_t>(box_.size().x) + static_cast<std::size_t>(at.x);
+  }
+
   void cover(int x, int y) {
-    const glm::ivec2 at = glm::ivec2(x, y) - box_.first;
-    const auto index =
-        static_cast<std::size_t>(at.y) * static_cast<std::size_t>(box_.size().x) + static_cast<std::size_t>(at.x);
+    const std::size_t index = index_of({x, y});
     ++(covered_[index] ? twice_ : once_);
     covered_[index] = true;
   }
@@ -99,10 +119,27 @@ std::array<glm::dvec2, 3> corners_of(const Triangle& triangle, std::span<const g
   return {places[triangle[0]], places[triangle[1]], places[triangle[2]]};
 }
 
-bool overlaps(std::span<const Triangle> triangles, std::span<const glm::dvec2> places, const Box& box) {
+double surface_area(const Triangle& triangle, std::span<const Vertex> vertices) {
+  const glm::dvec3 from(vertices[triangle[0]].position);
+  return 0.5 * glm::length(glm::cross(glm::dvec3(vertices[triangle[1]].position) - from,
+                                      glm::dvec3(vertices[triangle[2]].position) - from));
+}
+
+// What comes of triangles that are drawn where their coordinates have them.
+struct Drawing {
+  bool overlaps;
+  double lost;  // area of the surface that no texel shows
+};
+
+Drawing draw(std::span<const Triangle> triangles, std::span<const glm::dvec2> places, const Box& box,
+             std::span<const Vertex> vertices) {
   Coverage coverage(box);
   for (const Triangle& triangle : triangles) coverage.add(corners_of(triangle, places));
-  return coverage.overlaps();
+  double lost = 0;
+  for (const Triangle& triangle : triangles) {
+    if (!coverage.shows(corners_of(triangle, places))) lost += surface_area(triangle, vertices);
+  }
+  return {coverage.overlaps(), lost};
 }
 
 std::vector<Triangle> triangle_list(const TriangleSoup& soup) {
@@ -224,17 +261,29 @@ SurfaceLayout lay_out(const TriangleSoup& soup, const TextureCoordinates& coordi
   if (!sound) return none("texture coordinates are not finite, or far outside of the map");
   const std::vector<Triangle> triangles = triangle_list(soup);
   if (triangles.empty()) return layout(map_size, places, {}, true);
+  double area = 0;
+  for (const Triangle& triangle : triangles) area += surface_area(triangle, soup.vertices);
+  const std::string loses =
+      "texture coordinates leave part of the surface without a texel, as where a model has none or they lie on a line";
   const Box map{{0, 0}, map_size};
   const Box used = box_of(triangles, places);
   const bool inside =
       glm::all(glm::greaterThanEqual(used.first, map.first)) && glm::all(glm::lessThanEqual(used.end, map.end));
-  if (inside && !overlaps(triangles, places, map)) return layout(map_size, places, {}, true);
+  if (inside) {
+    const Drawing drawing = draw(triangles, places, map, soup.vertices);
+    if (drawing.lost > permitted_loss * area) return none(loses);
+    if (!drawing.overlaps) return layout(map_size, places, {}, true);
+  }
   std::vector<Chart> charts = charts_of(triangles, places);
   const std::optional<glm::ivec2> size = pack(charts);
   if (!size) return none(fmt::format("an atlas of its own would have more than {} texels", largest_atlas));
+  double lost = 0;
   for (const Chart& chart : charts) {
-    if (overlaps(chart.triangles, places, chart.box)) return none("texture coordinates overlap within one chart");
+    const Drawing drawing = draw(chart.triangles, places, chart.box, soup.vertices);
+    if (drawing.overlaps) return none("texture coordinates overlap within one chart");
+    lost += drawing.lost;
   }
+  if (lost > permitted_loss * area) return none(loses);
   move(charts, places);
   return layout(*size, places,
                 fmt::format("the texture coordinates {}: an atlas of {} x {} texels in {} charts",

@@ -27,7 +27,8 @@ struct SurfaceLayout {
 /// Lays triangles out in texels as large as those of a map of `map_size` at `coordinates`: as the map has them where
 /// they stay inside and do not overlap, else in an atlas, chart by chart (triangles that share vertices), each moved by
 /// whole texels, so that a texel of the atlas shows exactly one of the map. None where coordinates are not finite, a
-/// chart overlaps itself, or the atlas is over `largest_atlas`.
+/// chart overlaps itself, the atlas is over `largest_atlas`, or more than 1/1000 of the surface's area would have no
+/// texel: coordinates that are not there or lie on a line, charts smaller than a texel.
 [[nodiscard]] SurfaceLayout lay_out(const TriangleSoup& triangles, const TextureCoordinates& coordinates,
                                     const glm::ivec2& map_size);
 

@@ -86,12 +86,35 @@ TEST(SurfaceLayout, SaysWhereThereIsNone) {
   }
 }
 
-TEST(SurfaceLayout, IsDefinedForNothingAndForPoints) {
-  EXPECT_TRUE(lay_out({}, {}, {4, 4}).unique);
+// Nothing would be drawn of what lies on a line or a point of the map, as where a model has no coordinates.
+TEST(SurfaceLayout, SaysWhereTheSurfaceHasNoTexels) {
   TriangleSoup point = plane({1, 1});
   for (Vertex& vertex : point.vertices) vertex.uv0 = {0.3F, 0.4F};
-  EXPECT_TRUE(lay_out(point, {}, {1, 1}).unique);
+  TriangleSoup line = plane({1, 1});
+  for (Vertex& vertex : line.vertices) vertex.uv0.y = 0.4F;
+  TriangleSoup slant = plane({1, 1});
+  for (Vertex& vertex : slant.vertices) vertex.uv0 = glm::vec2(0.1F + 0.7F * vertex.uv0.x);
+  const TriangleSoup half = joined(plane({0.5F, 0.5F}), point, {0.3F, 0.3F});
+  const TriangleSoup tiny = joined(plane({1, 1}), plane({1e-3F, 1e-3F}), {1.5F, 0.0F});  // the second in an atlas
+  for (const TriangleSoup& soup : {point, line, slant, half, tiny}) {
+    for (const glm::ivec2 size : {glm::ivec2(4, 4), glm::ivec2(33, 64)}) {
+      const SurfaceLayout layout = lay_out(soup, {}, size);
+      EXPECT_FALSE(layout.unique);
+      EXPECT_NE(layout.note.find("without a texel"), std::string::npos) << layout.note;
+    }
+  }
 }
+
+// A sliver and a triangle that is a point on the surface take nothing away.
+TEST(SurfaceLayout, MindsNoTriangleWithoutArea) {
+  TriangleSoup soup = plane({1, 1});
+  soup.indices.insert(soup.indices.end(), {0, 1, 1, 2, 2, 2});
+  const SurfaceLayout layout = lay_out(soup, {}, {64, 64});
+  EXPECT_TRUE(layout.unique);
+  EXPECT_TRUE(layout.note.empty());
+}
+
+TEST(SurfaceLayout, IsDefinedForNothing) { EXPECT_TRUE(lay_out({}, {}, {4, 4}).unique); }
 
 }  // namespace
 }  // namespace footprint::xu_vmf

@@ -122,12 +122,14 @@ void declare_maps(Prefiltered& out, const glm::ivec2& size, const TextureCoordin
 }
 
 void add_inputs(Prefiltered& out, const Inputs& inputs, const Material& material, const Options& options) {
-  const auto add = [&](std::string_view name, const Image& image, const TextureCoordinates& place) {
-    out.textures.push_back(make_texture(std::string(name), {image}, Storage::fp32, place));
+  const auto add = [&](std::string_view name, std::vector<Image> levels, const TextureCoordinates& place) {
+    out.textures.push_back(make_texture(std::string(name), std::move(levels), Storage::fp32, place));
   };
-  if (inputs.normals_vary) add(xu_vmf::normals_name, inputs.normals, normal_coordinates(material));
-  if (inputs.roughness_varies) add(xu_vmf::variances_name, inputs.variances, roughness_coordinates(material));
-  if (options.word("conversion") == "table") add(xu_vmf::table_name, shortfall_table(), {});
+  if (inputs.normals_vary) add(xu_vmf::normals_name, {inputs.normals}, normal_coordinates(material));
+  // Its further levels are for shading, which asks what of a lobe's width is the facets' own.
+  if (inputs.roughness_varies)
+    add(xu_vmf::variances_name, mip_chain(inputs.variances), roughness_coordinates(material));
+  if (options.word("conversion") == "table") add(xu_vmf::table_name, {shortfall_table()}, {});
 }
 
 Prefiltered in_tangent_space(Inputs inputs, const Material& material, const Options& options,

@@ -40,6 +40,9 @@ vec4 lobes[most_lobes];
 //? if variant_published
 float amounts[most_lobes];  // what each adds with; it is the share where lobes weigh what they cover
 //? end
+//? if multi_lobe
+float facet_energies[most_lobes];  // of the facets' lobe that each stands for
+//? end
 
 struct Effective {
   int count;
@@ -58,22 +61,47 @@ const float least_share = 1e-4;
 //? end
 //? end
 
+// Of the facets' lobe that is looked up: 1 - |r|, and the energy of its base lobe. Where roughness varies, of the lobe
+// of their mean variance.
+float facet_shortfall, facet_energy;
+
+// The energy of a base lobe over solid angle. That of a microfacet lobe grows with its width, while the mean of narrow
+// ones keeps theirs: a wide lobe that stands for them is scaled by the ratio.
+float energyOf(float base) {
+//? if lobe_base
+  return lobeEnergy(base);
+//? else
+  return 1.0;
+//? end
+}
+
+float facetEnergy(int i) {
+//? if multi_lobe
+  return facet_energies[i];
+//? else
+  return facet_energy;
+//? end
+}
+
 struct Lobe {
   vec3 mean;
   float kappa;
   float base;    // the base lobe of that width
-  float amount;
+  float share;   // of the footprint's facets, but as published
+  float amount;  // what its density is multiplied by
 };
 
 Lobe lobeAt(int i) {
   vec4 lobe = lobes[i];
-  float share = length(lobe.xyz);
+  float size = length(lobe.xyz);
   float kappa = kappaOf(lobe.w);
+  float base = lobeOfKappa(kappa);
 //? if variant_published
-  return Lobe(lobe.xyz / max(share, 1e-30), kappa, lobeOfKappa(kappa), amounts[i]);
+  float share = amounts[i];
 //? else
-  return Lobe(lobe.xyz / max(share, 1e-30), kappa, lobeOfKappa(kappa), share);
+  float share = size;
 //? end
+  return Lobe(lobe.xyz / max(size, 1e-30), kappa, base, share, share * facetEnergy(i) / energyOf(base));
 }
 
 float densityOf(Lobe lobe, vec3 h) {
@@ -94,18 +122,24 @@ struct OwnLobe {
   float parameter, weight;
 };
 
+OwnLobe baseLobe(Footprints f) {
+//? if roughness_variation
+  return OwnLobe(vec3(0.0, 0.0, 1.0), lobeFromVariance(fetch(xu_vmf_variances, f.roughness).r), 1.0);
+//? else
+  return OwnLobe(vec3(0.0, 0.0, 1.0), lobe_cutoff.x, 1.0);
+//? end
+}
+
 //? if multi_lobe
 int ownLobeCount() { return max(facet_lobe_count, 1); }
-OwnLobe ownLobe(int k) {
+OwnLobe ownLobe(Footprints f, int k) {
   if (facet_lobe_count > 0) return OwnLobe(facet_lobes[k].axis, facet_lobes[k].parameter, facet_lobes[k].weight);
-  return OwnLobe(vec3(0.0, 0.0, 1.0), lobe_cutoff.x, 1.0);
+  return baseLobe(f);
 }
 //? else
 int ownLobeCount() { return 1; }
-OwnLobe ownLobe(int k) { return OwnLobe(vec3(0.0, 0.0, 1.0), lobe_cutoff.x, 1.0); }
+OwnLobe ownLobe(Footprints f, int k) { return baseLobe(f); }
 //? end
-
-float facet_shortfall;  // 1 - |r| of a facet of the lobe that is looked up, where all have the same
 
 void pushLobe(inout Effective e, vec3 mean, float q, float share, float amount) {
   lobes[e.count] = vec4(share * mean, q);
@@ -337,9 +371,10 @@ void addLobes(inout Effective e, Footprint f, int own) {
 //? end
 
 void addOwnLobe(inout Effective e, Footprints f, int k) {
-  OwnLobe own = ownLobe(k);
+  OwnLobe own = ownLobe(f, k);
   float q = shortfallOf(kappaOfLobe(own.parameter));
   facet_shortfall = q;
+  facet_energy = energyOf(own.parameter);
   int first = e.count;
   e.covered = 0.0;
 //? if texture_arrays
@@ -349,12 +384,20 @@ void addOwnLobe(inout Effective e, Footprints f, int k) {
     pushLobe(e, own.axis, q, 1.0, 1.0);
     e.covered = 1.0;
   }
+//? if sampling_texel
+  // The lobe of the one texel that was drawn is a facet's own. The roughness map may have drawn another.
+  facet_shortfall = lobes[first].w;
+  facet_energy = energyOf(lobeOfKappa(kappaOf(facet_shortfall)));
+//? end
   int i = first;
   do {
     // Whole: Mesa 22.3 loses w where x, y and z alone are written.
     lobes[i] *= vec4(vec3(own.weight / e.covered), 1.0);
 //? if variant_published
     amounts[i] *= own.weight;
+//? end
+//? if multi_lobe
+    facet_energies[i] = facet_energy;
 //? end
   } while (++i < e.count);
 }
@@ -396,14 +439,8 @@ vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
 }
 
 // A lobe's mean direction times its share and the length of the mean of its facets' unit normals: |r| over that of a
-// single facet. Where roughness varies, what of |r| is the normals' and what the lobes' is not known.
-vec3 meanNormalOf(vec4 lobe) {
-//? if roughness_variation
-  return lobe.xyz;
-//? else
-  return min((1.0 - lobe.w) / max(1.0 - facet_shortfall, 1e-6), 1.0) * lobe.xyz;
-//? end
-}
+// single facet.
+vec3 meanNormalOf(vec4 lobe) { return min((1.0 - lobe.w) / max(1.0 - facet_shortfall, 1e-6), 1.0) * lobe.xyz; }
 
 //? if diffuse
 vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
@@ -434,12 +471,14 @@ float ndf(Effective e, vec3 h) {
 //? if environment_light
 int lobeCount(Effective e) { return e.count; }
 
+// What its facets cover, seen along their own normals, is what they reflect: the share, which is no integral of the
+// density.
 NormalLobe normalLobe(Effective e, int i) {
   Lobe lobe = lobeAt(i);
 //? if lobe_base
-  return baseNormalLobe(lobe.mean, lobe.base, lobe.amount);
+  return baseNormalLobe(lobe.mean, lobe.base, lobe.share);
 //? else
-  return vmfNormalLobe(lobe.mean, lobe.kappa, lobe.amount, lobe.base);
+  return vmfNormalLobe(lobe.mean, lobe.kappa, lobe.share, lobe.base);
 //? end
 }
 

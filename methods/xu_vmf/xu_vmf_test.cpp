@@ -10,6 +10,7 @@
 
 #include "methods/xu_vmf/built_map.hpp"
 #include "methods/xu_vmf/shortfall_twin.hpp"
+#include "renderer/pipeline/base_surface.hpp"
 #include "tests/support/method_probe.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/shader_probe.hpp"
@@ -194,23 +195,110 @@ TEST(XuMixture, KeepsKappaOverAConstantMapInHalfFloats) {
   }
 }
 
-TEST(XuDensity, HasUnitEnergyButAsPublished) {
-  const Scene scene = blinn_phong_square(random_normals(16, 16, 0.65F, 12), 300);
-  for (const std::string partition : {"azimuth", "latitude"}) {
+// Facets of narrow lobes, whose energy is one (but for 0.002 of GGX), spread so far that the lobes that stand for them
+// are wide.
+Scene spread_facets(NormalDistribution distribution) {
+  Scene scene = blinn_phong_square(random_normals(16, 16, 0.65F, 12), 300);
+  scene.materials[0].brdf.distribution = distribution;
+  scene.materials[0].lobe_parameter = lobe_from_alpha(distribution, 0.04F);
+  return scene;
+}
+
+double ggx_energy(double alpha) {
+  const double t = std::sqrt(1.0 - alpha * alpha);
+  return 1.0 + alpha * alpha * std::atanh(t) / t;
+}
+
+constexpr std::array distributions{NormalDistribution::blinn_phong, NormalDistribution::vmf,
+                                   NormalDistribution::beckmann, NormalDistribution::ggx};
+
+TEST(XuDensity, HasUnitEnergyHoweverTheHemisphereIsCut) {
+  for (const NormalDistribution distribution : distributions) {
+    const Scene scene = spread_facets(distribution);
     for (const std::string j : {"1", "4", "8", "adaptive"}) {
-      const std::string lobe = partition == "azimuth" ? "base" : "vmf";
-      const Words words{{"j", j}, {"partition", partition}, {"lobe", lobe}};
-      EXPECT_NEAR(BuiltMap(scene, words).energy(), 1.0, 0.01) << j << partition;
+      for (const std::string partition : {"azimuth", "latitude"}) {
+        EXPECT_NEAR(BuiltMap(scene, {{"j", j}, {"partition", partition}}).energy(), 1.0, 0.01)
+            << static_cast<int>(distribution) << " " << j << " " << partition;
+      }
     }
   }
-  for (const Words& words : {Words{{"thresholds", "blended"}}, Words{{"storage", "fp16"}, {"conversion", "table"}},
-                             Words{{"space", "camera"}}})
-    EXPECT_NEAR(BuiltMap(scene, words).energy(), 1.0, 0.01) << words.begin()->first;
+}
+
+TEST(XuDensity, HasUnitEnergyWithThePapersLobes) {
+  const Scene scene = spread_facets(NormalDistribution::ggx);  // whose width they take
+  for (const std::string j : {"1", "4", "8", "adaptive"}) {
+    for (const std::string partition : {"azimuth", "latitude"}) {
+      EXPECT_NEAR(BuiltMap(scene, {{"j", j}, {"partition", partition}, {"lobe", "vmf"}}).energy(), 1.0, 0.01)
+          << j << " " << partition;
+    }
+  }
+}
+
+TEST(XuDensity, HasUnitEnergyHoweverItIsBuilt) {
+  for (const NormalDistribution distribution : distributions) {
+    const Scene scene = spread_facets(distribution);
+    for (const Words& words : {Words{{"thresholds", "blended"}}, Words{{"storage", "fp16"}, {"conversion", "table"}},
+                               Words{{"space", "camera"}}, Words{{"space", "camera"}, {"storage", "fp16"}, {"j", "8"}}})
+      EXPECT_NEAR(BuiltMap(scene, words).energy(), 1.0, 0.01)
+          << static_cast<int>(distribution) << " " << words.begin()->second;
+  }
+}
+
+// Algorithm 1 as printed: every lobe adds whole. So do those near the rim, part of which lies below the horizon.
+TEST(XuDensity, HasAsMuchEnergyAsLobesAsPublished) {
   const std::map<std::string, std::size_t> counts{{"1", 1}, {"4", 4}, {"8", 8}, {"adaptive", 4}};
-  for (const auto& [j, count] : counts) {
-    const BuiltMap published(scene, {{"j", j}, {"variant", "published"}});
-    EXPECT_NEAR(published.energy() / static_cast<double>(published.lobes().size()), 1.0, 0.01) << j;
-    EXPECT_EQ(published.lobes().size(), count) << j;
+  for (const NormalDistribution distribution : distributions) {
+    const Scene scene = spread_facets(distribution);
+    for (const auto& [j, count] : counts) {
+      const BuiltMap published(scene, {{"j", j}, {"variant", "published"}});
+      EXPECT_NEAR(published.energy_over_sphere() / static_cast<double>(count), 1.0, 0.01)
+          << static_cast<int>(distribution) << " " << j;
+      EXPECT_EQ(published.lobes().size(), count) << j;
+    }
+  }
+}
+
+// A lobe that nothing widens keeps its own energy, which is above one for rough GGX: nothing changes there.
+TEST(XuDensity, LeavesAConstantMapItsEnergy) {
+  Scene scene = blinn_phong_square(constant_normals(8, 8, {0.0F, 0.0F, 1.0F}), 300);
+  scene.materials[0].brdf.distribution = NormalDistribution::ggx;
+  scene.materials[0].lobe_parameter = 0.5F;
+  EXPECT_NEAR(BuiltMap(scene).energy(), ggx_energy(0.5), 0.005);
+}
+
+// Facets of two roughnesses, one in every other column: alpha 0.04 and 0.2.
+Scene facets_of_two_roughnesses(const Image& normals) {
+  Image roughness(normals.width, normals.height, 1, std::sqrt(0.04F));
+  for (int y = 0; y < roughness.height; ++y)
+    for (int x = 0; x < roughness.width; x += 2) roughness.at(x, y)[0] = std::sqrt(0.2F);
+  Scene scene = rough_square(normals, roughness);
+  scene.materials[0].brdf.distribution = NormalDistribution::ggx;
+  return scene;
+}
+
+TEST(XuDensity, KeepsTheMeanEnergyOfFacetsOfTwoRoughnesses) {
+  const Scene scene = facets_of_two_roughnesses(random_normals(16, 16, 0.5F, 12));
+  const double truth = 0.5 * (ggx_energy(0.04) + ggx_energy(0.2));
+  for (const Words& words : {Words{{"j", "1"}}, Words{{"j", "4"}}, Words{{"j", "8"}}, Words{},
+                             Words{{"storage", "fp16"}}, Words{{"space", "camera"}}})
+    EXPECT_NEAR(BuiltMap(scene, words).energy() / truth, 1.0, 0.01) << (words.empty() ? "" : words.begin()->second);
+}
+
+// What diffuse light sees: the facets' mean normal, as long as it is, however rough they are.
+TEST(XuMeanNormal, IsThatOfTheFacets) {
+  const Image normals = random_normals(16, 16, 0.65F, 12);
+  glm::dvec3 truth(0.0);
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x) truth += glm::dvec3(normals.at(x, y)[0], normals.at(x, y)[1], normals.at(x, y)[2]);
+  truth /= 256.0;
+  ASSERT_LT(glm::length(truth), 0.95);
+  const std::string sum =
+      "vec3 sum = vec3(0.0);\nfor (int i = 0; i < e.count; ++i) sum += meanNormalOf(lobes[i]);\nreturn vec4(sum, 0.0);";
+  for (const Scene& scene : {facets_of_two_roughnesses(normals), blinn_phong_square(normals, 30)}) {
+    for (const std::string j : {"1", "4", "8", "adaptive"}) {
+      const glm::dvec3 got(glm::vec3(BuiltMap(scene, {{"j", j}}).probe(sum, {{}}).front()));
+      EXPECT_LT(glm::length(got - truth), 0.005) << j << ", lengths " << glm::length(got) << ", " << glm::length(truth);
+    }
   }
 }
 

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <iterator>
 
 #include "renderer/microgeometry/microgeometry.hpp"
 #include "renderer/visibility/cast_shadows.hpp"
@@ -32,7 +32,6 @@ constexpr std::array<std::string_view, effect_count> names{"diffuse",
                                                            "directional_light",
                                                            "cast_shadow",
                                                            "environment_light",
-
                                                            "microgeometry_visibility",
                                                            "microgeometry_colour",
                                                            "tabulated_brdf"};
@@ -132,14 +131,23 @@ EffectDecision cast_shadow(const Scene& scene) {
   return {Effect::cast_shadow, true, fmt::format("{}: something stands before a surface", fmt::join(kept, " and "))};
 }
 
-}  // namespace
+std::vector<EffectDecision> base_brdf_effects(const Scene& scene) {
+  const auto schlick = [](const Material& m) { return m.brdf.fresnel == FresnelTerm::schlick; };
+  const auto geometry = [](const Material& m) { return m.brdf.geometry != GeometryTerm::none; };
+  return {
+      decide(Effect::diffuse, scene, reflects_diffusely, "a Lambert term with an albedo above 0",
+             "no material reflects diffusely"),
+      decide(Effect::fresnel, scene, schlick, "the base BRDF has Schlick's term", "the base BRDF has no Fresnel term"),
+      decide(Effect::masking_shadowing, scene, geometry, "the base BRDF has a geometry term",
+             "the base BRDF has no geometry term")};
+}
 
-std::string_view effect_name(Effect effect) { return names.at(static_cast<std::size_t>(effect)); }
-
-std::vector<EffectDecision> derive_effects(const Scene& scene) {
+std::vector<EffectDecision> map_effects(const Scene& scene) {
   const auto roughness_varies = [](const Material& m) {
     return width_map(m) != nullptr && channel_varies(*width_map(m)->image, 0);
   };
+  const auto has_lobes = [](const Material& m) { return !m.lobes.empty(); };
+  const auto colored = [](const Material& m) { return m.base_color_map.has_value(); };
   const auto metallic_varies = [](const Material& m) {
     return metallic_map(m) != nullptr && channel_varies(*metallic_map(m)->image, 1);
   };
@@ -148,53 +156,56 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
     const Image& image = *m.specular_map->image;
     return channel_varies(image, 0) || channel_varies(image, 1) || channel_varies(image, 2);
   };
+  return {normal_variation(scene),
+          normal_layers(scene),
+          decide(Effect::roughness_variation, scene, roughness_varies, "a roughness map that varies",
+                 "roughness is constant over each material"),
+          decide(Effect::multi_lobe, scene, has_lobes, "facets with lobes about axes of their own",
+                 "every facet has one lobe, about its normal"),
+          decide(Effect::base_color_variation, scene, colored, "a base-colour map", "no base-colour map"),
+          decide(Effect::metallic_variation, scene, metallic_varies, "a metallic map that varies",
+                 "metalness is constant over each material"),
+          decide(Effect::specular_variation, scene, specular_varies, "a specular map that varies",
+                 "the specular colour is constant over each material")};
+}
+
+std::vector<EffectDecision> coverage_effects(const Scene& scene) {
+  const auto shared = [](const Material& m) { return m.share.has_value(); };
+  const auto cut_out = [](const Material& m) { return m.alpha_cutoff.has_value(); };
+  const auto double_sided = [](const Material& m) { return m.double_sided; };
+  return {decide(Effect::material_index, scene, shared, "one of several on its surface, by a map of indices",
+                 "one material a surface"),
+          decide(Effect::alpha_mask, scene, cut_out, "parts cut out by alpha", "no material is cut out by alpha"),
+          decide(Effect::double_sided, scene, double_sided, "seen from both sides", "every material is one-sided")};
+}
+
+std::vector<EffectDecision> light_effects(const Scene& scene) {
+  return {lights<PointLight>(Effect::point_light, scene, "point"), lights<SpotLight>(Effect::spot_light, scene, "spot"),
+          lights<DirectionalLight>(Effect::directional_light, scene, "directional"), cast_shadow(scene),
+          environment_light(scene)};
+}
+
+std::vector<EffectDecision> microgeometry_effects(const Scene& scene) {
+  const auto has_patch = [](const Material& m) { return m.microgeometry != nullptr; };
   const auto coloured = [](const Material& m) { return m.microgeometry && needs_colors(*m.microgeometry); };
-  return {
-      decide(Effect::diffuse, scene, reflects_diffusely, "a Lambert term with an albedo above 0",
-             "no material reflects diffusely"),
-      decide(
-          Effect::fresnel, scene, [](const Material& m) { return m.brdf.fresnel == FresnelTerm::schlick; },
-          "the base BRDF has Schlick's term", "the base BRDF has no Fresnel term"),
-      decide(
-          Effect::masking_shadowing, scene, [](const Material& m) { return m.brdf.geometry != GeometryTerm::none; },
-          "the base BRDF has a geometry term", "the base BRDF has no geometry term"),
-      normal_variation(scene),
-      normal_layers(scene),
-      decide(Effect::roughness_variation, scene, roughness_varies, "a roughness map that varies",
-             "roughness is constant over each material"),
-      decide(
-          Effect::multi_lobe, scene, [](const Material& m) { return !m.lobes.empty(); },
-          "facets with lobes about axes of their own", "every facet has one lobe, about its normal"),
-      decide(
-          Effect::base_color_variation, scene, [](const Material& m) { return m.base_color_map.has_value(); },
-          "a base-colour map", "no base-colour map"),
-      decide(Effect::metallic_variation, scene, metallic_varies, "a metallic map that varies",
-             "metalness is constant over each material"),
-      decide(Effect::specular_variation, scene, specular_varies, "a specular map that varies",
-             "the specular colour is constant over each material"),
-      decide(
-          Effect::material_index, scene, [](const Material& m) { return m.share.has_value(); },
-          "one of several on its surface, by a map of indices", "one material a surface"),
-      decide(
-          Effect::alpha_mask, scene, [](const Material& m) { return m.alpha_cutoff.has_value(); },
-          "parts cut out by alpha", "no material is cut out by alpha"),
-      decide(
-          Effect::double_sided, scene, [](const Material& m) { return m.double_sided; }, "seen from both sides",
-          "every material is one-sided"),
-      lights<PointLight>(Effect::point_light, scene, "point"),
-      lights<SpotLight>(Effect::spot_light, scene, "spot"),
-      lights<DirectionalLight>(Effect::directional_light, scene, "directional"),
-      cast_shadow(scene),
-      environment_light(scene),
-      decide(
-          Effect::microgeometry_visibility, scene, [](const Material& m) { return m.microgeometry != nullptr; },
-          "a patch of small-scale geometry", "no small-scale geometry"),
-      decide(Effect::microgeometry_colour, scene, coloured, "a patch with colours of its own",
-             "no small-scale geometry with colours of its own"),
-      decide(
-          Effect::tabulated_brdf, scene, [](const Material& m) { return m.microgeometry && m.microgeometry->brdf; },
-          "facets with a tabulated BRDF", "every facet has the base BRDF"),
-  };
+  const auto tabulated = [](const Material& m) { return m.microgeometry && m.microgeometry->brdf; };
+  return {decide(Effect::microgeometry_visibility, scene, has_patch, "a patch of small-scale geometry",
+                 "no small-scale geometry"),
+          decide(Effect::microgeometry_colour, scene, coloured, "a patch with colours of its own",
+                 "no small-scale geometry with colours of its own"),
+          decide(Effect::tabulated_brdf, scene, tabulated, "facets with a tabulated BRDF",
+                 "every facet has the base BRDF")};
+}
+
+}  // namespace
+
+std::string_view effect_name(Effect effect) { return names.at(static_cast<std::size_t>(effect)); }
+
+std::vector<EffectDecision> derive_effects(const Scene& scene) {
+  std::vector<EffectDecision> decisions;
+  for (const auto effects : {base_brdf_effects, map_effects, coverage_effects, light_effects, microgeometry_effects})
+    std::ranges::move(effects(scene), std::back_inserter(decisions));
+  return decisions;
 }
 
 EffectSet effects_on(const std::vector<EffectDecision>& decisions) {

@@ -48,6 +48,9 @@ TEST(Effects, MetalHasNoDiffuseTerm) {
   Scene scene = plain_scene();
   scene.materials[0].metallic = 1.0F;
   EXPECT_FALSE(on(scene, Effect::diffuse));
+  scene.materials[0].metallic_roughness_map = map_of(Image(1, 1, 2, 0.0F));  // says where it is none
+  EXPECT_TRUE(on(scene, Effect::diffuse));
+  scene.materials[0].metallic_roughness_map.reset();
   scene.materials[0].metallic = 0.0F;
   scene.materials[0].base_color = {0, 0, 0, 1};
   EXPECT_FALSE(on(scene, Effect::diffuse));
@@ -68,6 +71,9 @@ TEST(Effects, ConstantNormalMapIsOffOnlyIfFlat) {
   scene.materials[0].normal_map = map_of(normals);
   EXPECT_FALSE(on(scene, Effect::normal_variation));
   EXPECT_EQ(decision(scene, Effect::normal_variation).reason, "every normal map is flat");
+  normals.texels[3] = 0.0F;  // a texel that does not count must still be left out
+  scene.materials[0].normal_map = map_of(normals);
+  EXPECT_TRUE(on(scene, Effect::normal_variation));
   for (std::size_t i = 0; i < 16; i += 4) normals.texels[i] = 0.6F;
   scene.materials[0].normal_map = map_of(normals);
   EXPECT_TRUE(on(scene, Effect::normal_variation));
@@ -117,6 +123,15 @@ TEST(Effects, OneMaterialOfManyIsEnoughAndIsCounted) {
   scene.materials[1].double_sided = true;
   EXPECT_EQ(decision(scene, Effect::alpha_mask).reason, "1 of 2 materials: parts cut out by alpha");
   EXPECT_TRUE(on(scene, Effect::double_sided));
+}
+
+TEST(Effects, ABlackEnvironmentIsNone) {
+  Scene scene = plain_scene();
+  EXPECT_EQ(decision(scene, Effect::environment_light).reason, "no environment");
+  scene.environment = constant_environment(glm::vec3(0.0F));
+  EXPECT_FALSE(on(scene, Effect::environment_light));
+  scene.environment = constant_environment(glm::vec3(0.0F, 1e-6F, 0.0F));
+  EXPECT_TRUE(on(scene, Effect::environment_light));
 }
 
 // A square facing +z, under `height` of which another hovers.

@@ -55,7 +55,8 @@ TEST(DirectionGrid, PutsWhatIsBelowTheHorizonOnTheRim) {
 // Bilinear on the square: a function that is linear on it comes back between the outermost centres.
 TEST(DirectionGrid, InterpolatesBetweenCells) {
   constexpr int side = 5;
-  for (const glm::dvec2 place : {glm::dvec2(0.1, 0.1), glm::dvec2(0.37, 0.81), glm::dvec2(0.9, 0.5), glm::dvec2(0.0)}) {
+  for (const glm::dvec2 place : {glm::dvec2(0.1, 0.1), glm::dvec2(0.37, 0.81), glm::dvec2(0.9, 0.5), glm::dvec2(0.0),
+                                 glm::dvec2(1.0), glm::dvec2(0.95, 0.02)}) {
     const GridCells around = cells_around(square_to_hemisphere(place), side);
     glm::dvec2 mean(0.0);
     double sum = 0.0;

@@ -171,9 +171,8 @@ class Projector {
           glm::ivec2 reach(low.x, high.x);
           if (slanted) reach = reached_cells(in_cells, origin.y + row, origin.x + reach) - origin.x;
           if (reach.x > reach.y) continue;
-          const auto begin = static_cast<std::size_t>(row * side_ + reach.x);
-          const auto end = static_cast<std::size_t>(row * side_ + reach.y);
-          block(blocker, s, s.starts[begin], s.starts[end + 1], s.blocked.data());
+          const auto row_start = s.starts.begin() + std::ptrdiff_t{row} * side_;
+          block(blocker, s, row_start[reach.x], row_start[reach.y + 1], s.blocked.data());
         }
       }
     }

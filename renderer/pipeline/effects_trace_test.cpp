@@ -185,7 +185,8 @@ INSTANTIATE_TEST_SUITE_P(AllEffects, EffectTrace, ::testing::ValuesIn(cases),
 
 // Half of a surface each: what two materials leave is the sum of their shares, and covers as one does, at any filter.
 TEST(MaterialIndex, SharesAddUpAndCoverOnce) {
-  Scene both = least_scene(), single[2] = {least_scene(), least_scene()};
+  Scene both = least_scene();
+  std::array single{least_scene(), least_scene()};
   single[1].materials[0].dielectric_specular = glm::vec3(0.1F, 0.3F, 0.2F);
   both.materials.push_back(single[1].materials[0]);
   both.meshes.push_back(both.meshes[0]);

@@ -111,6 +111,7 @@ TEST(EnvironmentLight, StackHoldsMeansOverLobes) {
     const auto means = evaluate_glsl(functions, "return vec4(stackRadiance(a.xyz, a.w), 1.0);", inputs);
     for (int c = 0; c < 3; ++c) {
       std::vector<double> truth;
+      truth.reserve(axes.size());
       for (const glm::dvec3& axis : axes) {
         truth.push_back(vmf_mean(glm::normalize(axis), kappa,
                                  [&](const glm::dvec3& d) { return environment_radiance(environment, d)[c]; }));
@@ -202,10 +203,9 @@ TEST(EnvironmentLight, NormalsAreDrawnAsTheirDensitySays) {
     Inputs drawn, listed;
     constexpr int steps = 64;
     for (int i = 0; i < steps * steps; ++i) {
-      const float u = (static_cast<float>(i % steps) + 0.5F) / steps;
-      const float v = (static_cast<float>(i / steps) + 0.5F) / steps;
-      drawn.push_back({normal, glm::vec4(u, v, 0, 0), {}});
-      const glm::dvec3 d = about({0, 0, 1}, 2.0 * u - 1.0, 2.0 * pi * v);
+      const glm::vec2 place = (glm::vec2(glm::ivec2(i % steps, i / steps)) + 0.5F) / static_cast<float>(steps);
+      drawn.push_back({normal, glm::vec4(place, 0, 0), {}});
+      const glm::dvec3 d = about({0, 0, 1}, 2.0 * place.x - 1.0, 2.0 * pi * place.y);
       listed.push_back({normal, glm::vec4(glm::vec3(d), 0), {}});
     }
     double mean = 0, expected = 0, energy = 0;

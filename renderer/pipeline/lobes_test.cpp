@@ -81,6 +81,23 @@ TEST(Lobes, MicrofacetDistributionsProjectToUnitArea) {
   }
 }
 
+TEST(Lobes, KnowTheirEnergyOverSolidAngle) {
+  const auto claimed = [](NormalDistribution distribution, double lobe) {
+    return evaluate_glsl(functions_of(distribution), "return vec4(lobeEnergy(a.x));",
+                         Inputs{{glm::vec4(static_cast<float>(lobe)), {}, {}}})
+        .front()
+        .x;
+  };
+  EXPECT_EQ(claimed(NormalDistribution::blinn_phong, 64.0), 1.0F);
+  EXPECT_EQ(claimed(NormalDistribution::vmf, 64.0), 1.0F);
+  for (const double alpha : {1e-3, 0.03, 0.3, 0.6, 0.9, 0.9999, 1.0}) {
+    EXPECT_NEAR(claimed(NormalDistribution::ggx, alpha), energy(NormalDistribution::ggx, alpha, 0), 2e-3) << alpha;
+    EXPECT_NEAR(claimed(NormalDistribution::beckmann, alpha), energy(NormalDistribution::beckmann, alpha, 0), 2e-3)
+        << alpha;
+  }
+  EXPECT_NEAR(claimed(NormalDistribution::beckmann, 2.0) / energy(NormalDistribution::beckmann, 2.0, 0), 1.0, 5e-3);
+}
+
 // Hard cases 5 and 6: within 1e-4 of the exact value over the lobe for exponents up to 1e6, and no NaN far from the
 // axis.
 TEST(Lobes, NarrowLobesKeepTheirShape) {

@@ -51,9 +51,9 @@ TEST(MicrogeometryContent, MistakesNameTheirLine) {
       {"kind = \"flat\"\nperiod = [1, 1]\n", "belongs to a model"},
       {"model = \"nowhere.gltf\"\n", "nowhere.gltf"},
       {"kind = \"flat\"\nresolution = 0\n", "resolution"}};
-  for (const auto& [text, wanted] : cases) {
-    const std::string error = test::usage_error([&] { return load(text); });
-    EXPECT_NE(error.find(wanted), std::string::npos) << text << "got: " << error;
+  for (const auto& mistake : cases) {
+    const std::string error = test::usage_error([&] { return load(mistake.first); });
+    EXPECT_NE(error.find(mistake.second), std::string::npos) << mistake.first << "got: " << error;
   }
 }
 

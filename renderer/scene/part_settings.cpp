@@ -170,6 +170,7 @@ MapSettings read_maps(const TomlTable& table, const BrdfSettings& brdf, const st
 /// The key `parameters`, each number and word checked where it stands.
 std::map<std::string, std::string> read_parameters(const TomlTable& table, const std::vector<OptionSpec>& specs) {
   std::vector<std::string> names;
+  names.reserve(specs.size());
   for (const OptionSpec& spec : specs) names.push_back(spec.name);
   std::map<std::string, std::string> given;
   const auto parameters = table.table("parameters", names);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "tests/support/shadow_scenes.hpp"
 
@@ -54,6 +55,10 @@ TEST(Occluders, LetHolesThrough) {
   EXPECT_TRUE(open(-0.5F, 0.5F));
   EXPECT_FALSE(open(0.5F, 0.5F));
   EXPECT_FALSE(open(-0.5F, -0.5F));
+  material.base_color_map->coordinates.set = 1;  // by its second set the whole floor is the open texel
+  for (Vertex& vertex : scene.meshes[0].vertices) vertex.uv1 = glm::vec2(0.25F);
+  EXPECT_TRUE(open(0.5F, 0.5F));
+  material.base_color_map->coordinates.set = 0;
   glm::mat3x2& transform = material.base_color_map->coordinates.transform;
   transform = glm::mat3x2(1, 0, 0, 1, 1, 0);  // a whole tile to the right
   EXPECT_TRUE(open(-0.5F, 0.5F));
@@ -63,6 +68,16 @@ TEST(Occluders, LetHolesThrough) {
   material.base_color_map->coordinates.wrap = {Wrap::clamp_to_edge, Wrap::repeat};
   EXPECT_FALSE(open(-0.5F, 0.5F));
   EXPECT_FALSE(open(0.5F, 0.5F));
+}
+
+// As in glTF: what has the cutoff's own alpha is there.
+TEST(Occluders, AlphaOfTheCutoffBlocks) {
+  Scene scene = white_floor();
+  scene.materials[0].alpha_cutoff = 0.5F;
+  for (const auto& [alpha, blocks] : {std::pair(0.5F, true), std::pair(0.499F, false)}) {
+    scene.materials[0].base_color.a = alpha;
+    EXPECT_EQ(Occluders(scene).blocked({0.1F, 0.2F, 1.0F}, {0, 0, -1}), blocks);
+  }
 }
 
 TEST(Occluders, BothSidesBlock) {

@@ -78,16 +78,16 @@ SphereVisibility visibility_at(const Occluders& occluders, const glm::vec3& poin
 
 std::vector<float> signed_distances(const SphereVisibility& visible, std::span<const glm::vec3> directions) {
   const std::vector<glm::vec3> edges = edges_of(visible);
+  constexpr float farthest = std::numbers::pi_v<float>;
+  if (edges.empty()) return std::vector<float>(directions.size(), visible.any() ? farthest : -farthest);
   using Columns = Eigen::Map<const Eigen::Matrix3Xf>;
   static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
-  const Columns edge_columns(&edges.data()->x, 3, static_cast<Eigen::Index>(edges.size()));
+  const Columns edge_columns(&edges.front().x, 3, static_cast<Eigen::Index>(edges.size()));
   std::vector<float> distances;
+  distances.reserve(directions.size());
   for (const glm::vec3& direction : directions) {
-    float angle = std::numbers::pi_v<float>;
-    if (!edges.empty()) {
-      const Eigen::Vector3f d(direction.x, direction.y, direction.z);
-      angle = std::acos(std::clamp((d.transpose() * edge_columns).maxCoeff(), -1.0F, 1.0F));
-    }
+    const Eigen::Vector3f d(direction.x, direction.y, direction.z);
+    const float angle = std::acos(std::clamp((d.transpose() * edge_columns).maxCoeff(), -1.0F, 1.0F));
     distances.push_back(visible[visibility_cell(direction)] ? angle : -angle);
   }
   return distances;

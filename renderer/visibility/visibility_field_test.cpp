@@ -86,6 +86,7 @@ std::array<double, 2> share_error(const Scene& scene, const glm::vec3& point, do
   const Occluders occluders(scene);
   const auto rays = spread_directions(200000);
   std::vector<bool> clear;
+  clear.reserve(rays.size());
   const glm::vec3 start = point + occluders.offset() * glm::vec3(0, 0, 1);
   for (const glm::vec3& ray : rays) clear.push_back(ray.z > 0.0F && !occluders.blocked(start, ray));
   const auto axes = spread_directions(60);

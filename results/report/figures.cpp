@@ -32,6 +32,11 @@ std::string reference_text(const ReferenceInfo& reference) {
   return text;
 }
 
+std::string timing_text(const TimingInfo& timing) {
+  return fmt::format("{} {} of each method in {}, in turn", timing.frames, timing.frames == 1 ? "frame" : "frames",
+                     timing.processes == 1 ? "one process" : fmt::format("each of {} processes", timing.processes));
+}
+
 std::string scene_text(const SceneInfo& scene) {
   return fmt::format("{} ({}, {}, {}) from {}", scene.name, plural(std::to_string(scene.triangles), "triangle"),
                      plural(std::to_string(scene.materials), "material"), plural(std::to_string(scene.lights), "light"),
@@ -106,6 +111,7 @@ std::vector<Provenance> provenance(const Results& results) {
       {"Scene", scene_text(scene)},
       {"Exposure", fmt::format("{} ({})", three_figures(scene.exposure), scene.exposure_source)},
       {"Reference", reference_text(results.reference)},
+      {"Timing", timing_text(results.timing)},
       {"Supplied", list_text(scene.defaults, "nothing, the input has it all")}};
   for (const std::string& warning : scene.warnings) lines.push_back({"Warning", warning});
   return lines;

@@ -148,8 +148,8 @@ Results parse_document(const JsonNode& node) {
     node["schema"].fail("unknown schema `" + node["schema"].text() + "`",
                         std::string("this version reads `") + results_schema + "`");
   }
-  node.with_keys({"schema", "tool", "backend", "scene", "reference", "experiment", "error_scale", "supersampling",
-                  "records", "ndf", "quantities"});
+  node.with_keys({"schema", "tool", "backend", "scene", "reference", "timing", "experiment", "error_scale",
+                  "supersampling", "records", "ndf", "quantities"});
   Results results;
   const JsonNode tool = node["tool"].with_keys({"name", "version"});
   results.tool = {tool["name"].text(), tool["version"].text()};
@@ -161,6 +161,8 @@ Results parse_document(const JsonNode& node) {
   results.reference = {reference["spp"].whole<int>(1), reference["filter"].text(),
                        reference["seed"].whole<std::uint64_t>(), reference["standard_error"].optional_number(),
                        reference["environment"].is_null() ? "" : reference["environment"].text()};
+  const JsonNode timing = node["timing"].with_keys({"frames", "processes"});
+  results.timing = {timing["frames"].whole<int>(1), timing["processes"].whole<int>(1)};
   if (!node["experiment"].is_null()) results.experiment = parse_experiment(node["experiment"]);
   results.error_scale = node["error_scale"].number();
   for (const JsonNode& point : node["supersampling"].elements()) {

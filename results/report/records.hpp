@@ -139,12 +139,19 @@ struct ReferenceInfo {
   std::string environment = {};  ///< sampled or dense; empty without one
 };
 
+/// What the medians of frame times are over.
+struct TimingInfo {
+  int frames = 0;     ///< of each method and distance in each process, those of all methods in turn
+  int processes = 0;  ///< one after the other
+};
+
 /// A whole run.
 struct Results {
   ToolInfo tool;
   BackendInfo backend;
   SceneInfo scene;
   ReferenceInfo reference;
+  TimingInfo timing;
   std::vector<SupersamplingPoint> supersampling;
   std::vector<Record> records;
   std::vector<NdfFigures> ndf;                 ///< empty where no footprint was looked into

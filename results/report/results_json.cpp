@@ -137,6 +137,8 @@ Json reference_json(const ReferenceInfo& reference) {
           {"environment", reference.environment.empty() ? Json(nullptr) : Json(reference.environment)}};
 }
 
+Json timing_json(const TimingInfo& timing) { return {{"frames", timing.frames}, {"processes", timing.processes}}; }
+
 nlohmann::ordered_json results_document(const Results& results) {
   Json supersampling = Json::array();
   for (const SupersamplingPoint& point : results.supersampling) supersampling.push_back(supersampling_json(point));
@@ -151,6 +153,7 @@ nlohmann::ordered_json results_document(const Results& results) {
           {"backend", backend_json(results.backend)},
           {"scene", scene_json(results.scene)},
           {"reference", reference_json(results.reference)},
+          {"timing", timing_json(results.timing)},
           {"experiment", results.experiment ? experiment_json(*results.experiment) : Json(nullptr)},
           {"error_scale", json_number(results.error_scale)},
           {"supersampling", std::move(supersampling)},

@@ -37,6 +37,8 @@ TEST(ResultsJson, HasThePublishedFields) {
                             "/reference/spp",
                             "/reference/filter",
                             "/reference/standard_error",
+                            "/timing/frames",
+                            "/timing/processes",
                             "/supersampling/0/spp",
                             "/supersampling/0/normalized_color",
                             "/supersampling/0/ms",
@@ -121,6 +123,7 @@ TEST(ResultsJson, RoundTripKeepsTheValues) {
 TEST(ResultsJson, AnEmptyRunIsWritten) {
   Results nothing;
   nothing.reference.spp = 1;
+  nothing.timing = {.frames = 1, .processes = 1};
   EXPECT_TRUE(parse_results(results_json(nothing), "results.json").records.empty());
 }
 

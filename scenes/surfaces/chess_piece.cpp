@@ -1,8 +1,14 @@
 // chess_piece: the six chessmen after Staunton's pattern, turned, with a carved crown, a cross, or a horse's head on
 // top.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "renderer/scene/geometry.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
@@ -208,6 +214,7 @@ Mesh mesh(const SurfaceSettings& settings) {
 
 Surface chess_piece_surface() {
   std::vector<std::string> names;
+  names.reserve(pieces.size());
   for (const auto& piece : pieces) names.emplace_back(piece.first);
   return {.name = "chess_piece",
           .summary = "a chessman 46 to 99 mm high on the origin, without relief; the map runs around it",

@@ -87,7 +87,7 @@ TEST(InAWhiteFurnaceGate, RefusesWhatGainsOrLosesEnergy) {
   EXPECT_FALSE(keeps_energy(TestRenderer(furnace(plaster, 0.7F), {32, 32}).frame(direct), truth, bound));
   for (const float value : {1.2F, std::nanf("")}) {
     Image spoilt = kept;
-    spoilt.texels[4 * 100] = value;
+    spoilt.at(4, 3)[0] = value;
     EXPECT_FALSE(keeps_energy(spoilt, truth, bound)) << value;
   }
 }

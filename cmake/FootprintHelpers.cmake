@@ -1,3 +1,6 @@
+# A test's own sources run for a moment and take long to optimise; the libraries under test are as they are shipped.
+set(FOOTPRINT_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
+
 # footprint_add_library(NAME SOURCES ... LIBRARIES ...): a static library with the project's settings.
 function(footprint_add_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
@@ -14,6 +17,12 @@ function(footprint_add_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE footprint_settings ${ARG_LIBRARIES} GTest::gtest_main)
+  target_compile_options(${name} PRIVATE ${FOOTPRINT_TEST_OPTIONS})
+  if(TARGET footprint_precompiled_tests)  # FootprintPrecompiled.cmake; not in a project that uses this build folder
+    target_precompile_headers(${name} REUSE_FROM footprint_precompiled_tests)
+    # ccache preprocesses a source: with this the result names the precompiled file in place of all that it holds.
+    target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+  endif()
   target_compile_definitions(${name} PRIVATE FOOTPRINT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES TIMEOUT 300)

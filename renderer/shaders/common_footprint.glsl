@@ -28,6 +28,10 @@ struct Footprints {
 mat3 tangent_to_camera;
 //? end
 
+// Texels of a mip level, by OpenGL's rule. Where neighbouring pixels ask for different levels, Mesa's llvmpipe answers
+// `textureSize` for one level to eight pixels.
+vec2 levelSize(ivec2 finest, int level) { return vec2(max(finest >> level, ivec2(1))); }
+
 //? if sampling_frame
 //? if anisotropic
 // Explicit probes along the major axis, at the level of the minor one: the formulas of EXT_texture_filter_anisotropic,
@@ -154,7 +158,7 @@ FootprintTexel footprintTexel(sampler2DArray map, Footprint f, int i) {
   float lower = floor(level);
   bool coarser = (i & 4) != 0;
   float own = min(coarser ? lower + 1.0 : lower, coarsest);
-  vec2 size = vec2(textureSize(map, int(own)).xy);
+  vec2 size = levelSize(textureSize(map, 0).xy, int(own));
   vec2 place = uv * size - 0.5;
   vec2 corner = floor(place);
   vec2 part = place - corner;

@@ -12,7 +12,7 @@ const float inverse_root_two_pi = 0.3989423;
 // Map 2 l is level l of layer 0, map 2 l + 1 that of layer 1.
 vec3 stackMap(int map, vec2 place) {
   int level = map >> 1;
-  vec2 size = vec2(textureSize(environment_stack, level).xy);
+  vec2 size = levelSize(textureSize(environment_stack, 0).xy, level);
   return textureLod(environment_stack, vec3(borderedPlace(place, size), map & 1), float(level)).rgb;
 }
 

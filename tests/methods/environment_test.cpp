@@ -62,6 +62,16 @@ TEST_P(UnderAnEnvironment, EqualsDirectOnAConstantMapAtAnyDistance) {
   }
 }
 
+// What four pixels show, whose differences are a footprint, is their own: neighbours that look other levels up, or have
+// more lobes, change nothing.
+TEST_P(UnderAnEnvironment, IsTheSameFourPixelsByFourPixels) {
+  const BaseBrdf brdf{NormalDistribution::ggx, GeometryTerm::smith, FresnelTerm::schlick, false};
+  Scene scene = lit_square(random_normals(64, 64, 0.6F, 5), {.brdf = brdf, .roughness = 0.3F}, uneven_environment());
+  scene.camera = receding_grooves().camera;
+  TestRenderer renderer(scene, {24, 24});
+  EXPECT_LT(largest_difference(renderer.frame(*GetParam(), {}, 1, 2), renderer.frame(*GetParam())), 1e-4);
+}
+
 TEST_P(UnderAnEnvironment, StaysFiniteAtTheLimits) {
   for (const NormalDistribution distribution : {NormalDistribution::ggx, NormalDistribution::blinn_phong}) {
     for (const float roughness : {0.0F, 1.0F}) {

@@ -74,6 +74,18 @@ TEST_P(EveryMethod, StaysFiniteAtTheLimits) {
   }
 }
 
+// What four pixels show, whose differences are a footprint, is their own: neighbours that look other levels up, or have
+// more lobes, change nothing.
+TEST_P(EveryMethod, IsTheSameFourPixelsByFourPixels) {
+  Scene scene = square_scene(random_normals(64, 64, 0.6F, 5), {.brdf = brdfs[2], .roughness = 0.4F});
+  scene.camera = receding_grooves().camera;
+  TestRenderer renderer(scene, {24, 24});
+  for (const int probes : {1, 4}) {
+    const Image whole = renderer.frame(*GetParam(), {}, probes);
+    EXPECT_LT(largest_difference(renderer.frame(*GetParam(), {}, probes, 2), whole), 1e-4) << probes;
+  }
+}
+
 TEST_P(EveryMethod, IsDeterministic) {
   const Scene scene = square_scene(random_normals(64, 48, 0.5F, 4), {});
   TestRenderer renderer(scene);

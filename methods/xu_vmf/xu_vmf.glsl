@@ -467,7 +467,7 @@ vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
     return size * lambert(e.normal / size, albedo, f0, wi, wo);
   }
 //? end
-  return lambert(last_cosine * wi, albedo, f0, wi, wo);
+  return lambert(last_cosine * wi, albedo, f0, wi, wo);  // any normal of that cosine with the light
 }
 //? end
 

@@ -10,7 +10,8 @@ layout(binding = 1) uniform sampler2DArray values;
 //? end
 
 void main() {
-  for (int i = 0; i < layer_count; ++i) part[i] = vec4(0.0);
+  vec4 sums[layer_count];
+  for (int i = 0; i < layer_count; ++i) sums[i] = vec4(0.0);
   ivec2 place = ivec2(gl_FragCoord.xy);
   ivec2 size = textureSize(finest, 0).xy;
   vec3 across = sharesOf(place.x, size.x);
@@ -27,10 +28,9 @@ void main() {
       value = across[x] * down[y] * texelFetch(values, texel, 0);
 //? end
       for (int i = 0; i < layer_count; ++i) {
-        bool holds = first_part + i <= own && own < beyondPart(first_part + i);
-        part[i] += holds ? value : vec4(0.0);
+        if (!isSumOfNext(i, layer_count)) sums[i] += own == first_part + i ? value : vec4(0.0);
       }
     }
   }
-  for (int i = 0; i < layer_count; ++i) part[i] = stored(part[i]);
+  for (int i = 0; i < layer_count; ++i) part[i] = stored(isSumOfNext(i, layer_count) ? sums[i + 1] + sums[i + 2] : sums[i]);
 }

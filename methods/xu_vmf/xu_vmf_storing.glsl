@@ -8,6 +8,16 @@ vec4 stored(vec4 value) {
 //? end
 }
 
+// Of the layers that a pass draws: whether one is a coarse part of `adaptive`'s tree, before its two cells, which need no
+// second look.
+bool isSumOfNext(int i, int layers) {
+//? if j_adaptive
+  return layers > 1 && i % 3 == 0;
+//? else
+  return false;
+//? end
+}
+
 // A coarse texel is the exact mean of the area that it covers of the next finer level, for any size: two texels along
 // an even axis, three with the shares ((m - i), m, (1 + i)) / n along an odd one, n = 2m + 1 (Guthe and Heckbert 2005).
 vec3 sharesOf(int i, int n) {

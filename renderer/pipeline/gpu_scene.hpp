@@ -77,8 +77,8 @@ struct GpuBatch {
   std::size_t material = 0;
   bool double_sided = false;
   bool adds = false;  ///< to what the material before it left on the same triangles
-  std::vector<GpuTexture>
-      shared_textures;  ///< base_color_map, metallic_map, specular_map, material_share: if their effect is on
+  /// base_color_map, metallic_map, specular_map, material_share: if their effect is on
+  std::vector<GpuTexture> shared_textures;
 };
 
 /// The whole scene. Needs the context that made it to be current, also when destroyed.

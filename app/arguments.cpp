@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "app/options.hpp"
+#include "renderer/bake/bake_cache.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
-#include "renderer/pipeline/bake_cache.hpp"
 #include "scenes/surfaces/registry.hpp"
 
 namespace footprint {

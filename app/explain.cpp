@@ -17,7 +17,7 @@
 #include "app/standard_output.hpp"
 #include "experiments/runner/stage.hpp"
 #include "renderer/core/memory.hpp"
-#include "renderer/scene/load_scene.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
 
 namespace footprint {
 namespace {

@@ -16,7 +16,7 @@
 #include "app/standard_output.hpp"
 #include "experiments/runner/experiment.hpp"
 #include "methods/registry.hpp"
-#include "renderer/scene/load_scene.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
 #include "scenes/surfaces/registry.hpp"
 
 namespace footprint {

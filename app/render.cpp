@@ -18,7 +18,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/core/interrupt.hpp"
 #include "renderer/image/image_io.hpp"
-#include "renderer/scene/load_scene.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
 
 namespace footprint {
 namespace {

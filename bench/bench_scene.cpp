@@ -7,9 +7,9 @@
 #include <string>
 
 #include "methods/registry.hpp"
+#include "renderer/bake/bake_cache.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/pipeline/bake_cache.hpp"
-#include "renderer/scene/load_scene.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
 #include "scenes/surfaces/registry.hpp"
 
 namespace footprint::bench {

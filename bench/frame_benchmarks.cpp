@@ -8,7 +8,7 @@
 #include "renderer/gl/frame_timer.hpp"
 #include "renderer/gl/functions.hpp"
 #include "renderer/pipeline/timing.hpp"
-#include "renderer/scene/load_scene.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
 
 namespace footprint::bench {
 namespace {

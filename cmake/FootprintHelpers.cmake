@@ -23,7 +23,6 @@ function(footprint_add_test name)
     # ccache preprocesses a source: with this the result names the precompiled file in place of all that it holds.
     target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
   endif()
-  target_compile_definitions(${name} PRIVATE FOOTPRINT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES TIMEOUT 300)
 endfunction()

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "renderer/pipeline/method.hpp"
+#include "renderer/bake/method.hpp"
 
 namespace footprint {
 

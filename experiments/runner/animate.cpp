@@ -12,7 +12,7 @@
 #include "experiments/runner/zoom.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
-#include "renderer/scene/load_scene.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
 
 namespace footprint {
 namespace {

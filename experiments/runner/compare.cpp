@@ -19,7 +19,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/timing.hpp"
-#include "renderer/scene/load_scene.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
 #include "results/report/equivalent_spp.hpp"
 
 namespace footprint {

@@ -12,7 +12,7 @@
 #include "experiments/runner/stage.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/pipeline/supersample.hpp"
-#include "renderer/scene/scene_settings.hpp"
+#include "renderer/scene/settings/scene.hpp"
 #include "renderer/scene/surface.hpp"
 #include "results/report/records.hpp"
 

@@ -17,8 +17,8 @@
 #include "renderer/gl/functions.hpp"
 #include "renderer/pipeline/frame.hpp"
 #include "renderer/pipeline/gpu_visibility.hpp"
-#include "renderer/scene/load_scene.hpp"
-#include "renderer/scene/microgeometry_content.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
+#include "renderer/scene/assembly/microgeometry_content.hpp"
 
 namespace footprint {
 namespace {

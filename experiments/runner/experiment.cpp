@@ -16,7 +16,7 @@
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/suggest.hpp"
-#include "renderer/scene/toml_table.hpp"
+#include "renderer/core/toml_table.hpp"
 
 namespace footprint {
 namespace {

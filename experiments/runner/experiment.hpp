@@ -15,7 +15,7 @@
 #include "renderer/core/options.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
 #include "renderer/pipeline/supersample.hpp"
-#include "renderer/scene/scene_settings.hpp"
+#include "renderer/scene/settings/scene.hpp"
 
 namespace footprint {
 

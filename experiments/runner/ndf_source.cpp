@@ -10,8 +10,8 @@
 #include "renderer/core/error.hpp"
 #include "renderer/core/suggest.hpp"
 #include "renderer/image/image_io.hpp"
-#include "renderer/scene/load_scene.hpp"
-#include "renderer/scene/surface_maps.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
+#include "renderer/scene/assembly/surface_maps.hpp"
 
 namespace footprint {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiments/runner/experiment.hpp"
-#include "renderer/pipeline/method.hpp"
+#include "renderer/bake/method.hpp"
 #include "renderer/pipeline/quantity.hpp"
 #include "results/report/records.hpp"
 

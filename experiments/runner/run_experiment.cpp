@@ -8,7 +8,7 @@
 #include "experiments/runner/judge.hpp"
 #include "experiments/runner/ndf_inspection.hpp"
 #include "experiments/runner/quantities.hpp"
-#include "renderer/scene/load_scene.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
 
 namespace footprint {
 namespace {

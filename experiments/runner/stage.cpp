@@ -10,7 +10,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/pipeline/base_surface.hpp"
-#include "renderer/scene/load_scene.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
 
 namespace footprint {
 namespace {

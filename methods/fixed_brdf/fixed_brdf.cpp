@@ -1,7 +1,7 @@
 // `fixed_brdf`: the finest level's reflectance at every distance, over a geometry that is filtered: the mean normal,
 // renormalised, shades with a facet's own lobe. Tan 2005's straw man (figure 8).
+#include "renderer/bake/normal_chain.hpp"
 #include "renderer/pipeline/base_surface.hpp"
-#include "renderer/pipeline/normal_chain.hpp"
 
 namespace footprint {
 

@@ -5,9 +5,9 @@
 #include <span>
 
 #include "methods/fournier/peak_chain.hpp"
+#include "renderer/bake/facet_lobes.hpp"
+#include "renderer/bake/normal_chain.hpp"
 #include "renderer/pipeline/base_surface.hpp"
-#include "renderer/pipeline/facet_lobes.hpp"
-#include "renderer/pipeline/normal_chain.hpp"
 
 namespace footprint {
 

@@ -8,9 +8,9 @@
 
 #include "methods/iwasaki_sg/normal_bins.hpp"
 #include "methods/iwasaki_sg/spherical_gaussian.hpp"
+#include "renderer/bake/patch_facets.hpp"
 #include "renderer/core/progress.hpp"
 #include "renderer/microgeometry/facet_visibility.hpp"
-#include "renderer/pipeline/patch_facets.hpp"
 
 namespace footprint::iwasaki_sg {
 

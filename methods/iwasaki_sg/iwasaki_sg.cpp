@@ -5,7 +5,7 @@
 #include "methods/iwasaki_sg/quantities.hpp"
 #include "methods/iwasaki_sg/settings.hpp"
 #include "methods/iwasaki_sg/table_textures.hpp"
-#include "renderer/pipeline/method.hpp"
+#include "renderer/bake/method.hpp"
 #include "renderer/pipeline/quantity.hpp"
 
 namespace footprint {

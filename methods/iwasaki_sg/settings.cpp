@@ -1,8 +1,8 @@
 // See settings.hpp.
 #include "methods/iwasaki_sg/settings.hpp"
 
+#include "renderer/bake/patch_facets.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
-#include "renderer/pipeline/patch_facets.hpp"
 
 namespace footprint::iwasaki_sg {
 

@@ -1,10 +1,10 @@
 // A material's table as the textures that the shader reads.
 #pragma once
 
+#include "renderer/bake/prefiltered.hpp"
 #include "renderer/core/options.hpp"
 #include "renderer/core/progress.hpp"
 #include "renderer/effects/effects.hpp"
-#include "renderer/pipeline/prefiltered.hpp"
 #include "renderer/scene/material.hpp"
 
 namespace footprint::iwasaki_sg {

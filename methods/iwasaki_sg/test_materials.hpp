@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
+#include "renderer/bake/method.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
 #include "renderer/microgeometry/patch_kinds.hpp"
-#include "renderer/pipeline/method.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint {

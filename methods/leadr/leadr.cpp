@@ -1,8 +1,8 @@
 // `leadr`: the moments of slope as one off-centre anisotropic lobe, with masking and shadowing by the same slopes.
 // Dupuy et al. 2013, "Linear Efficient Antialiased Displacement and Reflectance Mapping".
-#include "renderer/pipeline/slope_moments.hpp"
+#include "renderer/bake/slope_moments.hpp"
 
-#include "renderer/pipeline/method.hpp"
+#include "renderer/bake/method.hpp"
 
 namespace footprint {
 

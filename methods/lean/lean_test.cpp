@@ -8,9 +8,9 @@
 #include <numbers>
 #include <vector>
 
+#include "renderer/bake/slope_moments.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
-#include "renderer/pipeline/slope_moments.hpp"
 #include "tests/support/method_probe.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/slope_twin.hpp"

@@ -1,9 +1,9 @@
 // `naive_mip`: the mean normal, renormalised, and the mean roughness. What most renderers do, and what makes far
 // surfaces too shiny: the spread of the normals is lost.
+#include "renderer/bake/normal_chain.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/mipmap.hpp"
 #include "renderer/pipeline/base_surface.hpp"
-#include "renderer/pipeline/normal_chain.hpp"
 
 namespace footprint {
 

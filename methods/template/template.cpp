@@ -4,9 +4,9 @@
 #include <cmath>
 #include <span>
 
+#include "renderer/bake/normal_chain.hpp"
 #include "renderer/image/mipmap.hpp"
 #include "renderer/pipeline/base_surface.hpp"
-#include "renderer/pipeline/normal_chain.hpp"
 
 namespace footprint {
 

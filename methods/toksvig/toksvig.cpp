@@ -1,7 +1,7 @@
 // `toksvig`: the length of the mean normal tells the spread of the normals under a footprint; one lobe about the mean
 // normal takes that spread into its width. Toksvig 2004/2005, "Mipmapping Normal Maps".
+#include "renderer/bake/normal_chain.hpp"
 #include "renderer/pipeline/base_surface.hpp"
-#include "renderer/pipeline/normal_chain.hpp"
 
 namespace footprint {
 

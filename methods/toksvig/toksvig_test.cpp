@@ -6,9 +6,9 @@
 #include <map>
 #include <vector>
 
+#include "renderer/bake/normal_chain.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
-#include "renderer/pipeline/normal_chain.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/shader_probe.hpp"

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "renderer/bake/method.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
-#include "renderer/pipeline/method.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 #include "renderer/pipeline/view.hpp"
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "renderer/pipeline/frame_build_job.hpp"
 #include "renderer/pipeline/view.hpp"
 
 namespace footprint {

@@ -4,9 +4,9 @@
 #include <array>
 #include <optional>
 
+#include "renderer/bake/method.hpp"
 #include "renderer/gl/objects.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
-#include "renderer/pipeline/method.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 
 namespace footprint::xu_vmf {

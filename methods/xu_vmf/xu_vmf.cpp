@@ -6,9 +6,9 @@
 
 #include "methods/xu_vmf/instant_map.hpp"
 #include "methods/xu_vmf/surface_layout.hpp"
+#include "renderer/bake/normal_chain.hpp"
 #include "renderer/image/mipmap.hpp"
 #include "renderer/pipeline/base_surface.hpp"
-#include "renderer/pipeline/normal_chain.hpp"
 
 namespace footprint {
 

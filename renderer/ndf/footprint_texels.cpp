@@ -11,10 +11,10 @@
 #include <tuple>
 #include <utility>
 
+#include "renderer/bake/facet_lobes.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/pipeline/base_surface.hpp"
-#include "renderer/pipeline/facet_lobes.hpp"
 
 namespace footprint {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "renderer/bake/patch_facets.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
-#include "renderer/pipeline/patch_facets.hpp"
 
 namespace footprint {
 

@@ -1,7 +1,7 @@
 // The base BRDF as a method: what the reference averages. It reads the finest level alone.
 #pragma once
 
-#include "renderer/pipeline/method.hpp"
+#include "renderer/bake/method.hpp"
 
 namespace footprint {
 

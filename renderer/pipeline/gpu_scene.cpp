@@ -8,10 +8,10 @@
 #include <limits>
 #include <span>
 
+#include "renderer/bake/facet_lobes.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/mipmap.hpp"
 #include "renderer/pipeline/base_surface.hpp"
-#include "renderer/pipeline/facet_lobes.hpp"
 #include "renderer/scene/geometry.hpp"
 
 namespace footprint {

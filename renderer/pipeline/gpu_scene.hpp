@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/bake/prefiltered.hpp"
 #include "renderer/core/hash.hpp"
 #include "renderer/effects/effects.hpp"
 #include "renderer/gl/context.hpp"
@@ -12,7 +13,6 @@
 #include "renderer/pipeline/gpu_environment.hpp"
 #include "renderer/pipeline/gpu_visibility.hpp"
 #include "renderer/pipeline/light_blocks.hpp"
-#include "renderer/pipeline/prefiltered.hpp"
 #include "renderer/pipeline/shadow_maps.hpp"
 #include "renderer/scene/scene.hpp"
 

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "renderer/bake/prefiltered.hpp"
 #include "renderer/core/options.hpp"
 #include "renderer/effects/effects.hpp"
 #include "renderer/pipeline/environment_use.hpp"
-#include "renderer/pipeline/prefiltered.hpp"
 #include "renderer/scene/material.hpp"
 
 namespace footprint {

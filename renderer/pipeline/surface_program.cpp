@@ -1,5 +1,6 @@
 // See surface_program.hpp.
 #include "renderer/pipeline/surface_program.hpp"
+#include "renderer/pipeline/frame_build_job.hpp"
 
 #include <fmt/format.h>
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "renderer/pipeline/bake_cache.hpp"
+#include "renderer/bake/bake_cache.hpp"
+#include "renderer/bake/method.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
-#include "renderer/pipeline/method.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 #include "renderer/pipeline/view.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "renderer/core/error.hpp"
-#include "renderer/scene/load_scene.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
 
 namespace footprint {
 

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "renderer/core/error.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
 #include "renderer/scene/light_rig.hpp"
-#include "renderer/scene/load_scene.hpp"
 
 namespace footprint {
 namespace {

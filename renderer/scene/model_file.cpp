@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "renderer/scene/gltf_model.hpp"
+#include "renderer/scene/gltf/model.hpp"
 #include "renderer/scene/obj_model.hpp"
 
 namespace footprint {

@@ -5,8 +5,8 @@
 
 #include <array>
 
-#include "renderer/scene/gltf_test_builder.hpp"
-#include "renderer/scene/load_scene.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
+#include "renderer/scene/gltf/test_builder.hpp"
 #include "renderer/scene/plane.hpp"
 
 namespace footprint {

@@ -1,6 +1,6 @@
 // A footprint's normals as slopes, b = -n_xy / n_z, with mean B and covariance S, and the lobe over them: what methods
 // that keep moments of slope share. A module takes it in by `//? include common_slopes.glsl`; its textures and its
-// option `roughness` are those of renderer/pipeline/slope_moments.hpp.
+// option `roughness` are those of renderer/bake/slope_moments.hpp.
 
 const float smallest_slope_cosine = 1e-3;  // hard stop of slopes at the horizon
 

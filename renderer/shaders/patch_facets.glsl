@@ -1,5 +1,5 @@
 // The facets of a patch of small-scale geometry, drawn at random: Iwasaki 2012, equation 1, as a sum over facets with
-// their true visibility. For the reference; its textures are those of renderer/pipeline/patch_facets.cpp.
+// their true visibility. For the reference; its textures are those of renderer/bake/patch_facets.cpp.
 //? include direction_grid.glsl
 
 const int facets_per_sample = 32;  // each from another share of the facets, which lie in the order of their normals

@@ -7,9 +7,10 @@
 #include <cmath>
 #include <functional>
 
-#include "renderer/scene/load_scene.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
 #include "scenes/surfaces/noise.hpp"
 #include "scenes/surfaces/test_maps.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace footprint {
 namespace {
@@ -166,8 +167,7 @@ TEST(Desert, SandIsOfOneColourNearly) {
 }
 
 TEST(SurfaceScenes, LoadWithNothingLeftOpen) {
-  const SceneLibrary library{.folder = std::filesystem::path(FOOTPRINT_SOURCE_DIR) / "scenes",
-                             .surfaces = all_surfaces()};
+  const SceneLibrary library{.folder = testing::source_folder() / "scenes", .surfaces = all_surfaces()};
   const auto names = list_scenes(library.folder);
   for (const Surface& surface : all_surfaces()) {
     if (!std::ranges::binary_search(names, surface.name)) continue;  // part of a scene of another name

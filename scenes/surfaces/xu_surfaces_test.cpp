@@ -9,10 +9,11 @@
 #include <map>
 #include <set>
 
-#include "renderer/scene/load_scene.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
 #include "scenes/surfaces/jacquard.hpp"
 #include "scenes/surfaces/octaves.hpp"
 #include "scenes/surfaces/test_maps.hpp"
+#include "tests/support/source_folder.hpp"
 #include "tests/support/texture_coverage.hpp"
 
 namespace footprint {
@@ -184,8 +185,7 @@ TEST(HallCloth, TakesTurnsInEveryArch) {
 }
 
 Scene load(const std::string& name) {
-  return load_scene(name,
-                    {.folder = std::filesystem::path(FOOTPRINT_SOURCE_DIR) / "scenes", .surfaces = all_surfaces()});
+  return load_scene(name, {.folder = testing::source_folder() / "scenes", .surfaces = all_surfaces()});
 }
 
 TEST(XuScenes, HallHasFiveMaterialsOfOneBaseBrdf) {

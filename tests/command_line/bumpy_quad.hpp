@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "renderer/scene/gltf_test_builder.hpp"
+#include "renderer/scene/gltf/test_builder.hpp"
 
 namespace footprint::test {
 

@@ -9,6 +9,7 @@
 
 #include "methods/registry.hpp"
 #include "tests/support/rendering.hpp"
+#include "tests/support/source_folder.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint::testing {
@@ -16,7 +17,7 @@ namespace {
 
 // The README's "White furnace: within X%", as a share; NaN where it has no such words.
 double stated_bound(const std::string& method) {
-  std::ifstream file(std::string(FOOTPRINT_SOURCE_DIR) + "/methods/" + method + "/README.md");
+  std::ifstream file(source_folder() / "methods" / method / "README.md");
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   std::smatch found;
   if (!std::regex_search(text, found, std::regex(R"(White furnace: within ([0-9.]+)%)"))) return std::nan("");

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "methods/registry.hpp"
+#include "renderer/bake/slope_moments.hpp"
 #include "renderer/image/metrics.hpp"
-#include "renderer/pipeline/slope_moments.hpp"
 #include "tests/support/method_probe.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/test_scenes.hpp"

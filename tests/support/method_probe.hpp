@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/pipeline/method.hpp"
+#include "renderer/bake/method.hpp"
 
 namespace footprint::testing {
 

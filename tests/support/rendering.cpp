@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "renderer/pipeline/base_surface.hpp"
-#include "renderer/scene/load_scene.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
 
 namespace footprint::testing {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "renderer/bake/slope_moments.hpp"
 #include "renderer/pipeline/base_surface.hpp"
-#include "renderer/pipeline/slope_moments.hpp"
 
 namespace footprint::testing {
 namespace {

@@ -1,0 +1,183 @@
+// See bake_cache.hpp.
+#include "renderer/bake/bake_cache.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <span>
+#include <system_error>
+#include <vector>
+
+#include "renderer/bake/prefiltered_file.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/core/files.hpp"
+#include "renderer/core/hash.hpp"
+#include "renderer/microgeometry/microgeometry.hpp"
+#include "renderer/scene/file_bytes.hpp"
+
+namespace footprint {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view extension = ".bake";
+
+constexpr std::uint64_t largest_file = std::uint64_t{64} << 30U;
+
+// Empty where there is no such file or it cannot be read.
+std::vector<std::uint8_t> content_of(const fs::path& file) {
+  try {
+    return read_file_bytes(file, largest_file);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+// A change of the code changes what it bakes, and nobody remembers to raise a number.
+const std::string& program_identity() {
+  static const std::string identity = [] {
+    ContentHash hash;
+    const std::vector<std::uint8_t> program = content_of("/proc/self/exe");
+    hash.add(std::as_bytes(std::span(program)));
+    return hash.hex();
+  }();
+  return identity;
+}
+
+template <class Value>
+void add_value(ContentHash& hash, const Value& value) {
+  hash.add(std::as_bytes(std::span(&value, 1)));
+}
+
+void add_map(ContentHash& hash, const std::optional<TextureMap>& map) {
+  add_value(hash, map.has_value());
+  if (!map) return;
+  add_value(hash, map->image->width);
+  add_value(hash, map->image->height);
+  add_value(hash, map->image->channels);
+  hash.add(std::as_bytes(std::span(map->image->texels)));
+  add_value(hash, map->coordinates.set);
+  add_value(hash, map->coordinates.transform);
+  add_value(hash, map->coordinates.wrap);
+}
+
+template <class Value>
+void add_values(ContentHash& hash, const std::vector<Value>& values) {
+  hash.add(std::as_bytes(std::span(values)));
+}
+
+void add_patch(ContentHash& hash, const Patch& patch) {
+  add_value(hash, patch.period);
+  add_values(hash, patch.vertices);
+  add_values(hash, patch.triangles);
+  add_values(hash, patch.paints);
+  add_values(hash, patch.palette);
+}
+
+// Everything of a material but its name.
+void add_material(ContentHash& hash, const Material& m) {
+  add_value(hash, m.brdf.distribution);
+  add_value(hash, m.brdf.geometry);
+  add_value(hash, m.brdf.fresnel);
+  add_value(hash, m.brdf.diffuse);
+  add_value(hash, m.base_color);
+  add_value(hash, m.dielectric_specular);
+  add_value(hash, m.metallic);
+  add_value(hash, m.roughness);
+  add_value(hash, m.lobe_parameter.value_or(-1.0F));
+  add_value(hash, m.alpha_cutoff.value_or(-1.0F));
+  add_map(hash, m.base_color_map);
+  add_map(hash, m.metallic_roughness_map);
+  add_map(hash, m.normal_map);
+  add_map(hash, m.layer_map);
+  add_map(hash, m.lobe_parameter_map);
+  add_map(hash, m.specular_map);
+  add_value(hash, m.lobes.size());
+  for (const FacetLobe& lobe : m.lobes) add_value(hash, lobe);
+  if (!m.microgeometry) return;
+  add_patch(hash, m.microgeometry->patch);
+  if (m.microgeometry->brdf) add_values(hash, m.microgeometry->brdf->values);
+}
+
+struct KeptFile {
+  fs::path path;
+  std::uintmax_t bytes;
+  fs::file_time_type used;
+};
+
+std::vector<KeptFile> kept_files(const fs::path& folder) {
+  std::vector<KeptFile> files;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    std::error_code gone;  // another process may remove it meanwhile
+    const KeptFile file{.path = entry.path(), .bytes = entry.file_size(gone), .used = entry.last_write_time(gone)};
+    if (!gone && file.path.extension() == extension) files.push_back(file);
+  }
+  return files;
+}
+
+}  // namespace
+
+BakeCache::BakeCache(fs::path folder, std::uint64_t most_bytes) : folder_(std::move(folder)), most_bytes_(most_bytes) {}
+
+std::string BakeCache::key(const std::string& method, const Material& material, const Options& options,
+                           const EffectSet& effects) const {
+  ContentHash hash;
+  hash.add(program_identity());
+  for (const auto& [name, value] : options.all()) {
+    hash.add(name);
+    if (const auto* word = std::get_if<std::string>(&value)) hash.add(*word);
+    if (const auto* number = std::get_if<double>(&value)) add_value(hash, *number);
+  }
+  hash.add(effects.to_string());
+  add_material(hash, material);
+  return fmt::format("{}-{}", method, hash.hex());
+}
+
+std::optional<Prefiltered> BakeCache::find(const std::string& key) const {
+  std::optional<Prefiltered> kept = from_bytes(content_of(file(key)));
+  std::error_code ignored;  // a folder that cannot be written loses only the order of use
+  if (kept) fs::last_write_time(file(key), fs::file_time_type::clock::now(), ignored);
+  return kept;
+}
+
+void BakeCache::keep(const std::string& key, const Prefiltered& prefiltered) const {
+  const std::vector<std::uint8_t> bytes = to_bytes(prefiltered);
+  if (bytes.size() > most_bytes_) return;
+  std::error_code failed;
+  fs::create_directories(folder_, failed);
+  if (failed) return;
+  make_room(bytes.size());
+  try {
+    write_file_atomically(file(key), bytes);
+  } catch (const Error&) {
+    return;  // a full disk or a closed folder: the bake is at hand all the same
+  }
+}
+
+void BakeCache::make_room(std::uint64_t bytes) const {
+  std::vector<KeptFile> files = kept_files(folder_);
+  std::ranges::sort(files, {}, &KeptFile::used);
+  std::uint64_t total = bytes;
+  for (const KeptFile& file : files) total += file.bytes;
+  for (const KeptFile& file : files) {
+    if (total <= most_bytes_) return;
+    std::error_code ignored;
+    if (fs::remove(file.path, ignored)) total -= file.bytes;
+  }
+}
+
+std::optional<fs::path> default_cache_folder() {
+  const auto variable = [](const char* name) -> std::optional<fs::path> {
+    const char* const value = std::getenv(name);
+    if (value == nullptr || *value == '\0') return {};
+    return fs::path(value);
+  };
+  if (auto own = variable("FOOTPRINT_CACHE")) return own;
+  if (const auto shared = variable("XDG_CACHE_HOME")) return *shared / "footprint";
+  if (const auto home = variable("HOME")) return *home / ".cache" / "footprint";
+  return {};
+}
+
+}  // namespace footprint

@@ -1,0 +1,152 @@
+// Bakes on disk: what was kept comes back whole, what is damaged does not come back at all.
+#include "renderer/bake/bake_cache.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "renderer/bake/prefiltered_file.hpp"
+#include "renderer/pipeline/surface_program.hpp"
+#include "tests/support/test_scenes.hpp"
+
+namespace footprint {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path fresh_cache(const std::string& name) {
+  fs::path folder = fs::path(::testing::TempDir()) / ("footprint_bake_cache_" + name);
+  fs::remove_all(folder);
+  return folder;
+}
+
+Prefiltered example(float value = 1.0F) {
+  std::vector<std::vector<Image>> layers(3, {Image(2, 1, 4, value), Image(1, 1, 4, value)});
+  return {.textures = {make_array_texture("mixture", layers, Storage::fp16, {.set = 1}, TextureFilter::nearest),
+                       make_texture("plain", {Image(1, 1, 2, 0.5F)}, Storage::fp32, {})},
+          .scalars = {{"scale", 2.0F}},
+          .notes = {"one fit of three stopped early"}};
+}
+
+TEST(PrefilteredFile, ComesBackAsItWas) { EXPECT_EQ(from_bytes(to_bytes(example())), example()); }
+
+TEST(PrefilteredFile, EveryCutAndEveryFlippedBitIsNoticed) {
+  const std::vector<std::uint8_t> whole = to_bytes(example());
+  for (std::size_t length = 0; length < whole.size(); ++length)
+    EXPECT_FALSE(from_bytes(std::span(whole).first(length))) << length;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    std::vector<std::uint8_t> damaged = whole;
+    damaged[i] ^= 1U;
+    EXPECT_FALSE(from_bytes(damaged)) << i;
+  }
+}
+
+TEST(BakeCache, FindsWhatItKeptAndNothingElse) {
+  const BakeCache cache(fresh_cache("find"));
+  EXPECT_FALSE(cache.find("a"));
+  cache.keep("a", example());
+  EXPECT_EQ(cache.find("a"), example());
+  EXPECT_FALSE(cache.find("b"));
+}
+
+TEST(BakeCache, DamagedFileCountsAsAbsent) {
+  const BakeCache cache(fresh_cache("damaged"));
+  cache.keep("a", example());
+  fs::resize_file(cache.folder() / "a.bake", 40);
+  EXPECT_FALSE(cache.find("a"));
+}
+
+TEST(BakeCache, FolderThatIsAFileCostsNoError) {
+  const fs::path place = fresh_cache("closed");
+  std::ofstream(place) << "a file";
+  const BakeCache cache(place);
+  EXPECT_NO_THROW(cache.keep("a", example()));
+  EXPECT_FALSE(cache.find("a"));
+}
+
+TEST(BakeCache, TheLeastRecentlyUsedGoes) {
+  const std::uint64_t one = to_bytes(example()).size();
+  const BakeCache cache(fresh_cache("room"), 2 * one);
+  cache.keep("old", example(1));
+  cache.keep("new", example(2));
+  const auto earlier = fs::file_time_type::clock::now() - std::chrono::hours(1);
+  fs::last_write_time(cache.folder() / "old.bake", earlier);
+  fs::last_write_time(cache.folder() / "new.bake", earlier - std::chrono::hours(1));
+  EXPECT_TRUE(cache.find("new"));  // used just now
+  cache.keep("third", example(3));
+  EXPECT_FALSE(cache.find("old"));
+  EXPECT_TRUE(cache.find("new"));
+  EXPECT_TRUE(cache.find("third"));
+}
+
+TEST(BakeCache, TheKeyFollowsEverythingThatABakeDependsOn) {
+  const BakeCache cache(fresh_cache("key"));
+  const Material material = testing::square_scene(testing::constant_normals(4, 4, {0, 0, 1}), {}).materials[0];
+  const std::vector<OptionSpec> specs{number_option("n", 4.0, 1, 8, "lobes")};
+  const Options options(specs, {}, "test");
+  const std::string key = cache.key("m", material, options, {});
+  EXPECT_EQ(cache.key("m", material, options, {}), key);
+  EXPECT_NE(cache.key("other", material, options, {}), key);
+  EXPECT_NE(cache.key("m", material, Options(specs, {{"n", "5"}}, "test"), {}), key);
+  EXPECT_NE(cache.key("m", material, options, EffectSet{}.set()), key);
+  Material changed = material;
+  changed.roughness *= 0.5F;
+  EXPECT_NE(cache.key("m", changed, options, {}), key);
+  changed = material;
+  changed.normal_map->image = std::make_shared<const Image>(testing::constant_normals(4, 4, {0, 0.6F, 0.8F}));
+  EXPECT_NE(cache.key("m", changed, options, {}), key);
+  changed = material;
+  changed.normal_map->coordinates.wrap[0] = Wrap::clamp_to_edge;
+  EXPECT_NE(cache.key("m", changed, options, {}), key);
+  changed = material;
+  changed.layer_map = material.normal_map;
+  EXPECT_NE(cache.key("m", changed, options, {}), key);
+}
+
+// A method that counts its precomputes.
+class Counting final : public Method {
+ public:
+  explicit Counting(bool slow) { info_.slow_precompute = slow; }
+  [[nodiscard]] const MethodInfo& info() const override { return info_; }
+  [[nodiscard]] Prefiltered precompute(const Material& /*material*/, const Options& /*options*/,
+                                       const EffectSet& /*effects*/, const Progress& /*progress*/) const override {
+    ++count;
+    return example();
+  }
+  [[nodiscard]] std::string_view shader() const override { return {}; }
+  mutable int count = 0;
+
+ private:
+  MethodInfo info_{.name = "counting", .summary = {}, .paper = {}, .options = {}, .honours = {}};
+};
+
+TEST(Bake, SlowPrecomputeIsDoneOnce) {
+  const BakeCache cache(fresh_cache("bake"));
+  const Scene scene = testing::square_scene(testing::constant_normals(4, 4, {0, 0, 1}), {});
+  const Counting slow(true);
+  const MethodSpec spec{.text = "counting", .name = "counting", .options = {}};
+  const BakedMethod first = bake(slow, spec, scene, {}, no_progress, &cache);
+  const BakedMethod second = bake(slow, spec, scene, {}, no_progress, &cache);
+  EXPECT_EQ(slow.count, 1);
+  EXPECT_FALSE(first.cached);
+  EXPECT_TRUE(second.cached);
+  EXPECT_EQ(first.materials, second.materials);
+  EXPECT_EQ(first.bytes, second.bytes);
+  const BakedMethod without = bake(slow, spec, scene, {}, no_progress);
+  EXPECT_EQ(slow.count, 2);
+  EXPECT_FALSE(without.cached);
+}
+
+TEST(Bake, FastPrecomputeIsNotKept) {
+  const BakeCache cache(fresh_cache("fast"));
+  const Scene scene = testing::square_scene(testing::constant_normals(4, 4, {0, 0, 1}), {});
+  const Counting fast(false);
+  const MethodSpec spec{.text = "counting", .name = "counting", .options = {}};
+  (void)bake(fast, spec, scene, {}, no_progress, &cache);
+  EXPECT_FALSE(bake(fast, spec, scene, {}, no_progress, &cache).cached);
+  EXPECT_EQ(fast.count, 2);
+}
+
+}  // namespace
+}  // namespace footprint

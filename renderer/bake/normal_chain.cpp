@@ -1,0 +1,74 @@
+// See normal_chain.hpp.
+#include "renderer/bake/normal_chain.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/image/mipmap.hpp"
+#include "renderer/pipeline/base_surface.hpp"
+
+namespace footprint {
+namespace {
+
+// Decoded 8-bit normals are up to 0.6% too long or short, which would pass for spread or for a negative variance.
+void renormalise(Image& normals) {
+  for (std::size_t i = 0; i < normals.texels.size(); i += 4) {
+    float* const n = &normals.texels[i];
+    const float size = std::hypot(n[0], n[1], n[2]);
+    if (size < 1e-3F) continue;  // the loader has given it weight 0
+    for (int c = 0; c < 3; ++c) n[c] /= size;
+  }
+}
+
+Image without_weight(const Image& weighted) {
+  Image out(weighted.width, weighted.height, 3);
+  for (std::size_t i = 0; i < out.texel_count(); ++i) std::copy_n(&weighted.texels[4 * i], 3, &out.texels[3 * i]);
+  return out;
+}
+
+}  // namespace
+
+std::vector<Image> mean_normal_chain(const Material& material) { return mean_normal_chain(normal_map_of(material)); }
+
+std::vector<Image> mean_normal_chain(Image normals) {
+  renormalise(normals);
+  std::vector<Image> chain;
+  for (const Image& level : weighted_mip_chain(std::move(normals))) chain.push_back(without_weight(level));
+  return chain;
+}
+
+Prefiltered bake_mean_normal(const Material& material, Storage storage, const EffectSet& effects) {
+  Prefiltered out;
+  if (has(effects, Effect::normal_variation)) {
+    out.textures.push_back(
+        make_texture("mean_normal", mean_normal_chain(material), storage, normal_coordinates(material), true));
+  }
+  if (has(effects, Effect::normal_layers)) {
+    out.textures.push_back(make_texture("mean_layer", mean_normal_chain(layer_map_of(material)), storage,
+                                        layer_coordinates(material), true));
+  }
+  return out;
+}
+
+Image lobe_variance_map(const Material& material) {
+  const NormalDistribution distribution = material.brdf.distribution;
+  Image variance = lobe_parameter_map_of(material);
+  std::ranges::transform(variance.texels, variance.texels.begin(),
+                         [&](float lobe) { return lobe_variance(distribution, lobe); });
+  return variance;
+}
+
+std::vector<Image> lobe_deviation_chain(const Material& material) {
+  std::vector<Image> chain = mip_chain(lobe_variance_map(material));
+  for (Image& level : chain) {
+    std::ranges::transform(level.texels, level.texels.begin(), [](float v) { return std::sqrt(std::min(v, 1.0F)); });
+  }
+  return chain;
+}
+
+OptionSpec storage_option() {
+  return word_option("storage", {"fp32", "fp16", "unorm8"},
+                     "How the baked textures are stored: 32-bit floats, 16-bit floats or 8-bit fixed point.");
+}
+
+}  // namespace footprint

@@ -1,0 +1,34 @@
+// What several methods bake: the mean normal of every footprint, the base lobe's width, and how they are stored.
+#pragma once
+
+#include <vector>
+
+#include "renderer/bake/prefiltered.hpp"
+#include "renderer/core/options.hpp"
+#include "renderer/effects/effects.hpp"
+#include "renderer/image/image.hpp"
+#include "renderer/scene/material.hpp"
+
+namespace footprint {
+
+/// The mip chain of a normal map (as Material::normal_map): 3 channels, the mean of the unit normals, not renormalised,
+/// so that its length tells their spread. Normals enter renormalised in 32 bits; invalid ones (weight 0) do not enter.
+[[nodiscard]] std::vector<Image> mean_normal_chain(Image normals);
+
+/// That of the material's own normal map.
+[[nodiscard]] std::vector<Image> mean_normal_chain(const Material& material);
+
+/// The texture `mean_normal` that mean_normal.glsl reads, of that chain; none where normals do not vary.
+[[nodiscard]] Prefiltered bake_mean_normal(const Material& material, Storage storage, const EffectSet& effects);
+
+/// Slope variance per axis of the base lobe at every texel of the roughness map (1 x 1 where it has none), one channel.
+[[nodiscard]] Image lobe_variance_map(const Material& material);
+
+/// The mip chain of lobe_variance_map, which is what adds up when spreads are independent, stored as its root, at most
+/// 1: half floats and bytes keep the root well, where a mirror's variance of 1e-6 would not survive.
+[[nodiscard]] std::vector<Image> lobe_deviation_chain(const Material& material);
+
+/// `storage=fp32|fp16|unorm8`.
+[[nodiscard]] OptionSpec storage_option();
+
+}  // namespace footprint

@@ -1,0 +1,202 @@
+// See prefiltered.hpp.
+#include "renderer/bake/prefiltered.hpp"
+
+#include <Imath/half.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+#include "renderer/core/error.hpp"
+#include "renderer/core/suggest.hpp"
+#include "renderer/image/mipmap.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr std::array<std::pair<Storage, std::string_view>, 3> storages{
+    {{Storage::fp32, "fp32"}, {Storage::fp16, "fp16"}, {Storage::unorm8, "unorm8"}}};
+constexpr float largest_half = 65504.0F;
+
+std::size_t channel_bytes(Storage storage) {
+  switch (storage) {
+    case Storage::fp32:
+      return 4;
+    case Storage::fp16:
+      return 2;
+    case Storage::unorm8:
+      return 1;
+  }
+  return 0;
+}
+
+// The driver's own conversion truncates; ours rounds to nearest, so that storage costs what it must and no more.
+std::uint16_t half_bits(float value) { return half(std::clamp(value, -largest_half, largest_half)).bits(); }
+
+std::uint8_t unorm8(float value, bool signed_range) {
+  const float unit = signed_range ? value * 0.5F + 0.5F : value;
+  return static_cast<std::uint8_t>(std::lround(std::clamp(unit, 0.0F, 1.0F) * 255.0F));
+}
+
+// Appends the texels to `bytes` in their storage.
+void encode(const Image& image, Storage storage, bool signed_range, std::vector<std::uint8_t>& bytes) {
+  const std::size_t start = bytes.size();
+  bytes.resize(start + image.texels.size() * channel_bytes(storage));
+  std::uint8_t* const out = bytes.data() + start;
+  switch (storage) {
+    case Storage::fp32:
+      std::memcpy(out, image.texels.data(), image.texels.size() * sizeof(float));
+      break;
+    case Storage::fp16:
+      for (std::size_t i = 0; i < image.texels.size(); ++i) {
+        const std::uint16_t bits = half_bits(image.texels[i]);
+        std::memcpy(out + 2 * i, &bits, 2);
+      }
+      break;
+    case Storage::unorm8:
+      std::ranges::transform(image.texels, out, [&](float v) { return unorm8(v, signed_range); });
+      break;
+  }
+}
+
+void require_finite(const std::string& name, const Image& level) {
+  const auto bad = std::ranges::find_if(level.texels, [](float v) { return !std::isfinite(v); });
+  if (bad == level.texels.end()) return;
+  const auto texel = (bad - level.texels.begin()) / level.channels;
+  throw Error(ErrorKind::usage, fmt::format("texture {}, level {}x{}", name, level.width, level.height),
+              fmt::format("texel ({}, {}) is not finite", texel % level.width, texel / level.width),
+              "mend the map that it was baked from");
+}
+
+// All levels of all layers, finest first.
+std::vector<TextureLevel> encode_levels(const std::string& name, std::span<const std::vector<Image>> layers,
+                                        Storage storage, bool signed_range) {
+  std::vector<TextureLevel> levels;
+  for (std::size_t i = 0; i < layers.front().size(); ++i) {
+    const Image& first = layers.front()[i];
+    TextureLevel level{.width = first.width, .height = first.height, .bytes = {}};
+    level.bytes.reserve(first.texels.size() * channel_bytes(storage) * layers.size());
+    for (const std::vector<Image>& layer : layers) {
+      const Image& image = layer.at(i);
+      if (image.width != first.width || image.height != first.height || image.channels != first.channels)
+        throw std::logic_error("the layers of texture " + name + " differ in size");
+      require_finite(name, image);
+      encode(image, storage, signed_range, level.bytes);
+    }
+    levels.push_back(std::move(level));
+  }
+  return levels;
+}
+
+}  // namespace
+
+std::string_view storage_name(Storage storage) {
+  return std::ranges::find(storages, storage, &std::pair<Storage, std::string_view>::first)->second;
+}
+
+Storage parse_storage(std::string_view word) {
+  for (const auto& [storage, name] : storages) {
+    if (name == word) return storage;
+  }
+  const std::vector<std::string> names{"fp32", "fp16", "unorm8"};
+  throw Error(ErrorKind::usage, "storage", fmt::format("unknown storage `{}`", word), suggestion(word, names));
+}
+
+std::size_t byte_count(const PrefilteredTexture& texture) {
+  const std::size_t texel_bytes = channel_bytes(texture.storage) * static_cast<std::size_t>(texture.channels) *
+                                  static_cast<std::size_t>(std::max(texture.layers, 1));
+  std::size_t bytes = 0;
+  for (const TextureLevel& level : texture.levels)
+    bytes += texel_bytes * static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height);
+  return bytes;
+}
+
+std::size_t byte_count(const Prefiltered& prefiltered) {
+  std::size_t bytes = prefiltered.scalars.size() * sizeof(float);
+  if (prefiltered.surface_coordinates) bytes += prefiltered.surface_coordinates->size() * sizeof(glm::vec2);
+  for (const PrefilteredTexture& texture : prefiltered.textures) bytes += byte_count(texture);
+  return bytes;
+}
+
+std::size_t finest_texels(const Prefiltered& prefiltered) {
+  std::size_t most = 0;
+  for (const PrefilteredTexture& texture : prefiltered.textures) {
+    const TextureLevel& finest = texture.levels.front();
+    most = std::max(most, static_cast<std::size_t>(finest.width) * static_cast<std::size_t>(finest.height));
+  }
+  return most;
+}
+
+PrefilteredTexture make_texture(std::string name, const std::vector<Image>& chain, Storage storage,
+                                const TextureCoordinates& coordinates, bool signed_range) {
+  std::vector<TextureLevel> levels = encode_levels(name, std::span(&chain, 1), storage, signed_range);
+  return {.name = std::move(name),
+          .storage = storage,
+          .channels = chain.front().channels,
+          .layers = 0,
+          .filter = TextureFilter::trilinear,
+          .coordinates = coordinates,
+          .levels = std::move(levels)};
+}
+
+PrefilteredTexture make_array_texture(std::string name, std::span<const std::vector<Image>> layers, Storage storage,
+                                      const TextureCoordinates& coordinates, TextureFilter filter) {
+  std::vector<TextureLevel> levels = encode_levels(name, layers, storage, false);
+  return {.name = std::move(name),
+          .storage = storage,
+          .channels = layers.front().front().channels,
+          .layers = static_cast<int>(layers.size()),
+          .filter = filter,
+          .coordinates = coordinates,
+          .levels = std::move(levels)};
+}
+
+PrefilteredTexture make_built_texture(const BuiltTexture& built, const TextureCoordinates& coordinates) {
+  PrefilteredTexture texture;
+  texture.name = built.name;
+  texture.storage = built.storage;
+  texture.channels = built.channels;
+  texture.layers = built.layers;
+  texture.coordinates = coordinates;
+  texture.built = true;
+  const int count = built.whole_chain ? mip_level_count(built.width, built.height) : 1;
+  for (int level = 0; level < count; ++level) {
+    texture.levels.push_back(
+        {.width = std::max(built.width >> level, 1), .height = std::max(built.height >> level, 1), .bytes = {}});
+  }
+  return texture;
+}
+
+Image decode_level(const PrefilteredTexture& texture, std::size_t index, int layer) {
+  if (texture.built)
+    throw std::logic_error("texture " + texture.name + " is built on the GPU: there is nothing to decode");
+  const TextureLevel& level = texture.levels.at(index);
+  Image image(level.width, level.height, texture.channels);
+  const std::size_t layer_bytes = image.texels.size() * channel_bytes(texture.storage);
+  const auto bytes = std::span(level.bytes).subspan(static_cast<std::size_t>(layer) * layer_bytes, layer_bytes);
+  for (std::size_t i = 0; i < image.texels.size(); ++i) {
+    switch (texture.storage) {
+      case Storage::fp32:
+        std::memcpy(&image.texels[i], bytes.data() + 4 * i, 4);
+        break;
+      case Storage::fp16: {
+        half value;
+        std::uint16_t bits = 0;
+        std::memcpy(&bits, bytes.data() + 2 * i, 2);
+        value.setBits(bits);
+        image.texels[i] = value;
+        break;
+      }
+      case Storage::unorm8:
+        image.texels[i] = static_cast<float>(bytes[i]) / 255.0F;
+        break;
+    }
+  }
+  return image;
+}
+
+}  // namespace footprint

@@ -1,0 +1,156 @@
+// See slope_moments.hpp.
+#include "renderer/bake/slope_moments.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/bake/normal_chain.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/image/mipmap.hpp"
+#include "renderer/pipeline/base_surface.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr int moment_channels = 5;
+constexpr std::size_t weight_channel = 5;
+
+// B, M and the weight of every texel; nothing but zeros where the weight is 0.
+Image texel_moments(const Image& normals, const Image& variance) {
+  Image out(normals.width, normals.height, moment_channels + 1);
+  const std::size_t variance_step = variance.texel_count() == 1 ? 0 : 1;
+  for (std::size_t i = 0; i < out.texel_count(); ++i) {
+    const float* const n = &normals.texels[4 * i];
+    if (n[3] <= 0.0F) continue;
+    const glm::dvec2 b = slope_of(glm::normalize(glm::dvec3(n[0], n[1], n[2])));
+    const double v = variance.texels[i * variance_step];
+    float* const to = &out.texels[i * (weight_channel + 1)];
+    to[slope_x] = static_cast<float>(b.x);
+    to[slope_y] = static_cast<float>(b.y);
+    // Of the rounded slope, so that M - B B^T of one texel is as near to 0 as rounding allows.
+    to[slope_xx] = static_cast<float>(static_cast<double>(to[slope_x]) * to[slope_x] + v);
+    to[slope_xy] = static_cast<float>(static_cast<double>(to[slope_x]) * to[slope_y]);
+    to[slope_yy] = static_cast<float>(static_cast<double>(to[slope_y]) * to[slope_y] + v);
+    to[weight_channel] = n[3];
+  }
+  return out;
+}
+
+// One texel stands for any number of equal ones.
+Image spread_over(const Image& image, int width, int height) {
+  if (image.texel_count() != 1) return image;
+  Image out(width, height, image.channels);
+  for (std::size_t i = 0; i < out.texels.size(); ++i)
+    out.texels[i] = image.texels[i % static_cast<std::size_t>(image.channels)];
+  return out;
+}
+
+// Normals and base roughness in one set of moments: a texel of one map must lie over a texel of the other.
+std::vector<Image> rough_moment_chain(const Material& material) {
+  const Image variance = lobe_variance_map(material);
+  if (variance.texel_count() > 1 && roughness_coordinates(material) != normal_coordinates(material)) {
+    throw Error(ErrorKind::usage, fmt::format("material `{}`, roughness=moments", material.name),
+                "its normal and roughness maps have different texture coordinates",
+                "use roughness=stretched or roughness=shading");
+  }
+  return slope_moment_chain(spread_over(normal_map_of(material), variance.width, variance.height), variance);
+}
+
+// Bx, By and the trace of M.
+std::vector<Image> with_trace(const std::vector<Image>& chain) {
+  std::vector<Image> out = channels_of(chain, {slope_x, slope_y, slope_xx});
+  for (std::size_t level = 0; level < out.size(); ++level) {
+    for (std::size_t i = 0; i < out[level].texel_count(); ++i)
+      out[level].texels[3 * i + 2] += chain[level].texels[moment_channels * i + slope_yy];
+  }
+  return out;
+}
+
+}  // namespace
+
+glm::dvec2 slope_of(const glm::dvec3& normal) { return -glm::dvec2(normal) / std::max(normal.z, 1.0 / steepest_slope); }
+
+SlopeMoments layered(const SlopeMoments& a, const SlopeMoments& b) {
+  return {a.mean + b.mean, a.second + b.second + glm::outerProduct(a.mean, b.mean) + glm::outerProduct(b.mean, a.mean)};
+}
+
+glm::dmat2 covariance(const SlopeMoments& moments) {
+  const glm::dmat2 c = moments.second - glm::outerProduct(moments.mean, moments.mean);
+  const glm::dvec2 deviator(0.5 * (c[0][0] - c[1][1]), c[0][1]);
+  const double middle = 0.5 * (c[0][0] + c[1][1]);
+  const double radius = glm::length(deviator);
+  if (middle >= radius) return c;
+  const double largest = std::max(middle + radius, 0.0);
+  const glm::dvec2 turn = deviator / std::max(radius, 1e-300);
+  return 0.5 * largest * glm::dmat2(1.0 + turn.x, turn.y, turn.y, 1.0 - turn.x);
+}
+
+std::vector<Image> slope_moment_chain(const Image& normals, const Image& variance) {
+  if (variance.texel_count() != 1 && (variance.width != normals.width || variance.height != normals.height)) {
+    throw Error(
+        ErrorKind::usage, "slope moments",
+        fmt::format("the roughness map has {}x{} texels, the normal map {}x{}: their moments cannot be baked into "
+                    "one texture",
+                    variance.width, variance.height, normals.width, normals.height),
+        "use roughness=stretched or roughness=shading, or give both maps one size");
+  }
+  return channels_of(weighted_mip_chain(texel_moments(normals, variance)),
+                     {slope_x, slope_y, slope_xx, slope_xy, slope_yy});
+}
+
+std::vector<Image> channels_of(const std::vector<Image>& chain, std::initializer_list<int> channels) {
+  std::vector<Image> out;
+  for (const Image& level : chain) {
+    Image& picked = out.emplace_back(level.width, level.height, static_cast<int>(channels.size()));
+    auto to = picked.texels.begin();
+    for (std::size_t i = 0; i < level.texel_count(); ++i) {
+      for (const int c : channels)
+        *to++ = level.texels[i * static_cast<std::size_t>(level.channels) + static_cast<std::size_t>(c)];
+    }
+  }
+  return out;
+}
+
+OptionSpec slope_storage_option() {
+  return word_option("storage", {"fp32", "fp16"}, "How the baked textures are stored: 32-bit floats or 16-bit floats.");
+}
+
+OptionSpec slope_roughness_option() {
+  return word_option(
+      "roughness", {"stretched", "shading", "moments"},
+      "Where the base lobe joins the slopes: the base lobe itself, stretched to the covariance of slopes; its variance "
+      "alone, added to a Gaussian of slopes when shading; or added to the moments when baking.");
+}
+
+Prefiltered bake_slopes(const Material& material, const Options& options, const EffectSet& effects,
+                        SlopeVariant variant) {
+  const Storage storage = parse_storage(options.word("storage"));
+  const bool in_moments = options.word("roughness") == "moments" && has(effects, Effect::normal_variation);
+  const Image no_variance(1, 1, 1, 0.0F);
+  Prefiltered out;
+  const auto add = [&](const std::string& name, const std::vector<Image>& chain,
+                       const TextureCoordinates& coordinates) {
+    if (variant == SlopeVariant::scalar) {
+      out.textures.push_back(make_texture(name + "_moments", with_trace(chain), storage, coordinates));
+      return;
+    }
+    out.textures.push_back(make_texture(name + "_moments", channels_of(chain, {slope_x, slope_y, slope_xx, slope_yy}),
+                                        storage, coordinates));
+    out.textures.push_back(make_texture(name + "_cross", channels_of(chain, {slope_xy}), storage, coordinates));
+  };
+  if (has(effects, Effect::normal_variation)) {
+    add("slope", in_moments ? rough_moment_chain(material) : slope_moment_chain(normal_map_of(material), no_variance),
+        normal_coordinates(material));
+  }
+  if (has(effects, Effect::normal_layers))
+    add("layer", slope_moment_chain(layer_map_of(material), no_variance), layer_coordinates(material));
+  if (has(effects, Effect::roughness_variation) && !in_moments) {
+    out.textures.push_back(
+        make_texture("slope_deviation", lobe_deviation_chain(material), storage, roughness_coordinates(material)));
+  }
+  return out;
+}
+
+}  // namespace footprint

@@ -1,0 +1,160 @@
+// See toml_table.hpp.
+#include "renderer/core/toml_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/core/suggest.hpp"
+#include "renderer/scene/file_bytes.hpp"
+
+namespace footprint {
+namespace {
+
+std::string line_place(const std::filesystem::path& file, const toml::source_region& source) {
+  return fmt::format("{}:{}", file.string(), source.begin.line);
+}
+
+}  // namespace
+
+toml::table parse_toml_file(const std::filesystem::path& file) {
+  constexpr std::uint64_t largest = std::uint64_t{1} << 20U;
+  const auto bytes = read_file_bytes(file, largest);
+  try {
+    return toml::parse(std::string_view{reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  } catch (const toml::parse_error& error) {
+    throw Error(ErrorKind::usage, line_place(file, error.source()),
+                fmt::format("not valid TOML: {}", error.description()), "correct the line");
+  }
+}
+
+TomlTable::TomlTable(const toml::table& table, std::filesystem::path file, std::string name,
+                     const std::vector<std::string>& known)
+    : table_(table), file_(std::move(file)), name_(std::move(name)) {
+  for (const auto& [key, node] : table_) {
+    if (std::ranges::find(known, key.str()) != known.end()) continue;
+    throw Error(ErrorKind::usage, line_place(file_, key.source()),
+                fmt::format("unknown key `{:.80}`{}", key.str(), name_.empty() ? "" : " in " + name_),
+                suggestion(key.str(), known));
+  }
+}
+
+std::string TomlTable::full_name(std::string_view key) const {
+  return name_.empty() ? fmt::format("`{}`", key) : fmt::format("`{}` in {}", key, name_);
+}
+
+std::string TomlTable::path_of(std::string_view key) const {
+  if (name_.empty()) return std::string(key);
+  const std::string_view name = name_;
+  const std::size_t first = name.find_first_not_of('[');
+  return fmt::format("{}.{}", name.substr(first, name.find_last_not_of(']') + 1 - first), key);
+}
+
+Error TomlTable::error_at(std::string_view key, const std::string& message, const std::string& mend) const {
+  const toml::node* node = find(key);
+  return {ErrorKind::usage, line_place(file_, node != nullptr ? node->source() : table_.source()),
+          full_name(key) + " " + message, mend};
+}
+
+double TomlTable::checked(const toml::node& node, std::string_view key, NumberRange range) const {
+  const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+  if (!value) throw error_at(key, "must be a number", "write it without quotes");
+  if (!(*value >= range.low && *value <= range.high)) {  // also NaN
+    throw error_at(key, fmt::format("is {:g}, not within {:g} to {:g}", *value, range.low, range.high),
+                   "choose a value in the range");
+  }
+  return *value;
+}
+
+std::optional<std::string> TomlTable::word(std::string_view key) const {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  if (!node->is_string()) throw error_at(key, "must be a string", "put it in quotes");
+  return node->value<std::string>();
+}
+
+std::optional<std::size_t> TomlTable::choice(std::string_view key, const std::vector<std::string>& choices) const {
+  const auto given = word(key);
+  if (!given) return std::nullopt;
+  const auto found = std::ranges::find(choices, *given);
+  if (found == choices.end()) {
+    throw error_at(key, fmt::format("is `{:.80}`, which is not known", *given), suggestion(*given, choices));
+  }
+  return static_cast<std::size_t>(found - choices.begin());
+}
+
+std::optional<bool> TomlTable::boolean(std::string_view key) const {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  if (!node->is_boolean()) throw error_at(key, "must be true or false", "write it without quotes");
+  return node->value<bool>();
+}
+
+std::optional<double> TomlTable::number(std::string_view key, NumberRange range) const {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  return checked(*node, key, range);
+}
+
+std::optional<std::int64_t> TomlTable::whole_number(std::string_view key, NumberRange range) const {
+  const auto value = number(key, range);
+  if (!value) return std::nullopt;
+  if (*value != std::floor(*value)) {
+    throw error_at(key, fmt::format("is {:g}, which is not a whole number", *value), "leave out the fraction");
+  }
+  return static_cast<std::int64_t>(*value);
+}
+
+std::optional<std::vector<double>> TomlTable::numbers(std::string_view key, std::size_t count,
+                                                      NumberRange range) const {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  const toml::array* array = node->as_array();
+  if (array == nullptr || array->empty() || (count > 0 && array->size() != count)) {
+    throw error_at(key, count > 0 ? fmt::format("must be a list of {} numbers", count) : "must be a list of numbers",
+                   "write it as [1, 2, 3]");
+  }
+  std::vector<double> values;
+  for (const toml::node& element : *array) values.push_back(checked(element, key, range));
+  return values;
+}
+
+std::optional<std::vector<std::string>> TomlTable::words(std::string_view key) const {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  const toml::array* array = node->as_array();
+  std::vector<std::string> values;
+  if (array != nullptr) {
+    for (const toml::node& element : *array) {
+      if (element.is_string()) values.push_back(*element.value<std::string>());
+    }
+  }
+  if (array == nullptr || values.empty() || values.size() != array->size()) {
+    throw error_at(key, "must be a list of strings", R"(write it as ["a", "b"])");
+  }
+  return values;
+}
+
+std::optional<TomlTable> TomlTable::table(std::string_view key, const std::vector<std::string>& known) const {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  if (!node->is_table()) throw error_at(key, "must be a table", fmt::format("write [{}]", path_of(key)));
+  return TomlTable(*node->as_table(), file_, fmt::format("[{}]", path_of(key)), known);
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view key, const std::vector<std::string>& known) const {
+  const toml::node* node = find(key);
+  std::vector<TomlTable> result;
+  if (node == nullptr) return result;
+  const toml::array* array = node->as_array();
+  if (array == nullptr || !array->is_array_of_tables()) {
+    throw error_at(key, "must be a list of tables", fmt::format("write [[{}]]", path_of(key)));
+  }
+  for (const toml::node& element : *array) {
+    result.emplace_back(*element.as_table(), file_, fmt::format("[[{}]]", path_of(key)), known);
+  }
+  return result;
+}
+
+}  // namespace footprint

@@ -1,0 +1,378 @@
+// See load_part.hpp.
+#include "renderer/scene/assembly/load_part.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+#include <iterator>
+#include <memory>
+
+#include "renderer/core/error.hpp"
+#include "renderer/image/image_io.hpp"
+#include "renderer/scene/assembly/microgeometry_content.hpp"
+#include "renderer/scene/assembly/surface_maps.hpp"
+#include "renderer/scene/geometry.hpp"
+#include "renderer/scene/model_file.hpp"
+#include "renderer/scene/plane.hpp"
+#include "renderer/scene/unwrap.hpp"
+
+namespace footprint {
+namespace {
+
+Model load_content(const ModelSettings& settings) {
+  for (const auto& candidate : settings.candidates) {
+    std::error_code error;
+    if (settings.candidates.size() > 1 && !std::filesystem::exists(candidate, error)) continue;
+    try {
+      Model model = load_model(candidate);
+      if (settings.unwrap) std::ranges::for_each(model.meshes, unwrap);
+      return model;
+    } catch (const Error& failed) {
+      if (settings.package.empty() || std::filesystem::exists(candidate, error)) throw;
+      throw Error(failed.kind(), failed.place(), failed.message(), "install the package " + settings.package);
+    }
+  }
+  std::string tried;
+  for (const auto& candidate : settings.candidates) tried += (tried.empty() ? "" : ", ") + candidate.string();
+  throw Error(ErrorKind::usage, tried, "none of these files exists",
+              settings.package.empty() ? "check the paths" : "install the package " + settings.package);
+}
+
+TextureMap make_map(const std::filesystem::path& file, Image image, glm::vec2 uv = glm::vec2(1.0F)) {
+  TextureMap map{file.filename().string(), std::make_shared<const Image>(std::move(image)), {}};
+  map.coordinates.transform = {uv.x, 0.0F, 0.0F, uv.y, 0.0F, 0.0F};
+  return map;
+}
+
+Model load_content(const PlaneSettings& settings) {
+  Model model;
+  Material material;
+  material.name = "plane";
+  material.roughness = settings.roughness;
+  material.metallic = settings.metallic;
+  if (settings.normal_map) {
+    const auto& file = *settings.normal_map;
+    NormalMap map = decode_normal_map(read_image(file, Transfer::linear), settings.normal_scale);
+    model.warnings = describe_faults(map, file.filename().string());
+    material.normal_map = make_map(file, std::move(map.image));
+  }
+  if (settings.base_color_map) {
+    const auto& file = *settings.base_color_map;
+    material.base_color_map = make_map(file, to_rgba(read_image(file, Transfer::srgb)));
+  }
+  if (settings.metallic_roughness_map) {
+    const auto& file = *settings.metallic_roughness_map;
+    material.metallic_roughness_map = make_map(
+        file, decode_metallic_roughness(read_image(file, Transfer::linear), settings.roughness, settings.metallic));
+  }
+  model.materials.push_back(std::move(material));
+  model.meshes.push_back(make_plane(settings.size, {1.0F, 1.0F}));
+  return model;
+}
+
+// Lobes in the parameter of one distribution.
+bool has_own_lobes(const Material& material) { return material.lobe_parameter_map || !material.lobes.empty(); }
+
+Material surface_material(const SurfaceContent& content) {
+  const Surface& surface = *content.surface;
+  const SurfaceSettings& settings = content.settings;
+  Material material;
+  material.name = surface.name;
+  material.roughness = 0.5F;
+  material.metallic = 0.0F;
+  material.normal_map = make_map(surface.name, surface_normals(surface, settings));
+  const glm::vec2 uv = surface.map_tiling != nullptr ? surface.map_tiling(settings) : glm::vec2(1.0F);
+  const auto lay = [&](std::optional<TextureMap>& map, Image image) {
+    if (!image.empty()) map = make_map(surface.name, std::move(image), uv);
+  };
+  lay(material.base_color_map, surface_base_color(surface, settings));
+  lay(material.specular_map, surface_specular(surface, settings));
+  if (material.specular_map) material.dielectric_specular = glm::vec3(1.0F);
+  lay(material.lobe_parameter_map, surface_lobe_parameter(surface, settings));
+  if (surface.lobes != nullptr) material.lobes = surface.lobes(settings);
+  if (has_own_lobes(material)) material.brdf.distribution = surface.distribution;
+  return material;
+}
+
+Model load_content(const SurfaceContent& content) {
+  Model model;
+  model.materials.push_back(surface_material(content));
+  model.meshes.push_back(content.surface->mesh(content.settings));
+  return model;
+}
+
+/// The model's triangles as one mesh.
+Mesh merged(std::vector<Mesh> meshes) {
+  Mesh all = std::move(meshes.front());
+  for (std::size_t i = 1; i < meshes.size(); ++i) append(all, meshes[i]);
+  all.material = 0;
+  return all;
+}
+
+Model load_content(const DressedModel& content) {
+  ModelSettings undressed = content.model;
+  undressed.unwrap = false;
+  Model model = load_content(undressed);
+  if (!model.meshes.empty()) model.meshes = {merged(std::move(model.meshes))};
+  if (content.model.unwrap) std::ranges::for_each(model.meshes, unwrap);
+  model.materials = {surface_material(content.surface)};
+  return model;
+}
+
+TextureMap load_layer(const LayerFile& file, double strength, std::vector<std::string>& warnings) {
+  const Image stored = read_image(file.path, Transfer::linear);
+  NormalMap map = file.heights ? normals_of_heights(stored, strength) : decode_normal_map(stored, strength);
+  std::ranges::move(describe_faults(map, file.path.filename().string()), std::back_inserter(warnings));
+  return make_map(file.path, std::move(map.image));
+}
+
+TextureMap load_layer(const SurfaceContent& content, double strength, std::vector<std::string>& /*warnings*/) {
+  Image normals = surface_normals(*content.surface, content.settings);
+  scale_slopes(normals, strength);
+  return make_map(content.surface->name, std::move(normals));
+}
+
+TextureMap load_layer(const LayerSettings& settings, std::vector<std::string>& warnings) {
+  const auto load = [&](const auto& content) { return load_layer(content, settings.strength, warnings); };
+  TextureMap map = std::visit(load, settings.content);
+  map.coordinates.transform = glm::mat3x2{settings.uv.x, 0.0F, 0.0F, settings.uv.y, 0.0F, 0.0F};
+  return map;
+}
+
+void replace_base_color(const glm::vec3& color, Material& material) {
+  material.base_color = {color, material.base_color.a};
+  // An alpha mask still needs the map's alpha: only its colour is replaced, by white.
+  if (material.base_color_map && material.alpha_cutoff) {
+    Image alpha_only = *material.base_color_map->image;
+    for (std::size_t i = 0; i < alpha_only.texels.size(); ++i) {
+      if (i % 4 != 3) alpha_only.texels[i] = 1.0F;
+    }
+    material.base_color_map->image = std::make_shared<const Image>(std::move(alpha_only));
+  } else {
+    material.base_color_map.reset();
+  }
+}
+
+// What a material says of the width of its lobe, and which distribution it says it of.
+void drop_width(std::optional<NormalDistribution> distribution, Material& material) {
+  material.brdf.distribution = distribution.value_or(NormalDistribution::ggx);
+  material.lobe_parameter.reset();
+  material.lobes.clear();
+  material.lobe_parameter_map.reset();
+  material.metallic_roughness_map.reset();
+}
+
+void apply(const BrdfSettings& settings, const MapSettings& maps, Material& material) {
+  if (settings.lobe_parameter || !settings.lobes.empty() || maps.lobe_parameter) {
+    drop_width(settings.distribution, material);
+    material.lobe_parameter = settings.lobe_parameter;
+    material.lobes = settings.lobes;
+  } else if (has_own_lobes(material) &&
+             settings.distribution.value_or(material.brdf.distribution) != material.brdf.distribution) {
+    throw Error(ErrorKind::usage, "[brdf] distribution",
+                fmt::format("`{}` has lobes of its own, of another distribution", material.name),
+                "leave the distribution out, or give lobes of it");
+  }
+  material.brdf.distribution = settings.distribution.value_or(material.brdf.distribution);
+  material.brdf.geometry = settings.geometry.value_or(material.brdf.geometry);
+  material.brdf.fresnel = settings.fresnel.value_or(material.brdf.fresnel);
+  material.brdf.diffuse = settings.diffuse.value_or(material.brdf.diffuse);
+  if (settings.base_color) replace_base_color(*settings.base_color, material);
+  if (settings.specular) {
+    material.metallic_roughness_map.reset();
+    material.specular_map.reset();
+    material.dielectric_specular = *settings.specular;
+    material.metallic = 0.0F;
+  }
+}
+
+void tile(glm::vec2 tiling, Material& material) {
+  for (auto* map : {&material.base_color_map, &material.metallic_roughness_map, &material.normal_map,
+                    &material.lobe_parameter_map, &material.specular_map}) {
+    if (!map->has_value()) continue;
+    glm::mat3x2& transform = (*map)->coordinates.transform;
+    for (int column = 0; column < 3; ++column) transform[column] *= tiling;
+  }
+}
+
+// Roughness beside a constant metalness, as Material::metallic_roughness_map has them.
+Image with_metallic(const Image& roughness, float metallic) {
+  Image map(roughness.width, roughness.height, 2, metallic);
+  for (std::size_t i = 0; i < map.texel_count(); ++i) map.texels[2 * i] = roughness.texels[3 * i];
+  return map;
+}
+
+Image read_lobe_parameter(const std::filesystem::path& file, NormalDistribution distribution) {
+  const Image stored = read_image(file, Transfer::linear);
+  if (!is_exr(file)) {
+    throw Error(ErrorKind::usage, file.string(), "is no EXR, and no other format holds a lobe parameter",
+                "store it as 32-bit floats in an EXR, or give a map of roughness");
+  }
+  const NumberRange range = lobe_range(distribution);
+  try {
+    return decode_lobe_parameter(stored, range.low, range.high);
+  } catch (const Error& error) {
+    throw error.within(file.string());
+  }
+}
+
+// The maps of [maps], each over a whole material; read once and shared.
+struct LaidMaps {
+  std::optional<TextureMap> roughness, lobe_parameter, specular, diffuse;
+};
+
+LaidMaps load_maps(const PartSettings& settings) {
+  const auto load = [&](const std::optional<MapFile>& from, const auto& read) -> std::optional<TextureMap> {
+    if (!from) return std::nullopt;
+    return make_map(from->file, read(from->file), from->uv.value_or(settings.tiling));
+  };
+  const NormalDistribution distribution = settings.brdf.distribution.value_or(NormalDistribution::ggx);
+  const auto read_colors = [](const auto& file) { return read_image(file, Transfer::srgb); };
+  return {load(settings.maps.roughness, [](const auto& file) { return to_rgb(read_image(file, Transfer::linear)); }),
+          load(settings.maps.lobe_parameter, [&](const auto& file) { return read_lobe_parameter(file, distribution); }),
+          load(settings.maps.specular, [&](const auto& file) { return to_rgb(read_colors(file)); }),
+          load(settings.maps.diffuse, [&](const auto& file) { return to_rgba(read_colors(file)); })};
+}
+
+void lay(const LaidMaps& maps, const BrdfSettings& settings, Material& material) {
+  if (maps.specular) {
+    material.metallic_roughness_map.reset();
+    material.specular_map = maps.specular;
+    material.dielectric_specular = settings.specular.value_or(glm::vec3(1.0F));
+    material.metallic = 0.0F;
+  }
+  if (maps.lobe_parameter) material.lobe_parameter_map = maps.lobe_parameter;
+  if (maps.roughness) {
+    material.lobes.clear();
+    material.lobe_parameter_map.reset();
+    material.metallic_roughness_map = maps.roughness;
+    material.metallic_roughness_map->image =
+        std::make_shared<const Image>(with_metallic(*maps.roughness->image, material.metallic));
+  }
+  if (maps.diffuse) {
+    material.base_color_map = maps.diffuse;
+    material.base_color = {settings.base_color.value_or(glm::vec3(1.0F)), material.base_color.a};
+  }
+}
+
+// The shares of several materials of a surface. An 8-bit picture holds a number in the 255 steps of its red channel.
+std::vector<TextureMap> load_shares(const MapFile& from, glm::vec2 tiling, std::size_t count) {
+  Image stored = read_image(from.file, Transfer::linear);
+  if (!is_exr(from.file)) {
+    for (float& value : stored.texels) value *= 255.0F;
+  }
+  std::vector<TextureMap> shares;
+  try {
+    for (Image& share : decode_indices(stored, count)) {
+      shares.push_back(make_map(from.file, std::move(share), from.uv.value_or(tiling)));
+    }
+  } catch (const Error& error) {
+    throw error.within(from.file.string());
+  }
+  return shares;
+}
+
+// Gives a model its patches. Of several each material gets one copy for each, and each mesh one for each of those: the
+// copies of a material follow one another.
+void lay_patches(const PartSettings& settings, Model& model) {
+  const std::size_t count = settings.microgeometry.size();
+  std::vector<MicrogeometryContent> patches;
+  for (const MicrogeometrySettings& patch : settings.microgeometry) patches.push_back(load_microgeometry(patch));
+  if (count == 1) {
+    for (Material& material : model.materials) apply(patches.front(), material);
+  }
+  if (count < 2) return;
+  const std::vector<TextureMap> shares = load_shares(*settings.maps.material, settings.tiling, count);
+  std::vector<Material> materials;
+  for (const Material& material : model.materials) {
+    for (std::size_t k = 0; k < count; ++k) {
+      Material& copy = materials.emplace_back(material);
+      copy.name += fmt::format("/{}", k);
+      copy.share = SurfaceShare{shares[k], k == 0};
+      apply(patches[k], copy);
+    }
+  }
+  std::vector<Mesh> meshes;
+  for (const Mesh& mesh : model.meshes) {
+    for (std::size_t k = 0; k < count; ++k)
+      meshes.emplace_back(mesh).material = mesh.material * static_cast<int>(count) + static_cast<int>(k);
+  }
+  model.materials = std::move(materials);
+  model.meshes = std::move(meshes);
+}
+
+/// A placement's turn, and all of it.
+struct Placed {
+  explicit Placed(const Placement& placement) {
+    glm::dmat4 turn{1.0};
+    for (int axis = 2; axis >= 0; --axis) {  // the last factor turns first
+      glm::dvec3 about{0.0};
+      about[axis] = 1.0;
+      turn = glm::rotate(turn, placement.rotation[axis], about);
+    }
+    rotation = glm::dmat3(turn);
+    scale = placement.scale;
+    translation = placement.translation;
+  }
+  [[nodiscard]] glm::vec3 point(const glm::vec3& at) const {
+    return glm::vec3(rotation * (scale * glm::dvec3(at)) + translation);
+  }
+  [[nodiscard]] glm::vec3 direction(const glm::vec3& along) const { return glm::vec3(rotation * glm::dvec3(along)); }
+
+  glm::dmat3 rotation;
+  double scale;
+  glm::dvec3 translation;
+};
+
+/// Moves a model with its lights and its camera, whose strengths and angles stay.
+void place(const Placement& placement, Model& model) {
+  const Placed placed(placement);
+  for (Mesh& mesh : model.meshes) {
+    for (Vertex& vertex : mesh.vertices) {
+      vertex.position = placed.point(vertex.position);
+      vertex.normal = placed.direction(vertex.normal);
+      vertex.tangent = {placed.direction(glm::vec3(vertex.tangent)), vertex.tangent.w};
+    }
+  }
+  for (Light& light : model.lights) {
+    if (auto* point = std::get_if<PointLight>(&light)) point->position = placed.point(point->position);
+    if (auto* directional = std::get_if<DirectionalLight>(&light)) {
+      directional->direction = placed.direction(directional->direction);
+    }
+    if (auto* spot = std::get_if<SpotLight>(&light)) {
+      spot->point.position = placed.point(spot->point.position);
+      spot->direction = placed.direction(spot->direction);
+    }
+  }
+  if (!model.camera) return;
+  glm::mat4& world = model.camera->world;
+  for (int axis = 0; axis < 3; ++axis) world[axis] = {placed.direction(glm::vec3(world[axis])), 0.0F};
+  world[3] = {placed.point(glm::vec3(world[3])), 1.0F};
+}
+
+void add_name(const std::string& part, std::string& name) {
+  if (!part.empty()) name = name.empty() ? part : part + "/" + name;
+}
+
+}  // namespace
+
+Model load_part(const PartSettings& settings) {
+  Model model = std::visit([](const auto& content) { return load_content(content); }, settings.content);
+  std::optional<TextureMap> layer;
+  if (settings.layer) layer = load_layer(*settings.layer, model.warnings);
+  const LaidMaps maps = load_maps(settings);
+  for (Material& material : model.materials) apply(settings.brdf, settings.maps, material);
+  lay_patches(settings, model);
+  for (Material& material : model.materials) {
+    tile(settings.tiling, material);
+    material.layer_map = layer;
+    lay(maps, settings.brdf, material);
+    add_name(settings.name, material.name);
+  }
+  for (Mesh& mesh : model.meshes) add_name(settings.name, mesh.name);
+  place(settings.placement, model);
+  return model;
+}
+
+}  // namespace footprint

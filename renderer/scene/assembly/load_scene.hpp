@@ -1,0 +1,43 @@
+// From a scene folder, a scene.toml or a glTF file to a Scene.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "renderer/scene/scene.hpp"
+#include "renderer/scene/settings/scene.hpp"
+#include "renderer/scene/surface.hpp"
+
+namespace footprint {
+
+/// A scene before it is assembled: its settings, which may be changed first.
+struct SceneSource {
+  SceneSettings settings;
+  std::string name;            ///< that the scene gets where its settings give none
+  std::string source;          ///< SCENE as it was given
+  std::filesystem::path file;  ///< the settings' own; empty for a bare model
+};
+
+/// What SCENE names, read but not assembled. Errors (usage) as of load_scene, but for those of assembling.
+[[nodiscard]] SceneSource read_scene(const std::string& scene, const SceneLibrary& library,
+                                     const CameraSettings& camera = {});
+
+/// The scene of a source. Errors (usage) of assemble_scene, naming the file.
+[[nodiscard]] Scene assemble(const SceneSource& source);
+
+/// Loads SCENE as the command line takes it: a folder of `library.folder`, a folder with a scene.toml, a path to a
+/// scene.toml, or a .gltf / .glb file (camera framed on its bounds and a light rig supplied where the file has none).
+/// `camera` stands in for the scene's own, where it says anything. Errors (usage) name file, place and mend; an unknown
+/// key in scene.toml names its line and the nearest right key, and so does a surface that is not in the library.
+[[nodiscard]] Scene load_scene(const std::string& scene, const SceneLibrary& library,
+                               const CameraSettings& camera = {});
+
+/// The names of the folders in `scenes_folder` that hold a scene.toml, sorted.
+[[nodiscard]] std::vector<std::string> list_scenes(const std::filesystem::path& scenes_folder);
+
+/// The camera moved along its viewing direction so that its depth distance to the bounds' centre is `factor` times what
+/// it is (orthographic: ymag scaled instead); near and far planes follow. `factor` > 0.
+[[nodiscard]] Camera camera_at_distance(const Scene& scene, double factor);
+
+}  // namespace footprint

@@ -1,0 +1,73 @@
+// See microgeometry_content.hpp.
+#include "renderer/scene/assembly/microgeometry_content.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "renderer/core/error.hpp"
+#include "renderer/scene/gltf/model.hpp"
+#include "renderer/scene/merl_file.hpp"
+
+namespace footprint {
+namespace {
+
+// A model's triangles: y out of the surface becomes z. Colours are those of its materials.
+Patch patch_of_model(const MicrogeometrySettings& settings) {
+  const Model model = load_gltf(settings.model);
+  const std::string file = settings.model.filename().string();
+  if (model.materials.size() > std::numeric_limits<std::uint8_t>::max()) {
+    throw Error(ErrorKind::usage, settings.model.string(), "has more than 255 materials", "join some of them");
+  }
+  Patch patch;
+  patch.name = file;
+  patch.palette.clear();
+  for (const Material& material : model.materials) patch.palette.emplace_back(material.base_color);
+  glm::vec3 lower(std::numeric_limits<float>::max()), upper(std::numeric_limits<float>::lowest());
+  for (const Mesh& mesh : model.meshes) {
+    const auto base = static_cast<std::uint32_t>(patch.vertices.size());
+    for (const Vertex& vertex : mesh.vertices) {
+      const glm::vec3 p(vertex.position.x, -vertex.position.z, vertex.position.y);
+      patch.vertices.push_back(p);
+      lower = glm::min(lower, p);
+      upper = glm::max(upper, p);
+    }
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+      patch.triangles.push_back(base + glm::uvec3(mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]));
+      patch.paints.push_back(static_cast<std::uint8_t>(mesh.material));
+    }
+  }
+  patch.period = settings.period.value_or(glm::vec2(upper - lower));
+  // The same tiling from about the origin: what lies far off it would lose the digits that tell facets apart.
+  const glm::vec3 corner(glm::floor(glm::vec2(lower) / patch.period) * patch.period, lower.z);
+  for (glm::vec3& vertex : patch.vertices) vertex -= corner;
+  return patch;
+}
+
+// What the facets reflect by, where it is not the material's base BRDF.
+std::shared_ptr<const TabulatedBrdf> brdf_of(const MicrogeometrySettings& settings) {
+  if (settings.measured) return std::make_shared<const TabulatedBrdf>(read_merl(*settings.measured));
+  if (!settings.ward) return nullptr;
+  const WardSettings& ward = *settings.ward;
+  return std::make_shared<const TabulatedBrdf>(ward_brdf(ward.diffuse, ward.specular, ward.alpha));
+}
+
+}  // namespace
+
+MicrogeometryContent load_microgeometry(const MicrogeometrySettings& settings) {
+  Patch patch = settings.kind != nullptr ? make_patch(*settings.kind, settings.parameters, settings.seed)
+                                         : patch_of_model(settings);
+  check_patch(patch, settings.kind != nullptr ? "[microgeometry]" : settings.model.string());
+  PatchMaps maps = patch_maps(patch, settings.resolution);
+  return {std::make_shared<const Microgeometry>(Microgeometry{std::move(patch), maps.mean_color, brdf_of(settings)}),
+          std::make_shared<const Image>(std::move(maps.normals))};
+}
+
+void apply(const MicrogeometryContent& content, Material& material) {
+  const TextureCoordinates coordinates = material.normal_map ? material.normal_map->coordinates : TextureCoordinates{};
+  material.normal_map = TextureMap{content.microgeometry->patch.name, content.normals, coordinates};
+  material.base_color *= glm::vec4(content.microgeometry->mean_color, 1.0F);
+  material.microgeometry = content.microgeometry;
+}
+
+}  // namespace footprint

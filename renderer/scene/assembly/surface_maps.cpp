@@ -1,0 +1,213 @@
+// See surface_maps.hpp.
+#include "renderer/scene/assembly/surface_maps.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/glm.hpp>
+
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+namespace {
+
+/// NaN comes out as the lower end, which std::clamp would let through.
+float unit_range(float value) { return value > 0.0F ? std::min(value, 1.0F) : 0.0F; }
+
+void require_three_channels(const Image& stored) {
+  if (stored.channels >= 3) return;
+  throw Error(ErrorKind::usage, {}, "a normal map needs three channels, this image has fewer",
+              "store the normal's x, y, z in red, green, blue");
+}
+
+template <class Decode>
+NormalMap to_normal_map(const Image& stored, Decode decode, double scale) {
+  constexpr double smallest_z = 1e-6;
+  NormalMap map{Image(stored.width, stored.height, 4), 0, 0};
+  for (int y = 0; y < stored.height; ++y) {
+    for (int x = 0; x < stored.width; ++x) {
+      const auto in = stored.at(x, y);
+      const auto out = map.image.at(x, y);
+      glm::dvec3 normal = decode(glm::dvec3{in[0], in[1], in[2]});
+      const double length = glm::length(normal);
+      if (!std::isfinite(length) || length < 1e-3) {
+        ++map.invalid;
+        std::ranges::copy(std::array{0.0F, 0.0F, 1.0F, 0.0F}, out.begin());
+        continue;
+      }
+      if (normal.z <= 0.0) {
+        ++map.inverted;
+        normal.z = smallest_z;
+      }
+      normal = glm::normalize(normal * glm::dvec3{scale, scale, 1.0});
+      std::ranges::copy(
+          std::array{static_cast<float>(normal.x), static_cast<float>(normal.y), static_cast<float>(normal.z), 1.0F},
+          out.begin());
+    }
+  }
+  return map;
+}
+
+// How many texels hold a unit vector, taken as they are and as an encoding c of 2 c - 1. Texels without any direction
+// (zero, not finite) tell nothing.
+struct UnitCounts {
+  std::size_t texels = 0, as_stored = 0, as_encoded = 0;
+};
+
+UnitCounts count_unit_vectors(const Image& stored) {
+  constexpr double tolerance = 0.02;  // of a length: half floats and bytes that were decoded stay within
+  UnitCounts counts;
+  for (int y = 0; y < stored.height; ++y) {
+    for (int x = 0; x < stored.width; ++x) {
+      const auto in = stored.at(x, y);
+      const glm::dvec3 v(in[0], in[1], in[2]);
+      const double length = glm::length(v);
+      if (!std::isfinite(length) || length < 1e-3) continue;
+      ++counts.texels;
+      if (std::abs(length - 1.0) < tolerance) ++counts.as_stored;
+      if (std::abs(glm::length(2.0 * v - 1.0) - 1.0) < tolerance) ++counts.as_encoded;
+    }
+  }
+  return counts;
+}
+
+}  // namespace
+
+NormalMap decode_normal_map(const Image& stored, double scale) {
+  require_three_channels(stored);
+  return to_normal_map(
+      stored, [&](const glm::dvec3& v) { return 2.0 * v - 1.0; }, scale);
+}
+
+NormalMap decode_unit_normals(const Image& stored) {
+  require_three_channels(stored);
+  const UnitCounts counts = count_unit_vectors(stored);
+  if (2 * counts.as_stored < counts.texels && 2 * counts.as_encoded >= counts.texels) {
+    throw Error(ErrorKind::usage, {}, "its values are normals encoded as 0 to 1, but an EXR holds x, y, z of -1 to 1",
+                "store 2 c - 1, or give the map as PNG");
+  }
+  if (2 * counts.as_stored < counts.texels) {
+    throw Error(ErrorKind::usage, {},
+                fmt::format("{} of {} texels hold no unit vector", counts.texels - counts.as_stored, counts.texels),
+                "store unit normals, x, y, z of -1 to 1 in the first three channels");
+  }
+  return to_normal_map(
+      stored, [](const glm::dvec3& v) { return v; }, 1.0);
+}
+
+void scale_slopes(Image& normals, double strength) {
+  for (std::size_t i = 0; i < normals.texels.size(); i += 4) {
+    float* const n = &normals.texels[i];
+    const glm::dvec3 scaled = glm::normalize(glm::dvec3{strength * n[0], strength * n[1], n[2]});
+    for (int c = 0; c < 3; ++c) n[c] = static_cast<float>(scaled[c]);
+  }
+}
+
+NormalMap normals_of_heights(const Image& stored, double strength) {
+  NormalMap map{Image(stored.width, stored.height, 4), 0, 0};
+  const auto height = [&](int x, int y) {
+    return static_cast<double>(
+        stored.at((x + stored.width) % stored.width, (y + stored.height) % stored.height).front());
+  };
+  const double per_texel = 0.5 * strength * stored.width;  // texels are square
+  for (int y = 0; y < stored.height; ++y) {
+    for (int x = 0; x < stored.width; ++x) {
+      const double dx = per_texel * (height(x + 1, y) - height(x - 1, y));
+      const double dy = per_texel * (height(x, y - 1) - height(x, y + 1));  // rows run down, the normal's y up
+      const bool valid = std::isfinite(dx) && std::isfinite(dy);
+      map.invalid += valid ? 0 : 1;
+      const glm::vec3 normal = valid ? glm::vec3(glm::normalize(glm::dvec3{-dx, -dy, 1.0})) : glm::vec3{0, 0, 1};
+      std::ranges::copy(std::array{normal.x, normal.y, normal.z, valid ? 1.0F : 0.0F}, map.image.at(x, y).begin());
+    }
+  }
+  return map;
+}
+
+std::vector<std::string> describe_faults(const NormalMap& map, const std::string& name) {
+  std::vector<std::string> lines;
+  if (map.invalid > 0) {
+    lines.push_back(fmt::format("normal map `{}`: {} texels hold no direction and do not count", name, map.invalid));
+  }
+  if (map.inverted > 0) {
+    lines.push_back(
+        fmt::format("normal map `{}`: {} texels point into the surface and are laid flat on it", name, map.inverted));
+  }
+  return lines;
+}
+
+Image decode_metallic_roughness(const Image& stored, float roughness_factor, float metallic_factor) {
+  const bool color = stored.channels >= 3;
+  Image map(stored.width, stored.height, 2);
+  for (int y = 0; y < stored.height; ++y) {
+    for (int x = 0; x < stored.width; ++x) {
+      const auto in = stored.at(x, y);
+      map.at(x, y)[0] = roughness_factor * unit_range(in[color ? 1 : 0]);
+      map.at(x, y)[1] = metallic_factor * unit_range(in[color ? 2 : 0]);
+    }
+  }
+  return map;
+}
+
+Image decode_lobe_parameter(const Image& stored, double least, double most) {
+  Image map(stored.width, stored.height, 1);
+  for (int y = 0; y < stored.height; ++y) {
+    for (int x = 0; x < stored.width; ++x) {
+      const float value = stored.at(x, y)[0];
+      if (!(value >= least && value <= most)) {
+        throw Error(ErrorKind::usage, fmt::format("texel ({}, {})", x, y),
+                    fmt::format("holds {}, not within {} to {}", value, least, most),
+                    "store the lobe parameter itself, as 32-bit floats");
+      }
+      map.at(x, y)[0] = value;
+    }
+  }
+  return map;
+}
+
+std::vector<Image> decode_indices(const Image& stored, std::size_t count) {
+  constexpr float rounding = 1e-3F;  // of 8 bits as floats from 0 to 1
+  std::vector<Image> shares(count, Image(stored.width, stored.height, 1));
+  for (std::size_t i = 0; i < stored.texel_count(); ++i) {
+    const float value = stored.texels[i * static_cast<std::size_t>(stored.channels)];
+    const float whole = std::round(value);
+    if (!(std::abs(value - whole) <= rounding && whole >= 0.0F && whole < static_cast<float>(count))) {
+      const auto width = static_cast<std::size_t>(stored.width);
+      throw Error(ErrorKind::usage, "map of indices",
+                  fmt::format("texel ({}, {}) holds {}, which names none of the {} materials", i % width, i / width,
+                              value, count),
+                  fmt::format("store whole numbers from 0 to {} in the red channel", count - 1));
+    }
+    shares[static_cast<std::size_t>(whole)].texels[i] = 1.0F;
+  }
+  return shares;
+}
+
+Image to_rgb(const Image& stored) {
+  const bool color = stored.channels >= 3;
+  Image map(stored.width, stored.height, 3);
+  for (int y = 0; y < stored.height; ++y) {
+    for (int x = 0; x < stored.width; ++x) {
+      for (std::size_t c = 0; c < 3; ++c) map.at(x, y)[c] = unit_range(stored.at(x, y)[color ? c : 0]);
+    }
+  }
+  return map;
+}
+
+Image to_rgba(const Image& stored) {
+  const bool color = stored.channels >= 3;
+  const bool alpha = stored.channels % 2 == 0;
+  Image map(stored.width, stored.height, 4, 1.0F);
+  for (int y = 0; y < stored.height; ++y) {
+    for (int x = 0; x < stored.width; ++x) {
+      const auto in = stored.at(x, y);
+      const auto out = map.at(x, y);
+      for (std::size_t c = 0; c < 3; ++c) out[c] = unit_range(in[color ? c : 0]);
+      if (alpha) out[3] = unit_range(in.back());
+    }
+  }
+  return map;
+}
+
+}  // namespace footprint

@@ -1,0 +1,371 @@
+// See check.hpp. One table of rules says what each member must be; a walker applies them.
+#include "renderer/scene/gltf/check.hpp"
+
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+namespace {
+
+using nlohmann::json;
+
+enum class Kind {
+  object,
+  array,
+  string,
+  boolean,
+  number,
+  numbers,  ///< an array of `count` numbers
+  size,     ///< a whole number from 0 to 2^31 - 1
+  index,    ///< a position in the array `target`
+};
+
+enum class Need { optional, required };
+
+/// What the members that `path` names must be: "[]" stands for every element, "*" for every member.
+struct Rule {
+  std::string_view path;
+  Kind kind;
+  Need need = Need::optional;
+  std::string_view target{};
+  std::size_t count = 0;
+};
+
+constexpr std::string_view lights = "extensions.KHR_lights_punctual.lights";
+
+constexpr auto rules = std::to_array<Rule>({
+    {"extensionsUsed[]", Kind::string},
+    {"extensionsRequired[]", Kind::string},
+    {"extensions", Kind::object},
+    {"scene", Kind::index, Need::optional, "scenes"},
+    {"scenes[]", Kind::object},
+    {"scenes[].nodes[]", Kind::index, Need::optional, "nodes"},
+    {"nodes[]", Kind::object},
+    {"nodes[].name", Kind::string},
+    {"nodes[].children[]", Kind::index, Need::optional, "nodes"},
+    {"nodes[].mesh", Kind::index, Need::optional, "meshes"},
+    {"nodes[].camera", Kind::index, Need::optional, "cameras"},
+    {"nodes[].skin", Kind::index, Need::optional, "skins"},
+    {"nodes[].matrix", Kind::numbers, Need::optional, "", 16},
+    {"nodes[].translation", Kind::numbers, Need::optional, "", 3},
+    {"nodes[].rotation", Kind::numbers, Need::optional, "", 4},
+    {"nodes[].scale", Kind::numbers, Need::optional, "", 3},
+    {"nodes[].extensions", Kind::object},
+    {"nodes[].extensions.KHR_lights_punctual.light", Kind::index, Need::required, lights},
+    {"meshes[]", Kind::object},
+    {"meshes[].name", Kind::string},
+    {"meshes[].primitives", Kind::array, Need::required},
+    {"meshes[].primitives[]", Kind::object},
+    {"meshes[].primitives[].attributes", Kind::object, Need::required},
+    {"meshes[].primitives[].attributes.*", Kind::index, Need::optional, "accessors"},
+    {"meshes[].primitives[].indices", Kind::index, Need::optional, "accessors"},
+    {"meshes[].primitives[].material", Kind::index, Need::optional, "materials"},
+    {"meshes[].primitives[].mode", Kind::size},
+    {"accessors[]", Kind::object},
+    {"accessors[].bufferView", Kind::index, Need::optional, "bufferViews"},
+    {"accessors[].byteOffset", Kind::size},
+    {"accessors[].componentType", Kind::size, Need::required},
+    {"accessors[].normalized", Kind::boolean},
+    {"accessors[].count", Kind::size, Need::required},
+    {"accessors[].type", Kind::string, Need::required},
+    {"accessors[].sparse", Kind::object},
+    {"accessors[].sparse.count", Kind::size, Need::required},
+    {"accessors[].sparse.indices", Kind::object, Need::required},
+    {"accessors[].sparse.indices.bufferView", Kind::index, Need::required, "bufferViews"},
+    {"accessors[].sparse.indices.byteOffset", Kind::size},
+    {"accessors[].sparse.indices.componentType", Kind::size, Need::required},
+    {"accessors[].sparse.values", Kind::object, Need::required},
+    {"accessors[].sparse.values.bufferView", Kind::index, Need::required, "bufferViews"},
+    {"accessors[].sparse.values.byteOffset", Kind::size},
+    {"bufferViews[]", Kind::object},
+    {"bufferViews[].buffer", Kind::index, Need::required, "buffers"},
+    {"bufferViews[].byteOffset", Kind::size},
+    {"bufferViews[].byteLength", Kind::size, Need::required},
+    {"bufferViews[].byteStride", Kind::size},
+    {"buffers[]", Kind::object},
+    {"buffers[].byteLength", Kind::size, Need::required},
+    {"buffers[].uri", Kind::string},
+    {"images[]", Kind::object},
+    {"images[].name", Kind::string},
+    {"images[].uri", Kind::string},
+    {"images[].bufferView", Kind::index, Need::optional, "bufferViews"},
+    {"textures[]", Kind::object},
+    {"textures[].source", Kind::index, Need::optional, "images"},
+    {"textures[].sampler", Kind::index, Need::optional, "samplers"},
+    {"samplers[]", Kind::object},
+    {"samplers[].wrapS", Kind::size},
+    {"samplers[].wrapT", Kind::size},
+    {"materials[]", Kind::object},
+    {"materials[].name", Kind::string},
+    {"materials[].doubleSided", Kind::boolean},
+    {"materials[].alphaMode", Kind::string},
+    {"materials[].alphaCutoff", Kind::number},
+    {"materials[].emissiveFactor", Kind::numbers, Need::optional, "", 3},
+    {"materials[].extensions", Kind::object},
+    {"materials[].extensions.*", Kind::object},
+    {"materials[].extensions.KHR_materials_ior.ior", Kind::number},
+    {"materials[].pbrMetallicRoughness", Kind::object},
+    {"materials[].pbrMetallicRoughness.baseColorFactor", Kind::numbers, Need::optional, "", 4},
+    {"materials[].pbrMetallicRoughness.metallicFactor", Kind::number},
+    {"materials[].pbrMetallicRoughness.roughnessFactor", Kind::number},
+    {"materials[].normalTexture.scale", Kind::number},
+    {"cameras[]", Kind::object},
+    {"cameras[].type", Kind::string, Need::required},
+    {"cameras[].perspective", Kind::object},
+    {"cameras[].perspective.*", Kind::number},
+    {"cameras[].orthographic", Kind::object},
+    {"cameras[].orthographic.*", Kind::number},
+    {"extensions.KHR_lights_punctual", Kind::object},
+    {"extensions.KHR_lights_punctual.lights", Kind::array, Need::required},
+    {"extensions.KHR_lights_punctual.lights[]", Kind::object},
+    {"extensions.KHR_lights_punctual.lights[].type", Kind::string, Need::required},
+    {"extensions.KHR_lights_punctual.lights[].color", Kind::numbers, Need::optional, "", 3},
+    {"extensions.KHR_lights_punctual.lights[].intensity", Kind::number},
+    {"extensions.KHR_lights_punctual.lights[].range", Kind::number},
+    {"extensions.KHR_lights_punctual.lights[].spot", Kind::object},
+    {"extensions.KHR_lights_punctual.lights[].spot.*", Kind::number},
+    {"animations[]", Kind::object},
+    {"animations[].channels[]", Kind::object},
+    {"animations[].samplers[]", Kind::object},
+    {"skins[]", Kind::object},
+});
+
+constexpr auto texture_places = std::to_array<std::string_view>({
+    "materials[].pbrMetallicRoughness.baseColorTexture",
+    "materials[].pbrMetallicRoughness.metallicRoughnessTexture",
+    "materials[].normalTexture",
+    "materials[].occlusionTexture",
+    "materials[].emissiveTexture",
+});
+
+/// What stands under each of `texture_places`.
+constexpr auto texture_rules = std::to_array<Rule>({
+    {"", Kind::object},
+    {".index", Kind::index, Need::required, "textures"},
+    {".texCoord", Kind::size},
+    {".extensions", Kind::object},
+    {".extensions.KHR_texture_transform", Kind::object},
+    {".extensions.KHR_texture_transform.offset", Kind::numbers, Need::optional, "", 2},
+    {".extensions.KHR_texture_transform.rotation", Kind::number},
+    {".extensions.KHR_texture_transform.scale", Kind::numbers, Need::optional, "", 2},
+    {".extensions.KHR_texture_transform.texCoord", Kind::size},
+});
+
+constexpr auto supported = std::to_array<std::string_view>(
+    {"KHR_lights_punctual", "KHR_materials_ior", "KHR_mesh_quantization", "KHR_texture_transform"});
+
+[[noreturn]] void fail(const std::string& place, const std::string& message,
+                       const std::string& mend = "repair the file or export it again") {
+  throw Error(ErrorKind::usage, place, message, mend);
+}
+
+std::size_t array_size(const json& document, std::string_view path) {
+  const json* value = &document;
+  while (!path.empty()) {
+    const auto dot = path.find('.');
+    const std::string key{path.substr(0, dot)};
+    if (!value->is_object() || !value->contains(key)) return 0;
+    value = &(*value)[key];
+    path = dot == std::string_view::npos ? std::string_view{} : path.substr(dot + 1);
+  }
+  return value->is_array() ? value->size() : 0;
+}
+
+void check_numbers(const json& value, std::size_t count, const std::string& where) {
+  if (!value.is_array() || value.size() != count || !std::ranges::all_of(value, &json::is_number)) {
+    fail(where, fmt::format("must be an array of {} numbers", count));
+  }
+}
+
+void check_whole(const json& value, std::uint64_t end, const std::string& where, std::string_view target) {
+  if (!value.is_number_integer()) fail(where, "must be a whole number");
+  const bool negative = !value.is_number_unsigned() && value.get<std::int64_t>() < 0;
+  if (negative || value.get<std::uint64_t>() >= end) {
+    fail(where, target.empty() ? fmt::format("{} is not within 0 to {}", value.dump(), end - 1)
+                               : fmt::format("index {} is out of range: `{}` has {}", value.dump(), target, end));
+  }
+}
+
+void check_value(const json& value, const Rule& rule, const std::string& where, std::uint64_t end) {
+  switch (rule.kind) {
+    case Kind::object:
+      if (!value.is_object()) fail(where, "must be an object");
+      break;
+    case Kind::array:
+      if (!value.is_array()) fail(where, "must be an array");
+      break;
+    case Kind::string:
+      if (!value.is_string()) fail(where, "must be a string");
+      break;
+    case Kind::boolean:
+      if (!value.is_boolean()) fail(where, "must be true or false");
+      break;
+    case Kind::number:
+      if (!value.is_number()) fail(where, "must be a number");
+      break;
+    case Kind::numbers:
+      check_numbers(value, rule.count, where);
+      break;
+    case Kind::size:
+    case Kind::index:
+      check_whole(value, end, where, rule.target);
+      break;
+  }
+}
+
+/// Applies `rule` to what `path` (the rest of its path) names below `value`. `where` is a stack of place names: it is
+/// joined only for an error, as large files have many places and few errors.
+void walk(const json& value, std::string_view path, const Rule& rule, std::uint64_t end, std::string& where) {
+  if (path.empty()) return check_value(value, rule, where, end);
+  const std::size_t depth = where.size();
+  const auto descend = [&](const json& child, const std::string& name, std::string_view rest) {
+    where += name;
+    walk(child, rest, rule, end, where);
+    where.resize(depth);
+  };
+  if (path.starts_with("[]")) {
+    if (!value.is_array()) fail(where, "must be an array");
+    for (std::size_t i = 0; i < value.size(); ++i) descend(value[i], fmt::format("[{}]", i), path.substr(2));
+    return;
+  }
+  if (path.front() == '.') path.remove_prefix(1);
+  if (!value.is_object()) fail(where, "must be an object");
+  if (path.front() == '*') {
+    for (const auto& [key, child] : value.items()) {
+      // Extension and extra data are no member of the parent's own kind.
+      if (child.is_object() && (key == "extensions" || key == "extras")) continue;
+      if (key != "extras") descend(child, (depth == 0 ? "" : ".") + key, path.substr(1));
+    }
+    return;
+  }
+  const auto name_end = std::min(path.find_first_of(".["), path.size());
+  const std::string name{path.substr(0, name_end)};
+  const auto member = value.find(name);
+  const std::string dotted = (depth == 0 ? "" : ".") + name;
+  if (member != value.end()) return descend(*member, dotted, path.substr(name_end));
+  if (name_end == path.size() && rule.need == Need::required) fail(where + dotted, "is missing");
+}
+
+void apply_rule(const json& document, const Rule& rule) {
+  const std::uint64_t end = rule.kind == Kind::index ? array_size(document, rule.target)
+                                                     : std::uint64_t{std::numeric_limits<std::int32_t>::max()};
+  std::string where;
+  walk(document, rule.path, rule, end, where);
+}
+
+void check_version(const json& document) {
+  const auto asset = document.find("asset");
+  if (asset == document.end() || !asset->is_object() || !asset->contains("version") ||
+      !(*asset)["version"].is_string()) {
+    fail("asset.version", "is missing, so this is no glTF 2.0 file");
+  }
+  const auto version = (*asset)["version"].get<std::string>();
+  if (!version.starts_with("2.")) {
+    fail("asset.version", fmt::format("glTF {:.16} is not supported", version), "convert the file to glTF 2.0");
+  }
+}
+
+void check_required_extensions(const json& document) {
+  std::string missing;
+  for (const json& extension : document.value("extensionsRequired", json::array())) {
+    const auto name = extension.get<std::string>();
+    if (std::ranges::find(supported, name) == supported.end()) missing += (missing.empty() ? "" : ", ") + name;
+  }
+  if (!missing.empty()) {
+    fail("extensionsRequired", "requires what Footprint does not support: " + missing.substr(0, 400),
+         "export without these extensions");
+  }
+}
+
+void check_buffer_views(const json& document) {
+  const json views = document.value("bufferViews", json::array());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const auto offset = views[i].value("byteOffset", std::uint64_t{0});
+    const auto length = views[i]["byteLength"].get<std::uint64_t>();
+    const auto available =
+        document["buffers"][views[i]["buffer"].get<std::size_t>()]["byteLength"].get<std::uint64_t>();
+    const std::string where = fmt::format("bufferViews[{}]", i);
+    if (length == 0) fail(where + ".byteLength", "must be at least 1");
+    if (offset + length > available) {
+      fail(where, fmt::format("bytes {} to {} are not within the buffer's {}", offset, offset + length, available));
+    }
+  }
+}
+
+// tinygltf names neither the buffer nor what is wrong with it, but the whole URI.
+void check_embedded_buffers(const json& document) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const json buffers = document.value("buffers", json::array());
+  for (std::size_t i = 0; i < buffers.size(); ++i) {
+    const auto uri = buffers[i].value("uri", std::string{});
+    if (!uri.starts_with("data:")) continue;
+    const std::string_view text = std::string_view(uri).substr(uri.find(',') + 1);
+    const std::size_t bytes = std::min(text.find_first_not_of(digits), text.size()) * 6 / 8;
+    const auto length = buffers[i]["byteLength"].get<std::uint64_t>();
+    if (bytes == length) continue;
+    fail(fmt::format("buffers[{}]", i), fmt::format("its data URI holds {} bytes, byteLength is {}", bytes, length));
+  }
+}
+
+void check_uris(const json& document, const std::string& array) {
+  const json items = document.value(array, json::array());
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const auto uri = items[i].value("uri", std::string{});
+    const std::string where = fmt::format("{}[{}].uri", array, i);
+    if (uri.starts_with("data:")) {
+      if (!tinygltf::IsDataURI(uri)) {
+        fail(where, fmt::format("this kind of data URI cannot be read: `{:.40}`", uri),
+             "use base64 with application/octet-stream, image/png or image/jpeg");
+      }
+    } else if (uri.find("://") != std::string::npos) {
+      fail(where, fmt::format("`{:.120}` is not fetched from the network", uri),
+           "put the file beside the glTF and name it by a relative path");
+    }
+  }
+}
+
+}  // namespace
+
+json parse_gltf_json(std::string_view text) {
+  const int deepest = 64;  // tinygltf recurses into extras and extensions
+  const auto limit_depth = [=](int depth, json::parse_event_t, json&) {
+    if (depth > deepest) fail({}, fmt::format("the JSON is nested more than {} deep", deepest));
+    return true;
+  };
+  try {
+    return json::parse(text, limit_depth);
+  } catch (const json::exception& error) {
+    const std::string_view reason = error.what();
+    fail({}, fmt::format("not valid JSON: {:.300}", reason.substr(reason.find("] ") + 2)));  // without its own number
+  }
+}
+
+void check_gltf_json(const json& document) {
+  if (!document.is_object()) fail({}, "the JSON is no object, so this is no glTF file");
+  check_version(document);
+  for (const Rule& rule : rules) apply_rule(document, rule);
+  for (const std::string_view place : texture_places) {
+    for (Rule rule : texture_rules) {
+      const std::string path = std::string{place} + std::string{rule.path};
+      rule.path = path;
+      apply_rule(document, rule);
+    }
+  }
+  check_required_extensions(document);
+  check_buffer_views(document);
+  check_uris(document, "buffers");
+  check_uris(document, "images");
+  check_embedded_buffers(document);
+}
+
+std::span<const std::string_view> supported_gltf_extensions() { return supported; }
+
+}  // namespace footprint

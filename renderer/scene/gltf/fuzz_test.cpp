@@ -1,0 +1,118 @@
+// Thousands of damaged glTF files: each loads or throws Error; nothing else may happen. The sanitizer preset looks on.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "renderer/core/error.hpp"
+#include "renderer/scene/gltf/model.hpp"
+#include "renderer/scene/gltf/test_builder.hpp"
+
+namespace footprint {
+namespace {
+
+using test::GltfBuilder;
+
+/// A file that uses about everything that the loader reads.
+GltfBuilder make_rich() {
+  GltfBuilder quad = test::make_quad();
+  const int texture = quad.add_texture(Image(2, 2, 3, 0.75F));
+  const nlohmann::json info = {{"index", texture},
+                               {"extensions", {{"KHR_texture_transform", {{"scale", {2, 2}}, {"rotation", 1.5}}}}}};
+  quad.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 10497}}};
+  quad.json["textures"][0]["sampler"] = 0;
+  quad.json["materials"] = {{{"name", "m"},
+                             {"alphaMode", "MASK"},
+                             {"normalTexture", info},
+                             {"pbrMetallicRoughness", {{"baseColorTexture", info}}}}};
+  quad.json["meshes"][0]["primitives"][0]["material"] = 0;
+  quad.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}}};
+  quad.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}, {"spot", {{"outerConeAngle", 0.5}}}}};
+  quad.json["nodes"] = {
+      {{"mesh", 0}, {"children", {1}}, {"rotation", {0, 0, 0, 1}}},
+      {{"camera", 0}, {"translation", {0, 0, 5}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}};
+  const int indices = quad.add_view(std::vector<std::uint8_t>{1, 3});
+  const int values = quad.add_view(std::vector<std::uint8_t>(24, 0));
+  quad.json["accessors"][0]["sparse"] = {{"count", 2},
+                                         {"indices", {{"bufferView", indices}, {"componentType", 5121}}},
+                                         {"values", {{"bufferView", values}}}};
+  return quad;
+}
+
+/// One to four changes: a byte set, a digit changed (so that JSON survives and numbers go wrong), a piece cut out or
+/// doubled.
+std::string mutate(std::string text, std::mt19937& random) {
+  const auto below = [&](std::size_t end) { return static_cast<std::size_t>(random()) % end; };
+  for (std::size_t change = 0, count = 1 + below(4); change < count && text.size() > 8; ++change) {
+    const std::size_t at = below(text.size()), length = std::min(1 + below(8), text.size() - at);
+    switch (below(6)) {
+      case 0:
+        text[at] = static_cast<char>(below(256));
+        break;
+      case 1:
+        text.erase(at, length);
+        break;
+      case 2:
+        text.insert(at, text.substr(at, length));
+        break;
+      default:
+        if (const auto digit = text.find_first_of("0123456789", at); digit != std::string::npos) {
+          text[digit] = "0123456789-."[below(12)];
+        }
+    }
+  }
+  return text;
+}
+
+void expect_sound(const Model& model) {
+  for (const Mesh& mesh : model.meshes) {
+    EXPECT_LT(static_cast<std::size_t>(mesh.material), model.materials.size());
+    for (const std::uint32_t index : mesh.indices) ASSERT_LT(index, mesh.vertices.size());
+    for (const Vertex& vertex : mesh.vertices) {
+      ASSERT_TRUE(std::isfinite(glm::length(vertex.position)));
+      ASSERT_NEAR(glm::length(vertex.normal), 1.0F, 1e-4F);
+      ASSERT_NEAR(glm::length(glm::vec3{vertex.tangent}), 1.0F, 1e-4F);
+      ASSERT_TRUE(std::isfinite(vertex.uv0.x + vertex.uv0.y));
+    }
+  }
+}
+
+/// Returns how many of `count` damaged files still load.
+int fuzz(const std::string& whole, const std::string& name, int count, unsigned seed) {
+  std::mt19937 random(seed);
+  int loaded = 0;
+  for (int i = 0; i < count; ++i) {
+    const auto file = test::write_file(name, mutate(whole, random));
+    try {
+      expect_sound(load_gltf(file));
+      ++loaded;
+    } catch (const Error& error) {
+      EXPECT_FALSE(error.message().empty());
+    }
+  }
+  return loaded;
+}
+
+TEST(GltfFuzz, DamagedTextLoadsOrThrowsError) {
+  // Without the data URI's bulk, so that most changes hit the structure.
+  const GltfBuilder rich = make_rich();
+  nlohmann::json document = rich.json;
+  test::write_file("fuzz.bin", std::string(rich.data.begin(), rich.data.end()));
+  document["buffers"] = {{{"byteLength", rich.data.size()}, {"uri", "fuzz.bin"}}};
+  const int loaded = fuzz(document.dump(), "fuzz.gltf", 1800, 1);
+  EXPECT_GT(loaded, 10);    // the files are not all refused at the door
+  EXPECT_LT(loaded, 1790);  // and not all harmless
+}
+
+TEST(GltfFuzz, DamagedBinaryLoadsOrThrowsError) { EXPECT_GT(fuzz(make_rich().glb(), "fuzz.glb", 1200, 2), 10); }
+
+TEST(GltfFuzz, TheUndamagedFileLoads) {
+  const Model model = load_gltf(test::write_file("rich.glb", make_rich().glb()));
+  expect_sound(model);
+  EXPECT_TRUE(model.camera);
+  EXPECT_EQ(model.lights.size(), 1U);
+  EXPECT_TRUE(model.materials.at(0).normal_map);
+}
+
+}  // namespace
+}  // namespace footprint

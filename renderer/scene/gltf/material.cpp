@@ -1,0 +1,213 @@
+// See material.hpp.
+#include "renderer/scene/gltf/material.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+
+#include "renderer/core/error.hpp"
+#include "renderer/scene/assembly/surface_maps.hpp"
+#include "renderer/scene/model.hpp"
+
+namespace footprint {
+namespace {
+
+[[noreturn]] void fail(const std::string& place, const std::string& message) {
+  throw Error(ErrorKind::usage, place, message, "repair the file or export it again");
+}
+
+float checked(double value, double low, double high, const std::string& name) {
+  if (!(value >= low && value <= high)) fail(name, fmt::format("{} is not within {} to {}", value, low, high));
+  return static_cast<float>(value);
+}
+
+double number(const tinygltf::Value& object, const char* key, double otherwise) {
+  return object.Has(key) ? object.Get(key).GetNumberAsDouble() : otherwise;
+}
+
+glm::dvec2 pair(const tinygltf::Value& object, const char* key, const glm::dvec2& otherwise) {
+  if (!object.Has(key)) return otherwise;
+  const auto& values = object.Get(key);
+  return {values.Get(0).GetNumberAsDouble(), values.Get(1).GetNumberAsDouble()};
+}
+
+/// KHR_texture_transform: offset * rotation * scale. Its rotation turns counter-clockwise as seen with v downwards, as
+/// its example (the lower left quadrant) and the viewers have it; the matrix printed in its text turns the other way.
+void apply_transform(const tinygltf::Value& extension, TextureCoordinates& coordinates) {
+  constexpr double largest = 1e6;
+  const glm::dvec2 offset = pair(extension, "offset", {0.0, 0.0}), scale = pair(extension, "scale", {1.0, 1.0});
+  const double rotation = number(extension, "rotation", 0.0);
+  for (const double value : {offset.x, offset.y, scale.x, scale.y, rotation}) {
+    (void)checked(value, -largest, largest, "KHR_texture_transform");
+  }
+  const double c = std::cos(rotation), s = std::sin(rotation);
+  coordinates.transform =
+      glm::mat3x2{glm::vec2{glm::dvec2{c, -s} * scale.x}, glm::vec2{glm::dvec2{s, c} * scale.y}, glm::vec2{offset}};
+  coordinates.set = static_cast<int>(number(extension, "texCoord", coordinates.set));
+}
+
+Wrap wrap_mode(int mode, const std::string& place) {
+  switch (mode) {
+    case TINYGLTF_TEXTURE_WRAP_REPEAT:
+      return Wrap::repeat;
+    case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+      return Wrap::mirrored_repeat;
+    case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+      return Wrap::clamp_to_edge;
+    default:
+      fail(place, fmt::format("{} is no wrap mode of glTF 2.0", mode));
+  }
+}
+
+std::string image_name(const tinygltf::Image& image, int index) {
+  if (!image.uri.empty()) return image.uri;
+  return image.name.empty() ? fmt::format("images[{}]", index) : image.name;
+}
+
+}  // namespace
+
+int GltfMaterials::use(int gltf_index) {
+  if (const auto known = places_.find(gltf_index); known != places_.end()) return known->second;
+  materials_.push_back(convert(gltf_index));
+  const int place = static_cast<int>(materials_.size()) - 1;
+  places_.emplace(gltf_index, place);
+  return place;
+}
+
+Material GltfMaterials::convert(int gltf_index) {
+  if (gltf_index < 0) {
+    Material material;
+    material.name = "default";
+    return material;
+  }
+  try {
+    return convert_named(gltf_index);
+  } catch (const Error& error) {
+    const auto& name = document_.model.materials[static_cast<std::size_t>(gltf_index)].name;
+    throw error.within(fmt::format("materials[{}] `{:.80}`", gltf_index, name));
+  }
+}
+
+Material GltfMaterials::convert_named(int gltf_index) {
+  const auto& source = document_.model.materials[static_cast<std::size_t>(gltf_index)];
+  const auto& pbr = source.pbrMetallicRoughness;
+  Material material;
+  material.name = source.name.empty() ? fmt::format("material {}", gltf_index) : source.name;
+  for (int c = 0; c < 4; ++c) {
+    material.base_color[c] = checked(pbr.baseColorFactor[static_cast<std::size_t>(c)], 0.0, 1.0, "baseColorFactor");
+  }
+  material.metallic = checked(pbr.metallicFactor, 0.0, 1.0, "metallicFactor");
+  material.roughness = checked(pbr.roughnessFactor, 0.0, 1.0, "roughnessFactor");
+  if (const auto ior = source.extensions.find("KHR_materials_ior"); ior != source.extensions.end()) {
+    // KHR_materials_ior: 0 stands for an infinite index; else at least 1.
+    const double index = number(ior->second, "ior", 1.5);
+    const double ratio = index == 0.0 ? 1.0 : (checked(index, 1.0, 1e6, "ior") - 1.0) / (index + 1.0);
+    material.dielectric_specular = glm::vec3{static_cast<float>(ratio * ratio)};
+  }
+  material.double_sided = source.doubleSided;
+  convert_alpha(source, material);
+  convert_maps(source, material);
+  warn_left_out(source);
+  return material;
+}
+
+void GltfMaterials::convert_maps(const tinygltf::Material& source, Material& material) {
+  const auto& pbr = source.pbrMetallicRoughness;
+  const auto image_of = [&](int texture) { return document_.model.textures[static_cast<std::size_t>(texture)].source; };
+  const auto& color = pbr.baseColorTexture;
+  if ((material.base_color_map = find_map(color.index, color.texCoord, color.extensions))) {
+    material.base_color_map->image = base_color(image_of(color.index));
+  }
+  const auto& rough = pbr.metallicRoughnessTexture;
+  if ((material.metallic_roughness_map = find_map(rough.index, rough.texCoord, rough.extensions))) {
+    material.metallic_roughness_map->image = metallic_roughness(image_of(rough.index), material);
+  }
+  const auto& normal = source.normalTexture;
+  if ((material.normal_map = find_map(normal.index, normal.texCoord, normal.extensions))) {
+    material.normal_map->image =
+        normals(image_of(normal.index), checked(normal.scale, -1e4, 1e4, "normalTexture.scale"));
+  }
+}
+
+void GltfMaterials::convert_alpha(const tinygltf::Material& source, Material& material) {
+  if (source.alphaMode == "MASK") {
+    material.alpha_cutoff = checked(source.alphaCutoff, 0.0, 1e6, "alphaCutoff");
+  } else if (source.alphaMode == "BLEND") {
+    add_once(warnings_, "alphaMode BLEND: blended materials are drawn opaque");
+  } else if (source.alphaMode != "OPAQUE") {
+    fail("alphaMode", fmt::format("`{:.40}` is none of OPAQUE, MASK, BLEND", source.alphaMode));
+  }
+}
+
+void GltfMaterials::warn_left_out(const tinygltf::Material& source) {
+  const bool emits = std::ranges::any_of(source.emissiveFactor, [](double value) { return value != 0.0; });
+  if (emits) add_once(warnings_, "emissive light is left out");
+  if (source.occlusionTexture.index >= 0) add_once(warnings_, "occlusion textures are left out");
+}
+
+std::optional<TextureMap> GltfMaterials::find_map(int texture_index, int set,
+                                                  const tinygltf::ExtensionMap& extensions) {
+  if (texture_index < 0) return std::nullopt;
+  const auto& texture = document_.model.textures[static_cast<std::size_t>(texture_index)];
+  const std::string place = fmt::format("textures[{}]", texture_index);
+  if (texture.source < 0) {
+    add_once(warnings_, place + " has no PNG or JPEG image and is left out");
+    return std::nullopt;
+  }
+  TextureMap map;
+  map.name = image_name(document_.model.images[static_cast<std::size_t>(texture.source)], texture.source);
+  map.coordinates.set = set;
+  if (const auto transform = extensions.find("KHR_texture_transform"); transform != extensions.end()) {
+    apply_transform(transform->second, map.coordinates);
+  }
+  if (map.coordinates.set < 0 || map.coordinates.set > 1) {
+    add_once(warnings_, fmt::format("{} uses texture coordinate set {}, only 0 and 1 are read: it is left out", place,
+                                    map.coordinates.set));
+    return std::nullopt;
+  }
+  if (texture.sampler >= 0) {
+    const auto& sampler = document_.model.samplers[static_cast<std::size_t>(texture.sampler)];
+    const std::string sampler_place = fmt::format("samplers[{}]", texture.sampler);
+    map.coordinates.wrap = {wrap_mode(sampler.wrapS, sampler_place), wrap_mode(sampler.wrapT, sampler_place)};
+  }
+  return map;
+}
+
+const Image& GltfMaterials::stored(int index, Transfer transfer) {
+  const auto key = std::pair{index, transfer};
+  if (const auto known = stored_.find(key); known != stored_.end()) return known->second;
+  const auto& image = document_.model.images[static_cast<std::size_t>(index)];
+  // No bytes: tinygltf could not read the file. Reading it again says why.
+  Image decoded = image.image.empty()
+                      ? read_image(document_.file.parent_path() / image.uri, transfer)
+                      : read_image(std::span<const std::uint8_t>{image.image}, image_name(image, index), transfer);
+  return stored_.emplace(key, std::move(decoded)).first->second;
+}
+
+GltfMaterials::MapPointer GltfMaterials::base_color(int image) {
+  auto& map = maps_[fmt::format("{} color", image)];
+  if (!map) map = std::make_shared<const Image>(to_rgba(stored(image, Transfer::srgb)));
+  return map;
+}
+
+GltfMaterials::MapPointer GltfMaterials::metallic_roughness(int image, const Material& material) {
+  auto& map = maps_[fmt::format("{} rough {} {}", image, material.roughness, material.metallic)];
+  if (!map) {
+    map = std::make_shared<const Image>(
+        decode_metallic_roughness(stored(image, Transfer::linear), material.roughness, material.metallic));
+  }
+  return map;
+}
+
+GltfMaterials::MapPointer GltfMaterials::normals(int image, double scale) {
+  auto& map = maps_[fmt::format("{} normal {}", image, scale)];
+  if (map) return map;
+  NormalMap decoded = decode_normal_map(stored(image, Transfer::linear), scale);
+  const std::string name = image_name(document_.model.images[static_cast<std::size_t>(image)], image);
+  for (std::string& line : describe_faults(decoded, name)) add_once(warnings_, std::move(line));
+  return map = std::make_shared<const Image>(std::move(decoded.image));
+}
+
+}  // namespace footprint

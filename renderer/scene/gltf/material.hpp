@@ -1,0 +1,51 @@
+// glTF materials and their textures, converted when first used.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "renderer/image/image_io.hpp"
+#include "renderer/scene/gltf/document.hpp"
+#include "renderer/scene/material.hpp"
+
+namespace footprint {
+
+/// Converts the materials that meshes ask for; textures that several use are decoded once and shared.
+class GltfMaterials {
+ public:
+  /// Both must outlive this. Warnings about what is left out are added to `warnings`, once each.
+  GltfMaterials(const GltfDocument& document, std::vector<std::string>& warnings)
+      : document_(document), warnings_(warnings) {}
+
+  /// The place in `materials()` of glTF material `gltf_index`; -1 is glTF's default material. Errors (usage) name
+  /// material and texture: an image that is missing, empty, no image or of hostile size, factors that are not finite.
+  [[nodiscard]] int use(int gltf_index);
+
+  [[nodiscard]] const std::vector<Material>& materials() const { return materials_; }
+
+ private:
+  using MapPointer = std::shared_ptr<const Image>;
+
+  [[nodiscard]] Material convert(int gltf_index);
+  [[nodiscard]] Material convert_named(int gltf_index);
+  void convert_maps(const tinygltf::Material& source, Material& material);
+  void convert_alpha(const tinygltf::Material& source, Material& material);
+  void warn_left_out(const tinygltf::Material& source);
+  [[nodiscard]] std::optional<TextureMap> find_map(int texture, int set, const tinygltf::ExtensionMap& extensions);
+  [[nodiscard]] const Image& stored(int index, Transfer transfer);
+  [[nodiscard]] MapPointer base_color(int image);
+  [[nodiscard]] MapPointer metallic_roughness(int image, const Material& material);
+  [[nodiscard]] MapPointer normals(int image, double scale);
+
+  const GltfDocument& document_;
+  std::vector<std::string>& warnings_;
+  std::vector<Material> materials_;
+  std::map<int, int> places_;
+  std::map<std::pair<int, Transfer>, Image> stored_;  ///< as in the files, for this conversion only
+  std::map<std::string, MapPointer> maps_;            ///< decoded, by image, use and factors
+};
+
+}  // namespace footprint

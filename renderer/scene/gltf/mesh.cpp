@@ -1,0 +1,215 @@
+// See mesh.hpp.
+#include "renderer/scene/gltf/mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+
+#include "renderer/core/error.hpp"
+#include "renderer/scene/geometry.hpp"
+#include "renderer/scene/gltf/accessor.hpp"
+#include "renderer/scene/model.hpp"
+
+namespace footprint {
+namespace {
+
+[[noreturn]] void fail(const std::string& place, const std::string& message) {
+  throw Error(ErrorKind::usage, place, message, "repair the file or export it again");
+}
+
+/// One primitive on its way; `has_*` say what the file gives.
+struct Builder {
+  const tinygltf::Model& model;
+  const tinygltf::Primitive& primitive;
+  std::vector<std::string>& warnings;
+  std::string place;  ///< for warnings
+
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices;
+  bool has_normals = false, has_tangents = false;
+
+  void warn(std::size_t count, const char* what) const {
+    if (count > 0) add_once(warnings, fmt::format("{}: {} {}", place, count, what));
+  }
+};
+
+/// The attribute's values, or none where the primitive lacks it. All attributes have as many elements as POSITION.
+std::vector<float> read_attribute(const Builder& builder, const std::string& name, int components) {
+  const auto found = builder.primitive.attributes.find(name);
+  if (found == builder.primitive.attributes.end()) return {};
+  auto values = read_floats(builder.model, found->second, components);
+  const std::size_t count = values.size() / static_cast<std::size_t>(components);
+  if (!builder.vertices.empty() && count != builder.vertices.size()) {
+    fail(name, fmt::format("has {} elements, POSITION has {}", count, builder.vertices.size()));
+  }
+  return values;
+}
+
+void read_positions(Builder& builder) {
+  const auto values = read_attribute(builder, "POSITION", 3);
+  builder.vertices.resize(values.size() / 3);
+  for (std::size_t i = 0; i < builder.vertices.size(); ++i) {
+    const glm::vec3 position{values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!std::isfinite(position[axis])) fail(fmt::format("vertex {}", i), "the position is not finite");
+    }
+    builder.vertices[i].position = position;
+  }
+}
+
+void read_frames(Builder& builder) {
+  const auto normals = read_attribute(builder, "NORMAL", 3);
+  const auto tangents = read_attribute(builder, "TANGENT", 4);
+  builder.has_normals = !normals.empty();
+  builder.has_tangents = builder.has_normals && !tangents.empty();  // glTF 2.0: tangents without normals are ignored
+  for (std::size_t i = 0; i < builder.vertices.size(); ++i) {
+    Vertex& vertex = builder.vertices[i];
+    if (builder.has_normals) vertex.normal = {normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]};
+    if (builder.has_tangents) {
+      vertex.tangent = {tangents[4 * i], tangents[4 * i + 1], tangents[4 * i + 2], tangents[4 * i + 3]};
+    }
+  }
+}
+
+/// Reads one set; coordinates that are not finite, or so large that a float holds no fraction, become 0.
+bool read_texture_coordinates(Builder& builder, const std::string& name, glm::vec2 Vertex::*member) {
+  constexpr float largest = 1e6F;
+  const auto values = read_attribute(builder, name, 2);
+  std::size_t replaced = 0;
+  for (std::size_t i = 0; i < values.size() / 2; ++i) {
+    const glm::vec2 uv{values[2 * i], values[2 * i + 1]};
+    const bool usable = std::abs(uv.x) <= largest && std::abs(uv.y) <= largest;  // false for NaN
+    replaced += usable ? 0 : 1;
+    builder.vertices[i].*member = usable ? uv : glm::vec2{0.0F};
+  }
+  builder.warn(replaced, "texture coordinates that are not usable were set to 0");
+  return !values.empty();
+}
+
+void check_map_coordinates(const Builder& builder, const Material& material, bool has_set0, bool has_set1) {
+  for (const auto* map : {&material.base_color_map, &material.metallic_roughness_map, &material.normal_map}) {
+    if (!map->has_value()) continue;
+    const int set = (*map)->coordinates.set;
+    if (set == 0 ? has_set0 : has_set1) continue;
+    add_once(builder.warnings, fmt::format("{}: no TEXCOORD_{} for the maps of `{}`, its maps show one texel",
+                                           builder.place, set, material.name));
+  }
+}
+
+void read_triangles(Builder& builder) {
+  std::vector<std::uint32_t> list;
+  if (builder.primitive.indices >= 0) {
+    list = read_indices(builder.model, builder.primitive.indices);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (list[i] >= builder.vertices.size()) {
+        fail(fmt::format("index {}", i), fmt::format("names vertex {} of {}", list[i], builder.vertices.size()));
+      }
+    }
+  } else {
+    list.resize(builder.vertices.size());
+    for (std::uint32_t i = 0; i < list.size(); ++i) list[i] = i;
+  }
+  const int mode = builder.primitive.mode;
+  const Topology topology = mode == TINYGLTF_MODE_TRIANGLE_STRIP ? Topology::strip
+                            : mode == TINYGLTF_MODE_TRIANGLE_FAN ? Topology::fan
+                                                                 : Topology::triangles;
+  builder.indices = triangle_list(list, topology);
+  if (topology == Topology::triangles) builder.warn(list.size() % 3, "indices left over that make no triangle");
+}
+
+/// Into the world. Normals go by the inverse transpose, which is the cofactor matrix over the determinant; a mirroring
+/// transform turns the winding and the handedness of the tangent frame round.
+void transform(Builder& builder, const glm::dmat4& world) {
+  constexpr double farthest = 1e15;  // squares of it still fit a float
+  const glm::dmat3 linear{world};
+  const double determinant = glm::determinant(linear);
+  const double sign = determinant < 0.0 ? -1.0 : 1.0;
+  const glm::dmat3 cofactors{glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                             glm::cross(linear[0], linear[1])};
+  for (std::size_t i = 0; i < builder.vertices.size(); ++i) {
+    Vertex& vertex = builder.vertices[i];
+    const glm::dvec3 position{world * glm::dvec4{glm::dvec3{vertex.position}, 1.0}};
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(std::abs(position[axis]) <= farthest)) {
+        fail(fmt::format("vertex {}", i), fmt::format("lies beyond {:g} m in the world", farthest));
+      }
+    }
+    vertex.position = glm::vec3{position};
+    // Through double and scaled to about 1: tiny node scales would underflow in float.
+    const glm::dvec3 normal = sign * (cofactors * glm::dvec3{vertex.normal});
+    const glm::dvec3 tangent = linear * glm::dvec3{vertex.tangent};
+    const double normal_length = glm::length(normal), tangent_length = glm::length(tangent);
+    vertex.normal = normal_length > 0.0 ? glm::vec3{normal / normal_length} : glm::vec3{0.0F};
+    const glm::vec3 direction = tangent_length > 0.0 ? glm::vec3{tangent / tangent_length} : glm::vec3{0.0F};
+    vertex.tangent = {direction, (vertex.tangent.w < 0.0F ? -1.0F : 1.0F) * static_cast<float>(sign)};
+  }
+  if (determinant < 0.0) {
+    for (std::size_t i = 0; i + 2 < builder.indices.size(); i += 3) {
+      std::swap(builder.indices[i + 1], builder.indices[i + 2]);
+    }
+  }
+}
+
+void complete_frames(Builder& builder, const Material& material) {
+  if (builder.has_normals) {
+    builder.warn(repair_normals(builder.vertices, builder.indices),
+                 "normals without a direction were replaced by the triangles' own");
+  } else {
+    make_flat_normals(builder.vertices, builder.indices);
+  }
+  if (builder.has_tangents) {
+    builder.warn(repair_tangents(builder.vertices), "tangents without a direction were replaced");
+  } else {
+    compute_tangents(builder.vertices, builder.indices,
+                     material.normal_map ? material.normal_map->coordinates : TextureCoordinates{});
+  }
+}
+
+std::optional<Mesh> convert(Builder& builder, const glm::dmat4& world, const Material& material) {
+  const int mode = builder.primitive.mode;
+  if (mode < TINYGLTF_MODE_POINTS || mode > TINYGLTF_MODE_TRIANGLE_FAN)
+    fail("mode", fmt::format("{} is none of 0 to 6", mode));
+  if (mode < TINYGLTF_MODE_TRIANGLES) {
+    add_once(builder.warnings, "points and lines are left out");
+    return std::nullopt;
+  }
+  if (builder.primitive.extensions.contains("KHR_draco_mesh_compression") &&
+      !builder.primitive.attributes.contains("POSITION")) {
+    fail("KHR_draco_mesh_compression", "compressed geometry is not supported");
+  }
+  read_positions(builder);
+  if (builder.vertices.empty()) {
+    add_once(builder.warnings, builder.place + " has no POSITION and is left out");
+    return std::nullopt;
+  }
+  read_frames(builder);
+  const bool has_set0 = read_texture_coordinates(builder, "TEXCOORD_0", &Vertex::uv0);
+  const bool has_set1 = read_texture_coordinates(builder, "TEXCOORD_1", &Vertex::uv1);
+  check_map_coordinates(builder, material, has_set0, has_set1);
+  if (!builder.primitive.targets.empty()) add_once(builder.warnings, "morph targets are left out");
+  read_triangles(builder);
+  if (builder.indices.empty()) return std::nullopt;
+  transform(builder, world);
+  drop_unused_vertices(builder.vertices, builder.indices);
+  complete_frames(builder, material);
+  return Mesh{builder.place, std::move(builder.vertices), std::move(builder.indices), 0};
+}
+
+}  // namespace
+
+std::optional<Mesh> convert_primitive(const tinygltf::Model& model, int mesh_index, int primitive_index,
+                                      const glm::dmat4& world, const Material& material,
+                                      std::vector<std::string>& warnings) {
+  const auto& mesh = model.meshes[static_cast<std::size_t>(mesh_index)];
+  Builder builder{model,    mesh.primitives[static_cast<std::size_t>(primitive_index)],
+                  warnings, fmt::format("mesh {} `{:.80}`, primitive {}", mesh_index, mesh.name, primitive_index),
+                  {},       {}};
+  try {
+    return convert(builder, world, material);
+  } catch (const Error& error) {
+    throw error.within(builder.place);
+  }
+}
+
+}  // namespace footprint

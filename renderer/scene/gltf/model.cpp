@@ -1,0 +1,171 @@
+// See model.hpp.
+#include "renderer/scene/gltf/model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <map>
+
+#include "renderer/core/error.hpp"
+#include "renderer/core/interrupt.hpp"
+#include "renderer/scene/gltf/accessor.hpp"
+#include "renderer/scene/gltf/check.hpp"
+#include "renderer/scene/gltf/document.hpp"
+#include "renderer/scene/gltf/lights_cameras.hpp"
+#include "renderer/scene/gltf/material.hpp"
+#include "renderer/scene/gltf/mesh.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr int deepest_node = 1000;
+
+[[noreturn]] void fail(const std::string& place, const std::string& message,
+                       const std::string& mend = "repair the file or export it again") {
+  throw Error(ErrorKind::usage, place, message, mend);
+}
+
+glm::dvec3 vector_or(const std::vector<double>& values, double otherwise) {
+  return values.size() == 3 ? glm::dvec3{values[0], values[1], values[2]} : glm::dvec3{otherwise};
+}
+
+/// A node's own transform: its matrix, or translation * rotation * scale.
+glm::dmat4 local_transform(const tinygltf::Node& node, const std::string& place) {
+  glm::dmat4 local{1.0};
+  if (node.matrix.size() == 16) {
+    for (int i = 0; i < 16; ++i) local[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
+    return local;
+  }
+  if (node.rotation.size() == 4) {
+    const auto& q = node.rotation;  // x, y, z, w
+    const glm::dquat rotation{q[3], q[0], q[1], q[2]};
+    const double length = glm::length(rotation);
+    if (!std::isfinite(length) || length < 1e-6) fail(place, "the rotation has no length");
+    local = glm::mat4_cast(rotation / length);
+  }
+  const glm::dvec3 scale = vector_or(node.scale, 1.0);
+  for (int axis = 0; axis < 3; ++axis) local[axis] *= scale[axis];
+  local[3] = glm::dvec4{vector_or(node.translation, 0.0), 1.0};
+  return local;
+}
+
+std::vector<int> root_nodes(const tinygltf::Model& model) {
+  if (!model.scenes.empty()) {
+    return model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))].nodes;
+  }
+  std::vector<bool> is_child(model.nodes.size(), false);
+  for (const auto& node : model.nodes) {
+    for (const int child : node.children) is_child[static_cast<std::size_t>(child)] = true;
+  }
+  std::vector<int> roots;
+  for (std::size_t i = 0; i < is_child.size(); ++i) {
+    if (!is_child[i]) roots.push_back(static_cast<int>(i));
+  }
+  return roots;
+}
+
+/// Walks the hierarchy and gathers what the nodes hold.
+class Gatherer {
+ public:
+  Gatherer(const GltfDocument& document, Model& result)
+      : document_(document), result_(result), materials_(document, result.warnings) {}
+
+  void gather() {
+    std::vector<Pending> stack;
+    std::vector<bool> seen(document_.model.nodes.size(), false);
+    const auto push = [&](const std::vector<int>& nodes, const glm::dmat4& parent, int depth) {
+      std::for_each(nodes.rbegin(), nodes.rend(), [&](int node) { stack.push_back({node, parent, depth}); });
+    };
+    push(root_nodes(document_.model), glm::dmat4{1.0}, 1);
+    while (!stack.empty()) {
+      throw_if_interrupted();
+      const auto [index, parent, depth] = stack.back();
+      stack.pop_back();
+      const std::string place = fmt::format("nodes[{}]", index);
+      if (seen[static_cast<std::size_t>(index)]) {
+        fail(place, "is reached twice: the nodes are a cycle or share a child, glTF wants a tree");
+      }
+      seen[static_cast<std::size_t>(index)] = true;
+      if (depth > deepest_node) fail(place, fmt::format("lies more than {} nodes deep", deepest_node));
+      const auto& node = document_.model.nodes[static_cast<std::size_t>(index)];
+      const glm::dmat4 world = parent * local_transform(node, place);
+      gather_node(node, world);
+      push(node.children, world, depth + 1);
+    }
+    result_.materials = materials_.materials();
+    for (auto& [material, mesh] : meshes_) result_.meshes.push_back(std::move(mesh));
+  }
+
+ private:
+  struct Pending {
+    int node;
+    glm::dmat4 parent;
+    int depth;
+  };
+
+  void gather_node(const tinygltf::Node& node, const glm::dmat4& world) {
+    if (node.camera >= 0 && !result_.camera) result_.camera = convert_camera(document_.model, node.camera, world);
+    if (const auto light = node.extensions.find("KHR_lights_punctual"); light != node.extensions.end()) {
+      result_.lights.push_back(convert_light(document_.model, light->second.Get("light").GetNumberAsInt(), world));
+    }
+    if (node.skin >= 0) add_once(result_.warnings, "skins are left out: meshes stand in their rest pose");
+    if (node.mesh < 0) return;
+    const auto& mesh = document_.model.meshes[static_cast<std::size_t>(node.mesh)];
+    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+      const int material = materials_.use(mesh.primitives[i].material);
+      auto part = convert_primitive(document_.model, node.mesh, static_cast<int>(i), world,
+                                    materials_.materials()[static_cast<std::size_t>(material)], result_.warnings);
+      if (part) merge(std::move(*part), material);
+    }
+  }
+
+  /// One mesh per material: fewer draw calls.
+  void merge(Mesh part, int material) {
+    index_count_ += part.indices.size();
+    if (index_count_ / 3 > largest_element_count) {
+      fail({}, fmt::format("more than {} triangles", largest_element_count), "use a smaller model");
+    }
+    Mesh& whole = meshes_[material];
+    whole.name = materials_.materials()[static_cast<std::size_t>(material)].name;
+    whole.material = material;
+    const auto base = static_cast<std::uint32_t>(whole.vertices.size());
+    whole.vertices.insert(whole.vertices.end(), part.vertices.begin(), part.vertices.end());
+    for (const std::uint32_t index : part.indices) whole.indices.push_back(base + index);
+  }
+
+  const GltfDocument& document_;
+  Model& result_;
+  GltfMaterials materials_;
+  std::map<int, Mesh> meshes_;
+  std::uint64_t index_count_ = 0;
+};
+
+void warn_left_out(const tinygltf::Model& source, Model& result) {
+  const auto supported = supported_gltf_extensions();
+  for (const std::string& name : source.extensionsUsed) {
+    if (std::ranges::find(supported, name) == supported.end()) {
+      add_once(result.warnings, fmt::format("extension {:.80} is left out", name));
+    }
+  }
+  if (!source.animations.empty()) add_once(result.warnings, "animations are left out");
+  const auto cameras = std::ranges::count_if(source.nodes, [](const auto& node) { return node.camera >= 0; });
+  if (cameras > 1) add_once(result.warnings, fmt::format("the first of {} cameras is used", cameras));
+}
+
+}  // namespace
+
+Model load_gltf(const std::filesystem::path& file) {
+  const GltfDocument document = read_gltf(file);
+  Model result;
+  warn_left_out(document.model, result);
+  try {
+    Gatherer(document, result).gather();
+  } catch (const Error& error) {
+    throw error.within(file.string());
+  }
+  return result;
+}
+
+}  // namespace footprint

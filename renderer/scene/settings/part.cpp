@@ -1,0 +1,391 @@
+// See part_settings.hpp.
+#include "renderer/scene/settings/part.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <map>
+
+#include "renderer/scene/settings/toml_values.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr NumberRange repeats{1e-3, 1e4};  // of a map along u or v
+constexpr NumberRange lobe_weight{1e-6, 1e3};
+
+constexpr double lowest_axis = 1e-3;  // a lobe on the horizon would lie below it half of the time
+
+const std::vector<std::string> surface_keys{"name", "resolution", "seed", "parameters"};
+
+ModelSettings read_model(const TomlTable& table, const std::filesystem::path& folder) {
+  if (table.has("file") == table.has("files")) {
+    throw table.error_at("file", "or `files` must be given, and only one of them", "name the model file to draw");
+  }
+  ModelSettings model;
+  const auto files = table.has("file") ? std::vector{*table.word("file")} : *table.words("files");
+  for (const std::string& name : files) model.candidates.push_back(folder / name);
+  model.package = table.word("package").value_or("");
+  model.unwrap = table.boolean("unwrap").value_or(false);
+  return model;
+}
+
+PlaneSettings read_plane(const TomlTable& table, const std::filesystem::path& folder) {
+  PlaneSettings plane;
+  if (const auto size = table.numbers("size", 2, length_range)) plane.size = {(*size)[0], (*size)[1]};
+  const auto file = [&](std::string_view key) -> std::optional<std::filesystem::path> {
+    const auto name = table.word(key);
+    return name ? std::optional{folder / *name} : std::nullopt;
+  };
+  plane.normal_map = file("normal_map");
+  plane.base_color_map = file("base_color_map");
+  plane.metallic_roughness_map = file("metallic_roughness_map");
+  plane.normal_scale = table.number("normal_scale", {-100.0, 100.0}).value_or(plane.normal_scale);
+  plane.roughness = static_cast<float>(table.number("roughness", unit_range).value_or(plane.roughness));
+  plane.metallic = static_cast<float>(table.number("metallic", unit_range).value_or(plane.metallic));
+  return plane;
+}
+
+// What the parameter of a distribution's lobe is called.
+std::string_view lobe_key(NormalDistribution distribution) {
+  switch (distribution) {
+    case NormalDistribution::blinn_phong:
+      return "exponent";
+    case NormalDistribution::vmf:
+      return "kappa";
+    case NormalDistribution::beckmann:
+    case NormalDistribution::ggx:
+      break;
+  }
+  return "alpha";
+}
+
+/// The one of exponent, alpha and kappa that the table has, if any; it must be the distribution's own.
+std::optional<std::string_view> find_lobe(const TomlTable& table, std::optional<NormalDistribution> distribution) {
+  std::optional<std::string_view> found;
+  for (const std::string_view key : {"exponent", "alpha", "kappa"}) {
+    if (!table.has(key)) continue;
+    if (found) throw table.error_at(key, "is one lobe parameter too many", "give one of exponent, alpha, kappa");
+    if (key != lobe_key(distribution.value_or(NormalDistribution::ggx))) {
+      throw table.error_at(key, "does not belong to the distribution",
+                           "exponent: blinn_phong; alpha: beckmann, ggx; kappa: vmf");
+    }
+    found = key;
+  }
+  return found;
+}
+
+std::optional<float> read_lobe(const TomlTable& table, std::optional<NormalDistribution> distribution) {
+  const auto key = find_lobe(table, distribution);
+  if (!key) return std::nullopt;
+  return static_cast<float>(*table.number(*key, lobe_range(distribution.value_or(NormalDistribution::ggx))));
+}
+
+glm::vec3 read_axis(const TomlTable& table) {
+  const auto axis = read_direction(table, "axis");
+  if (!axis) refuse_missing(table, "axis");
+  if (axis->z < lowest_axis) {
+    throw table.error_at("axis", "does not rise above the horizon",
+                         "its z is along the normal: [0.7, 0, 0.7] leans by 45 degrees");
+  }
+  return glm::vec3{*axis};
+}
+
+/// The lobes of [[brdf.lobe]]: all with a weight, or none, and then the weights are equal and sum to one.
+std::vector<FacetLobe> read_lobes(const TomlTable& brdf, std::optional<NormalDistribution> distribution) {
+  std::vector<FacetLobe> lobes;
+  const auto tables = brdf.tables("lobe", {"axis", "exponent", "alpha", "kappa", "weight"});
+  if (tables.size() > most_facet_lobes) {
+    throw brdf.error_at(
+        "lobe",
+        fmt::format("stands {} times, more often than the {} lobes there may be", tables.size(), most_facet_lobes),
+        "leave out the weakest");
+  }
+  for (const TomlTable& table : tables) {
+    const auto parameter = read_lobe(table, distribution);
+    if (!parameter) refuse_missing(table, lobe_key(distribution.value_or(NormalDistribution::ggx)));
+    if (table.has("weight") != tables.front().has("weight")) {
+      throw table.error_at("weight", "stands in some lobes and not in others", "give every lobe a weight, or none");
+    }
+    const double equal = 1.0 / static_cast<double>(tables.size());
+    lobes.push_back(
+        {read_axis(table), *parameter, static_cast<float>(table.number("weight", lobe_weight).value_or(equal))});
+  }
+  return lobes;
+}
+
+/// What one comparison needs of every part alike.
+BrdfSettings read_common_brdf(const TomlTable& table) {
+  BrdfSettings brdf;
+  if (const auto i = table.choice("distribution", {"blinn_phong", "beckmann", "ggx", "vmf"})) {
+    brdf.distribution = static_cast<NormalDistribution>(*i);
+  }
+  if (const auto i = table.choice("geometry", {"none", "tan", "smith"})) brdf.geometry = static_cast<GeometryTerm>(*i);
+  if (const auto i = table.choice("fresnel", {"none", "schlick"})) brdf.fresnel = static_cast<FresnelTerm>(*i);
+  brdf.diffuse = table.boolean("diffuse");
+  return brdf;
+}
+
+/// What is a part's own, beside the `common` that it shares.
+BrdfSettings read_own_brdf(const TomlTable& table, const BrdfSettings& common) {
+  BrdfSettings brdf = common;
+  brdf.lobe_parameter = read_lobe(table, brdf.distribution);
+  brdf.lobes = read_lobes(table, brdf.distribution);
+  if (brdf.lobe_parameter && !brdf.lobes.empty()) {
+    throw table.error_at("lobe", "excludes a lobe parameter of [brdf]", "give each lobe its own alone");
+  }
+  brdf.specular = read_color(table, "specular");
+  brdf.base_color = read_color(table, "base_color");
+  return brdf;
+}
+
+std::optional<MapFile> read_map(const TomlTable& maps, std::string_view key, const std::filesystem::path& folder) {
+  const auto table = maps.table(key, {"file", "uv"});
+  if (!table) return std::nullopt;
+  const auto name = table->word("file");
+  if (!name) refuse_missing(*table, "file");
+  MapFile map{folder / *name, std::nullopt};
+  if (const auto uv = table->numbers("uv", 2, repeats)) map.uv = {(*uv)[0], (*uv)[1]};
+  return map;
+}
+
+MapSettings read_maps(const TomlTable& table, const BrdfSettings& brdf, const std::filesystem::path& folder) {
+  MapSettings maps;
+  const auto lobe = find_lobe(table, brdf.distribution);
+  const auto refuse_width = [&](bool refused, const std::string& message, const std::string& mend) {
+    const std::string_view key = lobe.value_or("roughness");
+    if (refused && table.has(key)) throw table.error_at(key, message, mend);
+  };
+  refuse_width(lobe && table.has("roughness"), "excludes a map of roughness", "give one of the two");
+  refuse_width(brdf.lobe_parameter.has_value(), "excludes a lobe parameter of [brdf]", "leave one of them out");
+  refuse_width(!brdf.lobes.empty(), "excludes [[brdf.lobe]]", "lobes have their own parameters: leave one of them out");
+  if (lobe) maps.lobe_parameter = read_map(table, *lobe, folder);
+  maps.roughness = read_map(table, "roughness", folder);
+  maps.specular = read_map(table, "specular", folder);
+  maps.diffuse = read_map(table, "diffuse", folder);
+  maps.material = read_map(table, "material", folder);
+  return maps;
+}
+
+/// The key `parameters`, each number and word checked where it stands.
+std::map<std::string, std::string> read_parameters(const TomlTable& table, const std::vector<OptionSpec>& specs) {
+  std::vector<std::string> names;
+  names.reserve(specs.size());
+  for (const OptionSpec& spec : specs) names.push_back(spec.name);
+  std::map<std::string, std::string> given;
+  const auto parameters = table.table("parameters", names);
+  if (!parameters) return given;
+  for (const OptionSpec& spec : specs) {
+    if (!spec.choices.empty()) {
+      if (const auto i = parameters->choice(spec.name, spec.choices)) given[spec.name] = spec.choices[*i];
+    } else if (spec.integer) {
+      if (const auto number = parameters->whole_number(spec.name, {spec.minimum, spec.maximum})) {
+        given[spec.name] = fmt::format("{}", *number);
+      }
+    } else if (const auto number = parameters->number(spec.name, {spec.minimum, spec.maximum})) {
+      given[spec.name] = fmt::format("{}", *number);
+    }
+  }
+  return given;
+}
+
+SurfaceContent read_surface(const TomlTable& table, std::span<const Surface> surfaces) {
+  std::vector<std::string> names;
+  for (const Surface& surface : surfaces) names.push_back(surface.name);
+  const auto place = table.choice("name", names);
+  if (!place) refuse_missing(table, "name");
+  const Surface& surface = surfaces[*place];
+  SurfaceSettings settings = surface_settings(surface, read_parameters(table, surface.parameters));
+  if (const auto resolution = table.whole_number("resolution", {1.0, largest_surface_resolution})) {
+    settings.resolution = static_cast<int>(*resolution);
+  }
+  if (const auto seed = table.whole_number("seed", {0.0, std::numeric_limits<std::uint32_t>::max()})) {
+    settings.seed = static_cast<std::uint32_t>(*seed);
+  }
+  return {&surface, std::move(settings)};
+}
+
+WardSettings read_ward(const TomlTable& table) {
+  WardSettings ward;
+  ward.alpha = table.number("alpha", {1e-2, 1.0}).value_or(ward.alpha);
+  ward.specular = read_color(table, "specular").value_or(ward.specular);
+  ward.diffuse = read_color(table, "diffuse").value_or(ward.diffuse);
+  return ward;
+}
+
+MicrogeometrySettings read_microgeometry(const TomlTable& table, const std::filesystem::path& folder) {
+  if (table.has("kind") == table.has("model")) {
+    throw table.error_at("kind", "or `model` must be given, and only one of them", "add kind = \"weave\"");
+  }
+  MicrogeometrySettings settings;
+  std::vector<std::string> names;
+  for (const PatchKind& kind : patch_kinds()) names.push_back(kind.name);
+  if (const auto place = table.choice("kind", names)) {
+    settings.kind = &patch_kinds()[*place];
+    settings.parameters = read_parameters(table, settings.kind->parameters);
+  } else {
+    settings.model = folder / *table.word("model");
+    if (table.has("parameters")) throw table.error_at("parameters", "belongs to a kind", "leave it out");
+  }
+  if (const auto period = table.numbers("period", 2, length_range)) {
+    if (settings.kind != nullptr) throw table.error_at("period", "belongs to a model", "leave it out");
+    settings.period = glm::vec2{(*period)[0], (*period)[1]};
+  }
+  if (const auto file = table.word("measured")) settings.measured = folder / *file;
+  if (const auto ward = table.table("ward", {"alpha", "specular", "diffuse"})) {
+    if (settings.measured) throw table.error_at("ward", "excludes `measured`", "give one of the two");
+    settings.ward = read_ward(*ward);
+  }
+  if (const auto seed = table.whole_number("seed", {0.0, std::numeric_limits<std::uint32_t>::max()})) {
+    settings.seed = static_cast<std::uint64_t>(*seed);
+  }
+  if (const auto resolution = table.whole_number("resolution", {1.0, 4096.0})) {
+    settings.resolution = static_cast<int>(*resolution);
+  }
+  return settings;
+}
+
+// [microgeometry], or several [[microgeometry]] with the map that chooses among them.
+std::vector<MicrogeometrySettings> read_patches(const TomlTable& table, const MapSettings& maps,
+                                                const std::filesystem::path& folder) {
+  const std::vector<std::string> keys{"kind", "model", "period",     "measured",
+                                      "ward", "seed",  "resolution", "parameters"};
+  std::vector<MicrogeometrySettings> patches;
+  if (table.is_table("microgeometry")) {
+    patches.push_back(read_microgeometry(*table.table("microgeometry", keys), folder));
+  } else {
+    const auto several = table.tables("microgeometry", keys);
+    for (const TomlTable& one : several) patches.push_back(read_microgeometry(one, folder));
+  }
+  if (patches.size() > most_surface_materials) {
+    throw table.error_at(
+        "microgeometry",
+        fmt::format("stands {} times, and a map of indices names at most {}", patches.size(), most_surface_materials),
+        "leave some out");
+  }
+  if (patches.size() > 1 && !maps.material) {
+    throw table.error_at("microgeometry", "stands several times without a map that chooses",
+                         "add [maps] material = { file = \"INDICES.png\" }");
+  }
+  if (patches.size() < 2 && maps.material) {
+    throw table.error_at("maps", "has a map of indices and nothing that it could choose among",
+                         "write several [[microgeometry]]");
+  }
+  return patches;
+}
+
+Placement read_placement(const TomlTable& table) {
+  Placement placement;
+  placement.translation = read_vector(table, "translate", coordinate_range).value_or(placement.translation);
+  const auto degrees = read_vector(table, "rotate_degrees", {-360.0, 360.0});
+  placement.rotation = glm::radians(degrees.value_or(placement.rotation));
+  placement.scale = table.number("scale", length_range).value_or(placement.scale);
+  return placement;
+}
+
+decltype(PartSettings::content) read_content(const TomlTable& table, const std::filesystem::path& folder,
+                                             std::span<const Surface> surfaces) {
+  const auto model = table.table("model", {"file", "files", "package", "unwrap"});
+  const auto plane = table.table("plane", {"size", "normal_map", "normal_scale", "base_color_map",
+                                           "metallic_roughness_map", "roughness", "metallic"});
+  const auto surface = table.table("surface", surface_keys);
+  if (!model && !plane && !surface) {
+    throw table.error_at("model", "or `plane` or `surface` must be given", "add model = { file = \"NAME.gltf\" }");
+  }
+  if (plane && (model || surface)) {
+    throw table.error_at("plane", "excludes `model` and `surface`", "give one of them, or each its own [[part]]");
+  }
+  if (plane) return read_plane(*plane, folder);
+  if (!model) return read_surface(*surface, surfaces);
+  if (!surface) return read_model(*model, folder);
+  return DressedModel{read_model(*model, folder), read_surface(*surface, surfaces)};
+}
+
+const std::vector<std::string> common_brdf_keys{"distribution", "geometry", "fresnel", "diffuse"};
+const std::vector<std::string> own_brdf_keys{"exponent", "alpha", "kappa", "specular", "base_color", "lobe"};
+
+LayerSettings read_layer(const TomlTable& table, const std::filesystem::path& folder,
+                         std::span<const Surface> surfaces) {
+  const auto surface = table.table("surface", surface_keys);
+  if (table.has("bump_map") + table.has("normal_map") + surface.has_value() != 1) {
+    throw table.error_at("bump_map", "or `normal_map` or `surface` must be given, and only one of them",
+                         "name the file of heights or of normals, or a surface");
+  }
+  LayerSettings layer;
+  if (surface) layer.content = read_surface(*surface, surfaces);
+  if (const auto name = table.word("normal_map")) layer.content = LayerFile{folder / *name, false};
+  if (const auto name = table.word("bump_map")) {
+    layer.content = LayerFile{folder / *name, true};
+    // No default suits heights: between a scratch and a mountain lie four powers of ten.
+    if (!table.has("strength")) refuse_missing(table, "strength");
+  }
+  if (const auto uv = table.numbers("uv", 2, repeats)) layer.uv = {(*uv)[0], (*uv)[1]};
+  layer.strength = table.number("strength", {-100.0, 100.0}).value_or(layer.strength);
+  return layer;
+}
+
+/// A part's content, layer, maps and tiling, with a BRDF that is read already.
+PartSettings read_part(const TomlTable& table, const BrdfSettings& brdf, const std::filesystem::path& folder,
+                       std::span<const Surface> surfaces) {
+  PartSettings part;
+  part.content = read_content(table, folder, surfaces);
+  part.brdf = brdf;
+  if (const auto layer = table.table("layer", {"bump_map", "normal_map", "surface", "uv", "strength"})) {
+    part.layer = read_layer(*layer, folder, surfaces);
+  }
+  if (const auto maps =
+          table.table("maps", {"roughness", "exponent", "alpha", "kappa", "specular", "diffuse", "material"})) {
+    part.maps = read_maps(*maps, part.brdf, folder);
+  }
+  part.microgeometry = read_patches(table, part.maps, folder);
+  if (const auto tiling = table.table("tiling", {"uv"})) {
+    if (const auto uv = tiling->numbers("uv", 2, repeats)) part.tiling = {(*uv)[0], (*uv)[1]};
+  }
+  return part;
+}
+
+/// The file itself as the only part.
+PartSettings read_only_part(const TomlTable& root, const std::filesystem::path& folder,
+                            std::span<const Surface> surfaces) {
+  std::vector<std::string> keys = common_brdf_keys;
+  keys.insert(keys.end(), own_brdf_keys.begin(), own_brdf_keys.end());
+  const auto brdf = root.table("brdf", keys);
+  return read_part(root, brdf ? read_own_brdf(*brdf, read_common_brdf(*brdf)) : BrdfSettings{}, folder, surfaces);
+}
+
+}  // namespace
+
+NumberRange lobe_range(NormalDistribution distribution) {
+  return lobe_key(distribution) == "alpha" ? NumberRange{1e-4, 1.0} : NumberRange{1e-3, 1e6};
+}
+
+const std::vector<std::string>& part_root_keys() {
+  static const std::vector<std::string> keys{"part", "model", "plane",         "surface", "layer",
+                                             "brdf", "maps",  "microgeometry", "tiling"};
+  return keys;
+}
+
+std::vector<PartSettings> read_parts(const TomlTable& root, const std::filesystem::path& folder,
+                                     std::span<const Surface> surfaces) {
+  if (!root.has("part")) return {read_only_part(root, folder, surfaces)};
+  for (const char* key : {"model", "plane", "surface", "layer", "maps", "microgeometry", "tiling"}) {
+    if (root.has(key)) throw root.error_at(key, "excludes [[part]]", "move it into a [[part]]");
+  }
+  const auto common_table = root.table("brdf", common_brdf_keys);
+  const BrdfSettings common = common_table ? read_common_brdf(*common_table) : BrdfSettings{};
+  std::vector<PartSettings> parts;
+  for (const TomlTable& table : root.tables("part", {"name", "model", "plane", "surface", "layer", "brdf", "maps",
+                                                     "microgeometry", "tiling", "place"})) {
+    const auto own = table.table("brdf", own_brdf_keys);
+    PartSettings& part =
+        parts.emplace_back(read_part(table, own ? read_own_brdf(*own, common) : common, folder, surfaces));
+    part.name = table.word("name").value_or("");
+    if (const auto place = table.table("place", {"translate", "rotate_degrees", "scale"})) {
+      part.placement = read_placement(*place);
+    }
+  }
+  if (parts.empty()) throw root.error_at("part", "is empty", "write at least one [[part]]");
+  return parts;
+}
+
+}  // namespace footprint

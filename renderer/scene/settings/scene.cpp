@@ -1,0 +1,164 @@
+// See scene_settings.hpp.
+#include "renderer/scene/settings/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "renderer/core/toml_table.hpp"
+#include "renderer/scene/settings/toml_values.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr NumberRange intensity{0.0, 1e12};       // candela or lux
+constexpr NumberRange field_of_view{0.1, 170.0};  // degrees
+constexpr NumberRange shadow_resolution{smallest_shadow_map, largest_shadow_map};
+
+const std::vector<std::string> light_types{"point", "spot", "directional"};
+
+float radians(double degrees) { return static_cast<float>(degrees * std::numbers::pi / 180.0); }
+
+void read_frame(const TomlTable& table, SceneSettings& settings) {
+  if (const auto size = table.numbers("size", 2, {1.0, 65536.0})) {
+    if ((*size)[0] != std::floor((*size)[0]) || (*size)[1] != std::floor((*size)[1])) {
+      throw table.error_at("size", "must be whole numbers of pixels", "write it as [512, 512]");
+    }
+    settings.frame_size = glm::ivec2{static_cast<int>((*size)[0]), static_cast<int>((*size)[1])};
+  }
+  if (table.is_word("exposure")) {
+    settings.automatic_exposure = table.choice("exposure", {"auto"}).has_value();
+  } else if (const auto exposure = table.number("exposure", {1e-9, 1e9})) {
+    settings.exposure = static_cast<float>(*exposure);
+  }
+}
+
+/// Rejects keys that another type of light has.
+void reject(const TomlTable& table, std::initializer_list<std::string_view> keys, const std::string& type) {
+  for (const std::string_view key : keys) {
+    if (table.has(key)) throw table.error_at(key, "does not belong to a " + type + " light", "leave it out");
+  }
+}
+
+SpotLight read_spot(const TomlTable& table, const PointLight& point, const glm::dvec3& towards) {
+  constexpr NumberRange cone{0.0, 90.0};
+  SpotLight spot{point, glm::vec3{towards}};
+  spot.inner_cone_angle = radians(table.number("inner_cone_degrees", cone).value_or(0.0));
+  spot.outer_cone_angle = radians(table.number("outer_cone_degrees", cone).value_or(45.0));
+  if (spot.inner_cone_angle >= spot.outer_cone_angle) {
+    throw table.error_at("inner_cone_degrees", "must be less than outer_cone_degrees", "swap or change them");
+  }
+  return spot;
+}
+
+Light read_light(const TomlTable& table) {
+  const auto type = table.choice("type", light_types);
+  if (!type) refuse_missing(table, "type");
+  const double strength = table.number("intensity", intensity).value_or(1.0);
+  const glm::vec3 power = read_color(table, "color").value_or(glm::vec3{1.0F}) * static_cast<float>(strength);
+  const bool needs_direction = *type != 0;
+  const auto towards = read_direction(table, "direction");
+  if (needs_direction && !towards) refuse_missing(table, "direction");
+  if (*type != 1) reject(table, {"inner_cone_degrees", "outer_cone_degrees"}, light_types[*type]);
+  if (*type == 2) {
+    reject(table, {"position", "range"}, light_types[*type]);
+    return DirectionalLight{glm::vec3{*towards}, power};
+  }
+  const auto position = read_vector(table, "position", coordinate_range);
+  if (!position) refuse_missing(table, "position");
+  PointLight point{glm::vec3{*position}, power, std::nullopt};
+  if (const auto range = table.number("range", length_range)) point.range = static_cast<float>(*range);
+  if (*type == 1) return read_spot(table, point, *towards);
+  reject(table, {"direction"}, light_types[*type]);
+  return point;
+}
+
+Camera read_placed_camera(const TomlTable& table) {
+  const auto position = read_vector(table, "position", coordinate_range),
+             target = read_vector(table, "target", coordinate_range);
+  if (!position) refuse_missing(table, "position");
+  if (!target) refuse_missing(table, "target");
+  if (glm::length(*position - *target) < 1e-9) {
+    throw table.error_at("target", "is where the camera stands", "move one of them");
+  }
+  Camera camera;
+  camera.world = look_at(*position, *target, read_direction(table, "up").value_or(glm::dvec3{0.0, 1.0, 0.0}));
+  camera.yfov = radians(table.number("yfov_degrees", field_of_view).value_or(34.4));
+  const double distance = glm::length(*position - *target);
+  camera.znear = static_cast<float>(table.number("znear", length_range).value_or(0.01 * distance));
+  if (const auto zfar = table.number("zfar", length_range)) {
+    if (*zfar <= camera.znear) throw table.error_at("zfar", "must be beyond znear", "make it larger");
+    camera.zfar = static_cast<float>(*zfar);
+  }
+  return camera;
+}
+
+void read_lights(const TomlTable& root, const std::filesystem::path& folder, SceneSettings& settings) {
+  for (const TomlTable& light : root.tables("light", {"type", "position", "direction", "color", "intensity", "range",
+                                                      "inner_cone_degrees", "outer_cone_degrees"})) {
+    settings.lights.push_back(read_light(light));
+  }
+  if (const auto lights = root.table("lights", {"keep"})) {
+    settings.keep_model_lights = lights->boolean("keep").value_or(true);
+  }
+  if (const auto environment = root.table("environment", environment_keys())) {
+    settings.environment = read_environment(*environment, folder);
+  }
+  if (const auto shadows = root.table("shadows", {"cast", "resolution"})) {
+    settings.shadows.cast = shadows->boolean("cast");
+    if (const auto texels = shadows->whole_number("resolution", shadow_resolution)) {
+      settings.shadows.resolution = static_cast<int>(*texels);
+    }
+  }
+}
+
+void read_view(const TomlTable& root, SceneSettings& settings) {
+  if (const auto frame = root.table("frame", {"size", "exposure"})) read_frame(*frame, settings);
+  if (const auto camera = root.table("camera", camera_keys())) settings.camera = read_camera(*camera);
+  if (const auto zoom = root.table("zoom", {"distances"})) {
+    if (auto distances = zoom->numbers("distances", 0, {smallest_distance, largest_distance}))
+      settings.distances = std::move(*distances);
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string>& camera_keys() {
+  static const std::vector<std::string> keys{"frame_bounds", "position", "target", "up",
+                                             "yfov_degrees", "znear",    "zfar"};
+  return keys;
+}
+
+CameraSettings read_camera(const TomlTable& table) {
+  const auto framed = table.table("frame_bounds", {"direction", "fov_degrees", "margin"});
+  if (!framed) return read_placed_camera(table);
+  for (const char* key : {"position", "target", "up", "yfov_degrees", "znear", "zfar"}) {
+    if (table.has(key)) throw table.error_at(key, "excludes frame_bounds", "give one or the other");
+  }
+  Framing framing;
+  framing.direction = read_direction(*framed, "direction").value_or(framing.direction);
+  if (const auto fov = framed->number("fov_degrees", field_of_view)) framing.yfov = radians(*fov);
+  framing.margin = framed->number("margin", {0.01, 1000.0}).value_or(framing.margin);
+  return framing;
+}
+
+SceneSettings read_scene_settings(const std::filesystem::path& file, std::span<const Surface> surfaces) {
+  const toml::table parsed = parse_toml_file(file);
+  std::vector<std::string> known{"scene", "frame", "light", "lights", "environment", "shadows", "camera", "zoom"};
+  known.insert(known.end(), part_root_keys().begin(), part_root_keys().end());
+  const TomlTable root(parsed, file, "", known);
+  SceneSettings settings;
+  if (const auto scene = root.table("scene", {"name", "description"})) {
+    settings.name = scene->word("name");
+    settings.description = scene->word("description").value_or("");
+  }
+  settings.parts = read_parts(root, file.parent_path(), surfaces);
+  read_lights(root, file.parent_path(), settings);
+  read_view(root, settings);
+  return settings;
+}
+
+}  // namespace footprint

@@ -1,0 +1,48 @@
+// scene.toml as a plain value; docs/scenes.md is its reference.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "renderer/core/toml_table.hpp"
+#include "renderer/scene/camera.hpp"
+#include "renderer/scene/scene.hpp"
+#include "renderer/scene/settings/environment.hpp"
+#include "renderer/scene/settings/part.hpp"
+
+namespace footprint {
+
+/// Where the camera stands: the model's own (or framed, where it has none), framed, or as given.
+using CameraSettings = std::variant<std::monostate, Framing, Camera>;
+
+/// All of a scene.toml; a default value is what a bare glTF file gets.
+struct SceneSettings {
+  std::optional<std::string> name;  ///< else the folder's
+  std::string description;          ///< for people who list scenes
+  std::vector<PartSettings> parts;  ///< at least one
+  std::optional<glm::ivec2> frame_size;
+  std::optional<float> exposure;
+  bool automatic_exposure = false;  ///< asked for by name, also with the supplied lights
+  std::vector<Light> lights;
+  bool keep_model_lights = true;
+  ShadowSettings shadows;
+  std::optional<EnvironmentSettings> environment;
+  CameraSettings camera;
+  std::vector<double> distances{1.0};
+};
+
+/// The keys of a [camera] table.
+[[nodiscard]] const std::vector<std::string>& camera_keys();
+
+/// Reads a [camera] table, of a scene.toml or of whatever else places a camera. Errors (usage) as below.
+[[nodiscard]] CameraSettings read_camera(const TomlTable& table);
+
+/// Reads a scene.toml, which may name one of `surfaces`. Relative paths in it start from its folder. Errors (usage)
+/// read "FILE:LINE: ...": not TOML, unknown keys with the nearest right one, wrong types, values out of range, settings
+/// that exclude each other.
+[[nodiscard]] SceneSettings read_scene_settings(const std::filesystem::path& file, std::span<const Surface> surfaces);
+
+}  // namespace footprint

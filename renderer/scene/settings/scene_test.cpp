@@ -1,0 +1,210 @@
+// scene.toml: every key read, every mistake named with its line.
+#include "renderer/scene/settings/scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "renderer/scene/gltf/test_builder.hpp"
+
+namespace footprint {
+namespace {
+
+SceneSettings read(const std::string& text) {
+  return read_scene_settings(test::write_file("settings/scene.toml", text), {});
+}
+
+void expect_error(const std::string& text, const std::vector<std::string>& wanted) {
+  const std::string error = test::usage_error([&] { return read(text); });
+  for (const std::string& words : wanted) {
+    EXPECT_NE(error.find(words), std::string::npos) << "wanted: " << words << "\ngot: " << error;
+  }
+}
+
+TEST(SceneSettings, EverythingIsRead) {
+  const SceneSettings settings = read(R"(
+[scene]
+name = "n"
+description = "d"
+[plane]
+size = [3, 2.5]
+normal_map = "bumps.png"
+normal_scale = 0.5
+roughness = 0.25
+metallic = 1
+[brdf]
+distribution = "beckmann"
+geometry = "tan"
+fresnel = "none"
+diffuse = false
+alpha = 0.2
+specular = [0.1, 0.2, 0.3]
+base_color = [0.4, 0.5, 0.6]
+[frame]
+size = [640, 480]
+exposure = 2
+[lights]
+keep = false
+[[light]]
+type = "point"
+position = [1, 2, 3]
+color = [1, 0.5, 0]
+intensity = 10
+range = 4
+[[light]]
+type = "spot"
+position = [0, 0, 1]
+direction = [0, 0, -2]
+inner_cone_degrees = 10
+outer_cone_degrees = 90
+[[light]]
+type = "directional"
+direction = [0, -3, 0]
+[shadows]
+cast = false
+resolution = 512
+[camera]
+frame_bounds = { direction = [0, 0, 2], fov_degrees = 90, margin = 2 }
+[zoom]
+distances = [1, 2, 16]
+[tiling]
+uv = [2, 3]
+)");
+  EXPECT_EQ(settings.name, "n");
+  const auto& plane = std::get<PlaneSettings>(settings.parts.at(0).content);
+  EXPECT_EQ(plane.size, glm::vec2(3.0F, 2.5F));
+  EXPECT_EQ(plane.normal_map->filename(), "bumps.png");
+  EXPECT_TRUE(plane.normal_map->is_absolute());
+  EXPECT_EQ(plane.normal_scale, 0.5);
+  EXPECT_EQ(plane.roughness, 0.25F);
+  EXPECT_EQ(plane.metallic, 1.0F);
+  EXPECT_EQ(settings.parts.at(0).brdf.distribution, NormalDistribution::beckmann);
+  EXPECT_EQ(settings.parts.at(0).brdf.geometry, GeometryTerm::tan);
+  EXPECT_EQ(settings.parts.at(0).brdf.fresnel, FresnelTerm::none);
+  EXPECT_EQ(settings.parts.at(0).brdf.diffuse, false);
+  EXPECT_EQ(settings.parts.at(0).brdf.lobe_parameter, 0.2F);
+  EXPECT_EQ(settings.parts.at(0).brdf.specular, glm::vec3(0.1F, 0.2F, 0.3F));
+  EXPECT_EQ(settings.parts.at(0).brdf.base_color, glm::vec3(0.4F, 0.5F, 0.6F));
+  EXPECT_EQ(settings.frame_size, glm::ivec2(640, 480));
+  EXPECT_EQ(settings.exposure, 2.0F);
+  EXPECT_FALSE(settings.keep_model_lights);
+  ASSERT_EQ(settings.lights.size(), 3U);
+  const auto& point = std::get<PointLight>(settings.lights[0]);
+  EXPECT_EQ(point.position, glm::vec3(1, 2, 3));
+  EXPECT_EQ(point.intensity, glm::vec3(10, 5, 0));
+  EXPECT_EQ(point.range, 4.0F);
+  const auto& spot = std::get<SpotLight>(settings.lights[1]);
+  EXPECT_EQ(spot.direction, glm::vec3(0, 0, -1));
+  EXPECT_FLOAT_EQ(spot.inner_cone_angle, std::numbers::pi_v<float> / 18.0F);
+  EXPECT_FLOAT_EQ(spot.outer_cone_angle, std::numbers::pi_v<float> / 2.0F);
+  EXPECT_EQ(std::get<DirectionalLight>(settings.lights[2]).direction, glm::vec3(0, -1, 0));
+  EXPECT_EQ(settings.shadows.cast, false);
+  EXPECT_EQ(settings.shadows.resolution, 512);
+  const auto& framing = std::get<Framing>(settings.camera);
+  EXPECT_EQ(framing.direction, glm::dvec3(0, 0, 1));
+  EXPECT_FLOAT_EQ(static_cast<float>(framing.yfov), std::numbers::pi_v<float> / 2.0F);
+  EXPECT_EQ(framing.margin, 2.0);
+  EXPECT_EQ(settings.distances, (std::vector<double>{1, 2, 16}));
+  EXPECT_EQ(settings.parts.at(0).tiling, glm::vec2(2, 3));
+}
+
+TEST(SceneSettings, PlacedCameraAndAutomaticExposure) {
+  const SceneSettings settings = read(
+      "[model]\nfile = \"a.gltf\"\n[frame]\nexposure = \"auto\"\n"
+      "[camera]\nposition = [0, 5, 0]\ntarget = [0, 0, 0]\nyfov_degrees = 60\nznear = 0.5\nzfar = 20\n");
+  EXPECT_TRUE(settings.automatic_exposure);
+  EXPECT_FALSE(settings.exposure);
+  const auto& camera = std::get<Camera>(settings.camera);
+  EXPECT_NEAR(camera.world[2].y, 1.0F, 1e-6F);  // looks down: +y is behind it, although up is +y too
+  EXPECT_EQ(camera.world[3], glm::vec4(0, 5, 0, 1));
+  EXPECT_FLOAT_EQ(camera.yfov, std::numbers::pi_v<float> / 3.0F);
+  EXPECT_EQ(camera.znear, 0.5F);
+  EXPECT_EQ(camera.zfar, 20.0F);
+}
+
+TEST(SceneSettings, ShadowsAreDerivedUnlessTold) {
+  EXPECT_FALSE(read("[plane]\n").shadows.cast);
+  EXPECT_FALSE(read("[plane]\n[shadows]\n").shadows.cast);
+  EXPECT_EQ(read("[plane]\n[shadows]\ncast = true\n").shadows.cast, true);
+  expect_error("[plane]\n[shadows]\ncast = \"on\"\n", {"scene.toml:3", "cast"});
+  expect_error("[plane]\n[shadows]\ncasts = true\n", {"scene.toml:3", "unknown key `casts`", "`cast`"});
+  expect_error("[plane]\n[shadows]\nresolution = 15\n", {"scene.toml:3", "resolution", "16"});
+  expect_error("[plane]\n[shadows]\nresolution = 100000\n", {"scene.toml:3", "resolution", "16384"});
+  expect_error("[plane]\n[shadows]\nresolution = 64.5\n", {"scene.toml:3", "resolution"});
+}
+
+TEST(SceneSettings, ALayerIsHeightsOrNormals) {
+  const SceneSettings settings = read("[plane]\n[layer]\nbump_map = \"h.png\"\nuv = [8, 4]\nstrength = 0.02");
+  ASSERT_TRUE(settings.parts.front().layer);
+  EXPECT_TRUE(std::get<LayerFile>(settings.parts.front().layer->content).heights);
+  EXPECT_EQ(std::get<LayerFile>(settings.parts.front().layer->content).path.filename(), "h.png");
+  EXPECT_EQ(settings.parts.front().layer->uv, glm::vec2(8.0F, 4.0F));
+  EXPECT_EQ(settings.parts.front().layer->strength, 0.02);
+  const SceneSettings normals = read("[plane]\n[layer]\nnormal_map = \"n.png\"");
+  EXPECT_FALSE(std::get<LayerFile>(normals.parts.front().layer->content).heights);
+  EXPECT_EQ(normals.parts.front().layer->strength, 1.0);
+  expect_error("[plane]\n[layer]\nuv = [1, 1]", {"scene.toml:2", "bump_map", "surface"});
+  expect_error("[plane]\n[layer]\nbump_map = \"a\"\nnormal_map = \"b\"", {"scene.toml:3", "only one"});
+  expect_error("[plane]\n[layer]\nbump_map = \"a\"", {"scene.toml:2", "strength", "missing"});
+  expect_error("[plane]\n[layer]\nnormal_map = \"a\"\nstrenght = 2", {"scene.toml:4", "strength"});
+}
+
+TEST(SceneSettings, UnknownKeysNameLineAndNeighbour) {
+  expect_error("[plane]\nsize = [1, 1]\nnormal_mop = \"a.png\"\n",
+               {"scene.toml:3", "unknown key `normal_mop` in [plane]", "did you mean `normal_map`"});
+  expect_error("[plain]\n", {"scene.toml:1", "unknown key `plain`", "plane"});
+  expect_error("[plane]\n[[light]]\ntype = \"point\"\npositon = [0, 0, 1]\n",
+               {"scene.toml:4", "unknown key `positon` in [[light]]", "`position`"});
+  expect_error("[plane]\n[brdf]\ndistribution = \"ggxx\"\n", {"scene.toml:3", "`ggxx`", "`ggx`"});
+}
+
+TEST(SceneSettings, WrongTypesAndRangesNameTheirLine) {
+  const std::string plane = "[plane]\n";
+  expect_error("= 3", {"scene.toml:1", "not valid TOML"});
+  expect_error("plane = 3\n", {"scene.toml:1", "must be a table"});
+  expect_error("", {"the file is empty"});
+  expect_error(plane + "size = 3\n", {"scene.toml:2", "list of 2 numbers"});
+  expect_error(plane + "size = [1, \"2\"]\n", {"scene.toml:2", "must be a number"});
+  expect_error(plane + "size = [0, 1]\n", {"scene.toml:2", "not within"});
+  expect_error(plane + "roughness = nan\n", {"scene.toml:2", "not within 0 to 1"});
+  expect_error(plane + "roughness = inf\n", {"scene.toml:2"});
+  expect_error(plane + "normal_map = 4\n", {"scene.toml:2", "must be a string"});
+  expect_error(plane + "[brdf]\ndiffuse = 1\n", {"scene.toml:3", "true or false"});
+  expect_error(plane + "[frame]\nsize = [0, 0]\n", {"scene.toml:3"});
+  expect_error(plane + "[frame]\nsize = [1000000, 1000000]\n", {"scene.toml:3"});
+  expect_error(plane + "[frame]\nsize = [2.5, 2]\n", {"scene.toml:3", "whole numbers"});
+  expect_error(plane + "[frame]\nexposure = \"bright\"\n", {"scene.toml:3", "auto"});
+  expect_error(plane + "[zoom]\ndistances = []\n", {"scene.toml:3"});
+  expect_error(plane + "[zoom]\ndistances = [1, -2]\n", {"scene.toml:3"});
+  expect_error(plane + "[tiling]\nuv = [0, 1]\n", {"scene.toml:3"});
+  expect_error(plane + "light = 3\n", {"unknown key `light` in [plane]"});
+  expect_error("light = 3\n" + plane, {"scene.toml:1", "list of tables"});
+}
+
+TEST(SceneSettings, WhatExcludesOrNeedsEachOther) {
+  const std::string plane = "[plane]\n";
+  expect_error("[zoom]\ndistances = [1]\n", {"`model` or `plane`"});
+  expect_error("[plane]\n[model]\nfile = \"a.gltf\"\n", {"excludes `model`"});
+  expect_error("[model]\n", {"scene.toml:1", "`files`"});
+  expect_error("[model]\nfile = \"a.gltf\"\nfiles = [\"b.gltf\"]\n", {"only one"});
+  expect_error("[model]\nfiles = [1]\n", {"scene.toml:2", "list of strings"});
+  expect_error(plane + "[brdf]\nalpha = 0.1\nexponent = 5\n", {"exponent"});
+  expect_error(plane + "[brdf]\ndistribution = \"vmf\"\nalpha = 0.1\n", {"scene.toml:4", "does not belong"});
+  expect_error(plane + "[[light]]\nintensity = 1\n", {"scene.toml:2", "`type` in [[light]] is missing"});
+  expect_error(plane + "[[light]]\ntype = \"point\"\n", {"`position`", "missing"});
+  expect_error(plane + "[[light]]\ntype = \"directional\"\n", {"`direction`", "missing"});
+  expect_error(plane + "[[light]]\ntype = \"directional\"\ndirection = [0, 0, 0]\n", {"scene.toml:4", "no length"});
+  expect_error(plane + "[[light]]\ntype = \"point\"\nposition = [0, 0, 1]\ndirection = [0, 0, 1]\n",
+               {"scene.toml:5", "does not belong to a point light"});
+  expect_error(plane +
+                   "[[light]]\ntype = \"spot\"\nposition = [0, 0, 1]\ndirection = [0, 0, 1]\n"
+                   "inner_cone_degrees = 50\n",
+               {"scene.toml:6", "less than outer_cone_degrees"});
+  expect_error(plane + "[camera]\nposition = [0, 0, 1]\n", {"`target`", "missing"});
+  expect_error(plane + "[camera]\nposition = [0, 0, 1]\ntarget = [0, 0, 1]\n", {"where the camera stands"});
+  expect_error(plane + "[camera]\nframe_bounds = {}\nup = [0, 1, 0]\n", {"scene.toml:4", "excludes"});
+  expect_error(plane + "[camera]\nframe_bounds = { direction = [0, 0, 0] }\n", {"scene.toml:3", "no length"});
+}
+
+}  // namespace
+}  // namespace footprint

@@ -17,5 +17,7 @@ void add_list_command(CLI::App& app);
 void add_ndf_command(CLI::App& app);
 void add_surface_command(CLI::App& app);
 void add_info_command(CLI::App& app);
+void add_completions_command(CLI::App& app);
+void add_manual_command(CLI::App& app);
 
 }  // namespace footprint

@@ -44,6 +44,8 @@ void run(int argc, const char* const* argv) {
   footprint::add_list_command(app);
   footprint::add_surface_command(app);
   footprint::add_info_command(app);
+  footprint::add_completions_command(app);
+  footprint::add_manual_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -13,7 +13,8 @@ option(FOOTPRINT_BENCH "Build the benchmarks" ON)
 option(FOOTPRINT_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
 
 add_library(footprint_settings INTERFACE)
-target_include_directories(footprint_settings INTERFACE "${PROJECT_SOURCE_DIR}")
+target_include_directories(footprint_settings INTERFACE "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>"
+                                                        "$<INSTALL_INTERFACE:include/footprint>")
 target_compile_features(footprint_settings INTERFACE cxx_std_20)  # for projects that use the build folder
 target_compile_options(footprint_settings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
                                                     -Wnon-virtual-dtor -Woverloaded-virtual)

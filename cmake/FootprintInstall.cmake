@@ -1,0 +1,71 @@
+# What `cmake --install` and CPack put under a prefix, in two components:
+#   runtime      the program, scenes, experiments, published figures, documents, man page, completions of shells
+#   development  headers, libraries and find_package(Footprint) for methods out of the tree
+include(GNUInstallDirs)
+
+# footprint_install_program(TARGET): the program, and all that it reads or that tells of it. What the program writes of
+# itself is written when it is built.
+function(footprint_install_program target)
+  set(data "${CMAKE_INSTALL_DATADIR}/footprint")
+  install(TARGETS ${target} RUNTIME COMPONENT runtime)
+  install(DIRECTORY scenes DESTINATION "${data}" COMPONENT runtime
+          FILES_MATCHING PATTERN "scene.toml" PATTERN "*.png" PATTERN "README.md" PATTERN "surfaces" EXCLUDE)
+  install(DIRECTORY experiments DESTINATION "${data}" COMPONENT runtime
+          FILES_MATCHING PATTERN "*.toml" PATTERN "README.md")
+  install(DIRECTORY results/published DESTINATION "${data}/results" COMPONENT runtime FILES_MATCHING PATTERN "*.toml")
+  install(DIRECTORY docs/ DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
+  install(FILES README.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
+  install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright COMPONENT runtime)
+
+  set(written "${CMAKE_CURRENT_BINARY_DIR}/self_description")
+  set(page "${written}/footprint.1")
+  set(bash "${written}/footprint")
+  set(zsh "${written}/_footprint")
+  set(fish "${written}/footprint.fish")
+  add_custom_command(
+    OUTPUT "${page}" "${bash}" "${zsh}" "${fish}"
+    COMMAND "${CMAKE_COMMAND}" -E make_directory "${written}"
+    COMMAND ${target} manual > "${page}"
+    COMMAND ${target} completions bash > "${bash}"
+    COMMAND ${target} completions zsh > "${zsh}"
+    COMMAND ${target} completions fish > "${fish}"
+    DEPENDS ${target}
+    COMMENT "Writing the manual page and the completions"
+    VERBATIM)
+  add_custom_target(footprint_self_description ALL DEPENDS "${page}" "${bash}" "${zsh}" "${fish}")
+  install(FILES "${page}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT runtime)
+  install(FILES "${bash}" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" COMPONENT runtime)
+  install(FILES "${zsh}" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions" COMPONENT runtime)
+  install(FILES "${fish}" DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d" COMPONENT runtime)
+endfunction()
+
+# footprint_install_development(): what find_package(Footprint) needs. CMake's scripts find the program's main.cpp, the
+# registry's template and the method to copy where they find them in the tree: beside their own folder.
+function(footprint_install_development)
+  get_property(libraries GLOBAL PROPERTY FOOTPRINT_LIBRARIES)
+  get_property(FOOTPRINT_METHODS GLOBAL PROPERTY FOOTPRINT_METHODS)
+  set(parts "${CMAKE_INSTALL_DATADIR}/footprint/development")
+  set(config "${CMAKE_INSTALL_LIBDIR}/cmake/Footprint")
+  install(TARGETS footprint_settings ${libraries} EXPORT FootprintTargets
+          ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}/footprint" COMPONENT development)
+  install(EXPORT FootprintTargets DESTINATION "${config}" COMPONENT development)
+  set(headers app experiments methods renderer results scenes)
+  if(FOOTPRINT_TESTS)
+    list(APPEND headers tests)
+  endif()
+  install(DIRECTORY ${headers} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/footprint" COMPONENT development
+          FILES_MATCHING PATTERN "*.hpp" PATTERN "template" EXCLUDE)
+  install(DIRECTORY "${PROJECT_BINARY_DIR}/renderer/gl/generated/renderer" COMPONENT development
+          DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/footprint" FILES_MATCHING PATTERN "*.hpp")
+  install(DIRECTORY cmake DESTINATION "${parts}" COMPONENT development FILES_MATCHING PATTERN "*.cmake")
+  install(FILES app/main.cpp DESTINATION "${parts}/app" COMPONENT development)
+  install(FILES methods/registry.cpp.in DESTINATION "${parts}/methods" COMPONENT development)
+  install(DIRECTORY methods/template DESTINATION "${parts}/methods" COMPONENT development)
+
+  # The configuration of an installed tree names its own scripts relative to itself.
+  file(RELATIVE_PATH up "/${config}" "/${parts}/cmake")
+  set(FOOTPRINT_SCRIPTS "\${CMAKE_CURRENT_LIST_DIR}/${up}")
+  configure_file("${FOOTPRINT_CMAKE_DIR}/FootprintConfig.cmake.in" "${PROJECT_BINARY_DIR}/installed/FootprintConfig.cmake"
+                 @ONLY)
+  install(FILES "${PROJECT_BINARY_DIR}/installed/FootprintConfig.cmake" DESTINATION "${config}" COMPONENT development)
+endfunction()

@@ -1,0 +1,37 @@
+# footprint_package(): what CPack makes of the installed tree, by `scripts/package`: footprint_VERSION_amd64.deb, with
+# its dependencies worked out by dpkg-shlibdeps, and footprint-dev with what methods out of the tree are built from.
+function(footprint_package)
+  # What is opened at run time, which no linker sees, and what is only read.
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS
+      "libegl1, libegl-mesa0 | libegl-vendor, libgl1-mesa-dri | libgl1, fonts-dejavu-core")
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "assimp-testmodels, glmark2-data, blender-data")
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "libosmesa6, footprint-dev")
+  footprint_development_packages(development)
+  set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "cmake, g++, ${development}")
+
+  set(CPACK_GENERATOR DEB)
+  set(CPACK_PACKAGE_NAME footprint)
+  set(CPACK_PACKAGE_VENDOR Footprint)
+  set(CPACK_PACKAGE_CONTACT "Footprint's developers <footprint@localhost>")
+  set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+  set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+  set(CPACK_STRIP_FILES ON)
+  set(CPACK_COMPONENTS_ALL runtime development)
+  set(CPACK_DEB_COMPONENT_INSTALL ON)
+  set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME footprint)
+  set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME footprint-dev)
+  set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+  include(CPack)
+endfunction()
+
+# footprint_development_packages(VARIABLE): the Debian packages of headers that scripts/packages.txt builds with, commas
+# between.
+function(footprint_development_packages variable)
+  file(STRINGS scripts/packages.txt lines REGEX "^(lib|nlohmann)[a-z0-9-]+-dev ")
+  list(TRANSFORM lines REPLACE " .*" "")
+  list(JOIN lines ", " packages)
+  set(${variable} "${packages}" PARENT_SCOPE)
+endfunction()

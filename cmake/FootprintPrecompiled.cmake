@@ -1,17 +1,27 @@
-# Precompiled headers of the tests: GTest, GLM and the standard library are read once a build and not once a source. A
-# source keeps its own includes all the same; a build with FOOTPRINT_PRECOMPILE=OFF, and clang-tidy, hold it to them.
-# Libraries have none: with them GCC 12 at -O3 warns of std::string's own code (-Warray-bounds) where nothing is wrong.
-option(FOOTPRINT_PRECOMPILE "Read the headers of GTest, GLM and the standard library once for all tests" ON)
+# Precompiled headers: the standard library, GLM and fmt are read once a build and not once a source, GTest too for tests.
+# A source keeps its own includes all the same; a build with FOOTPRINT_PRECOMPILE=OFF, and clang-tidy, hold it to them.
+option(FOOTPRINT_PRECOMPILE "Read the headers of the standard library, GLM, fmt and GTest once a build" ON)
 
-if(FOOTPRINT_TESTS AND FOOTPRINT_PRECOMPILE)
-  # An object library whose headers the tests reuse (footprint_add_test), compiled with the options of the tests.
-  set(source "${PROJECT_BINARY_DIR}/precompiled_tests.cpp")
+# footprint_precompile(NAME OPTIONS ... HEADERS ... LIBRARIES ...): an object library whose headers others reuse
+# (footprint_reuse_headers of FootprintHelpers.cmake); they are compiled with the same options.
+function(footprint_precompile name)
+  cmake_parse_arguments(ARG "" "" "OPTIONS;HEADERS;LIBRARIES" ${ARGN})
+  set(source "${PROJECT_BINARY_DIR}/${name}.cpp")
   file(CONFIGURE OUTPUT "${source}" CONTENT "// CMake precompiles headers for a target that has a source.\n")
-  add_library(footprint_precompiled_tests OBJECT "${source}")
-  target_link_libraries(footprint_precompiled_tests PRIVATE footprint_settings glm::glm GTest::gtest)
-  target_compile_options(footprint_precompiled_tests PRIVATE ${FOOTPRINT_TEST_OPTIONS})
+  add_library(${name} OBJECT "${source}")
+  target_link_libraries(${name} PRIVATE footprint_settings glm::glm fmt::fmt ${ARG_LIBRARIES})
+  target_compile_options(${name} PRIVATE ${ARG_OPTIONS})
   target_precompile_headers(
-    footprint_precompiled_tests
-    PRIVATE <algorithm> <array> <chrono> <cmath> <filesystem> <fstream> <functional> <map> <memory> <numeric> <optional>
-            <random> <ranges> <span> <string> <string_view> <variant> <vector> <glm/glm.hpp> <gtest/gtest.h>)
+    ${name}
+    PRIVATE <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <map> <memory> <numbers>
+            <numeric> <optional> <random> <ranges> <set> <span> <sstream> <string> <string_view> <variant> <vector>
+            <fmt/format.h> <fmt/ranges.h> <glm/glm.hpp> ${ARG_HEADERS})
+endfunction()
+
+if(FOOTPRINT_PRECOMPILE)
+  footprint_precompile(footprint_precompiled OPTIONS ${FOOTPRINT_PRECOMPILED_OPTIONS})
+  if(FOOTPRINT_TESTS)
+    footprint_precompile(footprint_precompiled_tests OPTIONS ${FOOTPRINT_TEST_OPTIONS} ${FOOTPRINT_PRECOMPILED_OPTIONS}
+                         HEADERS <gtest/gtest.h> LIBRARIES GTest::gtest)
+  endif()
 endif()

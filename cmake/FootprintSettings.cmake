@@ -30,5 +30,5 @@ endif()
 # ccache keeps an object that starts from precompiled headers only where it need not look into them for __TIME__.
 find_program(FOOTPRINT_CCACHE ccache)
 if(FOOTPRINT_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=time_macros "${FOOTPRINT_CCACHE}")
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${FOOTPRINT_CCACHE}")
 endif()

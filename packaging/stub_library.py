@@ -1,5 +1,7 @@
 """Writes a shared library that has another's name and those of its symbols that are asked for, with nothing behind them:
-functions trap when they are called, data is zero. For libraries that must be there to be loaded and are never used."""
+functions do nothing and return the address of zeros, data is zero. For libraries that must be there to be loaded and are
+never used: what a library sets up as it is loaded may call them (OpenImageIO asks readers for their version's words, and
+DCMTK for a register of colour models), so they must not trap, and an empty string must come back."""
 import pathlib
 import re
 import subprocess
@@ -34,11 +36,11 @@ def dynamic_symbols(library):
 
 def assembly(symbols):
     """One label a symbol."""
-    lines = []
+    lines = [".bss", ".balign 64", "nothing: .zero 4096"]
     for symbol in symbols:
         lines += [f'.globl "{symbol.name}"']
         if symbol.kind in ("FUNC", "IFUNC", "GNU_IFUNC"):
-            lines += [".text", f'.type "{symbol.name}", @function', f'"{symbol.name}": ud2']
+            lines += [".text", f'.type "{symbol.name}", @function', f'"{symbol.name}": leaq nothing(%rip), %rax; ret']
         else:
             lines += [".bss", ".balign 16", f'.type "{symbol.name}", @object', f'.size "{symbol.name}", {symbol.size}',
                       f'"{symbol.name}": .zero {max(symbol.size, 1)}']

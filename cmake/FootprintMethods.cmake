@@ -1,11 +1,11 @@
 # How methods get into a program; works in Footprint's tree and, after find_package(Footprint), out of it.
 
 # footprint_add_method(NAME [SOURCES extra.cpp ...] [SHADERS extra ...] [STUDY figures.cpp ...] [LIBRARIES ...]): a
-# prefiltering method in the folder NAME, or in the current folder where that holds NAME.cpp, with NAME.cpp (which defines `const Method&
-# NAME_method()`), NAME.glsl (its text is footprint::embedded::NAME_glsl; that of a further extra.glsl is extra_glsl)
-# and a test program of all its *_test.cpp. STUDY names sources in its folder study/, a library of their own that no
-# picture needs; they define `std::span<const Quantity> NAME_quantities()` (methods/quantities.hpp). Nothing else has to
-# change: the registry is written from these lines.
+# prefiltering method in the folder NAME, or in the current folder where that holds NAME.cpp, with NAME.cpp (which
+# defines `const Method& NAME_method()`), NAME.glsl (its text is footprint::embedded::NAME_glsl; that of a further
+# extra.glsl is extra_glsl) and a test program of all its *_test.cpp. STUDY names sources in its folder study/, a
+# library of their own that no picture needs; they define `std::span<const Quantity> NAME_quantities()`
+# (methods/quantities.hpp). Nothing else has to change: the registry is written from these lines.
 function(footprint_add_method name)
   cmake_parse_arguments(ARG "" "" "SOURCES;SHADERS;STUDY;LIBRARIES" ${ARGN})
   set(folder "${CMAKE_CURRENT_SOURCE_DIR}/${name}")

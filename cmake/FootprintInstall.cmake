@@ -40,10 +40,11 @@ function(footprint_install_program target)
 endfunction()
 
 # footprint_install_development(): what find_package(Footprint) needs. CMake's scripts find the program's main.cpp, the
-# registry's template and the method to copy where they find them in the tree: beside their own folder.
+# registries' templates and the method to copy where they find them in the tree: beside their own folder.
 function(footprint_install_development)
   get_property(libraries GLOBAL PROPERTY FOOTPRINT_LIBRARIES)
   get_property(FOOTPRINT_METHODS GLOBAL PROPERTY FOOTPRINT_METHODS)
+  get_property(FOOTPRINT_STUDIES GLOBAL PROPERTY FOOTPRINT_STUDIES)
   set(parts "${CMAKE_INSTALL_DATADIR}/footprint/development")
   set(config "${CMAKE_INSTALL_LIBDIR}/cmake/Footprint")
   install(TARGETS footprint_settings ${libraries} EXPORT FootprintTargets
@@ -59,7 +60,7 @@ function(footprint_install_development)
           DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/footprint" FILES_MATCHING PATTERN "*.hpp")
   install(DIRECTORY cmake DESTINATION "${parts}" COMPONENT development FILES_MATCHING PATTERN "*.cmake")
   install(FILES app/main.cpp DESTINATION "${parts}/app" COMPONENT development)
-  install(FILES methods/registry.cpp.in DESTINATION "${parts}/methods" COMPONENT development)
+  install(FILES methods/quantities.cpp.in methods/registry.cpp.in DESTINATION "${parts}/methods" COMPONENT development)
   install(DIRECTORY methods/template DESTINATION "${parts}/methods" COMPONENT development)
 
   # The configuration of an installed tree names its own scripts relative to itself.

@@ -2,6 +2,7 @@
 #include "app/backend_text.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace footprint {
 

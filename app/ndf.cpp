@@ -90,7 +90,7 @@ void run_ndf(const Arguments& arguments) {
   settings.context = context_request(arguments.backend);
   if (!arguments.footprint.empty()) (void)parse_rectangle("--footprint", arguments.footprint);
   if (!arguments.texels.empty()) (void)parse_rectangle("--texels", arguments.texels);
-  const std::optional<BaseLobe> lobe =
+  const std::optional<Lobe> lobe =
       arguments.lobe.empty() ? std::nullopt : std::optional(parse_lobe("--lobe", arguments.lobe));
   NdfSource source = load_ndf_source(arguments.source, arguments.material, scene_library());
   if (lobe) source.material = with_lobe(std::move(source.material), *lobe);

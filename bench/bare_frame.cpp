@@ -5,7 +5,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <string_view>
 
-#include "renderer/pipeline/base_surface.hpp"
+#include "renderer/bake/material_maps.hpp"
 #include "renderer/pipeline/frame.hpp"
 
 namespace footprint {

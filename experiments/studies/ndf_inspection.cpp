@@ -44,7 +44,7 @@ Grid take_truth(const Material& material, const NdfSettings& settings, const Foo
   ProgressParts parts(progress, 2);
   const NormalDistribution distribution = material.brdf.distribution;
   const TrueNdf exact(distribution, texels.facets);
-  const BaseLobe narrowest = exact.narrowest();
+  const Lobe narrowest = exact.narrowest();
   const auto merged = [&](double part) {
     return TrueNdf(distribution, merged_facets(texels.facets, part * lobe_width(narrowest)));
   };

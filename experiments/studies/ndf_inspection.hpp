@@ -31,7 +31,7 @@ struct NdfSource {
                                         const SceneLibrary& library);
 
 /// The material with `lobe` in place of its own distribution and roughness.
-[[nodiscard]] Material with_lobe(Material material, const BaseLobe& lobe);
+[[nodiscard]] Material with_lobe(Material material, const Lobe& lobe);
 
 struct NdfSettings {
   FootprintRect footprint;

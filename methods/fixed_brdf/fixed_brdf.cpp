@@ -1,7 +1,8 @@
 // `fixed_brdf`: the finest level's reflectance at every distance, over a geometry that is filtered: the mean normal,
 // renormalised, shades with a facet's own lobe. Tan 2005's straw man (figure 8).
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint {
 

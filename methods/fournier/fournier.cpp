@@ -6,8 +6,9 @@
 
 #include "methods/fournier/peak_chain.hpp"
 #include "renderer/bake/facet_lobes.hpp"
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint {
 

@@ -14,7 +14,6 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 #include "tests/support/rendering.hpp"

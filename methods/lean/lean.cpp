@@ -1,8 +1,9 @@
 // `lean`: first and second moments of slope filter linearly and give a footprint's mean slope and covariance; one
 // anisotropic lobe stands over them. Olano and Baker 2010, "LEAN Mapping"; CLEAN is its scalar variant.
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
 #include "renderer/bake/slope_moments.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint {
 

@@ -1,9 +1,10 @@
 // `naive_mip`: the mean normal, renormalised, and the mean roughness. What most renderers do, and what makes far
 // surfaces too shiny: the spread of the normals is lost.
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/mipmap.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint {
 

@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "methods/tan_gmm/mixture_chain.hpp"
+#include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint {
 

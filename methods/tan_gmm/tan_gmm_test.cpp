@@ -12,7 +12,6 @@
 #include "methods/tan_gmm/mixture_twin.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/image/mipmap.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 #include "tests/support/rendering.hpp"

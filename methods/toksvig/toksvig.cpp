@@ -1,7 +1,8 @@
 // `toksvig`: the length of the mean normal tells the spread of the normals under a footprint; one lobe about the mean
 // normal takes that spread into its width. Toksvig 2004/2005, "Mipmapping Normal Maps".
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint {
 

@@ -8,7 +8,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
-#include "renderer/pipeline/base_surface.hpp"
 #include "tests/support/method_probe.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/shader_probe.hpp"
@@ -123,7 +122,7 @@ std::string BuiltMap::shader_text() const {
   flags.merge(texture_flags(baked_));
   text += fmt::format(
       "const vec4 lobe_cutoff = vec4({:e});\nconst float option_eps0 = {:e};\nconst float option_eps1 = {:e};\n",
-      lobe_parameter(values_.materials[0]), options_.number("eps0"), options_.number("eps1"));
+      lobe_of(values_.materials[0]).parameter, options_.number("eps0"), options_.number("eps1"));
   return text + shared_functions(flags) + select_text(xu_vmf_method().shader(), flags, "xu_vmf.glsl");
 }
 

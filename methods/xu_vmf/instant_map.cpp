@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "renderer/pipeline/bindings.hpp"
 #include "renderer/pipeline/frame_build_job.hpp"
 #include "renderer/pipeline/view.hpp"
 
@@ -19,7 +20,6 @@ extern const std::string_view xu_vmf_conversion_glsl, xu_vmf_table_glsl, xu_vmf_
 namespace xu_vmf {
 namespace {
 
-constexpr GLuint material_binding = 0;
 constexpr std::array<float, 4> nothing{};
 
 gl::VertexArray empty_vertex_array() {
@@ -146,7 +146,7 @@ std::optional<BuildInputs> InstantMap::kept_until_change_of() const {
 
 void InstantMap::run(const FrameBuildJob& job) const {
   for (const GLenum off : {GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND}) gl::api().Disable(off);
-  gl::api().BindBufferBase(GL_UNIFORM_BUFFER, material_binding, job.batch.material_block.name());
+  gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::material, job.batch.material_block.name());
   join(job);
   for (const std::string_view name : {whole_name, whole_guard_name}) coarsen(job, name);
   if (parts_ == 0) return;

@@ -10,7 +10,6 @@
 
 #include "methods/xu_vmf/built_map.hpp"
 #include "methods/xu_vmf/shortfall_twin.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 #include "tests/support/method_probe.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/shader_probe.hpp"
@@ -227,7 +226,7 @@ TEST(XuMixture, KeepsKappaOverAConstantMapInHalfFloats) {
 Scene spread_facets(NormalDistribution distribution) {
   Scene scene = blinn_phong_square(random_normals(16, 16, 0.65F, 12), 300);
   scene.materials[0].brdf.distribution = distribution;
-  scene.materials[0].lobe_parameter = lobe_from_alpha(distribution, 0.04F);
+  scene.materials[0].lobe_parameter = static_cast<float>(lobe_from_alpha(distribution, 0.04F).parameter);
   return scene;
 }
 

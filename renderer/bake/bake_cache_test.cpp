@@ -6,8 +6,8 @@
 #include <chrono>
 #include <fstream>
 
+#include "renderer/bake/baked_method.hpp"
 #include "renderer/bake/prefiltered_file.hpp"
-#include "renderer/pipeline/surface_program.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint {

@@ -1,4 +1,4 @@
-// See prefiltered.hpp.
+// Encoding of each storage, with rounding of our own, and back.
 #include "renderer/bake/prefiltered.hpp"
 
 #include <Imath/half.h>

@@ -1,4 +1,4 @@
-// See patch_kinds.hpp.
+// The table of kinds, and how each makes its triangles.
 #include "renderer/microgeometry/patch_kinds.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See shader_source.hpp.
+// The directives of shader text, and the order in which texts make a stage.
 #include "renderer/pipeline/shader_source.hpp"
 
 #include <fmt/format.h>
@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "renderer/core/error.hpp"
+#include "renderer/pipeline/bindings.hpp"
 #include "renderer/pipeline/shadow_maps.hpp"
 
 namespace footprint {
@@ -218,29 +219,11 @@ std::string number_options(const Options& options) {
   return text;
 }
 
-std::string declarations(const EffectSet& effects, const Prefiltered& prefiltered) {
-  std::string text;
-  int unit = 0;
-  for (const std::string& name : texture_names(effects, prefiltered)) {
-    const auto own = std::ranges::find(prefiltered.textures, name, &PrefilteredTexture::name);
-    const bool array = own != prefiltered.textures.end() && own->layers > 0;
-    text += fmt::format("layout(binding = {}) uniform sampler2D{} {};\n", unit++, array ? "Array" : "", name);
-  }
-  if (prefiltered.scalars.empty()) return text;
-  text += "layout(std140, binding = 1) uniform MethodBlock {\n";
+std::string scalar_declarations(const Prefiltered& prefiltered) {
+  if (prefiltered.scalars.empty()) return {};
+  std::string text = fmt::format("layout(std140, binding = {}) uniform MethodBlock {{\n", block_binding::method);
   for (const auto& [name, value] : prefiltered.scalars) text += fmt::format("  float {};\n", name);
   return text + "};\n";
-}
-
-// Behind all other textures, whose units start at 0.
-std::string environment_declarations(const ShaderVariant& variant, std::size_t first_unit) {
-  std::string text;
-  std::size_t unit = first_unit;
-  for (const std::string& name : environment_texture_names(variant)) {
-    text += fmt::format("layout(binding = {}) uniform sampler2D{} {};\n", unit++,
-                        name == "environment_stack" ? "Array" : "", name);
-  }
-  return text;
 }
 
 }  // namespace
@@ -293,29 +276,6 @@ ShaderFlags texture_flags(const Prefiltered& prefiltered) {
   return flags;
 }
 
-std::vector<std::string> texture_names(const EffectSet& effects, const Prefiltered& prefiltered) {
-  std::vector<std::string> names;
-  if (has(effects, Effect::base_color_variation)) names.emplace_back("base_color_map");
-  if (has(effects, Effect::metallic_variation)) names.emplace_back("metallic_map");
-  if (has(effects, Effect::specular_variation)) names.emplace_back("specular_map");
-  if (has(effects, Effect::material_index)) names.emplace_back("material_share");
-  for (const PrefilteredTexture& texture : prefiltered.textures) names.push_back(texture.name);
-  return names;
-}
-
-std::vector<std::string> environment_texture_names(const ShaderVariant& variant) {
-  if (!has(variant.effects, Effect::environment_light)) return {};
-  switch (variant.environment) {
-    case EnvironmentUse::prefiltered:
-      break;
-    case EnvironmentUse::sampled:
-      return {"environment_radiance", "environment_alias"};
-    case EnvironmentUse::dense:
-      return {"environment_lights", "environment_directions"};
-  }
-  return {"environment_stack", "environment_irradiance"};
-}
-
 std::string shared_functions(const ShaderFlags& flags) {
   std::string text = select_text(embedded::common_footprint_glsl, flags, "common_footprint.glsl") +
                      select_text(embedded::common_lobes_glsl, flags, "common_lobes.glsl") +
@@ -345,12 +305,13 @@ struct Module {
 // textures, scalars and options, the material's block) and may call stands in front of it. `first` comes before all
 // that.
 std::string method_program(const ShaderVariant& variant, const Module& module, const Options& options,
-                           const Prefiltered& prefiltered, const std::string& first, const std::string& pass) {
+                           const Prefiltered& prefiltered, const TextureUnits& units, const std::string& first,
+                           const std::string& pass) {
   ShaderFlags flags = shader_flags(variant, options);
   flags.merge(texture_flags(prefiltered));
-  std::string text = fmt::format("{}#line {}\n", version_line, first_shared_line) + first;
+  std::string text = fmt::format("{}#line {}\n", version_line, first_shared_line) + units.declarations() + first;
   if (variant.max_probes > 1) text += fmt::format("const float max_probes = {}.0;\n", variant.max_probes);
-  text += number_options(options) + declarations(variant.effects, prefiltered);
+  text += number_options(options) + scalar_declarations(prefiltered);
   text += material_block(flags, variant.facet_lobes) + shared_functions(flags);
   constexpr std::string_view split = "//# module\n";
   const std::size_t place = pass.find(split);
@@ -365,18 +326,19 @@ std::string method_program(const ShaderVariant& variant, const Module& module, c
 std::string fragment_shader(const ShaderVariant& variant, std::string_view module, std::string_view module_name,
                             const Options& options, const Prefiltered& prefiltered) {
   const ShaderFlags flags = shader_flags(variant, options);
-  std::string lights = light_capacities(variant) +
-                       environment_declarations(variant, texture_names(variant.effects, prefiltered).size()) +
-                       select_text(embedded::surface_lights_glsl, flags, "surface_lights.glsl");
+  std::string lights =
+      light_capacities(variant) + select_text(embedded::surface_lights_glsl, flags, "surface_lights.glsl");
   if (calls_for_shadow_maps(variant.effects)) lights += embedded::surface_shadows_glsl;
   const std::string forward = select_text(embedded::surface_fragment_glsl, flags, "surface_fragment.glsl");
-  return method_program(variant, {module, module_name}, options, prefiltered, lights, forward);
+  return method_program(variant, {module, module_name}, options, prefiltered, forward_units(variant, prefiltered),
+                        lights, forward);
 }
 
 std::string ndf_shader(const ShaderVariant& variant, std::string_view module, std::string_view module_name,
                        const Options& options, const Prefiltered& prefiltered) {
   const ShaderFlags flags = shader_flags(variant, options);
-  return method_program(variant, {module, module_name}, options, prefiltered, {},
+  return method_program(variant, {module, module_name}, options, prefiltered,
+                        TextureUnits(variant.effects, prefiltered), {},
                         select_text(embedded::ndf_fragment_glsl, flags, "ndf_fragment.glsl"));
 }
 

@@ -55,13 +55,6 @@ inline constexpr int first_shared_line = 10001;
 /// What the shared functions must offer for a method's textures: `texture_arrays`, `texel_lookups`.
 [[nodiscard]] ShaderFlags texture_flags(const Prefiltered& prefiltered);
 
-/// The textures of a program, in the order of their units: the shared ones, the method's, then, in a forward pass, the
-/// environment's.
-[[nodiscard]] std::vector<std::string> texture_names(const EffectSet& effects, const Prefiltered& prefiltered);
-
-/// The environment's textures in the order of their units; none without its light.
-[[nodiscard]] std::vector<std::string> environment_texture_names(const ShaderVariant& variant);
-
 /// The material's uniform block, in front of the shared functions: with `multi_lobe` they read it, and it has room for
 /// `facet_lobes`.
 [[nodiscard]] std::string material_block(const ShaderFlags& flags, std::size_t facet_lobes = most_facet_lobes);

@@ -1,4 +1,4 @@
-// See supersample.hpp.
+// Passes of samples drawn tile by tile and added up on the GPU; means and errors of the sums.
 #include "renderer/pipeline/supersample.hpp"
 
 #include <fmt/format.h>

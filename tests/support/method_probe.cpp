@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "renderer/pipeline/base_surface.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 #include "tests/support/rendering.hpp"
@@ -49,7 +48,7 @@ std::vector<glm::vec4> probe_method(const ProbedMethod& probed, const std::strin
       text += fmt::format("const float option_{} = {:e};\n", name, *number);
   }
   for (const auto& [name, value] : baked.scalars) text += fmt::format("const float {} = {:e};\n", name, value);
-  text += fmt::format("const vec4 lobe_cutoff = vec4({:e});\n", lobe_parameter(*probed.material)) +
+  text += fmt::format("const vec4 lobe_cutoff = vec4({:e});\n", lobe_of(*probed.material).parameter) +
           shared_functions(flags) + select_text(probed.method->shader(), flags, probed.method->info().name);
   const std::string footprint = fmt::format(
       "Footprint whole_map = Footprint(vec2(0.5), vec2(1.0, 0.0), vec2(0.0, 1.0));\n"

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "renderer/ndf/base_lobe.hpp"
+#include "renderer/lobes/lobe.hpp"
 
 namespace footprint {
 
@@ -15,7 +15,7 @@ namespace footprint {
 /// that the horizon cuts them).
 class LobeProfile {
  public:
-  explicit LobeProfile(const BaseLobe& lobe);
+  explicit LobeProfile(const Lobe& lobe);
 
   [[nodiscard]] double operator()(double u) const {
     if (cubics_.empty()) return lobe_shape(lobe_, u);
@@ -28,7 +28,7 @@ class LobeProfile {
   }
 
  private:
-  BaseLobe lobe_;
+  Lobe lobe_;
   double scale_ = 0.0;  // intervals per u
   std::vector<std::array<double, 4>> cubics_;
 };

@@ -1,5 +1,6 @@
-// See base_lobe.hpp.
-#include "renderer/ndf/base_lobe.hpp"
+// Densities in double precision, apart from the shaders' own: what the NDF inspector holds them against. Conversions in
+// 32 bits, as the shaders have them.
+#include "renderer/lobes/lobe.hpp"
 
 #include <fmt/format.h>
 
@@ -12,12 +13,19 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/suggest.hpp"
+#include "renderer/lobes/vmf.hpp"
 
 namespace footprint {
 namespace {
 
 using enum NormalDistribution;
 using std::numbers::pi;
+
+// Twins of the constants in common_lobes.glsl.
+constexpr float smallest_alpha = 1e-3F;
+constexpr float smallest_concentration = 1e-6F;
+constexpr float largest_exponent = 2e6F;
+constexpr float smallest_variance = 1e-12F;
 
 constexpr std::string_view lobe_mend = "write it as blinn_phong:64, beckmann:0.2, ggx:0.2 or vmf:64";
 
@@ -44,7 +52,76 @@ double u_of_sine_squared(double s2) { return s2 >= 1.0 ? 1.0 : s2 / (1.0 + std::
 
 }  // namespace
 
-BaseLobe parse_lobe(std::string_view option, const std::string& text) {
+Lobe lobe_from_alpha(NormalDistribution distribution, float alpha) {
+  const float bounded = std::max(alpha, smallest_alpha);
+  switch (distribution) {
+    case blinn_phong:
+      return {distribution, 2.0F / (bounded * bounded) - 2.0F};
+    case vmf:
+      return {distribution, 2.0F / (bounded * bounded)};
+    case beckmann:
+    case ggx:
+      break;
+  }
+  return {distribution, bounded};
+}
+
+Lobe lobe_from_variance(NormalDistribution distribution, float variance) {
+  const float alpha = std::max(std::sqrt(2.0F * variance), smallest_alpha);
+  switch (distribution) {
+    case blinn_phong:
+    case vmf:
+      return {distribution, std::min(1.0F / std::max(variance, smallest_variance), largest_exponent)};
+    case ggx:
+      return {distribution, std::min(alpha, 1.0F)};
+    case beckmann:
+      break;
+  }
+  return {distribution, alpha};
+}
+
+float lobe_alpha(const Lobe& lobe) {
+  const auto p = static_cast<float>(lobe.parameter);
+  switch (lobe.distribution) {
+    case blinn_phong:
+      return std::sqrt(2.0F / (p + 2.0F));
+    case vmf:
+      return std::min(std::sqrt(2.0F / std::max(p, smallest_concentration)), 1.0F);
+    case beckmann:
+    case ggx:
+      break;
+  }
+  return p;
+}
+
+float lobe_variance(const Lobe& lobe) {
+  const auto p = static_cast<float>(lobe.parameter);
+  switch (lobe.distribution) {
+    case blinn_phong:
+    case vmf:
+      return 1.0F / std::max(p, smallest_concentration);
+    case beckmann:
+    case ggx:
+      break;
+  }
+  return 0.5F * p * p;
+}
+
+float lobe_roughness(const Lobe& lobe) {
+  const double value = std::max(static_cast<float>(lobe.parameter), smallest_concentration);
+  switch (lobe.distribution) {
+    case blinn_phong:
+      return static_cast<float>(std::sqrt(std::sqrt(2.0 / (value + 2.0))));
+    case vmf:
+      return static_cast<float>(std::sqrt(std::sqrt(2.0 / value)));
+    case beckmann:
+    case ggx:
+      break;
+  }
+  return static_cast<float>(std::sqrt(value));
+}
+
+Lobe parse_lobe(std::string_view option, const std::string& text) {
   const std::size_t colon = text.find(':');
   const std::string name = text.substr(0, colon);
   const auto refuse = [&](const std::string& message, const std::string& mend) {
@@ -54,7 +131,7 @@ BaseLobe parse_lobe(std::string_view option, const std::string& text) {
   const auto found = std::ranges::find(names, name);
   if (found == names.end()) throw refuse("names no distribution", suggestion(name, names));
   if (colon == std::string::npos) throw refuse("has no parameter", std::string(lobe_mend));
-  BaseLobe lobe{static_cast<NormalDistribution>(found - names.begin()), 0.0};
+  Lobe lobe{static_cast<NormalDistribution>(found - names.begin()), 0.0};
   const std::string_view digits = std::string_view(text).substr(colon + 1);
   const char* const end = digits.data() + digits.size();
   const auto [stop, status] = std::from_chars(digits.data(), end, lobe.parameter);
@@ -67,18 +144,18 @@ BaseLobe parse_lobe(std::string_view option, const std::string& text) {
   return lobe;
 }
 
-std::string lobe_text(const BaseLobe& lobe) {
+std::string lobe_text(const Lobe& lobe) {
   return fmt::format("{}:{}", distribution_names().at(static_cast<std::size_t>(lobe.distribution)),
                      static_cast<float>(lobe.parameter));
 }
 
-double lobe_peak(const BaseLobe& lobe) {
+double lobe_peak(const Lobe& lobe) {
   const double p = lobe.parameter;
   switch (lobe.distribution) {
     case blinn_phong:
       return (p + 1.0) / (2.0 * pi);
     case vmf:
-      return p / (2.0 * pi * -std::expm1(-2.0 * p));
+      return vmf_peak(p);
     case beckmann:
     case ggx:
       break;
@@ -86,7 +163,7 @@ double lobe_peak(const BaseLobe& lobe) {
   return 1.0 / (pi * p * p);
 }
 
-double lobe_shape(const BaseLobe& lobe, double u) {
+double lobe_shape(const Lobe& lobe, double u) {
   const double p = lobe.parameter;
   if (lobe.distribution == vmf) return std::exp(-p * u);
   if (u >= 1.0) return 0.0;
@@ -98,7 +175,7 @@ double lobe_shape(const BaseLobe& lobe, double u) {
   return 1.0 / (widened * widened);
 }
 
-double lobe_support(const BaseLobe& lobe) {
+double lobe_support(const Lobe& lobe) {
   const double p = lobe.parameter;
   const double folds = -std::log(lobe_cutoff);
   switch (lobe.distribution) {
@@ -115,12 +192,12 @@ double lobe_support(const BaseLobe& lobe) {
   return u_of_sine_squared(p < 1.0 ? (1.0 / std::sqrt(lobe_cutoff) - 1.0) / (1.0 / (p * p) - 1.0) : 1.0);
 }
 
-double lobe_width(const BaseLobe& lobe) {
+double lobe_width(const Lobe& lobe) {
   const double p = lobe.parameter;
   return is_alpha(lobe.distribution) ? p * std::numbers::sqrt2 / 2.0 : 1.0 / std::sqrt(p);
 }
 
-double lobe_energy(const BaseLobe& lobe, double n_z) {
+double lobe_energy(const Lobe& lobe, double n_z) {
   // u = q w / (1 - w) spreads the nodes w over the core and the tail alike.
   constexpr int nodes = 512;
   const double support = lobe_support(lobe);

@@ -1,5 +1,5 @@
-// See lobe_profile.hpp.
-#include "renderer/ndf/lobe_profile.hpp"
+// Cubics by values and slopes at even nodes.
+#include "renderer/lobes/lobe_profile.hpp"
 
 namespace footprint {
 namespace {
@@ -9,7 +9,7 @@ constexpr double widest = 0.35;          // radians: the support ends well above
 
 }  // namespace
 
-LobeProfile::LobeProfile(const BaseLobe& lobe) : lobe_(lobe) {
+LobeProfile::LobeProfile(const Lobe& lobe) : lobe_(lobe) {
   if (lobe.distribution == NormalDistribution::ggx || lobe_width(lobe) > widest) return;
   const double step = lobe_support(lobe) / intervals;
   scale_ = 1.0 / step;

@@ -11,7 +11,7 @@
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view iwasaki_sg_glsl, iwasaki_sg_environment_glsl, iwasaki_sg_lobes_glsl;
+extern const EmbeddedTexts iwasaki_sg_glsl;
 }
 
 namespace {
@@ -31,7 +31,7 @@ class IwasakiSg final : public Method, public HasQuantities {
 
   [[nodiscard]] std::span<const Quantity> quantities() const override { return quantities_; }
 
-  [[nodiscard]] std::string_view shader() const override { return shader_; }
+  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::iwasaki_sg_glsl, "iwasaki_sg.glsl"); }
 
  private:
   MethodInfo info_{.name = "iwasaki_sg",
@@ -45,9 +45,6 @@ class IwasakiSg final : public Method, public HasQuantities {
                    .honours = all_effects_but({Effect::normal_layers, Effect::roughness_variation, Effect::multi_lobe}),
                    .resolves_texels = false};
   std::vector<Quantity> quantities_ = quantity_table();
-  std::string shader_ = std::string(embedded::iwasaki_sg_glsl)
-                            .append(embedded::iwasaki_sg_lobes_glsl)
-                            .append(embedded::iwasaki_sg_environment_glsl);
 };
 
 }  // namespace

@@ -1,0 +1,22 @@
+# Writes OUTPUT, a C++ source that defines footprint::embedded::SYMBOL: the texts of INPUTS (joined by "|") by file name.
+string(REPLACE "|" ";" inputs "${INPUTS}")
+foreach(input IN LISTS inputs)
+  get_filename_component(name "${input}" NAME)
+  file(SIZE "${input}" size)
+  if(size GREATER 60000)  # compilers need not take a literal above 65536
+    message(FATAL_ERROR "${input}: has ${size} bytes, and a text that is embedded has 60000 at most")
+  endif()
+  file(READ "${input}" text)
+  list(APPEND names "${name}")
+  set("text_${name}" "${text}")
+endforeach()
+list(SORT names)
+set(source "#include \"renderer/core/embedded_texts.hpp\"\nnamespace footprint::embedded {\nnamespace {\n")
+string(APPEND source "constexpr EmbeddedText texts[] = {\n")
+foreach(name IN LISTS names)
+  string(APPEND source "{\"${name}\", R\"embedded(${text_${name}})embedded\"},\n")
+endforeach()
+string(APPEND source "};\n}\nextern const EmbeddedTexts ${SYMBOL};\n"
+                     "constinit const EmbeddedTexts ${SYMBOL}{texts};\n}\n")
+file(WRITE "${OUTPUT}.new" "${source}")
+file(RENAME "${OUTPUT}.new" "${OUTPUT}")

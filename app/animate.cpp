@@ -11,7 +11,7 @@
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/standard_output.hpp"
-#include "experiments/runner/animate.hpp"
+#include "experiments/studies/animate.hpp"
 #include "renderer/core/files.hpp"
 
 namespace footprint {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/runner/known_methods.hpp"
+#include "experiments/studies/known_methods.hpp"
 #include "renderer/effects/effects.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/scene/surface.hpp"

@@ -11,7 +11,7 @@
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/timing_process.hpp"
-#include "experiments/runner/compare.hpp"
+#include "experiments/studies/compare.hpp"
 #include "renderer/core/files.hpp"
 #include "results/report/report.hpp"
 

@@ -11,7 +11,7 @@
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/standard_output.hpp"
-#include "experiments/runner/edit.hpp"
+#include "experiments/studies/edit.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
 

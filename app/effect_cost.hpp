@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "experiments/runner/stage.hpp"
+#include "experiments/studies/stage.hpp"
 
 namespace footprint {
 

@@ -15,7 +15,7 @@
 #include "app/options.hpp"
 #include "app/progress_display.hpp"
 #include "app/standard_output.hpp"
-#include "experiments/runner/stage.hpp"
+#include "experiments/studies/stage.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 

@@ -13,7 +13,7 @@
 #include "app/messages.hpp"
 #include "app/progress_display.hpp"
 #include "app/standard_output.hpp"
-#include "experiments/runner/ndf_inspection.hpp"
+#include "experiments/studies/ndf_inspection.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
 #include "renderer/core/interrupt.hpp"

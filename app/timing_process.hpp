@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/runner/compare.hpp"
+#include "experiments/studies/compare.hpp"
 
 namespace footprint {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "bench/bare_frame.hpp"
-#include "experiments/runner/stage.hpp"
+#include "experiments/studies/stage.hpp"
 
 namespace footprint::bench {
 

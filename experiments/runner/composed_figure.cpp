@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/runner/picture_files.hpp"
+#include "experiments/studies/picture_files.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/false_color.hpp"
 #include "renderer/image/image_io.hpp"

@@ -9,10 +9,10 @@
 #include <system_error>
 #include <utility>
 
-#include "experiments/runner/known_methods.hpp"
-#include "experiments/runner/picture_files.hpp"
 #include "experiments/runner/quantities.hpp"
-#include "experiments/runner/zoom.hpp"
+#include "experiments/studies/known_methods.hpp"
+#include "experiments/studies/picture_files.hpp"
+#include "experiments/studies/zoom.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/suggest.hpp"

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/runner/compare.hpp"
 #include "experiments/runner/expression.hpp"
+#include "experiments/studies/compare.hpp"
 #include "renderer/core/options.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
 #include "renderer/pipeline/supersample.hpp"

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "experiments/runner/judge.hpp"
-#include "experiments/runner/zoom.hpp"
+#include "experiments/studies/zoom.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 

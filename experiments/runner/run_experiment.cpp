@@ -6,8 +6,8 @@
 
 #include "experiments/runner/composed_figure.hpp"
 #include "experiments/runner/judge.hpp"
-#include "experiments/runner/ndf_inspection.hpp"
 #include "experiments/runner/quantities.hpp"
+#include "experiments/studies/ndf_inspection.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 
 namespace footprint {

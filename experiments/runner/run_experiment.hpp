@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <span>
 
-#include "experiments/runner/compare.hpp"
 #include "experiments/runner/experiment.hpp"
+#include "experiments/studies/compare.hpp"
 
 namespace footprint {
 

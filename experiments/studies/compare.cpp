@@ -1,5 +1,5 @@
 // See compare.hpp.
-#include "experiments/runner/compare.hpp"
+#include "experiments/studies/compare.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,10 +12,10 @@
 #include <set>
 #include <utility>
 
-#include "experiments/runner/exposure.hpp"
-#include "experiments/runner/picture_files.hpp"
-#include "experiments/runner/reference_noise.hpp"
-#include "experiments/runner/run_info.hpp"
+#include "experiments/studies/exposure.hpp"
+#include "experiments/studies/picture_files.hpp"
+#include "experiments/studies/reference_noise.hpp"
+#include "experiments/studies/run_info.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/timing.hpp"

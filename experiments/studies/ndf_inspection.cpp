@@ -1,13 +1,13 @@
 // See ndf_inspection.hpp.
-#include "experiments/runner/ndf_inspection.hpp"
+#include "experiments/studies/ndf_inspection.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/runner/ndf_pictures.hpp"
-#include "experiments/runner/picture_files.hpp"
+#include "experiments/studies/ndf_pictures.hpp"
+#include "experiments/studies/picture_files.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"

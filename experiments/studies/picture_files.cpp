@@ -1,5 +1,5 @@
 // See picture_files.hpp.
-#include "experiments/runner/picture_files.hpp"
+#include "experiments/studies/picture_files.hpp"
 
 #include <fmt/format.h>
 

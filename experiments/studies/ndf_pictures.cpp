@@ -1,10 +1,10 @@
 // See ndf_pictures.hpp.
-#include "experiments/runner/ndf_pictures.hpp"
+#include "experiments/studies/ndf_pictures.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/runner/picture_files.hpp"
+#include "experiments/studies/picture_files.hpp"
 #include "renderer/image/false_color.hpp"
 #include "renderer/image/image_io.hpp"
 

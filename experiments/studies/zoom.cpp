@@ -1,5 +1,5 @@
 // See zoom.hpp.
-#include "experiments/runner/zoom.hpp"
+#include "experiments/studies/zoom.hpp"
 
 #include <cmath>
 #include <cstddef>

@@ -6,7 +6,7 @@
 #include <cctype>
 #include <charconv>
 
-#include "experiments/runner/ndf_inspection.hpp"
+#include "experiments/studies/ndf_inspection.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/suggest.hpp"
 #include "renderer/image/image_io.hpp"

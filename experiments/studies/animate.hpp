@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/runner/stage.hpp"
+#include "experiments/studies/stage.hpp"
 #include "renderer/scene/surface.hpp"
 #include "results/report/animation_report.hpp"
 

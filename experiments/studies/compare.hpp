@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/runner/stage.hpp"
+#include "experiments/studies/stage.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/pipeline/supersample.hpp"
 #include "renderer/scene/settings/scene.hpp"

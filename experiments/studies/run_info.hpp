@@ -1,7 +1,7 @@
 // What every report says of where it was made and of its scene.
 #pragma once
 
-#include "experiments/runner/exposure.hpp"
+#include "experiments/studies/exposure.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/scene/scene.hpp"
 #include "results/report/records.hpp"

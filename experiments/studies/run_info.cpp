@@ -1,5 +1,5 @@
 // See run_info.hpp.
-#include "experiments/runner/run_info.hpp"
+#include "experiments/studies/run_info.hpp"
 
 #include <fmt/format.h>
 

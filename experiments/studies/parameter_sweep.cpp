@@ -1,5 +1,5 @@
 // See parameter_sweep.hpp.
-#include "experiments/runner/parameter_sweep.hpp"
+#include "experiments/studies/parameter_sweep.hpp"
 
 #include <fmt/format.h>
 

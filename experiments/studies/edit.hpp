@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/runner/parameter_sweep.hpp"
+#include "experiments/studies/parameter_sweep.hpp"
 #include "renderer/core/options.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/scene/surface.hpp"

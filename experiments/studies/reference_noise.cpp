@@ -1,5 +1,5 @@
 // See reference_noise.hpp.
-#include "experiments/runner/reference_noise.hpp"
+#include "experiments/studies/reference_noise.hpp"
 
 #include "renderer/image/metrics.hpp"
 

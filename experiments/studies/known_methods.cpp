@@ -1,5 +1,5 @@
 // See known_methods.hpp.
-#include "experiments/runner/known_methods.hpp"
+#include "experiments/studies/known_methods.hpp"
 
 #include "methods/registry.hpp"
 

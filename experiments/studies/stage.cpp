@@ -1,5 +1,5 @@
 // See stage.hpp.
-#include "experiments/runner/stage.hpp"
+#include "experiments/studies/stage.hpp"
 
 #include <fmt/format.h>
 

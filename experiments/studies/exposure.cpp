@@ -1,5 +1,5 @@
 // See exposure.hpp.
-#include "experiments/runner/exposure.hpp"
+#include "experiments/studies/exposure.hpp"
 
 #include <algorithm>
 #include <cmath>

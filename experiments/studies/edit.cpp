@@ -1,5 +1,5 @@
 // See edit.hpp.
-#include "experiments/runner/edit.hpp"
+#include "experiments/studies/edit.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <memory>
 #include <utility>
 
-#include "experiments/runner/exposure.hpp"
-#include "experiments/runner/picture_files.hpp"
-#include "experiments/runner/run_info.hpp"
-#include "experiments/runner/stage.hpp"
+#include "experiments/studies/exposure.hpp"
+#include "experiments/studies/picture_files.hpp"
+#include "experiments/studies/run_info.hpp"
+#include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/stage_clock.hpp"

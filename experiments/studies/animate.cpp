@@ -1,15 +1,15 @@
 // See animate.hpp.
-#include "experiments/runner/animate.hpp"
+#include "experiments/studies/animate.hpp"
 
 #include <fmt/format.h>
 
 #include <utility>
 
-#include "experiments/runner/exposure.hpp"
-#include "experiments/runner/picture_files.hpp"
-#include "experiments/runner/reference_noise.hpp"
-#include "experiments/runner/run_info.hpp"
-#include "experiments/runner/zoom.hpp"
+#include "experiments/studies/exposure.hpp"
+#include "experiments/studies/picture_files.hpp"
+#include "experiments/studies/reference_noise.hpp"
+#include "experiments/studies/run_info.hpp"
+#include "experiments/studies/zoom.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"

@@ -27,11 +27,11 @@ function(footprint_add_test name)
   set_tests_properties(${name} PROPERTIES TIMEOUT 300)
 endfunction()
 
-# footprint_embed(TARGET SYMBOL FOLDER): the texts of FOLDER/*.glsl as `extern const EmbeddedTexts SYMBOL` in namespace
-# footprint::embedded (renderer/core/embedded_texts.hpp), so that the program needs no file of its own at run time. A
-# file that is added is in the table without another line; a folder without such files makes no table.
-function(footprint_embed target symbol folder)
-  file(GLOB texts CONFIGURE_DEPENDS "${folder}/*.glsl")
+# footprint_embed(TARGET SYMBOL PATTERN ...): the texts of the files that match as `extern const EmbeddedTexts SYMBOL` in
+# namespace footprint::embedded (renderer/core/embedded_texts.hpp), so that the program needs no file of its own at run
+# time. A file that is added is in the table without another line; where none matches there is no table.
+function(footprint_embed target symbol)
+  file(GLOB texts CONFIGURE_DEPENDS ${ARGN})
   if(NOT texts)
     return()
   endif()

@@ -13,7 +13,7 @@ function(footprint_add_method name)
   list(TRANSFORM ARG_SOURCES PREPEND "${folder}/")
   footprint_add_library(footprint_method_${name} SOURCES "${folder}/${name}.cpp" ${ARG_SOURCES}
                         LIBRARIES footprint_pipeline ${ARG_LIBRARIES})
-  footprint_embed(footprint_method_${name} ${name}_glsl "${folder}")
+  footprint_embed(footprint_method_${name} ${name}_glsl "${folder}/*.glsl")
   set_property(GLOBAL APPEND PROPERTY FOOTPRINT_METHODS ${name})
   file(GLOB tests CONFIGURE_DEPENDS "${folder}/*_test.cpp")
   if(tests)

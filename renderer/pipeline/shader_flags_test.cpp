@@ -5,6 +5,7 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 namespace footprint {
 namespace {
@@ -44,8 +45,8 @@ TEST(ShaderFlags, FollowTextures) {
   Prefiltered textures;
   textures.textures.push_back(make_texture("map", {Image(1, 1, 1)}, Storage::fp32, {}));
   EXPECT_FALSE(shader_flags({}, options, textures).at("texture_arrays"));
-  textures.textures.push_back(
-      make_array_texture("maps", {{Image(1, 1, 1)}}, Storage::fp32, {}, TextureFilter::nearest));
+  const std::vector<std::vector<Image>> layers{{Image(1, 1, 1)}};
+  textures.textures.push_back(make_array_texture("maps", layers, Storage::fp32, {}, TextureFilter::nearest));
   EXPECT_TRUE(shader_flags({}, options, textures).at("texture_arrays"));
   EXPECT_TRUE(shader_flags({}, options, textures).at("texel_lookups"));
 }

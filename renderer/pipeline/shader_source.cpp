@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::string_view version_line = "#version 450 core\n";
 
-const Options no_options({}, {}, "no options");
+// Of stages without a method.
+Options no_options() { return {{}, {}, "no options"}; }
 
 std::string light_capacities(const ShaderVariant& v) {
   std::string text;
@@ -130,7 +131,7 @@ std::string material_block(const ShaderFlags& flags) {
 }
 
 std::string vertex_shader(const ShaderVariant& variant) {
-  ShaderText text(shader_flags(variant, no_options));
+  ShaderText text(shader_flags(variant, no_options()));
   text.add(version_line);
   text.include("surface_vertex.glsl");
   return text.text();
@@ -169,14 +170,14 @@ ShaderText frame_build_shader(const ShaderVariant& variant, const ShaderModule& 
 }
 
 std::string shadow_vertex_shader(const EffectSet& effects) {
-  ShaderText text(shader_flags({.effects = effects, .brdf = {}}, no_options));
+  ShaderText text(shader_flags({.effects = effects, .brdf = {}}, no_options()));
   text.add(version_line);
   text.include("shadow_vertex.glsl");
   return text.text();
 }
 
 std::string shadow_fragment_shader(const EffectSet& effects) {
-  const ShaderFlags flags = shader_flags({.effects = effects, .brdf = {}}, no_options);
+  const ShaderFlags flags = shader_flags({.effects = effects, .brdf = {}}, no_options());
   ShaderText text(flags);
   text.add(version_line);
   if (has(effects, Effect::alpha_mask)) {

@@ -1,4 +1,4 @@
-// See run_experiment.hpp.
+// Turns an experiment into the settings of a comparison, and adds NDFs, quantities and composed figures to its results.
 #include "experiments/runner/run_experiment.hpp"
 
 #include <algorithm>

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "renderer/pipeline/base_surface.hpp"
+#include "renderer/pipeline/frame_build_job.hpp"
 #include "tests/support/method_probe.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/shader_probe.hpp"

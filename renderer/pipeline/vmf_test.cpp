@@ -30,8 +30,8 @@ Inputs inputs_of(const std::vector<float>& values) {
   return inputs;
 }
 
-// The integrals over the sphere of density and of density times cosine, by the cosine's double exponential variable:
-// u = 1 - cos = 2 e^x / (1 + e^x).
+// The integrals over the sphere of e^{-kappa u} and of the cosine under it, u = 1 - cos, over x with u = 2 / (1 +
+// e^-x): evenly spaced steps of x are dense where narrow lobes are.
 struct Integrals {
   double mass = 0, cosine = 0;
 };
@@ -72,7 +72,9 @@ TEST(VonMisesFisher, DensityHasUnitMass) {
 TEST(VonMisesFisher, ShortfallAndKappaAreInverse) {
   const auto back = vmf("return vec4(kappaOf(shortfallOf(a.x)), shortfallOf(a.x), 0, 0);", inputs_of(kappas));
   for (std::size_t i = 0; i < kappas.size(); ++i) {
-    if (kappas[i] >= 0.01F) EXPECT_NEAR(back[i].x / kappas[i], 1.0, 1e-4) << kappas[i];
+    if (kappas[i] >= 0.01F) {
+      EXPECT_NEAR(back[i].x / kappas[i], 1.0, 1e-4) << kappas[i];
+    }
     const double r = 1.0 - back[i].y;
     const Integrals exact = integrals(kappas[i]);
     EXPECT_NEAR(r, exact.cosine / exact.mass, 0.02) << kappas[i];

@@ -58,7 +58,7 @@ class Builder final : public Method {
   [[nodiscard]] const MethodInfo& info() const override { return info_; }
   [[nodiscard]] Prefiltered precompute(const Material& /*material*/, const Options& /*options*/,
                                        const EffectSet& /*effects*/, const Progress& /*progress*/) const override {
-    return {.textures = {make_built_texture({.name = "shade"}, {})}, .scalars = {}};
+    return {.textures = {make_built_texture({.name = "filled"}, {})}, .scalars = {}};
   }
   [[nodiscard]] std::unique_ptr<FrameBuild> frame_build(const ShaderVariant& variant,
                                                         const Options& options) const override {
@@ -67,7 +67,7 @@ class Builder final : public Method {
   [[nodiscard]] ShaderModule shader() const override {
     return {"builder.glsl",
             "struct Effective { float shade; };\n"
-            "Effective effective(Footprints f) { return Effective(fetch(shade, 0, f.normal).r); }\n"
+            "Effective effective(Footprints f) { return Effective(fetch(filled, 0, f.normal).r); }\n"
             "Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) { return Reflected(vec3(e.shade)); }\n"
             "float ndf(Effective e, vec3 h) { return e.shade; }\n"};
   }

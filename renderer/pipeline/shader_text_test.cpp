@@ -144,7 +144,7 @@ TEST(ShaderText, NumbersTheLinesOfAModule) {
   EXPECT_EQ(text.text(),
             "shared\n#line 1\na\n"
             "#line 1001\n#line 2001\n#line 2002\n#line 2004\n#line 1002\none\n"
-            "#line 3\nb\n#line 5\n#line 7\nd\n#line 100014\n");
+            "#line 3\nb\n#line 5\n#line 7\nd\n#line 100015\n");
   EXPECT_EQ(text.lines(),
             "lines from 1 on are of module.glsl, from 1001 on are of first.glsl, from 2001 on are of second.glsl, from "
             "100001 on shared");

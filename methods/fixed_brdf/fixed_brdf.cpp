@@ -7,7 +7,7 @@
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view fixed_brdf_glsl;
+extern const EmbeddedTexts fixed_brdf_glsl;
 }
 
 namespace {
@@ -28,7 +28,7 @@ class FixedBrdf final : public Method {
     return out;
   }
 
-  [[nodiscard]] std::string_view shader() const override { return embedded::fixed_brdf_glsl; }
+  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::fixed_brdf_glsl, "fixed_brdf.glsl"); }
 
  private:
   MethodInfo info_{

@@ -13,7 +13,7 @@
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view fournier_glsl;
+extern const EmbeddedTexts fournier_glsl;
 }
 
 namespace {
@@ -66,7 +66,7 @@ class Fournier final : public Method {
     return 8 * static_cast<int>(options.number("peaks"));
   }
 
-  [[nodiscard]] std::string_view shader() const override { return embedded::fournier_glsl; }
+  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::fournier_glsl, "fournier.glsl"); }
 
  private:
   static void add_peaks(const Material& material, std::size_t count, Storage storage, const Progress& progress,

@@ -11,14 +11,11 @@
 #include <string_view>
 #include <vector>
 
+#include "methods/iwasaki_sg/test_materials.hpp"
 #include "renderer/lobes/vmf.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 #include "tests/support/shader_probe.hpp"
-
-namespace footprint::embedded {
-extern const std::string_view direction_grid_glsl, iwasaki_sg_lobes_glsl;
-}
 
 namespace footprint::iwasaki_sg {
 namespace {
@@ -135,9 +132,9 @@ TEST(SphericalGaussian, ErrorOfTheSgFormFallsWithTheSquareOfTheSharpness) {
 }
 
 std::string functions() {
-  return "float oneMinusDot(vec3 n, vec3 h) { vec3 d = h - n; return 0.5 * dot(d, d); }\n"
-         "const float pi = 3.14159265358979;\n" +
-         std::string(embedded::iwasaki_sg_lobes_glsl) + std::string(embedded::direction_grid_glsl);
+  ShaderModule module = iwasaki_sg_method().shader();
+  module.text = "//? include iwasaki_sg_lobes.glsl\n//? include direction_grid.glsl\n";
+  return shared_functions(shader_flags({}, Options(iwasaki_sg_method().info().options, {}, "test")), module);
 }
 
 // The software rasteriser's exp is good to 7e-6.

@@ -8,7 +8,7 @@
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view lean_glsl;
+extern const EmbeddedTexts lean_glsl;
 }
 
 namespace {
@@ -29,7 +29,7 @@ class Lean final : public Method {
     return out;
   }
 
-  [[nodiscard]] std::string_view shader() const override { return embedded::lean_glsl; }
+  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::lean_glsl, "lean.glsl"); }
 
  private:
   MethodInfo info_{.name = "lean",

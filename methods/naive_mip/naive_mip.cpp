@@ -9,7 +9,7 @@
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view naive_mip_glsl;
+extern const EmbeddedTexts naive_mip_glsl;
 }
 
 namespace {
@@ -34,7 +34,7 @@ class NaiveMip final : public Method {
     return out;
   }
 
-  [[nodiscard]] std::string_view shader() const override { return embedded::naive_mip_glsl; }
+  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::naive_mip_glsl, "naive_mip.glsl"); }
 
  private:
   MethodInfo info_{

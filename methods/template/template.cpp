@@ -11,9 +11,9 @@
 
 namespace footprint {
 
-// The text of template.glsl, which footprint_add_method embeds under this name.
+// The texts of this folder, which footprint_add_method embeds under this name.
 namespace embedded {
-extern const std::string_view template_glsl;
+extern const EmbeddedTexts template_glsl;
 }
 
 namespace {
@@ -60,7 +60,7 @@ class IndependentTexels final : public Method {
     return out;
   }
 
-  [[nodiscard]] std::string_view shader() const override { return embedded::template_glsl; }
+  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::template_glsl, "template.glsl"); }
 
  private:
   MethodInfo info_{

@@ -7,7 +7,7 @@
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view toksvig_glsl;
+extern const EmbeddedTexts toksvig_glsl;
 }
 
 namespace {
@@ -27,7 +27,7 @@ class Toksvig final : public Method {
     return out;
   }
 
-  [[nodiscard]] std::string_view shader() const override { return embedded::toksvig_glsl; }
+  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::toksvig_glsl, "toksvig.glsl"); }
 
  private:
   MethodInfo info_{

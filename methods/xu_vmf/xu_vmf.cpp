@@ -15,7 +15,7 @@
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view xu_vmf_glsl, xu_vmf_conversion_glsl, xu_vmf_cells_glsl;
+extern const EmbeddedTexts xu_vmf_glsl;
 }
 
 namespace {
@@ -190,7 +190,7 @@ class XuVmf final : public Method {
 
   [[nodiscard]] int lobe_count(const Options& options) const override { return xu_vmf::most_lobes(options); }
 
-  [[nodiscard]] std::string_view shader() const override { return shader_; }
+  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::xu_vmf_glsl, "xu_vmf.glsl"); }
 
  private:
   MethodInfo info_{.name = "xu_vmf",
@@ -200,8 +200,6 @@ class XuVmf final : public Method {
                    .paper = "Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping, Computer Graphics Forum 36(4)",
                    .options = option_table(),
                    .honours = map_effects_but({Effect::normal_layers})};
-  std::string shader_ =
-      std::string(embedded::xu_vmf_glsl).append(embedded::xu_vmf_conversion_glsl).append(embedded::xu_vmf_cells_glsl);
 };
 
 }  // namespace

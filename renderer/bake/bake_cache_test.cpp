@@ -114,7 +114,7 @@ class Counting final : public Method {
     ++count;
     return example();
   }
-  [[nodiscard]] std::string_view shader() const override { return {}; }
+  [[nodiscard]] ShaderModule shader() const override { return {}; }
   mutable int count = 0;
 
  private:

@@ -92,7 +92,8 @@ OptionSpec word_option(std::string name, const std::vector<std::string>& choices
 }
 
 Options::Options(const std::vector<OptionSpec>& specs, const std::map<std::string, std::string>& given,
-                 std::string_view owner) {
+                 std::string_view owner)
+    : specs_(specs) {
   std::vector<std::string> names;
   for (const OptionSpec& spec : specs) {
     names.push_back(spec.name);

@@ -28,10 +28,9 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, int pr
 }
 
 gl::Program program_of(const GpuScene& scene, const BakedMethod& baked, int probes) {
-  return {fmt::format("ndf of {} (lines below {} are of {}.glsl)", baked.spec.text, first_shared_line, baked.spec.name),
-          screen_vertex_shader(),
-          ndf_shader(variant_of(scene, baked, probes), baked.method->shader(), baked.spec.name, baked.options,
-                     baked.materials.front())};
+  const ShaderText density =
+      ndf_shader(variant_of(scene, baked, probes), baked.method->shader(), baked.options, baked.materials.front());
+  return {fmt::format("ndf of {} ({})", baked.spec.text, density.lines()), screen_vertex_shader(), density.text()};
 }
 
 // From above, so that the camera's axes are the plane's own.

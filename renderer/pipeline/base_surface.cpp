@@ -11,7 +11,7 @@
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view base_surface_glsl;
+extern const EmbeddedTexts shared_glsl;
 }
 
 namespace {
@@ -47,7 +47,7 @@ class BaseSurface final : public Method {
     return out;
   }
 
-  [[nodiscard]] std::string_view shader() const override { return embedded::base_surface_glsl; }
+  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::shared_glsl, "base_surface.glsl"); }
 
  private:
   MethodInfo info_{.name = "reference",

@@ -27,11 +27,11 @@ TEST(CommonSlopes, GlslRecoversTheSameCovariance) {
                       glm::vec4(0)});
   }
   ShaderVariant variant;
-  ShaderFlags flags = shader_flags(variant, Options({}, {}, "test"));
-  flags.insert("roughness_stretched");
-  const auto out = evaluate_glsl(
-      "vec4 lobe_cutoff;\n" + shared_functions(flags) + select_text("//? include common_slopes.glsl\n", flags, "test"),
-      "mat2 s = slopeCovariance(a.xy, b.xyz); return vec4(s[0], s[1]);", inputs);
+  const Options options({slope_roughness_option(), word_option("variant", {"lean", "clean"}, "")}, {}, "test");
+  const auto out =
+      evaluate_glsl("vec4 lobe_cutoff;\n" + shared_functions(shader_flags(variant, options),
+                                                             {"test.glsl", "//? include common_slopes.glsl\n"}),
+                    "mat2 s = slopeCovariance(a.xy, b.xyz); return vec4(s[0], s[1]);", inputs);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const auto& [b, m, unused] = inputs[i];
     const glm::dmat2 expected = covariance({glm::dvec2(b), {m.x, m.y, m.y, m.z}});

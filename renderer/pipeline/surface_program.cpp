@@ -178,10 +178,10 @@ SurfaceProgram::SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const 
       environment_light_(has(effects_of(scene, *baked.method), Effect::environment_light)),
       environment_(environment_of(*baked.method, settings)),
       units_(units_of(scene, baked, settings)),
-      fragment_text_(fragment_shader(variant_of(scene, baked, settings), baked.method->shader(), baked.spec.name,
-                                     baked.options, baked.materials.front())),
-      program_(fmt::format("{} (lines below {} are of {}.glsl)", baked.spec.text, first_shared_line, baked.spec.name),
-               vertex_shader(variant_of(scene, baked, settings)), fragment_text_) {
+      fragment_(fragment_shader(variant_of(scene, baked, settings), baked.method->shader(), baked.options,
+                                baked.materials.front())),
+      program_(fmt::format("{} ({})", baked.spec.text, fragment_.lines()),
+               vertex_shader(variant_of(scene, baked, settings)), fragment_.text()) {
   units_.require_all_of(program_, baked.spec.text);
   if (environment_light_) scene.environment()->prepare(environment_);
 }

@@ -77,14 +77,14 @@ class SurfaceProgram {
   /// Sets what samples are drawn from: origin of the tile in the sample grid, seed, pass. Not for Sampling::frame.
   void set_sample(const glm::ivec2& origin, std::uint32_t seed, std::uint32_t pass) const;
 
-  [[nodiscard]] const std::string& fragment_text() const { return fragment_text_; }
+  [[nodiscard]] const std::string& fragment_text() const { return fragment_.text(); }
 
  private:
   ProgramSettings settings_;
   bool environment_light_;
   EnvironmentUse environment_;
   TextureUnits units_;
-  std::string fragment_text_;
+  ShaderText fragment_;
   gl::Program program_;
 };
 

@@ -11,9 +11,10 @@ float vmfDensity(float kappa, vec3 n, vec3 h) {
   return kappa / (2.0 * pi * oneMinusExp2(kappa)) * exp(-kappa * u);
 }
 
-// The mean of axis.h, which is the mean resultant length |r|: coth kappa - 1 / kappa.
+// The mean of axis.h, the mean resultant length |r|: coth kappa - 1 / kappa, and a series where the two nearly cancel.
 float meanCosine(float kappa) {
-  if (kappa < 0.1) return kappa * (1.0 / 3.0 - kappa * kappa / 45.0);
+  float k2 = kappa * kappa;
+  if (kappa < 0.5) return kappa * (1.0 / 3.0 - k2 * (1.0 / 45.0 - k2 * (2.0 / 945.0 - k2 / 4725.0)));
   float e = exp(-2.0 * kappa);
   return (1.0 + e) / (1.0 - e) - 1.0 / kappa;
 }

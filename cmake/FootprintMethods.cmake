@@ -1,11 +1,13 @@
 # How methods get into a program; works in Footprint's tree and, after find_package(Footprint), out of it.
 
-# footprint_add_method(NAME [SOURCES extra.cpp ...] [SHADERS extra ...] [LIBRARIES ...]): a prefiltering method in the
-# folder NAME, or in the current folder where that holds NAME.cpp, with NAME.cpp (which defines `const Method&
-# NAME_method()`), NAME.glsl (its text is footprint::embedded::NAME_glsl; that of a further extra.glsl is extra_glsl)
-# and a test program of all its *_test.cpp. Nothing else has to change: the registry is written from these lines.
+# footprint_add_method(NAME [SOURCES extra.cpp ...] [SHADERS extra ...] [STUDY figures.cpp ...] [LIBRARIES ...]): a
+# prefiltering method in the folder NAME, or in the current folder where that holds NAME.cpp, with NAME.cpp (which
+# defines `const Method& NAME_method()`), NAME.glsl (its text is footprint::embedded::NAME_glsl; that of a further
+# extra.glsl is extra_glsl) and a test program of all its *_test.cpp. STUDY names sources in its folder study/, a
+# library of their own that no picture needs; they define `std::span<const Quantity> NAME_quantities()`
+# (methods/quantities.hpp). Nothing else has to change: the registry is written from these lines.
 function(footprint_add_method name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;SHADERS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;SHADERS;STUDY;LIBRARIES" ${ARGN})
   set(folder "${CMAKE_CURRENT_SOURCE_DIR}/${name}")
   if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/${name}.cpp")
     set(folder "${CMAKE_CURRENT_SOURCE_DIR}")
@@ -20,17 +22,24 @@ function(footprint_add_method name)
     footprint_embed(footprint_method_${name} "${folder}/${shader}.glsl" ${shader}_glsl)
   endforeach()
   set_property(GLOBAL APPEND PROPERTY FOOTPRINT_METHODS ${name})
-  file(GLOB tests CONFIGURE_DEPENDS "${folder}/*_test.cpp")
+  set(libraries footprint_method_${name})
+  if(ARG_STUDY)
+    list(TRANSFORM ARG_STUDY PREPEND "${folder}/study/")
+    footprint_add_library(footprint_study_${name} SOURCES ${ARG_STUDY} LIBRARIES ${libraries})
+    set_property(GLOBAL APPEND PROPERTY FOOTPRINT_STUDIES ${name})
+    set(libraries footprint_study_${name})
+  endif()
+  file(GLOB tests CONFIGURE_DEPENDS "${folder}/*_test.cpp" "${folder}/study/*_test.cpp")
   if(tests)
-    footprint_add_test(footprint_${name}_test SOURCES ${tests}
-                       LIBRARIES footprint_method_${name} footprint_testing)
+    footprint_add_test(footprint_${name}_test SOURCES ${tests} LIBRARIES ${libraries} footprint_testing)
   endif()
 endfunction()
 
-# footprint_write_registry(FILE LIBRARIES): the C++ source of the registry of all methods added so far, and the list of
-# their libraries in the variable LIBRARIES.
-function(footprint_write_registry file libraries)
+# footprint_write_registry(SOURCES LIBRARIES): the C++ sources of the registry of all methods added so far and of their
+# studies, written into the current binary folder, and the list of their libraries, in the variables of these names.
+function(footprint_write_registry sources libraries)
   get_property(names GLOBAL PROPERTY FOOTPRINT_METHODS)
+  get_property(studies GLOBAL PROPERTY FOOTPRINT_STUDIES)
   set(FOOTPRINT_METHOD_DECLARATIONS "")
   set(FOOTPRINT_METHOD_ADDRESSES "")
   foreach(name IN LISTS names)
@@ -39,22 +48,34 @@ function(footprint_write_registry file libraries)
   endforeach()
   list(LENGTH names FOOTPRINT_METHOD_COUNT)
   list(JOIN FOOTPRINT_METHOD_ADDRESSES ", " FOOTPRINT_METHOD_ADDRESSES)
-  configure_file("${FOOTPRINT_CMAKE_DIR}/../methods/registry.cpp.in" "${file}" @ONLY)
+  set(FOOTPRINT_STUDY_DECLARATIONS "")
+  set(FOOTPRINT_STUDY_CASES "")
+  foreach(name IN LISTS studies)
+    string(APPEND FOOTPRINT_STUDY_DECLARATIONS "const Method& ${name}_method();\n"
+                                               "std::span<const Quantity> ${name}_quantities();\n")
+    string(APPEND FOOTPRINT_STUDY_CASES "  if (&method == &${name}_method()) return ${name}_quantities();\n")
+  endforeach()
+  foreach(source registry quantities)
+    configure_file("${FOOTPRINT_CMAKE_DIR}/../methods/${source}.cpp.in" "${CMAKE_CURRENT_BINARY_DIR}/${source}.cpp"
+                   @ONLY)
+  endforeach()
   list(TRANSFORM names PREPEND footprint_method_)
-  set(${libraries} "${names}" PARENT_SCOPE)
+  list(TRANSFORM studies PREPEND footprint_study_)
+  set(${sources} "${CMAKE_CURRENT_BINARY_DIR}/registry.cpp" "${CMAKE_CURRENT_BINARY_DIR}/quantities.cpp" PARENT_SCOPE)
+  set(${libraries} ${studies} ${names} PARENT_SCOPE)
 endfunction()
 
 # footprint_finish_methods(TARGET): the library of all methods added so far, with their registry.
 function(footprint_finish_methods target)
-  footprint_write_registry("${CMAKE_CURRENT_BINARY_DIR}/registry.cpp" libraries)
-  footprint_add_library(${target} SOURCES "${CMAKE_CURRENT_BINARY_DIR}/registry.cpp" LIBRARIES ${libraries})
+  footprint_write_registry(sources libraries)
+  footprint_add_library(${target} SOURCES ${sources} LIBRARIES ${libraries})
 endfunction()
 
 # footprint_add_program(TARGET): the program `footprint` with all methods added so far, those of other projects too. Its
 # own registry takes the place of the one in footprint_methods: a linker looks into an archive only for what it still
 # lacks.
 function(footprint_add_program target)
-  footprint_write_registry("${CMAKE_CURRENT_BINARY_DIR}/registry.cpp" libraries)
-  add_executable(${target} "${FOOTPRINT_CMAKE_DIR}/../app/main.cpp" "${CMAKE_CURRENT_BINARY_DIR}/registry.cpp")
+  footprint_write_registry(sources libraries)
+  add_executable(${target} "${FOOTPRINT_CMAKE_DIR}/../app/main.cpp" ${sources})
   target_link_libraries(${target} PRIVATE footprint_commands ${libraries})
 endfunction()

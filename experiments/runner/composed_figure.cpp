@@ -1,4 +1,4 @@
-// See composed_figure.hpp.
+// Cuts, enlarges and labels the pictures of a composed figure and pads them into rows.
 #include "experiments/runner/composed_figure.hpp"
 
 #include <fmt/format.h>

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "experiments/runner/functions.hpp"
 #include "experiments/runner/quantities.hpp"
 #include "experiments/settings/setting.hpp"
 #include "experiments/settings/toml_reading.hpp"
@@ -78,62 +79,9 @@ void read_zoom(const TomlTable& table, RunSettings& run) {
     throw table.error_at("to", "is where the zoom starts", "let it differ from `from`");
 }
 
-// The quantity of that name, and that the method which is asked has it.
-void check_quantity(const Measure& measure, const Experiment& experiment) {
-  const auto refuse = [&](const std::string& message, const std::string& mend) {
-    throw Error(ErrorKind::usage, measure_text(measure), message, mend);
-  };
-  if (!measure.quantity) refuse("does not say which", "add name=NAME, of one of [[quantity]]");
-  const auto named = std::ranges::find(experiment.quantities, *measure.quantity, &NamedQuantity::name);
-  if (named == experiment.quantities.end()) {
-    refuse(fmt::format("there is no quantity `{:.80}`", *measure.quantity), "use the name of one of [[quantity]]");
-  }
-  const std::vector<std::string> methods = texts_of(experiment.run.methods);
-  const MethodSpec& method = experiment.run.methods[select_method(measure.method, methods)];
-  if (find_quantity(find_method(method.name), named->quantity) == nullptr) {
-    refuse(fmt::format("{} has no figure `{}`", method.name, named->quantity), "ask a method that has it");
-  }
-}
-
 // Every figure that is asked for must be one that the run will have: known before it starts.
 void check_measures(const Expression& expression, const Experiment& experiment) {
-  const std::vector<std::string> methods = texts_of(experiment.run.methods);
-  const std::vector<double> distances = given_distances(experiment.run.view);
-  for (const Measure& measure : expression.measures()) {
-    const auto refuse = [&](const std::string& message, const std::string& mend) {
-      throw Error(ErrorKind::usage, measure_text(measure), message, mend);
-    };
-    (void)select_method(measure.method, methods);
-    if (is_of_ndf(measure.function) && experiment.footprints.empty()) {
-      refuse("no footprint is looked into", "add [[ndf]] with a name and a footprint");
-    }
-    if (measure.footprint && std::ranges::find(experiment.footprints, *measure.footprint, &NamedFootprint::name) ==
-                                 experiment.footprints.end()) {
-      refuse(fmt::format("there is no footprint `{:.80}`", *measure.footprint), "use the name of one of [[ndf]]");
-    }
-    if (is_quantity(measure.function)) check_quantity(measure, experiment);
-    if (is_of_supersampling(measure.function)) {
-      if (std::ranges::find(experiment.run.reference.supersampling, *measure.spp) ==
-          experiment.run.reference.supersampling.end()) {
-        refuse(fmt::format("no {} samples are timed", *measure.spp),
-               fmt::format("timed are [{}]: see supersampling of [reference]",
-                           fmt::join(experiment.run.reference.supersampling, ", ")));
-      }
-    } else if (measure.spp && std::ranges::find(experiment.run.reference.other_spp, *measure.spp) ==
-                                  experiment.run.reference.other_spp.end()) {
-      refuse(fmt::format("other_spp of [reference] does not have {}", *measure.spp), "add it there, or leave spp out");
-    }
-    if (measure.function.starts_with("flicker") && experiment.run.view.zoom.frames == 0) {
-      refuse("flicker is measured between frames of a zoom", "give [zoom] from, to and frames");
-    }
-    if (distances.empty()) continue;  // those of the scene, which is not loaded yet
-    if (measure.frame && static_cast<std::size_t>(*measure.frame) >= distances.size()) {
-      refuse("there is no such frame", fmt::format("frames are 0 to {}", distances.size() - 1));
-    }
-    if (measure.distance && std::ranges::find(distances, *measure.distance) == distances.end()) {
-      refuse("the experiment has no such distance", fmt::format("it has {}", fmt::join(distances, ", ")));
-    }
-  }
+  for (const Measure& measure : expression.measures()) check_measure(measure, experiment);
 }
 
 Expression read_expression(const TomlTable& table, std::string_view key, const std::string& text,
@@ -161,7 +109,7 @@ Claim read_claim(const TomlTable& table, const Experiment& experiment) {
   return {.name = std::move(name),
           .text = std::move(words),
           .inequality = std::move(inequality),
-          .expect_reproduced = *expect == 0,
+          .expect = *expect == 0 ? Verdict::reproduced : Verdict::not_reproduced,
           .reason = std::move(reason)};
 }
 

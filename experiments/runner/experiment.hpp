@@ -18,7 +18,7 @@ namespace footprint {
 struct Claim {
   std::string name, text;
   Inequality inequality;
-  bool expect_reproduced = true;
+  Verdict expect = Verdict::reproduced;
   std::string reason;
 };
 

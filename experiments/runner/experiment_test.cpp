@@ -138,7 +138,7 @@ TEST_F(ExperimentFile, EveryKeyIsRead) {
   ASSERT_EQ(experiment.footprints.size(), 1U);
   EXPECT_EQ(experiment.footprints[0].rect.upper, glm::dvec2(0.25, 0.5));
   ASSERT_EQ(experiment.claims.size(), 1U);
-  EXPECT_FALSE(experiment.claims[0].expect_reproduced);
+  EXPECT_EQ(experiment.claims[0].expect, Verdict::not_reproduced);
   ASSERT_EQ(experiment.thresholds.size(), 3U);
   EXPECT_EQ(experiment.thresholds[0].measure.text(), "error(direct)");
   EXPECT_EQ(experiment.thresholds[1].measure.text(), "error(toksvig:storage=fp16)");
@@ -187,6 +187,7 @@ TEST_F(ExperimentFile, WrongFilesAreRefusedAtTheirLine) {
   expect_complaint(
       good + "[reference]\nsupersampling = [1, 4]\n[threshold]\n\"supersampling_time(direct, spp=16)\" = 1\n",
       "timed are [1, 4]");
+  expect_complaint(good + "[threshold]\n\"supersampling_time(direct)\" = 1\n", "does not say of how many samples");
   expect_complaint(good + "[reference]\nsupersampling = [0]\n", "not within 1");
   expect_complaint(good + "[threshold]\n\"ndf_l2(direct)\" = 1\n", "add [[ndf]]");
   expect_complaint(good + "[[ndf]]\nname = \"../a\"\nfootprint = [0, 0, 1, 1]\n", "names no folder");

@@ -1,4 +1,4 @@
-// See expression.hpp: a recursive-descent parser and its tree.
+// Parses expressions by recursive descent into a tree, and evaluates it.
 #include "experiments/runner/expression.hpp"
 
 #include <fmt/format.h>
@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "experiments/runner/functions.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/suggest.hpp"
 
@@ -114,21 +115,25 @@ class Parser {
       expect(')');
       return node;
     }
-    if (std::ranges::find(measure_functions(), name) == measure_functions().end()) {
-      std::vector<std::string> known = measure_functions();
-      known.emplace_back("abs");
-      at_ = start;
-      fail(fmt::format("there is no function `{:.80}`", name), suggestion(name, known));
-    }
-    expect('(');
     node.kind = Kind::call;
-    node.measure.function = name;
+    node.measure.function = &function(name, start);
+    expect('(');
     node.measure.method = argument("a method");
     while (take_one_of(",") != 0) selector(node.measure);
-    if (is_of_supersampling(name) && !node.measure.spp)
-      fail("`spp` is missing", "write supersampling_time(direct, spp=64)");
     expect(')');
     return node;
+  }
+
+  // The row of the table with that name, which starts at `start`.
+  const FigureFunction& function(const std::string& name, std::size_t start) {
+    std::vector<std::string> known;
+    for (const FigureFunction& row : figure_functions()) {
+      if (row.name == name) return row;
+      known.emplace_back(row.name);
+    }
+    known.emplace_back("abs");
+    at_ = start;
+    fail(fmt::format("there is no function `{:.80}`", name), suggestion(name, known));
   }
 
   void selector(Measure& measure) {
@@ -137,31 +142,37 @@ class Parser {
     const std::string text = argument("a selector");
     const std::size_t sign = text.find('=');
     const std::string key = text.substr(0, sign);
-    const std::vector<std::string> known = selectors_of(measure.function);
-    const auto found = std::ranges::find(known, key);
-    const bool is_known = found != known.end() && sign != std::string::npos;
-    if (is_known && select(measure, key, text.substr(sign + 1))) return;
+    const std::vector<Selector>& selectors = measure.function->selectors;
+    const auto found = std::ranges::find(selectors, key, selector_name);
+    const bool is_known = found != selectors.end() && sign != std::string::npos;
+    if (is_known && select(measure, *found, text.substr(sign + 1))) return;
     at_ = start;
-    if (!is_known) fail(fmt::format("`{:.80}` selects nothing of {}", text, measure.function), suggestion(key, known));
-    fail(fmt::format("`{:.80}` is no value, or the second one", text), "write each selector once");
-  }
-
-  static std::vector<std::string> selectors_of(const std::string& function) {
-    if (is_of_ndf(function)) return {"footprint"};
-    if (is_of_supersampling(function)) return {"distance", "spp"};
-    if (is_quantity(function)) return {"name"};
-    if (takes_spp(function)) return {"distance", "frame", "spp"};
-    return {"distance", "frame"};
+    if (is_known) fail(fmt::format("`{:.80}` is no value, or the second one", text), "write each selector once");
+    std::vector<std::string> known;
+    for (const Selector selector : selectors) known.emplace_back(selector_name(selector));
+    fail(fmt::format("`{:.80}` selects nothing of {}", text, measure.function->name), suggestion(key, known));
   }
 
   // Whether the value is one of the selector's, and its first.
-  static bool select(Measure& measure, const std::string& key, const std::string& value) {
-    if (key == "distance") return read(value, measure.distance);
-    if (key == "frame") return read(value, measure.frame) && *measure.frame >= 0;
-    if (key == "spp") return read(value, measure.spp) && *measure.spp > 0;
-    std::optional<std::string>& word = key == "name" ? measure.quantity : measure.footprint;
-    if (word || value.empty()) return false;
-    word = value;
+  static bool select(Measure& measure, Selector selector, const std::string& value) {
+    switch (selector) {
+      case Selector::distance:
+        return read(value, measure.distance);
+      case Selector::frame:
+        return read(value, measure.frame) && *measure.frame >= 0;
+      case Selector::spp:
+        return read(value, measure.spp) && *measure.spp > 0;
+      case Selector::footprint:
+        return read(value, measure.footprint);
+      case Selector::name:
+        break;
+    }
+    return read(value, measure.name);
+  }
+
+  static bool read(const std::string& text, std::optional<std::string>& word) {
+    if (word || text.empty()) return false;
+    word = text;
     return true;
   }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/runner/measure.hpp"
+#include "results/report/records.hpp"
 
 namespace footprint {
 

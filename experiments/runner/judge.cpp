@@ -1,4 +1,4 @@
-// See judge.hpp.
+// Evaluates an experiment's expressions over its results, and compares each outcome with what was expected.
 #include "experiments/runner/judge.hpp"
 
 #include <algorithm>
@@ -6,9 +6,6 @@
 
 namespace footprint {
 namespace {
-
-constexpr const char* reproduced = "reproduced";
-constexpr const char* not_reproduced = "not_reproduced";
 
 void add_figures(const Evaluation& evaluation, std::vector<ClaimFigure>& figures) {
   for (const MeasuredCall& call : evaluation.calls) {
@@ -23,8 +20,8 @@ ClaimOutcome outcome_of(const Claim& claim, const Results& results) {
   ClaimOutcome outcome{.name = claim.name,
                        .text = claim.text,
                        .inequality = claim.inequality.text(),
-                       .expect = claim.expect_reproduced ? reproduced : not_reproduced,
-                       .outcome = "undecided",
+                       .expect = claim.expect,
+                       .outcome = Verdict::undecided,
                        .reason = claim.reason,
                        .problem = left.problem.empty() ? right.problem : left.problem,
                        .left = left.value,
@@ -33,7 +30,8 @@ ClaimOutcome outcome_of(const Claim& claim, const Results& results) {
   add_figures(left, outcome.figures);
   add_figures(right, outcome.figures);
   if (left.value && right.value) {
-    outcome.outcome = claim.inequality.holds(*left.value, *right.value) ? reproduced : not_reproduced;
+    const bool holds = claim.inequality.holds(*left.value, *right.value);
+    outcome.outcome = holds ? Verdict::reproduced : Verdict::not_reproduced;
   }
   return outcome;
 }

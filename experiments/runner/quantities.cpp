@@ -1,4 +1,4 @@
-// See quantities.hpp.
+// Finds methods' figures by their names, and measures those that an experiment asks for.
 #include "experiments/runner/quantities.hpp"
 
 #include <fmt/format.h>
@@ -12,11 +12,6 @@
 namespace footprint {
 
 namespace {
-
-std::span<const Quantity> quantities_of(const Method& method) {
-  const auto* const has = dynamic_cast<const HasQuantities*>(&method);
-  return has != nullptr ? has->quantities() : std::span<const Quantity>();
-}
 
 const Material& material_of(const NamedQuantity& named, const Scene& scene) {
   std::vector<std::string> names;

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "experiments/runner/experiment.hpp"
-#include "renderer/bake/method.hpp"
-#include "renderer/pipeline/quantity.hpp"
+#include "methods/quantities.hpp"
 #include "results/report/records.hpp"
 
 namespace footprint {

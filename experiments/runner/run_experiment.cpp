@@ -1,4 +1,4 @@
-// The comparison first, then what no picture shows, then the judgement over all figures.
+// Runs an experiment's comparison, and adds NDFs, quantities and composed figures to its results.
 #include "experiments/runner/run_experiment.hpp"
 
 #include <algorithm>

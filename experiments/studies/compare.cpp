@@ -235,10 +235,7 @@ class Comparison {
   void set_error(Record& record, const Truth& truth, const Image& picture, const Image& finest) const {
     const Image& reference = truth.reference.mean;
     const std::optional<ErrorFigures> figures = compare_images(picture, reference, exposure_);
-    if (!figures) {
-      record.equivalent_bound = "n/a";
-      return;
-    }
+    if (!figures) return;
     // The finest level is supersampled with the reference's own samples: where one covers a pixel whole, so does the
     // other.
     record.error = RecordError{.normalized_color = figures->normalized_color,
@@ -249,10 +246,8 @@ class Comparison {
                                .noise_floor = truth.noise_floor,
                                .representation = normalized_color(finest, reference, exposure_).value(),
                                .filtering = normalized_color(picture, finest, exposure_).value()};
-    const EquivalentSamples worth =
+    record.equivalent =
         equivalent_samples(footprint::supersampling_curve(truth.curve, truth.distance), figures->normalized_color);
-    record.equivalent_spp = worth.spp;
-    record.equivalent_bound = worth.bound;
     for (const OtherTruth& other : truth.others) {
       if (const auto error = normalized_color(picture, other.mean, exposure_)) {
         record.other_references.push_back(
@@ -310,8 +305,9 @@ class Comparison {
       record.ratio_to_direct = {
           .median = quantile(ratios, 0.5), .minimum = std::ranges::min(ratios), .maximum = std::ranges::max(ratios)};
       if (!method(m).gpu().has_frame_build()) continue;
-      record.frame_build_ms = quantile(pooled(processes, distance, build++), 0.5);
-      record.frame_build = method(m).gpu().keeps_builds() ? "reused" : "every frame";
+      record.frame_build =
+          FrameBuildTime{.ms = quantile(pooled(processes, distance, build++), 0.5),
+                         .timing = method(m).gpu().keeps_builds() ? BuildTiming::reused : BuildTiming::every_frame};
     }
   }
 

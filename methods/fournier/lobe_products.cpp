@@ -1,4 +1,4 @@
-// See lobe_products.hpp.
+// Closed forms of the products of two lobes, with first and second derivatives.
 //
 // The product of two exponentials of dot products is one of the vector kappa_a axis_a + kappa_b axis_b, of length R:
 //   I = C_a C_b 2 pi e^{R - kappa_a - kappa_b} (1 - e^{-2R}) / R,   C = kappa / (2 pi (1 - e^{-2 kappa})),

@@ -1,4 +1,4 @@
-// See normal_bins.hpp.
+// Pools normals in square cells of the disc that they map to, as wide as the base lobe.
 #include "methods/fournier/normal_bins.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// See peak_chain.hpp.
+// Fits every texel of every level, each from the peaks of the texels below it.
 #include "methods/fournier/peak_chain.hpp"
 
 #include <fmt/format.h>

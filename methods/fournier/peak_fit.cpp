@@ -1,4 +1,4 @@
-// See peak_fit.hpp.
+// Levenberg-Marquardt over the parameters of the peaks, with all inner products in closed form.
 //
 // The residual, peaks minus target, is a function on the sphere, and so are its derivatives J by the parameters. What
 // Levenberg-Marquardt needs of them are inner products: G = J^T J, c = J^T r and Q = |r|^2, which are sums of products

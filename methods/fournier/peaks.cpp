@@ -1,4 +1,4 @@
-// See peaks.hpp.
+// Merges sets of normals pair by pair, the cheapest first, and maps directions to the disc and back.
 #include "methods/fournier/peaks.hpp"
 
 #include <algorithm>

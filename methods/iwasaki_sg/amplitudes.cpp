@@ -1,4 +1,4 @@
-// See amplitudes.hpp.
+// Solves Eq. 8 for every pair of directions, without negative amplitudes, and conserves what is seen.
 #include "methods/iwasaki_sg/amplitudes.hpp"
 
 #include <tbb/parallel_for.h>

@@ -1,4 +1,4 @@
-// See brdf_lobes.hpp.
+// Fits lobes with positive weights to analytic and to tabulated densities of half vectors.
 #include "methods/iwasaki_sg/brdf_lobes.hpp"
 
 #include <algorithm>

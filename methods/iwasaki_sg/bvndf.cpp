@@ -1,4 +1,4 @@
-// See bvndf.hpp.
+// Counts the facets that two directions see in common, cell by cell, and sums the counts over cells.
 #include "methods/iwasaki_sg/bvndf.hpp"
 
 #include <tbb/parallel_for.h>

@@ -2,11 +2,9 @@
 // BRDF. Iwasaki, Dobashi, Nishita 2012, "Interactive Bi-scale Editing of Highly Glossy Materials".
 #include <string>
 
-#include "methods/iwasaki_sg/quantities.hpp"
 #include "methods/iwasaki_sg/settings.hpp"
 #include "methods/iwasaki_sg/table_textures.hpp"
 #include "renderer/bake/method.hpp"
-#include "renderer/pipeline/quantity.hpp"
 
 namespace footprint {
 
@@ -18,7 +16,7 @@ namespace {
 
 using namespace iwasaki_sg;
 
-class IwasakiSg final : public Method, public HasQuantities {
+class IwasakiSg final : public Method {
  public:
   [[nodiscard]] const MethodInfo& info() const override { return info_; }
 
@@ -28,8 +26,6 @@ class IwasakiSg final : public Method, public HasQuantities {
   }
 
   [[nodiscard]] int lobe_count(const Options& options) const override { return static_cast<int>(options.number("j")); }
-
-  [[nodiscard]] std::span<const Quantity> quantities() const override { return quantities_; }
 
   [[nodiscard]] std::string_view shader() const override { return shader_; }
 
@@ -44,7 +40,6 @@ class IwasakiSg final : public Method, public HasQuantities {
                    .options = option_table(),
                    .honours = all_effects_but({Effect::normal_layers, Effect::roughness_variation, Effect::multi_lobe}),
                    .resolves_texels = false};
-  std::vector<Quantity> quantities_ = quantity_table();
   std::string shader_ = std::string(embedded::iwasaki_sg_glsl)
                             .append(embedded::iwasaki_sg_lobes_glsl)
                             .append(embedded::iwasaki_sg_environment_glsl);

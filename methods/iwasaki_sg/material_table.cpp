@@ -1,4 +1,4 @@
-// See material_table.hpp.
+// Runs the stages from samples to amplitudes, and weighs the lobes by what of each is seen from above.
 #include "methods/iwasaki_sg/material_table.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// See ndf_fit.hpp.
+// Spherical EM from two starts, after which lobes that Eq. 8 could not tell apart are joined.
 #include "methods/iwasaki_sg/ndf_fit.hpp"
 
 #include <algorithm>

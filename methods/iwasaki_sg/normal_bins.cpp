@@ -1,4 +1,4 @@
-// See normal_bins.hpp.
+// Sorts facets and the texels of a normal map into the cells of a cube.
 #include "methods/iwasaki_sg/normal_bins.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// See settings.hpp.
+// The table of options, and what a material adds to them.
 #include "methods/iwasaki_sg/settings.hpp"
 
 #include "renderer/bake/patch_facets.hpp"

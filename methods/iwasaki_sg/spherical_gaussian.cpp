@@ -1,4 +1,4 @@
-// See spherical_gaussian.hpp.
+// Integrals and convolutions of spherical Gaussians, Eqs. 11 and 14.
 #include "methods/iwasaki_sg/spherical_gaussian.hpp"
 
 #include <cmath>

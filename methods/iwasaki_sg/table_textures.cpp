@@ -1,4 +1,4 @@
-// See table_textures.hpp.
+// Packs lobes, amplitudes and tables of cosines into the textures that the shader reads.
 #include "methods/iwasaki_sg/table_textures.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See em.hpp.
+// The E-step over the components that have weight, the M-step with the prior, and the iteration of both.
 #include "methods/tan_gmm/em.hpp"
 
 #include <algorithm>

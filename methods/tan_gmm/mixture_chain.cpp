@@ -1,4 +1,4 @@
-// See mixture_chain.hpp.
+// Fits levels in fronts of blocks that run in parallel and see what scanline order would have shown them.
 #include "methods/tan_gmm/mixture_chain.hpp"
 
 #include <fmt/format.h>

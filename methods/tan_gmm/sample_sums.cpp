@@ -1,5 +1,5 @@
-// See sample_sums.hpp. Highway compiles what lies in HWY_NAMESPACE once for each set of vector instructions, by
-// including this file again, and picks one when the program runs.
+// Sums by blocks of samples, a vector at a time. Highway compiles what lies in HWY_NAMESPACE once for each set of
+// vector instructions, by including this file again, and picks one when the program runs.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "methods/tan_gmm/sample_sums.cpp"
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)  // no arrays of their vectors

@@ -1,4 +1,4 @@
-// See samples.hpp.
+// Gathers, merges and pools the points that a texel covers, by shares of whole texels.
 #include "methods/tan_gmm/samples.hpp"
 
 #include <tbb/blocked_range.h>

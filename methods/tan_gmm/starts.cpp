@@ -1,4 +1,4 @@
-// See starts.hpp.
+// Clusters samples from far-apart centres, finds the densest cell, and matches components to the prior exactly.
 #include "methods/tan_gmm/starts.hpp"
 
 #include <algorithm>

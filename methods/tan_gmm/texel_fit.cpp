@@ -1,4 +1,4 @@
-// See texel_fit.hpp.
+// Tries EM from clusters, from the densest spot and from the coarser texel, and keeps the likeliest.
 #include "methods/tan_gmm/texel_fit.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// See built_map.hpp: what the method's other tests stand on, and that it stands.
+// Builds maps for the method's other tests, and holds that a constant one has its one lobe.
 #include "methods/xu_vmf/built_map.hpp"
 
 #include <fmt/format.h>

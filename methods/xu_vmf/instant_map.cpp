@@ -1,4 +1,4 @@
-// See instant_map.hpp.
+// Compiles the passes of the build and runs them over the levels and layers of the map.
 #include "methods/xu_vmf/instant_map.hpp"
 
 #include <fmt/format.h>

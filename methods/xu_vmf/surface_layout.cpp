@@ -1,4 +1,4 @@
-// See surface_layout.hpp.
+// Covers texels with triangles as a rasteriser does, and packs charts into an atlas where coordinates overlap.
 #include "methods/xu_vmf/surface_layout.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,10 @@
-// See animation_report.hpp.
+// Writes the frames of an animation: one record a frame and method, and means over the frames in the table.
 #include "results/report/animation_report.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "renderer/core/files.hpp"
 #include "results/report/csv_field.hpp"

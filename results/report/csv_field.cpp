@@ -1,4 +1,4 @@
-// See csv_field.hpp.
+// Quotes text and writes numbers for CSV.
 #include "results/report/csv_field.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,10 @@
-// See edit_report.hpp.
+// Writes the stages of each edit, and their median, least and most over the frames.
 #include "results/report/edit_report.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "renderer/core/files.hpp"

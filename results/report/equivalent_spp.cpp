@@ -1,4 +1,4 @@
-// See equivalent_spp.hpp.
+// Walks the supersampling curve from its right end to the last point that is no better than the method.
 #include "results/report/equivalent_spp.hpp"
 
 #include <fmt/format.h>
@@ -42,21 +42,20 @@ std::vector<CurvePoint> supersampling_curve(std::span<const SupersamplingPoint> 
   return curve;
 }
 
-EquivalentSamples equivalent_samples(std::span<const CurvePoint> curve, double error) {
+std::optional<EquivalentSamples> equivalent_samples(std::span<const CurvePoint> curve, double error) {
   check(curve, error);
-  if (curve.empty()) return {std::nullopt, "n/a"};
+  if (curve.empty()) return std::nullopt;
   std::vector<CurvePoint> sorted(curve.begin(), curve.end());
   std::ranges::stable_sort(sorted, {}, &CurvePoint::spp);
 
   // From the right: the last measured point that is no better than the method.
   const auto last = std::ranges::find_if(sorted.rbegin(), sorted.rend(),
                                          [error](const CurvePoint& point) { return point.error >= error; });
-  if (last == sorted.rend()) return {std::nullopt, fmt::format("<{:g}", sorted.front().spp)};
+  if (last == sorted.rend()) return EquivalentSamples{sorted.front().spp, CurveSide::below};
   if (last == sorted.rbegin()) {
-    if (last->error == error) return {last->spp, ""};
-    return {std::nullopt, fmt::format(">{:g}", last->spp)};
+    return EquivalentSamples{last->spp, last->error == error ? CurveSide::within : CurveSide::above};
   }
-  return {crossing(*last, *(last - 1), error), ""};
+  return EquivalentSamples{crossing(*last, *(last - 1), error), CurveSide::within};
 }
 
 }  // namespace footprint

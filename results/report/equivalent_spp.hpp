@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "results/report/records.hpp"
@@ -16,20 +15,14 @@ struct CurvePoint {
   double error = 0;  ///< any error measure, 0 or more; the same measure all along the curve
 };
 
-/// Where a method's error stands on the curve: exactly one of the two is filled in.
-struct EquivalentSamples {
-  std::optional<double> spp;  ///< within the measured range
-  std::string bound;          ///< "<1" or ">64" with the ends of the curve, "n/a" if there is no curve
-};
-
 /// The curve of one distance, without the counts whose error could not be measured.
 [[nodiscard]] std::vector<CurvePoint> supersampling_curve(std::span<const SupersamplingPoint> points, double distance);
 
 /// The largest spp at which the curve still has at least `error`: up to there the method is worth that many samples
 /// on every reading of a noisy curve that rises again. Between two points the curve is a straight line of log(error)
 /// over log(spp), or of error over log(spp) where one end is 0. A method worse than the whole curve is below its first
-/// count ("<1"), one better than its last point is above its last count (">64"). Points in any order.
+/// count, one better than its last point is above its last count. None without a curve. Points in any order.
 /// Errors (usage): a count that is not above 0, or an error that is negative, NaN or infinite.
-[[nodiscard]] EquivalentSamples equivalent_samples(std::span<const CurvePoint> curve, double error);
+[[nodiscard]] std::optional<EquivalentSamples> equivalent_samples(std::span<const CurvePoint> curve, double error);
 
 }  // namespace footprint

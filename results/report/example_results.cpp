@@ -1,4 +1,4 @@
-// See example_results.hpp.
+// Makes up four methods, their curve and an experiment with every kind of outcome; then spoils them.
 #include "results/report/example_results.hpp"
 
 #include <fmt/format.h>
@@ -34,9 +34,7 @@ Record example_record(const Results& results, const Behaviour& behaviour, double
   const double error = behaviour.error * std::pow(behaviour.growth, std::log2(distance));
   record.error = RecordError{error,   error * 4.1,  error * 9.3, -20 * std::log10(error), -0.013 * distance,
                              0.00071, error * 0.22, error * 0.91};
-  const EquivalentSamples equal = equivalent_samples(supersampling_curve(results.supersampling, distance), error);
-  record.equivalent_spp = equal.spp;
-  record.equivalent_bound = equal.bound;
+  record.equivalent = equivalent_samples(supersampling_curve(results.supersampling, distance), error);
   const double ms = behaviour.milliseconds / std::pow(distance, 0.3);
   record.frame_ms = {ms, ms * 0.96, ms * 1.11};
   record.fps = 1000 / ms;
@@ -74,8 +72,8 @@ ExperimentReport example_experiment(const std::string& text) {
           .claims = {{.name = "holds",
                       .text = "It holds." + text,
                       .inequality = "error(toksvig) < error(direct)",
-                      .expect = "reproduced",
-                      .outcome = "reproduced",
+                      .expect = Verdict::reproduced,
+                      .outcome = Verdict::reproduced,
                       .reason = "as it should" + text,
                       .problem = {},
                       .left = 0.011,
@@ -84,8 +82,8 @@ ExperimentReport example_experiment(const std::string& text) {
                      {.name = "undecided",
                       .text = "Nobody knows.",
                       .inequality = "precompute(toksvig) < 300",
-                      .expect = "not_reproduced",
-                      .outcome = "undecided",
+                      .expect = Verdict::not_reproduced,
+                      .outcome = Verdict::undecided,
                       .reason = "no reason",
                       .problem = "the bake came from the cache",
                       .left = {},
@@ -126,8 +124,7 @@ Results example_results() {
     }
   }
   results.records[2].error->normalized_color = 0.0006;  // below the noise floor
-  results.records[3].frame_build_ms = 0.31;
-  results.records[3].frame_build = "every frame";
+  results.records[3].frame_build = FrameBuildTime{.ms = 0.31, .timing = BuildTiming::every_frame};
   results.records[3].precompute_cached = true;
   results.records[0].other_references = {{16, 0.0223, 0.0029}, {36, 0.0217, {}}};
   results.records[4].flicker = Flicker{.mean = 0.031, .p99 = 0.4, .noise_floor = 0.002};
@@ -151,8 +148,7 @@ Results hostile_results() {
   named.options["a/b~c"] = std::string("=;\"");
   named.images.color = "images/absent <b>#1.exr";
   results.records[2].error.reset();
-  results.records[2].equivalent_spp.reset();
-  results.records[2].equivalent_bound = "n/a";
+  results.records[2].equivalent.reset();
   RecordError& equal = *results.records[3].error;
   equal.normalized_color = 0;
   equal.psnr = equal.relative_rmse = equal.relmse = equal.energy_bias = std::numeric_limits<double>::infinity();

@@ -7,6 +7,13 @@
 
 namespace footprint {
 
+/// How a claim comes out, or is expected to.
+enum class Verdict {
+  reproduced,
+  not_reproduced,
+  undecided  ///< a figure is missing; never expected
+};
+
 /// A figure that a paper prints, and the one that was measured.
 struct PublishedFigure {
   std::string figure;   ///< where it is printed: "Figure 4"
@@ -27,8 +34,8 @@ struct ClaimFigure {
 /// How an inequality came out.
 struct ClaimOutcome {
   std::string name, text, inequality;
-  std::string expect;   ///< "reproduced" or "not_reproduced"
-  std::string outcome;  ///< likewise, or "undecided": a figure is missing
+  Verdict expect = Verdict::reproduced;
+  Verdict outcome = Verdict::undecided;
   std::string reason;   ///< why that is expected
   std::string problem;  ///< of an undecided one
   std::optional<double> left, right;

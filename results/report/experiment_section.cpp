@@ -1,10 +1,11 @@
-// See experiment_section.hpp.
+// Lays out what became of an experiment as tables and sentences, in Markdown and in HTML.
 #include "results/report/experiment_section.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <string_view>
 
 #include "results/report/figures.hpp"
 #include "results/report/markdown_table.hpp"
@@ -44,14 +45,14 @@ Table published_table(const ExperimentReport& report) {
   return table;
 }
 
-// "not reproduced" as people write it.
-std::string in_words(std::string outcome) {
-  if (const auto at = outcome.find('_'); at != std::string::npos) outcome[at] = ' ';
-  return outcome;
+// As people write it.
+std::string_view in_words(Verdict verdict) {
+  return verdict == Verdict::not_reproduced ? "not reproduced" : verdict_name(verdict);
 }
 
 std::string outcome_text(const ClaimOutcome& claim) {
-  return in_words(claim.outcome) + (claim.as_expected() ? "" : ", expected " + in_words(claim.expect));
+  const std::string_view outcome = in_words(claim.outcome);
+  return claim.as_expected() ? std::string(outcome) : fmt::format("{}, expected {}", outcome, in_words(claim.expect));
 }
 
 std::string figures_text(const ClaimOutcome& claim) {

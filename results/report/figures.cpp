@@ -1,4 +1,4 @@
-// See figures.hpp.
+// Rounds numbers, names enumerators and words sentences for every writer of a report.
 #include "results/report/figures.hpp"
 
 #include <fmt/format.h>
@@ -17,11 +17,11 @@ std::string plural(const std::string& count, std::string_view noun) {
 }
 
 std::string worth(const Record& record) {
-  if (record.equivalent_spp) return "worth " + plural(equivalent_text(record), "sample");
-  const std::string_view bound = record.equivalent_bound;
-  if (bound.starts_with('<')) return "worth less than " + plural(std::string(bound.substr(1)), "sample");
-  if (bound.starts_with('>')) return "worth more than " + plural(std::string(bound.substr(1)), "sample");
-  return fmt::format("off by {}", error_text(record.error->normalized_color));
+  if (!record.equivalent) return fmt::format("off by {}", error_text(record.error->normalized_color));
+  const auto [spp, side] = *record.equivalent;
+  if (side == CurveSide::within) return "worth " + plural(equivalent_text(record), "sample");
+  return fmt::format("worth {} than {}", side == CurveSide::below ? "less" : "more",
+                     plural(fmt::format("{:g}", spp), "sample"));
 }
 
 std::string reference_text(const ReferenceInfo& reference) {
@@ -75,11 +75,39 @@ std::string bytes_per_texel_text(const Record& record) {
   return record.precompute_bytes_per_texel ? three_figures(*record.precompute_bytes_per_texel) : "n/a";
 }
 
+std::optional<double> equivalent_spp(const Record& record) {
+  const bool within = record.equivalent && record.equivalent->side == CurveSide::within;
+  return within ? std::optional(record.equivalent->spp) : std::nullopt;
+}
+
+std::string equivalent_bound(const Record& record) {
+  if (!record.equivalent) return "n/a";
+  const auto [spp, side] = *record.equivalent;
+  if (side == CurveSide::within) return {};
+  return fmt::format("{}{:g}", side == CurveSide::below ? '<' : '>', spp);
+}
+
 std::string equivalent_text(const Record& record) {
-  if (!record.equivalent_spp) return record.equivalent_bound.empty() ? "n/a" : record.equivalent_bound;
-  const double spp = *record.equivalent_spp;
-  const std::string text = spp < 9.95 ? fmt::format("{:.1f}", spp) : fmt::format("{:.0f}", spp);
+  const std::optional<double> spp = equivalent_spp(record);
+  if (!spp) return equivalent_bound(record);
+  const std::string text = *spp < 9.95 ? fmt::format("{:.1f}", *spp) : fmt::format("{:.0f}", *spp);
   return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
+}
+
+std::string_view timing_name(BuildTiming timing) {
+  return timing == BuildTiming::every_frame ? "every frame" : "reused";
+}
+
+std::string_view verdict_name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::reproduced:
+      return "reproduced";
+    case Verdict::not_reproduced:
+      return "not_reproduced";
+    case Verdict::undecided:
+      break;
+  }
+  return "undecided";
 }
 
 bool at_noise_floor(const Record& record) {

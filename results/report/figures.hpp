@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "results/report/records.hpp"
@@ -24,8 +26,21 @@ namespace footprint {
 /// Bytes that the baked maps take a texel: "16.0", "n/a" without a map.
 [[nodiscard]] std::string bytes_per_texel_text(const Record& record);
 
-/// "41", "1.5", or the bound "<1", ">64", "n/a".
+/// The samples that a record is worth, where the curve of plain supersampling reaches its error.
+[[nodiscard]] std::optional<double> equivalent_spp(const Record& record);
+
+/// Where that curve ends before a record's error: "<1", ">64"; empty within the curve, "n/a"
+/// without an error or a curve.
+[[nodiscard]] std::string equivalent_bound(const Record& record);
+
+/// "41", "1.5", or the bound.
 [[nodiscard]] std::string equivalent_text(const Record& record);
+
+/// "every frame", "reused".
+[[nodiscard]] std::string_view timing_name(BuildTiming timing);
+
+/// "reproduced", "not_reproduced", "undecided".
+[[nodiscard]] std::string_view verdict_name(Verdict verdict);
 
 /// Whether the error cannot be told from the reference's own noise.
 [[nodiscard]] bool at_noise_floor(const Record& record);

@@ -1,4 +1,4 @@
-// See markdown_table.hpp.
+// Pads cells to the width of their column, and escapes what Markdown would take for markup.
 #include "results/report/markdown_table.hpp"
 
 #include <algorithm>

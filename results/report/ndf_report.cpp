@@ -1,4 +1,4 @@
-// See ndf_report.hpp.
+// Writes the figures of the NDF inspector, one object a method.
 #include "results/report/ndf_report.hpp"
 
 #include <fmt/format.h>

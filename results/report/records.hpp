@@ -12,6 +12,31 @@
 
 namespace footprint {
 
+/// Where an error stands on the measured curve of plain supersampling.
+enum class CurveSide {
+  within,
+  below,  ///< worse than the whole curve
+  above   ///< better than its last point
+};
+
+/// What an error is worth in plain supersampling.
+struct EquivalentSamples {
+  double spp = 1;  ///< samples a pixel; beside the curve those of its end: fewer (below) or more (above) than that
+  CurveSide side = CurveSide::within;
+};
+
+/// When what a method rebuilds is rebuilt, and so whether `frame_ms` has it in it.
+enum class BuildTiming {
+  every_frame,  ///< it has
+  reused        ///< it has not: the timed frames kept what was built before them
+};
+
+/// What a method rebuilds when something moves.
+struct FrameBuildTime {
+  double ms = 0;  ///< median
+  BuildTiming timing = BuildTiming::every_frame;
+};
+
 /// Median with its spread over the repeats of one run.
 struct FrameTime {
   double median = 0, minimum = 0, p90 = 0;  ///< milliseconds
@@ -64,14 +89,12 @@ struct Record {
   int frame = 0;
   int width = 0, height = 0;
   std::optional<RecordError> error;              ///< none: the object covers no whole pixel
-  std::optional<double> equivalent_spp;          ///< none: above or below the measured curve, see `equivalent_bound`
-  std::string equivalent_bound;                  ///< "", "<1" or ">64" (the ends of the curve), "n/a" without an error
+  std::optional<EquivalentSamples> equivalent;   ///< none: there is no error, or no curve
   std::vector<OtherReference> other_references;  ///< none where there is no error
   std::optional<Flicker> flicker;                ///< none: no frame of a zoom, or its first
   FrameTime frame_ms;
-  std::optional<double> frame_build_ms;  ///< none: the method rebuilds nothing each frame
-  std::string frame_build;  ///< "every frame": `frame_ms` has it in it; "reused": it has not; empty: there is none
-  double fps = 0;           ///< 1000 / frame_ms.median
+  std::optional<FrameBuildTime> frame_build;  ///< none: the method rebuilds nothing
+  double fps = 0;                             ///< 1000 / frame_ms.median
   TimeRatio ratio_to_direct;
   double precompute_seconds = 0;
   std::uint64_t precompute_bytes = 0;

@@ -12,9 +12,6 @@ namespace footprint {
 /// infinities and absent figures as null.
 [[nodiscard]] std::string results_json(const Results& results);
 
-/// The inverse of results_json. Errors (usage) name `source`, the JSON pointer and what is wrong.
-[[nodiscard]] Results parse_results(const std::string& json, const std::string& source);
-
 /// One line a record, RFC 4180; the header names every column with its unit.
 [[nodiscard]] std::string results_csv(const Results& results);
 

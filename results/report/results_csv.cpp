@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "results/report/csv_field.hpp"
+#include "results/report/figures.hpp"
 #include "results/report/report.hpp"
 
 namespace footprint {
@@ -72,16 +73,17 @@ std::array<std::string, 8> error_fields(const std::optional<RecordError>& error)
 std::string line(const Record& record) {
   const FrameTime& frame = record.frame_ms;
   const TimeRatio& ratio = record.ratio_to_direct;
+  const std::optional<FrameBuildTime>& build = record.frame_build;
   const std::array<std::string, columns.size() - 15> after_error{
-      csv_field(record.equivalent_spp),
-      csv_field(record.equivalent_bound),
+      csv_field(equivalent_spp(record)),
+      equivalent_bound(record),
       csv_field(record.flicker ? std::optional(record.flicker->mean) : std::nullopt),
       csv_field(record.flicker ? std::optional(record.flicker->p99) : std::nullopt),
       csv_field(frame.median),
       csv_field(frame.minimum),
       csv_field(frame.p90),
-      csv_field(record.frame_build_ms),
-      record.frame_build,
+      csv_field(build ? std::optional(build->ms) : std::nullopt),
+      std::string(build ? timing_name(build->timing) : ""),
       csv_field(record.fps),
       csv_field(ratio.median),
       csv_field(ratio.minimum),

@@ -57,7 +57,8 @@ TEST(ResultsCsv, FiguresStandUnderTheirColumn) {
   EXPECT_EQ(value(lines, 4, "method"), "toksvig:storage=unorm8");
   EXPECT_EQ(std::stod(value(lines, 4, "normalized_color_error")), record.error->normalized_color);
   EXPECT_EQ(std::stod(value(lines, 4, "filtering_error")), record.error->filtering);
-  EXPECT_EQ(std::stod(value(lines, 4, "equivalent_spp")), record.equivalent_spp.value());
+  ASSERT_TRUE(record.equivalent);
+  EXPECT_EQ(std::stod(value(lines, 4, "equivalent_spp")), record.equivalent->spp);
   EXPECT_EQ(std::stod(value(lines, 4, "frame_p90_ms")), record.frame_ms.p90);
   EXPECT_EQ(std::stod(value(lines, 4, "ratio_to_direct_max")), record.ratio_to_direct.maximum);
   EXPECT_EQ(value(lines, 4, "frame_build_ms"), "0.31");

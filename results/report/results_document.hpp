@@ -1,13 +1,13 @@
 // The content of results.json as a JSON value, for the file and for the page that carries it.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "results/report/records.hpp"
 
 namespace footprint {
 
-/// What `"schema"` says in every results.json that this version writes and reads.
+/// What `"schema"` says in every results.json that this version writes.
 inline constexpr const char* results_schema = "footprint-results/1";
 
 /// The document of docs/results.schema.json, keys in its order; NaN, infinities and absent figures are null.

@@ -1,7 +1,9 @@
-// Results to JSON; parse_results.cpp is the way back.
+// Results as the document of docs/results.schema.json.
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "results/report/experiment_json.hpp"
+#include "results/report/figures.hpp"
 #include "results/report/report.hpp"
 #include "results/report/results_document.hpp"
 
@@ -41,12 +43,13 @@ Json other_references_json(const Record& record) {
 }
 
 Json time_json(const Record& record) {
+  const std::optional<FrameBuildTime>& build = record.frame_build;
   return {{"frame_ms",
            {{"median", json_number(record.frame_ms.median)},
             {"min", json_number(record.frame_ms.minimum)},
             {"p90", json_number(record.frame_ms.p90)}}},
-          {"frame_build_ms", json_number(record.frame_build_ms)},
-          {"frame_build", record.frame_build.empty() ? Json() : Json(record.frame_build)},
+          {"frame_build_ms", build ? json_number(build->ms) : Json()},
+          {"frame_build", build ? Json(timing_name(build->timing)) : Json()},
           {"fps", json_number(record.fps)},
           {"ratio_to_direct",
            {{"median", json_number(record.ratio_to_direct.median)},
@@ -62,8 +65,8 @@ Json record_json(const Record& record) {
           {"frame", record.frame},
           {"size", Json::array({record.width, record.height})},
           {"error", error_json(record.error)},
-          {"equivalent_spp", json_number(record.equivalent_spp)},
-          {"equivalent_bound", record.equivalent_bound},
+          {"equivalent_spp", json_number(equivalent_spp(record))},
+          {"equivalent_bound", equivalent_bound(record)},
           {"other_references", other_references_json(record)},
           {"flicker", flicker_json(record.flicker)},
           {"time", time_json(record)},

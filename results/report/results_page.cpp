@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "renderer/image/false_color.hpp"
@@ -45,6 +46,7 @@ Json display(const Record& record) {
   };
   const bool floor_known = record.error && record.error->noise_floor;
   const TimeRatio& ratio = record.ratio_to_direct;
+  const std::optional<FrameBuildTime>& build = record.frame_build;
   return {{"error", figure(&RecordError::normalized_color)},
           {"at_floor", at_noise_floor(record)},
           {"noise_floor", floor_known ? error_text(*record.error->noise_floor) : "n/a"},
@@ -54,7 +56,7 @@ Json display(const Record& record) {
           {"frame", spread_text(record.frame_ms.median, record.frame_ms.minimum, record.frame_ms.p90)},
           {"ratio", spread_text(ratio.median, ratio.minimum, ratio.maximum)},
           {"fps", three_figures(record.fps)},
-          {"build", record.frame_build_ms ? three_figures(*record.frame_build_ms) + ", " + record.frame_build : "none"},
+          {"build", build ? fmt::format("{}, {}", three_figures(build->ms), timing_name(build->timing)) : "none"},
           {"precompute", three_figures(record.precompute_seconds)},
           {"bytes", bytes_text(record.precompute_bytes)},
           {"bytes_per_texel", bytes_per_texel_text(record)},

@@ -142,10 +142,10 @@ std::string quantity_section(const Results& results) {
 std::string frame_build_section(const Results& results) {
   Rows rows;
   for (const Record& record : results.records) {
-    if (record.frame_build_ms) {
-      rows.push_back({record.method, fmt::format("{}", record.distance), three_figures(*record.frame_build_ms),
-                      record.frame_build});
-    }
+    if (!record.frame_build) continue;
+    const auto [ms, timing] = *record.frame_build;
+    rows.push_back(
+        {record.method, fmt::format("{}", record.distance), three_figures(ms), std::string(timing_name(timing))});
   }
   if (rows.empty()) return {};
   return "\n## Frame build\n\n" +

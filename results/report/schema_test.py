@@ -51,11 +51,34 @@ def broken(document):
         "an option that is a list": lambda d: d["records"][0]["options"].update(probes=[1]),
         "a bound of another kind": lambda d: d["records"][0].update(equivalent_bound="many"),
         "samples that are no whole number": lambda d: d["reference"].update(spp=1.5),
+        "no sample": lambda d: d["reference"].update(spp=0),
+        "a frame before the first": lambda d: d["records"][0].update(frame=-1),
+        "half a frame": lambda d: d["records"][0].update(frame=1.5),
+        "one side": lambda d: d["records"][0].update(size=[512]),
+        "no width": lambda d: d["records"][0].update(size=[0, 512]),
+        "no pictures": lambda d: d["records"][0].pop("images"),
+        "an option that is neither number nor text": lambda d: d["records"][0]["options"].update(probes=True),
+        "records that are no list": lambda d: d.update(records={}),
+        "a number for a warning": lambda d: d["scene"].update(warnings=[1]),
+        "a number for a flag": lambda d: d["records"][0]["precompute"].update(cached=1),
+        "a claim that may come out": lambda d: d["experiment"]["claims"][0].update(outcome="maybe"),
+        "an undecided expectation": lambda d: d["experiment"]["claims"][0].update(expect="undecided"),
+        "another timing of frame builds": lambda d: d["records"][0]["time"].update(frame_build="sometimes"),
     }
     for name, change in changes.items():
         wrong = copy.deepcopy(document)
         change(wrong)
         yield name, wrong
+
+
+def agree(document):
+    """What is told of claims and thresholds is what their figures say."""
+    experiment = document["experiment"] or {"claims": [], "thresholds": []}
+    for claim in experiment["claims"]:
+        assert claim["as_expected"] == (claim["outcome"] == claim["expect"]), claim["name"]
+    for threshold in experiment["thresholds"]:
+        measured = threshold["measured"]
+        assert threshold["held"] == (measured is not None and measured <= threshold["limit"]), threshold["measure"]
 
 
 def documents(source):
@@ -76,6 +99,7 @@ def main(schema_file, source):
     validator = jsonschema.Draft7Validator(schema)
     for title, document in documents(source):
         validator.validate(document)
+        agree(document)
         for name, wrong in broken(document):
             assert not validator.is_valid(wrong), f"{title}: the schema takes {name}"
     print("results.json holds to its schema, and broken documents do not")

@@ -1,4 +1,4 @@
-// See text_template.hpp.
+// Replaces the names in a template, and escapes text for HTML and for script elements.
 #include "results/report/text_template.hpp"
 
 #include <stdexcept>

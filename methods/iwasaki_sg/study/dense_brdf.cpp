@@ -1,5 +1,5 @@
-// See dense_brdf.hpp.
-#include "methods/iwasaki_sg/dense_brdf.hpp"
+// Sums over facets, the table of such sums, and the relative error of either stand-in at random pairs of directions.
+#include "methods/iwasaki_sg/study/dense_brdf.hpp"
 
 #include <tbb/parallel_for.h>
 

@@ -1,5 +1,5 @@
 // The sum over facets and the table of it, against cases that are known, and the figures that compare them with lobes.
-#include "methods/iwasaki_sg/dense_brdf.hpp"
+#include "methods/iwasaki_sg/study/dense_brdf.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numbers>
 #include <tuple>
 
-#include "methods/iwasaki_sg/quantities.hpp"
 #include "methods/iwasaki_sg/settings.hpp"
+#include "methods/iwasaki_sg/study/quantities.hpp"
 #include "methods/iwasaki_sg/test_materials.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
@@ -24,7 +24,7 @@ constexpr BaseBrdf blinn_phong{NormalDistribution::blinn_phong, GeometryTerm::no
 
 double figure(const std::string& name, const Material& material, const std::map<std::string, std::string>& options,
               const std::map<std::string, std::string>& parameters = {}) {
-  for (const Quantity& quantity : quantity_table()) {
+  for (const Quantity& quantity : iwasaki_sg_quantities()) {
     if (quantity.name != name) continue;
     return quantity.measure(material, Options(option_table(), options, "test"),
                             Options(quantity.parameters, parameters, "test"));

@@ -1,16 +1,17 @@
-// See quantities.hpp.
-#include "methods/iwasaki_sg/quantities.hpp"
+// Measures the fit, the effective BRDF, a dense table of it and the time of each stage.
+#include "methods/iwasaki_sg/study/quantities.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <string>
 #include <utility>
+#include <vector>
 
-#include "methods/iwasaki_sg/dense_brdf.hpp"
-#include "methods/iwasaki_sg/effective_brdf.hpp"
-#include "methods/iwasaki_sg/fit_error.hpp"
 #include "methods/iwasaki_sg/material_table.hpp"
 #include "methods/iwasaki_sg/settings.hpp"
+#include "methods/iwasaki_sg/study/dense_brdf.hpp"
+#include "methods/iwasaki_sg/study/effective_brdf.hpp"
+#include "methods/iwasaki_sg/study/fit_error.hpp"
 #include "methods/iwasaki_sg/table_textures.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/stage_clock.hpp"
@@ -158,12 +159,20 @@ std::vector<Quantity> brdf_quantities() {
           {"table_ms", "Time of making that table, once, milliseconds.", {side}, measured_table_ms}};
 }
 
-}  // namespace
-
 std::vector<Quantity> quantity_table() {
   std::vector<Quantity> all = lobe_quantities();
   for (const auto& more : {stage_quantities(), brdf_quantities()}) all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 
+}  // namespace
 }  // namespace footprint::iwasaki_sg
+
+namespace footprint {
+
+std::span<const Quantity> iwasaki_sg_quantities() {
+  static const std::vector<Quantity> table = iwasaki_sg::quantity_table();
+  return table;
+}
+
+}  // namespace footprint

@@ -1,5 +1,5 @@
-// See effective_brdf.hpp.
-#include "methods/iwasaki_sg/effective_brdf.hpp"
+// Evaluates Eq. 15 in double precision with the shader's own interpolation between directions.
+#include "methods/iwasaki_sg/study/effective_brdf.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-// See fit_error.hpp.
-#include "methods/iwasaki_sg/fit_error.hpp"
+// Compares convolutions over angles, and lobes with the BVNDF over every cell and pair of directions.
+#include "methods/iwasaki_sg/study/fit_error.hpp"
 
 #include <tbb/parallel_for.h>
 

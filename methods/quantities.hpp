@@ -1,10 +1,12 @@
-// Figures of a method that no picture shows, which experiments ask for by name.
+// Figures of a method that no picture shows, which experiments ask for by name. CMake writes the list of the methods
+// that have some: one footprint_add_method line with STUDY a method.
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
 
+#include "renderer/bake/method.hpp"
 #include "renderer/core/options.hpp"
 #include "renderer/scene/material.hpp"
 
@@ -19,15 +21,7 @@ struct Quantity {
   double (*measure)(const Material& material, const Options& options, const Options& parameters) = nullptr;
 };
 
-/// What a method is besides that has such figures.
-class HasQuantities {
- public:
-  HasQuantities() = default;
-  HasQuantities(const HasQuantities&) = delete;
-  HasQuantities& operator=(const HasQuantities&) = delete;
-  virtual ~HasQuantities() = default;
-
-  [[nodiscard]] virtual std::span<const Quantity> quantities() const = 0;
-};
+/// The figures of a method of this build; none where it has no study.
+[[nodiscard]] std::span<const Quantity> quantities_of(const Method& method);
 
 }  // namespace footprint

@@ -1,5 +1,5 @@
 // The effective BRDF in C++ against the method's own shader.
-#include "methods/iwasaki_sg/effective_brdf.hpp"
+#include "methods/iwasaki_sg/study/effective_brdf.hpp"
 
 #include <gtest/gtest.h>
 

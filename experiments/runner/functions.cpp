@@ -1,0 +1,280 @@
+// The table of functions: for each the selectors that it takes, what the experiment must have, and its figure of a run.
+#include "experiments/runner/functions.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "experiments/runner/experiment.hpp"
+#include "experiments/runner/quantities.hpp"
+#include "experiments/studies/zoom.hpp"
+#include "methods/registry.hpp"
+#include "renderer/core/error.hpp"
+#include "results/report/figures.hpp"
+
+namespace footprint {
+namespace {
+
+[[noreturn]] void refuse(const Measure& measure, const std::string& message, const std::string& hint) {
+  throw Error(ErrorKind::usage, measure_text(measure), message, hint);
+}
+
+std::vector<std::string> methods_of(const Experiment& experiment) {
+  std::vector<std::string> texts;
+  for (const MethodSpec& method : experiment.run.methods) texts.push_back(method.text);
+  return texts;
+}
+
+std::vector<std::string> methods_of(const Results& results) {
+  std::vector<std::string> methods;
+  for (const Record& record : results.records) {
+    if (std::ranges::find(methods, record.method) == methods.end()) methods.push_back(record.method);
+  }
+  return methods;
+}
+
+template <typename Values, typename Value>
+bool has(const Values& values, const Value& value) {
+  return std::ranges::find(values, value) != std::ranges::end(values);
+}
+
+// ---- needs
+
+void nothing(const Measure& /*measure*/, const Experiment& /*experiment*/) {}
+
+void its_reference(const Measure& measure, const Experiment& experiment) {
+  if (!measure.spp || has(experiment.run.reference.other_spp, *measure.spp)) return;
+  refuse(measure, fmt::format("other_spp of [reference] does not have {}", *measure.spp),
+         "add it there, or leave spp out");
+}
+
+void a_timed_count(const Measure& measure, const Experiment& experiment) {
+  if (!measure.spp) refuse(measure, "does not say of how many samples", "add spp=SAMPLES");
+  if (has(experiment.run.reference.supersampling, *measure.spp)) return;
+  refuse(measure, fmt::format("no {} samples are timed", *measure.spp),
+         fmt::format("timed are [{}]: see supersampling of [reference]",
+                     fmt::join(experiment.run.reference.supersampling, ", ")));
+}
+
+void a_zoom(const Measure& measure, const Experiment& experiment) {
+  if (experiment.run.view.zoom.frames > 0) return;
+  refuse(measure, "flicker is measured between frames of a zoom", "give [zoom] from, to and frames");
+}
+
+void a_footprint(const Measure& measure, const Experiment& experiment) {
+  if (experiment.footprints.empty()) {
+    refuse(measure, "no footprint is looked into", "add [[ndf]] with a name and a footprint");
+  }
+  if (!measure.footprint) return;
+  const auto found = std::ranges::find(experiment.footprints, *measure.footprint, &NamedFootprint::name);
+  if (found != experiment.footprints.end()) return;
+  refuse(measure, fmt::format("there is no footprint `{:.80}`", *measure.footprint), "use the name of one of [[ndf]]");
+}
+
+void a_quantity(const Measure& measure, const Experiment& experiment) {
+  if (!measure.name) refuse(measure, "does not say which", "add name=NAME, of one of [[quantity]]");
+  const auto named = std::ranges::find(experiment.quantities, *measure.name, &NamedQuantity::name);
+  if (named == experiment.quantities.end()) {
+    refuse(measure, fmt::format("there is no quantity `{:.80}`", *measure.name), "use the name of one of [[quantity]]");
+  }
+  const std::string& method = experiment.run.methods[select_method(measure.method, methods_of(experiment))].name;
+  if (find_quantity(find_method(method), named->quantity) != nullptr) return;
+  refuse(measure, fmt::format("{} has no figure `{}`", method, named->quantity), "ask a method that has it");
+}
+
+// ---- evaluate
+
+using Figure = std::optional<double>;
+using Evaluate = decltype(FigureFunction::evaluate);
+
+// What one record says.
+struct Sample {
+  Figure value;
+  bool at_noise_floor = false;
+};
+
+Measured no_figure(std::string problem) { return {.value = {}, .problem = std::move(problem)}; }
+
+Measured mean_of(double sum, std::size_t count) {
+  const double mean = sum / static_cast<double>(count);
+  if (std::isnan(mean)) return no_figure("the figure is not a number");
+  return {.value = mean, .problem = {}};
+}
+
+bool selects(const Measure& measure, const std::string& method, const Record& record) {
+  return record.method == method && (!measure.distance || record.distance == *measure.distance) &&
+         (!measure.frame || record.frame == *measure.frame);
+}
+
+// The mean over the records that are selected; `absent` is the problem where none of them has the figure.
+Evaluate over_samples(std::function<Sample(const Measure&, const Record&)> sample, std::string absent) {
+  return [sample = std::move(sample), absent = std::move(absent)](const Measure& measure, const std::string& method,
+                                                                  const Results& results) {
+    double sum = 0;
+    std::size_t count = 0, noisy = 0, matching = 0;
+    for (const Record& record : results.records) {
+      if (!selects(measure, method, record)) continue;
+      ++matching;
+      const Sample found = sample(measure, record);
+      if (!found.value) continue;
+      sum += *found.value;
+      ++count;
+      noisy += found.at_noise_floor ? 1 : 0;
+    }
+    if (matching == 0) return no_figure("the run has no such record");
+    if (count == 0) return no_figure(absent);
+    Measured mean = mean_of(sum, count);
+    mean.at_noise_floor = noisy == count;
+    return mean;
+  };
+}
+
+Evaluate over_records(std::function<Figure(const Record&)> figure, std::string absent = "no record has this figure") {
+  return over_samples([figure = std::move(figure)](const Measure& /*measure*/,
+                                                   const Record& record) { return Sample{.value = figure(record)}; },
+                      std::move(absent));
+}
+
+Evaluate over_errors(double RecordError::*member) {
+  return over_records([member](const Record& r) { return r.error ? Figure((*r.error).*member) : Figure(); });
+}
+
+Evaluate over_flicker(double Flicker::*member) {
+  return over_records([member](const Record& r) { return r.flicker ? Figure((*r.flicker).*member) : Figure(); });
+}
+
+// Against the run's own reference, or the one of so many samples.
+Sample error_sample(const Measure& measure, const Record& record) {
+  if (!measure.spp) {
+    return {.value = record.error ? Figure(record.error->normalized_color) : Figure(),
+            .at_noise_floor = at_noise_floor(record)};
+  }
+  const auto other = std::ranges::find(record.other_references, *measure.spp, &OtherReference::spp);
+  if (other == record.other_references.end()) return {};
+  return {.value = other->normalized_color,
+          .at_noise_floor = other->noise_floor && other->normalized_color <= *other->noise_floor};
+}
+
+double build_ms(const Record& record) { return record.frame_build ? record.frame_build->ms : 0.0; }
+
+// A frame without what is rebuilt in it, whether or not the timed frames rebuilt it.
+double shading_ms(const Record& record) {
+  const bool timed = record.frame_build && record.frame_build->timing == BuildTiming::every_frame;
+  return record.frame_ms.median - (timed ? build_ms(record) : 0.0);
+}
+
+// The mean over the footprints.
+Evaluate over_footprints(double NdfFigures::*member) {
+  return [member](const Measure& measure, const std::string& method, const Results& results) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (const NdfFigures& figures : results.ndf) {
+      if (figures.method != method || (measure.footprint && figures.footprint != *measure.footprint)) continue;
+      sum += figures.*member;
+      ++count;
+    }
+    return count > 0 ? mean_of(sum, count) : no_figure("no such footprint was looked into");
+  };
+}
+
+// The mean over the distances.
+Measured supersampling_ms(const Measure& measure, const std::string& /*method*/, const Results& results) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const SupersamplingPoint& point : results.supersampling) {
+    if (point.spp != measure.spp || (measure.distance && point.distance != *measure.distance)) continue;
+    sum += point.ms;
+    ++count;
+  }
+  return count > 0 ? mean_of(sum, count) : no_figure("no such count of samples was timed");
+}
+
+Measured quantity_figure(const Measure& measure, const std::string& method, const Results& results) {
+  for (const QuantityFigure& figure : results.quantities) {
+    if (figure.method == method && figure.name == measure.name) return mean_of(figure.value, 1);
+  }
+  return no_figure("the run has no such figure");
+}
+
+std::vector<FigureFunction> function_table() {
+  using enum Selector;
+  const std::vector<Selector> records{distance, frame};
+  return {
+      {"error", {distance, frame, spp}, its_reference, over_samples(error_sample, "no record has this figure")},
+      {"relative_rmse", records, nothing, over_errors(&RecordError::relative_rmse)},
+      {"relmse", records, nothing, over_errors(&RecordError::relmse)},
+      {"psnr", records, nothing, over_errors(&RecordError::psnr)},
+      {"energy_bias", records, nothing, over_errors(&RecordError::energy_bias)},
+      {"representation", records, nothing, over_errors(&RecordError::representation)},
+      {"filtering", records, nothing, over_errors(&RecordError::filtering)},
+      {"noise_floor", records, nothing,
+       over_records([](const Record& r) { return r.error ? r.error->noise_floor : Figure(); })},
+      {"equivalent_spp", records, nothing,
+       over_records([](const Record& r) { return r.equivalent ? Figure(r.equivalent->spp) : Figure(); })},
+      {"flicker", records, a_zoom, over_flicker(&Flicker::mean)},
+      {"flicker_p99", records, a_zoom, over_flicker(&Flicker::p99)},
+      {"time", records, nothing, over_records([](const Record& r) { return r.frame_ms.median; })},
+      {"fps", records, nothing, over_records([](const Record& r) { return r.fps; })},
+      {"build", records, nothing,
+       over_records([](const Record& r) { return r.frame_build ? Figure(r.frame_build->ms) : Figure(); })},
+      {"shading", records, nothing, over_records(shading_ms)},
+      {"total", records, nothing, over_records([](const Record& r) { return shading_ms(r) + build_ms(r); })},
+      {"supersampling_time", {distance, spp}, a_timed_count, supersampling_ms},
+      {"ratio", records, nothing, over_records([](const Record& r) { return r.ratio_to_direct.median; })},
+      {"precompute", records, nothing,
+       over_records([](const Record& r) { return r.precompute_cached ? Figure() : Figure(r.precompute_seconds); },
+                    "the bake came from the cache (give --no-cache)")},
+      {"bytes", records, nothing,
+       over_records([](const Record& r) { return static_cast<double>(r.precompute_bytes); })},
+      {"bytes_per_texel", records, nothing, over_records([](const Record& r) { return r.precompute_bytes_per_texel; })},
+      {"ndf_l2", {footprint}, a_footprint, over_footprints(&NdfFigures::l2)},
+      {"ndf_energy", {footprint}, a_footprint, over_footprints(&NdfFigures::energy)},
+      {"ndf_peak", {footprint}, a_footprint, over_footprints(&NdfFigures::peak)},
+      {"quantity", {name}, a_quantity, quantity_figure}};
+}
+
+}  // namespace
+
+std::string_view selector_name(Selector selector) {
+  switch (selector) {
+    case Selector::distance:
+      return "distance";
+    case Selector::frame:
+      return "frame";
+    case Selector::spp:
+      return "spp";
+    case Selector::footprint:
+      return "footprint";
+    case Selector::name:
+      break;
+  }
+  return "name";
+}
+
+std::span<const FigureFunction> figure_functions() {
+  static const std::vector<FigureFunction> table = function_table();
+  return table;
+}
+
+void check_measure(const Measure& measure, const Experiment& experiment) {
+  (void)select_method(measure.method, methods_of(experiment));
+  measure.function->needs(measure, experiment);
+  const std::vector<double> distances = given_distances(experiment.run.view);
+  if (distances.empty()) return;  // those of the scene, which is not loaded yet
+  if (measure.frame && static_cast<std::size_t>(*measure.frame) >= distances.size()) {
+    refuse(measure, "there is no such frame", fmt::format("frames are 0 to {}", distances.size() - 1));
+  }
+  if (measure.distance && !has(distances, *measure.distance)) {
+    refuse(measure, "the experiment has no such distance", fmt::format("it has {}", fmt::join(distances, ", ")));
+  }
+}
+
+Measured measured(const Measure& measure, const Results& results) {
+  const std::vector<std::string> methods = methods_of(results);
+  return measure.function->evaluate(measure, methods[select_method(measure.method, methods)], results);
+}
+
+}  // namespace footprint

@@ -1,0 +1,53 @@
+// The functions that claims, thresholds and published figures call: one table, which the parser, the check of an
+// experiment and the evaluation read, and to which the list in docs/experiments.md is held.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/runner/measure.hpp"
+#include "results/report/records.hpp"
+
+namespace footprint {
+
+struct Experiment;
+
+/// What narrows a call down: `distance=4`.
+enum class Selector { distance, frame, spp, footprint, name };
+
+/// As it is written: "distance".
+[[nodiscard]] std::string_view selector_name(Selector selector);
+
+/// What a run says to a measure.
+struct Measured {
+  std::optional<double> value;
+  std::string problem;          ///< why there is none
+  bool at_noise_floor = false;  ///< an error that the reference's own noise explains, in every record that counts
+};
+
+/// A function of a method's figures: a row of the table.
+struct FigureFunction {
+  std::string_view name;
+  std::vector<Selector> selectors;
+  /// Refuses (usage) a call that a run of the experiment would have no figure for.
+  void (*needs)(const Measure& measure, const Experiment& experiment);
+  /// Over the records of `method`, which is one of the run's as it is written.
+  std::function<Measured(const Measure& measure, const std::string& method, const Results& results)> evaluate;
+};
+
+/// The table, in the order of the documentation.
+[[nodiscard]] std::span<const FigureFunction> figure_functions();
+
+/// Refuses (usage, with the measure as the place) what a run of the experiment would have no figure for: known before
+/// it starts.
+void check_measure(const Measure& measure, const Experiment& experiment);
+
+/// The mean over the records of the method that match; those without the figure do not count. `measure.method` must be
+/// one of the run's.
+[[nodiscard]] Measured measured(const Measure& measure, const Results& results);
+
+}  // namespace footprint

@@ -11,10 +11,10 @@
 
 #include "renderer/bake/prefiltered_file.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/core/file_bytes.hpp"
 #include "renderer/core/files.hpp"
 #include "renderer/core/hash.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
-#include "renderer/scene/file_bytes.hpp"
 
 namespace footprint {
 namespace {

@@ -1,4 +1,4 @@
-// See backend_text.hpp.
+// A backend as two lines of text, and as JSON.
 #include "app/backend_text.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// The material that the NDF inspector looks into; see ndf_inspection.hpp.
+// The material that the NDF inspector looks into: of a normal map alone, or of a scene.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -11,9 +11,9 @@
 
 #include "renderer/bake/prefiltered_file.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/core/file_bytes.hpp"
 #include "renderer/core/files.hpp"
 #include "renderer/core/hash.hpp"
-#include "renderer/scene/file_bytes.hpp"
 #include "renderer/scene/material_content.hpp"
 
 namespace footprint {

@@ -1,5 +1,5 @@
-// See file_bytes.hpp.
-#include "renderer/scene/file_bytes.hpp"
+// The refusals of a file, in the order in which they can be known.
+#include "renderer/core/file_bytes.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
-// See known_methods.hpp.
-#include "experiments/studies/known_methods.hpp"
+// The methods of a text, each held against the table of its options.
+#include "experiments/settings/known_methods.hpp"
 
 #include "methods/registry.hpp"
 

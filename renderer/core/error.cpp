@@ -1,4 +1,4 @@
-// See error.hpp.
+// Puts place, message and hint together into one sentence, and prefixes outer places.
 #include "renderer/core/error.hpp"
 
 #include <utility>

@@ -1,4 +1,4 @@
-// See memory.hpp.
+// The least of MemAvailable in /proc/meminfo and what the limits of control groups (versions 1 and 2) leave.
 #include "renderer/core/memory.hpp"
 
 #include <fmt/format.h>

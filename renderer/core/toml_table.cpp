@@ -1,4 +1,4 @@
-// See toml_table.hpp.
+// Asks toml++ for each key's node, checks its type and range, and names the node's file and line in every error.
 #include "renderer/core/toml_table.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See false_color.hpp.
+// Interpolates a fixed table of colours; puts pictures side by side, each over its caption.
 #include "renderer/image/false_color.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See camera.hpp, and load_scene.hpp for camera_at_distance.
+// Framing brings all eight corners of the bounds into view; a zoom moves the camera along its own axis.
 #include "renderer/scene/camera.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// See environment.hpp: directions, sizes and means of an environment.
+// Maps uv to directions and back, and resamples a map by the solid angle that old and new texels share.
 #include "renderer/scene/environment.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// See file_bytes.hpp.
+// Asks for existence, kind and size before it opens a file, then reads it at once.
 #include "renderer/scene/file_bytes.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See geometry.hpp. Sums run in double: thin triangles far from the origin lose their direction in float.
+// Sums run in double: thin triangles far from the origin lose their direction in float.
 #include "renderer/scene/geometry.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// See obj_model.hpp.
+// Reads statement by statement; faces become fans of triangles, corners with equal indices share a vertex.
 #include "renderer/scene/obj_model.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// See unwrap.hpp. Charts grow from a seed triangle over its neighbours, each tested exactly against what the chart
-// already covers; then their rectangles are packed on shelves.
+// Charts grow from a seed triangle over its neighbours, each tested exactly against what the chart already covers;
+// then their rectangles are packed on shelves.
 #include "renderer/scene/unwrap.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// See dome_lattice.hpp.
+// Draws radius, offset and chance of every dome from the seed; a lookup tries the nine domes about it.
 #include "scenes/surfaces/dome_lattice.hpp"
 
 #include <algorithm>

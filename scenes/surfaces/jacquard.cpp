@@ -1,4 +1,4 @@
-// See jacquard.hpp.
+// The figure and the binding of a satin decide which thread lies on top of a crossing.
 #include "scenes/surfaces/jacquard.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// See meshes.hpp.
+// Grids of vertices over the unit square, and vertices whose tangent and normal are derivatives of their position.
 #include "scenes/surfaces/meshes.hpp"
 
 #include "renderer/scene/plane.hpp"

@@ -1,4 +1,4 @@
-// See texel_grid.hpp.
+// Evaluates a function at the centre of every texel, v upwards, with rows in parallel.
 #include "scenes/surfaces/texel_grid.hpp"
 
 #include <tbb/blocked_range.h>

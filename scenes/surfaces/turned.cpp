@@ -1,4 +1,4 @@
-// See turned.hpp.
+// Each line or arc of the profile becomes a grid of its own, with normals from derivatives; pinched triangles go.
 #include "scenes/surfaces/turned.hpp"
 
 #include <algorithm>

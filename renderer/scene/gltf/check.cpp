@@ -1,4 +1,4 @@
-// See check.hpp. One table of rules says what each member must be; a walker applies them.
+// One table of rules says what each member must be; a walker applies them.
 #include "renderer/scene/gltf/check.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See document.hpp.
+// Checks container and JSON before tinygltf parses them; images stay encoded, files come from the model's folder alone.
 #include "renderer/scene/gltf/document.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See material.hpp.
+// Converts each material and each of its images once, on first use, and warns of what is left out.
 #include "renderer/scene/gltf/material.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See model.hpp.
+// Walks the node tree with a stack of its own and joins all primitives of a material to one mesh.
 #include "renderer/scene/gltf/model.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See part_settings.hpp.
+// Reads each table of a part with its keys and ranges; what excludes what is refused here, by line.
 #include "renderer/scene/settings/part.hpp"
 
 #include <fmt/format.h>

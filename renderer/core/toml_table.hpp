@@ -38,7 +38,7 @@ class TomlTable {
 
   [[nodiscard]] std::optional<std::string> word(std::string_view key) const;
   [[nodiscard]] bool is_table(std::string_view key) const { return has(key) && find(key)->is_table(); }
-  /// A word out of `choices`: its place there.
+  /// A word out of `choices`: its index there.
   [[nodiscard]] std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& choices) const;
   [[nodiscard]] std::optional<bool> boolean(std::string_view key) const;
   [[nodiscard]] std::optional<double> number(std::string_view key, NumberRange range) const;

@@ -106,7 +106,7 @@ TEST(Octahedral, StretchIsTheSolidAngle) {
 TEST(Environment, DirectionsGoThereAndBack) {
   const Environment environment = noisy_environment(8, 4);
   for (const glm::dvec3& d : random_directions(1000)) {
-    const glm::dvec2 place = environment_place(environment, d);
+    const glm::dvec2 uv = environment_uv(environment, d);
     EXPECT_LT(glm::length(environment_direction(environment, place.x, place.y) - d), 1e-12);
   }
   const Environment straight = constant_environment(glm::vec3(1.0F));

@@ -158,17 +158,17 @@ class ChartCutter {
   /// Triangles beside each other share two positions; an edge of more than two triangles joins none of them.
   void find_neighbours() {
     using Position = std::array<float, 3>;
-    std::map<Position, std::uint32_t> places;
-    std::vector<std::uint32_t> place_of;
+    std::map<Position, std::uint32_t> known;
+    std::vector<std::uint32_t> position_of;
     for (const Vertex& vertex : mesh_.vertices) {
       const Position position{vertex.position.x, vertex.position.y, vertex.position.z};
-      place_of.push_back(places.emplace(position, static_cast<std::uint32_t>(places.size())).first->second);
+      position_of.push_back(known.emplace(position, static_cast<std::uint32_t>(known.size())).first->second);
     }
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> edges;
     for (std::size_t i = 0; i < mesh_.indices.size(); ++i) {
       if (taken_[i / 3]) continue;  // without area it lies on an edge of others
-      const std::uint32_t a = place_of[mesh_.indices[i]];
-      const std::uint32_t b = place_of[mesh_.indices[i / 3 * 3 + (i + 1) % 3]];
+      const std::uint32_t a = position_of[mesh_.indices[i]];
+      const std::uint32_t b = position_of[mesh_.indices[i / 3 * 3 + (i + 1) % 3]];
       edges[std::minmax(a, b)].push_back(i);
     }
     neighbours_.assign(mesh_.indices.size(), none);
@@ -265,15 +265,15 @@ FlatBounds bounds_of(const Chart& chart, const Mesh& mesh) {
   for (const std::uint32_t triangle : chart.triangles) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const Vertex& vertex = mesh.vertices[mesh.indices[3 * std::size_t{triangle} + corner]];
-      const glm::dvec2 place = chart.plane.flat(glm::dvec3{vertex.position});
-      bounds.low = glm::min(bounds.low, place);
-      bounds.high = glm::max(bounds.high, place);
+      const glm::dvec2 point = chart.plane.flat(glm::dvec3{vertex.position});
+      bounds.low = glm::min(bounds.low, point);
+      bounds.high = glm::max(bounds.high, point);
     }
   }
   return bounds;
 }
 
-/// Gives every chart that meets at a vertex a vertex of its own there, with the chart's place as texture coordinates.
+/// Gives every chart that meets at a vertex a vertex of its own there, with its position in the square as uv.
 /// What no chart has stays at (0, 0).
 void lay_out(const std::vector<Chart>& charts, Mesh& mesh) {
   std::vector<Rectangle> rectangles;

@@ -138,7 +138,7 @@ constexpr auto rules = std::to_array<Rule>({
     {"skins[]", Kind::object},
 });
 
-constexpr auto texture_places = std::to_array<std::string_view>({
+constexpr auto texture_paths = std::to_array<std::string_view>({
     "materials[].pbrMetallicRoughness.baseColorTexture",
     "materials[].pbrMetallicRoughness.metallicRoughnessTexture",
     "materials[].normalTexture",
@@ -146,7 +146,7 @@ constexpr auto texture_places = std::to_array<std::string_view>({
     "materials[].emissiveTexture",
 });
 
-/// What stands under each of `texture_places`.
+/// What stands under each of `texture_paths`.
 constexpr auto texture_rules = std::to_array<Rule>({
     {"", Kind::object},
     {".index", Kind::index, Need::required, "textures"},
@@ -352,9 +352,9 @@ void check_gltf_json(const json& document) {
   if (!document.is_object()) fail({}, "the JSON is no object, so this is no glTF file");
   check_version(document);
   for (const Rule& rule : rules) apply_rule(document, rule);
-  for (const std::string_view place : texture_places) {
+  for (const std::string_view texture : texture_paths) {
     for (Rule rule : texture_rules) {
-      const std::string path = std::string{place} + std::string{rule.path};
+      const std::string path = std::string{texture} + std::string{rule.path};
       rule.path = path;
       apply_rule(document, rule);
     }

@@ -192,9 +192,9 @@ std::map<std::string, std::string> read_parameters(const TomlTable& table, const
 SurfaceContent read_surface(const TomlTable& table, std::span<const Surface> surfaces) {
   std::vector<std::string> names;
   for (const Surface& surface : surfaces) names.push_back(surface.name);
-  const auto place = table.choice("name", names);
-  if (!place) refuse_missing(table, "name");
-  const Surface& surface = surfaces[*place];
+  const auto index = table.choice("name", names);
+  if (!index) refuse_missing(table, "name");
+  const Surface& surface = surfaces[*index];
   SurfaceSettings settings = surface_settings(surface, read_parameters(table, surface.parameters));
   if (const auto resolution = table.whole_number("resolution", {1.0, largest_surface_resolution})) {
     settings.resolution = static_cast<int>(*resolution);
@@ -220,8 +220,8 @@ MicrogeometrySettings read_microgeometry(const TomlTable& table, const std::file
   MicrogeometrySettings settings;
   std::vector<std::string> names;
   for (const PatchKind& kind : patch_kinds()) names.push_back(kind.name);
-  if (const auto place = table.choice("kind", names)) {
-    settings.kind = &patch_kinds()[*place];
+  if (const auto index = table.choice("kind", names)) {
+    settings.kind = &patch_kinds()[*index];
     settings.parameters = read_parameters(table, settings.kind->parameters);
   } else {
     settings.model = folder / *table.word("model");

@@ -112,9 +112,9 @@ std::vector<Image> make_layers(const Eigen::RowVectorXf& mean, const Eigen::Matr
                             Image(bordered_edge, bordered_edge, channels));
   for (int y = 0; y < bordered_edge; ++y) {
     for (int x = 0; x < bordered_edge; ++x) {
-      const glm::dvec2 place = octahedral_place(bordered_texel_direction(bordered_edge, x, y));
+      const glm::dvec2 uv = octahedral_uv(bordered_texel_direction(bordered_edge, x, y));
       const glm::ivec2 inside =
-          glm::min(glm::ivec2(place * static_cast<double>(visibility_map_edge)), visibility_map_edge - 1);
+          glm::min(glm::ivec2(uv * static_cast<double>(visibility_map_edge)), visibility_map_edge - 1);
       const int texel = inside.y * visibility_map_edge + inside.x;
       layers[0].at(x, y)[0] = mean[texel];
       for (std::size_t k = 0; k < visibility_components; ++k) {

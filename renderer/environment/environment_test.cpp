@@ -58,10 +58,10 @@ glm::dvec3 vmf_mean(const Environment& environment, const glm::dvec3& axis, doub
 
 // What linear filtering of a bordered map gives.
 glm::dvec3 looked_up(const Image& map, const glm::dvec3& direction) {
-  const glm::dvec2 texel = octahedral_uv(direction) * static_cast<double>(map.width - 2) + 0.5;
-  const int x = static_cast<int>(texel.x);
-  const int y = static_cast<int>(texel.y);
-  const glm::dvec2 part = texel - glm::dvec2(x, y);
+  const glm::dvec2 position = octahedral_uv(direction) * static_cast<double>(map.width - 2) + 0.5;
+  const int x = static_cast<int>(position.x);
+  const int y = static_cast<int>(position.y);
+  const glm::dvec2 part = position - glm::dvec2(x, y);
   const auto texel = [&](int i, int j) {
     const auto t = map.at(std::min(i, map.width - 1), std::min(j, map.height - 1));
     return glm::dvec3(t[0], t[1], t[2]);

@@ -1,7 +1,8 @@
-// See backend_text.hpp.
+// A backend as two lines of text, and as JSON.
 #include "app/backend_text.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace footprint {
 

@@ -1,7 +1,7 @@
 // A way to OpenGL in words and as JSON, for `info` and `list`.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "renderer/gl/context.hpp"

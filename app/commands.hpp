@@ -1,7 +1,9 @@
 // The subcommands of `footprint`, one source file each.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace footprint {
 

@@ -1,15 +1,15 @@
 // `footprint edit`: small-scale geometry that changes every frame, with the time of each stage up to the picture.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "app/arguments.hpp"
 #include "app/commands.hpp"
-#include "app/options.hpp"
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
+#include "app/run_options.hpp"
 #include "app/standard_output.hpp"
 #include "experiments/studies/edit.hpp"
 #include "renderer/core/error.hpp"
@@ -28,42 +28,33 @@ constexpr const char* examples =
     "  footprint edit woven_cloth --set weave.warp_width=0.9:0.3 --set weave.height=0.1 --method iwasaki_sg:j=4 -o out";
 
 struct Arguments {
-  FrameArguments frame;
+  explicit Arguments(CLI::App& command) : run(command) {}
+
+  RunOptions run;
   std::vector<std::string> sets;
-  std::string method = "iwasaki_sg";
-  int frames = 10;
+  int frames = EditSettings{}.frames;
   std::string output = "out";
+  bool quiet = false;
 };
 
 void add_options(CLI::App& command, Arguments& arguments) {
-  add_frame_options(command, arguments.frame, "for display");
   command.add_option("--set", arguments.sets, "KIND.PARAMETER=FROM:TO, or =VALUE; may be given several times")
       ->required()
       ->expected(1)
       ->take_all();
-  command.add_option("--method", arguments.method, "The method")->capture_default_str();
   command.add_option("--frames", arguments.frames, "Edits, at equal steps of the parameters")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   command.add_option("-o,--output", arguments.output, "Folder for edit.json, edit.csv, table.md, images/")
       ->capture_default_str();
+  add_quiet_flag(command, arguments.quiet);
 }
 
 EditSettings settings_from(const Arguments& arguments) {
-  EditSettings settings;
-  settings.scene = arguments.frame.scene;
-  settings.scene_library = scene_library();
+  EditSettings settings{.run = arguments.run.settings(), .sweeps = {}, .frames = arguments.frames};
   for (const std::string& set : arguments.sets) settings.sweeps.push_back(parse_sweep(set));
-  settings.method = parse_known_method("--method", arguments.method);
-  if (settings.method.name == "reference") {
+  if (settings.run.methods.front().name == "reference")
     throw Error(ErrorKind::usage, "--method", "`reference` has no precompute to time", "name a method");
-  }
-  settings.frames = arguments.frames;
-  settings.size = parse_optional_size(arguments.frame.size);
-  settings.anisotropy = arguments.frame.anisotropy;
-  settings.tile = arguments.frame.backend.tile;
-  settings.exposure = parse_exposure(arguments.frame.exposure);
-  settings.context = context_request(arguments.frame.backend);
   return settings;
 }
 
@@ -75,7 +66,7 @@ EditRun edit_into(OutputFolder& folder, const EditSettings& settings, const Prog
 
 void run_edit_command(const Arguments& arguments) {
   const EditSettings settings = settings_from(arguments);
-  ProgressDisplay display(progress_style(arguments.frame.quiet));
+  ProgressDisplay display(progress_style(arguments.quiet));
   const auto [run, place] = write_whole(
       arguments.output, [&](OutputFolder& folder) { return edit_into(folder, settings, display.callback()); });
   display.finish();
@@ -86,7 +77,7 @@ void run_edit_command(const Arguments& arguments) {
 
 void add_edit_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("edit", "Edit small-scale geometry frame by frame, and time each stage");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<Arguments>(*command);
   add_options(*command, *arguments);
   command->footer(examples);
   command->callback([arguments] { run_edit_command(*arguments); });

@@ -1,4 +1,4 @@
-// See effect_cost.hpp.
+// Frames of the whole scene and of each scene without one effect, timed in turn.
 #include "app/effect_cost.hpp"
 
 #include <algorithm>
@@ -26,18 +26,17 @@ struct Variant {
   StagedMethod method;
 };
 
-Variant make_variant(const Stage& stage, const StageSettings& settings, const EffectSet& effects,
-                     const glm::ivec2& size, const Progress& progress) {
+Variant make_variant(const Stage& stage, const RunSettings& run, const EffectSet& effects, const glm::ivec2& size,
+                     const Progress& progress) {
   const gl::ContextInfo& context = stage.context().info();
   auto scene = std::make_unique<GpuScene>(context, stage.scene(), effects, progress);
-  StagedMethod method(context, *scene, stage.scene(), effects, settings.methods.front(), size, settings, no_progress);
+  StagedMethod method(context, *scene, stage.scene(), effects, run.methods.front(), size, run, no_progress);
   return {std::move(scene), std::move(method)};
 }
 
 }  // namespace
 
-std::vector<EffectCost> measure_effect_costs(const Stage& stage, const StageSettings& settings, int repeats,
-                                             const Progress& progress) {
+std::vector<EffectCost> measure_effect_costs(const Stage& stage, const RunSettings& run, const Progress& progress) {
   const View view = stage.view(1.0);
   std::vector<Effect> measured;
   std::vector<Variant> variants;
@@ -49,11 +48,11 @@ std::vector<EffectCost> measure_effect_costs(const Stage& stage, const StageSett
     const EffectSet kept = EffectSet(stage.effects()).reset(static_cast<std::size_t>(effect));
     const Progress preparing = parts.next(1, "preparing: ");
     preparing(effect_name(effect), 0.0);
-    variants.push_back(make_variant(stage, settings, kept, view.size, preparing));
+    variants.push_back(make_variant(stage, run, kept, view.size, preparing));
   }
   std::vector<DrawFrame> frames{[&] { stage.methods().front().frames().draw(view); }};
   for (const Variant& variant : variants) frames.emplace_back([&] { variant.method.frames().draw(view); });
-  const auto times = interleaved_times(stage.context().info(), frames, repeats,
+  const auto times = interleaved_times(stage.context().info(), frames, run.timing.repeats,
                                        [&](std::string_view what, double done) { progress(what, 0.5 + 0.5 * done); });
   stage.context().check("timing the effects");
 

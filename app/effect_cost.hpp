@@ -15,8 +15,8 @@ struct EffectCost {
 };
 
 /// Draws the stage's scene by its first method with all effects and without each one in turn, frames interleaved.
-/// `settings` are the stage's. In the order of the enumeration, for the effects that are on.
-[[nodiscard]] std::vector<EffectCost> measure_effect_costs(const Stage& stage, const StageSettings& settings,
-                                                           int repeats, const Progress& progress);
+/// `run` is what the stage was made of. In the order of the enumeration, for the effects that are on.
+[[nodiscard]] std::vector<EffectCost> measure_effect_costs(const Stage& stage, const RunSettings& run,
+                                                           const Progress& progress);
 
 }  // namespace footprint

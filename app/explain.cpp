@@ -2,6 +2,7 @@
 // cost.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -9,11 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "app/arguments.hpp"
 #include "app/commands.hpp"
 #include "app/effect_cost.hpp"
-#include "app/options.hpp"
 #include "app/progress_display.hpp"
+#include "app/run_options.hpp"
 #include "app/standard_output.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/memory.hpp"
@@ -33,16 +33,12 @@ constexpr const char* examples =
     "  footprint explain model.gltf --json          for programs";
 
 struct Arguments {
-  std::string scene;
-  std::string method = "direct";
+  explicit Arguments(CLI::App& command) : run(command) {}
+
+  RunOptions run;
   bool cost = false;
   bool json = false;
-  bool no_cache = false;
   bool quiet = false;
-  std::string size;
-  int repeats = 15;
-  int anisotropy = 1;
-  BackendArguments backend;
 };
 
 // A texture of the method, over all materials.
@@ -90,20 +86,14 @@ std::vector<TextureUse> texture_uses(const BakedMethod& baked) {
 }
 
 Explanation explain(const Arguments& arguments, const Progress& progress) {
-  StageSettings settings;
-  settings.methods = {parse_known_method("--method", arguments.method)};
-  settings.size = parse_optional_size(arguments.size);
-  settings.anisotropy = arguments.anisotropy;
-  settings.tile = arguments.backend.tile;
-  settings.cache = cache_folder(arguments.no_cache);
-  const gl::ContextRequest request = context_request(arguments.backend);
+  const RunSettings run = arguments.run.settings();
   ProgressParts parts(progress, arguments.cost ? 3 : 1);
-  const Stage stage(request, load_scene(arguments.scene, scene_library()), settings, parts.next(1, ""));
+  const Stage stage(load_scene(run.scene, run.scene_library), run, parts.next(1, ""));
   const StagedMethod& method = stage.methods().front();
 
   Explanation out;
   out.effects = stage.decisions();
-  out.method = arguments.method;
+  out.method = run.methods.front().text;
   out.left_out = effect_names(stage.effects() & ~method.baked().method->info().honours);
   out.draws = stage.gpu_scene().batches().size();
   out.shared_bytes = stage.gpu_scene().shared_bytes();
@@ -120,7 +110,7 @@ Explanation explain(const Arguments& arguments, const Progress& progress) {
     out.visibility = {
         .vertices = visibility->vertex_count(), .bytes = visibility->bytes(), .error = visibility->error()};
   }
-  if (arguments.cost) out.costs = measure_effect_costs(stage, settings, arguments.repeats, parts.next(2, ""));
+  if (arguments.cost) out.costs = measure_effect_costs(stage, run, parts.next(2, ""));
   return out;
 }
 
@@ -215,19 +205,9 @@ void run_explain(const Arguments& arguments) {
 
 void add_explain_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("explain", "Say which effects a scene calls for, why, and what they cost");
-  const auto arguments = std::make_shared<Arguments>();
-  command->add_option("scene", arguments->scene, "What to look at")->required();
-  command->add_option("--method", arguments->method, "The method whose textures and shader count")
-      ->capture_default_str();
+  const auto arguments = std::make_shared<Arguments>(*command);
   command->add_flag("--cost", arguments->cost, "Measure what each effect adds to a frame's time");
   command->add_flag("--json", arguments->json, "Print JSON");
-  command->add_option("--repeats", arguments->repeats, "Timed frames with and without each effect, for --cost")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  add_size_option(*command, arguments->size);
-  add_anisotropy_option(*command, arguments->anisotropy);
-  add_backend_options(*command, arguments->backend);
-  add_cache_flag(*command, arguments->no_cache);
   add_quiet_flag(*command, arguments->quiet);
   command->footer(examples);
   command->callback([arguments] { run_explain(*arguments); });

@@ -1,6 +1,7 @@
 // `footprint info`: the program, the ways to OpenGL on this machine, and the machine.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <string>
 
 #include "app/backend_text.hpp"

@@ -2,6 +2,7 @@
 // the backends.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -9,13 +10,13 @@
 #include <variant>
 #include <vector>
 
-#include "app/arguments.hpp"
 #include "app/backend_text.hpp"
 #include "app/commands.hpp"
-#include "app/options.hpp"
+#include "app/folders.hpp"
 #include "app/standard_output.hpp"
 #include "experiments/runner/experiment.hpp"
 #include "methods/registry.hpp"
+#include "renderer/core/words.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "scenes/surfaces/registry.hpp"
 
@@ -136,7 +137,7 @@ Json kind_json(const std::string& kind) {
 
 void run_list(const Arguments& arguments) {
   std::vector<std::string> shown = kinds;
-  if (!arguments.kind.empty()) shown = {kinds[parse_choice("list", arguments.kind, kinds)]};
+  if (!arguments.kind.empty()) shown = {kinds[find_word(kinds, arguments.kind, "kind", "list")]};
   Json json;
   std::string text;
   for (const std::string& kind : shown) {

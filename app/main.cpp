@@ -49,8 +49,7 @@ void run(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    const auto chosen = app.get_subcommands();
-    footprint::write_output(chosen.empty() ? app.help() : chosen.front()->help());
+    footprint::write_output(app.help());  // of the subcommand, where one is named
   } catch (const CLI::CallForVersion& version) {
     footprint::write_output(std::string(version.what()) + "\n");
   } catch (const CLI::ParseError& error) {

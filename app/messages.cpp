@@ -1,4 +1,4 @@
-// See messages.hpp.
+// Lines on standard error that any terminal can show.
 #include "app/messages.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // `footprint ndf`: what each method takes the facets under a footprint for, beside what they are.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <charconv>
 #include <filesystem>
@@ -8,10 +9,10 @@
 #include <string>
 #include <utility>
 
-#include "app/arguments.hpp"
 #include "app/commands.hpp"
 #include "app/messages.hpp"
 #include "app/progress_display.hpp"
+#include "app/run_options.hpp"
 #include "app/standard_output.hpp"
 #include "experiments/studies/ndf_inspection.hpp"
 #include "renderer/core/error.hpp"
@@ -34,17 +35,16 @@ constexpr const char* examples =
     "  footprint ndf model.gltf --material 2 --texels 256,128,320,192 -o ndf";
 
 struct Arguments {
+  explicit Arguments(CLI::App& command) : run(command) {}
+
+  RunOptions run;
   std::string source;
   std::string material;
   std::string footprint, texels;
   std::string lobe;
-  std::string methods;
-  int anisotropy = 1;
-  int resolution = 0;
-  int size = 256;
-  BackendArguments backend;
+  int resolution = NdfSettings{}.resolution;
+  int picture_size = NdfSettings{}.picture;
   std::string output;
-  bool no_cache = false;
   bool quiet = false;
 };
 
@@ -80,19 +80,15 @@ FootprintRect footprint_of(const Arguments& arguments, const Material& material)
 }
 
 void run_ndf(const Arguments& arguments) {
-  NdfSettings settings;
-  if (!arguments.methods.empty()) settings.methods = parse_known_methods(arguments.methods);
-  settings.anisotropy = arguments.anisotropy;
-  settings.resolution = arguments.resolution;
-  settings.picture = arguments.size;
-  settings.tile = arguments.backend.tile;
-  settings.cache = cache_folder(arguments.no_cache);
-  settings.context = context_request(arguments.backend);
+  NdfSettings settings{.run = arguments.run.settings(),
+                       .footprint = {},
+                       .resolution = arguments.resolution,
+                       .picture = arguments.picture_size};
   if (!arguments.footprint.empty()) (void)parse_rectangle("--footprint", arguments.footprint);
   if (!arguments.texels.empty()) (void)parse_rectangle("--texels", arguments.texels);
-  const std::optional<BaseLobe> lobe =
+  const std::optional<Lobe> lobe =
       arguments.lobe.empty() ? std::nullopt : std::optional(parse_lobe("--lobe", arguments.lobe));
-  NdfSource source = load_ndf_source(arguments.source, arguments.material, scene_library());
+  NdfSource source = load_ndf_source(arguments.source, arguments.material, settings.run.scene_library);
   if (lobe) source.material = with_lobe(std::move(source.material), *lobe);
   settings.footprint = footprint_of(arguments, source.material);
 
@@ -120,7 +116,7 @@ void run_ndf(const Arguments& arguments) {
 void add_ndf_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("ndf", "Show the effective NDF of a footprint by each method beside the true one");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<Arguments>(*command);
   command->add_option("source", arguments->source, "SCENE or MAP")->required();
   auto* footprint = command->add_option("--footprint", arguments->footprint,
                                         "u0,v0,u1,v1 in texture coordinates; if not given the whole map");
@@ -129,20 +125,15 @@ void add_ndf_command(CLI::App& app) {
   command->add_option("--lobe", arguments->lobe,
                       "blinn_phong:EXPONENT, beckmann:ALPHA, ggx:ALPHA or vmf:KAPPA; if not given the scene's, or "
                       "blinn_phong:64 for a map");
-  command->add_option("--methods", arguments->methods,
-                      "Methods, commas between; if not given all that take the material");
   command->add_option("--material", arguments->material,
                       "Which of the scene's materials: its name, or a number from 0");
-  add_anisotropy_option(*command, arguments->anisotropy);
   command
       ->add_option("--resolution", arguments->resolution,
                    "Rings of directions that the hemisphere is cut into; if not given as the narrowest lobe needs")
       ->check(CLI::Range(smallest_resolution, largest_resolution));
-  command->add_option("--picture-size", arguments->size, "Side of the pictures, pixels")
+  command->add_option("--picture-size", arguments->picture_size, "Side of the pictures, pixels")
       ->check(CLI::Range(16, 4096))
       ->capture_default_str();
-  add_cache_flag(*command, arguments->no_cache);
-  add_backend_options(*command, arguments->backend);
   command->add_option("-o,--output", arguments->output, "Folder for ndf.json, ndf.png, images/")->required();
   add_quiet_flag(*command, arguments->quiet);
   command->footer(examples);

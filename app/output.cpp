@@ -1,4 +1,4 @@
-// See output.hpp.
+// Places of errors, signatures, and what is printed at the end.
 #include "app/output.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,9 @@
-// See parse_error.hpp.
+// Finds the word that the parser stumbled over, and the nearest one that it would have taken.
 #include "app/parse_error.hpp"
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <string>
 #include <string_view>
 #include <vector>

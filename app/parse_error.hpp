@@ -1,9 +1,12 @@
 // What the parser of the command line refuses, as an Error with the nearest right name.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "renderer/core/error.hpp"
+
+namespace CLI {
+class App;
+class ParseError;
+}  // namespace CLI
 
 namespace footprint {
 

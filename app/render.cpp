@@ -1,17 +1,17 @@
 // `footprint render`: one picture of a scene by one method, or by the supersampled reference.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "app/arguments.hpp"
 #include "app/commands.hpp"
 #include "app/messages.hpp"
-#include "app/options.hpp"
 #include "app/progress_display.hpp"
+#include "app/run_options.hpp"
 #include "app/standard_output.hpp"
 #include "experiments/studies/exposure.hpp"
 #include "experiments/studies/stage.hpp"
@@ -35,13 +35,12 @@ constexpr const char* examples =
 constexpr int reference_pictures = 6;  // mean, squares, two halves, error, and one to spare
 
 struct Arguments {
-  FrameArguments frame;
-  std::string method;
-  ReferenceArguments reference;
-  std::string distance = "1";
+  explicit Arguments(CLI::App& command) : run(command) {}
+
+  RunOptions run;
   std::optional<std::size_t> zoom_frame;
   std::string output;
-  bool no_cache = false;
+  bool quiet = false;
 };
 
 std::filesystem::path picture_path(const std::string& text) {
@@ -59,9 +58,7 @@ double distance_factor(double given, const std::optional<std::size_t>& frame, co
               fmt::format("the scene's zoom path has frames 0 to {}", scene.distances.size() - 1));
 }
 
-bool is_reference(const MethodSpec& method) { return method.text == "reference"; }
-
-Image render_picture(const Stage& stage, double distance, const ReferenceArguments& reference,
+Image render_picture(const Stage& stage, double distance, const ReferenceSettings& reference,
                      const Progress& progress) {
   const View view = stage.view(distance);
   Image picture = stage.methods().empty() ? stage.reference().render(view, reference.spp, reference.seed, progress).mean
@@ -70,73 +67,57 @@ Image render_picture(const Stage& stage, double distance, const ReferenceArgumen
   return picture;
 }
 
-void save_picture(const std::filesystem::path& path, const Image& picture, std::optional<float> exposure) {
+void save_picture(const std::filesystem::path& path, const Image& picture, const RunSettings& run, const Scene& scene) {
   if (path.extension() == ".exr") return write_exr(path, picture);
-  write_png(path, to_display(picture, exposure ? *exposure : automatic_exposure(picture)));
+  write_png(path, to_display(picture, choose_exposure(run.view.exposure, scene, picture).factor));
+}
+
+// The run without the reference among its methods: the stage has it anyway. Options that only the reference heeds would
+// be a silent misunderstanding with a method.
+RunSettings staged(const RunOptions& options) {
+  RunSettings run = options.settings();
+  const std::string method = run.methods.front().text;
+  if (method == "reference") {
+    run.methods.clear();
+    return run;
+  }
+  for (const std::string& option : options.given_of("reference")) {
+    throw Error(ErrorKind::usage, option, fmt::format("`{}` takes one sample a pixel", method),
+                "give it with --method reference");
+  }
+  return run;
 }
 
 void run_render(const Arguments& arguments) {
   const std::filesystem::path path = picture_path(arguments.output);
-  const MethodSpec method = parse_known_method("--method", arguments.method);
-  const std::optional<float> exposure = parse_exposure(arguments.frame.exposure);
-  const double given_distance = parse_distance(arguments.distance);
-  StageSettings settings;
-  settings.size = parse_optional_size(arguments.frame.size);
-  settings.filter = parse_filter(arguments.reference.filter);
-  settings.environment = parse_environment_use(arguments.reference.environment);
-  settings.anisotropy = arguments.frame.anisotropy;
-  settings.tile = arguments.frame.backend.tile;
-  settings.cache = cache_folder(arguments.no_cache);
-  if (is_reference(method)) {
-    settings.pictures = reference_pictures;
-  } else {
-    settings.methods = {method};
-  }
-  const gl::ContextRequest request = context_request(arguments.frame.backend);
-  Scene scene = load_scene(arguments.frame.scene, scene_library());
-  const double distance = distance_factor(given_distance, arguments.zoom_frame, scene);
+  const RunSettings run = staged(arguments.run);
+  Scene scene = load_scene(run.scene, run.scene_library);
+  const double distance = distance_factor(run.view.distances.front(), arguments.zoom_frame, scene);
 
-  ProgressDisplay display(progress_style(arguments.frame.quiet));
+  ProgressDisplay display(progress_style(arguments.quiet));
   ProgressParts parts(display.callback(), 3);
-  const Stage stage(request, std::move(scene), settings, parts.next(1, ""));
-  const Image picture = render_picture(stage, distance, arguments.reference, parts.next(2, ""));
+  const Stage stage(std::move(scene), run, parts.next(1, ""),
+                    run.methods.empty() ? reference_pictures : pictures_of_a_frame);
+  const Image picture = render_picture(stage, distance, run.reference, parts.next(2, ""));
   throw_if_interrupted();
-  save_picture(path, picture, exposure ? exposure : stage.scene().exposure);
+  save_picture(path, picture, run, stage.scene());
   display.finish();
-  write_scene_notes(stage.scene(), arguments.frame.quiet);
+  write_scene_notes(stage.scene(), arguments.quiet);
   write_output(fmt::format("{}\n", path.string()));
-}
-
-// Options that only the reference heeds: given with a method, they would be a silent misunderstanding.
-void check_reference_options(const CLI::App& command, const std::string& method) {
-  if (method == "reference") return;
-  for (const char* option : {"--spp", "--seed", "--filter", "--environment"}) {
-    if (command.count(option) == 0) continue;
-    throw Error(ErrorKind::usage, option, fmt::format("`{}` takes one sample a pixel", method),
-                "give it with --method reference");
-  }
 }
 
 }  // namespace
 
 void add_render_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("render", "Render one picture by a method or by the reference");
-  const auto arguments = std::make_shared<Arguments>();
-  add_frame_options(*command, arguments->frame, "of a .png");
-  command->add_option("--method", arguments->method, "name or name:option=value, or `reference`")->required();
+  const auto arguments = std::make_shared<Arguments>(*command);
   command->add_option("-o,--output", arguments->output, "The picture, .exr or .png")->required();
-  auto* distance =
-      command->add_option("--distance", arguments->distance, "Factor on the camera's distance")->capture_default_str();
   command->add_option("--frame", arguments->zoom_frame, "Frame of the scene's zoom path, from 0")
       ->check(CLI::NonNegativeNumber)
-      ->excludes(distance);
-  add_reference_options(*command, arguments->reference);
-  add_cache_flag(*command, arguments->no_cache);
+      ->excludes(command->get_option("--distance"));
+  add_quiet_flag(*command, arguments->quiet);
   command->footer(examples);
-  command->callback([arguments, command] {
-    check_reference_options(*command, arguments->method);
-    run_render(*arguments);
-  });
+  command->callback([arguments] { run_render(*arguments); });
 }
 
 }  // namespace footprint

@@ -1,15 +1,17 @@
 // `footprint run` and `footprint check`: an experiment, its figures beside the published ones, and its claims.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
 
-#include "app/arguments.hpp"
 #include "app/commands.hpp"
+#include "app/folders.hpp"
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
+#include "app/run_options.hpp"
 #include "app/standard_output.hpp"
 #include "app/timing_process.hpp"
 #include "experiments/runner/run_experiment.hpp"
@@ -41,14 +43,14 @@ constexpr const char* check_examples =
     "  footprint check experiments/tan2005_fig4.toml -o out";
 
 struct Arguments {
+  explicit Arguments(CLI::App& command) : run(command) {}
+
+  RunOptions run;
   std::string experiment;
   std::string output = "out";
   bool quick = false;
-  int processes = 1;
   std::string timing_file;    // not empty: this is a process that only takes times
   std::string timing_member;  // and of this experiment alone
-  BackendArguments backend;
-  bool no_cache = false;
   bool quiet = false;
 };
 
@@ -58,32 +60,37 @@ void add_options(CLI::App& command, Arguments& arguments) {
       .add_option("-o,--output", arguments.output,
                   "Folder for results.json, results.csv, table.md, index.html, images/")
       ->capture_default_str();
-  add_processes_option(command, arguments.processes);
   command.add_option(timing_file_option, arguments.timing_file)->group("");  // no part of the help
   command.add_option(timing_member_option, arguments.timing_member)->group("");
-  add_backend_options(command, arguments.backend);
-  add_cache_flag(command, arguments.no_cache);
   add_quiet_flag(command, arguments.quiet);
 }
 
-Results run_into(const Experiment& experiment, const RunSettings& settings, int processes, OutputFolder& folder,
-                 const Progress& progress) {
+Results run_into(const Experiment& experiment, OutputFolder& folder, const Progress& progress) {
   constexpr double weight = 10;  // of the main process's work, where a further process's is 1
-  ProgressParts parts(progress, weight + processes - 1);
-  const auto further = times_of_processes(processes - 1, {timing_member_option, experiment.name}, folder.path(),
-                                          parts.next(processes - 1, ""));
-  Results results = run_experiment(experiment, settings, further, folder.path(), parts.next(weight, ""));
+  const int others = experiment.run.timing.processes - 1;
+  ProgressParts parts(progress, weight + others);
+  const auto further =
+      times_of_processes(others, {timing_member_option, experiment.name}, folder.path(), parts.next(others, ""));
+  Results results = run_experiment(experiment, further, folder.path(), parts.next(weight, ""));
   keep_results(results, folder, write_report);
   return results;
 }
 
+// The experiment of a file, run as the command line asks.
+Experiment asked_experiment(const std::filesystem::path& file, const Arguments& arguments) {
+  Experiment experiment = read_experiment(file);
+  arguments.run.apply(experiment.run);
+  if (arguments.quick) make_quick(experiment);
+  return experiment;
+}
+
 // The experiments to run: the one that is named, or its members, none of which has members of its own.
-std::vector<Experiment> named_experiments(const std::string& name) {
-  const Experiment named = read_experiment(find_experiment(name, experiments_folder()));
+std::vector<Experiment> asked_experiments(const Arguments& arguments) {
+  const Experiment named = asked_experiment(find_experiment(arguments.experiment, experiments_folder()), arguments);
   if (named.members.empty()) return {named};
   std::vector<Experiment> members;
   for (const std::filesystem::path& file : named.members) {
-    members.push_back(read_experiment(file));
+    members.push_back(asked_experiment(file, arguments));
     if (members.back().members.empty()) continue;
     throw Error(ErrorKind::usage, named.file.string(), fmt::format("its member {} has members", members.back().name),
                 "name those instead");
@@ -91,22 +98,11 @@ std::vector<Experiment> named_experiments(const std::string& name) {
   return members;
 }
 
-RunSettings settings_from(const Arguments& arguments) {
-  RunSettings settings;
-  settings.scene_library = scene_library();
-  settings.quick = arguments.quick;
-  settings.tile = arguments.backend.tile;
-  settings.cache = cache_folder(arguments.no_cache);
-  settings.context = context_request(arguments.backend);
-  return settings;
-}
-
 // What a further process does: times the frames of one member.
 void take_times(const Arguments& arguments) {
-  for (const Experiment& experiment : named_experiments(arguments.experiment)) {
+  for (const Experiment& experiment : asked_experiments(arguments)) {
     if (experiment.name != arguments.timing_member) continue;
-    const CompareSettings settings = compare_settings(experiment, settings_from(arguments));
-    return write_frame_times(arguments.timing_file, time_frames(settings, no_progress));
+    return write_frame_times(arguments.timing_file, time_frames(experiment.run, no_progress));
   }
   throw Error(ErrorKind::usage, timing_member_option, fmt::format("no experiment `{}` here", arguments.timing_member),
               "it is for processes that this program starts itself");
@@ -114,16 +110,14 @@ void take_times(const Arguments& arguments) {
 
 // Runs the experiment, or each of its members into a folder of its own, prints the tables and gives what fell short.
 std::vector<std::string> run_and_print(const Arguments& arguments) {
-  const std::vector<Experiment> experiments = named_experiments(arguments.experiment);
-  const RunSettings settings = settings_from(arguments);
+  const std::vector<Experiment> experiments = asked_experiments(arguments);
   std::vector<std::string> shortfalls;
   for (const Experiment& experiment : experiments) {
     const std::filesystem::path output = arguments.output;
     ProgressDisplay display(progress_style(arguments.quiet));
     const auto [results, place] =
-        write_whole(experiments.size() > 1 ? output / experiment.name : output, [&](OutputFolder& folder) {
-          return run_into(experiment, settings, arguments.processes, folder, display.callback());
-        });
+        write_whole(experiments.size() > 1 ? output / experiment.name : output,
+                    [&](OutputFolder& folder) { return run_into(experiment, folder, display.callback()); });
     display.finish();
     print_results(results, place);
     for (const std::string& line : results.experiment->shortfalls()) {
@@ -150,7 +144,7 @@ void check(const Arguments& arguments) {
 
 void add_run_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("run", "Run an experiment: measured beside published, and its claims");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<Arguments>(*command);
   add_options(*command, *arguments);
   command->add_flag("--quick", arguments->quick, "A quarter of the size and few samples: no measurement");
   command->footer(std::string(experiment_words) + run_examples);
@@ -162,7 +156,7 @@ void add_run_command(CLI::App& app) {
 
 void add_check_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("check", "Run an experiment and hold its claims and thresholds");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<Arguments>(*command);
   add_options(*command, *arguments);
   command->footer(std::string(experiment_words) + check_examples);
   command->callback([arguments] { check(*arguments); });

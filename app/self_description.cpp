@@ -1,4 +1,5 @@
 // `footprint completions` and `footprint manual`: what the program knows of its own command line, for shells and man.
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 

@@ -1,6 +1,7 @@
 // `footprint surface`: the normal map of a procedural surface as a file, for other tools.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>

@@ -1,4 +1,4 @@
-// See timing_process.hpp.
+// Starts this program again, waits for it, and reads back what it measured.
 #include "app/timing_process.hpp"
 
 #include <fcntl.h>

@@ -5,13 +5,14 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <string_view>
 
-#include "renderer/pipeline/base_surface.hpp"
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/core/embedded_texts.hpp"
 #include "renderer/pipeline/frame.hpp"
 
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view bare_vertex_glsl, bare_fragment_glsl;
+extern const EmbeddedTexts bench_glsl;
 }
 
 namespace bench {
@@ -19,7 +20,8 @@ namespace bench {
 BareFrame::BareFrame(const Scene& scene, const GpuScene& gpu_scene, const glm::ivec2& size)
     : gpu_scene_(&gpu_scene),
       sampler_(gl::trilinear_sampler(GL_REPEAT, GL_REPEAT)),
-      program_("bare", embedded::bare_vertex_glsl, embedded::bare_fragment_glsl),
+      program_("bare", find_text(embedded::bench_glsl, "bare_vertex.glsl")->text,
+               find_text(embedded::bench_glsl, "bare_fragment.glsl")->text),
       target_(size.x, size.y, std::array<GLenum, 1>{GL_RGBA32F}, true) {
   for (const GpuBatch& batch : gpu_scene.batches()) {
     const Material& material = scene.materials.at(batch.material);

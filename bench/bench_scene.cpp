@@ -6,16 +6,16 @@
 #include <filesystem>
 #include <string>
 
+#include "app/folders.hpp"
 #include "methods/registry.hpp"
 #include "renderer/bake/bake_cache.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
-#include "scenes/surfaces/registry.hpp"
 
 namespace footprint::bench {
 
 std::optional<Scene> load_bench_scene(const std::string& name) {
-  const SceneLibrary library{.folder = FOOTPRINT_SCENES_FOLDER, .surfaces = all_surfaces()};
+  const SceneLibrary library = scene_library();
   if (!name.empty()) return load_scene(name, library);
   if (std::filesystem::exists(FOOTPRINT_BENCH_MODEL)) {
     Scene scene = load_scene(FOOTPRINT_BENCH_MODEL, library);
@@ -27,8 +27,9 @@ std::optional<Scene> load_bench_scene(const std::string& name) {
   return {};
 }
 
-StageSettings bench_settings(const std::string& methods) {
-  StageSettings settings{.methods = {}, .size = frame_pixels};
+RunSettings bench_settings(const std::string& methods) {
+  RunSettings settings;
+  settings.view.size = frame_pixels;
   settings.cache = default_cache_folder();
   if (!methods.empty()) settings.methods = parse_methods(methods);
   for (const Method* method : all_methods()) {
@@ -41,8 +42,8 @@ StageSettings bench_settings(const std::string& methods) {
   return settings;
 }
 
-BenchScene::BenchScene(Scene scene, const StageSettings& settings)
-    : stage_(gl::ContextRequest{}, std::move(scene), settings, no_progress),
+BenchScene::BenchScene(Scene scene, const RunSettings& settings)
+    : stage_(std::move(scene), settings, no_progress),
       view_(stage_.view(1.0)),
       bare_(stage_.scene(), stage_.gpu_scene(), view_.size) {
   stage_.context().check("setting up the benchmark");

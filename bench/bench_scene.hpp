@@ -21,13 +21,13 @@ inline constexpr std::uint64_t reference_seed = 1;
 
 /// What footprint_bench draws with at 512 x 512: `direct` and the methods of a list, commas between; of an empty one
 /// all whose precompute takes no seconds. Errors (usage): unknown method or option.
-[[nodiscard]] StageSettings bench_settings(const std::string& methods);
+[[nodiscard]] RunSettings bench_settings(const std::string& methods);
 
 /// The scene, its methods, its reference and the bare yardstick, ready to draw at the camera's own distance.
 class BenchScene {
  public:
   /// Errors: those of Stage.
-  BenchScene(Scene scene, const StageSettings& settings);
+  BenchScene(Scene scene, const RunSettings& settings);
 
   [[nodiscard]] const Stage& stage() const { return stage_; }
   [[nodiscard]] const View& view() const { return view_; }

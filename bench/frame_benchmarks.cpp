@@ -43,8 +43,10 @@ void add_work(const std::string& name, const std::function<void()>& work) {
 
 // From nothing to a first frame of `direct`, all of it waited for.
 void start_up() {
-  StageSettings settings{.methods = parse_methods("direct"), .size = frame_pixels};
-  const Stage stage(gl::ContextRequest{}, load_scene(FOOTPRINT_BENCH_MODEL, {}), settings, no_progress);
+  RunSettings settings;
+  settings.methods = parse_methods("direct");
+  settings.view.size = frame_pixels;
+  const Stage stage(load_scene(FOOTPRINT_BENCH_MODEL, {}), settings, no_progress);
   stage.methods().front().frames().draw(stage.view(1.0));
   gl::api().Finish();
 }

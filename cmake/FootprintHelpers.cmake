@@ -39,17 +39,22 @@ function(footprint_add_test name)
   set_tests_properties(${name} PROPERTIES TIMEOUT 300)
 endfunction()
 
-# footprint_embed(TARGET FILE SYMBOL): FILE's text as `extern const std::string_view SYMBOL` in namespace
-# footprint::embedded, so that the program needs no file of its own at run time.
-function(footprint_embed target file symbol)
-  get_filename_component(path "${file}" ABSOLUTE)
+# footprint_embed(TARGET SYMBOL PATTERN ...): the texts of the files that match as `extern const EmbeddedTexts SYMBOL` in
+# namespace footprint::embedded (renderer/core/embedded_texts.hpp), so that the program needs no file of its own at run
+# time. A file that is added is in the table without another line; where none matches there is no table.
+function(footprint_embed target symbol)
+  file(GLOB texts CONFIGURE_DEPENDS ${ARGN})
+  if(NOT texts)
+    return()
+  endif()
+  list(JOIN texts "|" inputs)
   set(generated "${CMAKE_CURRENT_BINARY_DIR}/embedded_${symbol}.cpp")
   add_custom_command(
     OUTPUT "${generated}"
-    COMMAND "${CMAKE_COMMAND}" -DINPUT=${path} -DOUTPUT=${generated} -DSYMBOL=${symbol}
-            -P "${FOOTPRINT_CMAKE_DIR}/EmbedText.cmake"
-    DEPENDS "${path}" "${FOOTPRINT_CMAKE_DIR}/EmbedText.cmake"
-    COMMENT "Embedding ${file}"
+    COMMAND "${CMAKE_COMMAND}" "-DINPUTS=${inputs}" -DOUTPUT=${generated} -DSYMBOL=${symbol}
+            -P "${FOOTPRINT_CMAKE_DIR}/EmbedTexts.cmake"
+    DEPENDS ${texts} "${FOOTPRINT_CMAKE_DIR}/EmbedTexts.cmake"
+    COMMENT "Embedding the texts of ${symbol}"
     VERBATIM)
   target_sources(${target} PRIVATE "${generated}")
 endfunction()

@@ -1,26 +1,23 @@
 # How methods get into a program; works in Footprint's tree and, after find_package(Footprint), out of it.
 
-# footprint_add_method(NAME [SOURCES extra.cpp ...] [SHADERS extra ...] [STUDY figures.cpp ...] [LIBRARIES ...]): a
-# prefiltering method in the folder NAME, or in the current folder where that holds NAME.cpp, with NAME.cpp (which
-# defines `const Method& NAME_method()`), NAME.glsl (its text is footprint::embedded::NAME_glsl; that of a further
-# extra.glsl is extra_glsl) and a test program of all its *_test.cpp. STUDY names sources in its folder study/, a
-# library of their own that no picture needs; they define `std::span<const Quantity> NAME_quantities()`
-# (methods/quantities.hpp). Nothing else has to change: the registry is written from these lines.
+# footprint_add_method(NAME [SOURCES extra.cpp ...] [STUDY figures.cpp ...] [LIBRARIES ...] [BAKE_TESTS extra ...]): a
+# prefiltering method in the folder NAME, or in the current folder where that holds NAME.cpp, with NAME.cpp (which defines
+# `const Method& NAME_method()`), its *.glsl (whose texts are footprint::embedded::NAME_glsl) and a test program of its
+# *_test.cpp. Its library links footprint_bake; a method with GL code of its own names footprint_pipeline. STUDY names
+# sources in its folder study/, a library of their own that no picture needs; they define
+# `std::span<const Quantity> NAME_quantities()` (methods/quantities.hpp). BAKE_TESTS names tests of the precompute and of
+# the study alone, extra_test.cpp: a program that links no GL. Nothing else has to change: the registry is written from
+# these lines.
 function(footprint_add_method name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;SHADERS;STUDY;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;STUDY;LIBRARIES;BAKE_TESTS" ${ARGN})
   set(folder "${CMAKE_CURRENT_SOURCE_DIR}/${name}")
   if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/${name}.cpp")
     set(folder "${CMAKE_CURRENT_SOURCE_DIR}")
   endif()
   list(TRANSFORM ARG_SOURCES PREPEND "${folder}/")
   footprint_add_library(footprint_method_${name} SOURCES "${folder}/${name}.cpp" ${ARG_SOURCES}
-                        LIBRARIES footprint_pipeline ${ARG_LIBRARIES})
-  if(EXISTS "${folder}/${name}.glsl")
-    footprint_embed(footprint_method_${name} "${folder}/${name}.glsl" ${name}_glsl)
-  endif()
-  foreach(shader IN LISTS ARG_SHADERS)
-    footprint_embed(footprint_method_${name} "${folder}/${shader}.glsl" ${shader}_glsl)
-  endforeach()
+                        LIBRARIES footprint_bake ${ARG_LIBRARIES})
+  footprint_embed(footprint_method_${name} ${name}_glsl "${folder}/*.glsl")
   set_property(GLOBAL APPEND PROPERTY FOOTPRINT_METHODS ${name})
   set(libraries footprint_method_${name})
   if(ARG_STUDY)
@@ -30,6 +27,13 @@ function(footprint_add_method name)
     set(libraries footprint_study_${name})
   endif()
   file(GLOB tests CONFIGURE_DEPENDS "${folder}/*_test.cpp" "${folder}/study/*_test.cpp")
+  if(ARG_BAKE_TESTS AND FOOTPRINT_TESTS)
+    list(TRANSFORM ARG_BAKE_TESTS REPLACE "(.+)" "${folder}/\\1_test.cpp")
+    list(REMOVE_ITEM tests ${ARG_BAKE_TESTS})
+    footprint_add_test(footprint_${name}_bake_test SOURCES ${ARG_BAKE_TESTS}
+                       LIBRARIES ${libraries} footprint_scene_testing)
+    footprint_without_gl(footprint_${name}_bake_test)
+  endif()
   if(tests)
     footprint_add_test(footprint_${name}_test SOURCES ${tests} LIBRARIES ${libraries} footprint_testing)
   endif()

@@ -1,8 +1,9 @@
 #!/bin/sh
-# Starts Footprint from wherever this archive was unpacked. The program's own libraries lie in lib/, where it looks for
+# Starts the program of its own name from wherever this archive was unpacked. The program's own libraries lie in lib/, where it looks for
 # them itself. A driver brings a C++ runtime of the machine's into the process: the newer of the two must serve both, so
 # the carried one is taken only where the machine has none or an older one. The same holds for libEGL, the drivers' loader.
-here=$(dirname -- "$(readlink -f -- "$0")")
+self=$(readlink -f -- "$0")
+here=$(dirname -- "$self")
 fallback=$here/../lib/fallback
 
 # has LIBRARY [WORD]: the machine has that library, with that word in it.
@@ -23,4 +24,4 @@ if [ -n "$carried" ]; then
 fi
 OPENIMAGEIO_FONTS=${OPENIMAGEIO_FONTS:-$here/../share/footprint/fonts}
 export OPENIMAGEIO_FONTS
-exec "$here/../libexec/footprint" "$@"
+exec "$here/../libexec/$(basename -- "$self")" "$@"

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Makes the portable archive of an installed tree: the program with the libraries that it needs (README.md).
 
-  packaging/portable.py INSTALLED_TREE NAME OUTPUT.tar.xz
+  packaging/portable.py INSTALLED_TREE NAME OUTPUT.tar.xz [PROGRAM ...]
+
+Further programs of a build (footprint_bench, a test) go beside it: what a machine is to be measured with.
 """
 import pathlib
 import re
@@ -39,10 +41,10 @@ def paths_of(program):
     return {soname: pathlib.Path(path).resolve() for soname, path in found}
 
 
-def carried(program, paths):
-    """The sonames to carry as they are, and those to carry as stubs: what is reached from the program."""
+def carried(programs, paths):
+    """The sonames to carry as they are, and those to carry as stubs: what is reached from the programs."""
     fallback = {name for names in FALLBACK.values() for name in names}
-    whole, stubs, queue = set(), set(), [program]
+    whole, stubs, queue = set(), set(), list(programs)
     while queue:
         for soname in needed(queue.pop()):
             if SYSTEM.match(soname) or soname in whole | stubs | fallback:
@@ -61,45 +63,51 @@ def keep_licence(path, folder):
     shutil.copyfile(f"/usr/share/doc/{package}/copyright", folder / package)
 
 
-def carry(program, tree):
-    """Puts the program and its libraries in their places."""
-    paths = paths_of(program)
-    whole, stubs = carried(program, paths)
+def carry_libraries(programs, tree):
+    """Puts what the programs load into the tree's lib/."""
+    paths = {}
+    for program in programs:
+        paths |= paths_of(program)
+    whole, stubs = carried(programs, paths)
     libraries, licences = tree / "lib", tree / "share/doc/footprint/licences"
-    libraries.mkdir()
     licences.mkdir(parents=True)
-    for soname in sorted(whole):
-        shutil.copyfile(paths[soname], libraries / soname)
+    places = {soname: libraries / soname for soname in whole}
+    places |= {soname: libraries / "fallback" / group / soname for group, names in FALLBACK.items() for soname in names}
+    for soname, place in sorted(places.items()):
+        place.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(paths[soname], place)
         keep_licence(paths[soname], licences)
-    for group, names in FALLBACK.items():
-        folder = libraries / "fallback" / group
-        folder.mkdir(parents=True)
-        for soname in names:
-            shutil.copyfile(paths[soname], folder / soname)
-            keep_licence(paths[soname], licences)
-    users = [program] + [libraries / soname for soname in sorted(whole)]
+    users = programs + [places[soname] for soname in sorted(whole)]
     for soname in sorted(stubs):
         count = stub_library.write_stub(paths[soname], users, libraries / soname)
         print(f"{soname}: a stub with {count} symbols")
     for soname in sorted(whole | stubs):
-        (libraries / soname).chmod(0o644)
         run("patchelf", "--set-rpath", "$ORIGIN", libraries / soname)
-    (tree / "libexec").mkdir()
-    shutil.move(program, tree / "libexec/footprint")
-    run("patchelf", "--set-rpath", "$ORIGIN/../lib", tree / "libexec/footprint")
     print(f"{len(whole)} libraries are carried whole, {len(stubs)} as stubs")
 
 
+def carry(programs, tree):
+    """Puts the programs, each with a launcher of its name, and their libraries into the tree."""
+    carry_libraries(programs, tree)
+    (tree / "libexec").mkdir()
+    for program in programs:
+        moved, launcher = tree / "libexec" / program.name, tree / "bin" / program.name
+        shutil.copy(program, moved)
+        run("strip", moved)
+        run("patchelf", "--set-rpath", "$ORIGIN/../lib", moved)
+        shutil.copyfile(HERE / "launcher.sh", launcher)
+        launcher.chmod(0o755)
+
+
 def main():
-    if len(sys.argv) != 4:
+    if len(sys.argv) < 4:
         sys.exit(__doc__)
     installed, name, output = pathlib.Path(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3])
+    programs = [installed / "bin/footprint"] + [pathlib.Path(word) for word in sys.argv[4:]]
     with tempfile.TemporaryDirectory() as folder:
         tree = pathlib.Path(folder, name)
         shutil.copytree(installed, tree)
-        carry(tree / "bin/footprint", tree)
-        shutil.copyfile(HERE / "launcher.sh", tree / "bin/footprint")
-        (tree / "bin/footprint").chmod(0o755)
+        carry(programs, tree)
         (tree / "share/footprint/fonts").mkdir()
         shutil.copyfile(FONT, tree / "share/footprint/fonts" / FONT.name)
         keep_licence(FONT, tree / "share/doc/footprint/licences")

@@ -1,4 +1,4 @@
-// Reads experiments from TOML, and refuses what their runs could not do.
+// From TOML to an Experiment, every expression held against what the run will have.
 #include "experiments/runner/experiment.hpp"
 
 #include <fmt/format.h>
@@ -11,13 +11,15 @@
 
 #include "experiments/runner/functions.hpp"
 #include "experiments/runner/quantities.hpp"
-#include "experiments/studies/known_methods.hpp"
+#include "experiments/settings/setting.hpp"
+#include "experiments/settings/toml_reading.hpp"
 #include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/zoom.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/suggest.hpp"
 #include "renderer/core/toml_table.hpp"
+#include "renderer/scene/settings/scene.hpp"
 
 namespace footprint {
 namespace {
@@ -25,40 +27,27 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr NumberRange any_number{-1e300, 1e300};
-constexpr NumberRange whole_positive{1, 4096};
-constexpr NumberRange distance_range{smallest_distance, largest_distance};
-constexpr std::size_t most_frames = 1000;
+constexpr double most_frames = 10000;
 
-[[noreturn]] void missing(const TomlTable& table, std::string_view key) {
-  throw table.error_at(key, "is missing", "add it (docs/experiments.md)");
+// The tables of an experiment that has no members, beside [experiment].
+const std::vector<std::string> further_tables{"zoom",      "camera", "reference", "ndf",   "quantity",
+                                              "published", "claim",  "threshold", "figure"};
+
+std::vector<std::string> with(std::vector<std::string> keys, const std::vector<std::string>& further) {
+  keys.insert(keys.end(), further.begin(), further.end());
+  return keys;
 }
 
 std::string required_word(const TomlTable& table, std::string_view key) {
   const auto word = table.word(key);
-  if (!word) missing(table, key);
+  if (!word) refuse_absent(table, key);
   if (word->empty()) throw table.error_at(key, "is empty", "fill it in");
   return *word;
-}
-
-int whole(const TomlTable& table, std::string_view key, double value) {
-  if (value == std::floor(value)) return static_cast<int>(value);
-  throw table.error_at(key, fmt::format("has {:g}", value), "give whole numbers");
 }
 
 int whole_number(const TomlTable& table, std::string_view key, NumberRange range, int otherwise) {
   const auto value = table.whole_number(key, range);
   return value ? static_cast<int>(*value) : otherwise;
-}
-
-// What another reader found wrong, at the line of the key that it was reading.
-template <typename Read>
-auto at_key(const TomlTable& table, std::string_view key, Read read) {
-  try {
-    return read();
-  } catch (const Error& error) {
-    const std::string place = error.place().empty() ? "" : error.place() + ": ";
-    throw table.error_at(key, fmt::format("cannot be taken: {}{}", place, error.message()), error.mend());
-  }
 }
 
 std::vector<std::string> texts_of(const std::vector<MethodSpec>& methods) {
@@ -68,90 +57,26 @@ std::vector<std::string> texts_of(const std::vector<MethodSpec>& methods) {
   return texts;
 }
 
-std::vector<MethodSpec> read_methods(const TomlTable& table) {
-  if (table.is_word("methods")) {
-    if (*table.word("methods") == "all") return every_method();
-    throw table.error_at("methods", "must be a list of strings, or \"all\"", R"(write it as ["direct", "toksvig"])");
-  }
-  const auto words = table.words("methods");
-  if (!words) missing(table, "methods");
-  for (const std::string& word : *words) {
-    if (word.find(',') != std::string::npos) {
-      throw table.error_at("methods", fmt::format("has `{:.80}`", word), "write each method on its own");
-    }
-  }
-  return at_key(table, "methods", [&] { return parse_known_methods(fmt::format("{}", fmt::join(*words, ","))); });
-}
-
-EffectSet read_without(const TomlTable& table) {
-  const std::vector<std::string> names = effect_names(EffectSet{}.set());
-  EffectSet effects;
-  for (const std::string& word : table.words("without").value_or(std::vector<std::string>())) {
-    const auto found = std::ranges::find(names, word);
-    if (found == names.end()) {
-      throw table.error_at("without", fmt::format("has `{:.80}`, which is no effect", word), suggestion(word, names));
-    }
-    effects.set(static_cast<std::size_t>(found - names.begin()));
-  }
-  return effects;
-}
-
 void read_head(const TomlTable& table, Experiment& experiment) {
   experiment.title = required_word(table, "title");
   experiment.description = table.word("description").value_or("");
-  experiment.scene = required_word(table, "scene");
-  const fs::path beside = experiment.file.parent_path() / experiment.scene;
+  read_settings(table, "experiment", experiment.run);
+  const fs::path beside = experiment.file.parent_path() / experiment.run.scene;
   std::error_code unknown;
-  if (fs::exists(beside, unknown)) experiment.scene = beside.string();
-  if (const auto size = table.numbers("size", 2, {1, 65536})) {
-    experiment.size = glm::ivec2{whole(table, "size", (*size)[0]), whole(table, "size", (*size)[1])};
-  }
-  experiment.methods = read_methods(table);
-  if (const auto exposure = table.number("exposure", {1e-9, 1e9})) experiment.exposure = static_cast<float>(*exposure);
-  experiment.without = read_without(table);
-  experiment.anisotropy = whole_number(table, "anisotropy", {1, 16}, experiment.anisotropy);
-  experiment.repeats = whole_number(table, "repeats", {1, 10000}, experiment.repeats);
+  if (fs::exists(beside, unknown)) experiment.run.scene = beside.string();
 }
 
-void read_zoom(const TomlTable& table, Experiment& experiment) {
-  if (const auto distances = table.numbers("distances", 0, distance_range)) {
-    for (const char* key : {"from", "to", "frames"}) {
-      if (table.has(key)) throw table.error_at(key, "excludes distances", "give one or the other");
-    }
-    for (std::size_t i = 0; i < distances->size(); ++i) {
-      if (std::count(distances->begin(), distances->end(), (*distances)[i]) > 1)
-        throw table.error_at("distances", fmt::format("has {:g} twice", (*distances)[i]), "give each once");
-    }
-    experiment.distances = *distances;
-    return;
+// Distances that are given, or a zoom with both its ends.
+void read_zoom(const TomlTable& table, RunSettings& run) {
+  read_settings(table, "zoom", run);
+  for (const char* key : {"from", "to", "frames"}) {
+    if (table.has(key) && table.has("distances"))
+      throw table.error_at(key, "excludes distances", "give one or the other");
+    if (!table.has(key) && !table.has("distances")) refuse_absent(table, key);
   }
-  const auto from = table.number("from", distance_range), to = table.number("to", distance_range);
-  if (!from) missing(table, "from");
-  if (!to) missing(table, "to");
-  if (*from == *to) throw table.error_at("to", "is where the zoom starts", "let it differ from `from`");
-  if (!table.has("frames")) missing(table, "frames");
-  const int frames = whole_number(table, "frames", {2, static_cast<double>(most_frames)}, 2);
-  experiment.distances = zoom_distances(*from, *to, frames);
-  experiment.consecutive = true;
-}
-
-void read_reference(const TomlTable& table, Experiment& experiment) {
-  experiment.spp = whole_number(table, "spp", whole_positive, experiment.spp);
-  if (const auto others = table.numbers("other_spp", 0, whole_positive)) {
-    for (const double spp : *others) experiment.other_spp.push_back(whole(table, "other_spp", spp));
-  }
-  if (const auto counts = table.numbers("supersampling", 0, whole_positive)) {
-    experiment.supersampling.clear();
-    for (const double spp : *counts) experiment.supersampling.push_back(whole(table, "supersampling", spp));
-  }
-  experiment.seed =
-      static_cast<std::uint64_t>(whole_number(table, "seed", {0, 2147483647}, static_cast<int>(experiment.seed)));
-  if (const auto filter = table.word("filter")) {
-    experiment.filter = at_key(table, "filter", [&] { return parse_filter(*filter); });
-  }
-  if (const auto way = table.word("environment")) {
-    experiment.environment = at_key(table, "environment", [&] { return parse_environment_use(*way); });
-  }
+  const ZoomSettings& zoom = run.view.zoom;
+  if (zoom.frames > 0 && zoom.from == zoom.to)
+    throw table.error_at("to", "is where the zoom starts", "let it differ from `from`");
 }
 
 // Every figure that is asked for must be one that the run will have: known before it starts.
@@ -177,7 +102,7 @@ Claim read_claim(const TomlTable& table, const Experiment& experiment) {
     return parsed;
   });
   const auto expect = table.choice("expect", {"reproduced", "not_reproduced"});
-  if (!expect) missing(table, "expect");
+  if (!expect) refuse_absent(table, "expect");
   std::string name = required_word(table, "name");
   std::string words = required_word(table, "text");
   std::string reason = required_word(table, "reason");
@@ -210,7 +135,7 @@ void read_thresholds(const toml::table& parsed, const TomlTable& root, Experimen
     const auto measures = written.measures();
     const bool each = std::ranges::find(measures, "*", &Measure::method) != measures.end();
     const double limit = *table->number(key, any_number);
-    for (const std::string& method : each ? texts_of(experiment.methods) : std::vector<std::string>{""}) {
+    for (const std::string& method : each ? texts_of(experiment.run.methods) : std::vector<std::string>{""}) {
       const Expression measure = written.with_method(method);
       at_key(*table, key, [&] { check_measures(measure, experiment); });
       experiment.thresholds.push_back({.measure = measure, .limit = limit});
@@ -221,7 +146,7 @@ void read_thresholds(const toml::table& parsed, const TomlTable& root, Experimen
 void read_published(const TomlTable& table, Experiment& experiment) {
   const fs::path file = experiment.file.parent_path() / required_word(table, "file");
   const auto figures = table.words("figures");
-  if (!figures) missing(table, "figures");
+  if (!figures) refuse_absent(table, "figures");
   const toml::table parsed = parse_toml_file(file);
   const TomlTable root(parsed, file, "", {"paper", "note", "value"});
   std::vector<std::string> known;
@@ -230,7 +155,7 @@ void read_published(const TomlTable& table, Experiment& experiment) {
     known.push_back(figure);
     if (std::ranges::find(*figures, figure) == figures->end()) continue;
     const auto number = value.number("value", any_number);
-    if (!number) missing(value, "value");
+    if (!number) refuse_absent(value, "value");
     Expression measure = read_expression(value, "measure", required_word(value, "measure"), experiment);
     std::string unit = value.word("unit").value_or(""), note = value.word("note").value_or("");
     experiment.published.push_back({.figure = figure,
@@ -256,7 +181,7 @@ void read_footprints(const TomlTable& root, Experiment& experiment) {
       throw table.error_at("name", fmt::format("is `{:.80}` as of another footprint", name), "name it otherwise");
     }
     const auto sides = table.numbers("footprint", 4, {-1e6, 1e6});
-    if (!sides) missing(table, "footprint");
+    if (!sides) refuse_absent(table, "footprint");
     const FootprintRect rect{{(*sides)[0], (*sides)[1]}, {(*sides)[2], (*sides)[3]}};
     at_key(table, "footprint", [&] { check_footprint(rect, ""); });
     experiment.footprints.push_back({.name = name, .rect = rect});
@@ -266,7 +191,7 @@ void read_footprints(const TomlTable& root, Experiment& experiment) {
 // The methods of an experiment that have a figure, each once.
 std::vector<const Quantity*> quantities_called(const std::string& name, const Experiment& experiment) {
   std::vector<const Quantity*> found;
-  for (const MethodSpec& method : experiment.methods) {
+  for (const MethodSpec& method : experiment.run.methods) {
     const Quantity* const quantity = find_quantity(find_method(method.name), name);
     if (quantity != nullptr) found.push_back(quantity);
   }
@@ -282,7 +207,7 @@ NamedQuantity read_quantity(const TomlTable& table, const Experiment& experiment
   const auto found = quantities_called(named.quantity, experiment);
   if (found.empty()) {
     throw table.error_at("figure", fmt::format("is `{:.80}`, which no method of the experiment has", named.quantity),
-                         suggestion(named.quantity, quantity_names(experiment.methods)));
+                         suggestion(named.quantity, quantity_names(experiment.run.methods)));
   }
   std::vector<std::string> names;
   for (const OptionSpec& spec : found.front()->parameters) names.push_back(spec.name);
@@ -316,11 +241,12 @@ FigurePicture read_picture(const TomlTable& table, const Experiment& experiment)
   FigurePicture picture;
   const std::string method = required_word(table, "method");
   if (method != "reference") {
-    picture.method = at_key(table, "method", [&] { return select_method(method, texts_of(experiment.methods)); });
+    picture.method = at_key(table, "method", [&] { return select_method(method, texts_of(experiment.run.methods)); });
   }
-  picture.frame = static_cast<std::size_t>(whole_number(table, "frame", {0, static_cast<double>(most_frames)}, 0));
-  if (!experiment.distances.empty() && picture.frame >= experiment.distances.size()) {
-    throw table.error_at("frame", "does not exist", fmt::format("frames are 0 to {}", experiment.distances.size() - 1));
+  picture.frame = static_cast<std::size_t>(whole_number(table, "frame", {0, most_frames}, 0));
+  const std::vector<double> distances = given_distances(experiment.run.view);
+  if (!distances.empty() && picture.frame >= distances.size()) {
+    throw table.error_at("frame", "does not exist", fmt::format("frames are 0 to {}", distances.size() - 1));
   }
   picture.label = table.word("label").value_or("");
   picture.crop = read_crop(table, "crop");
@@ -335,19 +261,18 @@ void read_figure(const TomlTable& table, Experiment& experiment) {
     for (const TomlTable& picture : row.tables("pictures", {"method", "frame", "label", "crop"})) {
       pictures.push_back(read_picture(picture, experiment));
     }
-    if (pictures.empty()) missing(row, "pictures");
+    if (pictures.empty()) refuse_absent(row, "pictures");
     experiment.figure.rows.push_back(std::move(pictures));
   }
-  if (experiment.figure.rows.empty()) missing(table, "row");
+  if (experiment.figure.rows.empty()) refuse_absent(table, "row");
 }
 
 // An experiment that is made of others has nothing but their names.
 std::vector<fs::path> read_members(const TomlTable& root, const TomlTable& head, const fs::path& folder) {
-  for (const char* key : {"scene", "size", "methods", "exposure", "without", "anisotropy", "repeats"}) {
+  for (const std::string& key : setting_keys("experiment")) {
     if (head.has(key)) throw head.error_at(key, "excludes `members`", "move it into one of them");
   }
-  for (const char* key :
-       {"zoom", "camera", "reference", "ndf", "quantity", "published", "claim", "threshold", "figure"}) {
+  for (const std::string& key : further_tables) {
     if (root.has(key)) throw root.error_at(key, "excludes `members`", "move it into one of them");
   }
   std::vector<fs::path> members;
@@ -393,15 +318,12 @@ std::vector<std::string> list_experiments(const fs::path& folder) {
 
 Experiment read_experiment(const fs::path& file) {
   const toml::table parsed = parse_toml_file(file);
-  const TomlTable root(
-      parsed, file, "",
-      {"experiment", "zoom", "camera", "reference", "ndf", "quantity", "published", "claim", "threshold", "figure"});
+  const TomlTable root(parsed, file, "", with(further_tables, {"experiment"}));
   Experiment experiment;
   experiment.name = file.stem().string();
   experiment.file = file;
-  const auto head = root.table("experiment", {"title", "description", "scene", "size", "methods", "exposure", "without",
-                                              "anisotropy", "repeats", "members"});
-  if (!head) missing(root, "experiment");
+  const auto head = root.table("experiment", with(setting_keys("experiment"), {"title", "description", "members"}));
+  if (!head) refuse_absent(root, "experiment");
   if (head->has("members")) {
     experiment.title = required_word(*head, "title");
     experiment.description = head->word("description").value_or("");
@@ -409,12 +331,10 @@ Experiment read_experiment(const fs::path& file) {
     return experiment;
   }
   read_head(*head, experiment);
-  if (const auto zoom = root.table("zoom", {"distances", "from", "to", "frames"})) read_zoom(*zoom, experiment);
-  if (const auto camera = root.table("camera", camera_keys())) experiment.camera = read_camera(*camera);
-  if (const auto reference =
-          root.table("reference", {"spp", "other_spp", "supersampling", "seed", "filter", "environment"})) {
-    read_reference(*reference, experiment);
-  }
+  if (const auto zoom = root.table("zoom", setting_keys("zoom"))) read_zoom(*zoom, experiment.run);
+  if (const auto camera = root.table("camera", camera_keys())) experiment.run.view.camera = read_camera(*camera);
+  if (const auto reference = root.table("reference", setting_keys("reference")))
+    read_settings(*reference, "reference", experiment.run);
   read_footprints(root, experiment);
   read_quantities(root, experiment);
   if (const auto published = root.table("published", {"file", "figures"})) read_published(*published, experiment);

@@ -2,20 +2,15 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <filesystem>
-#include <glm/vec2.hpp>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/runner/expression.hpp"
-#include "experiments/studies/compare.hpp"
-#include "renderer/core/options.hpp"
+#include "experiments/settings/run_settings.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
-#include "renderer/pipeline/supersample.hpp"
-#include "renderer/scene/settings/scene.hpp"
 
 namespace footprint {
 
@@ -60,7 +55,7 @@ using Crop = std::array<double, 4>;
 
 /// One picture of a composed figure.
 struct FigurePicture {
-  std::optional<std::size_t> method;  ///< place in Experiment::methods; none: the reference
+  std::optional<std::size_t> method;  ///< place in the run's methods; none: the reference
   std::size_t frame = 0;              ///< place in the distances
   std::string label;                  ///< "(a)", or any words; may be empty
   std::optional<Crop> crop;           ///< what is shown of it; none: as of every picture
@@ -78,23 +73,9 @@ struct Experiment {
   std::filesystem::path file;
   std::string title, description;
   std::vector<std::filesystem::path>
-      members;        ///< files of the experiments that it is made of; with any, all below is unset
-  std::string scene;  ///< as load_scene takes it
-  std::optional<glm::ivec2> size;
-  std::vector<MethodSpec> methods;
-  std::vector<double> distances;  ///< empty: the scene's
-  bool consecutive = false;       ///< the distances are frames of a zoom: flicker is measured
-  CameraSettings camera;          ///< monostate: the scene's
-  std::optional<float> exposure;  ///< none: the scene's, else automatic
-  int spp = 64;
-  std::vector<int> other_spp;
-  std::vector<int> supersampling{supersampling_counts.begin(), supersampling_counts.end()};
-  std::uint64_t seed = 1;
-  ReferenceFilter filter = ReferenceFilter::after_shading;
-  EffectSet without;  ///< effects that every method and the reference leave out
-  EnvironmentUse environment = EnvironmentUse::sampled;
-  int anisotropy = 1;
-  int repeats = 9;
+      members;         ///< files of the experiments that it is made of; with any, all below is unset
+  RunSettings run;     ///< what is compared
+  bool quick = false;  ///< `run` is cut short: no measurement
   std::vector<PublishedValue> published;
   std::vector<Claim> claims;
   std::vector<Threshold> thresholds;

@@ -64,13 +64,13 @@ class ExperimentFile : public ::testing::Test {
 TEST_F(ExperimentFile, DefaultsAreThoseOfACompare) {
   const Experiment experiment = read(head);
   EXPECT_EQ(experiment.name, "mine");
-  EXPECT_EQ(experiment.scene, "ribbed_plane");
-  ASSERT_EQ(experiment.methods.size(), 2U);
-  EXPECT_EQ(experiment.methods[1].options.at("storage"), "fp16");
-  EXPECT_TRUE(experiment.distances.empty());
-  EXPECT_FALSE(experiment.consecutive);
-  EXPECT_EQ(experiment.spp, 64);
-  EXPECT_TRUE(std::holds_alternative<std::monostate>(experiment.camera));
+  EXPECT_EQ(experiment.run.scene, "ribbed_plane");
+  ASSERT_EQ(experiment.run.methods.size(), 2U);
+  EXPECT_EQ(experiment.run.methods[1].options.at("storage"), "fp16");
+  EXPECT_TRUE(experiment.run.view.distances.empty());
+  EXPECT_EQ(experiment.run.view.zoom.frames, 0);
+  EXPECT_EQ(experiment.run.reference.spp, 64);
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(experiment.run.view.camera));
 }
 
 constexpr const char* every_key = R"toml(
@@ -118,16 +118,21 @@ pictures = [{ method = "toksvig", frame = 1, label = "(a)" }, { method = "refere
 
 TEST_F(ExperimentFile, EveryKeyIsRead) {
   const Experiment experiment = read(std::string(head) + every_key);
-  EXPECT_EQ(*experiment.size, glm::ivec2(500, 400));
-  EXPECT_EQ(experiment.distances, (std::vector<double>{1, 2, 4}));
-  EXPECT_TRUE(experiment.consecutive);
-  EXPECT_TRUE(std::holds_alternative<Camera>(experiment.camera));
-  EXPECT_EQ(experiment.other_spp, (std::vector<int>{16, 36}));
-  EXPECT_EQ(experiment.supersampling, (std::vector<int>{1, 4}));
-  EXPECT_EQ(experiment.without.count(), 2U);
-  EXPECT_TRUE(has(experiment.without, Effect::fresnel) && has(experiment.without, Effect::cast_shadow));
-  EXPECT_EQ(experiment.filter, ReferenceFilter::nearest);
-  EXPECT_EQ(experiment.environment, EnvironmentUse::dense);
+  EXPECT_EQ(*experiment.run.view.size, glm::ivec2(500, 400));
+  EXPECT_EQ(given_distances(experiment.run.view), (std::vector<double>{1, 2, 4}));
+  EXPECT_EQ(experiment.run.view.exposure->factor, 0.25F);
+  EXPECT_EQ(experiment.run.view.exposure->source, ExposureSource::experiment);
+  EXPECT_EQ(experiment.run.footprint_filter.probes, 8);
+  EXPECT_EQ(experiment.run.timing.repeats, 3);
+  EXPECT_EQ(experiment.run.reference.spp, 256);
+  EXPECT_EQ(experiment.run.reference.seed, 7U);
+  EXPECT_TRUE(std::holds_alternative<Camera>(experiment.run.view.camera));
+  EXPECT_EQ(experiment.run.reference.other_spp, (std::vector<int>{16, 36}));
+  EXPECT_EQ(experiment.run.reference.supersampling, (std::vector<int>{1, 4}));
+  EXPECT_EQ(experiment.run.without.count(), 2U);
+  EXPECT_TRUE(has(experiment.run.without, Effect::fresnel) && has(experiment.run.without, Effect::cast_shadow));
+  EXPECT_EQ(experiment.run.reference.filter, ReferenceFilter::nearest);
+  EXPECT_EQ(experiment.run.reference.environment, EnvironmentUse::dense);
   ASSERT_EQ(experiment.published.size(), 1U);  // that of figure 2 names a method that is not here, and is not asked for
   EXPECT_EQ(experiment.published[0].value, 0.5);
   ASSERT_EQ(experiment.footprints.size(), 1U);
@@ -144,13 +149,13 @@ TEST_F(ExperimentFile, EveryKeyIsRead) {
 
 TEST_F(ExperimentFile, AllStandsForEveryMethod) {
   const Experiment experiment = read("[experiment]\ntitle = \"t\"\nscene = \"s\"\nmethods = \"all\"\n");
-  EXPECT_EQ(experiment.methods.size(), all_methods().size());
+  EXPECT_EQ(experiment.run.methods.size(), all_methods().size());
 }
 
 TEST_F(ExperimentFile, ASceneBesideTheFileIsTheOneThatIsMeant) {
   write("own.gltf", "{}");
   const Experiment experiment = read("[experiment]\ntitle = \"t\"\nscene = \"own.gltf\"\nmethods = [\"direct\"]\n");
-  EXPECT_EQ(experiment.scene, (folder_ / "own.gltf").string());
+  EXPECT_EQ(experiment.run.scene, (folder_ / "own.gltf").string());
 }
 
 TEST_F(ExperimentFile, WrongFilesAreRefusedAtTheirLine) {

@@ -10,6 +10,7 @@
 
 #include "experiments/runner/experiment.hpp"
 #include "experiments/runner/quantities.hpp"
+#include "experiments/studies/zoom.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "results/report/figures.hpp"
@@ -23,7 +24,7 @@ namespace {
 
 std::vector<std::string> methods_of(const Experiment& experiment) {
   std::vector<std::string> texts;
-  for (const MethodSpec& method : experiment.methods) texts.push_back(method.text);
+  for (const MethodSpec& method : experiment.run.methods) texts.push_back(method.text);
   return texts;
 }
 
@@ -45,20 +46,21 @@ bool has(const Values& values, const Value& value) {
 void nothing(const Measure& /*measure*/, const Experiment& /*experiment*/) {}
 
 void its_reference(const Measure& measure, const Experiment& experiment) {
-  if (!measure.spp || has(experiment.other_spp, *measure.spp)) return;
+  if (!measure.spp || has(experiment.run.reference.other_spp, *measure.spp)) return;
   refuse(measure, fmt::format("other_spp of [reference] does not have {}", *measure.spp),
          "add it there, or leave spp out");
 }
 
 void a_timed_count(const Measure& measure, const Experiment& experiment) {
   if (!measure.spp) refuse(measure, "does not say of how many samples", "add spp=SAMPLES");
-  if (has(experiment.supersampling, *measure.spp)) return;
+  if (has(experiment.run.reference.supersampling, *measure.spp)) return;
   refuse(measure, fmt::format("no {} samples are timed", *measure.spp),
-         fmt::format("timed are [{}]: see supersampling of [reference]", fmt::join(experiment.supersampling, ", ")));
+         fmt::format("timed are [{}]: see supersampling of [reference]",
+                     fmt::join(experiment.run.reference.supersampling, ", ")));
 }
 
 void a_zoom(const Measure& measure, const Experiment& experiment) {
-  if (experiment.consecutive) return;
+  if (experiment.run.view.zoom.frames > 0) return;
   refuse(measure, "flicker is measured between frames of a zoom", "give [zoom] from, to and frames");
 }
 
@@ -78,7 +80,7 @@ void a_quantity(const Measure& measure, const Experiment& experiment) {
   if (named == experiment.quantities.end()) {
     refuse(measure, fmt::format("there is no quantity `{:.80}`", *measure.name), "use the name of one of [[quantity]]");
   }
-  const std::string& method = experiment.methods[select_method(measure.method, methods_of(experiment))].name;
+  const std::string& method = experiment.run.methods[select_method(measure.method, methods_of(experiment))].name;
   if (find_quantity(find_method(method), named->quantity) != nullptr) return;
   refuse(measure, fmt::format("{} has no figure `{}`", method, named->quantity), "ask a method that has it");
 }
@@ -260,7 +262,7 @@ std::span<const FigureFunction> figure_functions() {
 void check_measure(const Measure& measure, const Experiment& experiment) {
   (void)select_method(measure.method, methods_of(experiment));
   measure.function->needs(measure, experiment);
-  const std::vector<double>& distances = experiment.distances;
+  const std::vector<double> distances = given_distances(experiment.run.view);
   if (distances.empty()) return;  // those of the scene, which is not loaded yet
   if (measure.frame && static_cast<std::size_t>(*measure.frame) >= distances.size()) {
     refuse(measure, "there is no such frame", fmt::format("frames are 0 to {}", distances.size() - 1));

@@ -45,9 +45,9 @@ std::vector<QuantityFigure> measure_quantities(const Experiment& experiment, con
                                                const Progress& progress) {
   std::vector<QuantityFigure> figures;
   if (experiment.quantities.empty()) return figures;
-  ProgressParts parts(progress, static_cast<double>(experiment.quantities.size() * experiment.methods.size()));
+  ProgressParts parts(progress, static_cast<double>(experiment.quantities.size() * experiment.run.methods.size()));
   for (const NamedQuantity& named : experiment.quantities) {
-    for (const MethodSpec& spec : experiment.methods) {
+    for (const MethodSpec& spec : experiment.run.methods) {
       parts.next(1, "")(fmt::format("{} of {}", named.name, spec.text), 0.0);
       const Method& method = find_method(spec.name);
       const Quantity* const quantity = find_quantity(method, named.quantity);

@@ -1,4 +1,4 @@
-// See animate.hpp.
+// Each frame of a zoom: the reference, every method, and what changed since the frame before.
 #include "experiments/studies/animate.hpp"
 
 #include <fmt/format.h>
@@ -9,27 +9,15 @@
 #include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/reference_noise.hpp"
 #include "experiments/studies/run_info.hpp"
+#include "experiments/studies/stage.hpp"
 #include "experiments/studies/zoom.hpp"
-#include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 
 namespace footprint {
 namespace {
 
-constexpr double default_zoom = 8.0;
 constexpr double method_weight = 2.0;  // of a method's frame, in reference samples
-
-std::vector<double> distances_of(const AnimateSettings& settings, const Scene& scene) {
-  const double from = settings.from.value_or(scene.distances.front());
-  const double last = scene.distances.size() > 1 ? scene.distances.back() : default_zoom * from;
-  const double to = settings.to.value_or(last);
-  if (from == to) {
-    throw Error(ErrorKind::usage, "--to", fmt::format("the zoom ends at {:g}, where it starts", to),
-                "let --from and --to differ");
-  }
-  return zoom_distances(from, to, settings.frames);
-}
 
 // A frame as it is held until the next one has been compared with it.
 struct HeldFrame {
@@ -39,14 +27,14 @@ struct HeldFrame {
 
 class Animator {
  public:
-  Animator(const AnimateSettings& settings, std::filesystem::path folder, const Progress& progress)
+  Animator(const RunSettings& settings, std::filesystem::path folder, const Progress& progress)
       : settings_(settings),
         folder_(std::move(folder)),
         whole_(progress, 4),
-        stage_(settings.context, load_scene(settings.scene, settings.scene_library), settings.stage,
-               whole_.next(1, "")),
-        distances_(distances_of(settings, stage_.scene())),
-        parts_(whole_.next(3, ""), static_cast<double>(distances_.size()) * (settings.spp + methods_weight())) {
+        stage_(load_scene(settings.scene, settings.scene_library, settings.view.camera), settings, whole_.next(1, "")),
+        distances_(run_distances(settings.view, stage_.scene())),
+        parts_(whole_.next(3, ""),
+               static_cast<double>(distances_.size()) * (settings.reference.spp + methods_weight())) {
     // Two frames are held, each with the reference, its halves and its error; and what is worked on.
     constexpr int of_the_reference = 8, worked_on = 6;
     require_pictures(stage_.view(1.0).size,
@@ -71,34 +59,35 @@ class Animator {
   HeldFrame add_frame(std::size_t frame, const std::optional<HeldFrame>& before) {
     const View view = stage_.view(distances_[frame]);
     const std::string prefix = fmt::format("frame {} of {}: ", frame + 1, distances_.size());
-    HeldFrame now{.reference = stage_.reference().render(view, settings_.spp, settings_.seed,
-                                                         parts_.next(settings_.spp, prefix + "reference, ")),
-                  .pictures = {}};
+    const ReferenceSettings& asked = settings_.reference;
+    const Progress sampling = parts_.next(asked.spp, prefix + "reference, ");
+    HeldFrame now{.reference = stage_.reference().render(view, asked.spp, asked.seed, sampling), .pictures = {}};
     if (frame == 0) describe_reference(now.reference);
     animation_.reference_images.push_back(
         write_picture(folder_, fmt::format("reference_{:04}", frame), now.reference.mean, exposure_.factor));
     const Progress drawing = parts_.next(methods_weight(), prefix);
     for (std::size_t m = 0; m < stage_.methods().size(); ++m) {
-      drawing(settings_.stage.methods[m].text, static_cast<double>(m) / static_cast<double>(stage_.methods().size()));
+      drawing(settings_.methods[m].text, static_cast<double>(m) / static_cast<double>(stage_.methods().size()));
       add_picture(frame, m, view, before, now);
     }
     return now;
   }
 
   void describe_reference(const Supersampled& first) {
-    exposure_ = choose_exposure(settings_.exposure, stage_.scene(), first.mean);
-    animation_.reference = {.spp = settings_.spp,
-                            .filter = std::string(filter_name(settings_.stage.filter)),
-                            .seed = settings_.seed,
+    exposure_ = choose_exposure(settings_.view.exposure, stage_.scene(), first.mean);
+    const ReferenceSettings& reference = settings_.reference;
+    animation_.reference = {.spp = reference.spp,
+                            .filter = std::string(word_for(reference_filters, reference.filter)),
+                            .seed = reference.seed,
                             .standard_error = relative_standard_error(first),
                             .environment = {}};
     if (has(stage_.effects(), Effect::environment_light))
-      animation_.reference.environment = environment_use_name(settings_.stage.environment);
+      animation_.reference.environment = word_for(reference_integrals, reference.environment);
   }
 
   void add_picture(std::size_t frame, std::size_t method, const View& view, const std::optional<HeldFrame>& before,
                    HeldFrame& now) {
-    const std::string& text = settings_.stage.methods[method].text;
+    const std::string& text = settings_.methods[method].text;
     Image picture = stage_.methods()[method].frames().render(view);
     stage_.context().check("rendering " + text);
     AnimationRecord record{.frame = static_cast<int>(frame),
@@ -116,26 +105,25 @@ class Animator {
       record.flicker =
           flicker_between(before->pictures[method], picture, before->reference, now.reference, exposure_.factor);
     }
-    const std::string stem = method_stem(settings_.stage.methods, method);
+    const std::string stem = method_stem(settings_.methods, method);
     record.image = write_picture(folder_, fmt::format("{}_{:04}", stem, frame), picture, exposure_.factor);
     animation_.records.push_back(std::move(record));
     now.pictures.push_back(std::move(picture));
   }
 
-  const AnimateSettings& settings_;
+  const RunSettings& settings_;
   std::filesystem::path folder_;
   ProgressParts whole_;
   Stage stage_;
   std::vector<double> distances_;
   ProgressParts parts_;
-  ChosenExposure exposure_;
+  Exposure exposure_;
   Animation animation_;
 };
 
 }  // namespace
 
-Animation run_animation(const AnimateSettings& settings, const std::filesystem::path& folder,
-                        const Progress& progress) {
+Animation run_animation(const RunSettings& settings, const std::filesystem::path& folder, const Progress& progress) {
   return Animator(settings, folder, progress).run();
 }
 

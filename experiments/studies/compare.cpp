@@ -1,4 +1,4 @@
-// See compare.hpp.
+// One comparison from its stage to its records: each distance in turn, then what all of them share.
 #include "experiments/studies/compare.hpp"
 
 #include <fmt/format.h>
@@ -16,6 +16,8 @@
 #include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/reference_noise.hpp"
 #include "experiments/studies/run_info.hpp"
+#include "experiments/studies/stage.hpp"
+#include "experiments/studies/zoom.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/timing.hpp"
@@ -29,22 +31,10 @@ constexpr double scale_quantile = 0.99;
 constexpr double smallest_error_scale = 0.01;
 constexpr std::uint64_t curve_seed = 0x9e3779b97f4a7c15;  // keeps the curve's samples apart from the reference's
 
-StageSettings stage_settings(const CompareSettings& settings) {
-  return {.methods = settings.methods,
-          .size = settings.size,
-          .filter = settings.filter,
-          .environment = settings.environment,
-          .anisotropy = settings.anisotropy,
-          .tile = settings.tile,
-          .without = settings.without,
-          .cache = settings.cache};
-}
-
 // `direct` is what every ratio is taken to; it is staged first, also where it is not asked for.
-StageSettings timing_settings(const CompareSettings& settings) {
-  StageSettings stage = stage_settings(settings);
-  stage.methods.insert(stage.methods.begin(), {.text = "direct", .name = "direct", .options = {}});
-  return stage;
+RunSettings with_direct(RunSettings settings) {
+  settings.methods.insert(settings.methods.begin(), {.text = "direct", .name = "direct", .options = {}});
+  return settings;
 }
 
 // Kept of each distance until the end: the reference, and of each method the picture and its error (a quarter as
@@ -53,10 +43,6 @@ int pictures_held(std::size_t methods, std::size_t distances) {
   const double kept = static_cast<double>(distances) * (1.0 + 1.25 * static_cast<double>(methods));
   constexpr double own_of_the_reference = 6;
   return static_cast<int>(std::ceil(kept + 5.0 * static_cast<double>(methods + 1) + own_of_the_reference));
-}
-
-std::vector<double> distances_of(const CompareSettings& settings, const Scene& scene) {
-  return settings.distances.empty() ? scene.distances : settings.distances;
 }
 
 // Another reference, of another count of samples.
@@ -95,15 +81,15 @@ std::optional<double> normalized_color(const Image& picture, const Image& refere
 
 class Comparison {
  public:
-  Comparison(const CompareSettings& settings, std::filesystem::path folder, const Progress& progress)
+  Comparison(const RunSettings& settings, std::filesystem::path folder, const Progress& progress)
       : settings_(settings),
         folder_(std::move(folder)),
         whole_(progress, 4),
-        stage_(settings.context, load_scene(settings.scene, settings.scene_library, settings.camera),
-               timing_settings(settings), whole_.next(1, "")),
-        distances_(distances_of(settings, stage_.scene())),
+        stage_(load_scene(settings.scene, settings.scene_library, settings.view.camera), with_direct(settings),
+               whole_.next(1, "")),
+        distances_(run_distances(settings.view, stage_.scene())),
         parts_(whole_.next(3, ""), static_cast<double>(distances_.size()) *
-                                       (settings.spp + other_samples() + curve_samples() + method_weight())) {
+                                       (settings.reference.spp + other_samples() + curve_samples() + method_weight())) {
     require_pictures(stage_.view(1.0).size, pictures_held(settings.methods.size(), distances_.size()));
   }
 
@@ -129,18 +115,19 @@ class Comparison {
 
  private:
   [[nodiscard]] double other_samples() const {
-    return std::accumulate(settings_.other_spp.begin(), settings_.other_spp.end(), 0.0);
+    const std::vector<int>& others = settings_.reference.other_spp;
+    return std::accumulate(others.begin(), others.end(), 0.0);
   }
 
   // Of the renders and timed draws of plain supersampling: what it weighs beside the reference.
   [[nodiscard]] double curve_samples() const {
     double samples = 0.0;
-    for (const int spp : settings_.supersampling) samples += spp * (1.0 + curve_repeats(spp));
+    for (const int spp : settings_.reference.supersampling) samples += spp * (1.0 + curve_repeats(spp));
     return samples;
   }
 
   [[nodiscard]] double method_weight() const {
-    return static_cast<double>(settings_.methods.size()) * (settings_.spp + settings_.repeats);
+    return static_cast<double>(settings_.methods.size()) * (settings_.reference.spp + settings_.timing.repeats);
   }
 
   [[nodiscard]] const StagedMethod& method(std::size_t index) const { return stage_.methods()[index + 1]; }
@@ -160,21 +147,22 @@ class Comparison {
                 .reference_file = {},
                 .curve = {},
                 .others = {}};
-    truth.reference = stage_.reference().render(truth.view, settings_.spp, settings_.seed,
-                                                parts_.next(settings_.spp, prefix + "reference, "));
+    truth.reference = stage_.reference().render(truth.view, settings_.reference.spp, settings_.reference.seed,
+                                                parts_.next(settings_.reference.spp, prefix + "reference, "));
     if (frame == 0) {
-      chosen_exposure_ = choose_exposure(settings_.exposure, stage_.scene(), truth.reference.mean);
+      chosen_exposure_ = choose_exposure(settings_.view.exposure, stage_.scene(), truth.reference.mean);
       exposure_ = chosen_exposure_.factor;
       results_.reference.standard_error = relative_standard_error(truth.reference);
     }
     truth.noise_floor = noise_floor(truth.reference, exposure_);
-    references_.push_back(
-        {.caption = fmt::format("reference, {} spp", settings_.spp), .picture = truth.reference.mean, .error = {}});
+    references_.push_back({.caption = fmt::format("reference, {} spp", settings_.reference.spp),
+                           .picture = truth.reference.mean,
+                           .error = {}});
     truth.reference_file = write_picture(folder_, stem_of(distance, "reference"), truth.reference.mean, exposure_);
     truth.curve = supersampling_curve(truth, prefix);
-    for (const int spp : settings_.other_spp) {
-      const Supersampled other =
-          stage_.reference().render(truth.view, spp, settings_.seed, parts_.next(spp, prefix + "other reference, "));
+    for (const int spp : settings_.reference.other_spp) {
+      const Supersampled other = stage_.reference().render(truth.view, spp, settings_.reference.seed,
+                                                           parts_.next(spp, prefix + "other reference, "));
       truth.others.push_back({.spp = spp, .mean = other.mean, .noise_floor = noise_floor(other, exposure_)});
     }
     return truth;
@@ -182,8 +170,8 @@ class Comparison {
 
   std::vector<SupersamplingPoint> supersampling_curve(const Truth& truth, const std::string& prefix) {
     std::vector<SupersamplingPoint> curve;
-    for (const int spp : settings_.supersampling) {
-      const std::uint64_t seed = settings_.seed ^ (curve_seed * static_cast<std::uint64_t>(spp));
+    for (const int spp : settings_.reference.supersampling) {
+      const std::uint64_t seed = settings_.reference.seed ^ (curve_seed * static_cast<std::uint64_t>(spp));
       const Supersampled picture =
           stage_.reference().render(truth.view, spp, seed, parts_.next(spp, prefix + "supersampling, "));
       const int repeats = curve_repeats(spp);
@@ -205,8 +193,9 @@ class Comparison {
                 .exhibit = {},
                 .stem = stem_of(truth.distance, method_stem(settings_.methods, index))};
     Image picture = staged.frames().render(truth.view);
-    const Supersampled finest = stage_.finest_level(staged).render(
-        truth.view, settings_.spp, settings_.seed, parts_.next(settings_.spp, prefix + "finest level, "));
+    const Supersampled finest =
+        stage_.finest_level(staged).render(truth.view, settings_.reference.spp, settings_.reference.seed,
+                                           parts_.next(settings_.reference.spp, prefix + "finest level, "));
     stage_.context().check("rendering " + settings_.methods[index].text);
     try {
       set_error(draft.record, truth, picture, finest.mean);
@@ -269,7 +258,7 @@ class Comparison {
 
   // Against the frame before: the picture of the same method, one round of drafts earlier.
   void set_flicker(Record& record, const Truth& truth, const Image& picture, std::size_t index) const {
-    if (!settings_.consecutive || truth.frame == 0) return;
+    if (settings_.view.zoom.frames == 0 || truth.frame == 0) return;
     const Image& before = drafts_[(truth.frame - 1) * settings_.methods.size() + index].exhibit.picture;
     record.flicker = flicker_between(before, picture, before_, truth.reference, exposure_);
   }
@@ -282,8 +271,8 @@ class Comparison {
     for (const StagedMethod& staged : stage_.methods()) {
       if (staged.gpu().has_frame_build()) draws.emplace_back([&staged, &view] { staged.gpu().rebuild(view); });
     }
-    const double weight = static_cast<double>(settings_.methods.size()) * settings_.repeats;
-    return interleaved_times(stage_.context().info(), draws, settings_.repeats,
+    const double weight = static_cast<double>(settings_.methods.size()) * settings_.timing.repeats;
+    return interleaved_times(stage_.context().info(), draws, settings_.timing.repeats,
                              parts_.next(weight, fmt::format("distance {:g}: ", distance)));
   }
 
@@ -353,12 +342,12 @@ class Comparison {
 
   void describe(int processes) {
     results_.backend = backend_info(stage_.context().info());
-    results_.reference.spp = settings_.spp;
-    results_.reference.filter = filter_name(settings_.filter);
-    results_.reference.seed = settings_.seed;
-    results_.timing = {.frames = settings_.repeats, .processes = processes};
+    results_.reference.spp = settings_.reference.spp;
+    results_.reference.filter = word_for(reference_filters, settings_.reference.filter);
+    results_.reference.seed = settings_.reference.seed;
+    results_.timing = {.frames = settings_.timing.repeats, .processes = processes};
     if (has(stage_.effects(), Effect::environment_light))
-      results_.reference.environment = environment_use_name(settings_.environment);
+      results_.reference.environment = word_for(reference_integrals, settings_.reference.environment);
     results_.scene = scene_info(stage_.scene(), chosen_exposure_, results_.reference);
     add_left_out();
     add_precompute_notes();
@@ -382,13 +371,13 @@ class Comparison {
     }
   }
 
-  const CompareSettings& settings_;
+  const RunSettings& settings_;
   std::filesystem::path folder_;
   ProgressParts whole_;
   Stage stage_;
   std::vector<double> distances_;
   ProgressParts parts_;
-  ChosenExposure chosen_exposure_;
+  Exposure chosen_exposure_;
   float exposure_ = 1.0F;  // its factor
   std::vector<Draft> drafts_;
   std::vector<Exhibit> references_;  // one a distance, for the strips
@@ -398,11 +387,11 @@ class Comparison {
 
 }  // namespace
 
-FrameTimes time_frames(const CompareSettings& settings, const Progress& progress) {
+FrameTimes time_frames(const RunSettings& settings, const Progress& progress) {
   return Comparison(settings, {}, progress).times();
 }
 
-Results run_compare(const CompareSettings& settings, const std::filesystem::path& folder,
+Results run_compare(const RunSettings& settings, const std::filesystem::path& folder,
                     std::span<const FrameTimes> further_times, const Progress& progress) {
   return Comparison(settings, folder, progress).run(further_times);
 }

@@ -1,4 +1,4 @@
-// See edit.hpp.
+// One edit after the other: geometry, bake, upload and frame, each timed.
 #include "experiments/studies/edit.hpp"
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ double seconds_of(const Work& work) {
 
 // The parts whose patch the sweeps change; the others stay as they are.
 SceneSource editable_source(const EditSettings& settings) {
-  SceneSource source = read_scene(settings.scene, settings.scene_library);
+  SceneSource source = read_scene(settings.run.scene, settings.run.scene_library);
   const PatchKind* kind = nullptr;
   for (const PartSettings& part : source.settings.parts) {
     for (const MicrogeometrySettings& patch : part.microgeometry) {
@@ -41,7 +41,7 @@ SceneSource editable_source(const EditSettings& settings) {
     }
   }
   if (kind == nullptr) {
-    throw Error(ErrorKind::usage, settings.scene, "has no generated small-scale geometry to edit",
+    throw Error(ErrorKind::usage, settings.run.scene, "has no generated small-scale geometry to edit",
                 "take a scene with [microgeometry] and a kind in its scene.toml");
   }
   check_sweeps(settings.sweeps, *kind);
@@ -89,7 +89,7 @@ std::vector<EditedPatch> patches_of(const SceneSettings& settings, const Scene& 
 // A method with its program on the GPU, for a set of effects. Pinned: each part keeps the address of those before it.
 struct Drawing {
   Drawing(const gl::Context& context, const Scene& scene, const EffectSet& wanted, BakedMethod first,
-          const glm::ivec2& size, const EditSettings& settings)
+          const glm::ivec2& size, const RunSettings& settings)
       : effects(wanted),
         gpu_scene(context.info(), scene, effects),
         baked(std::make_unique<BakedMethod>(std::move(first))),
@@ -97,9 +97,9 @@ struct Drawing {
         frames(context.info(), gpu_scene, *method, size,
                ProgramSettings{.sampling = Sampling::frame,
                                .lookup = Lookup::trilinear,
-                               .max_probes = settings.anisotropy,
+                               .max_probes = settings.footprint_filter.probes,
                                .orthographic = scene.camera.orthographic},
-               settings.tile) {}
+               settings.backend.tile) {}
 
   // Takes over what an edit changed. Waits until the GPU has it.
   void exchange(const Scene& scene, BakedMethod next) {
@@ -128,11 +128,10 @@ class Editor {
         own_colors_(own_colors(source_)),
         scene_(assemble(source_)),
         patches_(patches_of(source_.settings, scene_)),
-        size_(frame_size(scene_, settings.size)),
-        context_(settings.context),
+        size_(frame_size(scene_, settings.run.view.size)),
+        context_(settings.run.backend.context),
         parts_(progress, settings.frames) {
-    constexpr int held = 3;  // the frame, and two while it is written
-    require_pictures(size_, held);
+    require_pictures(size_, pictures_of_a_frame);
   }
 
   EditRun run() {
@@ -141,13 +140,15 @@ class Editor {
     run_.backend = backend_info(context_.info());
     run_.scene = scene_info(scene_, exposure_, {});
     run_.kind = settings_.sweeps.front().kind;
-    run_.method = settings_.method.text;
+    run_.method = method().text;
     run_.width = size_.x;
     run_.height = size_.y;
     return std::move(run_);
   }
 
  private:
+  [[nodiscard]] const MethodSpec& method() const { return settings_.run.methods.front(); }
+
   void add_frame(int frame) {
     const Progress progress = parts_.next(1, fmt::format("frame {} of {}: ", frame + 1, settings_.frames));
     EditRecord record{.frame = frame,
@@ -187,9 +188,9 @@ class Editor {
   // The method's own stages by name, and `other` for what of the bake is none of them.
   BakedMethod timed_bake(const EffectSet& effects, std::vector<StageTime>& stages, const Progress& progress) const {
     StageClock clock;
-    const auto& [text, name, options] = settings_.method;
+    const auto& [text, name, options] = method();
     const Progress report = clock.callback(progress);
-    BakedMethod baked = bake(find_method(name), settings_.method, scene_, effects, report);
+    BakedMethod baked = bake(find_method(name), method(), scene_, effects, report);
     clock.stop();
     double other = baked.seconds;
     for (const StageTime& time : clock.times()) {
@@ -205,7 +206,7 @@ class Editor {
     if (!drawing_ || drawing_->effects != effects) {
       BakedMethod first = baked;
       drawing_.reset();
-      drawing_ = std::make_unique<Drawing>(context_, scene_, effects, std::move(first), size_, settings_);
+      drawing_ = std::make_unique<Drawing>(context_, scene_, effects, std::move(first), size_, settings_.run);
       drawing_->frames.draw(view);
       gl::api().Finish();
     }
@@ -214,13 +215,13 @@ class Editor {
                         drawing_->frames.draw(view);
                         gl::api().Finish();
                       })});
-    context_.check("rendering " + settings_.method.text);
+    context_.check("rendering " + method().text);
   }
 
   void write(const View& view, EditRecord& record) {
     const Image picture = drawing_->frames.render(view);
-    if (record.frame == 0) exposure_ = choose_exposure(settings_.exposure, scene_, picture);
-    record.image = write_picture(folder_, fmt::format("{}_{:04}", method_stem({&settings_.method, 1}, 0), record.frame),
+    if (record.frame == 0) exposure_ = choose_exposure(settings_.run.view.exposure, scene_, picture);
+    record.image = write_picture(folder_, fmt::format("{}_{:04}", method_stem(settings_.run.methods, 0), record.frame),
                                  picture, exposure_.factor);
   }
 
@@ -234,7 +235,7 @@ class Editor {
   gl::Context context_;
   ProgressParts parts_;
   std::unique_ptr<Drawing> drawing_;
-  ChosenExposure exposure_;
+  Exposure exposure_;
   EditRun run_;
 };
 

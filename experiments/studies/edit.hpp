@@ -2,30 +2,20 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
 #include <vector>
 
+#include "experiments/settings/run_settings.hpp"
 #include "experiments/studies/parameter_sweep.hpp"
-#include "renderer/core/options.hpp"
-#include "renderer/gl/context.hpp"
-#include "renderer/scene/surface.hpp"
+#include "renderer/core/progress.hpp"
 #include "results/report/edit_report.hpp"
 
 namespace footprint {
 
 /// What `footprint edit` is asked for.
 struct EditSettings {
-  std::string scene;  ///< as load_scene takes it
-  SceneLibrary scene_library;
+  RunSettings run;                     ///< with one method; reference, timing and cache are not asked for
   std::vector<ParameterSweep> sweeps;  ///< one or more
-  MethodSpec method;
-  int frames = 2;                  ///< 1 or more
-  std::optional<glm::ivec2> size;  ///< none: the scene's
-  int anisotropy = 1;              ///< probes along the footprint's major axis
-  int tile = 0;                    ///< pixels a side drawn at once; 0: as many as fit
-  std::optional<float> exposure;   ///< none: the scene's own, else automatic over the first frame
-  gl::ContextRequest context;
+  int frames = 10;                     ///< 1 or more
 };
 
 /// Renders frame by frame and writes FOLDER/images/METHOD_NNNN, .exr and .png. Nothing is taken from a cache: a frame's

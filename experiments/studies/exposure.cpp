@@ -1,4 +1,4 @@
-// See exposure.hpp.
+// The brightest parts of a picture, and the choice between exposures.
 #include "experiments/studies/exposure.hpp"
 
 #include <algorithm>
@@ -27,10 +27,10 @@ float automatic_exposure(const Image& reference) {
   return *place > 0.0F && std::isfinite(*place) ? target / *place : 1.0F;
 }
 
-ChosenExposure choose_exposure(const std::optional<float>& given, const Scene& scene, const Image& first_reference) {
-  if (given) return {.factor = *given, .source = "command line"};
-  if (scene.exposure) return {.factor = *scene.exposure, .source = "scene"};
-  return {.factor = automatic_exposure(first_reference), .source = "automatic"};
+Exposure choose_exposure(const std::optional<Exposure>& given, const Scene& scene, const Image& first_reference) {
+  if (given) return *given;
+  if (scene.exposure) return {.factor = *scene.exposure, .source = ExposureSource::scene};
+  return {.factor = automatic_exposure(first_reference), .source = ExposureSource::automatic};
 }
 
 }  // namespace footprint

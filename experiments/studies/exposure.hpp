@@ -1,9 +1,9 @@
-// The exposure of a scene that names none.
+// The exposure of a run: as given, the scene's own, or one derived from a picture.
 #pragma once
 
 #include <optional>
-#include <string>
 
+#include "experiments/settings/run_settings.hpp"
 #include "renderer/image/image.hpp"
 #include "renderer/scene/scene.hpp"
 
@@ -14,14 +14,8 @@ namespace footprint {
 /// coverage.
 [[nodiscard]] float automatic_exposure(const Image& reference);
 
-/// The exposure of a run and where it comes from.
-struct ChosenExposure {
-  float factor = 1;
-  std::string source;  ///< "scene", "automatic" or "command line"
-};
-
 /// What is given, else the scene's own, else the automatic one of its first reference.
-[[nodiscard]] ChosenExposure choose_exposure(const std::optional<float>& given, const Scene& scene,
-                                             const Image& first_reference);
+[[nodiscard]] Exposure choose_exposure(const std::optional<Exposure>& given, const Scene& scene,
+                                       const Image& first_reference);
 
 }  // namespace footprint

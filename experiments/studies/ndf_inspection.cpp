@@ -1,4 +1,4 @@
-// See ndf_inspection.hpp.
+// The exact NDF of a footprint on a grid of directions, and what each method makes of it.
 #include "experiments/studies/ndf_inspection.hpp"
 
 #include <fmt/format.h>
@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/settings/known_methods.hpp"
 #include "experiments/studies/ndf_pictures.hpp"
 #include "experiments/studies/picture_files.hpp"
 #include "methods/registry.hpp"
@@ -44,7 +45,7 @@ Grid take_truth(const Material& material, const NdfSettings& settings, const Foo
   ProgressParts parts(progress, 2);
   const NormalDistribution distribution = material.brdf.distribution;
   const TrueNdf exact(distribution, texels.facets);
-  const BaseLobe narrowest = exact.narrowest();
+  const Lobe narrowest = exact.narrowest();
   const auto merged = [&](double part) {
     return TrueNdf(distribution, merged_facets(texels.facets, part * lobe_width(narrowest)));
   };
@@ -81,17 +82,15 @@ NdfResults described(const NdfSource& source, const NdfSettings& settings, const
   results.valid_share = texels.valid_share;
   results.facets = texels.facets.size();
   results.level = footprint_level(source.material, rect);
-  results.anisotropy = settings.anisotropy;
+  results.anisotropy = settings.run.footprint_filter.probes;
   results.notes = source.notes;
   return results;
 }
 
 // The methods asked for, or all of them.
 std::vector<MethodSpec> methods_of(const NdfSettings& settings) {
-  if (!settings.methods.empty()) return settings.methods;
-  std::vector<MethodSpec> all;
-  for (const Method* method : all_methods()) all.push_back({method->info().name, method->info().name, {}});
-  return all;
+  if (!settings.run.methods.empty()) return settings.run.methods;
+  return every_method();
 }
 
 // One material on the GPU, by whichever method.
@@ -100,18 +99,18 @@ class Bench {
   Bench(const NdfSettings& settings, const Material& material)
       : settings_(settings),
         scene_(scene_of_facets(material)),
-        context_(settings.context),
+        context_(settings.run.backend.context),
         effects_(effects_on(derive_effects(scene_))),
         gpu_scene_(context_.info(), scene_, effects_) {
-    if (settings.cache) cache_.emplace(*settings.cache);
+    if (settings.run.cache) cache_.emplace(*settings.run.cache);
   }
 
   // Adds the figures of a method to `results` and gives its picture.
   NdfPicture inspect(const MethodSpec& spec, const Grid& grid, NdfResults& results, const Progress& progress) {
     const Method& method = find_method(spec.name);
     const BakedMethod baked = bake(method, spec, scene_, effects_, progress, cache_ ? &*cache_ : nullptr);
-    const MethodNdf ndf(context_.info(), gpu_scene_, baked, scene_.materials.front(), settings_.anisotropy,
-                        settings_.tile);
+    const MethodNdf ndf(context_.info(), gpu_scene_, baked, scene_.materials.front(),
+                        settings_.run.footprint_filter.probes, settings_.run.backend.tile);
     for (const std::string& note : baked.materials.front().notes)
       results.notes.push_back(fmt::format("{}: {}", spec.text, note));
     const std::vector<float> densities = ndf.densities(settings_.footprint, grid.hemisphere.directions);
@@ -152,7 +151,7 @@ NdfResults inspect_ndf(const NdfSource& source, const NdfSettings& settings, con
     try {
       pictures.push_back(bench.inspect(spec, grid, results, parts.next(1, "")));
     } catch (const Error& error) {
-      if (!settings.methods.empty() || error.kind() != ErrorKind::usage) throw;
+      if (!settings.run.methods.empty() || error.kind() != ErrorKind::usage) throw;
       results.notes.push_back(fmt::format("{} is left out: {}", spec.text, error.what()));
     }
   }

@@ -2,13 +2,11 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "renderer/core/options.hpp"
+#include "experiments/settings/run_settings.hpp"
 #include "renderer/core/progress.hpp"
-#include "renderer/gl/context.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
 #include "renderer/scene/material.hpp"
 #include "renderer/scene/surface.hpp"
@@ -31,17 +29,14 @@ struct NdfSource {
                                         const SceneLibrary& library);
 
 /// The material with `lobe` in place of its own distribution and roughness.
-[[nodiscard]] Material with_lobe(Material material, const BaseLobe& lobe);
+[[nodiscard]] Material with_lobe(Material material, const Lobe& lobe);
 
+/// What `footprint ndf` is asked for.
 struct NdfSettings {
+  RunSettings run;  ///< no methods: every method of the registry that takes the material; a tile is one of directions
   FootprintRect footprint;
-  std::vector<MethodSpec> methods;  ///< empty: every method of the registry that takes the material
-  int anisotropy = 1;               ///< probes, at most
-  int resolution = 0;               ///< rings of directions; 0: from the narrowest lobe
-  int picture = 256;                ///< side of the pictures, pixels
-  int tile = 0;                     ///< side of the square of directions evaluated at once; 0: 1024
-  gl::ContextRequest context;
-  std::optional<std::filesystem::path> cache;  ///< folder where slow precomputes are kept; none: they are not
+  int resolution = 0;  ///< rings of directions; 0: from the narrowest lobe
+  int picture = 256;   ///< side of the pictures, pixels
 };
 
 /// Takes the figures, and writes ndf.png and images/ below `folder`. Errors (usage): an empty footprint, no normal

@@ -1,4 +1,4 @@
-// See ndf_pictures.hpp.
+// Discs of the hemisphere in false colour, side by side and each alone.
 #include "experiments/studies/ndf_pictures.hpp"
 
 #include <algorithm>

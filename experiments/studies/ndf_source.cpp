@@ -1,4 +1,4 @@
-// The material that the NDF inspector looks into; see ndf_inspection.hpp.
+// The material that the NDF inspector looks into: of a normal map alone, or of a scene.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -80,7 +80,7 @@ std::size_t material_index(const Scene& scene, const std::string& wanted) {
 
 }  // namespace
 
-Material with_lobe(Material material, const BaseLobe& lobe) {
+Material with_lobe(Material material, const Lobe& lobe) {
   material.brdf.distribution = lobe.distribution;
   material.lobes.clear();
   material.lobe_parameter = static_cast<float>(lobe.parameter);

@@ -1,4 +1,4 @@
-// See parameter_sweep.hpp.
+// Checks a sweep against the parameters of its kind, and interpolates between its ends.
 #include "experiments/studies/parameter_sweep.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See picture_files.hpp.
+// File names, exposed and false-colour pictures, and strips of several.
 #include "experiments/studies/picture_files.hpp"
 
 #include <fmt/format.h>

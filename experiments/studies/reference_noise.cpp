@@ -1,4 +1,4 @@
-// See reference_noise.hpp.
+// Noise from the two halves of a reference, which differ by nothing else.
 #include "experiments/studies/reference_noise.hpp"
 
 #include "renderer/image/metrics.hpp"

@@ -1,4 +1,4 @@
-// See run_info.hpp.
+// Facts of a context and of a scene for the head of a report.
 #include "experiments/studies/run_info.hpp"
 
 #include <fmt/format.h>
@@ -17,14 +17,14 @@ BackendInfo backend_info(const gl::ContextInfo& context) {
           .cpu = {}};
 }
 
-SceneInfo scene_info(const Scene& scene, const ChosenExposure& exposure, const ReferenceInfo& reference) {
+SceneInfo scene_info(const Scene& scene, const Exposure& exposure, const ReferenceInfo& reference) {
   SceneInfo info{.name = scene.name,
                  .source = scene.source,
                  .triangles = 0,
                  .materials = scene.materials.size(),
                  .lights = scene.lights.size(),
                  .exposure = exposure.factor,
-                 .exposure_source = exposure.source,
+                 .exposure_source = std::string(word_for(exposure_sources, exposure.source)),
                  .defaults = scene.defaults,
                  .warnings = scene.warnings};
   for (const Mesh& mesh : scene.meshes) info.triangles += mesh.indices.size() / 3;

@@ -12,6 +12,6 @@ namespace footprint {
 [[nodiscard]] BackendInfo backend_info(const gl::ContextInfo& context);
 
 /// The scene with its exposure; a reference that has not converged is one of its warnings.
-[[nodiscard]] SceneInfo scene_info(const Scene& scene, const ChosenExposure& exposure, const ReferenceInfo& reference);
+[[nodiscard]] SceneInfo scene_info(const Scene& scene, const Exposure& exposure, const ReferenceInfo& reference);
 
 }  // namespace footprint

@@ -1,4 +1,4 @@
-// See stage.hpp.
+// Sets up a stage in order: context, scene, methods, reference.
 #include "experiments/studies/stage.hpp"
 
 #include <fmt/format.h>
@@ -53,24 +53,24 @@ void require_pictures(const glm::ivec2& size, int count) {
 
 StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& scene, const Scene& values,
                            const EffectSet& effects, const MethodSpec& spec, const glm::ivec2& size,
-                           const StageSettings& settings, const Progress& progress)
+                           const RunSettings& settings, const Progress& progress)
     : baked_(std::make_unique<BakedMethod>(bake_method(values, effects, spec, settings.cache, progress))),
       gpu_(std::make_unique<GpuMethod>(scene, *baked_)),
       frames_(std::make_unique<FrameRenderer>(context, scene, *gpu_, size,
                                               ProgramSettings{.sampling = Sampling::frame,
                                                               .lookup = Lookup::trilinear,
-                                                              .max_probes = settings.anisotropy,
+                                                              .max_probes = settings.footprint_filter.probes,
                                                               .orthographic = values.camera.orthographic},
-                                              settings.tile)) {}
+                                              settings.backend.tile)) {}
 
-Stage::Stage(const gl::ContextRequest& request, Scene scene, const StageSettings& settings, const Progress& progress)
-    : context_(request),
+Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress, int pictures)
+    : context_(settings.backend.context),
       scene_(std::move(scene)),
       settings_(settings),
-      size_(frame_size(scene_, settings.size)),
+      size_(frame_size(scene_, settings.view.size)),
       decisions_(derive_effects(scene_)),
       effects_(effects_on(decisions_) & ~settings.without) {
-  require_pictures(size_, settings.pictures);
+  require_pictures(size_, pictures);
   scene_ = refined_for_visibility(std::move(scene_), effects_);
   ProgressParts parts(progress, static_cast<double>(settings.methods.size() + 2));
   gpu_scene_ = std::make_unique<GpuScene>(context_.info(), scene_, effects_, parts.next(1, ""));
@@ -80,15 +80,17 @@ Stage::Stage(const gl::ContextRequest& request, Scene scene, const StageSettings
   }
   base_ = std::make_unique<BakedMethod>(bake_base(scene_, effects_, parts.next(1, "bake ")));
   gpu_base_ = std::make_unique<GpuMethod>(*gpu_scene_, *base_);
-  reference_ = std::make_unique<Supersampler>(context_.info(), *gpu_scene_, *gpu_base_, settings.filter,
-                                              scene_.camera.orthographic, settings.tile, settings.environment);
+  reference_ =
+      std::make_unique<Supersampler>(context_.info(), *gpu_scene_, *gpu_base_, settings.reference.filter,
+                                     scene_.camera.orthographic, settings.backend.tile, settings.reference.environment);
   context_.check("setting up the scene");
 }
 
 View Stage::view(double distance) const { return {.size = size_, .camera = camera_at_distance(scene_, distance)}; }
 
 Supersampler Stage::finest_level(const StagedMethod& method) const {
-  return {context_.info(), *gpu_scene_, method.gpu(), settings_.filter, scene_.camera.orthographic, settings_.tile};
+  return {context_.info(),       *gpu_scene_, method.gpu(), settings_.reference.filter, scene_.camera.orthographic,
+          settings_.backend.tile};
 }
 
 }  // namespace footprint

@@ -1,30 +1,19 @@
 // Everything that a run over one scene holds on the GPU: context, scene, and the methods ready to draw.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "experiments/settings/run_settings.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/pipeline/frame.hpp"
 #include "renderer/pipeline/supersample.hpp"
 
 namespace footprint {
 
-/// What decides which programs and targets are made.
-struct StageSettings {
-  std::vector<MethodSpec> methods;
-  std::optional<glm::ivec2> size;  ///< none: the scene's own, or 512 wide in the camera's aspect
-  ReferenceFilter filter = ReferenceFilter::after_shading;
-  EnvironmentUse environment = EnvironmentUse::sampled;  ///< how the reference integrates one
-  int anisotropy = 1;                                    ///< probes along the major axis, at most
-  int tile = 0;                                          ///< pixels a side drawn at once; 0: as many as fit
-  EffectSet without = {};                           ///< effects that are left out, by every method and the reference
-  std::optional<std::filesystem::path> cache = {};  ///< folder where slow precomputes are kept; none: they are not
-  int pictures = 3;  ///< as large as the frame, that are held at once: the frame, and two while it is written
-};
+/// Pictures as large as the frame that most runs hold at once: the frame, and two while it is written.
+inline constexpr int pictures_of_a_frame = 3;
 
 /// The size of a frame: `wanted`, else scene.toml's, else 512 wide in the aspect of the camera (square without one).
 /// Errors (usage): a side below 1.
@@ -37,7 +26,7 @@ void require_pictures(const glm::ivec2& size, int count);
 class StagedMethod {
  public:
   StagedMethod(const gl::ContextInfo& context, GpuScene& scene, const Scene& values, const EffectSet& effects,
-               const MethodSpec& spec, const glm::ivec2& size, const StageSettings& settings, const Progress& progress);
+               const MethodSpec& spec, const glm::ivec2& size, const RunSettings& settings, const Progress& progress);
 
   [[nodiscard]] const BakedMethod& baked() const { return *baked_; }
   [[nodiscard]] const GpuMethod& gpu() const { return *gpu_; }
@@ -52,8 +41,9 @@ class StagedMethod {
 /// A scene with its methods and its reference on one context. Everything is made in the constructor.
 class Stage {
  public:
-  /// Errors of the parts: usage (scene, method, option), machine (no GL, limits, memory).
-  Stage(const gl::ContextRequest& request, Scene scene, const StageSettings& settings, const Progress& progress);
+  /// The settings' methods over `scene`, which need not be the settings' own. `pictures` as large as the frame are held
+  /// at once. Errors of the parts: usage (scene, method, option), machine (no GL, limits, memory).
+  Stage(Scene scene, const RunSettings& settings, const Progress& progress, int pictures = pictures_of_a_frame);
 
   [[nodiscard]] const gl::Context& context() const { return context_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
@@ -70,7 +60,7 @@ class Stage {
  private:
   gl::Context context_;
   Scene scene_;
-  StageSettings settings_;
+  RunSettings settings_;
   glm::ivec2 size_;
   std::vector<EffectDecision> decisions_;
   EffectSet effects_;

@@ -14,7 +14,7 @@ class Direct final : public Method {
     return base_surface().precompute(material, options, effects, progress);
   }
 
-  [[nodiscard]] std::string_view shader() const override { return base_surface().shader(); }
+  [[nodiscard]] ShaderModule shader() const override { return base_surface().shader(); }
 
  private:
   MethodInfo info_{.name = "direct",

@@ -1,12 +1,13 @@
 // `fixed_brdf`: the finest level's reflectance at every distance, over a geometry that is filtered: the mean normal,
 // renormalised, shades with a facet's own lobe. Tan 2005's straw man (figure 8).
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view fixed_brdf_glsl;
+extern const EmbeddedTexts fixed_brdf_glsl;
 }
 
 namespace {
@@ -27,7 +28,7 @@ class FixedBrdf final : public Method {
     return out;
   }
 
-  [[nodiscard]] std::string_view shader() const override { return embedded::fixed_brdf_glsl; }
+  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::fixed_brdf_glsl, "fixed_brdf.glsl"); }
 
  private:
   MethodInfo info_{

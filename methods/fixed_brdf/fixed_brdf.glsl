@@ -11,9 +11,3 @@ Effective effective(Footprints f) {
 //? end
   return Effective(evenFacets(meanNormal(f).xyz, lobe));
 }
-
-//? if environment_light
-//? include facet_normal_lobes.glsl
-
-vec3 meanNormal(Effective e) { return e.facets.normal; }
-//? end

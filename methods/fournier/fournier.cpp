@@ -6,13 +6,14 @@
 
 #include "methods/fournier/peak_chain.hpp"
 #include "renderer/bake/facet_lobes.hpp"
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view fournier_glsl;
+extern const EmbeddedTexts fournier_glsl;
 }
 
 namespace {
@@ -65,7 +66,7 @@ class Fournier final : public Method {
     return 8 * static_cast<int>(options.number("peaks"));
   }
 
-  [[nodiscard]] std::string_view shader() const override { return embedded::fournier_glsl; }
+  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::fournier_glsl, "fournier.glsl"); }
 
  private:
   static void add_peaks(const Material& material, std::size_t count, Storage storage, const Progress& progress,

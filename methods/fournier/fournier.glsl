@@ -16,10 +16,8 @@ Effective effective(Footprints f) {
   Effective e;
   e.footprint = f.normal;
   e.mean = vec3(0.0, 0.0, 1.0);
-//? if normal_variation
-//? if diffuse
+//? if normal_variation and diffuse
   e.mean = fetch(fournier_mean, f.normal).xyz;
-//? end
 //? end
 //? if roughness_variation
   float deviation = fetch(fournier_deviation, f.roughness).r;
@@ -77,19 +75,19 @@ float sumOfPeaks(Effective e, vec3 h, bool with_geometry, vec3 wi, vec3 wo) {
   return reflectedDensity(spreadFacets(vec3(0.0, 0.0, 1.0), e.variance, 0.0), h, with_geometry, wi, wo);
 }
 
-vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
-  if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
-  return fresnelTerm(f0, wi, wo) * sumOfPeaks(e, halfVector(wi, wo), true, wi, wo);
-}
-
+Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
+  Reflected r;
+  r.specular = vec3(0.0);
+  if (halfVectorIsDefined(wi, wo))
+    r.specular = fresnelTerm(s.f0, wi, wo) * sumOfPeaks(e, halfVector(wi, wo), true, wi, wo);
 //? if diffuse
-// The mean normal's dot product is the mean of the facets' own while all of them face the light.
-vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
+  // The mean normal's dot product is the mean of the facets' own while all of them face the light.
   float size = length(e.mean);
   vec3 n = size > 1e-6 ? e.mean / size : vec3(0.0, 0.0, 1.0);
-  return lambert(n, albedo, f0, wi, wo) * min(size, 1.0);
-}
+  r.diffuse = diffuse(n, s, wi, wo) * min(size, 1.0);
 //? end
+  return r;
+}
 
 float ndf(Effective e, vec3 h) { return sumOfPeaks(e, h, false, h, h); }
 

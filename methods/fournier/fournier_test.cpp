@@ -14,7 +14,6 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 #include "tests/support/rendering.hpp"
@@ -67,8 +66,7 @@ std::vector<double> ndf(const Baked& baked, const Place& place, const std::vecto
   ShaderVariant variant;
   variant.brdf = blinn_phong;
   variant.effects = normals_alone();
-  ShaderFlags flags = shader_flags(variant, baked.options);
-  flags.merge(texture_flags(baked.prefiltered));
+  const ShaderFlags flags = shader_flags(variant, baked.options, baked.prefiltered);
   std::string text = "const float option_peaks = " + std::to_string(baked.options.number("peaks")) + ";\n";
   std::vector<GpuTexture> textures;
   SamplerCache samplers;
@@ -79,8 +77,7 @@ std::vector<double> ndf(const Baked& baked, const Place& place, const std::vecto
     gl::api().BindSampler(unit, samplers.sampler(texture.coordinates, textures.back().lookup(Lookup::trilinear)));
     text += "layout(binding = " + std::to_string(unit) + ") uniform sampler2DArray " + texture.name + ";\n";
   }
-  text +=
-      shared_functions(flags) + "vec4 lobe_cutoff;\n" + select_text(fournier_method().shader(), flags, "fournier.glsl");
+  text += "vec4 lobe_cutoff;\n" + shared_functions(flags, fournier_method().shader());
   std::vector<std::array<glm::vec4, 3>> inputs;
   inputs.reserve(directions.size());
   for (const glm::dvec3& h : directions)

@@ -13,71 +13,51 @@
 #include <cmath>
 #include <numbers>
 
+#include "renderer/lobes/vmf.hpp"
+
 namespace footprint::fournier {
 namespace {
 
-constexpr double smallest_argument = 0.05;  // below it, series
-constexpr double largest_argument = 20.0;   // above it, coth is 1 to the last bit
+constexpr double largest_argument = 20.0;  // above it, e^{-2R} is nothing to the last bit
 constexpr double negligible_exponent = -60.0;
-
-// kappa / (1 - e^{-2 kappa}): 2 pi times the peak.
-double peak_times_2pi(double kappa) {
-  if (kappa > largest_argument) return kappa;
-  return kappa < 1e-9 ? 0.5 : kappa / -std::expm1(-2.0 * kappa);
-}
-
-// A(R) / R and its derivative over R.
-struct Langevin {
-  double b, d;
-};
-
-Langevin langevin(double r) {
-  const double r2 = r * r;
-  if (r < smallest_argument)
-    return {1.0 / 3.0 - r2 * (1.0 / 45.0 - r2 * 2.0 / 945.0), -2.0 / 45.0 + r2 * (8.0 / 945.0 - r2 * 2.0 / 1575.0)};
-  if (r > largest_argument) return {(1.0 - 1.0 / r) / r, (2.0 / r - 1.0) / (r2 * r)};
-  const double b = (1.0 / std::tanh(r) - 1.0 / r) / r;
-  const double sinh = std::sinh(r);
-  return {b, (1.0 / r2 - 1.0 / (sinh * sinh) - b) / r2};
-}
 
 // c, R and I of two lobes.
 struct Pair {
   double cosine, r, value;
 };
 
-Pair pair_of(const Lobe& a, const Lobe& b) {
+Pair pair_of(const VmfLobe& a, const VmfLobe& b) {
   const double u = 0.5 * (a.axis - b.axis).squaredNorm();  // 1 - c without cancellation
   const double sum = a.kappa + b.kappa;
   const double r = std::sqrt(std::max(sum * sum - 2.0 * a.kappa * b.kappa * u, 0.0));
   const double exponent = -2.0 * a.kappa * b.kappa * u / (r + sum);  // R - kappa_a - kappa_b
   if (exponent < negligible_exponent) return {1.0 - u, r, 0.0};
   const double mass = r > largest_argument ? 1.0 / r : r < 1e-9 ? 2.0 : -std::expm1(-2.0 * r) / r;
-  const double scale = peak_times_2pi(a.kappa) * peak_times_2pi(b.kappa) / (2.0 * std::numbers::pi);
+  const double scale = vmf_amplitude(a.kappa) * vmf_amplitude(b.kappa) / (2.0 * std::numbers::pi);
   return {1.0 - u, r, scale * mass * std::exp(exponent)};
 }
 
-double log_by_kappa(const Lobe& lobe, double other_kappa, double cosine, double b) {
-  return b * (lobe.kappa + other_kappa * cosine) - langevin(lobe.kappa).b * lobe.kappa;
+double log_by_kappa(const VmfLobe& lobe, double other_kappa, double cosine, double b) {
+  return b * (lobe.kappa + other_kappa * cosine) - vmf_mean(lobe.kappa).by_kappa * lobe.kappa;
 }
 
 }  // namespace
 
-double product(const Lobe& a, const Lobe& b) { return pair_of(a, b).value; }
+double product(const VmfLobe& a, const VmfLobe& b) { return pair_of(a, b).value; }
 
-Eigen::Vector4d products_with_derivatives(const Lobe& a, const Lobe& b) {
+Eigen::Vector4d products_with_derivatives(const VmfLobe& a, const VmfLobe& b) {
   const Pair pair = pair_of(a, b);
   if (pair.value == 0.0) return Eigen::Vector4d::Zero();
-  const double langevin_b = langevin(pair.r).b;
+  const double langevin_b = vmf_mean(pair.r).by_kappa;
   const double by_cosine = langevin_b * a.kappa * b.kappa;
   return pair.value * Eigen::Vector4d(1.0, log_by_kappa(a, b.kappa, pair.cosine, langevin_b),
                                       by_cosine * a.axis_by_s.dot(b.axis), by_cosine * a.axis_by_t.dot(b.axis));
 }
 
-Eigen::Matrix4d products_of_derivatives(const Lobe& a, const Lobe& b) {
+Eigen::Matrix4d products_of_derivatives(const VmfLobe& a, const VmfLobe& b) {
   const Pair pair = pair_of(a, b);
   if (pair.value == 0.0) return Eigen::Matrix4d::Zero();
-  const auto [langevin_b, langevin_d] = langevin(pair.r);
+  const auto [langevin_b, langevin_d] = vmf_mean(pair.r);
   const double kk = a.kappa * b.kappa;
   const double along_a = a.kappa + b.kappa * pair.cosine;
   const double along_b = b.kappa + a.kappa * pair.cosine;

@@ -18,14 +18,14 @@ Eigen::Vector3d direction(double theta, double phi) {
   return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }
 
-Lobe lobe_at(double theta, double phi, double kappa) {
+VmfLobe lobe_at(double theta, double phi, double kappa) {
   return {.axis = direction(theta, phi),
           .kappa = kappa,
           .axis_by_s = direction(theta + pi / 2, phi),
           .axis_by_t = std::sin(theta) * direction(pi / 2, phi + pi / 2)};
 }
 
-double density(const Lobe& lobe, const Eigen::Vector3d& h) {
+double density(const VmfLobe& lobe, const Eigen::Vector3d& h) {
   const double peak = lobe.kappa / (2 * pi * -std::expm1(-2 * lobe.kappa));
   return peak * std::exp(-0.5 * lobe.kappa * (lobe.axis - h).squaredNorm());
 }
@@ -63,9 +63,9 @@ constexpr std::array<Case, 7> cases{{{0.0, 0.01, 2.0, 0.02},
 
 TEST(LobeProducts, EqualTheIntegralOverTheSphere) {
   for (const Case& c : cases) {
-    const Lobe a = lobe_at(c.theta_a, 0.4, c.kappa_a);
-    const Lobe b = lobe_at(c.theta_b, 0.9, c.kappa_b);
-    const Lobe& narrow = a.kappa > b.kappa ? a : b;
+    const VmfLobe a = lobe_at(c.theta_a, 0.4, c.kappa_a);
+    const VmfLobe b = lobe_at(c.theta_b, 0.9, c.kappa_b);
+    const VmfLobe& narrow = a.kappa > b.kappa ? a : b;
     const double expected =
         integral(narrow.axis, [&](const Eigen::Vector3d& h) { return density(a, h) * density(b, h); });
     EXPECT_NEAR(product(a, b) / expected, 1.0, 1e-5) << c.kappa_a << " " << c.kappa_b;
@@ -74,14 +74,14 @@ TEST(LobeProducts, EqualTheIntegralOverTheSphere) {
 
 // Golden (hard cases 1 to 3): literal forms overflow, or lose 0.7% to cancellation at a million.
 TEST(LobeProducts, AreStableForNarrowAndOppositeLobes) {
-  const Lobe up = lobe_at(0.0, 0.0, 1.1e6);
+  const VmfLobe up = lobe_at(0.0, 0.0, 1.1e6);
   EXPECT_NEAR(product(up, up) / (1.1e6 / (4 * pi)), 1.0, 1e-9);
   EXPECT_EQ(product(up, lobe_at(pi, 0.0, 1.1e6)), 0.0);
   const double peaks = 1.0 / (2 * pi * -std::expm1(-2.0)) / (2 * pi * -std::expm1(-2.0));
   EXPECT_NEAR(product(lobe_at(0.0, 0.0, 1.0), lobe_at(pi, 0.0, 1.0)), peaks * 4 * pi * std::exp(-2.0), 1e-12);
 }
 
-// Lobe a with one of its parameters moved: 1 kappa, 2 theta, 3 phi.
+// VmfLobe a with one of its parameters moved: 1 kappa, 2 theta, 3 phi.
 double moved_product(const Case& c, int parameter_a, double by_a, int parameter_b, double by_b) {
   const auto moved = [](double theta, double phi, double kappa, int parameter, double by) {
     return lobe_at(theta + (parameter == 2 ? by : 0.0), phi + (parameter == 3 ? by : 0.0),
@@ -94,8 +94,8 @@ double moved_product(const Case& c, int parameter_a, double by_a, int parameter_
 TEST(LobeProducts, DerivativesEqualDifferences) {
   constexpr double step = 1e-4;
   for (const Case& c : cases) {
-    const Lobe a = lobe_at(c.theta_a, 0.4, c.kappa_a);
-    const Lobe b = lobe_at(c.theta_b, 0.9, c.kappa_b);
+    const VmfLobe a = lobe_at(c.theta_a, 0.4, c.kappa_a);
+    const VmfLobe b = lobe_at(c.theta_b, 0.9, c.kappa_b);
     const Eigen::Matrix4d products = products_of_derivatives(a, b);
     const Eigen::Vector4d column = products_with_derivatives(a, b);
     const auto scale = [](int parameter, double kappa) { return parameter == 1 ? kappa : 1.0; };

@@ -33,8 +33,8 @@ constexpr int most_evaluations = 100;
 
 double bounded(double variance) { return std::clamp(variance, smallest_variance, largest_variance); }
 
-Lobe lobe_of(const Peak& peak, double base_variance) {
-  Lobe lobe;
+VmfLobe lobe_of(const Peak& peak, double base_variance) {
+  VmfLobe lobe;
   lobe.axis = peak.axis;
   lobe.kappa = 1.0 / bounded(base_variance + peak.spread);
   return lobe;
@@ -58,7 +58,7 @@ struct Point {
   Vector weights;     // sum to one
   Vector roots;       // weights = roots^2 / sum roots^2
   Vector deviations;  // spread = deviation^2
-  std::vector<Lobe> lobes;
+  std::vector<VmfLobe> lobes;
 };
 
 // Q as a function of the parameters. Weights are relative to the target's whole weight.
@@ -197,7 +197,7 @@ class Objective {
 
   double base_variance_;
   double total_ = 0.0;
-  std::vector<Lobe> target_;
+  std::vector<VmfLobe> target_;
   std::vector<double> target_weights_;
   std::vector<Eigen::Vector3d> centres_;
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> tangents_;

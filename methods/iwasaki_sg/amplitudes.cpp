@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 
+#include "renderer/lobes/vmf.hpp"
+
 namespace footprint::iwasaki_sg {
 namespace {
 
@@ -30,13 +32,13 @@ LobeVector solve_subset(const LobeMatrix& a, const LobeVector& b, std::span<cons
 // One pair of directions and one channel.
 class Solver {
  public:
-  explicit Solver(std::span<const Lobe> lobes) : matrix_(correlations(lobes)) {
+  explicit Solver(std::span<const SphericalGaussian> lobes) : matrix_(correlations(lobes)) {
     const auto n = static_cast<Eigen::Index>(lobes.size());
     matrix_ += ridge * LobeMatrix::Identity(n, n);
     inverse_ = matrix_.ldlt().solve(LobeMatrix::Identity(n, n));
-    for (const Lobe& lobe : lobes) {
+    for (const SphericalGaussian& lobe : lobes) {
       norms_.push_back(std::sqrt(convolution(lobe, lobe)));
-      integrals_.push_back(integral(lobe.sharpness));
+      integrals_.push_back(vmf_integral(lobe.sharpness));
     }
   }
 
@@ -70,7 +72,7 @@ void conserve(LobeVector& masses, double total) {
 
 }  // namespace
 
-LobeMatrix correlations(std::span<const Lobe> lobes) {
+LobeMatrix correlations(std::span<const SphericalGaussian> lobes) {
   const auto n = static_cast<Eigen::Index>(lobes.size());
   LobeMatrix a(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -114,7 +116,8 @@ LobeVector solve_non_negative(const LobeMatrix& a, const LobeVector& b) {
   return x.cwiseMax(0.0);
 }
 
-Amplitudes solve_amplitudes(const Bvndf& bvndf, const BvndfSums& sums, std::span<const Lobe> lobes, Energy energy) {
+Amplitudes solve_amplitudes(const Bvndf& bvndf, const BvndfSums& sums, std::span<const SphericalGaussian> lobes,
+                            Energy energy) {
   const std::size_t n = sums.directions, pairs = n * n, channels = sums.channels;
   Amplitudes out{
       .lobes = {lobes.begin(), lobes.end()}, .directions = n, .channels = channels, .masses = {}, .diffuse = {}};

@@ -16,7 +16,9 @@
 namespace footprint::iwasaki_sg {
 namespace {
 
-Lobe tilted(double sharpness, double radians) { return {{std::sin(radians), 0.0, std::cos(radians)}, sharpness}; }
+SphericalGaussian tilted(double sharpness, double radians) {
+  return {{std::sin(radians), 0.0, std::cos(radians)}, sharpness};
+}
 
 TEST(Amplitudes, TwoLobesHaveTheGoldenConditionNumbers) {
   constexpr std::array<std::array<double, 2>, 6> golden{{{0.3, 1.980768821729142},
@@ -26,7 +28,7 @@ TEST(Amplitudes, TwoLobesHaveTheGoldenConditionNumbers) {
                                                          {0.001, 161616.16508823007},
                                                          {0.0001, 16161616.206872009}}};
   for (const auto& [angle, condition] : golden) {
-    const std::array<Lobe, 2> lobes{tilted(50.0, 0.0), tilted(50.0, angle)};
+    const std::array<SphericalGaussian, 2> lobes{tilted(50.0, 0.0), tilted(50.0, angle)};
     const Eigen::SelfAdjointEigenSolver<LobeMatrix> eigen(correlations(lobes));
     EXPECT_NEAR(eigen.eigenvalues()[1] / eigen.eigenvalues()[0] / condition, 1.0, 1e-5) << angle;
   }
@@ -85,7 +87,7 @@ struct Table {
   BvndfSums sums;
 };
 
-Table table_of(const Patch& patch, std::span<const Lobe> lobes, Energy energy, std::size_t facets = 4096) {
+Table table_of(const Patch& patch, std::span<const SphericalGaussian> lobes, Energy energy, std::size_t facets = 4096) {
   std::vector<glm::dvec3> directions = direction_grid(6);
   BinnedFacets binned = bin_facets(patch, sample_facets(patch, facets, 1));
   FacetVisibility visibility = facet_visibility(patch, binned.samples, directions, no_progress);
@@ -108,8 +110,8 @@ std::vector<double> mass_sums(const Amplitudes& table) {
 // A lobe given twice: finite, not negative, and the same in sum.
 TEST(Amplitudes, DuplicateLobesShareWhatOneHas) {
   const Patch patch = make_patch(find_patch_kind("noise"), {{"slope", "0.3"}});
-  const std::array<Lobe, 2> single{tilted(20.0, 0.1), tilted(40.0, -0.2)};
-  const std::array<Lobe, 3> twice{single[0], single[0], single[1]};
+  const std::array<SphericalGaussian, 2> single{tilted(20.0, 0.1), tilted(40.0, -0.2)};
+  const std::array<SphericalGaussian, 3> twice{single[0], single[0], single[1]};
   const std::vector<double> expected = mass_sums(table_of(patch, single, Energy::published).amplitudes);
   const Table doubled = table_of(patch, twice, Energy::published);
   const std::vector<double> found = mass_sums(doubled.amplitudes);
@@ -121,7 +123,7 @@ TEST(Amplitudes, DuplicateLobesShareWhatOneHas) {
 // far from it on a V-groove with one lobe.
 TEST(Amplitudes, ConservedEnergyMakesTheDiffuseTermExact) {
   const Patch patch = make_patch(find_patch_kind("grooves"), {{"land", "0"}});
-  const std::array<Lobe, 1> lobe{tilted(5.0, 0.0)};
+  const std::array<SphericalGaussian, 1> lobe{tilted(5.0, 0.0)};
   double worst = 1.0;
   for (const Energy energy : {Energy::conserved, Energy::published}) {
     const Table table = table_of(patch, lobe, energy);
@@ -145,7 +147,7 @@ TEST(Amplitudes, AreZeroWhereNothingIsSeen) {
   patch.name = "slats";
   patch.vertices = {{0.0F, 0.0F, 0.0F}, {0.5F, 0.0F, 2.0F}, {0.5F, 1.0F, 2.0F}, {0.0F, 1.0F, 0.0F}};
   patch.triangles = {{0, 1, 2}, {0, 2, 3}};
-  const std::array<Lobe, 2> lobes{tilted(50.0, -1.2), tilted(5.0, 0.0)};
+  const std::array<SphericalGaussian, 2> lobes{tilted(50.0, -1.2), tilted(5.0, 0.0)};
   const Table table = table_of(patch, lobes, Energy::conserved);
   const std::size_t n = table.sums.directions;
   std::size_t blind = 0;

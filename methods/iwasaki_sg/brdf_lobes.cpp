@@ -8,6 +8,7 @@
 
 #include "methods/iwasaki_sg/amplitudes.hpp"
 #include "methods/iwasaki_sg/spherical_gaussian.hpp"
+#include "renderer/lobes/vmf.hpp"
 
 namespace footprint::iwasaki_sg {
 namespace {
@@ -132,13 +133,13 @@ std::vector<BrdfLobe> fit_lobes(const std::function<double(double)>& value_at, d
   return lobes;
 }
 
-std::vector<BrdfLobe> lobes_of(NormalDistribution distribution, double parameter) {
-  const double p = parameter, p2 = p * p;
-  switch (distribution) {
+std::vector<BrdfLobe> lobes_of(const Lobe& lobe) {
+  const double p = lobe.parameter, p2 = p * p;
+  switch (lobe.distribution) {
     case NormalDistribution::blinn_phong:
       return {{p + 1.0, (p + 1.0) / (2.0 * pi)}};
     case NormalDistribution::vmf:
-      return {{p, 1.0 / integral(p)}};
+      return {{p, 1.0 / vmf_integral(p)}};
     case NormalDistribution::beckmann:
       return without_empty(fit_lobes(
           [p2](double u) {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
+#include "renderer/lobes/lobe.hpp"
 #include "renderer/microgeometry/tabulated_brdf.hpp"
-#include "renderer/scene/material.hpp"
 
 namespace footprint::iwasaki_sg {
 
@@ -21,10 +21,10 @@ struct BrdfLobe {
 /// density's core falls off.
 [[nodiscard]] std::vector<BrdfLobe> fit_lobes(const std::function<double(double)>& value, double width);
 
-/// The lobes of a base BRDF's normal distribution of unit energy. Blinn-Phong: one, of sharpness exponent + 1 (the
+/// The spherical Gaussians of a base BRDF's lobe, of unit energy. Blinn-Phong: one, of sharpness exponent + 1 (the
 /// paper's exponent and (n + 2) / 2 pi carry 1 / n too much energy over solid angle); vmf: itself; Beckmann and GGX:
 /// fitted.
-[[nodiscard]] std::vector<BrdfLobe> lobes_of(NormalDistribution distribution, double parameter);
+[[nodiscard]] std::vector<BrdfLobe> lobes_of(const Lobe& lobe);
 
 /// A lobe in colour.
 struct ColorLobe {

@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "methods/iwasaki_sg/ndf_fit.hpp"
+#include "renderer/lobes/vmf.hpp"
 
 namespace footprint::iwasaki_sg {
 namespace {
@@ -100,7 +101,8 @@ struct Reach {
 
 class Summer {
  public:
-  Summer(const Bvndf& bvndf, std::span<const Lobe> lobes, Cosines cosines, std::span<const PaintFactors> paints)
+  Summer(const Bvndf& bvndf, std::span<const SphericalGaussian> lobes, Cosines cosines,
+         std::span<const PaintFactors> paints)
       : bvndf_(bvndf), lobes_(lobes), cosines_(cosines), paints_(paints) {}
 
   void add_bin(const NormalBin& bin, BvndfSums& sums) {
@@ -127,9 +129,9 @@ class Summer {
  private:
   void reaches(const NormalBin& bin) {
     reach_.clear();
-    const Lobe own{bin.normal, sharpest};
+    const SphericalGaussian own{bin.normal, sharpest};
     for (std::size_t j = 0; j < lobes_.size(); ++j) {
-      const double product = convolution(own, lobes_[j]) / integral(sharpest);
+      const double product = convolution(own, lobes_[j]) / vmf_integral(sharpest);
       if (product > negligible) reach_.push_back({j, static_cast<float>(product)});
     }
   }
@@ -153,7 +155,7 @@ class Summer {
   }
 
   const Bvndf& bvndf_;
-  std::span<const Lobe> lobes_;
+  std::span<const SphericalGaussian> lobes_;
   Cosines cosines_;
   std::span<const PaintFactors> paints_;
   PairCounts counts_;
@@ -228,7 +230,7 @@ std::vector<WeightedNormal> visible_ndf(const Bvndf& bvndf) {
   return out;
 }
 
-BvndfSums sum_bvndf(const Bvndf& bvndf, std::span<const Lobe> lobes, Cosines cosines, std::size_t channels,
+BvndfSums sum_bvndf(const Bvndf& bvndf, std::span<const SphericalGaussian> lobes, Cosines cosines, std::size_t channels,
                     std::span<const PaintFactors> paints, const Progress& progress) {
   const auto starts = run_starts(bvndf);
   progress("BVNDF", 0.0);

@@ -49,7 +49,7 @@ struct BvndfSums {
 
 /// The right sides of Eq. 8. `paints` has the factors of each paint, of which one channel takes red. A discretised
 /// normal is a lobe of sharpness `sharpest` (ndf_fit.hpp). The result does not depend on the number of threads.
-[[nodiscard]] BvndfSums sum_bvndf(const Bvndf& bvndf, std::span<const Lobe> lobes, Cosines cosines,
+[[nodiscard]] BvndfSums sum_bvndf(const Bvndf& bvndf, std::span<const SphericalGaussian> lobes, Cosines cosines,
                                   std::size_t channels, std::span<const PaintFactors> paints, const Progress& progress);
 
 }  // namespace footprint::iwasaki_sg

@@ -94,7 +94,8 @@ TEST(Bvndf, VisibleAreaIsTheProjectionOfTheFrame) {
 TEST(Bvndf, SumsAreThoseOfPlainLoops) {
   const Patch patch = make_patch(find_patch_kind("weave"), {{"steps_along", "4"}, {"steps_across", "3"}});
   const Bvndf bvndf = bvndf_of(patch, 3000, 3);
-  const std::array<Lobe, 2> lobes{Lobe{{0, 0, 1}, 8.0}, Lobe{glm::normalize(glm::dvec3(0.4, 0.1, 1)), 30.0}};
+  const std::array<SphericalGaussian, 2> lobes{SphericalGaussian{{0, 0, 1}, 8.0},
+                                               SphericalGaussian{glm::normalize(glm::dvec3(0.4, 0.1, 1)), 30.0}};
   const std::array<PaintFactors, 2> paints{PaintFactors{{1.0F, 0.5F, 0.0F}, {0.2F, 1.0F, 0.7F}},
                                            PaintFactors{{0.0F, 1.0F, 0.3F}, {1.0F, 0.0F, 0.1F}}};
   for (const Cosines cosines : {Cosines::base, Cosines::published}) {

@@ -9,7 +9,7 @@
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view iwasaki_sg_glsl, iwasaki_sg_environment_glsl, iwasaki_sg_lobes_glsl;
+extern const EmbeddedTexts iwasaki_sg_glsl;
 }
 
 namespace {
@@ -27,7 +27,7 @@ class IwasakiSg final : public Method {
 
   [[nodiscard]] int lobe_count(const Options& options) const override { return static_cast<int>(options.number("j")); }
 
-  [[nodiscard]] std::string_view shader() const override { return shader_; }
+  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::iwasaki_sg_glsl, "iwasaki_sg.glsl"); }
 
  private:
   MethodInfo info_{.name = "iwasaki_sg",
@@ -40,9 +40,6 @@ class IwasakiSg final : public Method {
                    .options = option_table(),
                    .honours = all_effects_but({Effect::normal_layers, Effect::roughness_variation, Effect::multi_lobe}),
                    .resolves_texels = false};
-  std::string shader_ = std::string(embedded::iwasaki_sg_glsl)
-                            .append(embedded::iwasaki_sg_lobes_glsl)
-                            .append(embedded::iwasaki_sg_environment_glsl);
 };
 
 }  // namespace

@@ -2,31 +2,22 @@
 // axes and sharpness are the material's and whose amplitudes depend on the pair. Convolved with the base BRDF they are
 // the effective BRDF.
 
-// iwasaki_sg_lobes.glsl, behind this text.
-float sgIntegral(float eta);
-float sgConvolution(vec3 axis1, float eta1, vec3 axis2, float eta2);
-float sgApproximateConvolution(vec3 axis1, float eta1, vec3 axis2, float eta2);
+//? include iwasaki_sg_lobes.glsl
 
 // Nothing that a pixel fetches: the tables hold for the whole material.
 struct Effective {
   int count;  // of lobes
 };
 
-//? if microgeometry_visibility
+//? if microgeometry_visibility or normal_variation
 int tableLobes() { return textureSize(iwasaki_lobes, 0).x; }
-vec4 lobeOf(int j) { return texelFetch(iwasaki_lobes, ivec2(j, 0), 0); }   // axis, sharpness
-float shareOf(int j) { return texelFetch(iwasaki_lobes, ivec2(j, 1), 0).x; }
-//? else
-//? if normal_variation
-int tableLobes() { return textureSize(iwasaki_lobes, 0).x; }
-vec4 lobeOf(int j) { return texelFetch(iwasaki_lobes, ivec2(j, 0), 0); }
+vec4 lobeOf(int j) { return texelFetch(iwasaki_lobes, ivec2(j, 0), 0); }  // axis, sharpness
 float shareOf(int j) { return texelFetch(iwasaki_lobes, ivec2(j, 1), 0).x; }
 //? else
 const float flat_sharpness = 1e6;  // `sharpest` of ndf_fit.hpp
 int tableLobes() { return 1; }
 vec4 lobeOf(int j) { return vec4(0.0, 0.0, 1.0, flat_sharpness); }
 float shareOf(int j) { return 1.0; }
-//? end
 //? end
 
 Effective effective(Footprints f) { return Effective(tableLobes()); }
@@ -93,25 +84,20 @@ float convolved(vec4 lobe, vec3 h) {
 // The geometry term of the facets of a lobe: taken at the normal where the product of lobe and base BRDF is largest,
 // since it varies slowly (Wang et al. 2009 treat a BRDF's smooth factors so).
 float smoothFactor(vec4 lobe, vec3 h, vec3 wi, vec3 wo) {
-//? if cosines_published
-//? if microgeometry_visibility
+//? if cosines_published and microgeometry_visibility
   return max(wi.z, 0.0);  // the table has the facets' cosine over this one
-//? else
+//? elif cosines_published
   return max(dot(lobe.xyz, wi), 0.0);
-//? end
-//? else
-//? if masking_shadowing
+//? elif masking_shadowing
   vec3 sum = lobe.w * lobe.xyz + h / lobeVariance(lobe_cutoff.x);
   vec3 n = sum / max(length(sum), 1e-6);
   return geometryFactor(lobe_cutoff.x, n, h, wi, wo);
 //? else
   return 1.0;
 //? end
-//? end
 }
 
-//? if microgeometry_visibility
-//? if tabulated_brdf
+//? if microgeometry_visibility and tabulated_brdf
 // The factor on a tabulated BRDF's lobes by the difference angle.
 vec3 riseOf(vec3 h, vec3 wi) {
   int last = textureSize(iwasaki_rise, 0).x - 1;
@@ -145,14 +131,9 @@ vec3 tabulatedReflection(Effective e, vec3 wi, vec3 wo) {
   return (shine * riseOf(h, wi) + matte * texelFetch(iwasaki_table, ivec2(0), 0).yzw) * max(wi.z, 0.0);
 }
 //? end
-//? end
 
-vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
-//? if microgeometry_visibility
-//? if tabulated_brdf
-  if (iwasaki_tabulated > 0.5) return tabulatedReflection(e, wi, wo);
-//? end
-//? end
+// f * cos of the facets' own lobes.
+vec3 lobesReflect(Effective e, vec3 f0, vec3 wi, vec3 wo) {
   if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
   vec3 h = halfVector(wi, wo);
 //? if microgeometry_visibility
@@ -174,28 +155,45 @@ vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
 }
 
 //? if diffuse
-vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
+vec3 meanDiffuse(Effective e, Surface s, vec3 wi, vec3 wo) {
 //? if microgeometry_visibility
-//? if tabulated_brdf
-  if (iwasaki_tabulated > 0.5) return vec3(0.0);  // tabulatedReflection has it
-//? end
   // The table has the facets' cosines over that of the surface as a whole.
-  return lambert(vec3(0.0, 0.0, 1.0), albedo, f0, wi, wo) * tableAt(e.count, placeOf(wi, wo));
+  return diffuse(vec3(0.0, 0.0, 1.0), s, wi, wo) * tableAt(e.count, placeOf(wi, wo));
 //? else
   vec3 sum = vec3(0.0);
   for (int j = 0; j < e.count; ++j) {
     vec4 lobe = lobeOf(j);
-    // The length of a lobe's mean unit normal: coth(eta) - 1 / eta.
-    float cosine = lobe.w < 0.3 ? lobe.w / 3.0 : 2.0 / (1.0 - exp(-2.0 * lobe.w)) - 1.0 - 1.0 / lobe.w;
-    sum += shareOf(j) * cosine * lambert(lobe.xyz, albedo, f0, wi, wo);
+    sum += shareOf(j) * meanCosine(lobe.w) * diffuse(lobe.xyz, s, wi, wo);
   }
   return sum;
 //? end
 }
 //? end
 
+Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
+  Reflected r;
+//? if microgeometry_visibility and tabulated_brdf
+  if (iwasaki_tabulated > 0.5) {
+    r.specular = tabulatedReflection(e, wi, wo);
+//? if diffuse
+    r.diffuse = vec3(0.0);  // tabulatedReflection has it
+//? end
+    return r;
+  }
+//? end
+  r.specular = lobesReflect(e, s.f0, wi, wo);
+//? if diffuse
+  r.diffuse = meanDiffuse(e, s, wi, wo);
+//? end
+  return r;
+}
+
 float ndf(Effective e, vec3 h) {
   float sum = 0.0;
   for (int j = 0; j < e.count; ++j) sum += shareOf(j) * convolved(lobeOf(j), h);
   return sum;
 }
+
+//? if environment_light
+//? include iwasaki_sg_environment.glsl
+//? end

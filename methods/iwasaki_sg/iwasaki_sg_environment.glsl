@@ -1,6 +1,5 @@
 // Environment light: each lobe of normals with each lobe of the facets' own BRDF is one lobe over half vectors (equation
 // 14). What the pair of directions makes of it stands in lobeReflectance, the diffuse term apart from it in visibleFacets.
-//? if environment_light
 
 //? if lobe_base
 int baseLobeCount() { return 1; }
@@ -46,8 +45,6 @@ NormalLobe normalLobe(Effective e, int i) {
 }
 
 //? if microgeometry_visibility
-const float inverse_root_of_two_pi = 0.3989423;
-
 // The mean height over the horizon of a vMF lobe's part above it: that of a Gaussian in the plane that touches the
 // sphere at the lobe's centre, which at the zenith is the mean cosine to the axis.
 float meanHeight(float height, float sharpness) {
@@ -55,7 +52,7 @@ float meanHeight(float height, float sharpness) {
   if (deviation < 1e-4) return max(height, 0.0) * meanCosine(sharpness);
   float a = clamp(height / deviation, -5.0, 40.0);
   float above = normalCdf(a);
-  float mean = deviation * (a + inverse_root_of_two_pi * exp(-0.5 * a * a) / max(above, 1e-7));
+  float mean = deviation * (a + inverse_root_two_pi * exp(-0.5 * a * a) / max(above, 1e-7));
   return max(mean, 0.0) * mix(1.0, meanCosine(sharpness), clamp(height, 0.0, 1.0));
 }
 
@@ -116,5 +113,4 @@ vec3 meanNormal(Effective e) {
   for (int j = 0; j < e.count; ++j) sum += shareOf(j) * meanCosine(lobeOf(j).w) * lobeOf(j).xyz;
   return sum;
 }
-//? end
 //? end

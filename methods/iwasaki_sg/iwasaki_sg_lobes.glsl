@@ -1,7 +1,6 @@
 // Spherical Gaussians of unit amplitude, e^{eta (w.axis - 1)}: twins of spherical_gaussian.cpp.
 
-// 1 - e^{-2 x} for x >= 0: a series where the difference would cancel.
-float oneMinusExp2(float x) { return x < 0.02 ? 2.0 * x * (1.0 - x * (1.0 - x * (2.0 / 3.0 - x / 3.0))) : 1.0 - exp(-2.0 * x); }
+//? include vmf.glsl
 
 // Iwasaki 2012, equation 9.
 float sgIntegral(float eta) { return eta > 0.0 ? 2.0 * pi * oneMinusExp2(eta) / eta : 4.0 * pi; }

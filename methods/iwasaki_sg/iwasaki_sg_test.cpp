@@ -77,8 +77,10 @@ Compared against_sum(const Patch& patch, float exponent, const std::map<std::str
   std::map<std::string, std::string> given = options;
   given["facets"] = std::to_string(facets);
   const ProbedMethod probed{&iwasaki_sg_method(), &material, given, effects_of(material)};
-  const auto specular = probe_method(probed, "return vec4(specular(e, vec3(1), a.xyz, b.xyz), 0);", inputs);
-  const auto diffuse = probe_method(probed, "return vec4(diffuse(e, vec3(pi), vec3(0), a.xyz, b.xyz), 0);", inputs);
+  const auto specular =
+      probe_method(probed, "return vec4(shade(e, Surface(vec3(0), vec3(1)), a.xyz, b.xyz).specular, 0);", inputs);
+  const auto diffuse =
+      probe_method(probed, "return vec4(shade(e, Surface(vec3(pi), vec3(0)), a.xyz, b.xyz).diffuse, 0);", inputs);
   const glm::dvec3 mean(material.microgeometry->mean_color);
   Compared out;
   double all_specular = 0.0, all_diffuse = 0.0;

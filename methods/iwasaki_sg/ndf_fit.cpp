@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "renderer/lobes/vmf.hpp"
+
 namespace footprint::iwasaki_sg {
 namespace {
 
@@ -24,19 +26,16 @@ struct Moments {
 };
 
 struct Mixture {
-  std::vector<Lobe> lobes;
+  std::vector<SphericalGaussian> lobes;
   std::vector<double> shares;
 };
 
-// kappa of the mean vector's length r (Banerjee et al. 2005, p = 3), from q = 1 - r.
-double sharpness_of(double q) { return (1.0 - q) * (2.0 + 2.0 * q - q * q) / (q * (2.0 - q)); }
-
 // The M-step of one lobe. A normal stands for a lobe of `sharpest`, whose mean vector is short of 1 by its inverse.
-Lobe lobe_of(const Moments& moments, const Lobe& before) {
+SphericalGaussian lobe_of(const Moments& moments, const SphericalGaussian& before) {
   const double length = glm::length(moments.sum);
   if (!(length > 1e-12 * moments.weight) || !(moments.weight > 0.0)) return {before.axis, 1e-2};
   const double r = std::min(length / moments.weight, 1.0) * (1.0 - 1.0 / sharpest);
-  return {moments.sum / length, std::clamp(sharpness_of(1.0 - r), 1e-2, sharpest)};
+  return {moments.sum / length, std::clamp(vmf_kappa_of_shortfall(1.0 - r), 1e-2, sharpest)};
 }
 
 void maximise(std::span<const Moments> moments, double total, Mixture& mixture) {
@@ -53,7 +52,7 @@ double expect(std::span<const WeightedNormal> normals, double total, const Mixtu
   std::array<double, most_lobes> terms{};
   const std::size_t count = mixture.lobes.size();
   for (std::size_t j = 0; j < count; ++j) {
-    constant.at(j) = std::log(std::max(mixture.shares[j], 1e-300) / integral(mixture.lobes[j].sharpness));
+    constant.at(j) = std::log(std::max(mixture.shares[j], 1e-300) / vmf_integral(mixture.lobes[j].sharpness));
     moments[j] = {};
   }
   double likelihood = 0.0;
@@ -147,13 +146,13 @@ void merge(Mixture& mixture) {
 
 }  // namespace
 
-double correlation(const Lobe& a, const Lobe& b) {
+double correlation(const SphericalGaussian& a, const SphericalGaussian& b) {
   return convolution(a, b) / std::sqrt(convolution(a, a) * convolution(b, b));
 }
 
 NdfFit fit_ndf(std::span<const WeightedNormal> normals, int count) {
   const std::vector<WeightedNormal> pooled = pool_normals({normals.begin(), normals.end()}, most_normals);
-  if (pooled.empty()) return {{Lobe{{0.0, 0.0, 1.0}, sharpest}}, {1.0}};
+  if (pooled.empty()) return {{SphericalGaussian{{0.0, 0.0, 1.0}, sharpest}}, {1.0}};
   double total = 0.0;
   for (const WeightedNormal& n : pooled) total += n.weight;
   Mixture best;

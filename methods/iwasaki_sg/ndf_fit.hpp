@@ -18,8 +18,8 @@ inline constexpr int most_lobes = 16;
 
 /// The NDF as a mixture: lobe j with the share of the area that it stands for.
 struct NdfFit {
-  std::vector<Lobe> lobes;     ///< 1 to the number asked for
-  std::vector<double> shares;  ///< above 0, sum 1
+  std::vector<SphericalGaussian> lobes;  ///< 1 to the number asked for
+  std::vector<double> shares;            ///< above 0, sum 1
 };
 
 /// Fits at most `count` lobes (Iwasaki 2012, Eq. 6) by the spherical EM of Han et al. 2007, section 5.2, from two
@@ -28,6 +28,6 @@ struct NdfFit {
 [[nodiscard]] NdfFit fit_ndf(std::span<const WeightedNormal> normals, int count);
 
 /// The correlation of two lobes, 0 to 1: their convolution over the geometric mean of those with themselves.
-[[nodiscard]] double correlation(const Lobe& a, const Lobe& b);
+[[nodiscard]] double correlation(const SphericalGaussian& a, const SphericalGaussian& b);
 
 }  // namespace footprint::iwasaki_sg

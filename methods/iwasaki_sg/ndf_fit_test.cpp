@@ -10,12 +10,14 @@
 
 #include "methods/iwasaki_sg/brdf_lobes.hpp"
 #include "renderer/core/random.hpp"
+#include "renderer/lobes/vmf.hpp"
 
 namespace footprint::iwasaki_sg {
 namespace {
 
 // Normals of a von Mises-Fisher lobe, by inversion of its cumulative distribution.
-void draw(const Lobe& lobe, int count, double weight, std::mt19937_64& random, std::vector<WeightedNormal>& out) {
+void draw(const SphericalGaussian& lobe, int count, double weight, std::mt19937_64& random,
+          std::vector<WeightedNormal>& out) {
   const glm::dvec3 helper = std::abs(lobe.axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   const glm::dvec3 s = glm::normalize(glm::cross(helper, lobe.axis));
   const glm::dvec3 t = glm::cross(lobe.axis, s);
@@ -29,13 +31,14 @@ void draw(const Lobe& lobe, int count, double weight, std::mt19937_64& random, s
 
 TEST(NdfFit, FindsTheLobesThatNormalsWereDrawnFrom) {
   std::mt19937_64 random(3);
-  const std::array<Lobe, 3> lobes{Lobe{{0, 0, 1}, 200.0}, Lobe{glm::normalize(glm::dvec3(1, 0.2, 1)), 60.0},
-                                  Lobe{glm::normalize(glm::dvec3(-0.5, -1, 1)), 1000.0}};
+  const std::array<SphericalGaussian, 3> lobes{SphericalGaussian{{0, 0, 1}, 200.0},
+                                               SphericalGaussian{glm::normalize(glm::dvec3(1, 0.2, 1)), 60.0},
+                                               SphericalGaussian{glm::normalize(glm::dvec3(-0.5, -1, 1)), 1000.0}};
   std::vector<WeightedNormal> normals;
-  for (const Lobe& lobe : lobes) draw(lobe, 600, 1.0, random, normals);
+  for (const SphericalGaussian& lobe : lobes) draw(lobe, 600, 1.0, random, normals);
   const NdfFit fit = fit_ndf(normals, 3);
   ASSERT_EQ(fit.lobes.size(), 3U);
-  for (const Lobe& lobe : lobes) {
+  for (const SphericalGaussian& lobe : lobes) {
     double nearest = 2.0;
     for (std::size_t j = 0; j < 3; ++j) {
       const double away = one_minus_dot(fit.lobes[j].axis, lobe.axis);
@@ -88,7 +91,7 @@ TEST(NdfFit, HoldsDegenerateInput) {
   ASSERT_EQ(fit.lobes.size(), 1U);
   EXPECT_NEAR(fit.lobes[0].sharpness / sharpest, 1.0, 1e-3);
   const std::vector<WeightedNormal> opposite{{{0, 0, 1}, 1.0}, {{0, 0, -1}, 1.0}};
-  for (const Lobe& lobe : fit_ndf(opposite, 1).lobes) {
+  for (const SphericalGaussian& lobe : fit_ndf(opposite, 1).lobes) {
     EXPECT_TRUE(std::isfinite(lobe.sharpness + lobe.axis.x + lobe.axis.y + lobe.axis.z));
   }
 }
@@ -118,7 +121,7 @@ TEST(BrdfLobes, FollowTheBaseLobes) {
   using std::numbers::pi;
   for (const double alpha : {0.05, 0.15, 0.4}) {
     const double a2 = alpha * alpha;
-    EXPECT_LT(fit_error(lobes_of(NormalDistribution::ggx, alpha),
+    EXPECT_LT(fit_error(lobes_of(Lobe{NormalDistribution::ggx, alpha}),
                         [a2](double u) {
                           const double c2 = (1 - u) * (1 - u);
                           const double d = a2 * c2 + 1.0 - c2;
@@ -126,7 +129,7 @@ TEST(BrdfLobes, FollowTheBaseLobes) {
                         }),
               0.02)
         << alpha;
-    EXPECT_LT(fit_error(lobes_of(NormalDistribution::beckmann, alpha),
+    EXPECT_LT(fit_error(lobes_of(Lobe{NormalDistribution::beckmann, alpha}),
                         [a2](double u) {
                           const double c2 = (1 - u) * (1 - u);
                           return c2 < 1e-6 ? 0.0 : std::exp(-(1.0 / c2 - 1.0) / a2) / (pi * a2 * c2 * c2);
@@ -161,8 +164,8 @@ TEST(BrdfLobes, OfATableFollowIt) {
 
 TEST(BrdfLobes, BlinnPhongHasUnitEnergy) {
   for (const double exponent : {4.0, 64.0, 1024.0}) {
-    const BrdfLobe lobe = lobes_of(NormalDistribution::blinn_phong, exponent).front();
-    EXPECT_NEAR(lobe.amplitude * integral(lobe.sharpness), 1.0, 1e-4);
+    const BrdfLobe lobe = lobes_of(Lobe{NormalDistribution::blinn_phong, exponent}).front();
+    EXPECT_NEAR(lobe.amplitude * vmf_integral(lobe.sharpness), 1.0, 1e-4);
   }
 }
 

@@ -8,15 +8,11 @@ namespace footprint::iwasaki_sg {
 
 using std::numbers::pi;
 
-double value(const Lobe& lobe, const glm::dvec3& direction) {
+double value(const SphericalGaussian& lobe, const glm::dvec3& direction) {
   return std::exp(-lobe.sharpness * one_minus_dot(lobe.axis, direction));
 }
 
-double integral(double sharpness) {
-  return sharpness > 0.0 ? -2.0 * pi * std::expm1(-2.0 * sharpness) / sharpness : 4.0 * pi;
-}
-
-double convolution(const Lobe& a, const Lobe& b) {
+double convolution(const SphericalGaussian& a, const SphericalGaussian& b) {
   const double sum = a.sharpness + b.sharpness;
   const double z = glm::length(a.sharpness * a.axis + b.sharpness * b.axis);
   // sinh(z) / z as z goes to 0.
@@ -26,7 +22,7 @@ double convolution(const Lobe& a, const Lobe& b) {
   return -2.0 * pi * std::exp(fall) * std::expm1(-2.0 * z) / z;
 }
 
-double approximate_convolution(const Lobe& a, const Lobe& b) {
+double approximate_convolution(const SphericalGaussian& a, const SphericalGaussian& b) {
   const double sum = a.sharpness + b.sharpness;
   return 2.0 * pi / sum * std::exp(-a.sharpness * b.sharpness / sum * one_minus_dot(a.axis, b.axis));
 }

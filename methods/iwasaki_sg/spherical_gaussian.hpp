@@ -6,11 +6,11 @@
 namespace footprint::iwasaki_sg {
 
 /// exp(sharpness (w.axis - 1)): an SG of unit amplitude (Iwasaki 2012, Eq. 3).
-struct Lobe {
+struct SphericalGaussian {
   glm::dvec3 axis{0.0, 0.0, 1.0};  ///< unit
   double sharpness = 1.0;          ///< eta, above 0
 
-  friend bool operator==(const Lobe&, const Lobe&) = default;
+  friend bool operator==(const SphericalGaussian&, const SphericalGaussian&) = default;
 };
 
 /// 1 - a.b of unit vectors, from their difference: exact where the dot product has lost it.
@@ -20,16 +20,13 @@ struct Lobe {
 }
 
 /// The SG at a unit vector.
-[[nodiscard]] double value(const Lobe& lobe, const glm::dvec3& direction);
-
-/// Its integral over the sphere, 2 pi (1 - e^{-2 eta}) / eta (Eq. 9); 4 pi for a sharpness of 0.
-[[nodiscard]] double integral(double sharpness);
+[[nodiscard]] double value(const SphericalGaussian& lobe, const glm::dvec3& direction);
 
 /// The integral of the product of two SGs over the sphere (Eq. 11), to rounding for any sharpness up to 1e6 and above.
-[[nodiscard]] double convolution(const Lobe& a, const Lobe& b);
+[[nodiscard]] double convolution(const SphericalGaussian& a, const SphericalGaussian& b);
 
 /// The same as one SG in the angle between the axes (Eq. 14): good where both are sharp. The largest error is
 /// 1.45 / (eta1 + eta2)^2.
-[[nodiscard]] double approximate_convolution(const Lobe& a, const Lobe& b);
+[[nodiscard]] double approximate_convolution(const SphericalGaussian& a, const SphericalGaussian& b);
 
 }  // namespace footprint::iwasaki_sg

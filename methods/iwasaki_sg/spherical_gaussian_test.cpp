@@ -11,18 +11,16 @@
 #include <string_view>
 #include <vector>
 
+#include "methods/iwasaki_sg/test_materials.hpp"
+#include "renderer/lobes/vmf.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 #include "tests/support/shader_probe.hpp"
 
-namespace footprint::embedded {
-extern const std::string_view direction_grid_glsl, iwasaki_sg_lobes_glsl;
-}
-
 namespace footprint::iwasaki_sg {
 namespace {
 
-Lobe tilted(double sharpness, double degrees) {
+SphericalGaussian tilted(double sharpness, double degrees) {
   const double angle = degrees * std::numbers::pi / 180.0;
   return {{std::sin(angle), 0.0, std::cos(angle)}, sharpness};
 }
@@ -76,7 +74,7 @@ constexpr std::array<GoldenConvolution, 39> golden{{
 
 TEST(SphericalGaussian, ConvolutionHasTheGoldenValues) {
   for (const GoldenConvolution& g : golden) {
-    const Lobe a = tilted(g.eta1, 0.0), b = tilted(g.eta2, g.degrees);
+    const SphericalGaussian a = tilted(g.eta1, 0.0), b = tilted(g.eta2, g.degrees);
     EXPECT_NEAR(convolution(a, b) / g.exact, 1.0, 1e-9) << g.eta1 << " " << g.eta2 << " " << g.degrees;
     if (g.sg_form > 0.0) {
       EXPECT_NEAR(approximate_convolution(a, b) / g.sg_form, 1.0, 1e-9) << g.degrees;
@@ -93,8 +91,8 @@ TEST(SphericalGaussian, IntegralHasTheGoldenValues) {
                                                          {10, 0.62831852942289763206},
                                                          {512, 0.012271846303085129838},
                                                          {1e5, 0.000062831853071795864769}}};
-  for (const auto& [eta, exact] : values) EXPECT_NEAR(integral(eta) / exact, 1.0, 1e-14) << eta;
-  EXPECT_DOUBLE_EQ(integral(0.0), 4.0 * std::numbers::pi);
+  for (const auto& [eta, exact] : values) EXPECT_NEAR(vmf_integral(eta) / exact, 1.0, 1e-14) << eta;
+  EXPECT_DOUBLE_EQ(vmf_integral(0.0), 4.0 * std::numbers::pi);
 }
 
 // The largest difference between Eq. 11 and Eq. 14 over all angles.
@@ -102,7 +100,7 @@ double largest_error(double eta1, double eta2) {
   double largest = 0.0;
   constexpr int steps = 200000;
   for (int i = 0; i <= steps; ++i) {
-    const Lobe a = tilted(eta1, 0.0), b = tilted(eta2, 180.0 * i / steps);
+    const SphericalGaussian a = tilted(eta1, 0.0), b = tilted(eta2, 180.0 * i / steps);
     largest = std::max(largest, std::abs(convolution(a, b) - approximate_convolution(a, b)));
   }
   return largest;
@@ -134,9 +132,9 @@ TEST(SphericalGaussian, ErrorOfTheSgFormFallsWithTheSquareOfTheSharpness) {
 }
 
 std::string functions() {
-  return "float oneMinusDot(vec3 n, vec3 h) { vec3 d = h - n; return 0.5 * dot(d, d); }\n"
-         "const float pi = 3.14159265358979;\n" +
-         std::string(embedded::iwasaki_sg_lobes_glsl) + std::string(embedded::direction_grid_glsl);
+  ShaderModule module = iwasaki_sg_method().shader();
+  module.text = "//? include iwasaki_sg_lobes.glsl\n//? include direction_grid.glsl\n";
+  return shared_functions(shader_flags({}, Options(iwasaki_sg_method().info().options, {}, "test")), module);
 }
 
 // The software rasteriser's exp is good to 7e-6.
@@ -150,8 +148,8 @@ TEST(SphericalGaussian, GlslConvolvesAsCppDoes) {
         const glm::vec3 b(tilted(1.0, degrees).axis);
         inputs.push_back(
             {glm::vec4(a, static_cast<float>(eta1)), glm::vec4(b, static_cast<float>(eta2)), glm::vec4(0)});
-        const Lobe first{glm::dvec3(a), eta1}, second{glm::dvec3(b), eta2};
-        expected.emplace_back(convolution(first, second), approximate_convolution(first, second), integral(eta2));
+        const SphericalGaussian first{glm::dvec3(a), eta1}, second{glm::dvec3(b), eta2};
+        expected.emplace_back(convolution(first, second), approximate_convolution(first, second), vmf_integral(eta2));
       }
     }
   }

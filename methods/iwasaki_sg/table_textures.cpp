@@ -13,15 +13,15 @@
 #include "methods/iwasaki_sg/brdf_lobes.hpp"
 #include "methods/iwasaki_sg/material_table.hpp"
 #include "methods/iwasaki_sg/settings.hpp"
+#include "renderer/bake/material_maps.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint::iwasaki_sg {
 namespace {
 
 // Row 0: axis and sharpness of each lobe. Row 1: its share of the normals.
-PrefilteredTexture lobe_texture(std::span<const Lobe> lobes, std::span<const double> shares) {
+PrefilteredTexture lobe_texture(std::span<const SphericalGaussian> lobes, std::span<const double> shares) {
   Image image(static_cast<int>(lobes.size()), 2, 4);
   for (std::size_t j = 0; j < lobes.size(); ++j) {
     const glm::vec4 lobe(glm::vec3(lobes[j].axis), static_cast<float>(lobes[j].sharpness));
@@ -109,7 +109,7 @@ PrefilteredTexture diffuse_texture(const Amplitudes& table, int side) {
 }
 
 PrefilteredTexture brdf_texture(const Material& material) {
-  const std::vector<BrdfLobe> lobes = lobes_of(material.brdf.distribution, lobe_parameter(material));
+  const std::vector<BrdfLobe> lobes = lobes_of(lobe_of(material));
   Image image(static_cast<int>(lobes.size()), 1, 2);
   for (std::size_t i = 0; i < lobes.size(); ++i) {
     image.texels[2 * i] = static_cast<float>(lobes[i].sharpness);

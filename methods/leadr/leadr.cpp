@@ -7,7 +7,7 @@
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view leadr_glsl;
+extern const EmbeddedTexts leadr_glsl;
 }
 
 namespace {
@@ -21,7 +21,10 @@ class Leadr final : public Method {
     return bake_slopes(material, options, effects, SlopeVariant::full);
   }
 
-  [[nodiscard]] std::string_view shader() const override { return embedded::leadr_glsl; }
+  // `variant` is an option of lean's, which common_slopes.glsl asks for.
+  [[nodiscard]] ShaderModule shader() const override {
+    return module_of(embedded::leadr_glsl, "leadr.glsl", {{"variant_clean", false}});
+  }
 
  private:
   MethodInfo info_{.name = "leadr",

@@ -2,18 +2,10 @@
 // reflection of a surface that has those slopes.
 //? include common_slopes.glsl
 
-//? if masking_shadowing
-//? if geometry_smith
-#define OWN_SMITH
-//? end
-//? end
-//? if weighting_displacement
-#define DISPLACED
-//? end
-
-#if defined(OWN_SMITH) || defined(DISPLACED)
+// Masking is Smith's own here, for slopes with a mean. What is displaced has it by its texels' slopes in any case.
+//? if masking_shadowing and geometry_smith or weighting_displacement
 //? include beckmann_lambda.glsl
-#endif
+//? end
 
 struct Effective {
   SlopeLobe lobe;
@@ -42,18 +34,14 @@ Effective effective(Footprints f) {
 // (w.n) / n_z of the mean slope: the area of the mean surface seen along w, per area of the plane.
 float meanProjectedArea(SlopeLobe lobe, vec3 w) { return max(dot(lobe.axis, w), 1e-4) * lobe.secant; }
 
-#if defined(OWN_SMITH) || defined(DISPLACED)
+//? if masking_shadowing and geometry_smith or weighting_displacement
 // Smith's Lambda of slopes whose component towards w has a mean and a variance: it depends on
 // a = (cot + mean) / (sqrt(2) deviation) alone (Dupuy 2013, section 4). Both are taken times the sine, which may be 0.
 float offCentreLambda(float projected_area, float variance) {
   float inverse_a2 = 2.0 * variance / (projected_area * projected_area);
-//? if distribution_ggx
-//? if roughness_stretched
+//? if distribution_ggx and roughness_stretched
   // The same a of an elliptical GGX (Heitz 2014, equation 72), in the form that does not cancel.
   return 0.5 * inverse_a2 / (1.0 + sqrt(1.0 + inverse_a2));
-//? else
-  return beckmannLambda(1.0 / max(sqrt(inverse_a2), 1e-6));
-//? end
 //? else
   return beckmannLambda(1.0 / max(sqrt(inverse_a2), 1e-6));
 //? end
@@ -63,9 +51,9 @@ float offCentreLambda(float projected_area, float variance) {
 float spreadLambda(SlopeLobe lobe, vec3 w) {
   return offCentreLambda(meanProjectedArea(lobe, w), max(dot(w.xy, lobe.spread * w.xy), 0.0));
 }
-#endif
+//? end
 
-#ifdef OWN_SMITH
+//? if masking_shadowing and geometry_smith
 // Of the texels' slopes and the base lobe's. A stretched base lobe stands on the mean normal, where 1 / a^2 is
 // 2 v tan^2: that share makes it so, and a flat map has the base BRDF's own Lambda whatever its tilt.
 float lobeLambda(SlopeLobe lobe, vec3 w) {
@@ -77,9 +65,9 @@ float lobeLambda(SlopeLobe lobe, vec3 w) {
 //? end
   return offCentreLambda(meanProjectedArea(lobe, w), max(dot(w.xy, lobe.spread * w.xy), 0.0) + base);
 }
-#endif
+//? end
 
-#ifdef DISPLACED
+//? if weighting_displacement
 // The mean normal of the texels that reflect about h: of two independent Gaussian parts of a slope, texel's and base
 // lobe's, the texel's given their sum.
 vec3 texelNormal(SlopeLobe lobe, vec3 h) {
@@ -90,69 +78,72 @@ vec3 texelNormal(SlopeLobe lobe, vec3 h) {
   return normalOfSlope(lobe.mean + lobe.spread * (lobe.shape * offset));
 //? end
 }
-#endif
+//? end
 
 // Bump: every texel weighs the same. Displacement: a texel weighs by its true area 1 / n_z, relative to the mean's.
 float ndf(Effective e, vec3 h) {
-#ifdef DISPLACED
+//? if weighting_displacement
   return slopeDensity(e.lobe, h) * e.lobe.axis.z / texelNormal(e.lobe, h).z;
-#else
+//? else
   return slopeDensity(e.lobe, h);
-#endif
+//? end
 }
 
 // What stands beside F D in f * cos.
 float factor(Effective e, vec3 h, vec3 wi, vec3 wo) {
-#ifdef OWN_SMITH
+//? if masking_shadowing and geometry_smith
   // G2 / (4 n.v), height-correlated. A displaced texel's visible area (n.v) cancels against its own 1 / (n.v), and the
   // mean's stays.
   if (dot(e.lobe.axis, wi) <= 0.0) return 0.0;
   return 0.25 / ((1.0 + lobeLambda(e.lobe, wo) + lobeLambda(e.lobe, wi)) * max(dot(e.lobe.axis, wo), 1e-4));
-#else
-#ifdef DISPLACED
+//? elif weighting_displacement
   // The base BRDF has no masking, but a displaced texel counts by its visible area.
   vec3 n = texelNormal(e.lobe, h);
   float visible = max(dot(n, wo), 0.0) / (meanProjectedArea(e.lobe, wo) * (1.0 + spreadLambda(e.lobe, wo)));
   return visible * e.lobe.secant * geometryFactor(e.round_lobe, n, h, wi, wo);
-#else
+//? else
   return geometryFactor(e.round_lobe, e.lobe.axis, h, wi, wo);
-#endif
-#endif
-}
-
-vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
-  if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
-  vec3 h = halfVector(wi, wo);
-  return fresnelTerm(f0, wi, wo) * (ndf(e, h) * factor(e, h, wi, wo));
+//? end
 }
 
 //? if diffuse
 // The mean of max(n.l, 0) over the texels, by 3 x 3 points of Gauss and Hermite (exact to degree 5 in the slopes);
 // displaced texels weigh by their visible area, and those that see the viewer may be in shadow.
-vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
+float meanLitCosine(Effective e, vec3 wi, vec3 wo) {
   float lit = 0.0;
   float seen = 0.0;
   for (int i = -1; i <= 1; ++i) {
     for (int j = -1; j <= 1; ++j) {
       vec3 n = normalOfSlope(e.lobe.mean + e.root * (1.7320508 * vec2(i, j)));
       float weight = (i == 0 ? 4.0 : 1.0) * (j == 0 ? 4.0 : 1.0);
-#ifdef DISPLACED
+//? if weighting_displacement
       weight *= max(dot(n, wo), 0.0) / n.z;
-#endif
+//? end
       lit += weight * max(dot(n, wi), 0.0);
       seen += weight;
     }
   }
   float mean = lit / max(seen, 1e-6);
-#ifdef OWN_SMITH
-#ifdef DISPLACED
+//? if masking_shadowing and geometry_smith and weighting_displacement
   float masked = 1.0 + spreadLambda(e.lobe, wo);
   mean *= masked / (masked + spreadLambda(e.lobe, wi));
-#endif
-#endif
-  return lambert(mean * wi, albedo, f0, wi, wo);
+//? end
+  return mean;
 }
 //? end
+
+Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
+  Reflected r;
+  r.specular = vec3(0.0);
+  if (halfVectorIsDefined(wi, wo)) {
+    vec3 h = halfVector(wi, wo);
+    r.specular = fresnelTerm(s.f0, wi, wo) * (ndf(e, h) * factor(e, h, wi, wo));
+  }
+//? if diffuse
+  r.diffuse = diffuse(meanLitCosine(e, wi, wo) * wi, s, wi, wo);
+//? end
+  return r;
+}
 
 //? if environment_light
 int lobeCount(Effective e) { return 2 * e.row.half_count + 1; }
@@ -161,7 +152,7 @@ NormalLobe normalLobe(Effective e, int i) { return lobeOfRow(e.lobe, e.row, i); 
 
 float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) { return factor(e, h, wi, wo); }
 
-// By the points of `diffuse`.
+// By the points of meanLitCosine.
 vec3 meanNormal(Effective e) {
   vec3 sum = vec3(0.0);
 //? if diffuse

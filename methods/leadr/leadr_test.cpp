@@ -161,7 +161,8 @@ TEST(Leadr, GlslMeetsItsTwin) {
           const Words words{{"roughness", stretched ? "stretched" : "shading"},
                             {"weighting", displaced ? "displacement" : "bump"}};
           const auto out =
-              probe_method(leadr(material, words), "return vec4(specular(e, vec3(1.0), a.xyz, b.xyz), 0);", inputs);
+              probe_method(leadr(material, words),
+                           "return vec4(shade(e, Surface(vec3(0.0), vec3(1.0)), a.xyz, b.xyz).specular, 0);", inputs);
           double largest = 0;
           for (const glm::vec4& v : out) largest = std::max(largest, static_cast<double>(v.x));
           for (std::size_t i = 0; i < out.size(); ++i) {
@@ -236,7 +237,7 @@ TEST(Leadr, DisplacementWeighsTexelsByTheirVisibleArea) {
       expected.push_back(weighed / visible / (plain / static_cast<double>(normals.texel_count())));
     }
   }
-  const std::string body = "return vec4(specular(e, vec3(1.0), a.xyz, b.xyz), 0);";
+  const std::string body = "return vec4(shade(e, Surface(vec3(0.0), vec3(1.0)), a.xyz, b.xyz).specular, 0);";
   const auto bump = probe_method(leadr(material), body, inputs);
   const auto displaced = probe_method(leadr(material, {{"weighting", "displacement"}}), body, inputs);
   for (std::size_t i = 0; i < inputs.size(); ++i)
@@ -253,8 +254,9 @@ TEST(Leadr, MaskedSurfacesReflectNoMoreThanTheyGet) {
       for (const glm::dvec3& wi : lights)
         inputs.push_back({glm::vec4(glm::vec3(wi), 0), glm::vec4(glm::vec3(direction(theta, 2.0)), 0), {}});
       double sum = 0;
-      for (const glm::vec4& v : probe_method(leadr(material, {{"weighting", "displacement"}}),
-                                             "return vec4(specular(e, vec3(1.0), a.xyz, b.xyz), 0);", inputs))
+      for (const glm::vec4& v :
+           probe_method(leadr(material, {{"weighting", "displacement"}}),
+                        "return vec4(shade(e, Surface(vec3(0.0), vec3(1.0)), a.xyz, b.xyz).specular, 0);", inputs))
         sum += v.x;
       const double reflected = sum * 2.0 * pi / static_cast<double>(lights.size());
       EXPECT_LT(reflected, 1.01) << spread << " " << theta;
@@ -286,7 +288,7 @@ TEST(Leadr, DiffuseMeetsTheSumOverTexels) {
     bump.push_back(lit / static_cast<double>(normals.texel_count()) / pi);
     displaced.push_back(seen_and_lit / seen / pi);
   }
-  const std::string body = "return vec4(diffuse(e, vec3(1.0), vec3(0.0), a.xyz, b.xyz), 0);";
+  const std::string body = "return vec4(shade(e, Surface(vec3(1.0), vec3(0.0)), a.xyz, b.xyz).diffuse, 0);";
   const auto out = probe_method(leadr(material), body, inputs);
   const auto out_displaced = probe_method(leadr(material, {{"weighting", "displacement"}}), body, inputs);
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -325,10 +327,11 @@ TEST(Leadr, StaysFiniteAtTheLimits) {
         const Material material = material_of(map, distribution, lobe, geometry);
         for (const Words& words : {Words{}, Words{{"weighting", "displacement"}, {"storage", "fp16"}},
                                    Words{{"roughness", "moments"}, {"weighting", "displacement"}}}) {
-          const auto out = probe_method(leadr(material, words),
-                                        "return vec4(specular(e, vec3(1.0), a.xyz, b.xyz).x, ndf(e, a.xyz), "
-                                        "diffuse(e, vec3(1.0), vec3(0.0), a.xyz, b.xyz).x, 0);",
-                                        inputs);
+          const auto out = probe_method(
+              leadr(material, words),
+              "return vec4(shade(e, Surface(vec3(0.0), vec3(1.0)), a.xyz, b.xyz).specular.x, ndf(e, a.xyz), "
+              "shade(e, Surface(vec3(1.0), vec3(0.0)), a.xyz, b.xyz).diffuse.x, 0);",
+              inputs);
           for (const glm::vec4& v : out) {
             for (int c = 0; c < 3; ++c) ASSERT_TRUE(std::isfinite(v[c]) && v[c] >= 0.0F) << lobe << " channel " << c;
           }

@@ -1,13 +1,14 @@
 // `lean`: first and second moments of slope filter linearly and give a footprint's mean slope and covariance; one
 // anisotropic lobe stands over them. Olano and Baker 2010, "LEAN Mapping"; CLEAN is its scalar variant.
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
 #include "renderer/bake/slope_moments.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view lean_glsl;
+extern const EmbeddedTexts lean_glsl;
 }
 
 namespace {
@@ -28,7 +29,7 @@ class Lean final : public Method {
     return out;
   }
 
-  [[nodiscard]] std::string_view shader() const override { return embedded::lean_glsl; }
+  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::lean_glsl, "lean.glsl"); }
 
  private:
   MethodInfo info_{.name = "lean",

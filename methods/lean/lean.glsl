@@ -11,8 +11,7 @@ struct Effective {
 //? end
 };
 
-//? if diffuse
-//? if normal_layers
+//? if diffuse and normal_layers
 // The mean of the unit normals of both layers together: no texture holds it, but their slopes' distribution tells it,
 // by 3 x 3 points of Gauss and Hermite.
 vec3 meanNormal(SlopeLobe lobe) {
@@ -27,7 +26,6 @@ vec3 meanNormal(SlopeLobe lobe) {
   return sum;
 }
 //? end
-//? end
 
 Effective effective(Footprints f) {
   Effective e;
@@ -37,31 +35,28 @@ Effective effective(Footprints f) {
   e.row = lobeRow(e.lobe);
 //? end
   e.mean_normal = vec3(0.0, 0.0, 1.0);
-//? if diffuse
-//? if normal_layers
+//? if diffuse and normal_layers
   e.mean_normal = meanNormal(e.lobe);
-//? else
-//? if normal_variation
+//? elif diffuse and normal_variation
   e.mean_normal = fetch(lean_normal, f.normal).xyz;
-//? end
-//? end
 //? end
   return e;
 }
 
 float ndf(Effective e, vec3 h) { return slopeDensity(e.lobe, h); }
 
-vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
-  if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
-  vec3 h = halfVector(wi, wo);
-  return fresnelTerm(f0, wi, wo) * (ndf(e, h) * geometryFactor(e.round_lobe, e.lobe.axis, h, wi, wo));
-}
-
+Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
+  Reflected r;
+  r.specular = vec3(0.0);
+  if (halfVectorIsDefined(wi, wo)) {
+    vec3 h = halfVector(wi, wo);
+    r.specular = fresnelTerm(s.f0, wi, wo) * (ndf(e, h) * geometryFactor(e.round_lobe, e.lobe.axis, h, wi, wo));
+  }
 //? if diffuse
-vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
-  return lambert(e.mean_normal, albedo, f0, wi, wo);
-}
+  r.diffuse = diffuse(e.mean_normal, s, wi, wo);
 //? end
+  return r;
+}
 
 //? if environment_light
 int lobeCount(Effective e) { return 2 * e.row.half_count + 1; }

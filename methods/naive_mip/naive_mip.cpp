@@ -1,14 +1,15 @@
 // `naive_mip`: the mean normal, renormalised, and the mean roughness. What most renderers do, and what makes far
 // surfaces too shiny: the spread of the normals is lost.
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/mipmap.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view naive_mip_glsl;
+extern const EmbeddedTexts naive_mip_glsl;
 }
 
 namespace {
@@ -33,7 +34,7 @@ class NaiveMip final : public Method {
     return out;
   }
 
-  [[nodiscard]] std::string_view shader() const override { return embedded::naive_mip_glsl; }
+  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::naive_mip_glsl, "naive_mip.glsl"); }
 
  private:
   MethodInfo info_{

@@ -3,20 +3,12 @@
 //? include facets_module.glsl
 
 Effective effective(Footprints f) {
-//? if roughness_variation
-//? if averages_lobe
+//? if roughness_variation and averages_lobe
   float lobe = fetch(naive_lobe, f.roughness).r;
-//? else
+//? elif roughness_variation
   float lobe = lobeFromRoughness(fetch(naive_roughness, f.roughness).r);
-//? end
 //? else
   float lobe = lobe_cutoff.x;
 //? end
   return Effective(evenFacets(meanNormal(f).xyz, lobe));
 }
-
-//? if environment_light
-//? include facet_normal_lobes.glsl
-
-vec3 meanNormal(Effective e) { return e.facets.normal; }
-//? end

@@ -5,7 +5,6 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/test_scenes.hpp"
 

@@ -3,14 +3,14 @@
 #include <utility>
 
 #include "methods/tan_gmm/mixture_chain.hpp"
+#include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view tan_gmm_glsl;
+extern const EmbeddedTexts tan_gmm_glsl;
 }
 
 namespace {
@@ -80,7 +80,7 @@ class TanGmm final : public Method {
 
   [[nodiscard]] int lobe_count(const Options& options) const override { return static_cast<int>(options.number("n")); }
 
-  [[nodiscard]] std::string_view shader() const override { return embedded::tan_gmm_glsl; }
+  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::tan_gmm_glsl, "tan_gmm.glsl"); }
 
  private:
   MethodInfo info_{

@@ -55,9 +55,7 @@ float baseOverDisc(float variance, float height) {
 //? end
 }
 
-//? if not environment_light
-//? include normal_cdf.glsl
-//? end
+//? include vmf.glsl
 
 // The mass of a Gaussian inside the disc: a noncentral chi-squared distribution of 2 degrees of freedom, by Sankaran 1963.
 float massInDisc(vec2 mean, float variance) {
@@ -222,21 +220,21 @@ Effective effective(Footprints f) {
   return e;
 }
 
-vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
-  if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
-  vec3 h = halfVector(wi, wo);
-  float sum = 0.0;
-  for (int i = 0; i < components; ++i) sum += componentReflectance(e, i, h, wi, wo);
-  return fresnelTerm(f0, wi, wo) * sum;
-}
-
+Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
+  Reflected r;
+  r.specular = vec3(0.0);
+  if (halfVectorIsDefined(wi, wo)) {
+    vec3 h = halfVector(wi, wo);
+    float sum = 0.0;
+    for (int i = 0; i < components; ++i) sum += componentReflectance(e, i, h, wi, wo);
+    r.specular = fresnelTerm(s.f0, wi, wo) * sum;
+  }
 //? if diffuse
-vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
-  vec3 sum = vec3(0.0);
-  for (int i = 0; i < components; ++i) sum += e.share[i] * lambert(e.mean[i], albedo, f0, wi, wo);
-  return sum;
-}
+  r.diffuse = vec3(0.0);
+  for (int i = 0; i < components; ++i) r.diffuse += e.share[i] * diffuse(e.mean[i], s, wi, wo);
 //? end
+  return r;
+}
 
 float ndf(Effective e, vec3 h) {
   float sum = 0.0;

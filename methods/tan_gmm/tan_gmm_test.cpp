@@ -12,7 +12,6 @@
 #include "methods/tan_gmm/mixture_twin.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/image/mipmap.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 #include "tests/support/rendering.hpp"
@@ -51,11 +50,10 @@ std::vector<glm::vec4> probed(const PrefilteredTexture& mixture, const Given& gi
   SamplerCache samplers;
   gl::api().BindTextureUnit(0, texture.texture.name());
   gl::api().BindSampler(0, samplers.sampler(texture.coordinates, texture.lookup(Lookup::trilinear)));
-  ShaderFlags flags = shader_flags(variant, options);
-  flags.merge(texture_flags({.textures = {mixture}, .scalars = {}}));
+  const ShaderFlags flags = shader_flags(variant, options, {.textures = {mixture}, .scalars = {}});
   const std::string text =
       "layout(binding = 0) uniform sampler2DArray tan_gmm_mixture;\nconst float option_n = " + all["n"] + ".0;\n" +
-      shared_functions(flags) + "vec4 lobe_cutoff;\n" + select_text(tan_gmm_method().shader(), flags, "tan_gmm.glsl");
+      "vec4 lobe_cutoff;\n" + shared_functions(flags, tan_gmm_method().shader());
   const std::string body =
       "lobe_cutoff = vec4(a.w);\nFootprint p = Footprint(a.xy, vec2(a.z, 0.0), vec2(0.0, a.z));\n"
       "Effective e = effective(Footprints(p, p, p));\n" +
@@ -334,8 +332,8 @@ TEST(TanGmm, GrazingStaysFinite) {
     }
   }
   const std::string shaded =
-      "return vec4(specular(e, vec3(1.0), b.xyz, c.xyz).x, diffuse(e, vec3(1.0), vec3(1.0), "
-      "b.xyz, c.xyz).x, ndf(e, b.xyz), 0.0);";
+      "Reflected r = shade(e, Surface(vec3(1.0), vec3(1.0)), b.xyz, c.xyz);\n"
+      "return vec4(r.specular.x, r.diffuse.x, ndf(e, b.xyz), 0.0);";
   for (const glm::vec3& normal : {glm::vec3(0, 0, 1), glm::vec3(1, 0, 0), glm::vec3(0.6F, 0, 0.8F)}) {
     for (const glm::vec4& v : probed(baked(constant_normals(2, 2, normal)), {}, shaded, inputs, blinn_phong_tan)) {
       for (int i = 0; i < 3; ++i) EXPECT_TRUE(std::isfinite(v[i]) && v[i] >= 0.0F) << v[i];
@@ -349,7 +347,8 @@ TEST(TanGmm, GrazingViewKeepsTheBound) {
   const glm::vec3 wo(std::cos(elevation), 0.0F, std::sin(elevation));
   const Inputs inputs{{whole_map(64.0F), glm::vec4(0, 0, 1, 0), glm::vec4(wo, 0)}};
   const auto out = probed(baked(constant_normals(2, 2, glm::vec3(0, 0, 1))), {},
-                          "vec3 h = halfVector(b.xyz, c.xyz);\nreturn vec4(specular(e, vec3(1.0), b.xyz, c.xyz).x, "
+                          "vec3 h = halfVector(b.xyz, c.xyz);\nreturn vec4(shade(e, Surface(vec3(0.0), vec3(1.0)), "
+                          "b.xyz, c.xyz).specular.x, "
                           "2.0 * ndf(e, h) * h.z / dot(c.xyz, h), 0.0, 0.0);",
                           inputs, blinn_phong_tan);
   EXPECT_GT(out[0].x, 0.0F);

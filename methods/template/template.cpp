@@ -4,15 +4,16 @@
 #include <cmath>
 #include <span>
 
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
 #include "renderer/image/mipmap.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint {
 
-// The text of template.glsl, which footprint_add_method embeds under this name.
+// The texts of this folder, which footprint_add_method embeds under this name.
 namespace embedded {
-extern const std::string_view template_glsl;
+extern const EmbeddedTexts template_glsl;
 }
 
 namespace {
@@ -38,8 +39,8 @@ std::vector<Image> normal_and_spread(const Material& material) {
 }
 
 // This method leaves out that the roughness may vary: it takes its mean.
-float mean_lobe(const Material& material) {
-  if (width_map(material) == nullptr) return lobe_parameter(material);
+Lobe mean_lobe(const Material& material) {
+  if (width_map(material) == nullptr) return lobe_of(material);
   const float roughness = mip_chain(roughness_map_of(material)).back().texels.front();
   return lobe_from_alpha(material.brdf.distribution, roughness * roughness);
 }
@@ -51,7 +52,7 @@ class IndependentTexels final : public Method {
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& /*options*/, const EffectSet& effects,
                                        const Progress& /*progress*/) const override {
     Prefiltered out;
-    out.scalars["template_lobe"] = mean_lobe(material);
+    out.scalars["template_lobe"] = static_cast<float>(mean_lobe(material).parameter);
     if (has(effects, Effect::normal_variation)) {
       out.textures.push_back(
           make_texture("template_normal", normal_and_spread(material), Storage::fp32, normal_coordinates(material)));
@@ -59,7 +60,7 @@ class IndependentTexels final : public Method {
     return out;
   }
 
-  [[nodiscard]] std::string_view shader() const override { return embedded::template_glsl; }
+  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::template_glsl, "template.glsl"); }
 
  private:
   MethodInfo info_{

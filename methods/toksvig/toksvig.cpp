@@ -1,12 +1,13 @@
 // `toksvig`: the length of the mean normal tells the spread of the normals under a footprint; one lobe about the mean
 // normal takes that spread into its width. Toksvig 2004/2005, "Mipmapping Normal Maps".
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view toksvig_glsl;
+extern const EmbeddedTexts toksvig_glsl;
 }
 
 namespace {
@@ -26,7 +27,7 @@ class Toksvig final : public Method {
     return out;
   }
 
-  [[nodiscard]] std::string_view shader() const override { return embedded::toksvig_glsl; }
+  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::toksvig_glsl, "toksvig.glsl"); }
 
  private:
   MethodInfo info_{

@@ -25,17 +25,13 @@ Effective effective(Footprints f) {
   return Effective(spreadFacets(mean.xyz, baseVariance(f), spread), mean.w);
 }
 
-vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) { return facetSpecular(e.facets, f0, wi, wo); }
-
-//? if diffuse
-vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
-  vec3 reflected = lambert(e.facets.normal, albedo, f0, wi, wo);
-//? if diffuse_mean
-  reflected *= e.consistency;
+Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
+  Reflected r = facetShade(e.facets, s, wi, wo);
+//? if diffuse and diffuse_mean
+  r.diffuse *= e.consistency;
 //? end
-  return reflected;
+  return r;
 }
-//? end
 
 float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }
 

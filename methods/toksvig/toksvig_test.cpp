@@ -47,9 +47,10 @@ Recovered recovered(const Material& material, const std::map<std::string, std::s
   gl::api().BindTextureUnit(0, texture.texture.name());
   gl::api().BindSampler(0, samplers.sampler(texture.coordinates, Lookup::trilinear));
   const ShaderFlags flags = shader_flags(variant, options);
-  const std::string text = "layout(binding = 0) uniform sampler2D mean_normal;\nconst float option_spread = 1.0;\n" +
-                           shared_functions(flags) + "vec4 lobe_cutoff;\n" +
-                           select_text(toksvig_method().shader(), flags, "toksvig.glsl");
+  const std::string text =
+      "layout(binding = 0) uniform sampler2D mean_normal;\nconst float option_spread = 1.0;\n"
+      "vec4 lobe_cutoff;\n" +
+      shared_functions(flags, toksvig_method().shader());
   const std::string body =
       "lobe_cutoff = vec4(a.x);\nFootprint p = Footprint(vec2(0.5), vec2(1.0, 0.0), vec2(0.0, 1.0));\n"
       "Effective e = effective(Footprints(p, p, p));\nreturn b.x == 0.0 ? vec4(e.facets.lobe, e.consistency, 0, 0) : "

@@ -8,7 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
-#include "renderer/pipeline/base_surface.hpp"
+#include "renderer/pipeline/frame_build_job.hpp"
 #include "tests/support/method_probe.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/shader_probe.hpp"
@@ -119,12 +119,10 @@ std::string BuiltMap::shader_text() const {
                         texture.name);
   }
   for (const auto& [name, value] : baked_.scalars) text += fmt::format("const float {} = {:e};\n", name, value);
-  ShaderFlags flags = shader_flags(variant_, options_);
-  flags.merge(texture_flags(baked_));
   text += fmt::format(
       "const vec4 lobe_cutoff = vec4({:e});\nconst float option_eps0 = {:e};\nconst float option_eps1 = {:e};\n",
-      lobe_parameter(values_.materials[0]), options_.number("eps0"), options_.number("eps1"));
-  return text + shared_functions(flags) + select_text(xu_vmf_method().shader(), flags, "xu_vmf.glsl");
+      lobe_of(values_.materials[0]).parameter, options_.number("eps0"), options_.number("eps1"));
+  return text + shared_functions(shader_flags(variant_, options_, baked_), xu_vmf_method().shader());
 }
 
 std::vector<glm::vec4> BuiltMap::probe(const std::string& body, const ProbeInputs& inputs) const {
@@ -149,8 +147,8 @@ std::vector<MapLobe> BuiltMap::lobes() const {
   }
   const auto got = probe(
       "int i = int(a.x);\nif (i >= e.count) return vec4(0.0);\n"
-      "Lobe lobe = lobeAt(i);\n"
-      "return b.x == 0.0 ? vec4(lobe.mean, lobe.amount / amountsOf(e)) : vec4(kappaOfLobe(lobe.base));",
+      "Lobe lobe = lobeOf(e.lobes[i], e.weights[i]);\n"
+      "return b.x == 0.0 ? vec4(lobe.mean, lobe.amount / amountsOf(e.covered)) : vec4(kappaOfLobe(lobe.base));",
       inputs);
   std::vector<MapLobe> lobes;
   for (std::size_t i = 0; i < got.size(); i += 2) {

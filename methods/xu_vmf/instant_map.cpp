@@ -6,20 +6,19 @@
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "renderer/pipeline/bindings.hpp"
 #include "renderer/pipeline/frame_build_job.hpp"
 #include "renderer/pipeline/view.hpp"
 
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view xu_vmf_conversion_glsl, xu_vmf_table_glsl, xu_vmf_cells_glsl, xu_vmf_storing_glsl,
-    xu_vmf_join_glsl, xu_vmf_split_glsl, xu_vmf_coarsen_glsl, xu_vmf_raster_vertex_glsl;
+extern const EmbeddedTexts xu_vmf_glsl;
 }
 
 namespace xu_vmf {
 namespace {
 
-constexpr GLuint material_binding = 0;
 constexpr std::array<float, 4> nothing{};
 
 gl::VertexArray empty_vertex_array() {
@@ -97,45 +96,34 @@ InstantMap::InstantMap(const ShaderVariant& variant, const Options& options)
       guards_(keeps_guard(options, variant.effects)),
       no_vertices_(empty_vertex_array()),
       joined_(framebuffer(guards_ ? 2 : 1)) {
-  ShaderFlags flags;
-  if (guards_) flags.emplace("guard");
-  const auto fragment = [&](std::string_view name, std::initializer_list<std::string_view> texts) {
-    std::string text;
-    for (const std::string_view part : texts) text += part;
-    return frame_build_shader(variant, text, fmt::format("xu_vmf_{}.glsl", name), options, flags);
+  const auto pass = [&](std::string_view file, bool guard, bool camera, std::string_view constants = {}) {
+    const ShaderModule module = module_of(embedded::xu_vmf_glsl, file, {{"guard", guard}, {"camera", camera}});
+    return frame_build_shader(variant, module, options, constants);
   };
-  const auto join_text = [&] {
-    return fragment("join", {embedded::xu_vmf_conversion_glsl, embedded::xu_vmf_table_glsl,
-                             embedded::xu_vmf_storing_glsl, embedded::xu_vmf_join_glsl});
+  const auto program = [](std::string_view title, const std::string& vertices, const ShaderText& fragments) {
+    return gl::Program(fmt::format("{} ({})", title, fragments.lines()), vertices, fragments.text());
   };
   const auto layer_count = [](GLuint layers) { return fmt::format("const int layer_count = {};\n", layers); };
-  const GLuint at_once = options.word("j") == "adaptive" ? 6 : static_cast<GLuint>(parts_);
-  const auto split_text = [&] {
-    return fragment("split", {layer_count(at_once), embedded::xu_vmf_cells_glsl, embedded::xu_vmf_storing_glsl,
-                              embedded::xu_vmf_split_glsl});
-  };
   const auto stage = [&](GLuint layers) {
-    return Stage{
-        framebuffer(layers),
-        {"xu_vmf_coarsen", screen_vertex_shader(),
-         fragment("coarsen", {layer_count(layers), embedded::xu_vmf_storing_glsl, embedded::xu_vmf_coarsen_glsl})},
-        layers};
+    return Stage{framebuffer(layers),
+                 program("xu_vmf_coarsen", screen_vertex_shader(),
+                         pass("xu_vmf_coarsen.glsl", guards_, false, layer_count(layers))),
+                 layers};
   };
-  join_flat_ = {"xu_vmf_join", screen_vertex_shader(), join_text()};
+  join_flat_ = program("xu_vmf_join", screen_vertex_shader(), pass("xu_vmf_join.glsl", guards_, false));
   whole_ = stage(1);
   if (parts_ > 0) {
+    const GLuint at_once = options.word("j") == "adaptive" ? 6 : static_cast<GLuint>(parts_);
+    const auto split = [&](std::string_view title, bool guard) {
+      return program(title, screen_vertex_shader(), pass("xu_vmf_split.glsl", guard, false, layer_count(at_once)));
+    };
     split_stage_ = stage(at_once);
-    if (guards_) split_guard_.emplace("xu_vmf_split, guard", screen_vertex_shader(), split_text());
-    flags.clear();
-    split_.emplace("xu_vmf_split", screen_vertex_shader(), split_text());
-    if (guards_) flags.emplace("guard");
+    split_.emplace(split("xu_vmf_split", false));
+    if (guards_) split_guard_.emplace(split("xu_vmf_split, guard", true));
   }
   if (options.word("space") != "camera") return;
-  flags.emplace("camera");
-  join_surface_.emplace(
-      "xu_vmf_join, camera space",
-      frame_build_shader(variant, embedded::xu_vmf_raster_vertex_glsl, "xu_vmf_raster_vertex.glsl", options),
-      join_text());
+  join_surface_.emplace(program("xu_vmf_join, camera space", pass("xu_vmf_raster_vertex.glsl", guards_, true).text(),
+                                pass("xu_vmf_join.glsl", guards_, true)));
 }
 
 std::optional<BuildInputs> InstantMap::kept_until_change_of() const {
@@ -146,7 +134,7 @@ std::optional<BuildInputs> InstantMap::kept_until_change_of() const {
 
 void InstantMap::run(const FrameBuildJob& job) const {
   for (const GLenum off : {GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND}) gl::api().Disable(off);
-  gl::api().BindBufferBase(GL_UNIFORM_BUFFER, material_binding, job.batch.material_block.name());
+  gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::material, job.batch.material_block.name());
   join(job);
   for (const std::string_view name : {whole_name, whole_guard_name}) coarsen(job, name);
   if (parts_ == 0) return;

@@ -1,5 +1,6 @@
 // Covers texels with triangles as a rasteriser does, and packs charts into an atlas where coordinates overlap.
 #include "methods/xu_vmf/surface_layout.hpp"
+#include "renderer/scene/shelves.hpp"
 
 #include <fmt/format.h>
 
@@ -214,16 +215,9 @@ std::optional<glm::ivec2> pack(std::vector<Chart>& charts) {
   const auto rounded = [](int size) { return (size + multiple - 1) / multiple * multiple; };
   const int width = rounded(std::max(widest, static_cast<int>(std::ceil(std::sqrt(area)))));
   std::ranges::stable_sort(order, std::ranges::greater(), [](const Chart* chart) { return chart->box.size().y; });
-  glm::ivec2 pen(0);
-  int shelf = 0;
-  for (Chart* chart : order) {
-    const glm::ivec2 cell = chart->box.size() + chart_gap;
-    if (pen.x + cell.x > width) pen = {0, pen.y + shelf}, shelf = 0;
-    chart->place = pen + chart_gap / 2;
-    pen.x += cell.x;
-    shelf = std::max(shelf, cell.y);
-  }
-  const glm::ivec2 size(width, rounded(pen.y + shelf));
+  Shelves<int> shelves(width);
+  for (Chart* chart : order) chart->place = shelves.place(chart->box.size() + chart_gap) + chart_gap / 2;
+  const glm::ivec2 size(width, rounded(shelves.height()));
   if (static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) > largest_atlas) return {};
   return size;
 }

@@ -6,14 +6,16 @@
 
 #include "methods/xu_vmf/instant_map.hpp"
 #include "methods/xu_vmf/surface_layout.hpp"
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
 #include "renderer/image/mipmap.hpp"
-#include "renderer/pipeline/base_surface.hpp"
+#include "renderer/lobes/vmf.hpp"
 
 namespace footprint {
 
 namespace embedded {
-extern const std::string_view xu_vmf_glsl, xu_vmf_conversion_glsl, xu_vmf_cells_glsl;
+extern const EmbeddedTexts xu_vmf_glsl;
 }
 
 namespace {
@@ -58,18 +60,13 @@ bool can_join(const Material& material) {
   return normal.set == roughness.set && normal.transform == roughness.transform && same_wrap;
 }
 
-// 1 - |r| over the logarithm of kappa, 0.01 to 100 000 (hard to store otherwise: |r| is near 1 for most of it). Found
-// by Newton's steps in double precision.
+// 1 - |r| over the logarithm of kappa, 0.01 to 100 000 (hard to store otherwise: |r| is near 1 for most of it).
 Image shortfall_table() {
   constexpr int entries = 1024;
   Image table(entries, 1, 1);
   for (int i = 0; i < entries; ++i) {
     const double kappa = 1e-2 * std::pow(1e7, static_cast<double>(i) / (entries - 1));
-    double q = kappa >= 1.0 ? 1.0 / (kappa + 0.5) : 1.0 / (1.0 + kappa / 3.0);
-    for (int step = 0; step < 6; ++step) {
-      q -= (((q + kappa - 3.0) * q - 2.0 * kappa) * q + 2.0) / ((3.0 * q + 2.0 * (kappa - 3.0)) * q - 2.0 * kappa);
-    }
-    table.at(i, 0)[0] = static_cast<float>(q);
+    table.at(i, 0)[0] = static_cast<float>(vmf_shortfall(kappa));
   }
   return table;
 }
@@ -193,7 +190,7 @@ class XuVmf final : public Method {
 
   [[nodiscard]] int lobe_count(const Options& options) const override { return xu_vmf::most_lobes(options); }
 
-  [[nodiscard]] std::string_view shader() const override { return shader_; }
+  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::xu_vmf_glsl, "xu_vmf.glsl"); }
 
  private:
   MethodInfo info_{.name = "xu_vmf",
@@ -203,8 +200,6 @@ class XuVmf final : public Method {
                    .paper = "Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping, Computer Graphics Forum 36(4)",
                    .options = option_table(),
                    .honours = map_effects_but({Effect::normal_layers})};
-  std::string shader_ =
-      std::string(embedded::xu_vmf_glsl).append(embedded::xu_vmf_conversion_glsl).append(embedded::xu_vmf_cells_glsl);
 };
 
 }  // namespace

@@ -1,4 +1,6 @@
 // The further passes of the frame build: one level of some layers from the next finer one.
+//? include xu_vmf_storing.glsl
+
 layout(location = 0) out vec4 coarse[layer_count];
 
 uniform int first_layer;

@@ -2,6 +2,10 @@
 // facets with several lobes one for each, for the whole hemisphere: (r, 1), or 0 where the surface has no valid normal,
 // faces away, or is not at all. Means of texels are (w r, w): the share of the footprint that is covered, and its lobes'
 // mean.
+//? include xu_vmf_conversion.glsl
+//? include xu_vmf_table.glsl
+//? include xu_vmf_storing.glsl
+
 layout(location = 0) out vec4 joined;
 //? if guard
 layout(location = 1) out vec4 guard;  // 1 - |r|, which no rounding of r reaches

@@ -1,5 +1,8 @@
 // Second pass of the frame build: from the finest level, where a texel has one lobe, to the next one of some parts. The
 // finest level of a part is not stored: whether a texel's lobe is in it, its direction tells.
+//? include xu_vmf_cells.glsl
+//? include xu_vmf_storing.glsl
+
 layout(location = 0) out vec4 part[layer_count];
 
 uniform int source;      // the layer that is split

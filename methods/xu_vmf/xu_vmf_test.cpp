@@ -10,15 +10,10 @@
 
 #include "methods/xu_vmf/built_map.hpp"
 #include "methods/xu_vmf/shortfall_twin.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 #include "tests/support/method_probe.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/shader_probe.hpp"
 #include "tests/support/test_scenes.hpp"
-
-namespace footprint::embedded {
-extern const std::string_view xu_vmf_conversion_glsl, xu_vmf_table_glsl;
-}
 
 namespace footprint::testing {
 namespace {
@@ -34,10 +29,10 @@ std::vector<glm::vec4> converted(const std::string& body, const ProbeInputs& inp
   const gl::Sampler sampler = gl::nearest_sampler(GL_REPEAT, GL_REPEAT);
   gl::api().BindTextureUnit(0, table.texture.name());
   gl::api().BindSampler(0, sampler.name());
-  return evaluate_glsl("layout(binding = 0) uniform sampler2D table;\n" + shared_functions(flags) +
-                           select_text(embedded::xu_vmf_conversion_glsl, flags, "conversion") +
-                           select_text(embedded::xu_vmf_table_glsl, flags, "table"),
-                       body, inputs);
+  ShaderModule conversions = xu_vmf_method().shader();
+  conversions.text = "//? include xu_vmf_conversion.glsl\n//? include xu_vmf_table.glsl\n";
+  return evaluate_glsl("layout(binding = 0) uniform sampler2D table;\n" + shared_functions(flags, conversions), body,
+                       inputs);
 }
 
 ProbeInputs kappas(double first, double last, int count) {
@@ -227,7 +222,7 @@ TEST(XuMixture, KeepsKappaOverAConstantMapInHalfFloats) {
 Scene spread_facets(NormalDistribution distribution) {
   Scene scene = blinn_phong_square(random_normals(16, 16, 0.65F, 12), 300);
   scene.materials[0].brdf.distribution = distribution;
-  scene.materials[0].lobe_parameter = lobe_from_alpha(distribution, 0.04F);
+  scene.materials[0].lobe_parameter = static_cast<float>(lobe_from_alpha(distribution, 0.04F).parameter);
   return scene;
 }
 
@@ -320,7 +315,7 @@ TEST(XuMeanNormal, IsThatOfTheFacets) {
   truth /= 256.0;
   ASSERT_LT(glm::length(truth), 0.95);
   const std::string sum =
-      "vec3 sum = vec3(0.0);\nfor (int i = 0; i < e.count; ++i) sum += weights[i].y * lobes[i].xyz;\n"
+      "vec3 sum = vec3(0.0);\nfor (int i = 0; i < e.count; ++i) sum += e.weights[i].y * e.lobes[i].xyz;\n"
       "return vec4(sum / e.covered, 0.0);";
   for (const Scene& scene : {facets_of_two_roughnesses(normals), blinn_phong_square(normals, 30)}) {
     for (const std::string j : {"1", "4", "8", "adaptive"}) {

@@ -1,4 +1,4 @@
-// See bake_cache.hpp.
+// Files of a folder: named by a hash of what they hold the bake of, written whole, the oldest removed for room.
 #include "renderer/bake/bake_cache.hpp"
 
 #include <fmt/format.h>
@@ -11,10 +11,10 @@
 
 #include "renderer/bake/prefiltered_file.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/core/file_bytes.hpp"
 #include "renderer/core/files.hpp"
 #include "renderer/core/hash.hpp"
-#include "renderer/microgeometry/microgeometry.hpp"
-#include "renderer/scene/file_bytes.hpp"
+#include "renderer/scene/material_content.hpp"
 
 namespace footprint {
 namespace {
@@ -45,61 +45,6 @@ const std::string& program_identity() {
   return identity;
 }
 
-template <class Value>
-void add_value(ContentHash& hash, const Value& value) {
-  hash.add(std::as_bytes(std::span(&value, 1)));
-}
-
-void add_map(ContentHash& hash, const std::optional<TextureMap>& map) {
-  add_value(hash, map.has_value());
-  if (!map) return;
-  add_value(hash, map->image->width);
-  add_value(hash, map->image->height);
-  add_value(hash, map->image->channels);
-  hash.add(std::as_bytes(std::span(map->image->texels)));
-  add_value(hash, map->coordinates.set);
-  add_value(hash, map->coordinates.transform);
-  add_value(hash, map->coordinates.wrap);
-}
-
-template <class Value>
-void add_values(ContentHash& hash, const std::vector<Value>& values) {
-  hash.add(std::as_bytes(std::span(values)));
-}
-
-void add_patch(ContentHash& hash, const Patch& patch) {
-  add_value(hash, patch.period);
-  add_values(hash, patch.vertices);
-  add_values(hash, patch.triangles);
-  add_values(hash, patch.paints);
-  add_values(hash, patch.palette);
-}
-
-// Everything of a material but its name.
-void add_material(ContentHash& hash, const Material& m) {
-  add_value(hash, m.brdf.distribution);
-  add_value(hash, m.brdf.geometry);
-  add_value(hash, m.brdf.fresnel);
-  add_value(hash, m.brdf.diffuse);
-  add_value(hash, m.base_color);
-  add_value(hash, m.dielectric_specular);
-  add_value(hash, m.metallic);
-  add_value(hash, m.roughness);
-  add_value(hash, m.lobe_parameter.value_or(-1.0F));
-  add_value(hash, m.alpha_cutoff.value_or(-1.0F));
-  add_map(hash, m.base_color_map);
-  add_map(hash, m.metallic_roughness_map);
-  add_map(hash, m.normal_map);
-  add_map(hash, m.layer_map);
-  add_map(hash, m.lobe_parameter_map);
-  add_map(hash, m.specular_map);
-  add_value(hash, m.lobes.size());
-  for (const FacetLobe& lobe : m.lobes) add_value(hash, lobe);
-  if (!m.microgeometry) return;
-  add_patch(hash, m.microgeometry->patch);
-  if (m.microgeometry->brdf) add_values(hash, m.microgeometry->brdf->values);
-}
-
 struct KeptFile {
   fs::path path;
   std::uintmax_t bytes;
@@ -128,10 +73,10 @@ std::string BakeCache::key(const std::string& method, const Material& material, 
   for (const auto& [name, value] : options.all()) {
     hash.add(name);
     if (const auto* word = std::get_if<std::string>(&value)) hash.add(*word);
-    if (const auto* number = std::get_if<double>(&value)) add_value(hash, *number);
+    if (const auto* number = std::get_if<double>(&value)) hash.add(std::as_bytes(std::span(number, 1)));
   }
   hash.add(effects.to_string());
-  add_material(hash, material);
+  add_content(hash, material);
   return fmt::format("{}-{}", method, hash.hex());
 }
 

@@ -6,8 +6,8 @@
 #include <chrono>
 #include <fstream>
 
+#include "renderer/bake/baked_method.hpp"
 #include "renderer/bake/prefiltered_file.hpp"
-#include "renderer/pipeline/surface_program.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint {
@@ -114,7 +114,7 @@ class Counting final : public Method {
     ++count;
     return example();
   }
-  [[nodiscard]] std::string_view shader() const override { return {}; }
+  [[nodiscard]] ShaderModule shader() const override { return {}; }
   mutable int count = 0;
 
  private:

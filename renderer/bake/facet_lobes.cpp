@@ -1,4 +1,4 @@
-// See facet_lobes.hpp.
+// The rotation in closed form, sums over the lobes, and checks of each before it reaches a shader.
 #include "renderer/bake/facet_lobes.hpp"
 
 #include <fmt/format.h>
@@ -8,7 +8,6 @@
 #include <cstdint>
 
 #include "renderer/core/error.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint {
 namespace {
@@ -39,13 +38,12 @@ glm::dvec3 turned_with_normal(const glm::dvec3& axis, const glm::dvec3& normal) 
 }
 
 double mean_lobe_variance(const Material& material) {
-  const NormalDistribution distribution = material.brdf.distribution;
-  if (material.lobes.empty()) return lobe_variance(distribution, lobe_parameter(material));
+  if (material.lobes.empty()) return lobe_variance(lobe_of(material));
   double weight = 0.0;
   double variance = 0.0;
   for (const FacetLobe& lobe : material.lobes) {
     weight += lobe.weight;
-    variance += static_cast<double>(lobe.weight) * lobe_variance(distribution, lobe.parameter);
+    variance += static_cast<double>(lobe.weight) * lobe_variance({material.brdf.distribution, lobe.parameter});
   }
   return variance / weight;
 }
@@ -62,7 +60,7 @@ std::vector<glm::vec4> facet_lobe_block(const Material& material) {
     const FacetLobe& lobe = material.lobes[k];
     check_lobe(lobe, k, material);
     block[1 + 2 * k] = glm::vec4(lobe.axis, lobe.parameter);
-    block[2 + 2 * k] = {lobe.weight, lobe_variance(material.brdf.distribution, lobe.parameter), 0.0F, 0.0F};
+    block[2 + 2 * k] = {lobe.weight, lobe_variance({material.brdf.distribution, lobe.parameter}), 0.0F, 0.0F};
   }
   return block;
 }

@@ -1,57 +1,23 @@
-// Facets with several lobes: how axes turn, in C++ and GLSL, and what is shaded, against sums written out by hand.
+// Facets with several lobes: how axes turn, their mean width, and what is refused.
 #include "renderer/bake/facet_lobes.hpp"
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
-#include <numbers>
-#include <vector>
 
 #include "renderer/core/error.hpp"
-#include "renderer/pipeline/base_surface.hpp"
-#include "renderer/pipeline/shader_source.hpp"
-#include "tests/support/rendering.hpp"
-#include "tests/support/shader_probe.hpp"
-#include "tests/support/test_scenes.hpp"
+#include "tests/support/facet_axes.hpp"
 
 namespace footprint::testing {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr BaseBrdf plain{NormalDistribution::vmf, GeometryTerm::none, FresnelTerm::none, false};
-
-// The block and the functions over it.
-std::string multi_lobe_functions(const BaseBrdf& brdf) {
-  ShaderVariant variant;
-  variant.brdf = brdf;
-  for (const Effect effect : {Effect::multi_lobe, Effect::masking_shadowing, Effect::fresnel})
-    variant.effects.set(static_cast<std::size_t>(effect));
-  const ShaderFlags flags = shader_flags(variant, Options({}, {}, "test"));
-  return material_block(flags) + shared_functions(flags);
-}
-
-// Normals over the whole sphere, near both poles too.
-std::vector<glm::dvec3> normals() {
-  std::vector<glm::dvec3> out{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, -1, 0}};
-  for (const double theta : {1e-6, 1e-3, 0.4, 1.2, 1.57, 1.6, 2.5, pi - 1e-3, pi - 1e-6}) {
-    for (const double phi : {0.0, 0.7, 2.0, 4.4})
-      out.emplace_back(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
-  }
-  return out;
-}
-
-std::vector<glm::dvec3> axes() {
-  return {{0, 0, 1}, glm::normalize(glm::dvec3(1, 0, 1)), glm::normalize(glm::dvec3(-0.3, 0.8, 0.2))};
-}
-
 // The rotation about z x n by the angle between them, by quaternions.
 TEST(FacetLobes, AxesTurnByTheShortestRotation) {
-  for (const glm::dvec3& n : normals()) {
+  for (const glm::dvec3& n : sphere_normals()) {
     const glm::dvec3 about = glm::cross(glm::dvec3(0, 0, 1), n);
     const double sine = glm::length(about);
-    for (const glm::dvec3& axis : axes()) {
+    for (const glm::dvec3& axis : facet_axes()) {
       const glm::dvec3 turned = turned_with_normal(axis, n);
       EXPECT_NEAR(glm::length(turned), 1.0, 1e-12);
       EXPECT_NEAR(glm::dot(turned, n), axis.z, 1e-12);  // as far from n as the axis is from z
@@ -67,80 +33,15 @@ TEST(FacetLobes, TheOppositeNormalTurnsAboutTheBitangent) {
   EXPECT_LT(glm::length(turned - glm::dvec3(-0.6, 0.48, -0.64)), 1e-15);
 }
 
-TEST(FacetLobes, GlslTurnsAsCppAndBack) {
-  std::vector<std::array<glm::vec4, 3>> inputs;
-  for (const glm::dvec3& n : normals()) {
-    for (const glm::dvec3& axis : axes()) inputs.push_back({glm::vec4(axis, 0), glm::vec4(n, 0), {}});
-  }
-  const std::string functions = multi_lobe_functions(plain);
-  const auto there = evaluate_glsl(functions, "return vec4(turnedWithNormal(a.xyz, b.xyz), 0.0);", inputs);
-  const auto back =
-      evaluate_glsl(functions, "return vec4(inFacetFrame(turnedWithNormal(a.xyz, b.xyz), b.xyz), 0.0);", inputs);
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const glm::dvec3 axis(inputs[i][0]), n(inputs[i][1]);
-    EXPECT_LT(glm::length(glm::dvec3(there[i]) - turned_with_normal(axis, n)), 1e-6) << n.x << " " << n.y << " " << n.z;
-    EXPECT_LT(glm::length(glm::dvec3(back[i]) - axis), 1e-6) << n.x << " " << n.y << " " << n.z;
-  }
-}
-
-const std::vector<FacetLobe> two_lobes{{.axis = {0.6F, 0.0F, 0.8F}, .parameter = 60.0F, .weight = 0.75F},
-                                       {.axis = {0.0F, -0.6F, 0.8F}, .parameter = 20.0F, .weight = 0.5F}};
-
-// A square of tilted facets under one light, and its specular radiance at a pixel, in doubles: equation 6 of Xu 2017
-// about axes turned by a quaternion.
-TEST(FacetLobes, AFrameIsTheSumOverTheLobes) {
-  const glm::dvec3 normal = glm::normalize(glm::dvec3(0.3, -0.2, 0.9));
-  Scene scene = square_scene(constant_normals(4, 4, glm::vec3(normal)), {.brdf = plain, .specular = glm::vec3(0.5F)});
-  scene.materials[0].lobes = two_lobes;
-  constexpr int size = 16;
-  const Image picture = TestRenderer(scene, {size, size}).frame(base_surface());
-  const glm::dvec3 about = glm::normalize(glm::cross(glm::dvec3(0, 0, 1), normal));
-  const glm::dvec3 light(0.4, 0.3, 1.5), camera(0, 0, 3);
-  for (const glm::ivec2 pixel : {glm::ivec2(3, 4), glm::ivec2(9, 12), glm::ivec2(13, 2)}) {
-    // The square is as large as the frame, and rows start at the top.
-    const glm::dvec3 place(2.0 * (pixel.x + 0.5) / size - 1.0, 1.0 - 2.0 * (pixel.y + 0.5) / size, 0.0);
-    const glm::dvec3 to_light = light - place;
-    const glm::dvec3 h = glm::normalize(glm::normalize(to_light) + glm::normalize(camera - place));
-    double expected = 0;
-    for (const FacetLobe& lobe : two_lobes) {
-      const glm::dvec3 axis = glm::angleAxis(std::acos(normal.z), about) * glm::dvec3(lobe.axis);
-      const double kappa = lobe.parameter;
-      expected += lobe.weight * kappa / (2 * pi * (1 - std::exp(-2 * kappa))) * std::exp(kappa * (dot(axis, h) - 1));
-    }
-    expected *= 0.5 * 4.0 / glm::dot(to_light, to_light);
-    EXPECT_NEAR(picture.at(pixel.x, pixel.y)[0], expected, 1e-4 * expected + 1e-7) << pixel.x << " " << pixel.y;
-  }
-}
-
-// One lobe about the normal, said in full, is what is drawn without: with every distribution and geometry term.
-TEST(FacetLobes, OneLobeAboutTheNormalIsTheBaseLobe) {
-  for (const BaseBrdf& brdf : {BaseBrdf{},
-                               {NormalDistribution::beckmann, GeometryTerm::tan, FresnelTerm::schlick, true},
-                               {NormalDistribution::blinn_phong, GeometryTerm::smith, FresnelTerm::none, true}}) {
-    Scene scene = square_scene(random_normals(32, 32, 0.6F, 7), {.brdf = brdf, .roughness = 0.4F});
-    const Image plain_picture = TestRenderer(scene).frame(base_surface());
-    scene.materials[0].lobes = {{.axis = {0, 0, 1}, .parameter = lobe_parameter(scene.materials[0]), .weight = 1.0F}};
-    EXPECT_LT(largest_difference(TestRenderer(scene).frame(base_surface()), plain_picture), 1e-4);
-  }
-}
-
-// A material without lobes beside one with: the effect is on for both.
-TEST(FacetLobes, AMaterialWithoutLobesKeepsItsOwn) {
-  Scene scene = square_scene(random_normals(8, 8, 0.4F, 7), {.brdf = plain, .specular = glm::vec3(0.5F)});
-  const Image alone = TestRenderer(scene).frame(base_surface());
-  scene.materials.push_back(scene.materials[0]);
-  scene.materials[1].lobes = two_lobes;
-  EXPECT_LT(largest_difference(TestRenderer(scene).frame(base_surface()), alone), 1e-6);
-}
-
 // Both axes lean by a slope of 0.75: half of its square an axis.
 TEST(FacetLobes, WhoLeavesThemOutTakesTheirVarianceAboutTheNormal) {
   Material material;
-  material.brdf = plain;
-  material.lobes = two_lobes;
+  material.brdf.distribution = NormalDistribution::vmf;
+  material.lobes = {{.axis = {0.6F, 0.0F, 0.8F}, .parameter = 60.0F, .weight = 0.75F},
+                    {.axis = {0.0F, -0.6F, 0.8F}, .parameter = 20.0F, .weight = 0.5F}};
   const double own = (0.75 / 60 + 0.5 / 20) / 1.25;
   EXPECT_NEAR(mean_lobe_variance(material), own, 1e-6);
-  EXPECT_NEAR(lobe_parameter(material), 1.0 / (own + 0.5 * 0.75 * 0.75), 1e-4);
+  EXPECT_NEAR(lobe_of(material).parameter, 1.0 / (own + 0.5 * 0.75 * 0.75), 1e-4);
 }
 
 TEST(FacetLobes, WhatIsNoLobeIsRefused) {

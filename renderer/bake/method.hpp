@@ -3,11 +3,11 @@
 
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "renderer/bake/frame_build.hpp"
 #include "renderer/bake/prefiltered.hpp"
+#include "renderer/bake/shader_module.hpp"
 #include "renderer/core/options.hpp"
 #include "renderer/core/progress.hpp"
 #include "renderer/effects/effects.hpp"
@@ -67,7 +67,7 @@ class Method {
   [[nodiscard]] virtual int lobe_count(const Options& /*options*/) const { return 1; }
 
   /// The GLSL module that evaluates the effective BRDF (renderer/shaders/README.md gives its contract).
-  [[nodiscard]] virtual std::string_view shader() const = 0;
+  [[nodiscard]] virtual ShaderModule shader() const = 0;
 };
 
 }  // namespace footprint

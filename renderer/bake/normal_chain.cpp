@@ -1,11 +1,11 @@
-// See normal_chain.hpp.
+// Chains by weighted means: invalid texels leave the mean of the others as it is.
 #include "renderer/bake/normal_chain.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/bake/material_maps.hpp"
 #include "renderer/image/mipmap.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint {
 namespace {
@@ -53,8 +53,9 @@ Prefiltered bake_mean_normal(const Material& material, Storage storage, const Ef
 Image lobe_variance_map(const Material& material) {
   const NormalDistribution distribution = material.brdf.distribution;
   Image variance = lobe_parameter_map_of(material);
-  std::ranges::transform(variance.texels, variance.texels.begin(),
-                         [&](float lobe) { return lobe_variance(distribution, lobe); });
+  std::ranges::transform(variance.texels, variance.texels.begin(), [&](float parameter) {
+    return lobe_variance({distribution, parameter});
+  });
   return variance;
 }
 

@@ -1,4 +1,4 @@
-// See patch_facets.hpp.
+// Facets sorted by normal, and what each sees as bits, 24 in each channel of a 32-bit float.
 #include "renderer/bake/patch_facets.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// See prefiltered.hpp.
+// Encoding of each storage, with rounding of our own, and back.
 #include "renderer/bake/prefiltered.hpp"
 
 #include <Imath/half.h>
@@ -12,13 +12,13 @@
 #include <utility>
 
 #include "renderer/core/error.hpp"
-#include "renderer/core/suggest.hpp"
+#include "renderer/core/words.hpp"
 #include "renderer/image/mipmap.hpp"
 
 namespace footprint {
 namespace {
 
-constexpr std::array<std::pair<Storage, std::string_view>, 3> storages{
+constexpr std::array<Word<Storage>, 3> storages{
     {{Storage::fp32, "fp32"}, {Storage::fp16, "fp16"}, {Storage::unorm8, "unorm8"}}};
 constexpr float largest_half = 65504.0F;
 
@@ -94,17 +94,9 @@ std::vector<TextureLevel> encode_levels(const std::string& name, std::span<const
 
 }  // namespace
 
-std::string_view storage_name(Storage storage) {
-  return std::ranges::find(storages, storage, &std::pair<Storage, std::string_view>::first)->second;
-}
+std::string_view storage_name(Storage storage) { return word_for(storages, storage); }
 
-Storage parse_storage(std::string_view word) {
-  for (const auto& [storage, name] : storages) {
-    if (name == word) return storage;
-  }
-  const std::vector<std::string> names{"fp32", "fp16", "unorm8"};
-  throw Error(ErrorKind::usage, "storage", fmt::format("unknown storage `{}`", word), suggestion(word, names));
-}
+Storage parse_storage(std::string_view word) { return word_value(storages, word, "storage", "storage"); }
 
 std::size_t byte_count(const PrefilteredTexture& texture) {
   const std::size_t texel_bytes = channel_bytes(texture.storage) * static_cast<std::size_t>(texture.channels) *

@@ -1,4 +1,4 @@
-// See prefiltered_file.hpp.
+// A header, the fields in order, and a checksum over all; what does not add up is no bake.
 #include "renderer/bake/prefiltered_file.hpp"
 
 #include <algorithm>

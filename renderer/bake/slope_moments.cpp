@@ -1,4 +1,4 @@
-// See slope_moments.hpp.
+// Moments of each texel in 64 bits, then the weighted chain of them.
 #include "renderer/bake/slope_moments.hpp"
 
 #include <fmt/format.h>
@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/normal_chain.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/mipmap.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint {
 namespace {

@@ -1,4 +1,4 @@
-// Moments of slope against sums over texels and pairs of texels, golden numbers and their GLSL twins.
+// Moments of slope against sums over texels and pairs of texels, and golden numbers.
 #include "renderer/bake/slope_moments.hpp"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,6 @@
 
 #include "renderer/bake/prefiltered.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/pipeline/shader_source.hpp"
-#include "tests/support/shader_probe.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint::testing {
@@ -150,37 +148,6 @@ TEST(SlopeMoments, CancellationStaysWithinTheGoldenErrors) {
     std::ranges::sort(errors);
     EXPECT_LE(errors[200], 1.1 * g.median) << g.mean << ", " << g.deviation;
     EXPECT_LE(errors[396], 1.3 * g.p99) << g.mean << ", " << g.deviation;
-  }
-}
-
-// The nearest matrix without negative eigenvalues, in GLSL as in C++; no determinant is below zero by more than
-// rounding.
-TEST(SlopeMoments, GlslRecoversTheSameCovariance) {
-  std::mt19937 random(6);
-  std::uniform_real_distribution<float> uniform(-1.0F, 1.0F);
-  std::vector<std::array<glm::vec4, 3>> inputs;
-  for (int i = 0; i < 500; ++i) {
-    const glm::vec2 mean(uniform(random), uniform(random));
-    const glm::vec3 noise(uniform(random), uniform(random), uniform(random));
-    const float size = i % 2 == 0 ? 0.5F : 0.01F;
-    inputs.push_back({glm::vec4(mean, 0, 0),
-                      glm::vec4(glm::vec3(mean.x * mean.x, mean.x * mean.y, mean.y * mean.y) + size * noise, 0),
-                      glm::vec4(0)});
-  }
-  ShaderVariant variant;
-  ShaderFlags flags = shader_flags(variant, Options({}, {}, "test"));
-  flags.insert("roughness_stretched");
-  const auto out = evaluate_glsl(
-      "vec4 lobe_cutoff;\n" + shared_functions(flags) + select_text("//? include common_slopes.glsl\n", flags, "test"),
-      "mat2 s = slopeCovariance(a.xy, b.xyz); return vec4(s[0], s[1]);", inputs);
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const auto& [b, m, unused] = inputs[i];
-    const glm::dmat2 expected = covariance({glm::dvec2(b), {m.x, m.y, m.y, m.z}});
-    EXPECT_NEAR(out[i].x, expected[0][0], 1e-6);
-    EXPECT_NEAR(out[i].y, expected[0][1], 1e-6);
-    EXPECT_NEAR(out[i].w, expected[1][1], 1e-6);
-    EXPECT_EQ(out[i].y, out[i].z);
-    EXPECT_GE(expected[0][0] * expected[1][1] - expected[0][1] * expected[0][1], -1e-15);
   }
 }
 

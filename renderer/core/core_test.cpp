@@ -13,6 +13,7 @@
 #include "renderer/core/interrupt.hpp"
 #include "renderer/core/options.hpp"
 #include "renderer/core/suggest.hpp"
+#include "renderer/core/words.hpp"
 #include "tests/support/says.hpp"
 
 namespace footprint {
@@ -84,6 +85,26 @@ TEST(NearestName, ShortNamesMayDifferByTwo) {
 TEST(Suggestion, NamesTheNearestAndAllKnown) {
   EXPECT_EQ(suggestion("toksvik", methods), "did you mean `toksvig`? known: direct, naive_mip, toksvig");
   EXPECT_EQ(suggestion("zzzzzzzzzz", methods), "known: direct, naive_mip, toksvig");
+}
+
+// --- words.hpp
+
+constexpr std::array<Word<int>, 3> sizes{{{10, "small"}, {20, "medium"}, {30, "large"}}};
+
+TEST(Words, StandForTheirValues) {
+  EXPECT_EQ(word_names(sizes), (std::vector<std::string>{"small", "medium", "large"}));
+  EXPECT_EQ(word_value(sizes, "medium", "size", "--size"), 20);
+  EXPECT_EQ(word_for(sizes, 30), "large");
+}
+
+TEST(Words, AWrongOneIsRefusedWithTheNearest) {
+  try {
+    (void)word_value(sizes, "lagre", "size", "--size");
+    FAIL() << "an unknown word was taken";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_STREQ(error.what(), "--size: unknown size `lagre` (did you mean `large`? known: small, medium, large)");
+  }
 }
 
 // --- options.hpp

@@ -10,6 +10,7 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/suggest.hpp"
+#include "renderer/core/words.hpp"
 
 namespace footprint {
 namespace {
@@ -29,9 +30,7 @@ double parse_number(const OptionSpec& spec, const std::string& text, std::string
 }
 
 std::string parse_word(const OptionSpec& spec, const std::string& text, std::string_view owner) {
-  if (std::ranges::find(spec.choices, text) != spec.choices.end()) return text;
-  throw Error(ErrorKind::usage, fmt::format("{}, option {}", owner, spec.name), fmt::format("unknown value `{}`", text),
-              suggestion(text, spec.choices));
+  return spec.choices[find_word(spec.choices, text, "value", fmt::format("{}, option {}", owner, spec.name))];
 }
 
 Value parse_value(const OptionSpec& spec, const std::string& text, std::string_view owner) {
@@ -92,7 +91,8 @@ OptionSpec word_option(std::string name, const std::vector<std::string>& choices
 }
 
 Options::Options(const std::vector<OptionSpec>& specs, const std::map<std::string, std::string>& given,
-                 std::string_view owner) {
+                 std::string_view owner)
+    : specs_(specs) {
   std::vector<std::string> names;
   for (const OptionSpec& spec : specs) {
     names.push_back(spec.name);

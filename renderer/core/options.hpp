@@ -43,8 +43,11 @@ class Options {
   [[nodiscard]] const std::map<std::string, std::variant<double, std::string>, std::less<>>& all() const {
     return values_;
   }
+  /// The table.
+  [[nodiscard]] const std::vector<OptionSpec>& specs() const { return specs_; }
 
  private:
+  std::vector<OptionSpec> specs_;
   std::map<std::string, std::variant<double, std::string>, std::less<>> values_;
 };
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/core/file_bytes.hpp"
 #include "renderer/core/suggest.hpp"
-#include "renderer/scene/file_bytes.hpp"
 
 namespace footprint {
 namespace {

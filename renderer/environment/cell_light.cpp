@@ -1,4 +1,4 @@
-// See cell_light.hpp.
+// Each texel of the environment gives its light to the cell that it lies in.
 #include "renderer/environment/cell_light.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// See direction_table.hpp.
+// Each texel's share of all light, and the alias table of the shares (Vose 1991).
 #include "renderer/environment/direction_table.hpp"
 
 #include <numeric>

@@ -1,4 +1,4 @@
-// See octahedral.hpp.
+// The fold of the lower half over the upper, and the border that bilinear filtering needs.
 #include "renderer/environment/octahedral.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// See radiance_stack.hpp.
+// Sums over the rows and columns of the environment that a lobe reaches, for each texel of each layer.
 #include "renderer/environment/radiance_stack.hpp"
 
 #include <tbb/parallel_for.h>

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "renderer/core/error.hpp"
-#include "renderer/core/suggest.hpp"
 #include "renderer/gl/debug_log.hpp"
 #include "renderer/gl/functions.hpp"
 #include "renderer/gl/native_context.hpp"
@@ -175,18 +174,6 @@ struct Context::Impl {
   }
 };
 
-std::string_view backend_name(Backend backend) {
-  switch (backend) {
-    case Backend::egl:
-      return "egl";
-    case Backend::egl_device:
-      return "egl-device";
-    case Backend::osmesa:
-      return "osmesa";
-  }
-  throw std::logic_error("not a backend");
-}
-
 Context::Context(const ContextRequest& request) {
   if (request.device != 0 && request.backend != Backend::egl_device) {
     throw Error(ErrorKind::usage, fmt::format("device {}", request.device), "only the backend egl-device has devices",
@@ -247,16 +234,6 @@ std::vector<BackendReport> probe_backends() {
     for (int device = 0; device < devices; ++device) probe(backend, device);
   }
   return reports;
-}
-
-std::optional<Backend> parse_backend(const std::string& word) {
-  if (word == "auto") return std::nullopt;
-  std::vector<std::string> known = {"auto"};
-  for (const Backend backend : all_backends) {
-    if (word == backend_name(backend)) return backend;
-    known.emplace_back(backend_name(backend));
-  }
-  throw Error(ErrorKind::usage, "backend", fmt::format("there is no backend `{}`", word), suggestion(word, known));
 }
 
 }  // namespace footprint::gl

@@ -1,18 +1,30 @@
 // A headless OpenGL 4.5 core context, by EGL surfaceless, EGL device or OSMesa.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "renderer/core/words.hpp"
+
 namespace footprint::gl {
 
 enum class Backend { egl, egl_device, osmesa };
 
-/// As the command line writes them: egl, egl-device, osmesa.
-[[nodiscard]] std::string_view backend_name(Backend backend);
+/// As users write them; `auto` is none.
+inline constexpr std::array<Word<std::optional<Backend>>, 4> backend_words{{
+    {std::nullopt, "auto"},
+    {Backend::egl, "egl"},
+    {Backend::egl_device, "egl-device"},
+    {Backend::osmesa, "osmesa"},
+}};
+
+[[nodiscard]] constexpr std::string_view backend_name(Backend backend) {
+  return word_for(backend_words, std::optional(backend));
+}
 
 /// What a context says of itself.
 struct ContextInfo {
@@ -66,8 +78,5 @@ struct BackendReport {
 
 /// Tries every backend and every EGL device.
 [[nodiscard]] std::vector<BackendReport> probe_backends();
-
-/// Errors (usage) with the nearest right name; "auto" gives an empty backend.
-[[nodiscard]] std::optional<Backend> parse_backend(const std::string& word);
 
 }  // namespace footprint::gl

@@ -225,10 +225,7 @@ TEST(Backends, WorkOnThreadsOfTheirOwn) {
   work(3.0f);
 }
 
-TEST(Backends, AutoTakesTheFirst) {
-  EXPECT_EQ(Context({}).info().backend, Backend::egl);
-  EXPECT_EQ(Context({.backend = parse_backend("auto")}).info().backend, Backend::egl);
-}
+TEST(Backends, AutoTakesTheFirst) { EXPECT_EQ(Context({}).info().backend, Backend::egl); }
 
 TEST(Backends, AFailedContextLeavesTheCurrentOneAlone) {
   const Context context({.backend = Backend::egl});
@@ -295,15 +292,15 @@ TEST(Backends, ADeviceOfABackendWithoutDevicesIsAUsageError) {
   EXPECT_THAT(error_of({.backend = {}, .device = 1}).mend(), HasSubstr("egl-device"));
 }
 
-TEST(ParseBackend, KnowsEachNameAndSuggestsTheNearest) {
-  EXPECT_EQ(parse_backend("auto"), std::nullopt);
-  for (const Backend backend : backends) EXPECT_EQ(parse_backend(std::string(backend_name(backend))), backend);
+TEST(BackendWords, NameEachAndNoneForAuto) {
+  EXPECT_EQ(word_value(backend_words, "auto", "backend", ""), std::nullopt);
+  for (const Backend backend : backends) EXPECT_EQ(word_value(backend_words, backend_name(backend), "", ""), backend);
   try {
-    static_cast<void>(parse_backend("omesa"));
+    static_cast<void>(word_value(backend_words, "omesa", "backend", "--backend"));
     FAIL() << "an unknown backend was taken";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
-    EXPECT_THAT(error.what(), HasSubstr("omesa"));
+    EXPECT_THAT(error.what(), HasSubstr("--backend: unknown backend `omesa`"));
     EXPECT_THAT(error.mend(), HasSubstr("did you mean `osmesa`"));
   }
 }

@@ -1,4 +1,4 @@
-// See direction_grid.hpp.
+// The concentric map and its inverse, and the cells around a direction.
 #include "renderer/microgeometry/direction_grid.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// See facet_samples.hpp.
+// A triangle for each sample by its share of the area, and a random point of it.
 #include "renderer/microgeometry/facet_samples.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// See facet_visibility.hpp.
+// Samples binned over a torus, and every triangle held against the samples that it covers in projection.
 #include "renderer/microgeometry/facet_visibility.hpp"
 
 #include <tbb/enumerable_thread_specific.h>

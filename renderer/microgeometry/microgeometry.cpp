@@ -1,4 +1,4 @@
-// See microgeometry.hpp.
+// The highest triangle over each texel of a patch seen from above.
 #include "renderer/microgeometry/microgeometry.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// See patch.hpp.
+// Planes and colours of triangles, and what is refused as a patch.
 #include "renderer/microgeometry/patch.hpp"
 
 #include <fmt/format.h>

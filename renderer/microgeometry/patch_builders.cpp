@@ -1,4 +1,4 @@
-// See patch_builders.hpp.
+// Triangles of a grid over one period, and the two triangles of each quadrilateral of a strip.
 #include "renderer/microgeometry/patch_builders.hpp"
 
 #include <utility>

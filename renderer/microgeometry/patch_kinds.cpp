@@ -1,4 +1,4 @@
-// See patch_kinds.hpp.
+// The table of kinds, and how each makes its triangles.
 #include "renderer/microgeometry/patch_kinds.hpp"
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "renderer/core/error.hpp"
-#include "renderer/core/suggest.hpp"
+#include "renderer/core/words.hpp"
 #include "renderer/microgeometry/patch_builders.hpp"
 
 namespace footprint {
@@ -129,11 +129,8 @@ std::span<const PatchKind> patch_kinds() {
 
 const PatchKind& find_patch_kind(const std::string& name) {
   std::vector<std::string> names;
-  for (const PatchKind& kind : patch_kinds()) {
-    if (kind.name == name) return kind;
-    names.push_back(kind.name);
-  }
-  throw Error(ErrorKind::usage, "microgeometry", fmt::format("unknown kind `{:.80}`", name), suggestion(name, names));
+  for (const PatchKind& kind : patch_kinds()) names.push_back(kind.name);
+  return patch_kinds()[find_word(names, name, "kind", "microgeometry")];
 }
 
 Patch make_patch(const PatchKind& kind, const std::map<std::string, std::string>& given, std::uint64_t seed) {

@@ -1,4 +1,4 @@
-// See ray_traced_tiling.hpp.
+// A scene of as many copies of the patch as a ray may cross.
 #include "renderer/microgeometry/ray_traced_tiling.hpp"
 
 #include <embree3/rtcore.h>

@@ -1,4 +1,4 @@
-// See tabulated_brdf.hpp.
+// From directions to the cell of half and difference angles, and tables filled from functions.
 #include "renderer/microgeometry/tabulated_brdf.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// See footprint_texels.hpp.
+// Stretches of both maps' texels along both axes, their products as facets, and equal facets as one.
 #include "renderer/ndf/footprint_texels.hpp"
 
 #include <fmt/format.h>
@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "renderer/bake/facet_lobes.hpp"
+#include "renderer/bake/material_maps.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint {
 namespace {

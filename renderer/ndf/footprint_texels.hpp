@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "renderer/ndf/base_lobe.hpp"
+#include "renderer/lobes/lobe.hpp"
 #include "renderer/scene/material.hpp"
 
 namespace footprint {

@@ -1,4 +1,4 @@
-// See hemisphere_grid.hpp.
+// Gauss-Legendre nodes in z, even azimuths on each ring.
 #include "renderer/ndf/hemisphere_grid.hpp"
 
 #include <algorithm>
@@ -53,7 +53,7 @@ HemisphereGrid hemisphere_grid(int resolution) {
   return grid;
 }
 
-int resolution_for(const BaseLobe& narrowest) {
+int resolution_for(const Lobe& narrowest) {
   constexpr double least = 64.0;
   const double rings = ring_spacing / (0.5 * lobe_width(narrowest));
   return static_cast<int>(std::ceil(std::clamp(rings, least, static_cast<double>(largest_resolution))));

@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "renderer/ndf/base_lobe.hpp"
+#include "renderer/lobes/lobe.hpp"
 
 namespace footprint {
 
@@ -24,7 +24,7 @@ inline constexpr int smallest_resolution = 16, largest_resolution = 2048;
 
 /// The resolution whose directions lie half a width of the lobe apart, from 64 on and at most `largest_resolution`:
 /// sums over the grid then integrate the lobe and its square to 1e-4 and miss no peak by more than 6%.
-[[nodiscard]] int resolution_for(const BaseLobe& narrowest);
+[[nodiscard]] int resolution_for(const Lobe& narrowest);
 
 /// About how many directions a grid has.
 [[nodiscard]] double direction_count(int resolution);

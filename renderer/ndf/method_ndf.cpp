@@ -1,4 +1,4 @@
-// See method_ndf.hpp.
+// The method's module over a square of directions, in place of a frame.
 #include "renderer/ndf/method_ndf.hpp"
 
 #include <fmt/format.h>
@@ -7,14 +7,14 @@
 #include <array>
 #include <cmath>
 
-#include "renderer/pipeline/base_surface.hpp"
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/pipeline/bindings.hpp"
 #include "renderer/scene/plane.hpp"
 
 namespace footprint {
 namespace {
 
 constexpr int largest_edge = 1024;  // of the square of directions that is evaluated at once
-constexpr GLuint material_binding = 0;
 constexpr std::array<GLenum, 1> density_format{GL_R32F};
 
 ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, int probes) {
@@ -28,10 +28,9 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, int pr
 }
 
 gl::Program program_of(const GpuScene& scene, const BakedMethod& baked, int probes) {
-  return {fmt::format("ndf of {} (lines below {} are of {}.glsl)", baked.spec.text, first_shared_line, baked.spec.name),
-          screen_vertex_shader(),
-          ndf_shader(variant_of(scene, baked, probes), baked.method->shader(), baked.spec.name, baked.options,
-                     baked.materials.front())};
+  const ShaderText density =
+      ndf_shader(variant_of(scene, baked, probes), baked.method->shader(), baked.options, baked.materials.front());
+  return {fmt::format("ndf of {} ({})", baked.spec.text, density.lines()), screen_vertex_shader(), density.text()};
 }
 
 // From above, so that the camera's axes are the plane's own.
@@ -82,8 +81,7 @@ MethodNdf::MethodNdf(const gl::ContextInfo& context, GpuScene& scene, const Bake
     : scene_(&scene),
       material_(&material),
       gpu_(scene, baked),
-      directions_unit_(static_cast<GLuint>(scene.batches().front().shared_textures.size() +
-                                           baked.materials.front().textures.size())),
+      directions_unit_(static_cast<GLuint>(TextureUnits(scene.effects(), baked.materials.front()).size())),
       edge_(std::min({tile > 0 ? tile : largest_edge, context.max_framebuffer_size, context.max_texture_size})),
       program_(program_of(scene, baked, probes)) {
   GLuint name = 0;
@@ -119,7 +117,7 @@ void MethodNdf::draw(const gl::RenderTarget& target, const gl::Texture& directio
   gl::api().Disable(GL_DEPTH_TEST);
   gl::api().Disable(GL_CULL_FACE);
   gl::api().UseProgram(program_.name());
-  gl::api().BindBufferBase(GL_UNIFORM_BUFFER, material_binding, batch.material_block.name());
+  gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::material, batch.material_block.name());
   gpu_.bind(batch, *scene_, Lookup::trilinear);
   gl::api().BindTextureUnit(directions_unit_, directions.name());
   gl::api().BindSampler(directions_unit_, 0);

@@ -1,4 +1,4 @@
-// See ndf_figures.hpp.
+// Sums over the quadrature of the hemisphere.
 #include "renderer/ndf/ndf_figures.hpp"
 
 #include <algorithm>

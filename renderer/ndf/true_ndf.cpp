@@ -1,4 +1,4 @@
-// See true_ndf.hpp.
+// The sum over facets for each direction: those that a cell of directions can see, by a table of the lobe.
 #include "renderer/ndf/true_ndf.hpp"
 
 #include <tbb/blocked_range.h>
@@ -35,7 +35,7 @@ TrueNdf::TrueNdf(NormalDistribution distribution, const std::vector<WeightedFace
     double support = 0.0;
     for (; i < order.size() && order[i].first == place; ++i) {
       const WeightedFacet& f = facets[order[i].second];
-      const BaseLobe lobe{distribution, f.parameter};
+      const Lobe lobe{distribution, f.parameter};
       facets_.push_back(
           {f.normal, 0.5 * std::max(1.0 - glm::dot(f.normal, f.normal), 0.0), f.parameter, f.share * lobe_peak(lobe)});
       support = std::max(support, lobe_support(lobe));
@@ -50,7 +50,7 @@ TrueNdf::TrueNdf(NormalDistribution distribution, const std::vector<WeightedFace
     cells_.push_back(cell);
   }
   const auto is_first = [&](const Facet& f) { return f.parameter == facets_.front().parameter; };
-  if (std::ranges::all_of(facets_, is_first)) profile_.emplace(BaseLobe{distribution, facets_.front().parameter});
+  if (std::ranges::all_of(facets_, is_first)) profile_.emplace(Lobe{distribution, facets_.front().parameter});
 }
 
 template <class Shape>
@@ -87,7 +87,7 @@ std::vector<double> TrueNdf::densities(std::span<const glm::vec3> directions, co
 
 double TrueNdf::expected_energy() const {
   const auto energy_of = [&](const Facet& f) {
-    const BaseLobe lobe{distribution_, f.parameter};
+    const Lobe lobe{distribution_, f.parameter};
     return f.amplitude / lobe_peak(lobe) * lobe_energy(lobe, f.normal.z);
   };
   return tbb::parallel_deterministic_reduce(
@@ -99,7 +99,7 @@ double TrueNdf::expected_energy() const {
       [](double a, double b) { return a + b; });
 }
 
-BaseLobe TrueNdf::narrowest() const {
+Lobe TrueNdf::narrowest() const {
   const auto width = [&](const Facet& f) { return lobe_width({distribution_, f.parameter}); };
   return {distribution_, std::ranges::min_element(facets_, {}, width)->parameter};
 }

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "renderer/core/progress.hpp"
+#include "renderer/lobes/lobe_profile.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
-#include "renderer/ndf/lobe_profile.hpp"
 
 namespace footprint {
 
@@ -28,7 +28,7 @@ class TrueNdf {
   [[nodiscard]] double expected_energy() const;
 
   /// The narrowest lobe under the footprint.
-  [[nodiscard]] BaseLobe narrowest() const;
+  [[nodiscard]] Lobe narrowest() const;
 
  private:
   struct Facet {

@@ -10,7 +10,6 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/ndf/ndf_figures.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint::testing {
@@ -19,7 +18,7 @@ namespace {
 using enum NormalDistribution;
 using std::numbers::pi;
 
-Material material_of(const Image& normals, const BaseLobe& lobe, Wrap wrap = Wrap::repeat) {
+Material material_of(const Image& normals, const Lobe& lobe, Wrap wrap = Wrap::repeat) {
   Material material;
   material.name = "test";
   material.brdf = {lobe.distribution, GeometryTerm::none, FresnelTerm::none, false};
@@ -67,8 +66,8 @@ TEST(HemisphereGrid, SumsToTheHemisphereAndItsProjection) {
 
 // The resolution that a lobe asks for integrates it, and its square, wherever it leans.
 TEST(HemisphereGrid, IntegratesTheLobesThatItIsMadeFor) {
-  for (const BaseLobe& lobe :
-       {BaseLobe{blinn_phong, 64}, {blinn_phong, 512}, {vmf, 2000}, {beckmann, 0.1}, {ggx, 0.05}, {blinn_phong, 1e4}}) {
+  for (const Lobe& lobe :
+       {Lobe{blinn_phong, 64}, {blinn_phong, 512}, {vmf, 2000}, {beckmann, 0.1}, {ggx, 0.05}, {blinn_phong, 1e4}}) {
     const HemisphereGrid grid = hemisphere_grid(resolution_for(lobe));
     for (const double tilt : {0.0, 0.41, 0.9, 1.5}) {
       const TrueNdf ndf(lobe.distribution, {{{std::sin(tilt), 0.0, std::cos(tilt)}, lobe.parameter, 1.0}});
@@ -165,7 +164,7 @@ TEST(FootprintTexels, RefuseRectanglesThatAreNone) {
 }
 
 TEST(TrueNdf, OfOneNormalIsTheLobe) {
-  for (const BaseLobe& lobe : {BaseLobe{blinn_phong, 64}, {beckmann, 0.3}, {ggx, 0.2}, {vmf, 100}}) {
+  for (const Lobe& lobe : {Lobe{blinn_phong, 64}, {beckmann, 0.3}, {ggx, 0.2}, {vmf, 100}}) {
     const FootprintTexels texels = texels_under(material_of(row_of({east}), lobe), {{0, 0}, {1, 1}});
     const auto densities = TrueNdf(lobe.distribution, texels.facets).densities(some_directions(), no_progress);
     for (std::size_t i = 0; i < densities.size(); ++i) {
@@ -178,9 +177,9 @@ TEST(TrueNdf, OfOneNormalIsTheLobe) {
 // The sum as it is written, over every texel, against cells, supports and united facets.
 TEST(TrueNdf, IsThePlainMeanOverTheTexels) {
   const Image normals = random_normals(37, 23, 0.9F, 11);
-  for (const BaseLobe& lobe : {BaseLobe{blinn_phong, 512}, {ggx, 0.02}, {beckmann, 0.1}}) {
+  for (const Lobe& lobe : {Lobe{blinn_phong, 512}, {ggx, 0.02}, {beckmann, 0.1}}) {
     const FootprintTexels texels = texels_under(material_of(normals, lobe), {{0, 0}, {1, 1}});
-    const BaseLobe held{lobe.distribution, texels.facets.front().parameter};  // a material keeps 32 bits
+    const Lobe held{lobe.distribution, texels.facets.front().parameter};  // a material keeps 32 bits
     const auto densities = TrueNdf(lobe.distribution, texels.facets).densities(some_directions(), no_progress);
     for (std::size_t d = 0; d < densities.size(); ++d) {
       const glm::dvec3 h = glm::normalize(glm::dvec3(some_directions()[d]));
@@ -202,7 +201,7 @@ TEST(TrueNdf, OfFourTexelsMeetsTheGoldenDensity) {
 }
 
 TEST(TrueNdf, OfMergedFacetsStaysWithinTheBound) {
-  const BaseLobe lobe{blinn_phong, 64};
+  const Lobe lobe{blinn_phong, 64};
   const FootprintTexels texels = texels_under(material_of(random_normals(128, 128, 0.9F, 3), lobe), {{0, 0}, {1, 1}});
   const double spacing = 0.25 * lobe_width(lobe);
   const std::vector<WeightedFacet> merged = merged_facets(texels.facets, spacing);
@@ -216,7 +215,7 @@ TEST(TrueNdf, OfMergedFacetsStaysWithinTheBound) {
 
 // Hard case 28: normals on the horizon; half of each lobe is below it.
 TEST(TrueNdf, OfNormalsOnTheHorizonLosesHalf) {
-  const BaseLobe lobe{blinn_phong, 512};
+  const Lobe lobe{blinn_phong, 512};
   const FootprintTexels texels = texels_under(material_of(row_of({{1, 0, 0}, {0, -1, 0}}), lobe), {{0, 0}, {1, 1}});
   const TrueNdf ndf(blinn_phong, texels.facets);
   const HemisphereGrid grid = hemisphere_grid(resolution_for(lobe));

@@ -240,7 +240,7 @@ class NoFresnel final : public Method {
     EXPECT_FALSE(has(e, Effect::fresnel));
     return base_surface().precompute(m, o, e, p);
   }
-  [[nodiscard]] std::string_view shader() const override { return base_surface().shader(); }
+  [[nodiscard]] ShaderModule shader() const override { return base_surface().shader(); }
 
  private:
   MethodInfo info_{.name = "no_fresnel",

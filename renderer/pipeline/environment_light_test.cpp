@@ -39,7 +39,7 @@ std::string functions_of(NormalDistribution distribution, GeometryTerm geometry 
       "vec3 meanNormal(Effective e) { return e.facets.normal; }\n"
       "//? include environment_stack.glsl\n"
       "//? include lobe_sampling.glsl\n";
-  return shared_functions(flags) + select_text(module, flags, "test");
+  return shared_functions(flags, {"test.glsl", module});
 }
 
 glm::dvec3 about(const glm::dvec3& axis, double cosine, double azimuth) {

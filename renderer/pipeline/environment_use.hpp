@@ -1,8 +1,9 @@
 // How a program takes light from an environment.
 #pragma once
 
-#include <string>
-#include <string_view>
+#include <array>
+
+#include "renderer/core/words.hpp"
 
 namespace footprint {
 
@@ -12,9 +13,10 @@ enum class EnvironmentUse {
   dense,        ///< as 6 x 32 x 32 directional lights, all of them for every sample: the reference, where asked for
 };
 
-/// "sampled" or "dense": how the reference integrates. Errors (usage) with the nearest right word.
-[[nodiscard]] EnvironmentUse parse_environment_use(const std::string& word);
-
-[[nodiscard]] std::string_view environment_use_name(EnvironmentUse use);
+/// How the reference integrates, as users write it.
+inline constexpr std::array<Word<EnvironmentUse>, 2> reference_integrals{{
+    {EnvironmentUse::sampled, "sampled"},
+    {EnvironmentUse::dense, "dense"},
+}};
 
 }  // namespace footprint

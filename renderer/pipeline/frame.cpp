@@ -1,4 +1,4 @@
-// See frame.hpp.
+// Tiles drawn into one target and read back into the picture.
 #include "renderer/pipeline/frame.hpp"
 
 #include <algorithm>

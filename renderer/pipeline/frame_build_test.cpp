@@ -25,7 +25,9 @@ constexpr std::string_view fill_pass =
 class Fill final : public FrameBuild {
  public:
   Fill(const ShaderVariant& variant, const Options& options, int& runs, std::optional<BuildInputs> inputs)
-      : runs_(runs), inputs_(inputs), pass_("fill", frame_build_shader(variant, fill_pass, "fill.glsl", options)) {}
+      : runs_(runs),
+        inputs_(inputs),
+        pass_("fill", frame_build_shader(variant, {"fill.glsl", fill_pass}, options).text()) {}
 
   [[nodiscard]] std::optional<BuildInputs> kept_until_change_of() const override { return inputs_; }
 
@@ -56,17 +58,18 @@ class Builder final : public Method {
   [[nodiscard]] const MethodInfo& info() const override { return info_; }
   [[nodiscard]] Prefiltered precompute(const Material& /*material*/, const Options& /*options*/,
                                        const EffectSet& /*effects*/, const Progress& /*progress*/) const override {
-    return {.textures = {make_built_texture({.name = "shade"}, {})}, .scalars = {}};
+    return {.textures = {make_built_texture({.name = "filled"}, {})}, .scalars = {}};
   }
   [[nodiscard]] std::unique_ptr<FrameBuild> frame_build(const ShaderVariant& variant,
                                                         const Options& options) const override {
     return std::make_unique<Fill>(variant, options, runs, inputs);
   }
-  [[nodiscard]] std::string_view shader() const override {
-    return "struct Effective { float shade; };\n"
-           "Effective effective(Footprints f) { return Effective(fetch(shade, 0, f.normal).r); }\n"
-           "vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) { return vec3(e.shade); }\n"
-           "float ndf(Effective e, vec3 h) { return e.shade; }\n";
+  [[nodiscard]] ShaderModule shader() const override {
+    return {"builder.glsl",
+            "struct Effective { float shade; };\n"
+            "Effective effective(Footprints f) { return Effective(fetch(filled, 0, f.normal).r); }\n"
+            "Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) { return Reflected(vec3(e.shade)); }\n"
+            "float ndf(Effective e, vec3 h) { return e.shade; }\n"};
   }
   mutable int runs = 0;
   std::optional<BuildInputs> inputs{};

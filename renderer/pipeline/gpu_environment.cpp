@@ -1,4 +1,4 @@
-// See gpu_environment.hpp.
+// What each use of an environment reads: prefiltered maps, tables to draw directions from, or cells of light.
 #include "renderer/pipeline/gpu_environment.hpp"
 
 #include <array>
@@ -6,12 +6,12 @@
 
 #include "renderer/environment/cell_light.hpp"
 #include "renderer/environment/direction_table.hpp"
+#include "renderer/pipeline/bindings.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
 
 namespace footprint {
 namespace {
 
-constexpr GLuint block_binding = 5;
 constexpr float directions_a_sample = 2.0F;  // of each kind: docs/base-brdf.md
 constexpr float nodes_around = 4.0F;         // a ring of a lobe with a tail: docs/base-brdf.md
 
@@ -88,13 +88,16 @@ void GpuEnvironment::prepare(EnvironmentUse use) {
   }
 }
 
-void GpuEnvironment::bind(GLuint first_unit, EnvironmentUse use) const {
+void GpuEnvironment::bind(const TextureUnits& units, EnvironmentUse use) const {
   const Part& part = parts_.at(static_cast<std::size_t>(use)).value();
-  for (const gl::Texture* const texture : {&part.first, &part.second}) {
-    gl::api().BindTextureUnit(first_unit, texture->name());
-    gl::api().BindSampler(first_unit++, part.sampler.name());
-  }
-  gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding, part.block.name());
+  const auto [first, second] = environment_textures(use);
+  const auto bind = [&](GLuint unit, const gl::Texture& texture) {
+    gl::api().BindTextureUnit(unit, texture.name());
+    gl::api().BindSampler(unit, part.sampler.name());
+  };
+  bind(units.unit(first), part.first);
+  bind(units.unit(second), part.second);
+  gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::environment, part.block.name());
 }
 
 }  // namespace footprint

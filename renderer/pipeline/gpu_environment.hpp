@@ -10,6 +10,8 @@
 
 namespace footprint {
 
+class TextureUnits;
+
 /// The textures and the block that environment_stack.glsl or environment_sampling.glsl read. Each use's are made where
 /// a program first asks for it: the reference needs no stack, a method no tables. Needs the context that made it to be
 /// current, also when destroyed.
@@ -20,15 +22,15 @@ class GpuEnvironment {
   /// Makes what a program needs, if it is not there yet. Errors (machine): over the GL limits, out of memory.
   void prepare(EnvironmentUse use);
 
-  /// Binds it: two textures from `first_unit` on, and the block.
-  void bind(GLuint first_unit, EnvironmentUse use) const;
+  /// Binds it: two textures at their `units`, and the block.
+  void bind(const TextureUnits& units, EnvironmentUse use) const;
 
   /// Bytes of the prefiltered maps, 0 before they are made. The reference's tables are no part of any method's cost.
   [[nodiscard]] std::size_t stack_bytes() const { return parts_[0] ? parts_[0]->bytes : 0; }
 
  private:
   struct Part {
-    gl::Texture first, second;  // in the order of environment_texture_names
+    gl::Texture first, second;  // in the order of environment_textures (bindings.hpp)
     gl::Sampler sampler;
     gl::Buffer block;
     std::size_t bytes = 0;

@@ -1,4 +1,4 @@
-// See gpu_scene.hpp.
+// Uploads, the blocks of constants, and what may change between frames.
 #include "renderer/pipeline/gpu_scene.hpp"
 
 #include <fmt/format.h>
@@ -9,9 +9,11 @@
 #include <span>
 
 #include "renderer/bake/facet_lobes.hpp"
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/bake/shared_maps.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/mipmap.hpp"
-#include "renderer/pipeline/base_surface.hpp"
+#include "renderer/pipeline/bindings.hpp"
 #include "renderer/scene/geometry.hpp"
 
 namespace footprint {
@@ -61,7 +63,7 @@ std::vector<glm::vec4> material_block(const Material& material, const EffectSet&
   if (!specular_varies) specular *= glm::make_vec3(specular_map_of(material).texels.data());
   std::vector<glm::vec4> block{
       material.base_color, glm::vec4(specular, metallic_map_of(material).texels.front()),
-      glm::vec4(lobe_parameter(material), material.alpha_cutoff.value_or(never_cut), 0.0F, 0.0F)};
+      glm::vec4(lobe_of(material).parameter, material.alpha_cutoff.value_or(never_cut), 0.0F, 0.0F)};
   const std::array slots{normal_coordinates(material), roughness_coordinates(material),
                          base_color_coordinates(material), layer_coordinates(material)};
   for (const TextureCoordinates& slot : slots) block.push_back(linear_part(slot));
@@ -71,9 +73,8 @@ std::vector<glm::vec4> material_block(const Material& material, const EffectSet&
     block.push_back(offset_and_set(specular_coordinates(material)));
   }
   if (has(effects, Effect::material_index)) {
-    const TextureCoordinates coordinates = material.share ? material.share->map.coordinates : TextureCoordinates{};
-    block.push_back(linear_part(coordinates));
-    block.push_back(offset_and_set(coordinates));
+    block.push_back(linear_part(share_coordinates(material)));
+    block.push_back(offset_and_set(share_coordinates(material)));
     block.back().w = adds_to_surface(material) ? 0.0F : 1.0F;
   }
   if (has(effects, Effect::multi_lobe)) {
@@ -144,23 +145,10 @@ GpuBatch batch_of(const Scene& scene, std::size_t material, const EffectSet& eff
 
 std::vector<PrefilteredTexture> shared_textures(const Material& material, const EffectSet& effects) {
   std::vector<PrefilteredTexture> textures;
-  if (has(effects, Effect::base_color_variation)) {
-    const Image image = material.base_color_map ? *material.base_color_map->image : Image(1, 1, 4, 1.0F);
+  for (const SharedMap& map : shared_maps()) {
+    if (!has(effects, map.effect)) continue;
     textures.push_back(
-        make_texture("base_color_map", mip_chain(image), Storage::fp32, base_color_coordinates(material)));
-  }
-  if (has(effects, Effect::metallic_variation)) {
-    textures.push_back(make_texture("metallic_map", mip_chain(metallic_map_of(material)), Storage::fp32,
-                                    roughness_coordinates(material)));
-  }
-  if (has(effects, Effect::specular_variation)) {
-    textures.push_back(make_texture("specular_map", mip_chain(specular_map_of(material)), Storage::fp32,
-                                    specular_coordinates(material)));
-  }
-  if (has(effects, Effect::material_index)) {
-    const Image share = material.share ? *material.share->map.image : Image(1, 1, 1, 1.0F);
-    textures.push_back(make_texture("material_share", mip_chain(share), Storage::fp32,
-                                    material.share ? material.share->map.coordinates : TextureCoordinates{}));
+        make_texture(std::string(map.name), mip_chain(map.image(material)), Storage::fp32, map.coordinates(material)));
   }
   return textures;
 }
@@ -323,17 +311,18 @@ void GpuScene::update(const Scene& scene) {
   content_ = content;
 }
 
-void GpuScene::bind_lights(const gl::Program& program) const {
+void GpuScene::bind_lights(const gl::Program& program, const TextureUnits& units) const {
   const auto bind = [&](Effect effect, GLuint binding, const gl::Buffer& buffer, const char* counter,
                         std::size_t count) {
     if (!has(effects_, effect)) return;
     gl::api().BindBufferBase(GL_UNIFORM_BUFFER, binding, buffer.name());
     gl::api().ProgramUniform1i(program.name(), program.uniform(counter), static_cast<GLint>(count));
   };
-  bind(Effect::point_light, 2, point_lights_, "point_light_count", light_counts_.point);
-  bind(Effect::spot_light, 3, spot_lights_, "spot_light_count", light_counts_.spot);
-  bind(Effect::directional_light, 4, directional_lights_, "directional_light_count", light_counts_.directional);
-  if (shadow_maps_) shadow_maps_->bind();
+  bind(Effect::point_light, block_binding::point_lights, point_lights_, "point_light_count", light_counts_.point);
+  bind(Effect::spot_light, block_binding::spot_lights, spot_lights_, "spot_light_count", light_counts_.spot);
+  bind(Effect::directional_light, block_binding::directional_lights, directional_lights_, "directional_light_count",
+       light_counts_.directional);
+  if (shadow_maps_) shadow_maps_->bind(units.unit("shadow_maps"));
 }
 
 }  // namespace footprint

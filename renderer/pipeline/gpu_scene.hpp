@@ -18,6 +18,8 @@
 
 namespace footprint {
 
+class TextureUnits;
+
 /// How a program looks up textures.
 enum class Lookup { trilinear, nearest };
 
@@ -76,9 +78,8 @@ struct GpuBatch {
   std::size_t vertex_count = 0;
   std::size_t material = 0;
   bool double_sided = false;
-  bool adds = false;  ///< to what the material before it left on the same triangles
-  /// base_color_map, metallic_map, specular_map, material_share: if their effect is on
-  std::vector<GpuTexture> shared_textures;
+  bool adds = false;                        ///< to what the material before it left on the same triangles
+  std::vector<GpuTexture> shared_textures;  ///< of the rows of shared_maps() whose effects are on
 };
 
 /// The whole scene. Needs the context that made it to be current, also when destroyed.
@@ -96,6 +97,7 @@ class GpuScene {
   [[nodiscard]] const SceneContent& content() const { return content_; }
 
   [[nodiscard]] const std::vector<GpuBatch>& batches() const { return batches_; }
+  [[nodiscard]] const gl::ContextInfo& context() const { return *context_; }
   [[nodiscard]] const EffectSet& effects() const { return effects_; }
   [[nodiscard]] const BaseBrdf& brdf() const { return brdf_; }
   /// Every map of every material is looked up at the same place.
@@ -113,8 +115,8 @@ class GpuScene {
   [[nodiscard]] const std::optional<GpuVisibility>& visibility() const { return visibility_; }
   [[nodiscard]] SamplerCache& samplers() { return samplers_; }
 
-  /// Binds the light blocks, their shadow maps, and sets the light counts of `program`.
-  void bind_lights(const gl::Program& program) const;
+  /// Binds the light blocks, their shadow maps at their unit of `units`, and sets the light counts of `program`.
+  void bind_lights(const gl::Program& program, const TextureUnits& units) const;
 
   struct LightCounts {
     std::size_t point = 0, spot = 0, directional = 0;

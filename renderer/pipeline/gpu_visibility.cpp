@@ -1,4 +1,4 @@
-// See gpu_visibility.hpp.
+// Uploads the components as layers and their weights as vertex attributes.
 #include "renderer/pipeline/gpu_visibility.hpp"
 
 #include <array>
@@ -8,9 +8,6 @@
 
 namespace footprint {
 namespace {
-
-// In environment_visibility.glsl.
-constexpr GLuint maps_unit = 14;
 
 constexpr float edges_in_radius = 24.0F;
 constexpr std::size_t vectors_a_vertex = 5;
@@ -57,9 +54,9 @@ std::vector<glm::vec4> GpuVisibility::attributes(const Scene& scene, std::size_t
   return values;
 }
 
-void GpuVisibility::bind() const {
-  gl::api().BindTextureUnit(maps_unit, maps_.name());
-  gl::api().BindSampler(maps_unit, sampler_.name());
+void GpuVisibility::bind(GLuint unit) const {
+  gl::api().BindTextureUnit(unit, maps_.name());
+  gl::api().BindSampler(unit, sampler_.name());
 }
 
 }  // namespace footprint

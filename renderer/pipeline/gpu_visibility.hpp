@@ -29,8 +29,8 @@ class GpuVisibility {
   /// the mean, then the components) and the diffuse share.
   [[nodiscard]] std::vector<glm::vec4> attributes(const Scene& scene, std::size_t material) const;
 
-  /// Binds the maps.
-  void bind() const;
+  /// Binds the maps to a texture unit.
+  void bind(GLuint unit) const;
 
   /// Of the maps and the vertices' values.
   [[nodiscard]] std::size_t bytes() const { return bytes_; }

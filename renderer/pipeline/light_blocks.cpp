@@ -1,4 +1,4 @@
-// See light_blocks.hpp.
+// Four-vectors of each kind of light, in the order of the scene.
 #include "renderer/pipeline/light_blocks.hpp"
 
 #include <algorithm>

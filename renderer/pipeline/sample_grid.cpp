@@ -1,4 +1,4 @@
-// See sample_grid.hpp.
+// The grid that divides the samples into enough passes, and the jitter of each pass.
 #include "renderer/pipeline/sample_grid.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See shadow_maps.hpp.
+// Draws the scene once for each view into a layer of depths.
 #include "renderer/pipeline/shadow_maps.hpp"
 
 #include <fmt/format.h>
@@ -7,16 +7,12 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
+#include "renderer/pipeline/bindings.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 
 namespace footprint {
 namespace {
-
-// In surface_shadows.glsl.
-constexpr GLuint maps_unit = 15;
-constexpr GLuint views_binding = 6;
-constexpr GLuint material_binding = 0;
 
 constexpr const char* mend =
     "lower `resolution` or set `cast = false` in [shadows] of a scene.toml, or use fewer lights";
@@ -51,7 +47,7 @@ void draw_batch(const GpuBatch& batch, const EffectSet& effects, SamplerCache& s
     gl::api().BindTextureUnit(0, base_color.texture.name());
     gl::api().BindSampler(0, samplers.sampler(base_color.coordinates, Lookup::trilinear));
   }
-  gl::api().BindBufferBase(GL_UNIFORM_BUFFER, material_binding, batch.material_block.name());
+  gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::material, batch.material_block.name());
   gl::api().BindVertexArray(batch.vertex_array.name());
   gl::api().DrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT, nullptr);
 }
@@ -98,10 +94,10 @@ void ShadowMaps::draw(const EffectSet& effects, std::span<const GpuBatch> batche
   gl::api().BindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-void ShadowMaps::bind() const {
-  gl::api().BindBufferBase(GL_UNIFORM_BUFFER, views_binding, view_block_.name());
-  gl::api().BindTextureUnit(maps_unit, maps_.name());
-  gl::api().BindSampler(maps_unit, sampler_.name());
+void ShadowMaps::bind(GLuint unit) const {
+  gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::shadow_views, view_block_.name());
+  gl::api().BindTextureUnit(unit, maps_.name());
+  gl::api().BindSampler(unit, sampler_.name());
 }
 
 std::size_t ShadowMaps::bytes() const {

@@ -26,8 +26,8 @@ class ShadowMaps {
   ShadowMaps(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects,
              std::span<const GpuBatch> batches, SamplerCache& samplers);
 
-  /// Binds maps and views for a program whose effects call for them.
-  void bind() const;
+  /// Binds the maps to a texture unit, and the views, for a program whose effects call for them.
+  void bind(GLuint unit) const;
 
   [[nodiscard]] const ShadowViews& views() const { return views_; }
   [[nodiscard]] int resolution() const { return resolution_; }

@@ -1,4 +1,4 @@
-// See shadow_views.hpp.
+// Frustums around what a light reaches: one for a direction or a narrow cone, six for a point.
 #include "renderer/pipeline/shadow_views.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// See supersample.hpp.
+// Passes of samples drawn tile by tile and added up on the GPU; means and errors of the sums.
 #include "renderer/pipeline/supersample.hpp"
 
 #include <fmt/format.h>
@@ -8,32 +8,11 @@
 #include <cmath>
 
 #include "renderer/core/error.hpp"
-#include "renderer/core/suggest.hpp"
 
 namespace footprint {
 namespace {
 
 constexpr int default_tile_edge = 512;
-constexpr std::array<std::pair<EnvironmentUse, std::string_view>, 2> integrals{{
-    {EnvironmentUse::sampled, "sampled"},
-    {EnvironmentUse::dense, "dense"},
-}};
-constexpr std::array<std::pair<ReferenceFilter, std::string_view>, 3> filters{{
-    {ReferenceFilter::after_shading, "after_shading"},
-    {ReferenceFilter::nearest, "nearest"},
-    {ReferenceFilter::bilinear, "bilinear"},
-}};
-
-template <class Value, std::size_t count>
-Value parse_word(const std::array<std::pair<Value, std::string_view>, count>& words, const std::string& word,
-                 const char* option, std::string_view what) {
-  std::vector<std::string> names;
-  for (const auto& [value, name] : words) {
-    if (name == word) return value;
-    names.emplace_back(name);
-  }
-  throw Error(ErrorKind::usage, option, fmt::format("unknown {} `{}`", what, word), suggestion(word, names));
-}
 
 ProgramSettings settings_of(ReferenceFilter filter, bool orthographic, EnvironmentUse environment) {
   return {.sampling = filter == ReferenceFilter::after_shading ? Sampling::texel : Sampling::point,
@@ -76,20 +55,6 @@ Image standard_error_of(const Image& squares, const Image& mean_count) {
 }
 
 }  // namespace
-
-std::string_view filter_name(ReferenceFilter filter) {
-  return std::ranges::find(filters, filter, &std::pair<ReferenceFilter, std::string_view>::first)->second;
-}
-
-ReferenceFilter parse_filter(const std::string& word) { return parse_word(filters, word, "--filter", "filter"); }
-
-std::string_view environment_use_name(EnvironmentUse use) {
-  return std::ranges::find(integrals, use, &std::pair<EnvironmentUse, std::string_view>::first)->second;
-}
-
-EnvironmentUse parse_environment_use(const std::string& word) {
-  return parse_word(integrals, word, "--environment", "way to integrate an environment");
-}
 
 // What a tile's samples are drawn into and added up in. Sums are read from one target and written to the other.
 class Supersampler::Accumulator {

@@ -5,21 +5,10 @@
 #include <optional>
 
 #include "renderer/pipeline/frame.hpp"
+#include "renderer/pipeline/reference_filter.hpp"
 #include "renderer/pipeline/sample_grid.hpp"
 
 namespace footprint {
-
-/// What one sample shades.
-enum class ReferenceFilter {
-  after_shading,  ///< one texel's own base BRDF, the texel drawn with the bilinear weights
-  nearest,        ///< the nearest texel's
-  bilinear,       ///< the bilinear filter of the map's values: interpolates the normal first
-};
-
-[[nodiscard]] std::string_view filter_name(ReferenceFilter filter);
-
-/// Errors (usage) with the nearest right word.
-[[nodiscard]] ReferenceFilter parse_filter(const std::string& word);
 
 /// A supersampled picture. All images have the view's size, row 0 at the top.
 struct Supersampled {

@@ -1,30 +1,23 @@
-// See surface_program.hpp.
+// Uploads what was baked, and draws: programs, bindings, and the state that a frame build may not leave behind.
 #include "renderer/pipeline/surface_program.hpp"
-#include "renderer/pipeline/frame_build_job.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "renderer/core/error.hpp"
+#include "renderer/bake/shared_maps.hpp"
+#include "renderer/pipeline/frame_build_job.hpp"
 
 namespace footprint {
 namespace {
-
-constexpr GLuint material_binding = 0;
-constexpr GLuint method_binding = 1;
 
 // What the program simulates: what the method honours, the maps that the pipeline reads itself, whose units come
 // first, and visibility, which is the same for every method.
 EffectSet effects_of(const GpuScene& scene, const Method& method) {
   EffectSet shared;
-  shared.set(static_cast<std::size_t>(Effect::base_color_variation));
-  shared.set(static_cast<std::size_t>(Effect::metallic_variation));
-  shared.set(static_cast<std::size_t>(Effect::specular_variation));
-  shared.set(static_cast<std::size_t>(Effect::material_index));
+  for (const SharedMap& map : shared_maps()) shared.set(static_cast<std::size_t>(map.effect));
   shared.set(static_cast<std::size_t>(Effect::cast_shadow));
   return scene.effects() & (method.info().honours | shared);
 }
@@ -49,6 +42,12 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
           .spot_lights = scene.light_counts().spot,
           .directional_lights = scene.light_counts().directional,
           .shadow_maps = scene.light_counts().shadow_maps};
+}
+
+TextureUnits units_of(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings) {
+  TextureUnits units = forward_units(variant_of(scene, baked, settings), baked.materials.front());
+  units.require_room(scene.context(), baked.spec.text);
+  return units;
 }
 
 std::vector<float> scalar_block(const Prefiltered& prefiltered) {
@@ -106,57 +105,7 @@ void set_state(const GpuBatch& batch) {
   gl::api().DepthFunc(batch.adds ? GL_EQUAL : GL_LESS);
 }
 
-struct Outcome {
-  Prefiltered prefiltered;
-  bool from_disk;
-};
-
-// One material: from the disk where it is kept there, else by the method, and kept if that is worth it.
-Outcome prefilter(const Method& method, const Scene& scene, std::size_t index, const Options& options,
-                  const EffectSet& effects, const Progress& progress, const BakeCache* cache) {
-  if (cache == nullptr || !method.info().slow_precompute)
-    return {method.precompute_on(scene, index, options, effects, progress), false};
-  const Material& material = scene.materials[index];
-  const std::string key = cache->key(method.info().name, material, options, effects);
-  if (std::optional<Prefiltered> kept = cache->find(key)) return {*std::move(kept), true};
-  Outcome outcome{method.precompute_on(scene, index, options, effects, progress), false};
-  cache->keep(key, outcome.prefiltered);
-  return outcome;
-}
-
 }  // namespace
-
-BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scene, const EffectSet& effects,
-                 const Progress& progress, const BakeCache* cache) {
-  const auto start = std::chrono::steady_clock::now();
-  const EffectSet honoured = effects & method.info().honours;
-  BakedMethod baked{.method = &method,
-                    .spec = spec,
-                    .options = Options(method.info().options, spec.options, "method " + spec.name),
-                    .materials = {},
-                    .seconds = 0,
-                    .bytes = 0,
-                    .texels = 0,
-                    .cached = cache != nullptr && method.info().slow_precompute};
-  const auto count = static_cast<double>(scene.materials.size());
-  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    const Material& material = scene.materials[i];
-    const auto done = static_cast<double>(i);
-    const Progress part = [&](std::string_view what, double fraction) { progress(what, (done + fraction) / count); };
-    part(fmt::format("{}: {}", spec.text, material.name), 0.0);
-    try {
-      auto [prefiltered, from_disk] = prefilter(method, scene, i, baked.options, honoured, part, cache);
-      baked.materials.push_back(std::move(prefiltered));
-      baked.cached = baked.cached && from_disk;
-    } catch (const Error& error) {
-      throw error.within(fmt::format("{}, material {}, method {}", scene.source, material.name, spec.text));
-    }
-    baked.bytes += byte_count(baked.materials.back());
-    baked.texels += finest_texels(baked.materials.back());
-  }
-  baked.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return baked;
-}
 
 GpuMethod::GpuMethod(const GpuScene& scene, const BakedMethod& baked)
     : baked_(&baked),
@@ -217,25 +166,23 @@ void GpuMethod::rebuild(const View& view) const {
   built_ = {.camera = view.camera, .content = scene_->content()};
 }
 
-GLuint GpuMethod::units(const GpuBatch& batch) const {
-  return static_cast<GLuint>(batch.shared_textures.size() + baked_->materials.front().textures.size());
-}
-
 void GpuMethod::bind(const GpuBatch& batch, GpuScene& scene, Lookup lookup) const {
   const PerBatch& part = part_of(batch);
   auto unit = static_cast<GLuint>(batch.shared_textures.size());
   for (const GpuTexture& texture : part.textures) bind_texture(unit++, texture, scene, lookup);
-  if (part.scalars.name() != 0) gl::api().BindBufferBase(GL_UNIFORM_BUFFER, method_binding, part.scalars.name());
+  if (part.scalars.name() != 0) gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::method, part.scalars.name());
 }
 
 SurfaceProgram::SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings)
     : settings_(settings),
       environment_light_(has(effects_of(scene, *baked.method), Effect::environment_light)),
       environment_(environment_of(*baked.method, settings)),
-      fragment_text_(fragment_shader(variant_of(scene, baked, settings), baked.method->shader(), baked.spec.name,
-                                     baked.options, baked.materials.front())),
-      program_(fmt::format("{} (lines below {} are of {}.glsl)", baked.spec.text, first_shared_line, baked.spec.name),
-               vertex_shader(variant_of(scene, baked, settings)), fragment_text_) {
+      units_(units_of(scene, baked, settings)),
+      fragment_(fragment_shader(variant_of(scene, baked, settings), baked.method->shader(), baked.options,
+                                baked.materials.front())),
+      program_(fmt::format("{} ({})", baked.spec.text, fragment_.lines()),
+               vertex_shader(variant_of(scene, baked, settings)), fragment_.text()) {
+  units_.require_all_of(program_, baked.spec.text);
   if (environment_light_) scene.environment()->prepare(environment_);
 }
 
@@ -258,16 +205,16 @@ void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& 
     const glm::mat3 rotation = world_to_camera(view.camera);
     gl::api().UniformMatrix3fv(to_camera_space, 1, GL_FALSE, glm::value_ptr(rotation));
   }
-  scene.bind_lights(program_);
-  if (environment_light_ && scene.visibility()) scene.visibility()->bind();
+  scene.bind_lights(program_, units_);
+  if (environment_light_ && scene.visibility()) scene.visibility()->bind(units_.unit("visibility_maps"));
   gl::api().Enable(GL_DEPTH_TEST);
   for (const GpuBatch& batch : scene.batches()) {
     set_state(batch);
-    gl::api().BindBufferBase(GL_UNIFORM_BUFFER, material_binding, batch.material_block.name());
+    gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::material, batch.material_block.name());
     GLuint unit = 0;
     for (const GpuTexture& texture : batch.shared_textures) bind_texture(unit++, texture, scene, settings_.lookup);
     method.bind(batch, scene, settings_.lookup);
-    if (environment_light_) scene.environment()->bind(method.units(batch), environment_);
+    if (environment_light_) scene.environment()->bind(units_, environment_);
     gl::api().BindVertexArray(method.vertex_array(batch));
     gl::api().DrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT, nullptr);
   }

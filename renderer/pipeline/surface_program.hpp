@@ -7,30 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "renderer/bake/bake_cache.hpp"
-#include "renderer/bake/method.hpp"
+#include "renderer/bake/baked_method.hpp"
+#include "renderer/pipeline/bindings.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 #include "renderer/pipeline/view.hpp"
 
 namespace footprint {
-
-/// A method's precompute for every material of a scene, with what it cost.
-struct BakedMethod {
-  const Method* method = nullptr;
-  MethodSpec spec;
-  Options options;
-  std::vector<Prefiltered> materials;  ///< one for each material of the scene
-  double seconds = 0;
-  std::size_t bytes = 0;
-  std::size_t texels = 0;  ///< of the finest levels, over all materials (`finest_texels`)
-  bool cached = false;     ///< every material came from the disk: `seconds` is what reading took
-};
-
-/// Runs the precompute of `spec` for every material, or reads it from `cache` where that is given and has it.
-/// `effects` are the scene's; the method gets those that it honours.
-[[nodiscard]] BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scene,
-                               const EffectSet& effects, const Progress& progress, const BakeCache* cache = nullptr);
 
 /// A baked method's textures and scalars on the GPU, shared by its programs.
 class GpuMethod {
@@ -49,8 +32,6 @@ class GpuMethod {
   void bind(const GpuBatch& batch, GpuScene& scene, Lookup lookup) const;
   /// The triangles of a batch, with this method's surface coordinates where it has some.
   [[nodiscard]] GLuint vertex_array(const GpuBatch& batch) const;
-  /// The texture units that a batch takes, from 0 on: the shared textures and the method's.
-  [[nodiscard]] GLuint units(const GpuBatch& batch) const;
   [[nodiscard]] const BakedMethod& baked() const { return *baked_; }
 
  private:
@@ -87,7 +68,7 @@ struct ProgramSettings {
 class SurfaceProgram {
  public:
   /// Makes what the scene's environment lacks for it. Errors (machine): the module does not compile (the log names its
-  /// lines).
+  /// lines); those of TextureUnits.
   SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings);
 
   /// Draws the scene into the bound framebuffer, whose viewport is the tile's (times the sample grid).
@@ -96,13 +77,14 @@ class SurfaceProgram {
   /// Sets what samples are drawn from: origin of the tile in the sample grid, seed, pass. Not for Sampling::frame.
   void set_sample(const glm::ivec2& origin, std::uint32_t seed, std::uint32_t pass) const;
 
-  [[nodiscard]] const std::string& fragment_text() const { return fragment_text_; }
+  [[nodiscard]] const std::string& fragment_text() const { return fragment_.text(); }
 
  private:
   ProgramSettings settings_;
   bool environment_light_;
   EnvironmentUse environment_;
-  std::string fragment_text_;
+  TextureUnits units_;
+  ShaderText fragment_;
   gl::Program program_;
 };
 

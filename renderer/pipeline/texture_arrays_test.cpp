@@ -30,8 +30,7 @@ std::vector<glm::vec4> looked_up(const Prefiltered& prefiltered, const std::stri
   gl::api().BindSampler(0, samplers.sampler(texture.coordinates, texture.lookup(Lookup::trilinear)));
   ShaderVariant variant;
   variant.max_probes = max_probes;
-  ShaderFlags flags = shader_flags(variant, Options({}, {}, "test"));
-  flags.merge(texture_flags(prefiltered));
+  const ShaderFlags flags = shader_flags(variant, Options({}, {}, "test"), prefiltered);
   const std::string text =
       "layout(binding = 0) uniform sampler2DArray map;\nconst float max_probes = " + std::to_string(max_probes) +
       ".0;\n" + shared_functions(flags);
@@ -86,10 +85,11 @@ TEST(TextureArrays, LayersAreApart) {
 
 TEST(TextureArrays, ProgramsDeclareWhatTheyNeedAndNoMore) {
   const Options options({}, {}, "test");
-  const std::string with = fragment_shader({}, "", "m", options, three_layers(TextureFilter::nearest));
+  const ShaderModule empty{"m.glsl", ""};
+  const std::string with = fragment_shader({}, empty, options, three_layers(TextureFilter::nearest)).text();
   EXPECT_NE(with.find("uniform sampler2DArray map;"), std::string::npos);
   EXPECT_NE(with.find("footprintTexel"), std::string::npos);
-  const std::string without = fragment_shader({}, "", "m", options, {});
+  const std::string without = fragment_shader({}, empty, options, {}).text();
   EXPECT_EQ(without.find("sampler2DArray"), std::string::npos);
   EXPECT_EQ(without.find("footprintTexel"), std::string::npos);
 }

@@ -1,4 +1,4 @@
-// See timing.hpp.
+// Frames in turns, and quantiles of their times and of ratios of neighbours.
 #include "renderer/pipeline/timing.hpp"
 
 #include <algorithm>

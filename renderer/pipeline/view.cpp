@@ -1,4 +1,4 @@
-// See view.hpp.
+// Projections of both kinds of camera, cut to a tile.
 #include "renderer/pipeline/view.hpp"
 
 #include <algorithm>

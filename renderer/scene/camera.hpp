@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <variant>
 
 #include "renderer/scene/scene.hpp"
 
@@ -14,6 +15,9 @@ struct Framing {
   double margin = 1.05;                  ///< distance over the smallest that shows all eight corners
   double aspect = 1.0;                   ///< width / height of the frame to fill
 };
+
+/// Where the camera stands: the model's own (or framed, where it has none), framed, or as given.
+using CameraSettings = std::variant<std::monostate, Framing, Camera>;
 
 /// The camera (y up, +z up where `direction` is vertical) that looks at the centre of `bounds` from the smallest
 /// distance at which all eight corners lie in the frame, times the margin. Bounds without extent count as 1 m wide.

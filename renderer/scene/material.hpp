@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "renderer/image/image.hpp"
+#include "renderer/lobes/lobe.hpp"
 
 namespace footprint {
 
 struct Microgeometry;
 
-enum class NormalDistribution { blinn_phong, beckmann, ggx, vmf };
 enum class GeometryTerm { none, tan, smith };
 enum class FresnelTerm { none, schlick };
 
@@ -104,6 +104,10 @@ struct Material {
   if (material.lobe_parameter_map) return &*material.lobe_parameter_map;
   return material.metallic_roughness_map ? &*material.metallic_roughness_map : nullptr;
 }
+
+/// The lobe of a material whose roughness does not vary. Of one whose lobes have axes of their own that of one lobe
+/// about the normal, with the slope variance that they have about it: what a method takes that leaves `multi_lobe` out.
+[[nodiscard]] Lobe lobe_of(const Material& material);
 
 /// The map that a material's metalness varies by, in its second channel. Null where it is constant.
 [[nodiscard]] inline const TextureMap* metallic_map(const Material& material) {

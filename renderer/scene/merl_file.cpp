@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "renderer/core/error.hpp"
-#include "renderer/scene/file_bytes.hpp"
+#include "renderer/core/file_bytes.hpp"
 
 namespace footprint {
 namespace {

@@ -11,8 +11,8 @@
 #include <string_view>
 
 #include "renderer/core/error.hpp"
+#include "renderer/core/file_bytes.hpp"
 #include "renderer/core/interrupt.hpp"
-#include "renderer/scene/file_bytes.hpp"
 #include "renderer/scene/geometry.hpp"
 
 namespace footprint {

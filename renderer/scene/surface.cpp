@@ -5,7 +5,7 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
-#include "renderer/core/suggest.hpp"
+#include "renderer/core/words.hpp"
 
 namespace footprint {
 namespace {
@@ -34,11 +34,8 @@ Image optional_map(const Surface& surface, Image (*map)(const SurfaceSettings&),
 
 const Surface& find_surface(std::span<const Surface> surfaces, const std::string& name) {
   std::vector<std::string> names;
-  for (const Surface& surface : surfaces) {
-    if (surface.name == name) return surface;
-    names.push_back(surface.name);
-  }
-  throw Error(ErrorKind::usage, "surface", fmt::format("unknown surface `{:.80}`", name), suggestion(name, names));
+  for (const Surface& surface : surfaces) names.push_back(surface.name);
+  return surfaces[find_word(names, name, "surface", "surface")];
 }
 
 SurfaceSettings surface_settings(const Surface& surface, const std::map<std::string, std::string>& given) {

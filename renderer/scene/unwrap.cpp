@@ -15,6 +15,7 @@
 
 #include "renderer/core/interrupt.hpp"
 #include "renderer/scene/geometry.hpp"
+#include "renderer/scene/shelves.hpp"
 
 namespace footprint {
 namespace {
@@ -224,19 +225,9 @@ struct Rectangle {
 /// Puts rectangles, the highest first, side by side on shelves of `width`, each with `margin` around it. Returns the
 /// height that they take.
 double pack_shelves(std::span<Rectangle*> by_height, double width, double margin) {
-  glm::dvec2 pen{0.0};
-  double shelf = 0.0;
-  for (Rectangle* rectangle : by_height) {
-    const glm::dvec2 taken = rectangle->size + 2.0 * margin;
-    if (pen.x > 0.0 && pen.x + taken.x > width) {
-      pen = {0.0, pen.y + shelf};
-      shelf = 0.0;
-    }
-    rectangle->place = pen + margin;
-    shelf = std::max(shelf, taken.y);
-    pen.x += taken.x;
-  }
-  return pen.y + shelf;
+  Shelves<double> shelves(width);
+  for (Rectangle* rectangle : by_height) rectangle->place = shelves.place(rectangle->size + 2.0 * margin) + margin;
+  return shelves.height();
 }
 
 /// Packs rectangles into a square and returns its side.

@@ -11,12 +11,10 @@
 Effective effective(Footprints f) {
 //? if normal_variation
   vec4 texel = fetchFinest(base_normal, f.normal);
-//? if not sampling_frame
-//? if microgeometry_visibility
+//? if not sampling_frame and microgeometry_visibility
   if (texel.w < 0.5 && base_has_patch < 0.5) discard;
-//? else
+//? elif not sampling_frame
   if (texel.w < 0.5) discard;  // an invalid normal of the map: nothing is there to shade
-//? end
 //? end
   vec3 normal = normalize(texel.xyz);
 //? else
@@ -41,7 +39,6 @@ Effective effective(Footprints f) {
 //? end
 }
 
-//? if environment_light
 //? if environment_sampled
 //? include lobe_sampling.glsl
 
@@ -79,9 +76,4 @@ float directionDensity(Effective e, vec3 wi, vec3 wo) {
 //? end
   return density;
 }
-//? else
-//? include facet_normal_lobes.glsl
-
-vec3 meanNormal(Effective e) { return e.facets.normal; }
-//? end
 //? end

@@ -1,8 +1,5 @@
 // Smith's Lambda of Gaussian slopes as a rational function of a = cot(theta) / (sqrt(2) sigma), sigma the standard
 // deviation of slope towards the direction (Walter 2007, section 5.2; Heitz 2014).
-#ifndef BECKMANN_LAMBDA  // the base BRDF and a method may both ask for it
-#define BECKMANN_LAMBDA
 float beckmannLambda(float a) {
   return a < 1.6 ? (1.0 - 1.259 * a + 0.396 * a * a) / (3.535 * a + 2.181 * a * a) : 0.0;
 }
-#endif

@@ -1,5 +1,19 @@
 // What one facet reflects: the terms around the distribution, all as f * cos (docs/base-brdf.md).
 
+// What a point reflects with beside its facets.
+struct Surface {
+  vec3 albedo;
+  vec3 f0;
+};
+
+// f * cos of the two terms.
+struct Reflected {
+  vec3 specular;
+//? if diffuse
+  vec3 diffuse;
+//? end
+};
+
 vec3 halfVector(vec3 wi, vec3 wo) {
   vec3 sum = wi + wo;
   return sum / max(length(sum), 1e-12);
@@ -11,8 +25,7 @@ bool halfVectorIsDefined(vec3 wi, vec3 wo) {
   return dot(sum, sum) > 1e-8;
 }
 
-//? if fresnel
-//? if fresnel_schlick
+//? if fresnel and fresnel_schlick
 // Schlick 1994, with F90 = 1 as glTF 2.0 has it.
 vec3 fresnelTerm(vec3 f0, vec3 wi, vec3 wo) {
   float x = 1.0 - clamp(dot(wo, halfVector(wi, wo)), 0.0, 1.0);
@@ -24,14 +37,9 @@ vec3 transmitted(vec3 f0, vec3 wi, vec3 wo) { return 1.0 - fresnelTerm(f0, wi, w
 vec3 fresnelTerm(vec3 f0, vec3 wi, vec3 wo) { return f0; }
 vec3 transmitted(vec3 f0, vec3 wi, vec3 wo) { return vec3(1.0); }
 //? end
-//? else
-vec3 fresnelTerm(vec3 f0, vec3 wi, vec3 wo) { return f0; }
-//? end
 
 // The geometry factor of f * cos = F * D * factor, for facets about n with a lobe.
-//? if masking_shadowing
-//? if geometry_smith
-//? if distribution_ggx
+//? if masking_shadowing and geometry_smith and distribution_ggx
 // G2 / (4 n.v) with the height-correlated Smith term of GGX (Heitz 2014, equation 99; glTF 2.0, appendix B).
 float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
   float nl = dot(n, wi);
@@ -41,7 +49,7 @@ float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
   float masked = nl * sqrt(a2 + (1.0 - a2) * nv * nv) + nv * sqrt(a2 + (1.0 - a2) * nl * nl);
   return 0.5 * nl / max(masked, 1e-12);
 }
-//? else
+//? elif masking_shadowing and geometry_smith
 //? include beckmann_lambda.glsl
 // Blinn-Phong and vMF lobes take the alpha of the same width (Walter 2007, section 5.2).
 float smithLambda(float alpha, float c) {
@@ -56,19 +64,13 @@ float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
   float alpha = lobeAlpha(lobe);
   return 0.25 / ((1.0 + smithLambda(alpha, nv) + smithLambda(alpha, min(nl, 1.0))) * nv);
 }
-//? end
-//? end
-//? if geometry_none
-float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) { return 1.0; }
-//? end
-//? if geometry_tan
+//? elif masking_shadowing and geometry_tan
 // 1 / (n.v) as Tan 2005, section 3 prints it, under the bound 2 (n.h) / (v.h) of a V-cavity's masking: as printed it
 // grows without limit at grazing views.
 float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
   float bound = 2.0 * max(dot(n, h), 0.0) / max(dot(wo, h), 1e-6);
   return min(1.0 / max(dot(n, wo), 1e-3), bound);
 }
-//? end
 //? else
 // f * cos = F D, as Xu 2017 and Iwasaki 2012 use it.
 float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) { return 1.0; }
@@ -139,11 +141,21 @@ vec3 facetSpecular(Facets f, vec3 f0, vec3 wi, vec3 wo) {
 
 //? if diffuse
 // Lambert's albedo / pi * (n.l), times what the Fresnel term leaves (glTF 2.0, appendix B; Tan 2005, section 3).
-vec3 lambert(vec3 n, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
-  vec3 reflected = albedo * (max(dot(n, wi), 0.0) / pi);
+vec3 diffuse(vec3 n, Surface s, vec3 wi, vec3 wo) {
+  vec3 reflected = s.albedo * (max(dot(n, wi), 0.0) / pi);
 //? if fresnel
-  reflected *= transmitted(f0, wi, wo);
+  reflected *= transmitted(s.f0, wi, wo);
 //? end
   return reflected;
 }
 //? end
+
+// Both terms of facets.
+Reflected facetShade(Facets f, Surface s, vec3 wi, vec3 wo) {
+  Reflected r;
+  r.specular = facetSpecular(f, s.f0, wi, wo);
+//? if diffuse
+  r.diffuse = diffuse(f.normal, s, wi, wo);
+//? end
+  return r;
+}

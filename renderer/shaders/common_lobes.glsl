@@ -36,7 +36,7 @@ float lobeEnergy(float s) { return 1.0; }
 //? end
 
 //? if distribution_vmf
-//? include vmf_density.glsl
+//? include vmf.glsl
 float lobeDensity(float kappa, vec3 n, vec3 h) { return vmfDensity(kappa, n, h); }
 float lobeFromAlpha(float alpha) { return 2.0 / max(alpha * alpha, smallest_alpha * smallest_alpha); }
 float lobeVariance(float kappa) { return 1.0 / max(kappa, 1e-6); }

@@ -101,22 +101,15 @@ float slopeDensity(SlopeLobe e, vec3 h) {
 //? end
 
 // The base lobe's slope variance, but for what the moments hold already.
-//? if normal_variation
-//? if roughness_moments
-#define MOMENTS_HOLD_ROUGHNESS
-//? end
-//? end
 float addedVariance(Footprints f) {
-#ifdef MOMENTS_HOLD_ROUGHNESS
+//? if normal_variation and roughness_moments
   return 0.0;
-#else
-//? if roughness_variation
+//? elif roughness_variation
   float deviation = fetch(slope_deviation, f.roughness).r;
   return deviation * deviation;
 //? else
   return lobeVariance(lobe_cutoff.x);
 //? end
-#endif
 }
 
 // The lobe over a pixel's footprint.

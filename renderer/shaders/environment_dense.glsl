@@ -1,13 +1,13 @@
 // Environment light for the reference as directional lights, all of them for every sample (Iwasaki et al. 2012): what
 // the drawn directions must come to where no lobe is narrower than a light's cell.
-vec3 environmentLit(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) {
+vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame) {
   vec3 radiance = vec3(0.0);
   int count = textureSize(environment_lights, 0).x;
   for (int i = 0; i < count; ++i) {
     vec3 direction = texelFetch(environment_directions, ivec2(i, 0), 0).xyz;
     vec3 wi = direction * frame;
     if (wi.z <= 0.0 || !arrives(direction)) continue;
-    radiance += reflectance(e, albedo, f0, wi, wo) * texelFetch(environment_lights, ivec2(i, 0), 0).rgb;
+    radiance += reflectance(e, s, wi, wo) * texelFetch(environment_lights, ivec2(i, 0), 0).rgb;
   }
   return radiance;
 }

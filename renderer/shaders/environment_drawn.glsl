@@ -40,7 +40,7 @@ vec4 environmentTexel(vec3 d) {
   return texelFetch(environment_radiance, place, 0);
 }
 
-vec3 environmentLit(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) {
+vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame) {
   vec3 radiance = vec3(0.0);
   int count = int(environment_size.w);
   for (int i = 0; i < count; ++i) {
@@ -49,14 +49,14 @@ vec3 environmentLit(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) {
     DrawnDirection light = drawFromEnvironment(drawBits(draw), vec2(unitInterval(inside.x), unitInterval(inside.y)));
     vec3 wi = light.direction * frame;
     if (wi.z > 0.0 && light.density > 0.0 && arrives(light.direction)) {
-      radiance += reflectance(e, albedo, f0, wi, wo) * light.radiance / (light.density + directionDensity(e, wi, wo));
+      radiance += reflectance(e, s, wi, wo) * light.radiance / (light.density + directionDensity(e, wi, wo));
     }
     uvec3 of_lobe = drawBits(draw + 2u);
     wi = drawDirection(e, wo, vec3(unitInterval(of_lobe.x), unitInterval(of_lobe.y), unitInterval(of_lobe.z)));
     float density = wi.z > 0.0 ? directionDensity(e, wi, wo) : 0.0;
     if (density > 0.0 && arrives(frame * wi)) {
       vec4 held = environmentTexel(frame * wi);
-      radiance += reflectance(e, albedo, f0, wi, wo) * held.rgb / (held.a + density);
+      radiance += reflectance(e, s, wi, wo) * held.rgb / (held.a + density);
     }
   }
   return radiance / float(count);

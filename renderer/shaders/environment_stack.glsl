@@ -5,8 +5,6 @@ layout(std140, binding = 5) uniform EnvironmentBlock {
   vec4 environment_stack_range;  // sharpness of the finest map's lobe, number of maps: two a level; nodes around a ring
 };
 
-const float inverse_root_two_pi = 0.3989423;
-
 //? include octahedral.glsl
 
 // Map 2 l is level l of layer 0, map 2 l + 1 that of layer 1.
@@ -256,10 +254,10 @@ vec3 environmentDiffuse(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) 
 }
 //? end
 
-vec3 environmentLit(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) {
-  vec3 radiance = environmentSpecular(e, f0, wo, frame);
+vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame) {
+  vec3 radiance = environmentSpecular(e, s.f0, wo, frame);
 //? if environment_diffuse
-  radiance += environmentDiffuse(e, albedo, f0, wo, frame);
+  radiance += environmentDiffuse(e, s.albedo, s.f0, wo, frame);
 //? end
   return radiance;
 }

@@ -2,7 +2,6 @@
 // weights of common components, docs/shadows.md.
 in vec4 visibility_weights[4];  // the first is 1, of the mean
 in vec3 visible_diffuse;        // of a Lambert surface's irradiance, the visible share
-layout(binding = 14) uniform sampler2DArray visibility_maps;
 
 // The angle from a direction of the world to the nearest edge between visible and hidden; below 0 where it is hidden.
 float signedDistance(vec3 direction) {

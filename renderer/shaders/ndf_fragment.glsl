@@ -1,5 +1,5 @@
 // The NDF inspector's pass: a method's effective density of normals at listed directions, for one footprint given by
-// hand. The method's module takes the place of the line `//# module`.
+// hand. The method's module takes the place of the line `module`.
 layout(location = 0) out float density;
 
 uniform sampler2D ndf_directions;  // one a pixel: unit vectors, or zero where nothing is asked
@@ -7,7 +7,7 @@ uniform vec2 footprint_uv[3];      // slots normal, roughness, base_color: centr
 uniform vec2 footprint_dx[3];
 uniform vec2 footprint_dy[3];
 
-//# module
+//? module
 Footprint givenFootprint(int slot) { return Footprint(footprint_uv[slot], footprint_dx[slot], footprint_dy[slot]); }
 
 void main() {

@@ -1,6 +1,6 @@
 // The effective NDF as lobes over half vectors: what a module hands over for environment light.
 
-//? include normal_cdf.glsl
+//? include vmf.glsl
 
 // A spherical Gaussian over half vectors, e^{sharpness ((axis.h) - 1)}.
 struct NormalLobe {
@@ -18,13 +18,6 @@ struct DiffuseFacets {
   vec3 share;        // reflected of a constant environment, over the albedo
   bool whole;        // `share` has the albedo in it, and no Fresnel term takes from it
 };
-
-// The mean of axis.h over a vMF lobe: coth kappa - 1 / kappa.
-float meanCosine(float kappa) {
-  if (kappa < 0.1) return kappa * (1.0 / 3.0 - kappa * kappa / 45.0);
-  float e = exp(-2.0 * kappa);
-  return (1.0 + e) / (1.0 - e) - 1.0 / kappa;
-}
 
 // A von Mises-Fisher lobe that holds `share` of the footprint.
 NormalLobe vmfNormalLobe(vec3 axis, float kappa, float share, float base) {

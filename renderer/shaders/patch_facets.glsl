@@ -85,7 +85,7 @@ vec3 tabulatedBrdf(vec3 n, vec3 wi, vec3 wo) {
 }
 //? end
 
-vec3 patchSpecular(FacetDraw draw, vec3 f0, vec3 wi, vec3 wo) {
+vec3 patchSpecular(FacetDraw draw, Surface s, vec3 wi, vec3 wo) {
   float area = visibleArea(wo);
   if (area < least_visible_area) return vec3(0.0);
   vec3 sum = vec3(0.0);
@@ -100,14 +100,14 @@ vec3 patchSpecular(FacetDraw draw, vec3 f0, vec3 wi, vec3 wo) {
       continue;
     }
 //? end
-    vec3 own = f0 * factor;
+    vec3 own = s.f0 * factor;
     sum += normal.w * facetSpecular(evenFacets(normal.xyz, lobe_cutoff.x), own, wi, wo);
   }
   return sum / (float(facets_per_sample) * area);
 }
 
 //? if diffuse
-vec3 patchDiffuse(FacetDraw draw, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
+vec3 patchDiffuse(FacetDraw draw, Surface s, vec3 wi, vec3 wo) {
 //? if tabulated_brdf
   if (base_has_table > 0.5) return vec3(0.0);  // the table has it
 //? end
@@ -118,7 +118,8 @@ vec3 patchDiffuse(FacetDraw draw, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
     float paint;
     vec4 normal = drawnNormal(draw, k, wi, wo, paint);
     if (normal.w == 0.0) continue;
-    sum += normal.w * lambert(normal.xyz, albedo * diffuseFactor(paint), f0 * specularFactor(paint), wi, wo);
+    Surface own = Surface(s.albedo * diffuseFactor(paint), s.f0 * specularFactor(paint));
+    sum += normal.w * diffuse(normal.xyz, own, wi, wo);
   }
   return sum / (float(facets_per_sample) * area);
 }
@@ -130,15 +131,20 @@ struct Effective {
   FacetDraw draw;
 };
 
-vec3 specular(Effective e, vec3 f0, vec3 wi, vec3 wo) {
-  return base_has_patch > 0.5 ? patchSpecular(e.draw, f0, wi, wo) : facetSpecular(e.facets, f0, wi, wo);
-}
-
+Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
+  if (base_has_patch <= 0.5) return facetShade(e.facets, s, wi, wo);
+  Reflected r;
+  r.specular = patchSpecular(e.draw, s, wi, wo);
 //? if diffuse
-vec3 diffuse(Effective e, vec3 albedo, vec3 f0, vec3 wi, vec3 wo) {
-  if (base_has_patch > 0.5) return patchDiffuse(e.draw, albedo, f0, wi, wo);
-  return lambert(e.facets.normal, albedo, f0, wi, wo);
-}
+  r.diffuse = patchDiffuse(e.draw, s, wi, wo);
 //? end
+  return r;
+}
 
 float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }
+
+//? if environment_light and not environment_sampled
+//? include facet_normal_lobes.glsl
+
+vec3 meanNormal(Effective e) { return e.facets.normal; }
+//? end

@@ -1,5 +1,5 @@
 // The forward pass: linear radiance towards the camera, coverage in alpha. Everything that all methods share is here.
-// The method's module takes the place of the line `//# module`.
+// The method's module takes the place of the line `module`.
 in vec3 world_position;
 in vec3 world_normal;
 in vec4 world_tangent;
@@ -23,7 +23,7 @@ uniform ivec2 sample_origin;  // of this tile in the whole picture's sample grid
 uniform uvec2 sample_seed;    // seed and pass
 //? end
 
-//# module
+//? module
 Footprint footprintOf(vec4 linear, vec4 offset_set) {
   vec2 mapped = mat2(linear.xy, linear.zw) * (offset_set.z < 0.5 ? uv0 : uv1) + offset_set.xy;
   return Footprint(mapped, dFdx(mapped), dFdy(mapped));
@@ -73,9 +73,7 @@ uvec3 drawBits(uint draw) {
   uvec2 place = uvec2(ivec2(gl_FragCoord.xy) + sample_origin);
   return hashed(uvec3(place, sample_seed.y) ^ hashed(uvec3(sample_seed.x, 0x9e3779b9u + draw, sample_seed.y)));
 }
-//? end
 
-//? if random_draws
 vec2 drawTexelOffsets() {
   return vec2(drawBits(0u).xy >> 8u) * (1.0 / 16777216.0);  // 24 bits: exact in a float, below 1
 }
@@ -85,21 +83,26 @@ vec2 drawTexelOffsets() {
 
 struct SurfacePoint {
   Effective effective;
-  vec3 albedo;
-  vec3 f0;
+  Surface surface;
   mat3 frame;
   vec3 wo;  // tangent frame
 };
+
+// f * cos of both terms together.
+vec3 reflectance(Effective e, Surface s, vec3 wi, vec3 wo) {
+  Reflected r = shade(e, s, wi, wo);
+//? if diffuse
+  return r.specular + r.diffuse;
+//? else
+  return r.specular;
+//? end
+}
 
 // One light's share. A light below the surface's own horizon does not reach it.
 vec3 reflected(SurfacePoint p, vec3 to_light, vec3 irradiance_at_normal) {
   vec3 wi = to_light * p.frame;
   if (wi.z <= 0.0) return vec3(0.0);
-  vec3 f_cos = specular(p.effective, p.f0, wi, p.wo);
-//? if diffuse
-  f_cos += diffuse(p.effective, p.albedo, p.f0, wi, p.wo);
-//? end
-  return f_cos * irradiance_at_normal;
+  return reflectance(p.effective, p.surface, wi, p.wo) * irradiance_at_normal;
 }
 
 //? if cast_shadow
@@ -113,12 +116,10 @@ vec3 facetNormal(vec3 along_x, vec3 along_y, vec3 to_viewer) {
 }
 
 //? end
-//? if environment_light
 //? if environment_sampled
 //? include environment_sampling.glsl
-//? else
+//? elif environment_light
 //? include environment_stack.glsl
-//? end
 //? end
 
 vec3 lit(SurfacePoint p) {
@@ -157,7 +158,7 @@ vec3 lit(SurfacePoint p) {
   }
 //? end
 //? if environment_light
-  radiance += environmentLit(p.effective, p.albedo, p.f0, p.wo, p.frame);
+  radiance += environmentLit(p.effective, p.surface, p.wo, p.frame);
 //? end
   return radiance;
 }
@@ -205,8 +206,8 @@ void main() {
   tangent_to_camera = world_to_camera * p.frame;
 //? end
   p.effective = effective(f);
-  p.albedo = base_color.rgb * (1.0 - metallic);
-  p.f0 = mix(dielectric_specular, base_color.rgb, metallic);
+  p.surface.albedo = base_color.rgb * (1.0 - metallic);
+  p.surface.f0 = mix(dielectric_specular, base_color.rgb, metallic);
 //? if orthographic
   vec3 to_viewer = to_camera;
 //? else

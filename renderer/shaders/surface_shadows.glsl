@@ -5,7 +5,6 @@ struct ShadowView {
   vec4 faces_rounding;  // maps of the light: 1 or 6; what rounding moves a point by, metres
 };
 layout(std140, binding = 6) uniform ShadowViews { ShadowView shadow_views[shadow_view_capacity]; };
-layout(binding = 15) uniform sampler2DArrayShadow shadow_maps;
 
 // The face of a cube that a direction meets, in the order +x, -x, +y, -y, +z, -z.
 int cubeFace(vec3 direction) {

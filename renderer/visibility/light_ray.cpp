@@ -1,4 +1,4 @@
-// See light_ray.hpp.
+// Whether light of each kind reaches a point at all, and from where.
 #include "renderer/visibility/light_ray.hpp"
 
 #include <cmath>

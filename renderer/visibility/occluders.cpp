@@ -1,4 +1,4 @@
-// See occluders.hpp.
+// An Embree scene whose hits let rays through the holes that alpha cuts out.
 #include "renderer/visibility/occluders.hpp"
 
 #include <algorithm>

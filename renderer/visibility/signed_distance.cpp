@@ -1,4 +1,4 @@
-// See signed_distance.hpp.
+// Rays over a grid of directions, and the nearest place where what they meet changes.
 #include "renderer/visibility/signed_distance.hpp"
 
 #include <Eigen/Dense>

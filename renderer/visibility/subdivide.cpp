@@ -1,4 +1,4 @@
-// See subdivide.hpp.
+// Edges are halved until none is too long, each once for the triangles on both its sides.
 #include "renderer/visibility/subdivide.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// See visibility_field.hpp.
+// Signed distances by rays at every vertex, compressed by their principal components.
 #include "renderer/visibility/visibility_field.hpp"
 
 #include <fmt/format.h>

@@ -148,7 +148,7 @@ struct SceneInfo {
   std::string name, source;
   std::size_t triangles = 0, materials = 0, lights = 0;
   double exposure = 1;
-  std::string exposure_source;        ///< "scene", "automatic" or "command line"
+  std::string exposure_source;        ///< "scene", "automatic", "command line" or "experiment"
   std::vector<std::string> defaults;  ///< what was supplied because the input has none
   std::vector<std::string> warnings;  ///< what the input has and the run left out
 };

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "renderer/core/embedded_texts.hpp"
 #include "renderer/image/false_color.hpp"
 #include "results/report/experiment_section.hpp"
 #include "results/report/figures.hpp"
@@ -14,10 +15,7 @@
 
 namespace footprint {
 namespace embedded {
-extern const std::string_view page_html;
-extern const std::string_view page_css;
-extern const std::string_view page_js;
-extern const std::string_view chart_js;
+extern const EmbeddedTexts page_texts;
 }  // namespace embedded
 
 namespace {
@@ -84,13 +82,14 @@ std::string results_page(const Results& results) {
   const std::string title = html_escaped(results.scene.name);
   const std::string table = html_escaped(results_table(results));
   const std::string experiment = results.experiment ? experiment_html(*results.experiment) : std::string();
-  return fill_template(embedded::page_html, {{"title", title},
-                                             {"css", embedded::page_css},
-                                             {"chart", embedded::chart_js},
-                                             {"script", embedded::page_js},
-                                             {"table", table},
-                                             {"experiment", experiment},
-                                             {"data", data}});
+  const auto text = [](std::string_view file) { return find_text(embedded::page_texts, file)->text; };
+  return fill_template(text("page.html"), {{"title", title},
+                                           {"css", text("page.css")},
+                                           {"chart", text("chart.min.js")},
+                                           {"script", text("page.js")},
+                                           {"table", table},
+                                           {"experiment", experiment},
+                                           {"data", data}});
 }
 
 }  // namespace footprint

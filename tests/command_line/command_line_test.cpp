@@ -10,7 +10,8 @@ const std::vector<Case> help_cases{
      .output_has = {"Examples:", "Exit codes:", "compare", "render", "explain", "list", "surface", "info"}},
     {.name = "HelpOfCompare",
      .arguments = {"compare", "--help"},
-     .output_has = {"Examples:", "footprint compare", "--methods", "--spp", "--distance", "--seed", "after_shading"}},
+     .output_has = {"Examples:", "footprint compare", "--methods", "--spp", "--distance", "--seed", "after_shading",
+                    "1 to 4096"}},
     {.name = "HelpOfRender",
      .arguments = {"render", "--help"},
      .output_has = {"Examples:", "footprint render", "--method", "--size", "--output"}},
@@ -280,6 +281,19 @@ const std::vector<Case> good_cases{
      .leaves = {"out/index.html", "out/results.json", "out/results.csv", "out/table.md", "out/images"}},
 };
 
+// Usage names the program, as it is typed.
+std::vector<Case> usage_cases() {
+  std::vector<Case> cases;
+  for (const std::string command :
+       {"compare", "render", "animate", "edit", "run", "check", "explain", "ndf", "list", "surface", "info"}) {
+    cases.push_back({.name = "UsageOf_" + command,
+                     .arguments = {command, "--help"},
+                     .output_has = {"Usage: footprint " + command + " [OPTIONS]", "Examples:\n"}});
+  }
+  return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(Usage, CommandLine, ::testing::ValuesIn(usage_cases()), case_name);
 INSTANTIATE_TEST_SUITE_P(Help, CommandLine, ::testing::ValuesIn(help_cases), case_name);
 INSTANTIATE_TEST_SUITE_P(Listing, CommandLine, ::testing::ValuesIn(listing_cases), case_name);
 INSTANTIATE_TEST_SUITE_P(WrongWord, CommandLine, ::testing::ValuesIn(wrong_words), case_name);

@@ -119,7 +119,7 @@ const std::vector<Case> animate_cases{
     {.name = "ZoomFromNowhere",
      .arguments = animate({"--method", "direct", "--from", "0"}),
      .exit_code = 2,
-     .errors_have = {"--distance", "`0`"}},
+     .errors_have = {"--from", "`0`"}},
     {.name = "Animate",
      .arguments = animate({"--method", "direct,toksvig:storage=fp16", "--frames", "2"}),
      .output_has = {"toksvig:storage=fp16", "Flicker", "frames: "},

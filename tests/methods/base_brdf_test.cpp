@@ -33,7 +33,9 @@ constexpr std::array<BaseBrdf, 3> brdfs = {{
 }};
 
 // The parameter of a lobe as wide as a GGX one of `alpha`.
-float parameter(const BaseBrdf& brdf, float alpha) { return lobe_from_alpha(brdf.distribution, alpha); }
+float parameter(const BaseBrdf& brdf, float alpha) {
+  return static_cast<float>(lobe_from_alpha(brdf.distribution, alpha).parameter);
+}
 
 std::vector<FacetLobe> two_lobes(const BaseBrdf& brdf) {
   return {{.axis = {0.6F, 0.0F, 0.8F}, .parameter = parameter(brdf, 0.2F), .weight = 0.6F},

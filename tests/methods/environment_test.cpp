@@ -7,7 +7,6 @@
 
 #include "methods/registry.hpp"
 #include "renderer/image/metrics.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/test_scenes.hpp"
 

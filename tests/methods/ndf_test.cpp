@@ -23,7 +23,7 @@ using enum NormalDistribution;
 
 constexpr FootprintRect whole_map{};
 
-Material material_of(Image normals, const BaseLobe& lobe) {
+Material material_of(Image normals, const Lobe& lobe) {
   Material material;
   material.name = "test";
   material.brdf = {lobe.distribution, GeometryTerm::none, FresnelTerm::none, false};
@@ -70,10 +70,10 @@ class EveryMethodsNdf : public ::testing::TestWithParam<const Method*> {
   static const std::string& name() { return GetParam()->info().name; }
 };
 
-const std::vector<BaseLobe> lobes{{blinn_phong, 64}, {blinn_phong, 512}, {beckmann, 0.2}, {ggx, 0.2}, {vmf, 200}};
+const std::vector<Lobe> lobes{{blinn_phong, 64}, {blinn_phong, 512}, {beckmann, 0.2}, {ggx, 0.2}, {vmf, 200}};
 
 TEST_P(EveryMethodsNdf, IsTheLobeOverAConstantMap) {
-  for (const BaseLobe& lobe : lobes) {
+  for (const Lobe& lobe : lobes) {
     for (const glm::vec3& normal : {glm::vec3(0, 0, 1), glm::vec3(0.28F, 0, 0.96F)}) {
       const NdfFigures figures = Inspection(material_of(constant_normals(16, 16, normal), lobe)).figures(name());
       EXPECT_LT(figures.l2, 1e-3) << lobe_text(lobe) << ", x = " << normal.x;
@@ -113,7 +113,7 @@ TEST_P(EveryMethodsNdf, KeepsTheEnergyOfSeveralLobesOverBumps) {
 constexpr std::array widening_methods{"lean", "leadr", "tan_gmm", "xu_vmf:j=1", "xu_vmf:j=4", "xu_vmf:j=8", "xu_vmf"};
 
 TEST(WideningMethodsNdf, KeepTheEnergyOfMicrofacetLobes) {
-  for (const BaseLobe& lobe : {BaseLobe{ggx, 0.05}, {beckmann, 0.05}}) {
+  for (const Lobe& lobe : {Lobe{ggx, 0.05}, {beckmann, 0.05}}) {
     Inspection inspection(material_of(random_normals(16, 16, 0.5F, 12), lobe));
     for (const char* const method : widening_methods)
       EXPECT_NEAR(inspection.figures(method).energy, 1.0, 0.01) << method << ", " << lobe_text(lobe);
@@ -138,7 +138,7 @@ TEST_P(EveryMethodsNdf, IsFiniteAndNotNegativeAtTheLimits) {
   Image hard = random_normals(13, 7, 0.999F, 8);
   std::ranges::copy(std::vector{1.0F, 0.0F, 1e-6F, 1.0F}, hard.at(3, 2).begin());
   std::ranges::copy(std::vector{0.0F, 0.0F, 1.0F, 0.0F}, hard.at(4, 2).begin());
-  for (const BaseLobe& lobe : {BaseLobe{blinn_phong, 1e-3}, {blinn_phong, 1e4}, {ggx, 0.05}}) {
+  for (const Lobe& lobe : {Lobe{blinn_phong, 1e-3}, {blinn_phong, 1e4}, {ggx, 0.05}}) {
     for (const FootprintRect& rect : {whole_map, FootprintRect{{0.3, 0.3}, {0.31, 0.32}}, {{-1.5, 0.2}, {2.5, 0.3}}}) {
       for (const float d : Inspection(material_of(hard, lobe), rect).densities(name())) {
         ASSERT_TRUE(std::isfinite(d) && d >= 0.0F) << lobe_text(lobe);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "renderer/pipeline/base_surface.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 #include "tests/support/rendering.hpp"
@@ -42,15 +41,13 @@ std::vector<glm::vec4> probe_method(const ProbedMethod& probed, const std::strin
     text += fmt::format("layout(binding = {}) uniform sampler2D{} {};\n", unit, texture.layers > 0 ? "Array" : "",
                         texture.name);
   }
-  ShaderFlags flags = shader_flags(variant, options);
-  flags.merge(texture_flags(baked));
   for (const auto& [name, value] : options.all()) {
     if (const auto* number = std::get_if<double>(&value))
       text += fmt::format("const float option_{} = {:e};\n", name, *number);
   }
   for (const auto& [name, value] : baked.scalars) text += fmt::format("const float {} = {:e};\n", name, value);
-  text += fmt::format("const vec4 lobe_cutoff = vec4({:e});\n", lobe_parameter(*probed.material)) +
-          shared_functions(flags) + select_text(probed.method->shader(), flags, probed.method->info().name);
+  text += fmt::format("const vec4 lobe_cutoff = vec4({:e});\n", lobe_of(*probed.material).parameter) +
+          shared_functions(shader_flags(variant, options, baked), probed.method->shader());
   const std::string footprint = fmt::format(
       "Footprint whole_map = Footprint(vec2(0.5), vec2(1.0, 0.0), vec2(0.0, 1.0));\n"
       "Effective e = effective(Footprints(whole_map, whole_map, whole_map{}));\n",

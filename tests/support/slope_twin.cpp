@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "renderer/bake/slope_moments.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint::testing {
 namespace {
@@ -54,7 +53,7 @@ double base_density(NormalDistribution distribution, double lobe, const glm::dve
 
 glm::dvec3 SlopeTwin::axis() const { return glm::normalize(glm::dvec3(-mean, 1.0)); }
 
-double SlopeTwin::variance() const { return lobe_variance(distribution, static_cast<float>(lobe)); }
+double SlopeTwin::variance() const { return lobe_variance({distribution, lobe}); }
 
 double SlopeTwin::stretched(const glm::dvec3& h) const {
   const double v = variance();

@@ -12,7 +12,6 @@
 #include "renderer/core/random.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint::iwasaki_sg {
 namespace {
@@ -61,7 +60,7 @@ std::vector<glm::dvec3> random_directions(std::size_t count) {
 FacetSum::FacetSum(const Material& material, const TableSettings& settings, BinnedFacets facets,
                    std::vector<glm::dvec3> directions, const Progress& progress)
     : bvndf_(bvndf_of(material.microgeometry->patch, std::move(facets), std::move(directions), progress)),
-      lobe_{material.brdf.distribution, lobe_parameter(material)},
+      lobe_{lobe_of(material)},
       support_(lobe_support(lobe_)),
       table_(material.microgeometry->brdf.get()),
       cosines_(settings.cosines),
@@ -70,7 +69,7 @@ FacetSum::FacetSum(const Material& material, const TableSettings& settings, Binn
 
 double FacetSum::base_density(const glm::dvec3& normal, const glm::dvec3& h) const {
   const double u = one_minus_dot(normal, h);
-  return u < support_ ? lobe_peak(lobe_) * lobe_shape(lobe_, u) : 0.0;
+  return u < support_ ? lobe_density(lobe_, u) : 0.0;
 }
 
 glm::dvec3 FacetSum::operator()(std::size_t wi, std::size_t wo) const {

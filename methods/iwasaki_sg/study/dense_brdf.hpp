@@ -11,8 +11,8 @@
 #include "methods/iwasaki_sg/bvndf.hpp"
 #include "methods/iwasaki_sg/material_table.hpp"
 #include "renderer/core/progress.hpp"
+#include "renderer/lobes/lobe.hpp"
 #include "renderer/microgeometry/tabulated_brdf.hpp"
-#include "renderer/ndf/base_lobe.hpp"
 #include "renderer/scene/material.hpp"
 
 namespace footprint::iwasaki_sg {
@@ -37,7 +37,7 @@ class FacetSum {
   [[nodiscard]] double base_density(const glm::dvec3& normal, const glm::dvec3& h) const;
 
   Bvndf bvndf_;
-  BaseLobe lobe_;
+  Lobe lobe_;
   double support_;  // of the base lobe
   const TabulatedBrdf* table_;
   Cosines cosines_;

@@ -7,28 +7,26 @@
 
 #include "methods/iwasaki_sg/settings.hpp"
 #include "methods/iwasaki_sg/spherical_gaussian.hpp"
+#include "renderer/lobes/vmf.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
-#include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint::iwasaki_sg {
 namespace {
 
 // The base lobe as wide as it and the normals' lobe are together: variances add.
-double widened(const BaseLobe& base, const Lobe& lobe, const glm::dvec3& h) {
-  const auto variance = lobe_variance(base.distribution, static_cast<float>(base.parameter));
-  const float both = lobe_from_variance(base.distribution, variance + static_cast<float>(1.0 / lobe.sharpness));
-  const BaseLobe wide{base.distribution, both};
-  return lobe_peak(wide) * lobe_shape(wide, one_minus_dot(lobe.axis, h));
+double widened(const Lobe& base, const SphericalGaussian& lobe, const glm::dvec3& h) {
+  const float variance = lobe_variance(base) + static_cast<float>(1.0 / lobe.sharpness);
+  return lobe_density(lobe_from_variance(base.distribution, variance), one_minus_dot(lobe.axis, h));
 }
 
 }  // namespace
 
 FacetReflection facet_reflection(const Material& material, const Options& options) {
   if (is_tabulated(material)) return lobes_of(*material.microgeometry->brdf);
-  const double parameter = lobe_parameter(material);
-  if (options.word("lobe") == "sg") return lobes_of(material.brdf.distribution, parameter);
-  return BaseLobe{material.brdf.distribution, parameter};
+  const Lobe lobe = lobe_of(material);
+  if (options.word("lobe") == "sg") return lobes_of(lobe);
+  return lobe;
 }
 
 EffectiveBrdf::EffectiveBrdf(const MaterialTable& table, const TableSettings& settings, FacetReflection reflection,
@@ -51,22 +49,22 @@ glm::dvec3 EffectiveBrdf::operator()(const glm::dvec3& wi, const glm::dvec3& wo)
   return with_cosine_ ? sum * wi.z : sum;
 }
 
-glm::dvec3 EffectiveBrdf::convolved(const Lobe& lobe, const glm::dvec3& h, const glm::dvec3& wi) const {
-  if (const auto* const base = std::get_if<BaseLobe>(&reflection_)) return glm::dvec3(widened(*base, lobe, h));
+glm::dvec3 EffectiveBrdf::convolved(const SphericalGaussian& lobe, const glm::dvec3& h, const glm::dvec3& wi) const {
+  if (const auto* const base = std::get_if<Lobe>(&reflection_)) return glm::dvec3(widened(*base, lobe, h));
   if (const auto* const table = std::get_if<TabulatedLobes>(&reflection_)) {
     glm::dvec3 sum(0.0);
     for (const ColorLobe& own : table->lobes) {
-      sum += glm::dvec3(own.amplitude) * convolution(lobe, Lobe{h, own.sharpness});
+      sum += glm::dvec3(own.amplitude) * convolution(lobe, SphericalGaussian{h, own.sharpness});
     }
     const double theta_d = std::acos(std::clamp(glm::dot(wi, h), 0.0, 1.0));
-    return glm::dvec3(table->diffuse) + sum * rise_at(*table, theta_d) / integral(lobe.sharpness);
+    return glm::dvec3(table->diffuse) + sum * rise_at(*table, theta_d) / vmf_integral(lobe.sharpness);
   }
   double sum = 0.0;
   for (const BrdfLobe& own : std::get<std::vector<BrdfLobe>>(reflection_)) {
-    const Lobe about_h{h, own.sharpness};
+    const SphericalGaussian about_h{h, own.sharpness};
     sum += own.amplitude * (approximate_ ? approximate_convolution(lobe, about_h) : convolution(lobe, about_h));
   }
-  return glm::dvec3(sum / integral(lobe.sharpness));
+  return glm::dvec3(sum / vmf_integral(lobe.sharpness));
 }
 
 // Interpolated as the shader does it: with the cosine to the light over that of the surface.

@@ -9,14 +9,14 @@
 #include "methods/iwasaki_sg/brdf_lobes.hpp"
 #include "methods/iwasaki_sg/material_table.hpp"
 #include "renderer/core/options.hpp"
-#include "renderer/ndf/base_lobe.hpp"
+#include "renderer/lobes/lobe.hpp"
 #include "renderer/scene/material.hpp"
 
 namespace footprint::iwasaki_sg {
 
 /// What facets reflect with: the base lobe, that lobe as spherical Gaussians of unit energy, or those of a tabulated
 /// BRDF with its diffuse term.
-using FacetReflection = std::variant<BaseLobe, std::vector<BrdfLobe>, TabulatedLobes>;
+using FacetReflection = std::variant<Lobe, std::vector<BrdfLobe>, TabulatedLobes>;
 
 /// That of a material by the option `lobe`; a tabulated BRDF where the facets have one.
 [[nodiscard]] FacetReflection facet_reflection(const Material& material, const Options& options);
@@ -33,7 +33,7 @@ class EffectiveBrdf {
   [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& wi, const glm::dvec3& wo) const;
 
  private:
-  [[nodiscard]] glm::dvec3 convolved(const Lobe& lobe, const glm::dvec3& h, const glm::dvec3& wi) const;
+  [[nodiscard]] glm::dvec3 convolved(const SphericalGaussian& lobe, const glm::dvec3& h, const glm::dvec3& wi) const;
   [[nodiscard]] std::vector<glm::dvec3> masses(const glm::dvec3& wi, const glm::dvec3& wo) const;
 
   const MaterialTable& table_;

@@ -32,8 +32,9 @@ double shader_difference(const Material& material, const std::map<std::string, s
     const auto direction = [&] { return square_to_hemisphere({uniform(random), uniform(random)}); };
     inputs.push_back({glm::vec4(glm::vec3(direction()), 0), glm::vec4(glm::vec3(direction()), 0), {}});
   }
-  const auto found = testing::probe_method({&iwasaki_sg_method(), &material, given, effects},
-                                           "return vec4(specular(e, vec3(1), a.xyz, b.xyz), 0);", inputs);
+  const auto found =
+      testing::probe_method({&iwasaki_sg_method(), &material, given, effects},
+                            "return vec4(shade(e, Surface(vec3(0), vec3(1)), a.xyz, b.xyz).specular, 0);", inputs);
   double largest = 0.0, away = 0.0;
   for (std::size_t k = 0; k < inputs.size(); ++k) {
     const glm::dvec3 truth = brdf(glm::dvec3(glm::vec3(inputs[k][0])), glm::dvec3(glm::vec3(inputs[k][1])));

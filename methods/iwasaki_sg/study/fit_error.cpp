@@ -36,7 +36,7 @@ glm::dvec3 cube_point(int face, double u, double v) {
 }
 
 // Adds what a lobe holds in the cell of a face about (u, v), by steps^2 sub-cells, to the cells of the turned cube map.
-void add_shares(const Lobe& lobe, int face, glm::dvec2 middle, int steps, std::span<double> own) {
+void add_shares(const SphericalGaussian& lobe, int face, glm::dvec2 middle, int steps, std::span<double> own) {
   constexpr double cell_width = 2.0 / cube_side;
   const double width = cell_width / steps;
   for (int y = 0; y < steps; ++y) {
@@ -51,12 +51,12 @@ void add_shares(const Lobe& lobe, int face, glm::dvec2 middle, int steps, std::s
 }
 
 // Each lobe's share in each cell of the cube map, [lobe][cell]: sub-cells as fine as its width asks for.
-std::vector<std::vector<double>> shares_in_cells(std::span<const Lobe> lobes) {
+std::vector<std::vector<double>> shares_in_cells(std::span<const SphericalGaussian> lobes) {
   std::vector<std::vector<double>> shares;
   constexpr double cell_width = 2.0 / cube_side;
   constexpr int finest = 32;
   constexpr double nothing = 40.0;  // an exponent below which a lobe adds nothing
-  for (const Lobe& lobe : lobes) {
+  for (const SphericalGaussian& lobe : lobes) {
     const int steps = std::clamp(static_cast<int>(std::ceil(2.0 * cell_width * std::sqrt(lobe.sharpness))), 1, finest);
     // From the axis to the middle of the last cell that the lobe reaches.
     const double reach = std::acos(std::max(1.0 - nothing / lobe.sharpness, -1.0)) + cell_width;
@@ -173,7 +173,7 @@ double largest_difference(double sharpness1, double sharpness2, const Approximat
   double largest = 0.0;
   for (int i = 0; i <= steps; ++i) {
     const double angle = reach * i / steps;
-    const Lobe a{{0.0, 0.0, 1.0}, sharpness1}, b{{std::sin(angle), 0.0, std::cos(angle)}, sharpness2};
+    const SphericalGaussian a{{0.0, 0.0, 1.0}, sharpness1}, b{{std::sin(angle), 0.0, std::cos(angle)}, sharpness2};
     largest = std::max(largest, std::abs(convolution(a, b) - approximation(a, b)));
   }
   return largest;
@@ -195,17 +195,18 @@ double sharpness_of(double short_by) {
 }  // namespace
 
 double convolution_error(double sharpness1, double sharpness2) {
-  return largest_difference(sharpness1, sharpness2,
-                            [](const Lobe& a, const Lobe& b) { return approximate_convolution(a, b); });
+  return largest_difference(sharpness1, sharpness2, [](const SphericalGaussian& a, const SphericalGaussian& b) {
+    return approximate_convolution(a, b);
+  });
 }
 
 double jakob_convolution_error(double sharpness1, double sharpness2) {
   const double q1 = short_of_one(sharpness1), q2 = short_of_one(sharpness2);
   const double sharpness = sharpness_of(q1 + q2 - q1 * q2);
-  const Lobe z1{{0.0, 0.0, 1.0}, sharpness1}, z2{{0.0, 0.0, 1.0}, sharpness2};
+  const SphericalGaussian z1{{0.0, 0.0, 1.0}, sharpness1}, z2{{0.0, 0.0, 1.0}, sharpness2};
   const double peak = convolution(z1, z2);
-  return largest_difference(sharpness1, sharpness2, [&](const Lobe& a, const Lobe& b) {
-    return peak * value(Lobe{a.axis, sharpness}, b.axis);
+  return largest_difference(sharpness1, sharpness2, [&](const SphericalGaussian& a, const SphericalGaussian& b) {
+    return peak * value(SphericalGaussian{a.axis, sharpness}, b.axis);
   });
 }
 

@@ -2,6 +2,7 @@
 #include "renderer/scene/gltf/check.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
 
 #include <algorithm>

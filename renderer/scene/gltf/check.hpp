@@ -1,7 +1,7 @@
 // Refuses glTF JSON that is ill-typed or points outside itself, before tinygltf and we rely on it.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <string_view>

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "renderer/core/error.hpp"
-#include "renderer/scene/file_bytes.hpp"
+#include "renderer/core/file_bytes.hpp"
 #include "renderer/scene/gltf/check.hpp"
 
 namespace footprint {

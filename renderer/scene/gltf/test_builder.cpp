@@ -7,8 +7,8 @@
 #include <cstring>
 #include <fstream>
 
+#include "renderer/core/file_bytes.hpp"
 #include "renderer/image/image_io.hpp"
-#include "renderer/scene/file_bytes.hpp"
 
 namespace footprint::test {
 namespace {

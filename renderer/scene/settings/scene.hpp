@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "renderer/core/toml_table.hpp"
@@ -14,9 +13,6 @@
 #include "renderer/scene/settings/part.hpp"
 
 namespace footprint {
-
-/// Where the camera stands: the model's own (or framed, where it has none), framed, or as given.
-using CameraSettings = std::variant<std::monostate, Framing, Camera>;
 
 /// All of a scene.toml; a default value is what a bare glTF file gets.
 struct SceneSettings {

@@ -1,0 +1,68 @@
+// Between the table of settings and the parser of the command line.
+#include "app/run_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+
+#include "app/folders.hpp"
+#include "renderer/bake/bake_cache.hpp"
+
+namespace footprint {
+namespace {
+
+// "Samples a pixel of the reference (1 to 4096)", and what counts where none is given.
+std::string help_text(const Setting& setting) {
+  std::string text(setting.help);
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  if (!setting.type.option_takes.empty()) text += fmt::format(" ({})", setting.type.option_takes);
+  if (!setting.otherwise.empty()) text += fmt::format("; if not given {}", setting.otherwise);
+  return text;
+}
+
+const CLI::Option* add_option(CLI::App& command, const Setting& setting) {
+  const std::string names(setting.option), help = help_text(setting);
+  if (setting.type.word.empty()) return command.add_flag(names, help);
+  CLI::Option* option = command.add_option(names, help)->type_name(setting.type.word)->required(setting.required);
+  return option->default_str(default_text(setting));
+}
+
+}  // namespace
+
+RunOptions::RunOptions(CLI::App& command) {
+  for (const Setting& setting : run_settings()) {
+    if (std::ranges::find(setting.commands, command.get_name()) == setting.commands.end()) continue;
+    added_.push_back({&setting, add_option(command, setting)});
+  }
+}
+
+void RunOptions::apply(RunSettings& run) const {
+  run.scene_library = scene_library();
+  run.cache = default_cache_folder();
+  for (const auto& [setting, option] : added_) {
+    const std::string text = option->count() > 0 ? option->results().front() : std::string(setting->start);
+    if (option->count() > 0 || !text.empty()) setting->type.read_text(run, option_name(*setting), text);
+  }
+}
+
+RunSettings RunOptions::settings() const {
+  RunSettings run;
+  apply(run);
+  return run;
+}
+
+std::vector<std::string> RunOptions::given_of(std::string_view table) const {
+  std::vector<std::string> given;
+  for (const auto& [setting, option] : added_) {
+    if (setting->table == table && option->count() > 0) given.emplace_back(option_name(*setting));
+  }
+  return given;
+}
+
+void add_quiet_flag(CLI::App& command, bool& quiet) {
+  command.add_flag("-q,--quiet", quiet, "No progress on standard error");
+}
+
+}  // namespace footprint

@@ -1,0 +1,98 @@
+// What a run over a scene is asked for, whoever asks: the command line or an experiment's file.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/core/options.hpp"
+#include "renderer/core/words.hpp"
+#include "renderer/effects/effects.hpp"
+#include "renderer/gl/context.hpp"
+#include "renderer/pipeline/environment_use.hpp"
+#include "renderer/pipeline/reference_filter.hpp"
+#include "renderer/scene/camera.hpp"
+#include "renderer/scene/surface.hpp"
+
+namespace footprint {
+
+/// Who set an exposure.
+enum class ExposureSource { scene, automatic, command_line, experiment };
+
+/// As reports write it.
+inline constexpr std::array<Word<ExposureSource>, 4> exposure_sources{{
+    {ExposureSource::scene, "scene"},
+    {ExposureSource::automatic, "automatic"},
+    {ExposureSource::command_line, "command line"},
+    {ExposureSource::experiment, "experiment"},
+}};
+
+/// A factor on radiance, above 0, and who set it.
+struct Exposure {
+  float factor = 1;
+  ExposureSource source = ExposureSource::automatic;
+};
+
+/// Frames at equal ratios of the camera's distance.
+struct ZoomSettings {
+  int frames = 0;              ///< 0: there is no zoom; else 2 or more
+  std::optional<double> from;  ///< factor on the camera's distance; none: the first of the scene's zoom path
+  std::optional<double> to;    ///< none: the last of it; 8 times `from` where it has one only
+};
+
+/// What is seen of the scene.
+struct ViewSettings {
+  std::optional<glm::ivec2> size;    ///< pixels; none: the scene's own, or 512 wide in the camera's aspect
+  std::vector<double> distances;     ///< factors on the camera's distance; empty: the scene's zoom path
+  ZoomSettings zoom;                 ///< in place of `distances`; consecutive frames, between which flicker is measured
+  CameraSettings camera;             ///< monostate: the scene's own
+  std::optional<Exposure> exposure;  ///< none: the scene's own, else automatic
+};
+
+/// How a method looks its maps up over a pixel's footprint.
+struct FootprintFilter {
+  int probes = 1;  ///< trilinear ones along the footprint's major axis, at most; 1: isotropic
+};
+
+/// What errors are measured against.
+struct ReferenceSettings {
+  int spp = 64;                                            ///< samples a pixel, 1 to 4096
+  std::vector<int> other_spp;                              ///< of further references that errors are measured against
+  std::vector<int> supersampling{1, 2, 4, 8, 16, 32, 64};  ///< samples a pixel of the measured curve
+  std::uint64_t seed = 1;                                  ///< same seed, same bytes
+  ReferenceFilter filter = ReferenceFilter::after_shading;
+  EnvironmentUse environment = EnvironmentUse::sampled;  ///< how it integrates one
+};
+
+/// How frame times are taken.
+struct TimingSettings {
+  int repeats = 9;    ///< timed frames of each method and distance in each process
+  int processes = 1;  ///< one after the other
+};
+
+/// Where a run is drawn.
+struct BackendSettings {
+  gl::ContextRequest context;
+  int tile = 0;  ///< pixels a side drawn at once; 0: as many as fit
+};
+
+/// All that a run over a scene can be asked for; each study heeds what it has a use for. setting.hpp has the words
+/// that users write for it.
+struct RunSettings {
+  std::string scene;           ///< as load_scene takes it
+  SceneLibrary scene_library;  ///< what it may name
+  std::vector<MethodSpec> methods;
+  EffectSet without;  ///< effects that every method and the reference leave out
+  ViewSettings view;
+  FootprintFilter footprint_filter;
+  ReferenceSettings reference;
+  TimingSettings timing;
+  BackendSettings backend;
+  std::optional<std::filesystem::path> cache;  ///< folder where slow precomputes are kept; none: they are not
+};
+
+}  // namespace footprint

@@ -1,0 +1,33 @@
+// What is done with the table of settings, whatever stands in it.
+#include "experiments/settings/setting.hpp"
+
+#include "experiments/settings/toml_reading.hpp"
+
+namespace footprint {
+
+std::string_view option_name(const Setting& setting) { return setting.option.substr(0, setting.option.find(',')); }
+
+std::string default_text(const Setting& setting) {
+  return setting.start.empty() ? setting.type.text({}) : std::string(setting.start);
+}
+
+std::vector<std::string> setting_keys(std::string_view table) {
+  std::vector<std::string> keys;
+  for (const Setting& setting : run_settings()) {
+    if (!setting.key.empty() && setting.table == table) keys.emplace_back(setting.key);
+  }
+  return keys;
+}
+
+void read_settings(const TomlTable& table, std::string_view name, RunSettings& run) {
+  for (const Setting& setting : run_settings()) {
+    if (setting.key.empty() || setting.table != name) continue;
+    if (table.has(setting.key)) {
+      setting.type.read_file(run, table, setting.key);
+    } else if (setting.required) {
+      refuse_absent(table, setting.key);
+    }
+  }
+}
+
+}  // namespace footprint

@@ -1,0 +1,245 @@
+// The table of a run's settings: a new one is a field of RunSettings and a row here (docs/adding-an-option.md).
+#include <limits>
+
+#include "experiments/settings/setting.hpp"
+#include "experiments/settings/setting_types.hpp"
+
+namespace footprint {
+namespace {
+
+using namespace setting_types;
+using Run = RunSettings;
+using Commands = std::vector<std::string_view>;
+
+// Subcommands by what they have in common.
+const Commands of_a_scene{"compare", "render", "animate", "edit", "explain"};
+const Commands with_a_reference{"compare", "render", "animate"};
+const Commands with_a_footprint{"compare", "render", "animate", "edit", "explain", "ndf"};
+const Commands that_draw{"compare", "render", "animate", "edit", "explain", "ndf", "run", "check"};
+const Commands that_may_cache{"compare", "render", "animate", "explain", "ndf", "run", "check"};
+
+constexpr int any_count = std::numeric_limits<int>::max();
+constexpr std::uint64_t any_seed = std::numeric_limits<std::uint64_t>::max();
+
+std::string& scene(Run& run) { return run.scene; }
+std::vector<MethodSpec>& all_of(Run& run) { return run.methods; }
+std::vector<double>& distances_of(Run& run) { return run.view.distances; }
+std::optional<double>& zoom_from(Run& run) { return run.view.zoom.from; }
+std::optional<double>& zoom_to(Run& run) { return run.view.zoom.to; }
+int& zoom_frames(Run& run) { return run.view.zoom.frames; }
+std::optional<Exposure>& exposure_of(Run& run) { return run.view.exposure; }
+int& repeats(Run& run) { return run.timing.repeats; }
+
+std::vector<Setting> what_is_drawn() {
+  return {
+      {.option = "scene",
+       .commands = of_a_scene,
+       .type = any_text(scene, "SCENE"),
+       .help = "what to look at",
+       .required = true},
+      {.table = "experiment",
+       .key = "scene",
+       .type = any_text(scene, "SCENE"),
+       .help = "SCENE as on the command line; a path that exists beside the file comes first",
+       .required = true},
+      {.option = "--methods",
+       .commands = {"compare"},
+       .type = methods(all_of),
+       .help = "the methods",
+       .start = "direct,naive_mip,toksvig"},
+      {.option = "--method,--methods",
+       .commands = {"animate"},
+       .type = methods(all_of),
+       .help = "the methods",
+       .required = true},
+      {.option = "--method",
+       .commands = {"render"},
+       .type = one_method(all_of),
+       .help = "the method, or `reference`",
+       .required = true},
+      {.option = "--method",
+       .commands = {"edit"},
+       .type = one_method(all_of),
+       .help = "the method",
+       .start = "iwasaki_sg"},
+      {.option = "--method",
+       .commands = {"explain"},
+       .type = one_method(all_of),
+       .help = "the method whose textures and shader count",
+       .start = "direct"},
+      {.option = "--methods",
+       .commands = {"ndf"},
+       .type = methods(all_of),
+       .help = "the methods",
+       .otherwise = "all that take the material"},
+      {.table = "experiment", .key = "methods", .type = methods(all_of), .help = "the methods", .required = true},
+      {.option = "--without",
+       .commands = {"compare"},
+       .table = "experiment",
+       .key = "without",
+       .type = effects([](Run& run) -> EffectSet& { return run.without; }),
+       .help = "effects that every method and the reference leave out, as `explain` names them; the report says so",
+       .otherwise = "none"},
+  };
+}
+
+std::vector<Setting> what_is_seen() {
+  return {
+      {.option = "--size",
+       .commands = of_a_scene,
+       .table = "experiment",
+       .key = "size",
+       .type = frame_size([](Run& run) -> std::optional<glm::ivec2>& { return run.view.size; }),
+       .help = "frame size, pixels",
+       .otherwise = "the scene's, else 512 wide in the camera's aspect"},
+      {.option = "--distance",
+       .commands = {"compare"},
+       .table = "zoom",
+       .key = "distances",
+       .type = distances(distances_of, any_count),
+       .help = "factors on the camera's distance to the centre of the bounds",
+       .otherwise = "the scene's zoom path"},
+      {.option = "--distance",
+       .commands = {"render"},
+       .type = distances(distances_of, 1),
+       .help = "factor on the camera's distance to the centre of the bounds",
+       .start = "1"},
+      {.option = "--frames",
+       .commands = {"animate"},
+       .type = whole_number(zoom_frames, 2, 10000),
+       .help = "frames, at equal ratios of distance",
+       .start = "30"},
+      {.option = "--from",
+       .commands = {"animate"},
+       .type = positive_number(zoom_from, smallest_distance, largest_distance),
+       .help = "first factor on the camera's distance",
+       .otherwise = "the first of the scene's zoom path"},
+      {.option = "--to",
+       .commands = {"animate"},
+       .type = positive_number(zoom_to, smallest_distance, largest_distance),
+       .help = "last factor",
+       .otherwise = "the last of it, or 8 times the first"},
+      {.table = "zoom",
+       .key = "from",
+       .type = positive_number(zoom_from, smallest_distance, largest_distance),
+       .help = "instead of distances, with the two below: first factor of a zoom, between whose frames flicker is "
+               "measured",
+       .otherwise = "no zoom"},
+      {.table = "zoom",
+       .key = "to",
+       .type = positive_number(zoom_to, smallest_distance, largest_distance),
+       .help = "last factor of a zoom",
+       .otherwise = "no zoom"},
+      {.table = "zoom",
+       .key = "frames",
+       .type = whole_number(zoom_frames, 2, 10000),
+       .help = "frames of a zoom, at equal ratios of distance",
+       .otherwise = "no zoom"},
+      {.option = "--exposure",
+       .commands = {"compare", "animate"},
+       .table = "experiment",
+       .key = "exposure",
+       .type = exposure(exposure_of),
+       .help = "factor on radiance for display and for errors on clamped values; auto: the scene's, else derived from "
+               "the first reference"},
+      {.option = "--exposure",
+       .commands = {"render", "edit"},
+       .type = exposure(exposure_of),
+       .help = "factor on radiance for display; auto: the scene's, else derived from the first picture"},
+      {.option = "--anisotropy",
+       .commands = with_a_footprint,
+       .table = "experiment",
+       .key = "anisotropy",
+       .type = whole_number([](Run& run) -> int& { return run.footprint_filter.probes; }, 1, 16),
+       .help = "probes along the footprint's major axis; 1 is isotropic"},
+  };
+}
+
+std::vector<Setting> what_errors_are_measured_against() {
+  return {
+      {.option = "--spp",
+       .commands = with_a_reference,
+       .table = "reference",
+       .key = "spp",
+       .type = whole_number([](Run& run) -> int& { return run.reference.spp; }, 1, 4096),
+       .help = "samples a pixel of the reference"},
+      {.table = "reference",
+       .key = "other_spp",
+       .type = whole_numbers([](Run& run) -> std::vector<int>& { return run.reference.other_spp; }, 1, 4096),
+       .help = "samples a pixel of further references, such as the 16 of a paper, for `error(METHOD, spp=16)`"},
+      {.table = "reference",
+       .key = "supersampling",
+       .type = whole_numbers([](Run& run) -> std::vector<int>& { return run.reference.supersampling; }, 1, 4096),
+       .help = "samples a pixel at which plain supersampling is measured and timed"},
+      {.option = "--seed",
+       .commands = with_a_reference,
+       .table = "reference",
+       .key = "seed",
+       .type = whole_number([](Run& run) -> std::uint64_t& { return run.reference.seed; }, 0, any_seed),
+       .help = "seed of the reference's samples: same seed, same bytes"},
+      {.option = "--filter",
+       .commands = with_a_reference,
+       .table = "reference",
+       .key = "filter",
+       .type = one_word([](Run& run) -> ReferenceFilter& { return run.reference.filter; }, reference_filters, "filter"),
+       .help = "the reference's filter"},
+      {.option = "--environment",
+       .commands = with_a_reference,
+       .table = "reference",
+       .key = "environment",
+       .type = one_word([](Run& run) -> EnvironmentUse& { return run.reference.environment; }, reference_integrals,
+                        "way to integrate an environment"),
+       .help = "how the reference integrates an environment; dense: 6 x 32 x 32 lights for every sample"},
+  };
+}
+
+std::vector<Setting> how_it_runs() {
+  return {
+      {.option = "--repeats",
+       .commands = {"compare"},
+       .table = "experiment",
+       .key = "repeats",
+       .type = whole_number(repeats, 1, 10000),
+       .help = "timed frames of each method and distance in each process, interleaved"},
+      {.option = "--repeats",
+       .commands = {"explain"},
+       .type = whole_number(repeats, 1, 10000),
+       .help = "timed frames with and without each effect, for --cost",
+       .start = "15"},
+      {.option = "--processes",
+       .commands = {"compare", "run", "check"},
+       .type = whole_number([](Run& run) -> int& { return run.timing.processes; }, 1, 64),
+       .help = "processes that time frames, one after the other; figures are over all of them"},
+      {.option = "--backend",
+       .commands = that_draw,
+       .type = one_word([](Run& run) -> std::optional<gl::Backend>& { return run.backend.context.backend; },
+                        gl::backend_words, "backend"),
+       .help = "way to OpenGL; auto takes the first that works"},
+      {.option = "--device",
+       .commands = that_draw,
+       .type = whole_number([](Run& run) -> int& { return run.backend.context.device; }, 0, any_count),
+       .help = "which GPU for egl-device, as `footprint info` numbers them"},
+      {.option = "--tile",
+       .commands = that_draw,
+       .type = whole_number([](Run& run) -> int& { return run.backend.tile; }, 0, 1 << 16),
+       .help = "side of the tiles that a frame is rendered in, pixels; 0: as few tiles as fit"},
+      {.option = "--no-cache",
+       .commands = that_may_cache,
+       .type = no_folder([](Run& run) -> std::optional<std::filesystem::path>& { return run.cache; }),
+       .help = "bake anew: neither read nor keep slow precomputes (kept in $FOOTPRINT_CACHE, or ~/.cache/footprint)"},
+  };
+}
+
+}  // namespace
+
+std::span<const Setting> run_settings() {
+  static const std::vector<Setting> settings = [] {
+    std::vector<Setting> all;
+    for (const auto& part : {what_is_drawn(), what_is_seen(), what_errors_are_measured_against(), how_it_runs()})
+      all.insert(all.end(), part.begin(), part.end());
+    return all;
+  }();
+  return settings;
+}
+
+}  // namespace footprint

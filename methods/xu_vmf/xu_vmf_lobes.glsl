@@ -1,0 +1,92 @@
+// The lobes that a pixel reflects with.
+
+//? if j_1
+const int most_of_one = 1;
+//? elif j_4
+const int most_of_one = 4;
+//? elif thresholds_blended
+const int most_of_one = 13;  // on the way from one lobe to 4 parts, and in each of these on the way to 2
+//? else
+const int most_of_one = 8;
+//? end
+//? if multi_lobe
+const int most_lobes = most_of_one * most_facet_lobes;
+//? else
+const int most_lobes = most_of_one;
+//? end
+
+// What all lights take of the lobes 0 to count - 1. Few numbers, since an array whose index is not known is dear to
+// write and to read.
+struct Effective {
+  int count;
+  float covered;             // of the footprint, by the lobes: what their weights are still to be divided by
+  vec3 normal;               // mean of the unit normals of facets with lobes of their own axes
+  vec4 lobes[most_lobes];    // mean direction, and width: the parameter of the base lobe, or kappa
+  vec2 weights[most_lobes];  // of the density, and of the cosine of the mean normal
+//? if environment_light
+  float shares[most_lobes];  // of the footprint's facets, but as published
+//? end
+};
+
+struct Lobe {
+  vec3 mean;
+//? if not lobe_base
+  float kappa;
+//? end
+  float base;    // the base lobe of that width
+  float amount;  // what its density is multiplied by
+};
+
+Lobe lobeOf(vec4 lobe, vec2 weights) {
+//? if lobe_base
+  return Lobe(lobe.xyz, lobe.w, weights.x);
+//? else
+  return Lobe(lobe.xyz, lobe.w, lobeOfKappa(lobe.w), weights.x);
+//? end
+}
+
+float densityOf(Lobe lobe, vec3 h) {
+//? if lobe_base
+  return lobeDensity(lobe.base, lobe.mean, h);
+//? else
+  return vmfDensity(lobe.kappa, lobe.mean, h);
+//? end
+}
+
+// What the amounts are still to be divided by.
+float amountsOf(float covered) {
+//? if variant_published
+  return 1.0;
+//? else
+  return covered;
+//? end
+}
+
+// A lobe as it is kept.
+struct KeptLobe {
+  vec4 lobe;
+  vec2 weights;
+  float share;
+};
+
+// `amount` is what the lobe adds with as published: it is the share where lobes weigh what they cover.
+KeptLobe keptLobe(FacetsLobe own, vec3 mean, float q, float share, float amount) {
+  float kappa = kappaOf(q);
+  float base = lobeOfKappa(kappa);
+//? if not variant_published
+  amount = share;
+//? end
+//? if sampling_texel
+  // The lobe of the one texel that was drawn is a facet's own. The roughness map may have drawn another.
+  own.shortfall = q;
+  own.energy = energyOf(base);
+//? end
+  // The length of the mean of the facets' unit normals: |r| over that of a single facet.
+  float normal_length = min((1.0 - q) / max(1.0 - own.shortfall, 1e-6), 1.0);
+//? if lobe_base
+  vec4 lobe = vec4(mean, base);
+//? else
+  vec4 lobe = vec4(mean, kappa);
+//? end
+  return KeptLobe(lobe, vec2(amount * own.energy / energyOf(base), share * normal_length), amount);
+}

@@ -1,0 +1,66 @@
+// One material after the other, each by the method or from the cache, with the time and bytes of all.
+#include "renderer/bake/baked_method.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+namespace {
+
+struct Outcome {
+  Prefiltered prefiltered;
+  bool from_disk;
+};
+
+// One material: from the disk where it is kept there, else by the method, and kept if that is worth it.
+Outcome prefilter(const Method& method, const Scene& scene, std::size_t index, const Options& options,
+                  const EffectSet& effects, const Progress& progress, const BakeCache* cache) {
+  if (cache == nullptr || !method.info().slow_precompute)
+    return {method.precompute_on(scene, index, options, effects, progress), false};
+  const Material& material = scene.materials[index];
+  const std::string key = cache->key(method.info().name, material, options, effects);
+  if (std::optional<Prefiltered> kept = cache->find(key)) return {*std::move(kept), true};
+  Outcome outcome{method.precompute_on(scene, index, options, effects, progress), false};
+  cache->keep(key, outcome.prefiltered);
+  return outcome;
+}
+
+}  // namespace
+
+BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scene, const EffectSet& effects,
+                 const Progress& progress, const BakeCache* cache) {
+  const auto start = std::chrono::steady_clock::now();
+  const EffectSet honoured = effects & method.info().honours;
+  BakedMethod baked{.method = &method,
+                    .spec = spec,
+                    .options = Options(method.info().options, spec.options, "method " + spec.name),
+                    .materials = {},
+                    .seconds = 0,
+                    .bytes = 0,
+                    .texels = 0,
+                    .cached = cache != nullptr && method.info().slow_precompute};
+  const auto count = static_cast<double>(scene.materials.size());
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const Material& material = scene.materials[i];
+    const auto done = static_cast<double>(i);
+    const Progress part = [&](std::string_view what, double fraction) { progress(what, (done + fraction) / count); };
+    part(fmt::format("{}: {}", spec.text, material.name), 0.0);
+    try {
+      auto [prefiltered, from_disk] = prefilter(method, scene, i, baked.options, honoured, part, cache);
+      baked.materials.push_back(std::move(prefiltered));
+      baked.cached = baked.cached && from_disk;
+    } catch (const Error& error) {
+      throw error.within(fmt::format("{}, material {}, method {}", scene.source, material.name, spec.text));
+    }
+    baked.bytes += byte_count(baked.materials.back());
+    baked.texels += finest_texels(baked.materials.back());
+  }
+  baked.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return baked;
+}
+
+}  // namespace footprint

@@ -1,0 +1,97 @@
+// A material without a map has a constant one, or none to speak of, 1 x 1: a bake need not tell the two apart.
+#include "renderer/bake/material_maps.hpp"
+
+#include <algorithm>
+
+namespace footprint {
+namespace {
+
+Image one_channel(const Image& image, int channel) {
+  Image out(image.width, image.height, 1);
+  const auto stride = static_cast<std::size_t>(image.channels);
+  for (std::size_t i = 0; i < out.texels.size(); ++i)
+    out.texels[i] = image.texels[i * stride + static_cast<std::size_t>(channel)];
+  return out;
+}
+
+Image normals_or_flat(const std::optional<TextureMap>& map) {
+  if (map) return *map->image;
+  Image flat(1, 1, 4);
+  flat.texels = {0.0F, 0.0F, 1.0F, 1.0F};
+  return flat;
+}
+
+}  // namespace
+
+Image normal_map_of(const Material& material) { return normals_or_flat(material.normal_map); }
+
+Image layer_map_of(const Material& material) { return normals_or_flat(material.layer_map); }
+
+Image roughness_map_of(const Material& material) {
+  const NormalDistribution distribution = material.brdf.distribution;
+  if (const TextureMap* map = width_map(material); map != nullptr) {
+    Image roughness = one_channel(*map->image, 0);
+    if (material.lobe_parameter_map) {
+      std::ranges::transform(roughness.texels, roughness.texels.begin(), [&](float parameter) {
+        return lobe_roughness({distribution, parameter});
+      });
+    }
+    return roughness;
+  }
+  const bool own_lobe = material.lobe_parameter || !material.lobes.empty();
+  return Image(1, 1, 1, own_lobe ? lobe_roughness(lobe_of(material)) : material.roughness);
+}
+
+Image lobe_parameter_map_of(const Material& material) {
+  if (width_map(material) == nullptr) return Image(1, 1, 1, static_cast<float>(lobe_of(material).parameter));
+  if (material.lobe_parameter_map) return *material.lobe_parameter_map->image;
+  Image lobes = roughness_map_of(material);
+  std::ranges::transform(lobes.texels, lobes.texels.begin(), [&](float roughness) {
+    return static_cast<float>(lobe_from_alpha(material.brdf.distribution, roughness * roughness).parameter);
+  });
+  return lobes;
+}
+
+Image base_color_map_of(const Material& material) {
+  return material.base_color_map ? *material.base_color_map->image : Image(1, 1, 4, 1.0F);
+}
+
+Image material_share_of(const Material& material) {
+  return material.share ? *material.share->map.image : Image(1, 1, 1, 1.0F);
+}
+
+Image metallic_map_of(const Material& material) {
+  if (const TextureMap* map = metallic_map(material); map != nullptr) return one_channel(*map->image, 1);
+  return Image(1, 1, 1, material.metallic);
+}
+
+Image specular_map_of(const Material& material) {
+  return material.specular_map ? *material.specular_map->image : Image(1, 1, 3, 1.0F);
+}
+
+TextureCoordinates normal_coordinates(const Material& material) {
+  return material.normal_map ? material.normal_map->coordinates : TextureCoordinates{};
+}
+
+TextureCoordinates layer_coordinates(const Material& material) {
+  return material.layer_map ? material.layer_map->coordinates : TextureCoordinates{};
+}
+
+TextureCoordinates roughness_coordinates(const Material& material) {
+  if (material.lobe_parameter_map) return material.lobe_parameter_map->coordinates;
+  return material.metallic_roughness_map ? material.metallic_roughness_map->coordinates : TextureCoordinates{};
+}
+
+TextureCoordinates base_color_coordinates(const Material& material) {
+  return material.base_color_map ? material.base_color_map->coordinates : TextureCoordinates{};
+}
+
+TextureCoordinates specular_coordinates(const Material& material) {
+  return material.specular_map ? material.specular_map->coordinates : TextureCoordinates{};
+}
+
+TextureCoordinates share_coordinates(const Material& material) {
+  return material.share ? material.share->map.coordinates : TextureCoordinates{};
+}
+
+}  // namespace footprint

@@ -1,0 +1,42 @@
+// The maps of a material as images of one form, and where they are looked up: what bakes start from.
+#pragma once
+
+#include "renderer/image/image.hpp"
+#include "renderer/scene/material.hpp"
+
+namespace footprint {
+
+/// The normal map of a material as RGBA (unit normal, weight 0 or 1); flat, 1 x 1, where it has none.
+[[nodiscard]] Image normal_map_of(const Material& material);
+
+/// The detail layer of a material, likewise.
+[[nodiscard]] Image layer_map_of(const Material& material);
+
+/// The perceptual roughness map of a material, one channel; its constant, 1 x 1, where it has none. A map of lobe
+/// parameters comes as the roughness of the same lobes (`lobe_roughness`).
+[[nodiscard]] Image roughness_map_of(const Material& material);
+
+/// The lobe parameter at every texel of that map, as the material gives it or from its roughness; one channel.
+[[nodiscard]] Image lobe_parameter_map_of(const Material& material);
+
+/// The base-colour map, RGBA; white, 1 x 1, where there is none.
+[[nodiscard]] Image base_color_map_of(const Material& material);
+
+/// The share of the surface that the material has (SurfaceShare::map); 1, 1 x 1, where it has all of it.
+[[nodiscard]] Image material_share_of(const Material& material);
+
+/// The metallic map of a material, one channel; its constant, 1 x 1, where it has none.
+[[nodiscard]] Image metallic_map_of(const Material& material);
+
+/// The factor on the dielectric specular colour, 3 channels; white, 1 x 1, where it has no such map.
+[[nodiscard]] Image specular_map_of(const Material& material);
+
+/// Where the maps are looked up; the defaults where a material has none.
+[[nodiscard]] TextureCoordinates normal_coordinates(const Material& material);
+[[nodiscard]] TextureCoordinates layer_coordinates(const Material& material);
+[[nodiscard]] TextureCoordinates roughness_coordinates(const Material& material);
+[[nodiscard]] TextureCoordinates base_color_coordinates(const Material& material);
+[[nodiscard]] TextureCoordinates specular_coordinates(const Material& material);
+[[nodiscard]] TextureCoordinates share_coordinates(const Material& material);
+
+}  // namespace footprint

@@ -1,0 +1,219 @@
+// Densities in double precision, apart from the shaders' own: what the NDF inspector holds them against. Conversions in
+// 32 bits, as the shaders have them.
+#include "renderer/lobes/lobe.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "renderer/core/error.hpp"
+#include "renderer/core/suggest.hpp"
+#include "renderer/lobes/vmf.hpp"
+
+namespace footprint {
+namespace {
+
+using enum NormalDistribution;
+using std::numbers::pi;
+
+// Twins of the constants in common_lobes.glsl.
+constexpr float smallest_alpha = 1e-3F;
+constexpr float smallest_concentration = 1e-6F;
+constexpr float largest_exponent = 2e6F;
+constexpr float smallest_variance = 1e-12F;
+
+constexpr std::string_view lobe_mend = "write it as blinn_phong:64, beckmann:0.2, ggx:0.2 or vmf:64";
+
+const std::array<std::string, 4>& distribution_names() {
+  static const std::array<std::string, 4> names{"blinn_phong", "beckmann", "ggx", "vmf"};
+  return names;
+}
+
+bool is_alpha(NormalDistribution distribution) { return distribution == beckmann || distribution == ggx; }
+
+// 1 - cos^2 at u = 1 - cos.
+double sine_squared(double u) { return u * (2.0 - u); }
+
+// tan^2 where exp(-tan^2 / alpha^2) (1 + tan^2)^2 falls below the cutoff: a fixed point, since the logarithm is flat.
+double beckmann_support(double alpha) {
+  constexpr int rounds = 50;
+  double tan2 = 0.0;
+  for (int i = 0; i < rounds; ++i) tan2 = alpha * alpha * (2.0 * std::log1p(tan2) - std::log(lobe_cutoff));
+  return 1.0 - 1.0 / std::sqrt(1.0 + tan2);
+}
+
+// u of sin^2 = s2 in the upper half.
+double u_of_sine_squared(double s2) { return s2 >= 1.0 ? 1.0 : s2 / (1.0 + std::sqrt(1.0 - s2)); }
+
+}  // namespace
+
+Lobe lobe_from_alpha(NormalDistribution distribution, float alpha) {
+  const float bounded = std::max(alpha, smallest_alpha);
+  switch (distribution) {
+    case blinn_phong:
+      return {distribution, 2.0F / (bounded * bounded) - 2.0F};
+    case vmf:
+      return {distribution, 2.0F / (bounded * bounded)};
+    case beckmann:
+    case ggx:
+      break;
+  }
+  return {distribution, bounded};
+}
+
+Lobe lobe_from_variance(NormalDistribution distribution, float variance) {
+  const float alpha = std::max(std::sqrt(2.0F * variance), smallest_alpha);
+  switch (distribution) {
+    case blinn_phong:
+    case vmf:
+      return {distribution, std::min(1.0F / std::max(variance, smallest_variance), largest_exponent)};
+    case ggx:
+      return {distribution, std::min(alpha, 1.0F)};
+    case beckmann:
+      break;
+  }
+  return {distribution, alpha};
+}
+
+float lobe_alpha(const Lobe& lobe) {
+  const auto p = static_cast<float>(lobe.parameter);
+  switch (lobe.distribution) {
+    case blinn_phong:
+      return std::sqrt(2.0F / (p + 2.0F));
+    case vmf:
+      return std::min(std::sqrt(2.0F / std::max(p, smallest_concentration)), 1.0F);
+    case beckmann:
+    case ggx:
+      break;
+  }
+  return p;
+}
+
+float lobe_variance(const Lobe& lobe) {
+  const auto p = static_cast<float>(lobe.parameter);
+  switch (lobe.distribution) {
+    case blinn_phong:
+    case vmf:
+      return 1.0F / std::max(p, smallest_concentration);
+    case beckmann:
+    case ggx:
+      break;
+  }
+  return 0.5F * p * p;
+}
+
+float lobe_roughness(const Lobe& lobe) {
+  const double value = std::max(static_cast<float>(lobe.parameter), smallest_concentration);
+  switch (lobe.distribution) {
+    case blinn_phong:
+      return static_cast<float>(std::sqrt(std::sqrt(2.0 / (value + 2.0))));
+    case vmf:
+      return static_cast<float>(std::sqrt(std::sqrt(2.0 / value)));
+    case beckmann:
+    case ggx:
+      break;
+  }
+  return static_cast<float>(std::sqrt(value));
+}
+
+Lobe parse_lobe(std::string_view option, const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const std::string name = text.substr(0, colon);
+  const auto refuse = [&](const std::string& message, const std::string& mend) {
+    return Error(ErrorKind::usage, std::string(option), fmt::format("`{}` {}", text, message), mend);
+  };
+  const auto& names = distribution_names();
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) throw refuse("names no distribution", suggestion(name, names));
+  if (colon == std::string::npos) throw refuse("has no parameter", std::string(lobe_mend));
+  Lobe lobe{static_cast<NormalDistribution>(found - names.begin()), 0.0};
+  const std::string_view digits = std::string_view(text).substr(colon + 1);
+  const char* const end = digits.data() + digits.size();
+  const auto [stop, status] = std::from_chars(digits.data(), end, lobe.parameter);
+  if (status != std::errc{} || stop != end) throw refuse("has a parameter that is no number", std::string(lobe_mend));
+  const double least = is_alpha(lobe.distribution) ? 1e-4 : 1e-3;
+  const double most = is_alpha(lobe.distribution) ? 1.0 : 1e6;
+  if (!(lobe.parameter >= least && lobe.parameter <= most)) {
+    throw refuse(fmt::format("is not within {} to {}", least, most), std::string(lobe_mend));
+  }
+  return lobe;
+}
+
+std::string lobe_text(const Lobe& lobe) {
+  return fmt::format("{}:{}", distribution_names().at(static_cast<std::size_t>(lobe.distribution)),
+                     static_cast<float>(lobe.parameter));
+}
+
+double lobe_peak(const Lobe& lobe) {
+  const double p = lobe.parameter;
+  switch (lobe.distribution) {
+    case blinn_phong:
+      return (p + 1.0) / (2.0 * pi);
+    case vmf:
+      return vmf_peak(p);
+    case beckmann:
+    case ggx:
+      break;
+  }
+  return 1.0 / (pi * p * p);
+}
+
+double lobe_shape(const Lobe& lobe, double u) {
+  const double p = lobe.parameter;
+  if (lobe.distribution == vmf) return std::exp(-p * u);
+  if (u >= 1.0) return 0.0;
+  if (lobe.distribution == blinn_phong) return std::exp(p * std::log1p(-u));
+  const double c2 = (1.0 - u) * (1.0 - u);
+  const double s2 = sine_squared(u);
+  if (lobe.distribution == beckmann) return std::exp(-s2 / (c2 * p * p)) / (c2 * c2);
+  const double widened = c2 + s2 / (p * p);
+  return 1.0 / (widened * widened);
+}
+
+double lobe_support(const Lobe& lobe) {
+  const double p = lobe.parameter;
+  const double folds = -std::log(lobe_cutoff);
+  switch (lobe.distribution) {
+    case blinn_phong:
+      return -std::expm1(-folds / p);
+    case vmf:
+      return std::min(folds / p, 2.0);
+    case beckmann:
+      return beckmann_support(p);
+    case ggx:
+      break;
+  }
+  // c^2 + s^2 / alpha^2 = 1 + s^2 (1 / alpha^2 - 1) reaches the root of 1 / cutoff.
+  return u_of_sine_squared(p < 1.0 ? (1.0 / std::sqrt(lobe_cutoff) - 1.0) / (1.0 / (p * p) - 1.0) : 1.0);
+}
+
+double lobe_width(const Lobe& lobe) {
+  const double p = lobe.parameter;
+  return is_alpha(lobe.distribution) ? p * std::numbers::sqrt2 / 2.0 : 1.0 / std::sqrt(p);
+}
+
+double lobe_energy(const Lobe& lobe, double n_z) {
+  // u = q w / (1 - w) spreads the nodes w over the core and the tail alike.
+  constexpr int nodes = 512;
+  const double support = lobe_support(lobe);
+  const double q = 2.0 * lobe_width(lobe) * lobe_width(lobe);
+  const double last = support / (support + q);
+  const double axis_sine = std::sqrt(std::max(1.0 - n_z * n_z, 0.0));
+  double sum = 0.0;
+  for (int i = 0; i < nodes; ++i) {
+    const double w = last * (i + 0.5) / nodes;
+    const double u = q * w / (1.0 - w);
+    const double ring = axis_sine * std::sqrt(sine_squared(u));  // z over a ring: n_z (1 - u) + ring cos(azimuth)
+    const double lift = n_z * (1.0 - u);
+    const double above = ring > 1e-12 ? std::acos(std::clamp(-lift / ring, -1.0, 1.0)) / pi : (lift > 0.0 ? 1.0 : 0.0);
+    sum += lobe_shape(lobe, u) * above * q / ((1.0 - w) * (1.0 - w));
+  }
+  return 2.0 * pi * lobe_peak(lobe) * sum * last / nodes;
+}
+
+}  // namespace footprint

@@ -1,0 +1,121 @@
+// Texture units and block bindings: what is declared, and what ends with an error.
+#include "renderer/pipeline/bindings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <regex>
+#include <string>
+
+#include "renderer/bake/shared_maps.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/pipeline/base_surface.hpp"
+#include "tests/support/rendering.hpp"
+#include "tests/support/says.hpp"
+#include "tests/support/test_scenes.hpp"
+
+namespace footprint::testing {
+namespace {
+
+// The reference's method with textures of its own, and lines in front of its module.
+class Crowded final : public Method {
+ public:
+  explicit Crowded(int textures, const std::string& lines = {})
+      : textures_(textures), shader_(lines + std::string(base_surface().shader())) {}
+  [[nodiscard]] const MethodInfo& info() const override { return info_; }
+  [[nodiscard]] Prefiltered precompute(const Material& m, const Options& o, const EffectSet& e,
+                                       const Progress& p) const override {
+    Prefiltered out = base_surface().precompute(m, o, e, p);
+    for (int i = 0; i < textures_; ++i)
+      out.textures.push_back(make_texture("crowd_" + std::to_string(i), {Image(1, 1, 1, 0.5F)}, Storage::fp32, {}));
+    return out;
+  }
+  [[nodiscard]] std::string_view shader() const override { return shader_; }
+
+ private:
+  int textures_;
+  std::string shader_;
+  MethodInfo info_{.name = "crowded", .summary = {}, .paper = {}, .options = {}, .honours = EffectSet{}.set()};
+};
+
+Error error_of(const Method& method) {
+  TestRenderer renderer(square_scene(random_normals(4, 4, 0.4F, 7), {}), {8, 8});
+  try {
+    (void)renderer.frame(method);
+  } catch (const Error& error) {
+    return error;
+  }
+  return {ErrorKind::machine, "nothing", "was thrown"};
+}
+
+TEST(TextureUnits, AsManyAsTheGlHasAreDrawn) {
+  const int most = shared_context().info().max_texture_units;
+  EXPECT_EQ(error_of(Crowded(most - 1)).place(), "nothing");  // base_normal is the last
+}
+
+TEST(TextureUnits, OneTooManyNamesTheMethodAndTheTextures) {
+  const int most = shared_context().info().max_texture_units;
+  const Error error = error_of(Crowded(most));
+  EXPECT_EQ(error.kind(), ErrorKind::machine);
+  EXPECT_EQ(error.place(), "method crowded");
+  EXPECT_TRUE(test::says(error.what(), std::to_string(most + 1) + " textures"));
+  EXPECT_TRUE(test::says(error.what(), "base_normal, crowd_0"));
+}
+
+// A sampler of the module's own would share unit 0 with whatever lies there.
+TEST(TextureUnits, ATextureWithoutAUnitIsAnError) {
+  const Error error = error_of(Crowded(0, R"(uniform sampler2D stray;
+#define fetchFinest(map, place) (fetchFinest(map, place) + texelFetch(stray, ivec2(0), 0))
+)"));
+  EXPECT_EQ(error.kind(), ErrorKind::usage);
+  EXPECT_EQ(error.place(), "method crowded");
+  EXPECT_TRUE(test::says(error.what(), "`stray`"));
+}
+
+TEST(TextureUnits, WhatHasNoUnitCannotBeAskedFor) {
+  const TextureUnits units({}, {});
+  EXPECT_THROW((void)units.unit("base_color_map"), std::logic_error);
+}
+
+TEST(TextureUnits, SharedMapsComeFirstWhereTheirEffectsAreOn) {
+  for (const SharedMap& map : shared_maps()) {
+    EffectSet effects;
+    effects.set(static_cast<std::size_t>(map.effect));
+    EXPECT_EQ(TextureUnits(effects, {}).declarations(),
+              "layout(binding = 0) uniform sampler2D " + std::string(map.name) + ";\n");
+  }
+  EXPECT_EQ(TextureUnits({}, {}).declarations(), "");
+}
+
+// What the shared shaders read of a material's maps has a row: without one the name would not be declared.
+TEST(TextureUnits, EveryMapOfTheSharedShadersHasARow) {
+  const EffectSet all = EffectSet{}.set();
+  const std::string text =
+      fragment_shader({.effects = all, .brdf = {}}, base_surface().shader(), "test", Options({}, {}, "test"), {});
+  const std::regex lookup(R"(\b(?:texture|textureGrad|textureLod|texelFetch|fetch)\((\w*_map|material_share),)");
+  std::size_t found = 0;
+  for (auto i = std::sregex_iterator(text.begin(), text.end(), lookup); i != std::sregex_iterator(); ++i, ++found) {
+    EXPECT_TRUE(test::says(text, "sampler2D " + (*i)[1].str() + ";"));
+  }
+  EXPECT_GE(found, shared_maps().size());
+}
+
+TEST(BlockBindings, AreThoseOfTheShaders) {
+  const std::map<std::string, GLuint> expected{{"MaterialBlock", block_binding::material},
+                                               {"MethodBlock", block_binding::method},
+                                               {"PointLights", block_binding::point_lights},
+                                               {"SpotLights", block_binding::spot_lights},
+                                               {"DirectionalLights", block_binding::directional_lights},
+                                               {"EnvironmentBlock", block_binding::environment},
+                                               {"ShadowViews", block_binding::shadow_views}};
+  const std::string text = fragment_shader({.effects = EffectSet{}.set(), .brdf = {}}, base_surface().shader(), "test",
+                                           Options({}, {}, "test"), {.textures = {}, .scalars = {{"own", 1.0F}}});
+  std::map<std::string, GLuint> found;
+  const std::regex block(R"(layout\(std140, binding = (\d+)\) uniform (\w+))");
+  for (auto i = std::sregex_iterator(text.begin(), text.end(), block); i != std::sregex_iterator(); ++i)
+    found[(*i)[2].str()] = static_cast<GLuint>(std::stoul((*i)[1].str()));
+  EXPECT_EQ(found, expected);
+}
+
+}  // namespace
+}  // namespace footprint::testing

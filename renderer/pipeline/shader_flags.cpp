@@ -1,0 +1,91 @@
+// The table of flags: a row has a flag's name and when it is on, so that no text can ask for what is never set.
+#include "renderer/pipeline/shader_flags.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace footprint {
+namespace {
+
+using Variant = ShaderVariant;
+
+template <NormalDistribution distribution>
+bool is_distribution(const Variant& v) {
+  return v.brdf.distribution == distribution;
+}
+
+template <GeometryTerm geometry>
+bool is_geometry(const Variant& v) {
+  return v.brdf.geometry == geometry;
+}
+
+template <Sampling sampling>
+bool is_sampling(const Variant& v) {
+  return v.sampling == sampling;
+}
+
+bool samples_environment(const Variant& v) {
+  return has(v.effects, Effect::environment_light) && v.environment != EnvironmentUse::prefiltered;
+}
+
+// A tabulated BRDF has a diffuse term of its own.
+bool reflects_diffusely(const Variant& v) {
+  return has(v.effects, Effect::diffuse) || has(v.effects, Effect::tabulated_brdf);
+}
+
+// What is drawn at random: a texel of the maps, directions to an environment, facets of a patch.
+bool draws(const Variant& v) {
+  const bool facets = has(v.effects, Effect::microgeometry_visibility) && v.sampling != Sampling::frame;
+  return v.sampling == Sampling::texel || samples_environment(v) || facets;
+}
+
+struct FlagRow {
+  std::string_view name;
+  bool (*is_on)(const Variant&);
+};
+
+// Beside the effects, whose flags have their names.
+constexpr auto rows = std::to_array<FlagRow>({
+    {"distribution_blinn_phong", is_distribution<NormalDistribution::blinn_phong>},
+    {"distribution_beckmann", is_distribution<NormalDistribution::beckmann>},
+    {"distribution_ggx", is_distribution<NormalDistribution::ggx>},
+    {"distribution_vmf", is_distribution<NormalDistribution::vmf>},
+    {"geometry_none", is_geometry<GeometryTerm::none>},
+    {"geometry_tan", is_geometry<GeometryTerm::tan>},
+    {"geometry_smith", is_geometry<GeometryTerm::smith>},
+    {"fresnel_schlick", [](const Variant& v) { return v.brdf.fresnel == FresnelTerm::schlick; }},
+    {"sampling_frame", is_sampling<Sampling::frame>},
+    {"sampling_texel", is_sampling<Sampling::texel>},
+    {"sampling_point", is_sampling<Sampling::point>},
+    {"random_draws", draws},
+    {"anisotropic", [](const Variant& v) { return v.max_probes > 1; }},
+    {"orthographic", [](const Variant& v) { return v.orthographic; }},
+    {"shared_coordinates", [](const Variant& v) { return v.shared_coordinates; }},
+    {"surface_coordinates", [](const Variant& v) { return v.surface_coordinates; }},
+    {"environment_sampled", samples_environment},
+    {"environment_dense", [](const Variant& v) { return v.environment == EnvironmentUse::dense; }},
+    {"environment_diffuse", reflects_diffusely},
+    {"environment_visibility",
+     [](const Variant& v) { return has(v.effects, Effect::environment_light) && has(v.effects, Effect::cast_shadow); }},
+});
+
+}  // namespace
+
+ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options, const Prefiltered& prefiltered) {
+  ShaderFlags flags;
+  for (const std::string& name : effect_names(EffectSet{}.set())) flags.emplace(name, false);
+  for (const std::string& name : effect_names(variant.effects)) flags[name] = true;
+  for (const FlagRow& row : rows) flags.emplace(row.name, row.is_on(variant));
+  flags.emplace("texture_arrays",
+                std::ranges::any_of(prefiltered.textures, [](const auto& t) { return t.layers > 0; }));
+  flags.emplace("texel_lookups", std::ranges::any_of(prefiltered.textures,
+                                                     [](const auto& t) { return t.filter == TextureFilter::nearest; }));
+  for (const OptionSpec& option : options.specs()) {
+    for (const std::string& choice : option.choices)
+      flags.emplace(option.name + "_" + choice, options.word(option.name) == choice);
+  }
+  return flags;
+}
+
+}  // namespace footprint

@@ -1,0 +1,42 @@
+// What a program is made for, and the flags that its text may ask for.
+#pragma once
+
+#include <cstddef>
+
+#include "renderer/bake/prefiltered.hpp"
+#include "renderer/bake/shader_module.hpp"
+#include "renderer/core/options.hpp"
+#include "renderer/effects/effects.hpp"
+#include "renderer/pipeline/environment_use.hpp"
+#include "renderer/scene/material.hpp"
+
+namespace footprint {
+
+/// Which texels a sample reads.
+enum class Sampling {
+  frame,  ///< the pixel's footprint: one sample a pixel, prefiltered
+  texel,  ///< one texel of the finest level, drawn with the bilinear weights: filter after shading
+  point,  ///< the finest level at a point; the sampler decides between nearest and bilinear
+};
+
+/// What a program is made for. Equal variants give equal text.
+struct ShaderVariant {
+  EffectSet effects;
+  BaseBrdf brdf;
+  Sampling sampling = Sampling::frame;
+  int max_probes = 1;  ///< anisotropic probes along the major axis; 1: isotropic
+  bool orthographic = false;
+  bool shared_coordinates = false;   ///< every map of the scene is looked up at one place
+  bool surface_coordinates = false;  ///< the method has coordinates of its own (Prefiltered::surface_coordinates)
+  EnvironmentUse environment = EnvironmentUse::prefiltered;  ///< the others need a module with `draws_directions`
+  std::size_t facet_lobes = most_facet_lobes;  ///< room for so many a material: what has less compiles faster
+  std::size_t point_lights = 0, spot_lights = 0, directional_lights = 0;
+  std::size_t shadow_maps = 0;
+};
+
+/// All flags of the shared texts and of a method's word options (`storage_fp16`), each on or off: what the scene, the
+/// sampling and the options say, and what the shared functions must offer for the method's textures.
+[[nodiscard]] ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options,
+                                       const Prefiltered& prefiltered = {});
+
+}  // namespace footprint

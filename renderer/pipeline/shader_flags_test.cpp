@@ -1,0 +1,55 @@
+// The flags of a variant: all that texts may ask for, and which of them are on.
+#include "renderer/pipeline/shader_flags.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace footprint {
+namespace {
+
+std::set<std::string> on(const ShaderFlags& flags) {
+  std::set<std::string> names;
+  for (const auto& [name, is_on] : flags) {
+    if (is_on) names.insert(name);
+  }
+  return names;
+}
+
+TEST(ShaderFlags, FollowEffectsTermsAndWordOptions) {
+  const std::vector<OptionSpec> specs{word_option("storage", {"fp32", "fp16"}, ""), number_option("n", 1, 0, 2, "")};
+  ShaderVariant variant;
+  variant.effects.set(static_cast<std::size_t>(Effect::fresnel));
+  variant.max_probes = 4;
+  const ShaderFlags flags = shader_flags(variant, Options(specs, {{"storage", "fp16"}}, "t"));
+  EXPECT_EQ(on(flags), (std::set<std::string>{"fresnel", "fresnel_schlick", "distribution_ggx", "geometry_smith",
+                                              "sampling_frame", "anisotropic", "storage_fp16"}));
+}
+
+// What is off is known all the same: texts may ask for it.
+TEST(ShaderFlags, KnowWhatIsOff) {
+  const std::vector<OptionSpec> specs{word_option("storage", {"fp32", "fp16"}, "")};
+  const ShaderFlags flags = shader_flags({}, Options(specs, {}, "t"));
+  for (const std::string& effect : effect_names(EffectSet{}.set())) EXPECT_TRUE(flags.contains(effect)) << effect;
+  for (const char* name : {"distribution_vmf", "geometry_tan", "sampling_texel", "texture_arrays", "storage_fp16"}) {
+    ASSERT_TRUE(flags.contains(name)) << name;
+    EXPECT_FALSE(flags.at(name)) << name;
+  }
+  EXPECT_FALSE(flags.contains("storage_unorm8"));
+}
+
+TEST(ShaderFlags, FollowTextures) {
+  const Options options({}, {}, "t");
+  Prefiltered textures;
+  textures.textures.push_back(make_texture("map", {Image(1, 1, 1)}, Storage::fp32, {}));
+  EXPECT_FALSE(shader_flags({}, options, textures).at("texture_arrays"));
+  const std::vector<std::vector<Image>> layers{{Image(1, 1, 1)}};
+  textures.textures.push_back(make_array_texture("maps", layers, Storage::fp32, {}, TextureFilter::nearest));
+  EXPECT_TRUE(shader_flags({}, options, textures).at("texture_arrays"));
+  EXPECT_TRUE(shader_flags({}, options, textures).at("texel_lookups"));
+}
+
+}  // namespace
+}  // namespace footprint

@@ -1,0 +1,121 @@
+// Every field of a material, and of what it refers to, in one order.
+#include "renderer/scene/material_content.hpp"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "renderer/microgeometry/microgeometry.hpp"
+
+namespace footprint {
+namespace {
+
+// Values that are their bytes.
+template <class T>
+struct IsPlain : std::bool_constant<std::is_arithmetic_v<T> || std::is_enum_v<T>> {};
+template <int size, class T, glm::qualifier q>
+struct IsPlain<glm::vec<size, T, q>> : std::true_type {};
+template <int columns, int rows, class T, glm::qualifier q>
+struct IsPlain<glm::mat<columns, rows, T, q>> : std::true_type {};
+
+// Counts values into a hash. Structures are taken apart by structured bindings: one with a field more does not compile
+// until that field is counted.
+class Counter {
+ public:
+  explicit Counter(ContentHash& hash) : hash_(&hash) {}
+
+  template <class T>
+  requires IsPlain<T>::value void add(const T& value) { hash_->add(std::as_bytes(std::span(&value, 1))); }
+
+  template <class T>
+  void add(const std::vector<T>& values) {
+    if constexpr (IsPlain<T>::value) {
+      hash_->add(std::as_bytes(std::span(values)));
+    } else {
+      add(values.size());
+      for (const T& value : values) add(value);
+    }
+  }
+
+  template <class T>
+  void add(const std::optional<T>& value) {
+    add(value.has_value());
+    if (value) add(*value);
+  }
+
+  template <class T>
+  void add(const std::shared_ptr<const T>& value) {
+    add(value != nullptr);
+    if (value) add(*value);
+  }
+
+  void add(const Image& image) {
+    const auto& [width, height, channels, texels] = image;
+    add_all(width, height, channels, texels);
+  }
+
+  void add(const BaseBrdf& brdf) {
+    const auto& [distribution, geometry, fresnel, diffuse] = brdf;
+    add_all(distribution, geometry, fresnel, diffuse);
+  }
+
+  void add(const TextureCoordinates& coordinates) {
+    const auto& [set, transform, wrap] = coordinates;
+    add_all(set, transform, wrap[0], wrap[1]);
+  }
+
+  void add(const TextureMap& map) {
+    const auto& [name, image, coordinates] = map;
+    add_all(image, coordinates);
+  }
+
+  void add(const FacetLobe& lobe) {
+    const auto& [axis, parameter, weight] = lobe;
+    add_all(axis, parameter, weight);
+  }
+
+  void add(const SurfaceShare& share) {
+    const auto& [map, first] = share;
+    add_all(map, first);
+  }
+
+  void add(const Patch& patch) {
+    const auto& [name, period, vertices, triangles, paints, palette] = patch;
+    add_all(period, vertices, triangles, paints, palette);
+  }
+
+  void add(const TabulatedBrdf& brdf) {
+    const auto& [values] = brdf;
+    add(values);
+  }
+
+  void add(const Microgeometry& microgeometry) {
+    const auto& [patch, mean_color, brdf] = microgeometry;
+    add_all(patch, mean_color, brdf);
+  }
+
+  void add(const Material& material) {
+    const auto& [name, brdf, base_color, dielectric_specular, metallic, roughness, lobe_parameter, lobes,
+                 base_color_map, metallic_roughness_map, lobe_parameter_map, specular_map, normal_map, layer_map, share,
+                 alpha_cutoff, double_sided, microgeometry] = material;
+    add_all(brdf, base_color, dielectric_specular, metallic, roughness, lobe_parameter, lobes);
+    add_all(base_color_map, metallic_roughness_map, lobe_parameter_map, specular_map, normal_map, layer_map, share);
+    add_all(alpha_cutoff, double_sided, microgeometry);
+  }
+
+ private:
+  template <class... T>
+  void add_all(const T&... values) {
+    (add(values), ...);
+  }
+
+  ContentHash* hash_;
+};
+
+}  // namespace
+
+void add_content(ContentHash& hash, const Material& material) { Counter(hash).add(material); }
+
+}  // namespace footprint

@@ -1,4 +1,4 @@
-// See progress_display.hpp.
+// Redraws one bar ten times a second at most, or writes a line a stage; the time left is the rate so far, carried on.
 #include "app/progress_display.hpp"
 
 #include <fmt/format.h>

@@ -27,8 +27,8 @@ void keep(OutputFolder& folder) {
   folder.commit();
 }
 
-void print_results(const Results& results, const std::filesystem::path& place) {
-  write_output(fmt::format("{}\npage: {}\n", results_table(results), (place / "index.html").string()));
+void print_results(const Results& results, const std::filesystem::path& folder) {
+  write_output(fmt::format("{}\npage: {}\n", results_table(results), (folder / "index.html").string()));
 }
 
 }  // namespace footprint

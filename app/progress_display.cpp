@@ -1,4 +1,4 @@
-// Redraws one bar ten times a second at most, or writes a line a stage; the time left is the rate so far, carried on.
+// Redraws one bar ten times a second at most, or writes a line every two seconds and where a longer stage ends.
 #include "app/progress_display.hpp"
 
 #include <fmt/format.h>

@@ -238,8 +238,8 @@ std::vector<WeightedFacet> merged_facets(const std::vector<WeightedFacet>& facet
   const auto cell_of = [&](const WeightedFacet& f) {
     constexpr double buckets_an_octave = 16.0;
     // Lambert's disc stretches no distance by more than 2.
-    const glm::dvec2 place = glm::dvec2(f.normal) / std::sqrt(std::max(1.0 + f.normal.z, 1e-6));
-    const glm::dvec2 cell = glm::floor(place * (2.0 / spacing));
+    const glm::dvec2 on_disc = glm::dvec2(f.normal) / std::sqrt(std::max(1.0 + f.normal.z, 1e-6));
+    const glm::dvec2 cell = glm::floor(on_disc * (2.0 / spacing));
     return Cell(std::floor(buckets_an_octave * std::log2(f.parameter)), cell.x, cell.y);
   };
   std::vector<std::pair<Cell, std::size_t>> order(facets.size());

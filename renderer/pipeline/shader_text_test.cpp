@@ -130,9 +130,9 @@ TEST(ShaderText, SharedTextsAreThereForAllAndOnce) {
   text.include("octahedral.glsl");
   text.include_module();
   const std::string_view function = "vec2 octahedral(vec3 d)";
-  const std::size_t place = text.text().find(function);
-  ASSERT_NE(place, std::string::npos);
-  EXPECT_EQ(text.text().find(function, place + 1), std::string::npos);
+  const std::size_t found = text.text().find(function);
+  ASSERT_NE(found, std::string::npos);
+  EXPECT_EQ(text.text().find(function, found + 1), std::string::npos);
 }
 
 // A module's lines have the numbers of its own file, its folder's other files numbers of their own, and all else is

@@ -219,14 +219,14 @@ class ChartCutter {
 /// A rectangle to pack, and where its lower left corner went.
 struct Rectangle {
   glm::dvec2 size;
-  glm::dvec2 place{0.0};
+  glm::dvec2 corner{0.0};
 };
 
 /// Puts rectangles, the highest first, side by side on shelves of `width`, each with `margin` around it. Returns the
 /// height that they take.
 double pack_shelves(std::span<Rectangle*> by_height, double width, double margin) {
   Shelves<double> shelves(width);
-  for (Rectangle* rectangle : by_height) rectangle->place = shelves.place(rectangle->size + 2.0 * margin) + margin;
+  for (Rectangle* rectangle : by_height) rectangle->corner = shelves.place(rectangle->size + 2.0 * margin) + margin;
   return shelves.height();
 }
 
@@ -285,7 +285,7 @@ void lay_out(const std::vector<Chart>& charts, Mesh& mesh) {
         if (chart != i) {
           Vertex vertex = mesh.vertices[index];
           const glm::dvec2 on_plane = charts[i].plane.flat(glm::dvec3{vertex.position}) - corners[i];
-          const glm::dvec2 on_square = (on_plane + rectangles[i].place) / side;
+          const glm::dvec2 on_square = (on_plane + rectangles[i].corner) / side;
           vertex.uv0 = vertex.uv1 = glm::vec2{on_square.x, 1.0 - on_square.y};
           chart = i;
           copy = static_cast<std::uint32_t>(mesh.vertices.size());

@@ -1,4 +1,4 @@
-// Rays from places spread over all triangles to each light, until one is blocked.
+// Rays from points spread over all triangles to each light, until one is blocked.
 #include "renderer/visibility/cast_shadows.hpp"
 
 #include <tbb/blocked_range.h>

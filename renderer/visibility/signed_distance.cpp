@@ -1,4 +1,4 @@
-// Rays over a grid of directions, and the nearest place where what they meet changes.
+// Rays over a grid of directions, and the nearest direction where what they meet changes.
 #include "renderer/visibility/signed_distance.hpp"
 
 #include <Eigen/Dense>

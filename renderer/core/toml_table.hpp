@@ -53,7 +53,7 @@ class TomlTable {
   [[nodiscard]] std::vector<TomlTable> tables(std::string_view key, const std::vector<std::string>& known) const;
 
   /// An error at `key`'s line (the table's, where the key is absent).
-  [[nodiscard]] Error error_at(std::string_view key, const std::string& message, const std::string& mend) const;
+  [[nodiscard]] Error error_at(std::string_view key, const std::string& message, const std::string& hint) const;
 
  private:
   [[nodiscard]] const toml::node* find(std::string_view key) const { return table_.get(key); }

@@ -171,9 +171,9 @@ void multiply_by_lobes(const std::vector<FacetLobe>& lobes, std::vector<Weighted
 }  // namespace
 
 void check_footprint(const FootprintRect& rect, const std::string& place) {
-  const auto refuse = [&](const std::string& message, const std::string& mend) {
+  const auto refuse = [&](const std::string& message, const std::string& hint) {
     throw Error(ErrorKind::usage, place,
-                fmt::format("{},{},{},{} {}", rect.lower.x, rect.lower.y, rect.upper.x, rect.upper.y, message), mend);
+                fmt::format("{},{},{},{} {}", rect.lower.x, rect.lower.y, rect.upper.x, rect.upper.y, message), hint);
   };
   for (const double value : {rect.lower.x, rect.lower.y, rect.upper.x, rect.upper.y}) {
     if (!std::isfinite(value)) refuse("is not finite", "give u0,v0,u1,v1, for example 0,0,0.5,0.5");

@@ -237,7 +237,7 @@ TEST(ShadowMaps, TooManyAreAnErrorThatSaysWhatToDo) {
     FAIL() << "3000 maps were made";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::machine);
-    EXPECT_NE(error.mend().find("[shadows]"), std::string::npos);
+    EXPECT_NE(error.hint().find("[shadows]"), std::string::npos);
   }
 }
 

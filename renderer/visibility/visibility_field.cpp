@@ -68,13 +68,13 @@ struct Measured {
 };
 
 void require_room(std::size_t vertices, const std::string& source) {
-  constexpr const char* mend = "set `cast = false` in [shadows] of a scene.toml, or use a coarser model";
+  constexpr const char* hint = "set `cast = false` in [shadows] of a scene.toml, or use a coarser model";
   const std::string what = fmt::format("visibility at {} vertices", vertices);
   if (vertices > most_visibility_vertices) {
     throw Error(ErrorKind::machine, source,
-                fmt::format("{} of the environment: the most is {}", what, most_visibility_vertices), mend);
+                fmt::format("{} of the environment: the most is {}", what, most_visibility_vertices), hint);
   }
-  require_memory(vertices * (map_texels * sizeof(float) + sizeof(VertexVisibility)), what, mend);
+  require_memory(vertices * (map_texels * sizeof(float) + sizeof(VertexVisibility)), what, hint);
 }
 
 Measured measure(const std::vector<const Vertex*>& vertices, const Occluders& occluders,

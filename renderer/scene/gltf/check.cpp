@@ -2,8 +2,8 @@
 #include "renderer/scene/gltf/check.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -164,8 +164,8 @@ constexpr auto supported = std::to_array<std::string_view>(
     {"KHR_lights_punctual", "KHR_materials_ior", "KHR_mesh_quantization", "KHR_texture_transform"});
 
 [[noreturn]] void fail(const std::string& place, const std::string& message,
-                       const std::string& mend = "repair the file or export it again") {
-  throw Error(ErrorKind::usage, place, message, mend);
+                       const std::string& hint = "repair the file or export it again") {
+  throw Error(ErrorKind::usage, place, message, hint);
 }
 
 std::size_t array_size(const json& document, std::string_view path) {

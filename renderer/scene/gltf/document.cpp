@@ -20,7 +20,7 @@ namespace footprint {
 namespace {
 
 constexpr std::uint64_t largest_file = std::numeric_limits<std::int32_t>::max();  // tinygltf counts in int
-constexpr const char* damaged_mend = "the file is damaged: export or download it again";
+constexpr const char* damaged_hint = "the file is damaged: export or download it again";
 
 std::uint32_t word_at(std::span<const std::uint8_t> bytes, std::size_t offset) {
   const auto b = bytes.subspan(offset, 4);
@@ -29,7 +29,7 @@ std::uint32_t word_at(std::span<const std::uint8_t> bytes, std::size_t offset) {
 }
 
 [[noreturn]] void fail_container(const std::string& message) {
-  throw Error(ErrorKind::usage, "GLB container", message, damaged_mend);
+  throw Error(ErrorKind::usage, "GLB container", message, damaged_hint);
 }
 
 /// The JSON text of a GLB file; checks header and chunks, whose lengths tinygltf 2.7 trusts in part.
@@ -127,7 +127,7 @@ GltfDocument read_gltf(const std::filesystem::path& file) {
   const bool binary = bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
   try {
     if (!binary && std::ranges::find(bytes, 0) != bytes.end()) {
-      throw Error(ErrorKind::usage, {}, "is neither JSON text nor a GLB container", damaged_mend);
+      throw Error(ErrorKind::usage, {}, "is neither JSON text nor a GLB container", damaged_hint);
     }
     check_gltf_json(parse_gltf_json(
         binary ? glb_json(bytes) : std::string_view{reinterpret_cast<const char*>(bytes.data()), bytes.size()}));

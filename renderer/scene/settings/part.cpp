@@ -152,9 +152,9 @@ std::optional<MapFile> read_map(const TomlTable& maps, std::string_view key, con
 MapSettings read_maps(const TomlTable& table, const BrdfSettings& brdf, const std::filesystem::path& folder) {
   MapSettings maps;
   const auto lobe = find_lobe(table, brdf.distribution);
-  const auto refuse_width = [&](bool refused, const std::string& message, const std::string& mend) {
+  const auto refuse_width = [&](bool refused, const std::string& message, const std::string& hint) {
     const std::string_view key = lobe.value_or("roughness");
-    if (refused && table.has(key)) throw table.error_at(key, message, mend);
+    if (refused && table.has(key)) throw table.error_at(key, message, hint);
   };
   refuse_width(lobe && table.has("roughness"), "excludes a map of roughness", "give one of the two");
   refuse_width(brdf.lobe_parameter.has_value(), "excludes a lobe parameter of [brdf]", "leave one of them out");

@@ -3,7 +3,7 @@ set(FOOTPRINT_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
 
 # With the headers read beforehand GCC 12 at -O3 forgets that they are the system's, and warns of std::string's own code
 # where nothing is wrong; a build without them keeps these warnings.
-set(FOOTPRINT_PRECOMPILED_OPTIONS $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds$<SEMICOLON>-Wno-restrict$<SEMICOLON>-Wno-stringop-overflow>)
+set(FOOTPRINT_PRECOMPILED_OPTIONS $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds$<SEMICOLON>-Wno-restrict$<SEMICOLON>-Wno-stringop-overflow$<SEMICOLON>-Wno-stringop-overread>)
 
 # footprint_reuse_headers(TARGET NAME): TARGET starts from what footprint_precompile(NAME) read; nothing where there is no
 # such library, as in a project that uses this build folder.

@@ -73,7 +73,8 @@ std::string command_text(const std::string& program, const CommandPage& page) {
 
 constexpr std::string_view files =
     ".SH FILES\n"
-    ".TP\n\\fI$XDG_CACHE_HOME/footprint, ~/.cache/footprint\\fR\nPrecomputed maps that took long, kept between runs.\n"
+    ".TP\n\\fI$FOOTPRINT_CACHE, $XDG_CACHE_HOME/footprint, ~/.cache/footprint\\fR\n"
+    "The first of them that is set: precomputed maps that took long, kept between runs.\n"
     ".SH ENVIRONMENT\n"
     ".TP\n\\fBFOOTPRINT_SCENES\\fR, \\fBFOOTPRINT_EXPERIMENTS\\fR\n"
     "Folders of scenes and experiments, in place of those that were installed.\n";

@@ -124,11 +124,8 @@ void read_claims(const TomlTable& root, Experiment& experiment) {
 }
 
 // The keys of [threshold] are expressions: any key may stand there.
-void read_thresholds(const toml::table& parsed, const TomlTable& root, Experiment& experiment) {
-  std::vector<std::string> keys;
-  if (const toml::table* table = parsed["threshold"].as_table()) {
-    for (const auto& [key, node] : *table) keys.emplace_back(key.str());
-  }
+void read_thresholds(const TomlTable& root, Experiment& experiment) {
+  const std::vector<std::string> keys = root.keys_of("threshold");
   const auto table = root.table("threshold", keys);
   for (const std::string& key : keys) {
     const Expression written = at_key(*table, key, [&] { return Expression(key, fmt::format("`{:.200}`", key)); });
@@ -147,8 +144,7 @@ void read_published(const TomlTable& table, Experiment& experiment) {
   const fs::path file = experiment.file.parent_path() / required_word(table, "file");
   const auto figures = table.words("figures");
   if (!figures) refuse_absent(table, "figures");
-  const toml::table parsed = parse_toml_file(file);
-  const TomlTable root(parsed, file, "", {"paper", "note", "value"});
+  const TomlTable root(file, {"paper", "note", "value"});
   std::vector<std::string> known;
   for (const TomlTable& value : root.tables("value", {"figure", "measure", "value", "unit", "note"})) {
     const std::string figure = required_word(value, "figure");
@@ -317,8 +313,7 @@ std::vector<std::string> list_experiments(const fs::path& folder) {
 }
 
 Experiment read_experiment(const fs::path& file) {
-  const toml::table parsed = parse_toml_file(file);
-  const TomlTable root(parsed, file, "", with(further_tables, {"experiment"}));
+  const TomlTable root(file, with(further_tables, {"experiment"}));
   Experiment experiment;
   experiment.name = file.stem().string();
   experiment.file = file;
@@ -339,7 +334,7 @@ Experiment read_experiment(const fs::path& file) {
   read_quantities(root, experiment);
   if (const auto published = root.table("published", {"file", "figures"})) read_published(*published, experiment);
   read_claims(root, experiment);
-  read_thresholds(parsed, root, experiment);
+  read_thresholds(root, experiment);
   if (const auto figure = root.table("figure", {"crop", "inset", "row"})) read_figure(*figure, experiment);
   return experiment;
 }

@@ -216,7 +216,7 @@ std::optional<glm::ivec2> pack(std::vector<Chart>& charts) {
   const int width = rounded(std::max(widest, static_cast<int>(std::ceil(std::sqrt(area)))));
   std::ranges::stable_sort(order, std::ranges::greater(), [](const Chart* chart) { return chart->box.size().y; });
   Shelves<int> shelves(width);
-  for (Chart* chart : order) chart->corner = shelves.corner(chart->box.size() + chart_gap) + chart_gap / 2;
+  for (Chart* chart : order) chart->corner = shelves.place(chart->box.size() + chart_gap) + chart_gap / 2;
   const glm::ivec2 size(width, rounded(shelves.height()));
   if (static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) > largest_atlas) return {};
   return size;

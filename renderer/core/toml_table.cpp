@@ -1,7 +1,8 @@
-// Asks toml++ for each key's node, checks its type and range, and names the node's file and line in every error.
+// What TOML++ parsed, looked up key by key; every complaint has the line of what it is about.
 #include "renderer/core/toml_table.hpp"
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,27 +19,52 @@ std::string line_place(const std::filesystem::path& file, const toml::source_reg
 
 }  // namespace
 
-toml::table parse_toml_file(const std::filesystem::path& file) {
+struct TomlTable::Parsed {
+  std::shared_ptr<const toml::table> file;
+  const toml::table* table;
+
+  [[nodiscard]] const toml::node* find(std::string_view key) const { return table->get(key); }
+  /// Another table of the same file.
+  [[nodiscard]] std::shared_ptr<const Parsed> with(const toml::table& other) const {
+    return std::make_shared<const Parsed>(Parsed{file, &other});
+  }
+
+  static std::shared_ptr<const Parsed> whole(const std::filesystem::path& file);
+};
+
+std::shared_ptr<const TomlTable::Parsed> TomlTable::Parsed::whole(const std::filesystem::path& file) {
   constexpr std::uint64_t largest = std::uint64_t{1} << 20U;
   const auto bytes = read_file_bytes(file, largest);
   try {
-    return toml::parse(std::string_view{reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    const std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+    auto parsed = std::make_shared<const toml::table>(toml::parse(text));
+    const toml::table* const table = parsed.get();
+    return std::make_shared<const Parsed>(Parsed{std::move(parsed), table});
   } catch (const toml::parse_error& error) {
     throw Error(ErrorKind::usage, line_place(file, error.source()),
                 fmt::format("not valid TOML: {}", error.description()), "correct the line");
   }
 }
 
-TomlTable::TomlTable(const toml::table& table, std::filesystem::path file, std::string name,
+TomlTable::TomlTable(const std::filesystem::path& file, const std::vector<std::string>& known)
+    : TomlTable(Parsed::whole(file), file, "", known) {}
+
+TomlTable::TomlTable(std::shared_ptr<const Parsed> parsed, std::filesystem::path file, std::string name,
                      const std::vector<std::string>& known)
-    : table_(table), file_(std::move(file)), name_(std::move(name)) {
-  for (const auto& [key, node] : table_) {
+    : parsed_(std::move(parsed)), file_(std::move(file)), name_(std::move(name)) {
+  for (const auto& [key, node] : *parsed_->table) {
     if (std::ranges::find(known, key.str()) != known.end()) continue;
     throw Error(ErrorKind::usage, line_place(file_, key.source()),
                 fmt::format("unknown key `{:.80}`{}", key.str(), name_.empty() ? "" : " in " + name_),
                 suggestion(key.str(), known));
   }
 }
+
+bool TomlTable::has(std::string_view key) const { return parsed_->find(key) != nullptr; }
+
+bool TomlTable::is_word(std::string_view key) const { return has(key) && parsed_->find(key)->is_string(); }
+
+bool TomlTable::is_table(std::string_view key) const { return has(key) && parsed_->find(key)->is_table(); }
 
 std::string TomlTable::full_name(std::string_view key) const {
   return name_.empty() ? fmt::format("`{}`", key) : fmt::format("`{}` in {}", key, name_);
@@ -52,13 +78,14 @@ std::string TomlTable::path_of(std::string_view key) const {
 }
 
 Error TomlTable::error_at(std::string_view key, const std::string& message, const std::string& hint) const {
-  const toml::node* node = find(key);
-  return {ErrorKind::usage, line_place(file_, node != nullptr ? node->source() : table_.source()),
+  const toml::node* node = parsed_->find(key);
+  return {ErrorKind::usage, line_place(file_, node != nullptr ? node->source() : parsed_->table->source()),
           full_name(key) + " " + message, hint};
 }
 
-double TomlTable::checked(const toml::node& node, std::string_view key, NumberRange range) const {
-  const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+template <typename Node>
+double TomlTable::checked(const Node& node, std::string_view key, NumberRange range) const {
+  const auto value = node.is_number() ? node.template value<double>() : std::nullopt;
   if (!value) throw error_at(key, "must be a number", "write it without quotes");
   if (!(*value >= range.low && *value <= range.high)) {  // also NaN
     throw error_at(key, fmt::format("is {:g}, not within {:g} to {:g}", *value, range.low, range.high),
@@ -68,7 +95,7 @@ double TomlTable::checked(const toml::node& node, std::string_view key, NumberRa
 }
 
 std::optional<std::string> TomlTable::word(std::string_view key) const {
-  const toml::node* node = find(key);
+  const toml::node* node = parsed_->find(key);
   if (node == nullptr) return std::nullopt;
   if (!node->is_string()) throw error_at(key, "must be a string", "put it in quotes");
   return node->value<std::string>();
@@ -85,14 +112,14 @@ std::optional<std::size_t> TomlTable::choice(std::string_view key, const std::ve
 }
 
 std::optional<bool> TomlTable::boolean(std::string_view key) const {
-  const toml::node* node = find(key);
+  const toml::node* node = parsed_->find(key);
   if (node == nullptr) return std::nullopt;
   if (!node->is_boolean()) throw error_at(key, "must be true or false", "write it without quotes");
   return node->value<bool>();
 }
 
 std::optional<double> TomlTable::number(std::string_view key, NumberRange range) const {
-  const toml::node* node = find(key);
+  const toml::node* node = parsed_->find(key);
   if (node == nullptr) return std::nullopt;
   return checked(*node, key, range);
 }
@@ -108,7 +135,7 @@ std::optional<std::int64_t> TomlTable::whole_number(std::string_view key, Number
 
 std::optional<std::vector<double>> TomlTable::numbers(std::string_view key, std::size_t count,
                                                       NumberRange range) const {
-  const toml::node* node = find(key);
+  const toml::node* node = parsed_->find(key);
   if (node == nullptr) return std::nullopt;
   const toml::array* array = node->as_array();
   if (array == nullptr || array->empty() || (count > 0 && array->size() != count)) {
@@ -121,7 +148,7 @@ std::optional<std::vector<double>> TomlTable::numbers(std::string_view key, std:
 }
 
 std::optional<std::vector<std::string>> TomlTable::words(std::string_view key) const {
-  const toml::node* node = find(key);
+  const toml::node* node = parsed_->find(key);
   if (node == nullptr) return std::nullopt;
   const toml::array* array = node->as_array();
   std::vector<std::string> values;
@@ -137,14 +164,22 @@ std::optional<std::vector<std::string>> TomlTable::words(std::string_view key) c
 }
 
 std::optional<TomlTable> TomlTable::table(std::string_view key, const std::vector<std::string>& known) const {
-  const toml::node* node = find(key);
+  const toml::node* node = parsed_->find(key);
   if (node == nullptr) return std::nullopt;
   if (!node->is_table()) throw error_at(key, "must be a table", fmt::format("write [{}]", path_of(key)));
-  return TomlTable(*node->as_table(), file_, fmt::format("[{}]", path_of(key)), known);
+  return TomlTable(parsed_->with(*node->as_table()), file_, fmt::format("[{}]", path_of(key)), known);
+}
+
+std::vector<std::string> TomlTable::keys_of(std::string_view key) const {
+  std::vector<std::string> keys;
+  const toml::node* node = parsed_->find(key);
+  if (node == nullptr || !node->is_table()) return keys;
+  for (const auto& [name, value] : *node->as_table()) keys.emplace_back(name.str());
+  return keys;
 }
 
 std::vector<TomlTable> TomlTable::tables(std::string_view key, const std::vector<std::string>& known) const {
-  const toml::node* node = find(key);
+  const toml::node* node = parsed_->find(key);
   std::vector<TomlTable> result;
   if (node == nullptr) return result;
   const toml::array* array = node->as_array();
@@ -152,7 +187,7 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key, const std::vector
     throw error_at(key, "must be a list of tables", fmt::format("write [[{}]]", path_of(key)));
   }
   for (const toml::node& element : *array) {
-    result.emplace_back(*element.as_table(), file_, fmt::format("[[{}]]", path_of(key)), known);
+    result.push_back(TomlTable(parsed_->with(*element.as_table()), file_, fmt::format("[[{}]]", path_of(key)), known));
   }
   return result;
 }

@@ -1,10 +1,10 @@
 // Strict reading of TOML tables: every key is asked for, checked and named with its line when it is wrong.
 #pragma once
 
-#include <toml++/toml.h>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,24 +20,18 @@ struct NumberRange {
   double low, high;
 };
 
-/// Parses a TOML file of at most 1 MiB. Errors (usage): missing, empty, or not TOML, as "FILE:LINE: ...".
-[[nodiscard]] toml::table parse_toml_file(const std::filesystem::path& file);
-
 /// One table of a TOML file. Readers return nothing where the key is absent and throw Error{usage} "FILE:LINE" where
-/// its value has the wrong type, is not finite or is out of range. The table must outlive this.
+/// its value has the wrong type, is not finite or is out of range.
 class TomlTable {
  public:
-  /// `name` is for messages: "[frame]"; empty for the whole file. `known` are the keys that may stand in it: any other
-  /// is an error that names the nearest right one.
-  TomlTable(const toml::table& table, std::filesystem::path file, std::string name,
-            const std::vector<std::string>& known);
+  /// A whole file of at most 1 MiB. `known` are the keys that may stand in it: any other is an error that names the
+  /// nearest right one. Errors (usage): missing, empty, or not TOML, as "FILE:LINE: ...".
+  TomlTable(const std::filesystem::path& file, const std::vector<std::string>& known);
 
-  [[nodiscard]] bool has(std::string_view key) const { return table_.contains(key); }
-
-  [[nodiscard]] bool is_word(std::string_view key) const { return has(key) && find(key)->is_string(); }
-
+  [[nodiscard]] bool has(std::string_view key) const;
+  [[nodiscard]] bool is_word(std::string_view key) const;
+  [[nodiscard]] bool is_table(std::string_view key) const;
   [[nodiscard]] std::optional<std::string> word(std::string_view key) const;
-  [[nodiscard]] bool is_table(std::string_view key) const { return has(key) && find(key)->is_table(); }
   /// A word out of `choices`: its index there.
   [[nodiscard]] std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& choices) const;
   [[nodiscard]] std::optional<bool> boolean(std::string_view key) const;
@@ -49,6 +43,8 @@ class TomlTable {
                                                            NumberRange range) const;
   [[nodiscard]] std::optional<std::vector<std::string>> words(std::string_view key) const;
   [[nodiscard]] std::optional<TomlTable> table(std::string_view key, const std::vector<std::string>& known) const;
+  /// The keys of the table [key], sorted; none where there is no such table.
+  [[nodiscard]] std::vector<std::string> keys_of(std::string_view key) const;
   /// The tables of [[key]]; empty where there are none.
   [[nodiscard]] std::vector<TomlTable> tables(std::string_view key, const std::vector<std::string>& known) const;
 
@@ -56,13 +52,19 @@ class TomlTable {
   [[nodiscard]] Error error_at(std::string_view key, const std::string& message, const std::string& hint) const;
 
  private:
-  [[nodiscard]] const toml::node* find(std::string_view key) const { return table_.get(key); }
-  [[nodiscard]] double checked(const toml::node& node, std::string_view key, NumberRange range) const;
+  /// The table, and the parsed file that it is a part of; defined where TOML++ is known.
+  struct Parsed;
+  /// `name` is for messages: "[frame]"; empty for the whole file.
+  TomlTable(std::shared_ptr<const Parsed> parsed, std::filesystem::path file, std::string name,
+            const std::vector<std::string>& known);
+
+  template <typename Node>
+  [[nodiscard]] double checked(const Node& node, std::string_view key, NumberRange range) const;
   [[nodiscard]] std::string full_name(std::string_view key) const;
   /// As the header of a table in this one is written: "brdf.lobe".
   [[nodiscard]] std::string path_of(std::string_view key) const;
 
-  const toml::table& table_;
+  std::shared_ptr<const Parsed> parsed_;
   std::filesystem::path file_;
   std::string name_;
 };

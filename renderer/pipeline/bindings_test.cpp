@@ -21,7 +21,7 @@ namespace {
 class Crowded final : public Method {
  public:
   explicit Crowded(int textures, const std::string& lines = {})
-      : textures_(textures), shader_(lines + std::string(base_surface().shader())) {}
+      : textures_(textures), text_(lines + std::string(base_surface().shader().text)) {}
   [[nodiscard]] const MethodInfo& info() const override { return info_; }
   [[nodiscard]] Prefiltered precompute(const Material& m, const Options& o, const EffectSet& e,
                                        const Progress& p) const override {
@@ -30,11 +30,15 @@ class Crowded final : public Method {
       out.textures.push_back(make_texture("crowd_" + std::to_string(i), {Image(1, 1, 1, 0.5F)}, Storage::fp32, {}));
     return out;
   }
-  [[nodiscard]] std::string_view shader() const override { return shader_; }
+  [[nodiscard]] ShaderModule shader() const override {
+    ShaderModule module = base_surface().shader();
+    module.text = text_;
+    return module;
+  }
 
  private:
   int textures_;
-  std::string shader_;
+  std::string text_;
   MethodInfo info_{.name = "crowded", .summary = {}, .paper = {}, .options = {}, .honours = EffectSet{}.set()};
 };
 
@@ -91,7 +95,7 @@ TEST(TextureUnits, SharedMapsComeFirstWhereTheirEffectsAreOn) {
 TEST(TextureUnits, EveryMapOfTheSharedShadersHasARow) {
   const EffectSet all = EffectSet{}.set();
   const std::string text =
-      fragment_shader({.effects = all, .brdf = {}}, base_surface().shader(), "test", Options({}, {}, "test"), {});
+      fragment_shader({.effects = all, .brdf = {}}, base_surface().shader(), Options({}, {}, "test"), {}).text();
   const std::regex lookup(R"(\b(?:texture|textureGrad|textureLod|texelFetch|fetch)\((\w*_map|material_share),)");
   std::size_t found = 0;
   for (auto i = std::sregex_iterator(text.begin(), text.end(), lookup); i != std::sregex_iterator(); ++i, ++found) {
@@ -108,8 +112,9 @@ TEST(BlockBindings, AreThoseOfTheShaders) {
                                                {"DirectionalLights", block_binding::directional_lights},
                                                {"EnvironmentBlock", block_binding::environment},
                                                {"ShadowViews", block_binding::shadow_views}};
-  const std::string text = fragment_shader({.effects = EffectSet{}.set(), .brdf = {}}, base_surface().shader(), "test",
-                                           Options({}, {}, "test"), {.textures = {}, .scalars = {{"own", 1.0F}}});
+  const std::string text = fragment_shader({.effects = EffectSet{}.set(), .brdf = {}}, base_surface().shader(),
+                                           Options({}, {}, "test"), {.textures = {}, .scalars = {{"own", 1.0F}}})
+                               .text();
   std::map<std::string, GLuint> found;
   const std::regex block(R"(layout\(std140, binding = (\d+)\) uniform (\w+))");
   for (auto i = std::sregex_iterator(text.begin(), text.end(), block); i != std::sregex_iterator(); ++i)

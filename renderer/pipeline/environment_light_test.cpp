@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "renderer/environment/octahedral.hpp"
+#include "renderer/pipeline/bindings.hpp"
 #include "renderer/pipeline/gpu_environment.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 #include "tests/support/rendering.hpp"
@@ -80,7 +81,9 @@ GpuEnvironment bound(Environment environment) {
   shared_context().make_current();
   GpuEnvironment gpu(std::move(environment));
   gpu.prepare(EnvironmentUse::prefiltered);
-  gpu.bind(0, EnvironmentUse::prefiltered);
+  TextureUnits units({}, {});
+  for (const std::string_view name : environment_textures(EnvironmentUse::prefiltered)) units.add(name, "sampler2D");
+  gpu.bind(units, EnvironmentUse::prefiltered);
   return gpu;
 }
 

@@ -2,6 +2,7 @@
 #include "renderer/scene/gltf/document.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdint>

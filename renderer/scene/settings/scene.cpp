@@ -146,10 +146,9 @@ CameraSettings read_camera(const TomlTable& table) {
 }
 
 SceneSettings read_scene_settings(const std::filesystem::path& file, std::span<const Surface> surfaces) {
-  const toml::table parsed = parse_toml_file(file);
   std::vector<std::string> known{"scene", "frame", "light", "lights", "environment", "shadows", "camera", "zoom"};
   known.insert(known.end(), part_root_keys().begin(), part_root_keys().end());
-  const TomlTable root(parsed, file, "", known);
+  const TomlTable root(file, known);
   SceneSettings settings;
   if (const auto scene = root.table("scene", {"name", "description"})) {
     settings.name = scene->word("name");

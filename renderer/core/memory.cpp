@@ -99,11 +99,13 @@ std::uint64_t frame_bytes(std::uint64_t width, std::uint64_t height, std::uint64
 }
 
 std::string readable_bytes(std::uint64_t bytes) {
-  constexpr std::array<std::string_view, 7> units{"B", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
-  auto number = static_cast<double>(bytes);
+  if (bytes < 1024) return fmt::format("{} B", bytes);
+  constexpr std::array<std::string_view, 6> units{"KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
+  double number = static_cast<double>(bytes) / 1024.0;
   std::size_t unit = 0;
-  for (; number >= 1024.0 && unit + 1 < units.size(); ++unit) number /= 1024.0;
-  return fmt::format("{:.{}f} {}", number, unit == 0 ? 0 : 1, units[unit]);
+  for (; number >= 1023.5 && unit + 1 < units.size(); ++unit) number /= 1024.0;
+  const int decimals = number < 9.995 ? 2 : number < 99.95 ? 1 : 0;
+  return fmt::format("{:.{}f} {}", number, decimals, units[unit]);
 }
 
 void require_memory(std::uint64_t bytes, std::string_view what, std::string_view hint) {

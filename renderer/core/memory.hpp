@@ -16,7 +16,7 @@ namespace footprint {
 /// Bytes of width x height pixels of `bytes_per_pixel`; the largest std::uint64_t if that does not fit.
 [[nodiscard]] std::uint64_t frame_bytes(std::uint64_t width, std::uint64_t height, std::uint64_t bytes_per_pixel);
 
-/// "1.5 GiB", "512 B": one decimal, binary units.
+/// "0 B", "640 B", "1.50 KiB", "12.3 MiB", "640 GiB": three figures, binary multiples.
 [[nodiscard]] std::string readable_bytes(std::uint64_t bytes);
 
 /// Throws Error{machine} if `bytes` is more than `available_memory()`; `what` is what they are for ("a frame of 8192 x

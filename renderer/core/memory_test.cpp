@@ -68,7 +68,8 @@ TEST(FrameBytes, SaturatesInsteadOfWrapping) {
 TEST(ReadableBytes, PicksTheUnit) {
   EXPECT_EQ(readable_bytes(0), "0 B");
   EXPECT_EQ(readable_bytes(1023), "1023 B");
-  EXPECT_EQ(readable_bytes(1536), "1.5 KiB");
+  EXPECT_EQ(readable_bytes(1536), "1.50 KiB");
+  EXPECT_EQ(readable_bytes(1024 * 1024 - 1), "1.00 MiB");
   EXPECT_EQ(readable_bytes(unlimited), "16.0 EiB");
 }
 

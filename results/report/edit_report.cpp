@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "renderer/core/files.hpp"
+#include "renderer/core/memory.hpp"
 #include "results/report/csv_field.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/markdown_table.hpp"
@@ -123,7 +124,7 @@ std::string edit_table(const EditRun& run) {
 {}x{} pixels. geometry: triangles and normal map of the patch. other: what of the bake no stage of the method is. upload: the
 baked maps to OpenGL. frame: one picture drawn.
 )",
-                     three_figures(milliseconds / median(times)), bytes_text(run.records.back().bytes), run.width,
+                     three_figures(milliseconds / median(times)), readable_bytes(run.records.back().bytes), run.width,
                      run.height);
 }
 

@@ -62,15 +62,6 @@ std::string spread_text(double median, double low, double high) {
   return fmt::format("{} ({}-{})", three_figures(median), three_figures(low), three_figures(high));
 }
 
-std::string bytes_text(std::uint64_t bytes) {
-  if (bytes < 1024) return fmt::format("{} B", bytes);
-  constexpr std::array units{"KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
-  double size = static_cast<double>(bytes) / 1024;
-  std::size_t unit = 0;
-  for (; size >= 1023.5 && unit + 1 < units.size(); ++unit) size /= 1024;
-  return fmt::format("{} {}", three_figures(size), units[unit]);
-}
-
 std::string bytes_per_texel_text(const Record& record) {
   return record.precompute_bytes_per_texel ? three_figures(*record.precompute_bytes_per_texel) : "n/a";
 }

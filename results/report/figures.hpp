@@ -20,9 +20,6 @@ namespace footprint {
 /// "1.31 (1.25-1.40)": the median and the ends of the spread; "n/a" for figures that were not measured.
 [[nodiscard]] std::string spread_text(double median, double low, double high);
 
-/// "0 B", "640 B", "1.50 KiB", "12.3 MiB"; binary multiples.
-[[nodiscard]] std::string bytes_text(std::uint64_t bytes);
-
 /// Bytes that the baked maps take a texel: "16.0", "n/a" without a map.
 [[nodiscard]] std::string bytes_per_texel_text(const Record& record);
 

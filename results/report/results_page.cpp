@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "renderer/core/embedded_texts.hpp"
+#include "renderer/core/memory.hpp"
 #include "renderer/image/false_color.hpp"
 #include "results/report/experiment_section.hpp"
 #include "results/report/figures.hpp"
@@ -56,7 +57,7 @@ Json display(const Record& record) {
           {"fps", three_figures(record.fps)},
           {"build", build ? fmt::format("{}, {}", three_figures(build->ms), timing_name(build->timing)) : "none"},
           {"precompute", three_figures(record.precompute_seconds)},
-          {"bytes", bytes_text(record.precompute_bytes)},
+          {"bytes", readable_bytes(record.precompute_bytes)},
           {"bytes_per_texel", bytes_per_texel_text(record)},
           {"left_out", list_text(record.effects_left_out, "none")},
           {"reading", reading(record)}};

@@ -8,6 +8,7 @@
 #include <map>
 #include <span>
 
+#include "renderer/core/memory.hpp"
 #include "results/report/experiment_section.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/markdown_table.hpp"
@@ -92,7 +93,7 @@ std::string preparation_section(const Results& results) {
   for (const Record& record : results.records) {
     std::vector<std::string> row{record.method,
                                  three_figures(record.precompute_seconds),
-                                 bytes_text(record.precompute_bytes),
+                                 readable_bytes(record.precompute_bytes),
                                  bytes_per_texel_text(record),
                                  record.precompute_cached ? "yes" : "no",
                                  list_text(record.effects_left_out, "none")};

@@ -50,10 +50,10 @@ Animation animate_into(OutputFolder& folder, const RunSettings& settings, const 
 void run_animate(const Arguments& arguments) {
   const RunSettings settings = arguments.run.settings();
   ProgressDisplay display(progress_style(arguments.quiet));
-  const auto [animation, place] = write_whole(
+  const auto [animation, path] = write_whole(
       arguments.output, [&](OutputFolder& folder) { return animate_into(folder, settings, display.callback()); });
   display.finish();
-  write_output(fmt::format("{}\nframes: {}\n", animation_table(animation), (place / "images").string()));
+  write_output(fmt::format("{}\nframes: {}\n", animation_table(animation), (path / "images").string()));
 }
 
 }  // namespace

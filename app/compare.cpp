@@ -60,10 +60,10 @@ void run_compare_command(const Arguments& arguments) {
   if (!arguments.timing_file.empty()) {
     return write_frame_times(arguments.timing_file, time_frames(settings, display.callback()));
   }
-  const auto [results, place] = write_whole(
+  const auto [results, path] = write_whole(
       arguments.output, [&](OutputFolder& folder) { return compare_into(folder, settings, display.callback()); });
   display.finish();
-  print_results(results, place);
+  print_results(results, path);
 }
 
 }  // namespace

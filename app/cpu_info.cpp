@@ -1,4 +1,4 @@
-// See cpu_info.hpp.
+// Counts processors and takes the first model name in /proc/cpuinfo; without one, the architecture.
 #include "app/cpu_info.hpp"
 
 #include <fmt/format.h>

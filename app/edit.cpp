@@ -67,10 +67,10 @@ EditRun edit_into(OutputFolder& folder, const EditSettings& settings, const Prog
 void run_edit_command(const Arguments& arguments) {
   const EditSettings settings = settings_from(arguments);
   ProgressDisplay display(progress_style(arguments.quiet));
-  const auto [run, place] = write_whole(
+  const auto [run, path] = write_whole(
       arguments.output, [&](OutputFolder& folder) { return edit_into(folder, settings, display.callback()); });
   display.finish();
-  write_output(fmt::format("{}\nframes: {}\n", edit_table(run), (place / "images").string()));
+  write_output(fmt::format("{}\nframes: {}\n", edit_table(run), (path / "images").string()));
 }
 
 }  // namespace

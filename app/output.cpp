@@ -14,7 +14,7 @@ Error at_final_place(const Error& error, const OutputFolder& folder) {
   std::string place = error.place();
   const std::string hidden = folder.path().string();
   if (place.starts_with(hidden)) place.replace(0, hidden.size(), folder.final_path().string());
-  return {error.kind(), std::move(place), error.message(), error.mend()};
+  return {error.kind(), std::move(place), error.message(), error.hint()};
 }
 
 void sign(ToolInfo& tool, BackendInfo& backend) {
@@ -27,8 +27,8 @@ void keep(OutputFolder& folder) {
   folder.commit();
 }
 
-void print_results(const Results& results, const std::filesystem::path& place) {
-  write_output(fmt::format("{}\npage: {}\n", results_table(results), (place / "index.html").string()));
+void print_results(const Results& results, const std::filesystem::path& folder) {
+  write_output(fmt::format("{}\npage: {}\n", results_table(results), (folder / "index.html").string()));
 }
 
 }  // namespace footprint

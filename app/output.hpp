@@ -21,8 +21,8 @@ void sign(ToolInfo& tool, BackendInfo& backend);
 /// Moves the folder to its place. Errors (interrupted): where the run was interrupted, it is not moved.
 void keep(OutputFolder& folder);
 
-/// Prints the table of `results` and where their page lies, in the folder `place`.
-void print_results(const Results& results, const std::filesystem::path& place);
+/// Prints the table of `results` and where their page lies, in `folder`.
+void print_results(const Results& results, const std::filesystem::path& folder);
 
 /// What `write` makes of the folder (it commits) and where that is. Nothing is left of a folder that was not committed.
 template <typename Write>

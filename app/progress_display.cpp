@@ -1,4 +1,4 @@
-// See progress_display.hpp.
+// Redraws one bar ten times a second at most, or writes a line every two seconds and where a longer stage ends.
 #include "app/progress_display.hpp"
 
 #include <fmt/format.h>

@@ -115,11 +115,11 @@ std::vector<std::string> run_and_print(const Arguments& arguments) {
   for (const Experiment& experiment : experiments) {
     const std::filesystem::path output = arguments.output;
     ProgressDisplay display(progress_style(arguments.quiet));
-    const auto [results, place] =
+    const auto [results, path] =
         write_whole(experiments.size() > 1 ? output / experiment.name : output,
                     [&](OutputFolder& folder) { return run_into(experiment, folder, display.callback()); });
     display.finish();
-    print_results(results, place);
+    print_results(results, path);
     for (const std::string& line : results.experiment->shortfalls()) {
       shortfalls.push_back(experiments.size() > 1 ? experiment.name + ": " + line : line);
     }

@@ -1,4 +1,4 @@
-// See standard_output.hpp.
+// Writes and flushes at once, so that a full disk is an error here; a closed pipe is none.
 #include "app/standard_output.hpp"
 
 #include <cerrno>

@@ -1,4 +1,4 @@
-// See bench_scene.hpp.
+// Loads the scene to time and picks its methods: those named, else all that bake fast; `direct` always.
 #include "bench/bench_scene.hpp"
 
 #include <algorithm>

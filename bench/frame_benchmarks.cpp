@@ -1,4 +1,4 @@
-// See frame_benchmarks.hpp. Frames are timed as in reports: on a software renderer wall clock around glFinish.
+// Frames are timed as in reports: on a software renderer wall clock around glFinish.
 #include "bench/frame_benchmarks.hpp"
 
 #include <benchmark/benchmark.h>

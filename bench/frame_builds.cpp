@@ -1,4 +1,4 @@
-// See frame_builds.hpp.
+// At each map size, builds and frames are drawn in turn with a frame of `direct` and a few samples of the reference.
 #include "bench/frame_builds.hpp"
 
 #include <fmt/format.h>

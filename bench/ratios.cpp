@@ -1,4 +1,4 @@
-// See ratios.hpp.
+// Draws the pairs in turn and prints the quantiles of their ratios, by wall clock and by CPU time.
 #include "bench/ratios.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See side_by_side.hpp.
+// CPU time is counted around each drawing and its glFinish, wall time by interleaved_times, whose warm-up is dropped.
 #include "bench/side_by_side.hpp"
 
 #include <ctime>

@@ -126,8 +126,8 @@ class Composer {
 
   // Records stand frame by frame, in each in the order of the methods.
   const Record& record_of(const FigurePicture& picture) const {
-    const std::size_t place = picture.frame * experiment_.run.methods.size() + picture.method.value_or(0);
-    if (place < results_.records.size()) return results_.records[place];
+    const std::size_t index = picture.frame * experiment_.run.methods.size() + picture.method.value_or(0);
+    if (index < results_.records.size()) return results_.records[index];
     throw Error(ErrorKind::usage, experiment_.file.string(), fmt::format("[figure] shows frame {}", picture.frame),
                 "the scene's zoom path is shorter: give [zoom] distances, or show an earlier frame");
   }

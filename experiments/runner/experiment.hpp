@@ -55,8 +55,8 @@ using Crop = std::array<double, 4>;
 
 /// One picture of a composed figure.
 struct FigurePicture {
-  std::optional<std::size_t> method;  ///< place in the run's methods; none: the reference
-  std::size_t frame = 0;              ///< place in the distances
+  std::optional<std::size_t> method;  ///< index in the run's methods; none: the reference
+  std::size_t frame = 0;              ///< index in the distances
   std::string label;                  ///< "(a)", or any words; may be empty
   std::optional<Crop> crop;           ///< what is shown of it; none: as of every picture
 };

@@ -226,8 +226,8 @@ class Parser {
   static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || c == '_'; }
   static bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-  [[noreturn]] void fail(const std::string& message, const std::string& mend) const {
-    throw Error(ErrorKind::usage, fmt::format("{}, column {}", place_, at_ + 1), message, mend);
+  [[noreturn]] void fail(const std::string& message, const std::string& hint) const {
+    throw Error(ErrorKind::usage, fmt::format("{}, column {}", place_, at_ + 1), message, hint);
   }
 
   std::string_view text_;

@@ -24,7 +24,7 @@ struct Measure {
 /// "error(toksvig:storage=fp16, distance=4)".
 [[nodiscard]] std::string measure_text(const Measure& measure);
 
-/// The place in `methods` of the one that is written `wanted`, else of the only one with that name. Errors (usage,
+/// The index in `methods` of the one that is written `wanted`, else of the only one with that name. Errors (usage,
 /// no place): none, with the nearest; more than one.
 [[nodiscard]] std::size_t select_method(const std::string& wanted, std::span<const std::string> methods);
 

@@ -25,11 +25,11 @@ void inspect_footprints(const Experiment& experiment, const std::filesystem::pat
   const NdfSource source = load_ndf_source(experiment.run.scene, "", experiment.run.scene_library);
   ProgressParts parts(progress, static_cast<double>(experiment.footprints.size()));
   for (const NamedFootprint& footprint : experiment.footprints) {
-    const std::string place = "ndf/" + footprint.name;
-    std::filesystem::create_directories(folder / place / "images");
+    const std::string subfolder = "ndf/" + footprint.name;
+    std::filesystem::create_directories(folder / subfolder / "images");
     const NdfSettings wanted{.run = experiment.run, .footprint = footprint.rect};
     const NdfResults found =
-        inspect_ndf(source, wanted, folder / place, parts.next(1, "footprint " + footprint.name + ": "));
+        inspect_ndf(source, wanted, folder / subfolder, parts.next(1, "footprint " + footprint.name + ": "));
     for (const NdfRecord& record : found.records) {
       results.ndf.push_back({.footprint = footprint.name,
                              .method = record.method,
@@ -37,7 +37,7 @@ void inspect_footprints(const Experiment& experiment, const std::filesystem::pat
                              .energy = record.energy,
                              .peak = record.peak,
                              .lobes = record.lobes,
-                             .picture = place + "/" + found.strip});
+                             .picture = subfolder + "/" + found.strip});
     }
   }
 }

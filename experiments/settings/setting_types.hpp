@@ -19,7 +19,7 @@ namespace footprint::setting_types {
 /// The most pixels a side that a frame size may name; what memory holds is asked later, by whoever takes it.
 inline constexpr int max_frame_side = 10'000'000;
 
-/// The place of a value.
+/// Where in a run's settings a value is kept.
 template <class Value>
 using Field = Value& (*)(RunSettings& run);
 
@@ -54,10 +54,10 @@ using Field = Value& (*)(RunSettings& run);
 /// Effects by their names.
 [[nodiscard]] SettingType effects(Field<EffectSet> field);
 
-/// A flag that empties a folder's place.
+/// A flag that empties a folder's value.
 [[nodiscard]] SettingType no_folder(Field<std::optional<std::filesystem::path>> field);
 
-/// The place among `words` of the word that a key has. Errors (usage) name file, line and key.
+/// The index among `words` of the word that a key has. Errors (usage) name file, line and key.
 [[nodiscard]] std::size_t word_of_key(const TomlTable& table, std::string_view key,
                                       const std::vector<std::string>& words);
 

@@ -37,7 +37,7 @@ std::string refusal(std::string_view command, std::string_view option, const std
     (void)read(command, option, text);
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage) << error.what();
-    EXPECT_FALSE(error.mend().empty()) << error.what();
+    EXPECT_FALSE(error.hint().empty()) << error.what();
     return error.what();
   }
   ADD_FAILURE() << option << " took `" << text << "`";

@@ -20,7 +20,7 @@ auto at_key(const TomlTable& table, std::string_view key, Read read) {
     return read();
   } catch (const Error& error) {
     const std::string place = error.place().empty() ? "" : error.place() + ": ";
-    throw table.error_at(key, "cannot be taken: " + place + error.message(), error.mend());
+    throw table.error_at(key, "cannot be taken: " + place + error.message(), error.hint());
   }
 }
 

@@ -62,7 +62,7 @@ std::vector<glm::vec4> own_colors(SceneSource source) {
 
 // A patch of the settings and the materials that have it.
 struct EditedPatch {
-  std::size_t part, place;  // in the part
+  std::size_t part, index;  // in the part
   std::vector<std::size_t> materials;
 };
 
@@ -76,11 +76,11 @@ std::vector<EditedPatch> patches_of(const SceneSettings& settings, const Scene& 
     if (count == 0) continue;
     while (material < scene.materials.size() && !patch_of(material)) ++material;
     const std::size_t first = material, own = out.size();
-    for (std::size_t place = 0; place < count; ++place) out.push_back({part, place, {}});
+    for (std::size_t index = 0; index < count; ++index) out.push_back({part, index, {}});
     for (; material < scene.materials.size() && patch_of(material); ++material) {
-      const std::size_t place = (material - first) % count;
-      if (material >= first + count && patch_of(material) != patch_of(first + place)) break;  // the next part's
-      out[own + place].materials.push_back(material);
+      const std::size_t index = (material - first) % count;
+      if (material >= first + count && patch_of(material) != patch_of(first + index)) break;  // the next part's
+      out[own + index].materials.push_back(material);
     }
   }
   return out;
@@ -174,7 +174,7 @@ class Editor {
 
   void change_geometry(const std::map<std::string, std::string>& parameters) {
     for (const EditedPatch& patch : patches_) {
-      MicrogeometrySettings& geometry = source_.settings.parts[patch.part].microgeometry[patch.place];
+      MicrogeometrySettings& geometry = source_.settings.parts[patch.part].microgeometry[patch.index];
       if (geometry.kind == nullptr || geometry.kind->name != settings_.sweeps.front().kind) continue;
       for (const auto& [name, value] : parameters) geometry.parameters[name] = value;
       const MicrogeometryContent content = load_microgeometry(geometry);

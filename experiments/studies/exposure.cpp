@@ -1,4 +1,4 @@
-// The brightest parts of a picture, and the choice between exposures.
+// The nth parts of a picture, and the choice between exposures.
 #include "experiments/studies/exposure.hpp"
 
 #include <algorithm>
@@ -21,10 +21,10 @@ float automatic_exposure(const Image& reference) {
     if (p[3] == 1.0F) luminances.push_back(0.2126F * p[0] + 0.7152F * p[1] + 0.0722F * p[2]);
   }
   if (luminances.empty()) return 1.0F;
-  const auto place =
+  const auto nth =
       luminances.begin() + static_cast<std::ptrdiff_t>(percentile * static_cast<double>(luminances.size() - 1));
-  std::ranges::nth_element(luminances, place);
-  return *place > 0.0F && std::isfinite(*place) ? target / *place : 1.0F;
+  std::ranges::nth_element(luminances, nth);
+  return *nth > 0.0F && std::isfinite(*nth) ? target / *nth : 1.0F;
 }
 
 Exposure choose_exposure(const std::optional<Exposure>& given, const Scene& scene, const Image& first_reference) {

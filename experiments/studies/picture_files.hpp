@@ -18,7 +18,7 @@ namespace footprint {
 [[nodiscard]] Image stacked(const Image& top, const Image& bottom);
 
 /// The file name part of the method at `index`. Names that differ only in characters that no file name has would
-/// overwrite each other, and so would one that is called `reference`: such a method has its place added.
+/// overwrite each other, and so would one that is called `reference`: such a method has its number added.
 [[nodiscard]] std::string method_stem(std::span<const MethodSpec> methods, std::size_t index);
 
 /// Writes FOLDER/images/STEM.exr (linear radiance, coverage in alpha) and STEM.png beside it (exposed, sRGB); returns

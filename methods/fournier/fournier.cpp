@@ -18,7 +18,7 @@ extern const EmbeddedTexts fournier_glsl;
 
 namespace {
 
-// The lobe that is fitted with; where the roughness varies, that of the mean variance, as where there are several
+// The lobe that is fitted with; where the roughness varies, that of the mean slope variance, as where there are several
 // lobes.
 double base_variance(const Material& material) {
   if (width_map(material) == nullptr) return mean_lobe_variance(material);

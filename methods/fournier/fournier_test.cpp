@@ -55,13 +55,14 @@ struct Baked {
 };
 
 // A square footprint: its centre on the map and its edge.
-struct Place {
+struct SquareFootprint {
   glm::vec2 uv{0.5F, 0.5F};
   float edge = 1.0F;
 };
 
 // The shader's ndf at directions.
-std::vector<double> ndf(const Baked& baked, const Place& place, const std::vector<glm::dvec3>& directions) {
+std::vector<double> ndf(const Baked& baked, const SquareFootprint& footprint,
+                        const std::vector<glm::dvec3>& directions) {
   const gl::Context& context = shared_context();
   ShaderVariant variant;
   variant.brdf = blinn_phong;
@@ -81,7 +82,8 @@ std::vector<double> ndf(const Baked& baked, const Place& place, const std::vecto
   std::vector<std::array<glm::vec4, 3>> inputs;
   inputs.reserve(directions.size());
   for (const glm::dvec3& h : directions)
-    inputs.push_back({glm::vec4(place.uv, place.edge, baked.exponent), glm::vec4(glm::vec3(h), 0.0F), glm::vec4(0.0F)});
+    inputs.push_back(
+        {glm::vec4(footprint.uv, footprint.edge, baked.exponent), glm::vec4(glm::vec3(h), 0.0F), glm::vec4(0.0F)});
   std::vector<double> out;
   out.reserve(directions.size());
   const std::string body =
@@ -127,10 +129,10 @@ std::vector<StoredPeak> peaks_of(const Baked& baked, int level, int x, int y) {
 }
 
 // All peaks of the eight texels of a footprint, weighted; the maps of these tests repeat.
-std::vector<StoredPeak> peaks_under(const Baked& baked, const Place& place) {
+std::vector<StoredPeak> peaks_under(const Baked& baked, const SquareFootprint& footprint) {
   const auto levels = static_cast<int>(baked.first().levels.size());
   const double finest = std::max(baked.first().levels[0].width, baked.first().levels[0].height);
-  const double level = std::clamp(std::log2(place.edge * finest), 0.0, levels - 1.0);
+  const double level = std::clamp(std::log2(footprint.edge * finest), 0.0, levels - 1.0);
   std::vector<StoredPeak> out;
   for (int i = 0; i < 8; ++i) {
     const int own = std::min(static_cast<int>(level) + (i >> 2), levels - 1);
@@ -140,7 +142,7 @@ std::vector<StoredPeak> peaks_under(const Baked& baked, const Place& place) {
     for (int axis = 0; axis < 2; ++axis) {
       const TextureLevel& sizes = baked.first().levels[static_cast<std::size_t>(own)];
       const int size = axis == 0 ? sizes.width : sizes.height;
-      const double at = static_cast<double>(place.uv[axis]) * size - 0.5;
+      const double at = static_cast<double>(footprint.uv[axis]) * size - 0.5;
       const int side = (i >> axis) & 1;
       weight *= side != 0 ? at - std::floor(at) : 1.0 - (at - std::floor(at));
       texel[static_cast<std::size_t>(axis)] = (static_cast<int>(std::floor(at)) + side + size) % size;
@@ -177,10 +179,10 @@ std::vector<glm::dvec3> sphere_grid(int across) {
   return out;
 }
 
-double energy(const Baked& baked, const Place& place = {}) {
+double energy(const Baked& baked, const SquareFootprint& footprint = {}) {
   constexpr int across = 200;
   double sum = 0;
-  for (const double density : ndf(baked, place, sphere_grid(across))) sum += density;
+  for (const double density : ndf(baked, footprint, sphere_grid(across))) sum += density;
   return sum * 16.0 / (across * across);
 }
 
@@ -204,11 +206,11 @@ TEST(Fournier, NdfMeetsItsTwin) {
     for (const char* peaks : {"1", "2", "7"}) {
       const Baked baked(map, s, {{"peaks", peaks}});
       for (const float edge : {0.01F, 0.0625F, 0.1F, 0.3F, 0.9F, 2.0F}) {
-        const Place place{.uv = {unit(random), unit(random)}, .edge = edge};
-        const std::vector<StoredPeak> expected = peaks_under(baked, place);
+        const SquareFootprint footprint{.uv = {unit(random), unit(random)}, .edge = edge};
+        const std::vector<StoredPeak> expected = peaks_under(baked, footprint);
         double peak = 0;
         for (const StoredPeak& p : expected) peak = std::max(peak, twin_ndf(expected, s, p.axis));
-        const std::vector<double> out = ndf(baked, place, directions);
+        const std::vector<double> out = ndf(baked, footprint, directions);
         for (std::size_t i = 0; i < out.size(); ++i) {
           EXPECT_NEAR(out[i] / peak, twin_ndf(expected, s, directions[i]) / peak, 1e-5)
               << "exponent " << s << ", peaks " << peaks << ", edge " << edge;
@@ -222,8 +224,10 @@ TEST(Fournier, EnergyIsOne) {
   for (const float s : {8.0F, 512.0F}) {
     for (const float tilt : {0.0F, 0.3F, 0.95F}) {
       const Baked baked(random_normals(16, 16, tilt, 7), s);
-      for (const Place& place : {Place{}, Place{.uv = {0.3F, 0.6F}, .edge = 0.2F}, Place{.edge = 1e-3F}})
-        EXPECT_NEAR(energy(baked, place), 1.0, 0.01) << "exponent " << s << ", tilt " << tilt << ", " << place.edge;
+      for (const SquareFootprint& footprint :
+           {SquareFootprint{}, SquareFootprint{.uv = {0.3F, 0.6F}, .edge = 0.2F}, SquareFootprint{.edge = 1e-3F}})
+        EXPECT_NEAR(energy(baked, footprint), 1.0, 0.01)
+            << "exponent " << s << ", tilt " << tilt << ", " << footprint.edge;
     }
   }
 }

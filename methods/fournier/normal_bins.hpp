@@ -10,7 +10,8 @@ namespace footprint::fournier {
 
 /// Cells of the sphere, squares of one area on Lambert's disc. Normals of one cell are told by their moments. An edge
 /// of the base lobe's own deviation leaves an error of fourth order; below 1/16 it stops, and lobes narrower than that
-/// are told in the distribution of normals under a texel by cells of a variance of 1/3072, an exponent of about 3000.
+/// are told in the distribution of normals under a texel by cells of a slope variance of 1/3072, an exponent of about
+/// 3000.
 class NormalCells {
  public:
   explicit NormalCells(double base_variance);

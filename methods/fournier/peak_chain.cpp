@@ -21,9 +21,9 @@ constexpr float shortest_normal = 1e-3F;
 constexpr std::size_t texels_per_report = 256;
 
 void store(const Peak& peak, std::span<float> texel) {
-  const Eigen::Vector2d place = disc_from_direction(peak.axis);
-  texel[0] = static_cast<float>(place.x());
-  texel[1] = static_cast<float>(place.y());
+  const Eigen::Vector2d on_disc = disc_from_direction(peak.axis);
+  texel[0] = static_cast<float>(on_disc.x());
+  texel[1] = static_cast<float>(on_disc.y());
   texel[2] = static_cast<float>(std::sqrt(peak.spread));
   texel[3] = static_cast<float>(peak.weight);
 }

@@ -165,10 +165,10 @@ TabulatedLobes lobes_of(const TabulatedBrdf& brdf) {
   for (const glm::dvec3& value : profile) diffuse = glm::min(diffuse, value);
   const auto at = [&](double u) {
     const double root = std::sqrt(std::acos(std::clamp(1.0 - u, 0.0, 1.0)) / (0.5 * pi));
-    const double place =
+    const double position =
         std::clamp(root * TabulatedBrdf::theta_h_cells - 0.5, 0.0, static_cast<double>(profile.size() - 1));
-    const auto low = std::min(static_cast<std::size_t>(place), profile.size() - 2);
-    return glm::mix(profile[low], profile[low + 1], place - static_cast<double>(low)) - diffuse;
+    const auto low = std::min(static_cast<std::size_t>(position), profile.size() - 2);
+    return glm::mix(profile[low], profile[low + 1], position - static_cast<double>(low)) - diffuse;
   };
   // The core's width: where the sum of the channels has fallen to 1/e.
   const auto gray = [&](double u) { return at(u).x + at(u).y + at(u).z; };
@@ -191,9 +191,9 @@ TabulatedLobes lobes_of(const TabulatedBrdf& brdf) {
 
 glm::dvec3 rise_at(const TabulatedLobes& lobes, double theta_d) {
   const double last = static_cast<double>(lobes.rise.size()) - 1.0;
-  const double place = std::clamp(theta_d / (0.5 * pi) * (last + 1.0) - 0.5, 0.0, last);
-  const auto low = std::min(static_cast<std::size_t>(place), lobes.rise.size() - 2);
-  return glm::mix(glm::dvec3(lobes.rise[low]), glm::dvec3(lobes.rise[low + 1]), place - static_cast<double>(low));
+  const double position = std::clamp(theta_d / (0.5 * pi) * (last + 1.0) - 0.5, 0.0, last);
+  const auto low = std::min(static_cast<std::size_t>(position), lobes.rise.size() - 2);
+  return glm::mix(glm::dvec3(lobes.rise[low]), glm::dvec3(lobes.rise[low + 1]), position - static_cast<double>(low));
 }
 
 double value(const std::vector<BrdfLobe>& lobes, double u) {

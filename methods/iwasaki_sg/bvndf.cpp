@@ -93,7 +93,7 @@ void add(std::vector<float>& sum, const std::vector<float>& part) {
   std::ranges::transform(sum, part, sum.begin(), [](float a, float b) { return a + b; });
 }
 
-// A lobe that reaches a normal: its place, and its integral over the normal's own lobe.
+// A lobe that reaches a normal: its index, and its integral over the normal's own lobe.
 struct Reach {
   std::size_t lobe;
   float product;

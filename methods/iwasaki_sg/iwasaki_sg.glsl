@@ -27,30 +27,32 @@ Effective effective(Footprints f) { return Effective(tableLobes()); }
 
 // Where a pair of directions lies in the table: a tile for each cell of wo, in it a texel for each cell of wi. Between
 // the cells of wi the sampler interpolates, between those of wo the four tiles do.
-struct TablePlace {
+struct TableTexels {
   vec2 uv[4];
   vec4 weights;
 };
 
-TablePlace placeOf(vec3 wi, vec3 wo) {
+TableTexels tableTexels(vec3 wi, vec3 wo) {
   float side = option_directions;
   vec2 i = clamp(hemisphereToSquare(wi) * side, 0.5, side - 0.5);
   vec2 o = clamp(hemisphereToSquare(wo) * side, 0.5, side - 0.5) - 0.5;
   vec2 low = min(floor(o), side - 2.0);
   vec2 part = o - low;
-  TablePlace place;
-  for (int k = 0; k < 4; ++k) place.uv[k] = ((low + vec2(k & 1, k >> 1)) * side + i) / (side * side);
-  place.weights = vec4((1.0 - part.x) * (1.0 - part.y), part.x * (1.0 - part.y), (1.0 - part.x) * part.y, part.x * part.y);
-  return place;
+  TableTexels texels;
+  for (int k = 0; k < 4; ++k) texels.uv[k] = ((low + vec2(k & 1, k >> 1)) * side + i) / (side * side);
+  texels.weights =
+      vec4((1.0 - part.x) * (1.0 - part.y), part.x * (1.0 - part.y), (1.0 - part.x) * part.y, part.x * part.y);
+  return texels;
 }
 
-vec4 tableLayer(int layer, TablePlace place) {
+vec4 tableLayer(int layer, TableTexels texels) {
   vec4 sum = vec4(0.0);
-  for (int k = 0; k < 4; ++k) sum += place.weights[k] * textureLod(iwasaki_amplitudes, vec3(place.uv[k], layer), 0.0);
+  for (int k = 0; k < 4; ++k) sum += texels.weights[k] * textureLod(iwasaki_amplitudes, vec3(texels.uv[k], layer), 0.0);
   return sum;
 }
 
-// The values of the table are the lobes' and, behind them, the diffuse term's: a layer each in colour, else four a layer.
+// The values of the table are the lobes' and, behind them, the diffuse term's: a layer each in colour, else four a
+// layer.
 //? if microgeometry_colour
 const int values_per_layer = 1;
 vec3 valueIn(vec4 layer, int value) { return layer.rgb; }
@@ -59,7 +61,7 @@ const int values_per_layer = 4;
 vec3 valueIn(vec4 layer, int value) { return vec3(layer[value & 3]); }
 //? end
 
-vec3 tableAt(int value, TablePlace place) { return valueIn(tableLayer(value / values_per_layer, place), value); }
+vec3 tableAt(int value, TableTexels texels) { return valueIn(tableLayer(value / values_per_layer, texels), value); }
 //? end
 
 // The base BRDF's density of half vectors, averaged over normals that a lobe distributes.
@@ -102,10 +104,10 @@ float smoothFactor(vec4 lobe, vec3 h, vec3 wi, vec3 wo) {
 vec3 riseOf(vec3 h, vec3 wi) {
   int last = textureSize(iwasaki_rise, 0).x - 1;
   float angle = atan(length(cross(wi, h)), max(dot(wi, h), 0.0));  // acos is coarse on some machines
-  float place = clamp(angle / (0.5 * pi) * float(last + 1) - 0.5, 0.0, float(last));
-  int low = min(int(place), max(last - 1, 0));
+  float position = clamp(angle / (0.5 * pi) * float(last + 1) - 0.5, 0.0, float(last));
+  int low = min(int(position), max(last - 1, 0));
   vec3 below = texelFetch(iwasaki_rise, ivec2(low, 0), 0).rgb;
-  return mix(below, texelFetch(iwasaki_rise, ivec2(min(low + 1, last), 0), 0).rgb, place - float(low));
+  return mix(below, texelFetch(iwasaki_rise, ivec2(min(low + 1, last), 0), 0).rgb, position - float(low));
 }
 
 // Facets that reflect by lobes of their own, in colour, of which the first is diffuse (equations 9 and 15 in one). The
@@ -113,12 +115,12 @@ vec3 riseOf(vec3 h, vec3 wi) {
 vec3 tabulatedReflection(Effective e, vec3 wi, vec3 wo) {
   if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
   vec3 h = halfVector(wi, wo);
-  TablePlace place = placeOf(wi, wo);
+  TableTexels texels = tableTexels(wi, wo);
   int count = textureSize(iwasaki_table, 0).x;
   vec3 shine = vec3(0.0), matte = vec3(0.0);
   vec4 layer = vec4(0.0);
   for (int j = 0; j < e.count; ++j) {
-    if (j % values_per_layer == 0) layer = tableLayer(j / values_per_layer, place);
+    if (j % values_per_layer == 0) layer = tableLayer(j / values_per_layer, texels);
     vec4 lobe = lobeOf(j);
     vec3 reflected = vec3(0.0);
     for (int s = 1; s < count; ++s) {
@@ -137,7 +139,7 @@ vec3 lobesReflect(Effective e, vec3 f0, vec3 wi, vec3 wo) {
   if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
   vec3 h = halfVector(wi, wo);
 //? if microgeometry_visibility
-  TablePlace place = placeOf(wi, wo);
+  TableTexels texels = tableTexels(wi, wo);
   vec4 layer = vec4(0.0);
 //? end
   vec3 sum = vec3(0.0);
@@ -145,7 +147,7 @@ vec3 lobesReflect(Effective e, vec3 f0, vec3 wi, vec3 wo) {
     vec4 lobe = lobeOf(j);
     float reflected = convolved(lobe, h) * smoothFactor(lobe, h, wi, wo);
 //? if microgeometry_visibility
-    if (j % values_per_layer == 0) layer = tableLayer(j / values_per_layer, place);
+    if (j % values_per_layer == 0) layer = tableLayer(j / values_per_layer, texels);
     sum += valueIn(layer, j) * reflected;
 //? else
     sum += shareOf(j) * reflected;
@@ -158,7 +160,7 @@ vec3 lobesReflect(Effective e, vec3 f0, vec3 wi, vec3 wo) {
 vec3 meanDiffuse(Effective e, Surface s, vec3 wi, vec3 wo) {
 //? if microgeometry_visibility
   // The table has the facets' cosines over that of the surface as a whole.
-  return diffuse(vec3(0.0, 0.0, 1.0), s, wi, wo) * tableAt(e.count, placeOf(wi, wo));
+  return diffuse(vec3(0.0, 0.0, 1.0), s, wi, wo) * tableAt(e.count, tableTexels(wi, wo));
 //? else
   vec3 sum = vec3(0.0);
   for (int j = 0; j < e.count; ++j) {

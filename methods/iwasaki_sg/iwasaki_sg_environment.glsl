@@ -1,5 +1,6 @@
-// Environment light: each lobe of normals with each lobe of the facets' own BRDF is one lobe over half vectors (equation
-// 14). What the pair of directions makes of it stands in lobeReflectance, the diffuse term apart from it in visibleFacets.
+// Environment light: each lobe of normals with each lobe of the facets' own BRDF is one lobe over half vectors
+// (equation 14). What the pair of directions makes of it stands in lobeReflectance, the diffuse term apart from it in
+// visibleFacets.
 
 //? if lobe_base
 int baseLobeCount() { return 1; }
@@ -61,7 +62,7 @@ float meanHeight(float height, float sharpness) {
 vec3 lobeReflectance(Effective e, int i, vec3 f0, vec3 h, vec3 wi, vec3 wo, float sharpness) {
   int own = ownLobeCount();
   int j = i / own;
-  vec3 amplitude = tableAt(j, placeOf(wi, wo));
+  vec3 amplitude = tableAt(j, tableTexels(wi, wo));
 //? if tabulated_brdf
   if (iwasaki_tabulated > 0.5) {
     return amplitude * tabulatedLobe(i % own).yzw * riseOf(h, wi) * meanHeight(wi.z, sharpness);
@@ -79,9 +80,9 @@ vec3 lobeReflectance(Effective e, int i, vec3 f0, vec3 h, vec3 wi, vec3 wo, floa
 // whose irradiance is about what they get.
 DiffuseFacets visibleFacets(Effective e, vec3 wo) {
   float side = option_directions;
-  vec2 place = clamp(hemisphereToSquare(wo) * side, 0.5, side - 0.5) / side;
-  vec3 share = textureLod(iwasaki_diffuse, vec3(place, 0.0), 0.0).rgb;
-  vec3 mean_normal = textureLod(iwasaki_diffuse, vec3(place, 1.0), 0.0).xyz;
+  vec2 uv = clamp(hemisphereToSquare(wo) * side, 0.5, side - 0.5) / side;
+  vec3 share = textureLod(iwasaki_diffuse, vec3(uv, 0.0), 0.0).rgb;
+  vec3 mean_normal = textureLod(iwasaki_diffuse, vec3(uv, 1.0), 0.0).xyz;
 //? if tabulated_brdf
   if (iwasaki_tabulated > 0.5) {
     return DiffuseFacets(mean_normal, share * pi * texelFetch(iwasaki_table, ivec2(0), 0).yzw, true);

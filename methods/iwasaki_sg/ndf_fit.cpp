@@ -74,7 +74,7 @@ double expect(std::span<const WeightedNormal> normals, double total, const Mixtu
   return likelihood / total;
 }
 
-// Places to start from, far apart: the heaviest normal, then always the one whose squared distance from those taken,
+// Normals to start from, far apart: the heaviest normal, then always the one whose squared distance from those taken,
 // times its weight to the power `weighting`, is largest.
 std::vector<glm::dvec3> spread_seeds(std::span<const WeightedNormal> normals, std::size_t count, double weighting) {
   const auto heaviest = std::ranges::max_element(normals, {}, &WeightedNormal::weight);

@@ -45,14 +45,14 @@ std::uint32_t cube_cell(const glm::dvec3& normal, int side) {
   int axis = size.x >= size.y ? 0 : 1;
   if (size.z >= size[axis]) axis = 2;
   const double lead = std::max(size[axis], 1e-300);
-  const auto place = [&](int other) {
+  const auto cell_along = [&](int other) {
     // The hair keeps normals on an axis, which lies on a border of cells, together whatever rounding does to them.
     constexpr double hair = 1e-6;
     const double unit = 0.5 + 0.5 * normal[other] / lead + hair;
     return std::min(static_cast<int>(unit * side), side - 1);
   };
   const int face = 2 * axis + (normal[axis] < 0.0 ? 1 : 0);
-  return static_cast<std::uint32_t>((face * side + place((axis + 2) % 3)) * side + place((axis + 1) % 3));
+  return static_cast<std::uint32_t>((face * side + cell_along((axis + 2) % 3)) * side + cell_along((axis + 1) % 3));
 }
 
 BinnedFacets bin_facets(const Patch& patch, const FacetSamples& samples) {

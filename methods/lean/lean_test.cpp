@@ -61,7 +61,7 @@ Image v_grooves(float slope) {
   return image;
 }
 
-// Under an environment a long lobe is a row of round ones: of all shares one, with the grooves' own variance.
+// Under an environment a long lobe is a row of round ones: of all shares one, with the grooves' own slope variance.
 TEST(Lean, LongLobesAreRowsOfRoundOnes) {
   const std::array<std::array<glm::vec4, 3>, 1> input{};
   for (const auto& [slope, lobes] : {std::pair(0.05F, 1), {0.2F, 5}, {0.3F, 7}}) {
@@ -183,7 +183,7 @@ TEST(Lean, NormalsAtTheHorizonStayFinite) {
   }
 }
 
-// Grooves have spread across and none along: one variance for both axes blurs what two keep apart.
+// Grooves have spread across and none along: one slope variance for both axes blurs what two keep apart.
 TEST(Lean, IsNearerToGroovesThanItsScalarVariant) {
   const Material material = material_of(v_grooves(0.3F), blinn_phong, 64);
   const std::vector<glm::dvec3> directions = hemisphere_grid(60, 120);

@@ -32,12 +32,12 @@ struct Problem {
 };
 
 std::vector<Gaussian> random_mixture(std::mt19937& random, std::size_t count) {
-  std::uniform_real_distribution<float> place(-0.6F, 0.6F);
+  std::uniform_real_distribution<float> coordinate(-0.6F, 0.6F);
   std::uniform_real_distribution<float> share(0.1F, 1.0F);
   std::vector<Gaussian> mixture(count);
   float total = 0;
   for (Gaussian& g : mixture) {
-    g = {.alpha = share(random), .x = place(random), .y = place(random), .variance = 0.05F * share(random)};
+    g = {.alpha = share(random), .x = coordinate(random), .y = coordinate(random), .variance = 0.05F * share(random)};
     total += g.alpha;
   }
   for (Gaussian& g : mixture) g.alpha /= total;
@@ -292,11 +292,11 @@ TEST(TanEm, NoSamplesNoWeight) {
 // Half of the samples one normal, half spread widely: hard case of clusters alone, which cut the spread in pieces.
 TEST(TanEm, ADenseSeedFindsTheSpike) {
   std::mt19937 random(4);
-  std::uniform_real_distribution<float> place(-0.65F, 0.65F);
+  std::uniform_real_distribution<float> coordinate(-0.65F, 0.65F);
   Samples samples;
   for (int j = 0; j < 1000; ++j) {
     samples.add(0.05F, 0.02F, 0.0F, 1.0F);
-    samples.add(place(random), place(random), 0.0F, 1.0F);
+    samples.add(coordinate(random), coordinate(random), 0.0F, 1.0F);
   }
   std::array<Gaussian, 4> mixture{};
   fit_texel(samples, Prior(1.0), {}, {.components = 4, .start = Start::dense_seed}, mixture);

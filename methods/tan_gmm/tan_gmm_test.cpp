@@ -32,7 +32,7 @@ using Inputs = std::vector<std::array<glm::vec4, 3>>;
 constexpr BaseBrdf blinn_phong{NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, true};
 constexpr BaseBrdf blinn_phong_tan{NormalDistribution::blinn_phong, GeometryTerm::tan, FresnelTerm::none, true};
 
-// What follows "Effective e = ...;" in a probe whose inputs are a.xy: place in the map, a.z: size of the footprint
+// What follows "Effective e = ...;" in a probe whose inputs are a.xy: uv in the map, a.z: size of the footprint
 // there, a.w: the lobe. Components are the paper's Gaussians where `given` does not say otherwise.
 std::vector<glm::vec4> probed(const PrefilteredTexture& mixture, const Given& given, const std::string& expression,
                               const Inputs& inputs, const BaseBrdf& brdf = blinn_phong) {
@@ -153,13 +153,13 @@ std::vector<glm::vec4> as_floats(const std::vector<glm::dvec4>& texel) { return 
 // The shader and its double-precision twin, to 1e-5 of the peak, for mixtures away from the rim.
 TEST(TanGmm, NdfMeetsItsTwin) {
   std::mt19937 random(2);
-  std::uniform_real_distribution<float> place(-0.7F, 0.7F);
+  std::uniform_real_distribution<float> coordinate(-0.7F, 0.7F);
   for (const float s : {16.0F, 64.0F, 512.0F, 1e4F}) {
     for (int repeat = 0; repeat < 4; ++repeat) {
       const std::vector<glm::dvec4> texel = random_texel(random, 0.6);
       Inputs inputs;
       for (int i = 0; i < 200; ++i) {
-        const glm::vec2 p(place(random), place(random));
+        const glm::vec2 p(coordinate(random), coordinate(random));
         const float square = glm::dot(p, p);
         if (square < 1.0F) inputs.push_back({whole_map(s), glm::vec4(p, std::sqrt(1.0F - square), 0.0F), {}});
       }

@@ -1,4 +1,4 @@
-// `toksvig`: the length of the mean normal tells the spread of the normals under a footprint; one lobe about the mean
+// `toksvig`: the mean resultant length of the normals under a footprint tells their spread; one lobe about the mean
 // normal takes that spread into its width. Toksvig 2004/2005, "Mipmapping Normal Maps".
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"

@@ -132,10 +132,10 @@ std::vector<glm::vec4> BuiltMap::probe(const std::string& body, const ProbeInput
   }
   std::string setting =
       "Footprint whole_map = Footprint(vec2(0.5), vec2(1.0, 0.0), vec2(0.0, 1.0));\n"
-      "Footprints places;\nplaces.normal = whole_map;\nplaces.roughness = whole_map;\n";
-  if (variant_.surface_coordinates) setting += "places.surface = whole_map;\ntangent_to_camera = mat3(1.0);\n";
+      "Footprints footprints;\nfootprints.normal = whole_map;\nfootprints.roughness = whole_map;\n";
+  if (variant_.surface_coordinates) setting += "footprints.surface = whole_map;\ntangent_to_camera = mat3(1.0);\n";
   std::vector<glm::vec4> out =
-      evaluate_glsl(shader_text(), setting + "Effective e = effective(places);\n" + body, inputs);
+      evaluate_glsl(shader_text(), setting + "Effective e = effective(footprints);\n" + body, inputs);
   shared_context().check("probing a map");
   return out;
 }

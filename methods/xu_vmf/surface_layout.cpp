@@ -33,7 +33,7 @@ struct Box {
 struct Chart {
   std::vector<Triangle> triangles;
   Box box;
-  glm::ivec2 place{0};  // of its box in the atlas
+  glm::ivec2 corner{0};  // of its box in the atlas
 };
 
 // How many texels have been covered, and how many of them more than once.
@@ -116,8 +116,8 @@ std::vector<glm::dvec2> texel_coordinates(const TriangleSoup& triangles, const T
   return out;
 }
 
-std::array<glm::dvec2, 3> corners_of(const Triangle& triangle, std::span<const glm::dvec2> places) {
-  return {places[triangle[0]], places[triangle[1]], places[triangle[2]]};
+std::array<glm::dvec2, 3> corners_of(const Triangle& triangle, std::span<const glm::dvec2> positions) {
+  return {positions[triangle[0]], positions[triangle[1]], positions[triangle[2]]};
 }
 
 double surface_area(const Triangle& triangle, std::span<const Vertex> vertices) {
@@ -132,13 +132,13 @@ struct Drawing {
   double lost;  // area of the surface that no texel shows
 };
 
-Drawing draw(std::span<const Triangle> triangles, std::span<const glm::dvec2> places, const Box& box,
+Drawing draw(std::span<const Triangle> triangles, std::span<const glm::dvec2> positions, const Box& box,
              std::span<const Vertex> vertices) {
   Coverage coverage(box);
-  for (const Triangle& triangle : triangles) coverage.add(corners_of(triangle, places));
+  for (const Triangle& triangle : triangles) coverage.add(corners_of(triangle, positions));
   double lost = 0;
   for (const Triangle& triangle : triangles) {
-    if (!coverage.shows(corners_of(triangle, places))) lost += surface_area(triangle, vertices);
+    if (!coverage.shows(corners_of(triangle, positions))) lost += surface_area(triangle, vertices);
   }
   return {coverage.overlaps(), lost};
 }
@@ -164,24 +164,24 @@ class VertexGroups {
   std::vector<std::uint32_t> parent_;
 };
 
-Box box_of(std::span<const Triangle> triangles, std::span<const glm::dvec2> places) {
+Box box_of(std::span<const Triangle> triangles, std::span<const glm::dvec2> positions) {
   glm::dvec2 lower(largest_coordinate), upper(-largest_coordinate);
   for (const Triangle& triangle : triangles) {
     for (const std::uint32_t vertex : triangle) {
-      lower = glm::min(lower, places[vertex]);
-      upper = glm::max(upper, places[vertex]);
+      lower = glm::min(lower, positions[vertex]);
+      upper = glm::max(upper, positions[vertex]);
     }
   }
   return {glm::ivec2(glm::floor(lower + tolerance)), glm::ivec2(glm::ceil(upper - tolerance))};
 }
 
-std::vector<Chart> charts_of(std::span<const Triangle> triangles, std::span<const glm::dvec2> places) {
-  VertexGroups groups(places.size());
+std::vector<Chart> charts_of(std::span<const Triangle> triangles, std::span<const glm::dvec2> positions) {
+  VertexGroups groups(positions.size());
   for (const Triangle& triangle : triangles) {
     groups.join(triangle[0], triangle[1]);
     groups.join(triangle[0], triangle[2]);
   }
-  std::vector<std::optional<std::size_t>> chart_of(places.size());
+  std::vector<std::optional<std::size_t>> chart_of(positions.size());
   std::vector<Chart> charts;
   for (const Triangle& triangle : triangles) {
     std::optional<std::size_t>& chart = chart_of[groups.root(triangle[0])];
@@ -192,7 +192,7 @@ std::vector<Chart> charts_of(std::span<const Triangle> triangles, std::span<cons
     charts[*chart].triangles.push_back(triangle);
   }
   for (Chart& chart : charts) {
-    chart.box = box_of(chart.triangles, places);
+    chart.box = box_of(chart.triangles, positions);
     chart.box.end = glm::max(chart.box.end, chart.box.first + 1);
   }
   return charts;
@@ -216,70 +216,71 @@ std::optional<glm::ivec2> pack(std::vector<Chart>& charts) {
   const int width = rounded(std::max(widest, static_cast<int>(std::ceil(std::sqrt(area)))));
   std::ranges::stable_sort(order, std::ranges::greater(), [](const Chart* chart) { return chart->box.size().y; });
   Shelves<int> shelves(width);
-  for (Chart* chart : order) chart->place = shelves.place(chart->box.size() + chart_gap) + chart_gap / 2;
+  for (Chart* chart : order) chart->corner = shelves.place(chart->box.size() + chart_gap) + chart_gap / 2;
   const glm::ivec2 size(width, rounded(shelves.height()));
   if (static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) > largest_atlas) return {};
   return size;
 }
 
-// Moves every chart to its place; `places` turn from texels of the map to texels of the atlas.
-void move(std::span<const Chart> charts, std::span<glm::dvec2> places) {
-  std::vector<bool> moved(places.size());
+// Moves every chart to its corner; `positions` turn from texels of the map to texels of the atlas.
+void move(std::span<const Chart> charts, std::span<glm::dvec2> positions) {
+  std::vector<bool> moved(positions.size());
   for (const Chart& chart : charts) {
     for (const Triangle& triangle : chart.triangles) {
       for (const std::uint32_t vertex : triangle) {
-        if (!moved[vertex]) places[vertex] += glm::dvec2(chart.place - chart.box.first);
+        if (!moved[vertex]) positions[vertex] += glm::dvec2(chart.corner - chart.box.first);
         moved[vertex] = true;
       }
     }
   }
 }
 
-SurfaceLayout layout(const glm::ivec2& size, std::span<const glm::dvec2> places, std::string note, bool unique) {
+SurfaceLayout layout(const glm::ivec2& size, std::span<const glm::dvec2> positions, std::string note, bool unique) {
   SurfaceLayout out{.size = size, .coordinates = {}, .unique = unique, .note = std::move(note)};
-  out.coordinates.reserve(places.size());
-  for (const glm::dvec2& place : places) out.coordinates.emplace_back(place / glm::dvec2(size));
+  out.coordinates.reserve(positions.size());
+  for (const glm::dvec2& position : positions) out.coordinates.emplace_back(position / glm::dvec2(size));
   return out;
 }
 
 }  // namespace
 
 SurfaceLayout lay_out(const TriangleSoup& soup, const TextureCoordinates& coordinates, const glm::ivec2& map_size) {
-  std::vector<glm::dvec2> places = texel_coordinates(soup, coordinates, map_size);
+  std::vector<glm::dvec2> positions = texel_coordinates(soup, coordinates, map_size);
   const auto none = [&](const std::string& why) {
-    return layout(map_size, places, why + ": joined in the tangent frame", false);
+    return layout(map_size, positions, why + ": joined in the tangent frame", false);
   };
-  const bool sound = std::ranges::all_of(places, [](const glm::dvec2& place) {
-    return std::abs(place.x) < largest_coordinate && std::abs(place.y) < largest_coordinate;  // false for a NaN too
+  const bool sound = std::ranges::all_of(positions, [](const glm::dvec2& position) {
+    return std::abs(position.x) < largest_coordinate &&
+           std::abs(position.y) < largest_coordinate;  // false for a NaN too
   });
   if (!sound) return none("texture coordinates are not finite, or far outside of the map");
   const std::vector<Triangle> triangles = triangle_list(soup);
-  if (triangles.empty()) return layout(map_size, places, {}, true);
+  if (triangles.empty()) return layout(map_size, positions, {}, true);
   double area = 0;
   for (const Triangle& triangle : triangles) area += surface_area(triangle, soup.vertices);
   const std::string loses =
       "texture coordinates leave part of the surface without a texel, as where a model has none or they lie on a line";
   const Box map{{0, 0}, map_size};
-  const Box used = box_of(triangles, places);
+  const Box used = box_of(triangles, positions);
   const bool inside =
       glm::all(glm::greaterThanEqual(used.first, map.first)) && glm::all(glm::lessThanEqual(used.end, map.end));
   if (inside) {
-    const Drawing drawing = draw(triangles, places, map, soup.vertices);
+    const Drawing drawing = draw(triangles, positions, map, soup.vertices);
     if (drawing.lost > permitted_loss * area) return none(loses);
-    if (!drawing.overlaps) return layout(map_size, places, {}, true);
+    if (!drawing.overlaps) return layout(map_size, positions, {}, true);
   }
-  std::vector<Chart> charts = charts_of(triangles, places);
+  std::vector<Chart> charts = charts_of(triangles, positions);
   const std::optional<glm::ivec2> size = pack(charts);
   if (!size) return none(fmt::format("an atlas of its own would have more than {} texels", largest_atlas));
   double lost = 0;
   for (const Chart& chart : charts) {
-    const Drawing drawing = draw(chart.triangles, places, chart.box, soup.vertices);
+    const Drawing drawing = draw(chart.triangles, positions, chart.box, soup.vertices);
     if (drawing.overlaps) return none("texture coordinates overlap within one chart");
     lost += drawing.lost;
   }
   if (lost > permitted_loss * area) return none(loses);
-  move(charts, places);
-  return layout(*size, places,
+  move(charts, positions);
+  return layout(*size, positions,
                 fmt::format("the texture coordinates {}: an atlas of {} x {} texels in {} charts",
                             inside ? "overlap" : "leave the map", size->x, size->y, charts.size()),
                 true);

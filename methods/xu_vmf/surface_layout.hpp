@@ -1,4 +1,4 @@
-// Where the triangles of a material lie in a map of which each texel shows one place on the surface.
+// Where the triangles of a material lie in a map of which each texel shows one point of the surface.
 #pragma once
 
 #include <cstddef>

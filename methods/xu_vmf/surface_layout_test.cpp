@@ -64,9 +64,9 @@ TEST(SurfaceLayout, GivesChartsThatShareTexelsPlacesApart) {
   EXPECT_NE(layout.note.find("2 charts"), std::string::npos) << layout.note;
   glm::vec2 lower[2]{glm::vec2(1e9F), glm::vec2(1e9F)}, upper[2]{glm::vec2(-1e9F), glm::vec2(-1e9F)};
   for (std::size_t i = 0; i < 8; ++i) {
-    const glm::vec2 place = layout.coordinates[i] * glm::vec2(layout.size);
-    lower[i / 4] = glm::min(lower[i / 4], place);
-    upper[i / 4] = glm::max(upper[i / 4], place);
+    const glm::vec2 texel = layout.coordinates[i] * glm::vec2(layout.size);
+    lower[i / 4] = glm::min(lower[i / 4], texel);
+    upper[i / 4] = glm::max(upper[i / 4], texel);
   }
   const glm::vec2 gap = glm::max(lower[0] - upper[1], lower[1] - upper[0]);
   EXPECT_GE(std::max(gap.x, gap.y), static_cast<float>(chart_gap) - 0.01F);

@@ -50,7 +50,7 @@ std::vector<OptionSpec> option_table() {
           threshold_option("eps1", 0.85, "j=adaptive: one lobe serves one of the 4 parts where its |r| is above.")};
 }
 
-// Two maps can be joined texel by texel where one place on the surface is one place in both. A map that is not there is
+// Two maps can be joined texel by texel where one point of the surface is one point in both. A map that is not there is
 // anywhere.
 bool can_join(const Material& material) {
   if (width_map(material) == nullptr) return true;
@@ -75,14 +75,15 @@ Image shortfall_table() {
 struct Inputs {
   bool normals_vary, roughness_varies;
   Image normals, variances;
-  TextureCoordinates place;
+  TextureCoordinates coordinates;
 
   Inputs(const Material& material, const EffectSet& effects)
       : normals_vary(has(effects, Effect::normal_variation)),
         roughness_varies(has(effects, Effect::roughness_variation)),
         normals(normals_vary ? normal_map_of(material) : Image(1, 1, 4)),
         variances(roughness_varies ? lobe_variance_map(material) : Image(1, 1, 1)),
-        place(normals_vary && material.normal_map ? normal_coordinates(material) : roughness_coordinates(material)) {}
+        coordinates(normals_vary && material.normal_map ? normal_coordinates(material)
+                                                        : roughness_coordinates(material)) {}
 
   [[nodiscard]] bool anything() const { return normals_vary || roughness_varies; }
   [[nodiscard]] glm::ivec2 size() const {
@@ -95,7 +96,7 @@ int layers_of(const Material& material, const EffectSet& effects) {
 }
 
 // The maps that the frame build fills, for a finest level of `size`.
-void declare_maps(Prefiltered& out, const glm::ivec2& size, const TextureCoordinates& place, int layers,
+void declare_maps(Prefiltered& out, const glm::ivec2& size, const TextureCoordinates& coordinates, int layers,
                   const Options& options, const EffectSet& effects) {
   const int parts = xu_vmf::part_count(options);
   const bool guard = xu_vmf::keeps_guard(options, effects);
@@ -108,7 +109,7 @@ void declare_maps(Prefiltered& out, const glm::ivec2& size, const TextureCoordin
                                                .channels = channels,
                                                .storage = parse_storage(options.word("storage")),
                                                .whole_chain = whole_chain},
-                                              place));
+                                              coordinates));
   };
   declare(xu_vmf::whole_name, size, layers, 4, whole_is_averaged);
   if (guard) declare(xu_vmf::whole_guard_name, size, 1, 1, whole_is_averaged);
@@ -119,8 +120,8 @@ void declare_maps(Prefiltered& out, const glm::ivec2& size, const TextureCoordin
 }
 
 void add_inputs(Prefiltered& out, const Inputs& inputs, const Material& material, const Options& options) {
-  const auto add = [&](std::string_view name, std::vector<Image> levels, const TextureCoordinates& place) {
-    out.textures.push_back(make_texture(std::string(name), std::move(levels), Storage::fp32, place));
+  const auto add = [&](std::string_view name, std::vector<Image> levels, const TextureCoordinates& coordinates) {
+    out.textures.push_back(make_texture(std::string(name), std::move(levels), Storage::fp32, coordinates));
   };
   if (inputs.normals_vary) add(xu_vmf::normals_name, {inputs.normals}, normal_coordinates(material));
   // Its further levels are for shading, which asks what of a lobe's width is the facets' own.
@@ -138,14 +139,14 @@ Prefiltered in_tangent_space(Inputs inputs, const Material& material, const Opti
         "the roughness map has other texture coordinates than the normal map and cannot be joined with it; its mean "
         "variance stands in");
   }
-  declare_maps(out, inputs.size(), inputs.place, layers_of(material, effects), options, effects);
+  declare_maps(out, inputs.size(), inputs.coordinates, layers_of(material, effects), options, effects);
   add_inputs(out, inputs, material, options);
   return out;
 }
 
 class XuVmf final : public Method {
  public:
-  /// The frame build does the filtering: what is baked are its inputs, and the place of its map.
+  /// The frame build does the filtering: what is baked are its inputs, and the coordinates of its map.
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                                        const Progress& /*progress*/) const override {
     const Inputs inputs(material, effects);
@@ -158,7 +159,7 @@ class XuVmf final : public Method {
     const Inputs inputs(material, effects);
     if (options.word("space") == "tangent" || !inputs.anything())
       return precompute(material, options, effects, progress);
-    xu_vmf::SurfaceLayout layout = xu_vmf::lay_out(triangles_of(scene, index), inputs.place, inputs.size());
+    xu_vmf::SurfaceLayout layout = xu_vmf::lay_out(triangles_of(scene, index), inputs.coordinates, inputs.size());
     // A material without maps among others with them: its one texel would show one normal of the whole mesh.
     if (inputs.size() == glm::ivec2(1)) {
       layout.unique = false;
@@ -166,9 +167,9 @@ class XuVmf final : public Method {
     }
     Prefiltered out;
     if (layout.unique) {
-      TextureCoordinates place;
-      place.wrap = {Wrap::clamp_to_edge, Wrap::clamp_to_edge};
-      declare_maps(out, layout.size, place, layers_of(material, effects), options, effects);
+      TextureCoordinates coordinates;
+      coordinates.wrap = {Wrap::clamp_to_edge, Wrap::clamp_to_edge};
+      declare_maps(out, layout.size, coordinates, layers_of(material, effects), options, effects);
       add_inputs(out, inputs, material, options);
     } else {
       out = in_tangent_space(inputs, material, options, effects);

@@ -7,10 +7,10 @@ uniform int first_layer;
 layout(binding = 0) uniform sampler2DArray map;  // its base level is the finer one
 
 void main() {
-  ivec2 place = ivec2(gl_FragCoord.xy);
+  ivec2 target = ivec2(gl_FragCoord.xy);
   ivec2 size = textureSize(map, 0).xy;
-  vec3 across = sharesOf(place.x, size.x);
-  vec3 down = sharesOf(place.y, size.y);
+  vec3 across = sharesOf(target.x, size.x);
+  vec3 down = sharesOf(target.y, size.y);
   ivec2 taps = min(size, 2 + size % 2);
   vec4 sums[layer_count];
   for (int i = 0; i < layer_count; ++i) {
@@ -18,7 +18,7 @@ void main() {
     if (isSumOfNext(i, layer_count)) continue;
     for (int y = 0; y < taps.y; ++y) {
       for (int x = 0; x < taps.x; ++x) {
-        sums[i] += across[x] * down[y] * texelFetch(map, ivec3(2 * place + ivec2(x, y), first_layer + i), 0);
+        sums[i] += across[x] * down[y] * texelFetch(map, ivec3(2 * target + ivec2(x, y), first_layer + i), 0);
       }
     }
   }

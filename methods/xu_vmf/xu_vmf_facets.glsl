@@ -10,7 +10,7 @@ FacetsLobe facetsLobe(vec3 axis, float parameter, float weight) {
   return FacetsLobe(axis, parameter, weight, shortfallOf(kappaOfLobe(parameter)), energyOf(parameter));
 }
 
-// Where roughness varies, the lobe of the mean variance.
+// Where roughness varies, the lobe of the mean slope variance.
 FacetsLobe baseLobe(Footprints f) {
 //? if roughness_variation
   return facetsLobe(vec3(0.0, 0.0, 1.0), lobeFromVariance(fetch(xu_vmf_variances, f.roughness).r), 1.0);

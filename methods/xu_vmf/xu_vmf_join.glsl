@@ -1,7 +1,7 @@
 // First pass of the frame build: the base BRDF and the normal map joined into one lobe a texel (Xu 2017, section 4), of
 // facets with several lobes one for each, for the whole hemisphere: (r, 1), or 0 where the surface has no valid normal,
-// faces away, or is not at all. Means of texels are (w r, w): the share of the footprint that is covered, and its lobes'
-// mean.
+// faces away, or is not at all. Means of texels are (w r, w): the share of the footprint that is covered, and its
+// lobes' mean.
 //? include xu_vmf_conversion.glsl
 //? include xu_vmf_table.glsl
 //? include xu_vmf_storing.glsl
@@ -15,7 +15,7 @@ layout(location = 1) out vec4 guard;  // 1 - |r|, which no rounding of r reaches
 layout(binding = 0) uniform sampler2D normals;  // weight in w: 0 where the map has no valid normal
 //? end
 //? if roughness_variation
-layout(binding = 1) uniform sampler2D variances;  // of the base lobe
+layout(binding = 1) uniform sampler2D variances;  // of the base lobe's slopes
 //? end
 //? if conversion_table
 layout(binding = 2) uniform sampler2D shortfalls;
@@ -28,7 +28,7 @@ in vec4 world_tangent;
 in vec2 uv0;
 in vec2 uv1;
 uniform mat3 world_to_camera;
-uniform vec4 viewer;  // (place, 1), or (direction towards it, 0)
+uniform vec4 viewer;  // (position, 1), or (direction towards it, 0)
 uniform bool two_sided;
 
 //? include tangent_frame.glsl

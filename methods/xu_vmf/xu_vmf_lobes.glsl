@@ -81,7 +81,7 @@ KeptLobe keptLobe(FacetsLobe own, vec3 mean, float q, float share, float amount)
   own.shortfall = q;
   own.energy = energyOf(base);
 //? end
-  // The length of the mean of the facets' unit normals: |r| over that of a single facet.
+  // The mean resultant length of the facets' normals: |r| over that of a single facet.
   float normal_length = min((1.0 - q) / max(1.0 - own.shortfall, 1e-6), 1.0);
 //? if lobe_base
   vec4 lobe = vec4(mean, base);

@@ -15,14 +15,14 @@ layout(binding = 1) uniform sampler2DArray values;
 void main() {
   vec4 sums[layer_count];
   for (int i = 0; i < layer_count; ++i) sums[i] = vec4(0.0);
-  ivec2 place = ivec2(gl_FragCoord.xy);
+  ivec2 target = ivec2(gl_FragCoord.xy);
   ivec2 size = textureSize(finest, 0).xy;
-  vec3 across = sharesOf(place.x, size.x);
-  vec3 down = sharesOf(place.y, size.y);
+  vec3 across = sharesOf(target.x, size.x);
+  vec3 down = sharesOf(target.y, size.y);
   ivec2 taps = min(size, 2 + size % 2);
   for (int y = 0; y < taps.y; ++y) {
     for (int x = 0; x < taps.x; ++x) {
-      ivec3 texel = ivec3(2 * place + ivec2(x, y), source);
+      ivec3 texel = ivec3(2 * target + ivec2(x, y), source);
       vec4 r = texelFetch(finest, texel, 0);
       if (r.w == 0.0) continue;
       int own = partOfCell(cellOf(r.xyz));

@@ -9,8 +9,9 @@ float tabulatedShortfall(sampler2D table, float kappa) {
   if (kappa < table_first) return 1.0 - kappa / 3.0;
   if (kappa > table_last) return 1.0 / (kappa - 0.5);
   int last = textureSize(table, 0).x - 1;
-  float place = log(kappa / table_first) / log(table_last / table_first) * float(last);
-  int below = clamp(int(place), 0, last - 1);
-  return mix(texelFetch(table, ivec2(below, 0), 0).r, texelFetch(table, ivec2(below + 1, 0), 0).r, place - float(below));
+  float position = log(kappa / table_first) / log(table_last / table_first) * float(last);
+  int below = clamp(int(position), 0, last - 1);
+  return mix(texelFetch(table, ivec2(below, 0), 0).r, texelFetch(table, ivec2(below + 1, 0), 0).r,
+             position - float(below));
 }
 //? end

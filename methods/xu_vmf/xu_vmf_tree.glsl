@@ -12,7 +12,7 @@ struct Probe {
   ivec4 part;
 };
 
-// The four texels about a place come by their channels, gathered from the middle between them, where no hardware rounds
+// The four texels about a point come by their channels, gathered from the middle between them, where no hardware rounds
 // to others. Each is (r, 1), or 0: the fourth channel needs no look.
 mat4 texelsAbout(sampler2DArray map, vec3 middle) {
   vec4 x = textureGather(map, middle, 0);
@@ -28,9 +28,9 @@ Probe probeAt(int own, vec2 uv, float level) {
   p.uv = uv;
   p.level = level;
   vec2 size = vec2(textureSize(xu_vmf_whole, 0).xy);
-  vec2 place = uv * size - 0.5;
-  vec2 corner = floor(place);
-  vec2 beyond = place - corner;
+  vec2 in_texels = uv * size - 0.5;
+  vec2 corner = floor(in_texels);
+  vec2 beyond = in_texels - corner;
   vec3 middle = vec3((corner + 1.0) / size, own);
   vec4 share = vec4(1.0 - beyond.x, beyond.x, beyond.x, 1.0 - beyond.x) *
                vec4(beyond.y, beyond.y, 1.0 - beyond.y, 1.0 - beyond.y);  // in the order of textureGather
@@ -51,11 +51,11 @@ Probe probeAt(int own, vec2 uv, float level) {
 Part partAt(Probe p, float facet_shortfall, int part) {
   float share = clamp(p.level, 0.0, 1.0);
   int layers = textureSize(xu_vmf_parts, 0).z / facetsLobeCount();
-  vec3 place = vec3(p.uv, p.own * layers + part);
-  vec4 r = share * textureLod(xu_vmf_parts, place, p.level - 1.0);
+  vec3 at = vec3(p.uv, p.own * layers + part);
+  vec4 r = share * textureLod(xu_vmf_parts, at, p.level - 1.0);
   float guard = 0.0;
 //? if storage_fp16 and roughness_variation
-  guard = share * textureLod(xu_vmf_parts_guard, place, p.level - 1.0).r;
+  guard = share * textureLod(xu_vmf_parts_guard, at, p.level - 1.0).r;
 //? end
   int beyond = beyondPart(part);
   for (int i = 0; i < 4; ++i) {

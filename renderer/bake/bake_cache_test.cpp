@@ -58,9 +58,9 @@ TEST(BakeCache, DamagedFileCountsAsAbsent) {
 }
 
 TEST(BakeCache, FolderThatIsAFileCostsNoError) {
-  const fs::path place = fresh_cache("closed");
-  std::ofstream(place) << "a file";
-  const BakeCache cache(place);
+  const fs::path file = fresh_cache("closed");
+  std::ofstream(file) << "a file";
+  const BakeCache cache(file);
   EXPECT_NO_THROW(cache.keep("a", example()));
   EXPECT_FALSE(cache.find("a"));
 }

@@ -10,7 +10,7 @@
 namespace footprint {
 namespace {
 
-// Decoded 8-bit normals are up to 0.6% too long or short, which would pass for spread or for a negative variance.
+// Decoded 8-bit normals are up to 0.6% too long or short, which would pass for spread or for a negative slope variance.
 void renormalise(Image& normals) {
   for (std::size_t i = 0; i < normals.texels.size(); i += 4) {
     float* const n = &normals.texels[i];

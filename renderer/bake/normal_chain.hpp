@@ -12,7 +12,8 @@
 namespace footprint {
 
 /// The mip chain of a normal map (as Material::normal_map): 3 channels, the mean of the unit normals, not renormalised,
-/// so that its length tells their spread. Normals enter renormalised in 32 bits; invalid ones (weight 0) do not enter.
+/// so that its length, the mean resultant length, tells their spread. Normals enter renormalised in 32 bits; invalid
+/// ones (weight 0) do not enter.
 [[nodiscard]] std::vector<Image> mean_normal_chain(Image normals);
 
 /// That of the material's own normal map.
@@ -25,7 +26,7 @@ namespace footprint {
 [[nodiscard]] Image lobe_variance_map(const Material& material);
 
 /// The mip chain of lobe_variance_map, which is what adds up when spreads are independent, stored as its root, at most
-/// 1: half floats and bytes keep the root well, where a mirror's variance of 1e-6 would not survive.
+/// 1: half floats and bytes keep the root well, where a mirror's slope variance of 1e-6 would not survive.
 [[nodiscard]] std::vector<Image> lobe_deviation_chain(const Material& material);
 
 /// `storage=fp32|fp16|unorm8`.

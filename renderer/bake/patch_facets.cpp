@@ -23,12 +23,12 @@ constexpr std::size_t texels_per_facet =
 constexpr std::size_t facet_count = 128 * facets_per_row;
 constexpr std::uint64_t facet_seed = 1;
 
-// The bits of x and y in turn: places near each other in the order are near each other in the square.
-std::uint32_t interleaved(const glm::dvec2& place) {
+// The bits of x and y in turn: points near each other in the order are near each other in the square.
+std::uint32_t interleaved(const glm::dvec2& point) {
   constexpr int bits = 12;
   std::uint32_t out = 0;
   for (int axis = 0; axis < 2; ++axis) {
-    const auto value = static_cast<std::uint32_t>(std::clamp(place[axis], 0.0, 1.0) * ((1 << bits) - 1));
+    const auto value = static_cast<std::uint32_t>(std::clamp(point[axis], 0.0, 1.0) * ((1 << bits) - 1));
     for (int bit = 0; bit < bits; ++bit) out |= ((value >> bit) & 1U) << (2 * bit + axis);
   }
   return out;

@@ -55,7 +55,7 @@ struct Prefiltered {
   std::vector<PrefilteredTexture> textures;
   std::map<std::string, float> scalars;  ///< uniform float NAME
   std::vector<std::string> notes{};      ///< what a user should know of how it went, one sentence each; tables show it
-  /// For each vertex of the material (triangles_of) its place in textures that show each point of the surface once;
+  /// For each vertex of the material (triangles_of) its uv in textures that show each point of the surface once;
   /// none: the module looks at the maps' own coordinates alone.
   std::optional<std::vector<glm::vec2>> surface_coordinates{};
 

@@ -34,13 +34,13 @@ std::string refusal(const std::function<void()>& action) {
 
 // --- error.hpp
 
-TEST(Error, ReadsPlaceMessageMend) {
+TEST(Error, ReadsPlaceMessageHint) {
   EXPECT_STREQ(Error(ErrorKind::usage, "a.toml", "wrong key", "remove it").what(), "a.toml: wrong key (remove it)");
   EXPECT_STREQ(Error(ErrorKind::usage, "", "wrong key", "remove it").what(), "wrong key (remove it)");
   EXPECT_STREQ(Error(ErrorKind::usage, "a.toml", "wrong key").what(), "a.toml: wrong key");
 }
 
-TEST(Error, SeenFromFurtherOutKeepsItsKindAndMend) {
+TEST(Error, SeenFromFurtherOutKeepsItsKindAndHint) {
   const Error inner(ErrorKind::machine, "material 3", "too large", "scale it down");
   const Error outer = inner.within("scene.gltf");
   EXPECT_EQ(outer.kind(), ErrorKind::machine);

@@ -1,4 +1,4 @@
-// The one exception type of Footprint: what went wrong, where, and how to mend it.
+// The one exception type of Footprint: what went wrong, where, and a hint at what to do about it.
 #pragma once
 
 #include <stdexcept>
@@ -14,22 +14,22 @@ enum class ErrorKind {
   interrupted = 130,  ///< the user asked to stop (128 + SIGINT)
 };
 
-/// Every error that a user can see. `what()` reads "PLACE: MESSAGE (MEND)"; PLACE and MEND may be empty.
+/// Every error that a user can see. `what()` reads "PLACE: MESSAGE (HINT)"; PLACE and HINT may be empty.
 class Error : public std::runtime_error {
  public:
-  Error(ErrorKind kind, std::string place, std::string message, std::string mend = {});
+  Error(ErrorKind kind, std::string place, std::string message, std::string hint = {});
 
   [[nodiscard]] ErrorKind kind() const noexcept { return kind_; }
   [[nodiscard]] const std::string& place() const noexcept { return place_; }
   [[nodiscard]] const std::string& message() const noexcept { return message_; }
-  [[nodiscard]] const std::string& mend() const noexcept { return mend_; }
+  [[nodiscard]] const std::string& hint() const noexcept { return hint_; }
 
   /// The same error seen from further out: `outer` is put before the place ("scene.gltf, material 3").
   [[nodiscard]] Error within(const std::string& outer) const;
 
  private:
   ErrorKind kind_;
-  std::string place_, message_, mend_;
+  std::string place_, message_, hint_;
 };
 
 }  // namespace footprint

@@ -1,4 +1,4 @@
-// The refusals of a file, in the order in which they can be known.
+// Asks for existence, kind and size before it opens a file, then reads it at once.
 #include "renderer/core/file_bytes.hpp"
 
 #include <fmt/format.h>
@@ -11,8 +11,8 @@
 namespace footprint {
 
 std::vector<std::uint8_t> read_file_bytes(const std::filesystem::path& file, std::uint64_t largest) {
-  const auto fail = [&](const std::string& message, const std::string& mend) {
-    return Error(ErrorKind::usage, file.string(), message, mend);
+  const auto fail = [&](const std::string& message, const std::string& hint) {
+    return Error(ErrorKind::usage, file.string(), message, hint);
   };
   std::error_code error;
   const auto status = std::filesystem::status(file, error);

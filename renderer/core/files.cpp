@@ -1,4 +1,4 @@
-// See files.hpp.
+// A file or folder grows under a hidden name beside its target and is renamed to it once it is whole.
 #include "renderer/core/files.hpp"
 
 #include <fcntl.h>

@@ -52,7 +52,7 @@ void expect_error(const Error& error, ErrorKind kind, const fs::path& place, con
   EXPECT_EQ(error.kind(), kind) << error.what();
   EXPECT_NE(error.place().find(place.string()), std::string::npos) << error.what();
   EXPECT_NE(error.message().find(reason), std::string::npos) << error.what();
-  EXPECT_FALSE(error.mend().empty()) << error.what();
+  EXPECT_FALSE(error.hint().empty()) << error.what();
 }
 
 using Names = std::vector<std::string>;
@@ -134,7 +134,7 @@ TEST(WriteFile, OnAFullDiskNothingIsLeft) {
   const std::string small = text_of(folder / "small.txt");
   ASSERT_EQ(::umount(folder.c_str()), 0);
   expect_error(error, ErrorKind::machine, folder / "a.txt", "No space left");
-  EXPECT_NE(error.mend().find("space"), std::string::npos);
+  EXPECT_NE(error.hint().find("space"), std::string::npos);
   EXPECT_TRUE(left.empty());
   EXPECT_EQ(small, "fits");
 }

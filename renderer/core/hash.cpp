@@ -1,4 +1,4 @@
-// See hash.hpp.
+// FNV-1a of 64 bits; each field's length goes in before its bytes, so that fields cannot run together.
 #include "renderer/core/hash.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See interrupt.hpp.
+// The handler stores the signal in a lock-free atomic and restores its default action: the next one ends the process.
 #include "renderer/core/interrupt.hpp"
 
 #include <atomic>

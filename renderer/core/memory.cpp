@@ -1,4 +1,4 @@
-// See memory.hpp.
+// The least of MemAvailable in /proc/meminfo and what the limits of control groups (versions 1 and 2) leave.
 #include "renderer/core/memory.hpp"
 
 #include <fmt/format.h>
@@ -108,13 +108,13 @@ std::string readable_bytes(std::uint64_t bytes) {
   return fmt::format("{:.{}f} {}", number, decimals, units[unit]);
 }
 
-void require_memory(std::uint64_t bytes, std::string_view what, std::string_view mend) {
+void require_memory(std::uint64_t bytes, std::string_view what, std::string_view hint) {
   const std::uint64_t available = available_memory();
   if (bytes <= available) return;
   throw Error(
       ErrorKind::machine, {},
       fmt::format("{} needs {} of memory, and {} is available", what, readable_bytes(bytes), readable_bytes(available)),
-      std::string(mend));
+      std::string(hint));
 }
 
 }  // namespace footprint

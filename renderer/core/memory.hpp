@@ -20,8 +20,8 @@ namespace footprint {
 [[nodiscard]] std::string readable_bytes(std::uint64_t bytes);
 
 /// Throws Error{machine} if `bytes` is more than `available_memory()`; `what` is what they are for ("a frame of 8192 x
-/// 8192") and `mend` says how to need less.
+/// 8192") and `hint` says how to need less.
 void require_memory(std::uint64_t bytes, std::string_view what,
-                    std::string_view mend = "ask for a smaller --size, or free memory");
+                    std::string_view hint = "ask for a smaller --size, or free memory");
 
 }  // namespace footprint

@@ -81,7 +81,7 @@ TEST(RequireMemory, RefusesWhatNoMachineHas) {
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::machine);
     EXPECT_NE(error.message().find("a frame of 1000000 x 1000000 needs 14.6 TiB"), std::string::npos) << error.what();
-    EXPECT_NE(error.mend().find("--size"), std::string::npos);
+    EXPECT_NE(error.hint().find("--size"), std::string::npos);
   }
 }
 

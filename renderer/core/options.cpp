@@ -1,4 +1,4 @@
-// See options.hpp.
+// Takes method texts apart and checks each value against its row of the table: a number's range, a word's choices.
 #include "renderer/core/options.hpp"
 
 #include <fmt/format.h>

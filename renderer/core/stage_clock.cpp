@@ -1,4 +1,4 @@
-// See stage_clock.hpp.
+// A stage runs from the report that names it to the next report of another; the times of a stage that recurs add up.
 #include "renderer/core/stage_clock.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// See suggest.hpp.
+// The nearest name by optimal string alignment, upper and lower case alike; none where all are too far off.
 #include "renderer/core/suggest.hpp"
 
 #include <algorithm>

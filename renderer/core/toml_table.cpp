@@ -77,10 +77,10 @@ std::string TomlTable::path_of(std::string_view key) const {
   return fmt::format("{}.{}", name.substr(first, name.find_last_not_of(']') + 1 - first), key);
 }
 
-Error TomlTable::error_at(std::string_view key, const std::string& message, const std::string& mend) const {
+Error TomlTable::error_at(std::string_view key, const std::string& message, const std::string& hint) const {
   const toml::node* node = parsed_->find(key);
   return {ErrorKind::usage, line_place(file_, node != nullptr ? node->source() : parsed_->table->source()),
-          full_name(key) + " " + message, mend};
+          full_name(key) + " " + message, hint};
 }
 
 template <typename Node>

@@ -32,7 +32,7 @@ class TomlTable {
   [[nodiscard]] bool is_word(std::string_view key) const;
   [[nodiscard]] bool is_table(std::string_view key) const;
   [[nodiscard]] std::optional<std::string> word(std::string_view key) const;
-  /// A word out of `choices`: its place there.
+  /// A word out of `choices`: its index there.
   [[nodiscard]] std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& choices) const;
   [[nodiscard]] std::optional<bool> boolean(std::string_view key) const;
   [[nodiscard]] std::optional<double> number(std::string_view key, NumberRange range) const;
@@ -49,7 +49,7 @@ class TomlTable {
   [[nodiscard]] std::vector<TomlTable> tables(std::string_view key, const std::vector<std::string>& known) const;
 
   /// An error at `key`'s line (the table's, where the key is absent).
-  [[nodiscard]] Error error_at(std::string_view key, const std::string& message, const std::string& mend) const;
+  [[nodiscard]] Error error_at(std::string_view key, const std::string& message, const std::string& hint) const;
 
  private:
   /// The table, and the parsed file that it is a part of; defined where TOML++ is known.

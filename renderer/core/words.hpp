@@ -11,7 +11,7 @@
 
 namespace footprint {
 
-/// The place of `word` among `known`. Errors (usage): "PLACE: unknown WHAT `WORD`", with the nearest right one.
+/// The index of `word` among `known`. Errors (usage): "PLACE: unknown WHAT `WORD`", with the nearest right one.
 [[nodiscard]] std::size_t find_word(std::span<const std::string> known, std::string_view word, std::string_view what,
                                     std::string_view place);
 

@@ -1,4 +1,4 @@
-// See effects.hpp.
+// Each decision is a predicate over materials or lights, with a reason that counts those it holds for.
 #include "renderer/effects/effects.hpp"
 
 #include <fmt/format.h>

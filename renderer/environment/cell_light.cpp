@@ -9,35 +9,35 @@ namespace {
 
 constexpr int dense_columns = 1024;  // a cell is 1.5 to 2.8 degrees wide, four of these columns and more
 
-// A place on a cube's surface: face 2 axis + (0 on the positive side, else 1), u and v from -1 to 1 along the two next
+// A point of a cube's surface: face 2 axis + (0 on the positive side, else 1), u and v from -1 to 1 along the two next
 // axes.
-struct CubePlace {
+struct CubePoint {
   int face = 0;
   glm::dvec2 uv{0.0};
 };
 
-CubePlace cube_place(const glm::dvec3& d) {
+CubePoint cube_point(const glm::dvec3& d) {
   const glm::dvec3 size = glm::abs(d);
   const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
   return {2 * axis + (d[axis] < 0.0 ? 1 : 0), glm::dvec2(d[(axis + 1) % 3], d[(axis + 2) % 3]) / size[axis]};
 }
 
-glm::dvec3 cube_direction(const CubePlace& place) {
-  const int axis = place.face / 2;
+glm::dvec3 cube_direction(const CubePoint& point) {
+  const int axis = point.face / 2;
   glm::dvec3 d(0.0);
-  d[axis] = place.face % 2 == 0 ? 1.0 : -1.0;
-  d[(axis + 1) % 3] = place.uv.x;
-  d[(axis + 2) % 3] = place.uv.y;
+  d[axis] = point.face % 2 == 0 ? 1.0 : -1.0;
+  d[(axis + 1) % 3] = point.uv.x;
+  d[(axis + 2) % 3] = point.uv.y;
   return glm::normalize(d);
 }
 
 int cell_along(double u) { return std::clamp(static_cast<int>((0.5 + 0.5 * u) * dense_edge), 0, dense_edge - 1); }
 
 std::size_t cube_cell(const glm::dvec3& direction) {
-  const CubePlace place = cube_place(direction);
-  return (static_cast<std::size_t>(place.face) * dense_edge + static_cast<std::size_t>(cell_along(place.uv.y))) *
+  const CubePoint point = cube_point(direction);
+  return (static_cast<std::size_t>(point.face) * dense_edge + static_cast<std::size_t>(cell_along(point.uv.y))) *
              dense_edge +
-         static_cast<std::size_t>(cell_along(place.uv.x));
+         static_cast<std::size_t>(cell_along(point.uv.x));
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ std::vector<double> shares_of(const Image& radiance, const std::vector<double>& 
   return weight;
 }
 
-// Vose 1991: places that are less than full are topped up by one texel that has more than its place holds.
+// Vose 1991: entries that are less than full are topped up by one texel that has more than its entry holds.
 void fill_alias(const std::vector<double>& shares, Image& alias) {
   const auto count = static_cast<double>(shares.size());
   std::vector<double> left(shares.size());

@@ -5,7 +5,7 @@
 
 namespace footprint {
 
-/// Tables of an environment's size. A texel is drawn by an equally likely place t of the table: t itself with
+/// Tables of an environment's size. A texel is drawn by an equally likely entry t of the table: t itself with
 /// probability `keep`, else `other`; then a point of it, uniform in solid angle.
 struct DirectionTable {
   Image radiance;  ///< RGBA: radiance; the density over solid angle with which a direction of this texel is drawn

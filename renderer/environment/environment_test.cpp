@@ -58,10 +58,10 @@ glm::dvec3 vmf_mean(const Environment& environment, const glm::dvec3& axis, doub
 
 // What linear filtering of a bordered map gives.
 glm::dvec3 looked_up(const Image& map, const glm::dvec3& direction) {
-  const glm::dvec2 place = octahedral_place(direction) * static_cast<double>(map.width - 2) + 0.5;
-  const int x = static_cast<int>(place.x);
-  const int y = static_cast<int>(place.y);
-  const glm::dvec2 part = place - glm::dvec2(x, y);
+  const glm::dvec2 position = octahedral_uv(direction) * static_cast<double>(map.width - 2) + 0.5;
+  const int x = static_cast<int>(position.x);
+  const int y = static_cast<int>(position.y);
+  const glm::dvec2 part = position - glm::dvec2(x, y);
   const auto texel = [&](int i, int j) {
     const auto t = map.at(std::min(i, map.width - 1), std::min(j, map.height - 1));
     return glm::dvec3(t[0], t[1], t[2]);
@@ -72,7 +72,7 @@ glm::dvec3 looked_up(const Image& map, const glm::dvec3& direction) {
 
 TEST(Octahedral, GoesThereAndBack) {
   for (const glm::dvec3& d : random_directions(1000))
-    EXPECT_LT(glm::length(octahedral_direction(octahedral_place(d)) - d), 1e-12);
+    EXPECT_LT(glm::length(octahedral_direction(octahedral_uv(d)) - d), 1e-12);
 }
 
 TEST(Octahedral, GoesOnAcrossTheEdges) {
@@ -94,9 +94,9 @@ TEST(Octahedral, GoesOnAcrossTheEdges) {
 TEST(Octahedral, StretchIsTheSolidAngle) {
   constexpr double step = 1e-4;
   for (const glm::dvec3& d : random_directions(200)) {
-    const glm::dvec2 place = octahedral_place(d);
-    const glm::dvec3 along_x = octahedral_direction(place + glm::dvec2(step, 0)) - d;
-    const glm::dvec3 along_y = octahedral_direction(place + glm::dvec2(0, step)) - d;
+    const glm::dvec2 uv = octahedral_uv(d);
+    const glm::dvec3 along_x = octahedral_direction(uv + glm::dvec2(step, 0)) - d;
+    const glm::dvec3 along_y = octahedral_direction(uv + glm::dvec2(0, step)) - d;
     const double fold = std::min({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
     if (fold < 1e-2) continue;
     EXPECT_NEAR(glm::length(glm::cross(along_x, along_y)) / (step * step) / octahedral_stretch(d), 1.0, 1e-2);
@@ -106,8 +106,8 @@ TEST(Octahedral, StretchIsTheSolidAngle) {
 TEST(Environment, DirectionsGoThereAndBack) {
   const Environment environment = noisy_environment(8, 4);
   for (const glm::dvec3& d : random_directions(1000)) {
-    const glm::dvec2 place = environment_place(environment, d);
-    EXPECT_LT(glm::length(environment_direction(environment, place.x, place.y) - d), 1e-12);
+    const glm::dvec2 uv = environment_uv(environment, d);
+    EXPECT_LT(glm::length(environment_direction(environment, uv.x, uv.y) - d), 1e-12);
   }
   const Environment straight = constant_environment(glm::vec3(1.0F));
   EXPECT_NEAR(environment_direction(straight, 0.5, 0.5).z, -1.0, 1e-12);

@@ -14,14 +14,14 @@ glm::dvec2 folded(const glm::dvec2& p) {
 
 }  // namespace
 
-glm::dvec2 octahedral_place(const glm::dvec3& direction) {
+glm::dvec2 octahedral_uv(const glm::dvec3& direction) {
   const glm::dvec3 p = direction / (std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z));
   const glm::dvec2 flat(p.x, p.z);
   return 0.5 + 0.5 * (p.y >= 0.0 ? flat : folded(flat));
 }
 
-glm::dvec3 octahedral_direction(const glm::dvec2& place) {
-  glm::dvec2 p = 2.0 * place - 1.0;
+glm::dvec3 octahedral_direction(const glm::dvec2& uv) {
+  glm::dvec2 p = 2.0 * uv - 1.0;
   // Across an edge the square goes on as itself, turned by half a turn about the edge's middle.
   if (std::abs(p.x) > 1.0) p = {2.0 * sign_of(p.x) - p.x, -p.y};
   if (std::abs(p.y) > 1.0) p = {-p.x, 2.0 * sign_of(p.y) - p.y};

@@ -5,11 +5,11 @@
 
 namespace footprint {
 
-/// The place of a direction, of any length but 0, on the unit square.
-[[nodiscard]] glm::dvec2 octahedral_place(const glm::dvec3& direction);
+/// The position of a direction, of any length but 0, on the unit square.
+[[nodiscard]] glm::dvec2 octahedral_uv(const glm::dvec3& direction);
 
-/// The unit direction of a place. Outside of the unit square, up to half a square away, what lies across the edge.
-[[nodiscard]] glm::dvec3 octahedral_direction(const glm::dvec2& place);
+/// The unit direction at a position. Outside of the unit square, up to half a square away, what lies across the edge.
+[[nodiscard]] glm::dvec3 octahedral_direction(const glm::dvec2& uv);
 
 /// The direction of texel (x, y) of a map of `size` x `size` texels whose outermost ones are a border that repeats what
 /// lies across the edge.

@@ -102,7 +102,7 @@ glm::dvec3 lobe_mean(const Environment& environment, const Source& s, const glm:
   const double polar = std::acos(std::clamp(d.y, -1.0, 1.0));
   const int from = std::max(static_cast<int>((polar - angle) / pi * s.height) - 1, 0);
   const int to = std::min(static_cast<int>((polar + angle) / pi * s.height) + 1, s.height - 1);
-  const int middle = static_cast<int>(environment_place(environment, d).x * s.width);
+  const int middle = static_cast<int>(environment_uv(environment, d).x * s.width);
   const auto k = static_cast<float>(sharpness);
   Eigen::Array4d sum = Eigen::Array4d::Zero();
   for (int row = from; row <= to; ++row) {

@@ -1,4 +1,4 @@
-// See context.hpp: chooses a backend, keeps track of the current context, fills in what a context says of itself.
+// Chooses a backend, keeps track of the current context, fills in what a context says of itself.
 #include "renderer/gl/context.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See debug_log.hpp.
+// Keeps messages that are errors or of high severity, a few dozen at most, and counts the rest.
 #include "renderer/gl/debug_log.hpp"
 
 #include <fmt/format.h>

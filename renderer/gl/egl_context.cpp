@@ -16,7 +16,7 @@
 namespace footprint::gl {
 namespace {
 
-constexpr const char* install_mend = "install libegl1 and a driver: libgl1-mesa-dri for software, or the GPU's own";
+constexpr const char* install_hint = "install libegl1 and a driver: libgl1-mesa-dri for software, or the GPU's own";
 
 std::string egl_error_name() {
   static constexpr std::array<std::string_view, 15> names = {
@@ -30,7 +30,7 @@ std::string egl_error_name() {
 }
 
 [[noreturn]] void fail(const std::string& platform, const std::string& message) {
-  throw Error(ErrorKind::machine, platform, message, install_mend);
+  throw Error(ErrorKind::machine, platform, message, install_hint);
 }
 
 /// Whether the extensions of `display` (EGL_NO_DISPLAY: the client's) have `name`.

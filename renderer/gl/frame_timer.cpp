@@ -1,4 +1,4 @@
-// See frame_timer.hpp.
+// A GL_TIME_ELAPSED query; on a software renderer the wall clock between two calls of glFinish.
 #include "renderer/gl/frame_timer.hpp"
 
 namespace footprint::gl {

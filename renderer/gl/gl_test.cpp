@@ -283,13 +283,13 @@ TEST(Backends, ADeviceOutOfRangeIsAUsageError) {
     const Error error = error_of({.backend = Backend::egl_device, .device = device});
     EXPECT_EQ(error.kind(), ErrorKind::usage);
     EXPECT_THAT(error.what(), HasSubstr(std::to_string(device)));
-    EXPECT_THAT(error.mend(), HasSubstr("footprint info"));
+    EXPECT_THAT(error.hint(), HasSubstr("footprint info"));
   }
 }
 
 TEST(Backends, ADeviceOfABackendWithoutDevicesIsAUsageError) {
   EXPECT_EQ(error_of({.backend = Backend::egl, .device = 1}).kind(), ErrorKind::usage);
-  EXPECT_THAT(error_of({.backend = {}, .device = 1}).mend(), HasSubstr("egl-device"));
+  EXPECT_THAT(error_of({.backend = {}, .device = 1}).hint(), HasSubstr("egl-device"));
 }
 
 TEST(BackendWords, NameEachAndNoneForAuto) {
@@ -301,7 +301,7 @@ TEST(BackendWords, NameEachAndNoneForAuto) {
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
     EXPECT_THAT(error.what(), HasSubstr("--backend: unknown backend `omesa`"));
-    EXPECT_THAT(error.mend(), HasSubstr("did you mean `osmesa`"));
+    EXPECT_THAT(error.hint(), HasSubstr("did you mean `osmesa`"));
   }
 }
 

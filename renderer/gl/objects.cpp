@@ -1,4 +1,4 @@
-// See objects.hpp: buffers, textures, samplers and render targets.
+// Buffers, textures, samplers and render targets; an allocation that fails is an Error that says what was asked for.
 #include "renderer/gl/objects.hpp"
 
 #include <fmt/format.h>

@@ -89,7 +89,7 @@ std::vector<SourceLine> number_lines(std::string_view source) {
   return lines;
 }
 
-/// The places that a log names. Mesa writes "0:12(5): error", NVIDIA "0(12) : error", others "ERROR: 0:12: ".
+/// The locations that a log names. Mesa writes "0:12(5): error", NVIDIA "0(12) : error", others "ERROR: 0:12: ".
 std::set<Location> locations_in(std::string_view log) {
   std::set<Location> locations;
   while (!log.empty()) {

@@ -1,4 +1,4 @@
-// See false_color.hpp.
+// Interpolates a fixed table of colours; puts pictures side by side, each over its caption.
 #include "renderer/image/false_color.hpp"
 
 #include <fmt/format.h>
@@ -30,9 +30,9 @@ constexpr std::array<Rgb, 9> anchors{{{0.001F, 0.000F, 0.014F},
 // What is not a number shows as the worst: it must not hide in the dark.
 Rgb color_at(float value, float maximum) {
   const float share = maximum > 0 ? value / maximum : 0.0F;
-  const float place = (share < 1 ? std::max(share, 0.0F) : 1.0F) * static_cast<float>(anchors.size() - 1);
-  const std::size_t lower = std::min(static_cast<std::size_t>(place), anchors.size() - 2);
-  const float t = place - static_cast<float>(lower);
+  const float position = (share < 1 ? std::max(share, 0.0F) : 1.0F) * static_cast<float>(anchors.size() - 1);
+  const std::size_t lower = std::min(static_cast<std::size_t>(position), anchors.size() - 2);
+  const float t = position - static_cast<float>(lower);
   Rgb color;
   for (std::size_t c = 0; c < color.size(); ++c) color[c] = std::lerp(anchors[lower][c], anchors[lower + 1][c], t);
   return color;

@@ -102,7 +102,7 @@ TEST(Text, AMissingFontIsAnErrorThatNamesThePackage) {
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::machine);
-    EXPECT_NE(error.mend().find("fonts-dejavu-core"), std::string::npos);
+    EXPECT_NE(error.hint().find("fonts-dejavu-core"), std::string::npos);
   }
   EXPECT_THROW((void)text_width("text", 12, "NoSuchFont"), Error);
 }

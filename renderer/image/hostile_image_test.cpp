@@ -28,7 +28,7 @@ std::string refusal(const std::function<Image()>& read) {
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage) << error.what();
     EXPECT_FALSE(error.place().empty());
-    EXPECT_FALSE(error.mend().empty());
+    EXPECT_FALSE(error.hint().empty());
     EXPECT_FALSE(OIIO::has_error()) << OIIO::geterror();
     return error.what();
   }

@@ -1,4 +1,4 @@
-// See image_io.hpp.
+// A file's first bytes tell its format; pictures are encoded in memory and written by write_file_atomically.
 #include "renderer/image/image_io.hpp"
 
 #include <OpenImageIO/filesystem.h>

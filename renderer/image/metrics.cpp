@@ -1,4 +1,4 @@
-// See metrics.hpp; the formulas are those of docs/metrics.md.
+// The formulas of docs/metrics.md, summed in double precision over the pixels that the reference covers wholly.
 #include "renderer/image/metrics.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See mipmap.hpp.
+// A coarse texel sums up to three fine ones along each axis, weighed by the area that they share; rows in parallel.
 #include "renderer/image/mipmap.hpp"
 
 #include <tbb/blocked_range.h>

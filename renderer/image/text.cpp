@@ -1,4 +1,4 @@
-// See text.hpp.
+// OpenImageIO draws the text, centred on a point, straight into the picture's own memory.
 #include "renderer/image/text.hpp"
 
 #include <OpenImageIO/imagebuf.h>

@@ -27,7 +27,7 @@ constexpr float smallest_concentration = 1e-6F;
 constexpr float largest_exponent = 2e6F;
 constexpr float smallest_variance = 1e-12F;
 
-constexpr std::string_view lobe_mend = "write it as blinn_phong:64, beckmann:0.2, ggx:0.2 or vmf:64";
+constexpr std::string_view lobe_hint = "write it as blinn_phong:64, beckmann:0.2, ggx:0.2 or vmf:64";
 
 const std::array<std::string, 4>& distribution_names() {
   static const std::array<std::string, 4> names{"blinn_phong", "beckmann", "ggx", "vmf"};
@@ -124,22 +124,22 @@ float lobe_roughness(const Lobe& lobe) {
 Lobe parse_lobe(std::string_view option, const std::string& text) {
   const std::size_t colon = text.find(':');
   const std::string name = text.substr(0, colon);
-  const auto refuse = [&](const std::string& message, const std::string& mend) {
-    return Error(ErrorKind::usage, std::string(option), fmt::format("`{}` {}", text, message), mend);
+  const auto refuse = [&](const std::string& message, const std::string& hint) {
+    return Error(ErrorKind::usage, std::string(option), fmt::format("`{}` {}", text, message), hint);
   };
   const auto& names = distribution_names();
   const auto found = std::ranges::find(names, name);
   if (found == names.end()) throw refuse("names no distribution", suggestion(name, names));
-  if (colon == std::string::npos) throw refuse("has no parameter", std::string(lobe_mend));
+  if (colon == std::string::npos) throw refuse("has no parameter", std::string(lobe_hint));
   Lobe lobe{static_cast<NormalDistribution>(found - names.begin()), 0.0};
   const std::string_view digits = std::string_view(text).substr(colon + 1);
   const char* const end = digits.data() + digits.size();
   const auto [stop, status] = std::from_chars(digits.data(), end, lobe.parameter);
-  if (status != std::errc{} || stop != end) throw refuse("has a parameter that is no number", std::string(lobe_mend));
+  if (status != std::errc{} || stop != end) throw refuse("has a parameter that is no number", std::string(lobe_hint));
   const double least = is_alpha(lobe.distribution) ? 1e-4 : 1e-3;
   const double most = is_alpha(lobe.distribution) ? 1.0 : 1e6;
   if (!(lobe.parameter >= least && lobe.parameter <= most)) {
-    throw refuse(fmt::format("is not within {} to {}", least, most), std::string(lobe_mend));
+    throw refuse(fmt::format("is not within {} to {}", least, most), std::string(lobe_hint));
   }
   return lobe;
 }

@@ -19,10 +19,10 @@ class LobeProfile {
 
   [[nodiscard]] double operator()(double u) const {
     if (cubics_.empty()) return lobe_shape(lobe_, u);
-    const double place = u * scale_;
-    const auto i = static_cast<std::size_t>(place);
+    const double position = u * scale_;
+    const auto i = static_cast<std::size_t>(position);
     if (i >= cubics_.size()) return 0.0;
-    const double t = place - static_cast<double>(i);
+    const double t = position - static_cast<double>(i);
     const std::array<double, 4>& c = cubics_[i];
     return ((c[3] * t + c[2]) * t + c[1]) * t + c[0];
   }

@@ -109,7 +109,7 @@ TEST(Lobe, RefusesWhatNamesNone) {
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::usage);
       EXPECT_EQ(error.place(), "--lobe");
-      EXPECT_FALSE(error.mend().empty());
+      EXPECT_FALSE(error.hint().empty());
     }
   }
 }

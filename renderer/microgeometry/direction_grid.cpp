@@ -9,8 +9,8 @@ namespace footprint {
 
 using std::numbers::pi;
 
-glm::dvec3 square_to_hemisphere(const glm::dvec2& place) {
-  const glm::dvec2 p = 2.0 * place - 1.0;
+glm::dvec3 square_to_hemisphere(const glm::dvec2& point) {
+  const glm::dvec2 p = 2.0 * point - 1.0;
   if (p.x == 0.0 && p.y == 0.0) return {0.0, 0.0, 1.0};
   const bool wide = std::abs(p.x) > std::abs(p.y);
   const double radius = wide ? p.x : p.y;  // signed: the angle is that of the sector's axis, or half a turn from it
@@ -42,9 +42,9 @@ std::vector<glm::dvec3> direction_grid(int side) {
 
 GridCells cells_around(const glm::dvec3& direction, int side) {
   const double last = side - 1.0;
-  const glm::dvec2 place = glm::clamp(hemisphere_to_square(direction) * static_cast<double>(side) - 0.5, 0.0, last);
-  const glm::dvec2 low = glm::min(glm::floor(place), last - 1.0);
-  const glm::dvec2 part = place - low;
+  const glm::dvec2 cell = glm::clamp(hemisphere_to_square(direction) * static_cast<double>(side) - 0.5, 0.0, last);
+  const glm::dvec2 low = glm::min(glm::floor(cell), last - 1.0);
+  const glm::dvec2 part = cell - low;
   const auto row = static_cast<std::size_t>(side);
   const std::size_t first = static_cast<std::size_t>(low.y) * row + static_cast<std::size_t>(low.x);
   return {{first, first + 1, first + row, first + row + 1},

@@ -10,9 +10,9 @@ namespace footprint {
 
 /// The unit square to the upper hemisphere: the concentric map to the unit disc, then radius^2 = 1 - z, so that equal
 /// areas become equal solid angles ("A Low Distortion Map Between Disk and Square", Journal of Graphics Tools 2(3)).
-[[nodiscard]] glm::dvec3 square_to_hemisphere(const glm::dvec2& place);
+[[nodiscard]] glm::dvec3 square_to_hemisphere(const glm::dvec2& point);
 
-/// The inverse: the place of a unit vector in [0, 1]^2. One below the horizon lands on the rim.
+/// The inverse: the point of a unit vector in [0, 1]^2. One below the horizon lands on the rim.
 [[nodiscard]] glm::dvec2 hemisphere_to_square(const glm::dvec3& direction);
 
 /// The centres of side x side cells; cell (x, y) has the index y * side + x.

@@ -36,11 +36,11 @@ FacetSamples sample_facets(const Patch& patch, std::size_t count, std::uint64_t 
   std::size_t triangle = 0;
   double before = 0.0;  // area of the triangles before this one
   for (std::size_t i = 0; i < count; ++i) {
-    const double place = (static_cast<double>(i) + uniform(random)) * samples.facet_area;
-    while (triangle + 1 < areas.size() && (place >= before + areas[triangle] || areas[triangle] == 0.0)) {
+    const double position = (static_cast<double>(i) + uniform(random)) * samples.facet_area;
+    while (triangle + 1 < areas.size() && (position >= before + areas[triangle] || areas[triangle] == 0.0)) {
       before += areas[triangle++];
     }
-    while (areas[triangle] == 0.0) --triangle;  // rounding can leave the last place behind the last area
+    while (areas[triangle] == 0.0) --triangle;  // rounding can leave the last position behind the last area
     const double u = uniform(random);
     samples.positions.push_back(point_in(patch, patch.triangles[triangle], u, uniform(random)));
     samples.triangles.push_back(static_cast<std::uint32_t>(triangle));

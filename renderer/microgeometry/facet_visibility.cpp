@@ -116,11 +116,11 @@ class Projector {
     for (const std::uint32_t cell : s.cells) ++s.starts[cell + 1];
     for (std::size_t c = 0; c < cells; ++c) s.starts[c + 1] += s.starts[c];
     for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t place = s.starts[s.cells[i]]++;
-      s.x[place] = s.projected_x[i];
-      s.y[place] = s.projected_y[i];
-      s.z[place] = samples_.positions[i].z;
-      s.order[place] = static_cast<std::uint32_t>(i);
+      const std::uint32_t slot = s.starts[s.cells[i]]++;
+      s.x[slot] = s.projected_x[i];
+      s.y[slot] = s.projected_y[i];
+      s.z[slot] = samples_.positions[i].z;
+      s.order[slot] = static_cast<std::uint32_t>(i);
     }
     for (std::size_t c = cells; c > 0; --c) s.starts[c] = s.starts[c - 1];  // the scatter moved each start to the next
     s.starts[0] = 0;

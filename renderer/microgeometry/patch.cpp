@@ -69,8 +69,8 @@ bool has_colors(const Patch& patch) {
 }
 
 void check_patch(const Patch& patch, const std::string& place) {
-  const auto refuse = [&](const std::string& message, const std::string& mend) {
-    return Error(ErrorKind::usage, place, fmt::format("patch {}: {}", patch.name, message), mend);
+  const auto refuse = [&](const std::string& message, const std::string& hint) {
+    return Error(ErrorKind::usage, place, fmt::format("patch {}: {}", patch.name, message), hint);
   };
   if (!(patch.period.x > 0.0F && patch.period.y > 0.0F && std::isfinite(patch.period.x + patch.period.y))) {
     throw refuse("its period is not above 0", "give two lengths above 0");

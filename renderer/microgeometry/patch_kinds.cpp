@@ -53,12 +53,12 @@ Patch grooves_patch(const Options& parameters, std::uint64_t /*seed*/) {
 Patch pyramids_patch(const Options& parameters, std::uint64_t /*seed*/) {
   const double margin = 0.5 * parameters.number("floor");
   const double rise = tangent_of(parameters, "slope_degrees");
-  const std::array<double, 5> places{0.0, margin, 0.5, 1.0 - margin, 1.0};
+  const std::array<double, 5> edges{0.0, margin, 0.5, 1.0 - margin, 1.0};
   Patch patch;
   patch.name = "pyramids";
   const auto corner = [&](int u, int v) {
-    const double x = places.at(static_cast<std::size_t>(u));
-    const double y = places.at(static_cast<std::size_t>(v));
+    const double x = edges.at(static_cast<std::size_t>(u));
+    const double y = edges.at(static_cast<std::size_t>(v));
     return glm::vec3(x, y, rise * std::max(std::min(from_border(x), from_border(y)) - margin, 0.0));
   };
   // The diagonals must run towards the tip: one fan of quadrants, each cut along its own diagonal.

@@ -171,9 +171,9 @@ void multiply_by_lobes(const std::vector<FacetLobe>& lobes, std::vector<Weighted
 }  // namespace
 
 void check_footprint(const FootprintRect& rect, const std::string& place) {
-  const auto refuse = [&](const std::string& message, const std::string& mend) {
+  const auto refuse = [&](const std::string& message, const std::string& hint) {
     throw Error(ErrorKind::usage, place,
-                fmt::format("{},{},{},{} {}", rect.lower.x, rect.lower.y, rect.upper.x, rect.upper.y, message), mend);
+                fmt::format("{},{},{},{} {}", rect.lower.x, rect.lower.y, rect.upper.x, rect.upper.y, message), hint);
   };
   for (const double value : {rect.lower.x, rect.lower.y, rect.upper.x, rect.upper.y}) {
     if (!std::isfinite(value)) refuse("is not finite", "give u0,v0,u1,v1, for example 0,0,0.5,0.5");
@@ -238,8 +238,8 @@ std::vector<WeightedFacet> merged_facets(const std::vector<WeightedFacet>& facet
   const auto cell_of = [&](const WeightedFacet& f) {
     constexpr double buckets_an_octave = 16.0;
     // Lambert's disc stretches no distance by more than 2.
-    const glm::dvec2 place = glm::dvec2(f.normal) / std::sqrt(std::max(1.0 + f.normal.z, 1e-6));
-    const glm::dvec2 cell = glm::floor(place * (2.0 / spacing));
+    const glm::dvec2 on_disc = glm::dvec2(f.normal) / std::sqrt(std::max(1.0 + f.normal.z, 1e-6));
+    const glm::dvec2 cell = glm::floor(on_disc * (2.0 / spacing));
     return Cell(std::floor(buckets_an_octave * std::log2(f.parameter)), cell.x, cell.y);
   };
   std::vector<std::pair<Cell, std::size_t>> order(facets.size());

@@ -15,7 +15,7 @@ using std::numbers::pi;
 constexpr double ring_spacing = pi / std::numbers::sqrt2;
 
 struct Node {
-  double place, weight;
+  double z, weight;
 };
 
 // Node `i` of the Gauss-Legendre rule with n nodes on [0, 1], by Newton's method on Legendre's polynomial.
@@ -42,11 +42,11 @@ HemisphereGrid hemisphere_grid(int resolution) {
   HemisphereGrid grid{resolution, {}, {}};
   for (int i = 0; i < resolution; ++i) {
     const Node node = legendre_node(i, resolution);
-    const double sine = std::sqrt(1.0 - node.place * node.place);
+    const double sine = std::sqrt(1.0 - node.z * node.z);
     const double count = std::ceil(2.0 * pi * sine * resolution / ring_spacing) + fewest_on_a_ring;
     for (double k = 0.5; k < count; k += 1.0) {
       const double azimuth = 2.0 * pi * k / count;
-      grid.directions.emplace_back(sine * std::cos(azimuth), sine * std::sin(azimuth), node.place);
+      grid.directions.emplace_back(sine * std::cos(azimuth), sine * std::sin(azimuth), node.z);
       grid.solid_angles.push_back(2.0 * pi * node.weight / count);
     }
   }

@@ -102,8 +102,8 @@ void MethodNdf::set_footprint(const FootprintRect& rect) const {
     along_v.at(i) = slots.at(i).along_v;
   }
   const auto set = [&](const char* name, const std::array<glm::vec2, 3>& values) {
-    const GLint place = program_.uniform(name);
-    if (place >= 0) gl::api().ProgramUniform2fv(program_.name(), place, 3, &values.front().x);
+    const GLint location = program_.uniform(name);
+    if (location >= 0) gl::api().ProgramUniform2fv(program_.name(), location, 3, &values.front().x);
   };
   set("footprint_uv", centres);
   set("footprint_dx", along_u);

@@ -16,8 +16,8 @@ constexpr int cells_across = 96;  // of Lambert's disc
 constexpr std::size_t chunk = 1 << 11;
 
 int cell_of(const glm::dvec3& n) {
-  const glm::dvec2 place = glm::dvec2(n) / std::sqrt(std::max(1.0 + n.z, 1e-6));
-  const glm::dvec2 cell = glm::clamp(glm::floor((place + 1.0) * (0.5 * cells_across)), 0.0, cells_across - 1.0);
+  const glm::dvec2 on_disc = glm::dvec2(n) / std::sqrt(std::max(1.0 + n.z, 1e-6));
+  const glm::dvec2 cell = glm::clamp(glm::floor((on_disc + 1.0) * (0.5 * cells_across)), 0.0, cells_across - 1.0);
   return static_cast<int>(cell.y) * cells_across + static_cast<int>(cell.x);
 }
 
@@ -30,10 +30,10 @@ TrueNdf::TrueNdf(NormalDistribution distribution, const std::vector<WeightedFace
   std::ranges::sort(order);
   facets_.reserve(facets.size());
   for (std::size_t i = 0; i < order.size();) {
-    const int place = order[i].first;
+    const int number = order[i].first;
     Cell cell{glm::dvec3(0.0), 0.0, 0.0, i, i};
     double support = 0.0;
-    for (; i < order.size() && order[i].first == place; ++i) {
+    for (; i < order.size() && order[i].first == number; ++i) {
       const WeightedFacet& f = facets[order[i].second];
       const Lobe lobe{distribution, f.parameter};
       facets_.push_back(

@@ -69,7 +69,7 @@ TEST(TextureUnits, OneTooManyNamesTheMethodAndTheTextures) {
 // A sampler of the module's own would share unit 0 with whatever lies there.
 TEST(TextureUnits, ATextureWithoutAUnitIsAnError) {
   const Error error = error_of(Crowded(0, R"(uniform sampler2D stray;
-#define fetchFinest(map, place) (fetchFinest(map, place) + texelFetch(stray, ivec2(0), 0))
+#define fetchFinest(map, footprint) (fetchFinest(map, footprint) + texelFetch(stray, ivec2(0), 0))
 )"));
   EXPECT_EQ(error.kind(), ErrorKind::usage);
   EXPECT_EQ(error.place(), "method crowded");

@@ -93,11 +93,11 @@ const std::vector<glm::dvec3> axes{
 TEST(EnvironmentLight, OctahedralMapIsItsTwin) {
   Inputs inputs;
   for (const glm::dvec3& axis : axes) inputs.push_back({glm::vec4(glm::vec3(axis), 0), {}, {}});
-  const auto places =
+  const auto uvs =
       evaluate_glsl(functions_of(NormalDistribution::vmf), "return vec4(octahedral(a.xyz), 0.0, 0.0);", inputs);
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    EXPECT_NEAR(places[i].x, octahedral_place(axes[i]).x, 1e-6);
-    EXPECT_NEAR(places[i].y, octahedral_place(axes[i]).y, 1e-6);
+    EXPECT_NEAR(uvs[i].x, octahedral_uv(axes[i]).x, 1e-6);
+    EXPECT_NEAR(uvs[i].y, octahedral_uv(axes[i]).y, 1e-6);
   }
 }
 
@@ -206,9 +206,9 @@ TEST(EnvironmentLight, NormalsAreDrawnAsTheirDensitySays) {
     Inputs drawn, listed;
     constexpr int steps = 64;
     for (int i = 0; i < steps * steps; ++i) {
-      const glm::vec2 place = (glm::vec2(glm::ivec2(i % steps, i / steps)) + 0.5F) / static_cast<float>(steps);
-      drawn.push_back({normal, glm::vec4(place, 0, 0), {}});
-      const glm::dvec3 d = about({0, 0, 1}, 2.0 * place.x - 1.0, 2.0 * pi * place.y);
+      const glm::vec2 cell = (glm::vec2(glm::ivec2(i % steps, i / steps)) + 0.5F) / static_cast<float>(steps);
+      drawn.push_back({normal, glm::vec4(cell, 0, 0), {}});
+      const glm::dvec3 d = about({0, 0, 1}, 2.0 * cell.x - 1.0, 2.0 * pi * cell.y);
       listed.push_back({normal, glm::vec4(glm::vec3(d), 0), {}});
     }
     double mean = 0, expected = 0, energy = 0;

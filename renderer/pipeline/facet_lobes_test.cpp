@@ -64,9 +64,9 @@ TEST(FacetLobes, AFrameIsTheSumOverTheLobes) {
   const glm::dvec3 light(0.4, 0.3, 1.5), camera(0, 0, 3);
   for (const glm::ivec2 pixel : {glm::ivec2(3, 4), glm::ivec2(9, 12), glm::ivec2(13, 2)}) {
     // The square is as large as the frame, and rows start at the top.
-    const glm::dvec3 place(2.0 * (pixel.x + 0.5) / size - 1.0, 1.0 - 2.0 * (pixel.y + 0.5) / size, 0.0);
-    const glm::dvec3 to_light = light - place;
-    const glm::dvec3 h = glm::normalize(glm::normalize(to_light) + glm::normalize(camera - place));
+    const glm::dvec3 point(2.0 * (pixel.x + 0.5) / size - 1.0, 1.0 - 2.0 * (pixel.y + 0.5) / size, 0.0);
+    const glm::dvec3 to_light = light - point;
+    const glm::dvec3 h = glm::normalize(glm::normalize(to_light) + glm::normalize(camera - point));
     double expected = 0;
     for (const FacetLobe& lobe : two_lobes) {
       const glm::dvec3 axis = glm::angleAxis(std::acos(normal.z), about) * glm::dvec3(lobe.axis);

@@ -84,7 +84,7 @@ std::vector<glm::vec4> material_block(const Material& material, const EffectSet&
   return block;
 }
 
-bool same_place(const TextureCoordinates& a, const TextureCoordinates& b) {
+bool same_uv(const TextureCoordinates& a, const TextureCoordinates& b) {
   return a.set == b.set && a.transform == b.transform;
 }
 
@@ -96,7 +96,7 @@ bool maps_share_coordinates(const Material& m) {
   if (m.specular_map) used.push_back(m.specular_map->coordinates);
   // Slot 0 serves every map: a material without a normal map has the default there.
   const TextureCoordinates first = normal_coordinates(m);
-  return std::ranges::all_of(used, [&](const TextureCoordinates& c) { return same_place(c, first); });
+  return std::ranges::all_of(used, [&](const TextureCoordinates& c) { return same_uv(c, first); });
 }
 
 // A block without lights holds one dark one, since the shader's array has at least one member.

@@ -100,7 +100,7 @@ class GpuScene {
   [[nodiscard]] const gl::ContextInfo& context() const { return *context_; }
   [[nodiscard]] const EffectSet& effects() const { return effects_; }
   [[nodiscard]] const BaseBrdf& brdf() const { return brdf_; }
-  /// Every map of every material is looked up at the same place.
+  /// Every map of every material is looked up at the same uv.
   [[nodiscard]] bool shared_coordinates() const { return shared_coordinates_; }
   /// None where the effect is off, or without lights but an environment.
   [[nodiscard]] const std::optional<ShadowMaps>& shadow_maps() const { return shadow_maps_; }

@@ -8,7 +8,7 @@
 namespace footprint {
 
 /// N = passes * grid^2 samples a pixel. One pass draws a picture grid times as large each way, whose samples lie in one
-/// place of their cell; the passes' places are stratified over the cell and jittered within their strata, so that all
+/// point of their cell; the passes' points are stratified over the cell and jittered within their strata, so that all
 /// samples together are a jittered grid.
 struct SampleGrid {
   int grid = 1;

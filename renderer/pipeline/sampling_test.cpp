@@ -72,7 +72,7 @@ TEST(Tiles, CoverEveryPixelOnce) {
 }
 
 // A world point's window position is the same through a tile as through the whole picture.
-TEST(TileMatrix, KeepsThePlaceOfAPoint) {
+TEST(TileMatrix, KeepsThePositionOfAPoint) {
   View view{.size = {70, 33}, .camera = {}};
   view.camera.world[3] = {0, 0, 3, 1};
   const glm::vec4 point(0.3F, -0.2F, 0.1F, 1.0F);

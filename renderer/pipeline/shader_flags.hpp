@@ -26,7 +26,7 @@ struct ShaderVariant {
   Sampling sampling = Sampling::frame;
   int max_probes = 1;  ///< anisotropic probes along the major axis; 1: isotropic
   bool orthographic = false;
-  bool shared_coordinates = false;   ///< every map of the scene is looked up at one place
+  bool shared_coordinates = false;   ///< every map of the scene is looked up at one uv
   bool surface_coordinates = false;  ///< the method has coordinates of its own (Prefiltered::surface_coordinates)
   EnvironmentUse environment = EnvironmentUse::prefiltered;  ///< the others need a module with `draws_directions`
   std::size_t facet_lobes = most_facet_lobes;  ///< room for so many a material: what has less compiles faster

@@ -86,7 +86,7 @@ TEST(ShaderText, AnUnknownFlagIsAnErrorWithTheNearest) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
     EXPECT_EQ(error.place(), "module.glsl, line 2");
     EXPECT_EQ(error.message(), "unknown flag `fresnle`");
-    EXPECT_TRUE(error.mend().starts_with("did you mean `fresnel`?")) << error.mend();
+    EXPECT_TRUE(error.hint().starts_with("did you mean `fresnel`?")) << error.hint();
   }
   // Nor does one hide in text that is not kept.
   EXPECT_EQ(refusal("//? if not fresnel\n//? if fresnle\n//? end\n//? end\n").message(), "unknown flag `fresnle`");
@@ -113,7 +113,7 @@ TEST(ShaderText, NamesFileAndLineOfABadDirective) {
     EXPECT_EQ(error.place(), "module.glsl, line " + std::to_string(lines[i])) << cases[i].first;
     EXPECT_EQ(error.message(), cases[i].second);
   }
-  EXPECT_TRUE(refusal("//? include octahedrl.glsl\n").mend().starts_with("did you mean `octahedral.glsl`?"));
+  EXPECT_TRUE(refusal("//? include octahedrl.glsl\n").hint().starts_with("did you mean `octahedral.glsl`?"));
 }
 
 constexpr auto folder = std::to_array<EmbeddedText>(
@@ -130,9 +130,9 @@ TEST(ShaderText, SharedTextsAreThereForAllAndOnce) {
   text.include("octahedral.glsl");
   text.include_module();
   const std::string_view function = "vec2 octahedral(vec3 d)";
-  const std::size_t place = text.text().find(function);
-  ASSERT_NE(place, std::string::npos);
-  EXPECT_EQ(text.text().find(function, place + 1), std::string::npos);
+  const std::size_t found = text.text().find(function);
+  ASSERT_NE(found, std::string::npos);
+  EXPECT_EQ(text.text().find(function, found + 1), std::string::npos);
 }
 
 // A module's lines have the numbers of its own file, its folder's other files numbers of their own, and all else is

@@ -14,7 +14,7 @@
 namespace footprint {
 namespace {
 
-constexpr const char* mend =
+constexpr const char* hint =
     "lower `resolution` or set `cast = false` in [shadows] of a scene.toml, or use fewer lights";
 
 void require_room(const gl::ContextInfo& context, const ShadowViews& views, const Scene& scene) {
@@ -24,13 +24,13 @@ void require_room(const gl::ContextInfo& context, const ShadowViews& views, cons
   gl::api().GetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
   const auto block_bytes = static_cast<std::size_t>(context.max_uniform_block_bytes);
   if (count > static_cast<std::size_t>(layers) || count * sizeof(ShadowView) > block_bytes) {
-    throw Error(ErrorKind::machine, scene.source, what + " are more than this GL takes", mend);
+    throw Error(ErrorKind::machine, scene.source, what + " are more than this GL takes", hint);
   }
   if (scene.shadows.resolution > std::min(context.max_texture_size, context.max_framebuffer_size)) {
-    throw Error(ErrorKind::machine, scene.source, what + " are larger than this GL takes", mend);
+    throw Error(ErrorKind::machine, scene.source, what + " are larger than this GL takes", hint);
   }
   const auto side = static_cast<std::uint64_t>(scene.shadows.resolution);
-  require_memory(frame_bytes(side, side, sizeof(float) * count), what, mend);
+  require_memory(frame_bytes(side, side, sizeof(float) * count), what, hint);
 }
 
 gl::Texture make_maps(const gl::ContextInfo& context, const ShadowViews& views, const Scene& scene) {

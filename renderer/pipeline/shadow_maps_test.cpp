@@ -32,7 +32,7 @@ std::vector<float> clear_shares(const Scene& scene, int edge) {
   return shares;
 }
 
-// The ray through a place of the picture; (0, 0) is its top left corner, in pixels.
+// The ray through a point of the picture; (0, 0) is its top left corner, in pixels.
 struct EyeRay {
   glm::vec3 origin, direction;
 };
@@ -44,13 +44,13 @@ EyeRay eye_ray(const Camera& camera, int edge, float x, float y) {
   return {glm::vec3(camera.world[3]), glm::normalize(glm::vec3(camera.world * local))};
 }
 
-// Whether rays find the way clear from what is seen at a place of the picture; none where nothing is seen or the
+// Whether rays find the way clear from what is seen at a point of the picture; none where nothing is seen or the
 // surface there does not face the light.
 std::optional<bool> truly_clear(const Occluders& occluders, const Scene& scene, const EyeRay& eye) {
-  const auto place = occluders.nearest(eye.origin, eye.direction);
-  if (!place) return {};
-  const glm::vec3 point = occluders.point(*place);
-  const glm::vec3 normal = occluders.normal(place->mesh, place->triangle);
+  const auto hit = occluders.nearest(eye.origin, eye.direction);
+  if (!hit) return {};
+  const glm::vec3 point = occluders.position(*hit);
+  const glm::vec3 normal = occluders.normal(hit->mesh, hit->triangle);
   const auto ray = ray_to_light(scene.lights.front(), point);
   if (!ray || glm::dot(normal, ray->direction) < 0.02F) return {};
   return !occluders.blocked(point + occluders.offset() * normal, ray->direction, ray->distance);
@@ -72,9 +72,9 @@ Agreement agreement_with_rays(const Scene& scene, int edge, float reach) {
       std::optional<bool> clear;
       bool edge_near = share < 0.0F;
       for (int i = 0; i < 9 && !edge_near; ++i) {
-        const glm::vec2 place(static_cast<float>(x) + 0.5F + reach * static_cast<float>(i % 3 - 1),
-                              static_cast<float>(y) + 0.5F + reach * static_cast<float>(i / 3 - 1));
-        const auto there = truly_clear(occluders, scene, eye_ray(scene.camera, edge, place.x, place.y));
+        const glm::vec2 beside(static_cast<float>(x) + 0.5F + reach * static_cast<float>(i % 3 - 1),
+                               static_cast<float>(y) + 0.5F + reach * static_cast<float>(i / 3 - 1));
+        const auto there = truly_clear(occluders, scene, eye_ray(scene.camera, edge, beside.x, beside.y));
         edge_near = !there || (clear && *clear != *there);
         clear = there;
       }
@@ -237,7 +237,7 @@ TEST(ShadowMaps, TooManyAreAnErrorThatSaysWhatToDo) {
     FAIL() << "3000 maps were made";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::machine);
-    EXPECT_NE(error.mend().find("[shadows]"), std::string::npos);
+    EXPECT_NE(error.hint().find("[shadows]"), std::string::npos);
   }
 }
 

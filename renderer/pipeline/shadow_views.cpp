@@ -41,9 +41,9 @@ struct Extent {
   glm::dvec2 lower{1e300}, upper{-1e300};
   double nearest = 1e300, furthest = -1e300;
 
-  void add(const glm::dvec2& place, double depth) {
-    lower = glm::min(lower, place);
-    upper = glm::max(upper, place);
+  void add(const glm::dvec2& point, double depth) {
+    lower = glm::min(lower, point);
+    upper = glm::max(upper, point);
     nearest = std::min(nearest, depth);
     furthest = std::max(furthest, depth);
   }

@@ -187,10 +187,10 @@ SurfaceProgram::SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const 
 }
 
 void SurfaceProgram::set_sample(const glm::ivec2& origin, std::uint32_t seed, std::uint32_t pass) const {
-  const GLint origin_place = program_.uniform("sample_origin");
-  const GLint seed_place = program_.uniform("sample_seed");
-  if (origin_place >= 0) gl::api().ProgramUniform2i(program_.name(), origin_place, origin.x, origin.y);
-  if (seed_place >= 0) gl::api().ProgramUniform2ui(program_.name(), seed_place, seed, pass);
+  const GLint origin_location = program_.uniform("sample_origin");
+  const GLint seed_location = program_.uniform("sample_seed");
+  if (origin_location >= 0) gl::api().ProgramUniform2i(program_.name(), origin_location, origin.x, origin.y);
+  if (seed_location >= 0) gl::api().ProgramUniform2ui(program_.name(), seed_location, seed, pass);
 }
 
 void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& view,

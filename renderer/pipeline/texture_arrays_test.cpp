@@ -51,9 +51,9 @@ const std::string summed =
 std::vector<std::array<glm::vec4, 3>> some_footprints() {
   std::vector<std::array<glm::vec4, 3>> out;
   for (const float size : {0.001F, 0.08F, 0.3F, 0.77F, 3.0F}) {
-    for (const float place : {0.03F, 0.41F, 0.98F}) {
-      out.push_back({glm::vec4(place, 1.0F - place * 0.7F, 0, 0), glm::vec4(size, 0.1F * size, 0, 0),
-                     glm::vec4(0, 0.3F * size, 0, 0)});
+    for (const float u : {0.03F, 0.41F, 0.98F}) {
+      out.push_back(
+          {glm::vec4(u, 1.0F - u * 0.7F, 0, 0), glm::vec4(size, 0.1F * size, 0, 0), glm::vec4(0, 0.3F * size, 0, 0)});
     }
   }
   return out;

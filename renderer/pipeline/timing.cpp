@@ -42,10 +42,10 @@ std::vector<double> repeated_times(const gl::ContextInfo& context, const DrawFra
 
 double quantile(std::vector<double> values, double q) {
   std::ranges::sort(values);
-  const double place = q * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
+  const double rank = q * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(rank);
   const std::size_t above = std::min(below + 1, values.size() - 1);
-  return std::lerp(values[below], values[above], place - static_cast<double>(below));
+  return std::lerp(values[below], values[above], rank - static_cast<double>(below));
 }
 
 std::vector<double> paired_ratios(std::span<const double> a, std::span<const double> b) {

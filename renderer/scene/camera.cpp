@@ -1,4 +1,4 @@
-// See camera.hpp, and load_scene.hpp for camera_at_distance.
+// Framing brings all eight corners of the bounds into view; a zoom moves the camera along its own axis.
 #include "renderer/scene/camera.hpp"
 
 #include <algorithm>
@@ -60,7 +60,7 @@ Camera camera_at_distance(const Scene& scene, double factor) {
   if (depth <= 0.0) depth = std::max(static_cast<double>(scene.bounds.radius()), 1e-6);
   const double shift = (factor - 1.0) * depth;
   camera.world[3] = glm::vec4{glm::vec3{eye - forward * shift}, 1.0F};
-  // The planes keep their place in the world; moving closer, they come no nearer than in proportion.
+  // The planes keep their position in the world; moving closer, they come no nearer than in proportion.
   const double least = std::min(factor, 1.0);
   const auto follow = [&](float plane) { return static_cast<float>(std::max(plane + shift, plane * least)); };
   camera.znear = follow(camera.znear);

@@ -1,4 +1,4 @@
-// See environment.hpp: directions, sizes and means of an environment.
+// Maps uv to directions and back, and resamples a map by the solid angle that old and new texels share.
 #include "renderer/scene/environment.hpp"
 
 #include <algorithm>
@@ -53,16 +53,16 @@ glm::dvec3 environment_direction(const Environment& environment, double u, doubl
   return {std::sin(polar) * std::sin(azimuth), std::cos(polar), -std::sin(polar) * std::cos(azimuth)};
 }
 
-glm::dvec2 environment_place(const Environment& environment, const glm::dvec3& direction) {
+glm::dvec2 environment_uv(const Environment& environment, const glm::dvec3& direction) {
   const double u = 0.5 + (std::atan2(direction.x, -direction.z) + environment.rotation) / (2.0 * pi);
   return {u - std::floor(u), std::acos(std::clamp(direction.y / glm::length(direction), -1.0, 1.0)) / pi};
 }
 
 glm::vec3 environment_radiance(const Environment& environment, const glm::dvec3& direction) {
   const Image& map = *environment.radiance;
-  const glm::dvec2 place = environment_place(environment, direction);
-  const auto texel = map.at(std::min(static_cast<int>(place.x * map.width), map.width - 1),
-                            std::min(static_cast<int>(place.y * map.height), map.height - 1));
+  const glm::dvec2 uv = environment_uv(environment, direction);
+  const auto texel = map.at(std::min(static_cast<int>(uv.x * map.width), map.width - 1),
+                            std::min(static_cast<int>(uv.y * map.height), map.height - 1));
   return {texel[0], texel[1], texel[2]};
 }
 

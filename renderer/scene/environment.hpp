@@ -24,7 +24,7 @@ struct Environment {
 [[nodiscard]] glm::dvec3 environment_direction(const Environment& environment, double u, double v);
 
 /// The map's point in a direction: u in [0, 1), v in [0, 1].
-[[nodiscard]] glm::dvec2 environment_place(const Environment& environment, const glm::dvec3& direction);
+[[nodiscard]] glm::dvec2 environment_uv(const Environment& environment, const glm::dvec3& direction);
 
 /// The radiance of the texel in a direction.
 [[nodiscard]] glm::vec3 environment_radiance(const Environment& environment, const glm::dvec3& direction);

@@ -1,4 +1,4 @@
-// See geometry.hpp. Sums run in double: thin triangles far from the origin lose their direction in float.
+// Sums run in double: thin triangles far from the origin lose their direction in float.
 #include "renderer/scene/geometry.hpp"
 
 #include <algorithm>
@@ -128,14 +128,14 @@ TriangleSoup triangles_of(const Scene& scene, std::size_t material) {
 }
 
 void drop_unused_vertices(std::vector<Vertex>& vertices, std::vector<std::uint32_t>& indices) {
-  std::vector<std::uint32_t> place(vertices.size(), unused);
+  std::vector<std::uint32_t> new_index(vertices.size(), unused);
   std::vector<Vertex> used;
   for (std::uint32_t& index : indices) {
-    if (place[index] == unused) {
-      place[index] = static_cast<std::uint32_t>(used.size());
+    if (new_index[index] == unused) {
+      new_index[index] = static_cast<std::uint32_t>(used.size());
       used.push_back(vertices[index]);
     }
-    index = place[index];
+    index = new_index[index];
   }
   vertices = std::move(used);
 }

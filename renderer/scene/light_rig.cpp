@@ -1,4 +1,4 @@
-// See light_rig.hpp.
+// The lights stand at fixed angles to the camera's axes, their strength worked out from the radiance of white Lambert.
 #include "renderer/scene/light_rig.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// See merl_file.hpp.
+// Holds sizes and length against those of the database, then scales its three planes of doubles by the units of each.
 #include "renderer/scene/merl_file.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See model_file.hpp.
+// The ending, in lower case, chooses between the readers of glTF and of OBJ.
 #include "renderer/scene/model_file.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// See obj_model.hpp.
+// Reads statement by statement; faces become fans of triangles, corners with equal indices share a vertex.
 #include "renderer/scene/obj_model.hpp"
 
 #include <fmt/format.h>
@@ -51,7 +51,7 @@ class ObjReader {
   }
 
  private:
-  /// Places of a corner's position, texture coordinates and normal; -1: none.
+  /// Indices of a corner's position, texture coordinates and normal; -1: none.
   using Corner = std::array<int, 3>;
 
   [[nodiscard]] Error fault(const std::string& message) const {
@@ -99,18 +99,18 @@ class ObjReader {
   /// A corner as written: "7", "7/2", "7//3" or "7/2/3".
   [[nodiscard]] Corner corner(const std::string_view word) const {
     const std::array<std::size_t, 3> sizes{positions_.size(), uvs_.size(), normals_.size()};
-    Corner places{-1, -1, -1};
+    Corner indices{-1, -1, -1};
     std::string_view rest = word;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::string_view part = rest.substr(0, rest.find('/'));
-      if (!part.empty() || i == 0) places[i] = place(part, sizes[i], word);
-      if (part.size() == rest.size()) return places;
+      if (!part.empty() || i == 0) indices[i] = index_of(part, sizes[i], word);
+      if (part.size() == rest.size()) return indices;
       rest.remove_prefix(part.size() + 1);
     }
     throw fault(fmt::format("`{:.40}` is no corner of a face", word));
   }
 
-  [[nodiscard]] int place(std::string_view part, std::size_t size, std::string_view word) const {
+  [[nodiscard]] int index_of(std::string_view part, std::size_t size, std::string_view word) const {
     std::int64_t index = 0;
     const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
     const auto count = static_cast<std::int64_t>(size);
@@ -122,9 +122,10 @@ class ObjReader {
   }
 
   std::uint32_t vertex_of(const Corner& corner) {
-    const auto [entry, is_new] = places_.emplace(corner, static_cast<std::uint32_t>(mesh_.vertices.size()));
+    const auto [entry, is_new] =
+        vertices_of_corners_.emplace(corner, static_cast<std::uint32_t>(mesh_.vertices.size()));
     if (!is_new) return entry->second;
-    const auto at = [](const auto& values, int place) { return values[static_cast<std::size_t>(place)]; };
+    const auto at = [](const auto& values, int index) { return values[static_cast<std::size_t>(index)]; };
     Vertex vertex;
     vertex.position = at(positions_, corner[0]);
     vertex.normal = corner[2] < 0 ? glm::vec3{0.0F} : at(normals_, corner[2]);
@@ -137,7 +138,7 @@ class ObjReader {
   std::size_t line_number_ = 0;
   std::vector<glm::vec3> positions_, normals_;
   std::vector<glm::vec2> uvs_;
-  std::map<Corner, std::uint32_t> places_;
+  std::map<Corner, std::uint32_t> vertices_of_corners_;
   Mesh mesh_;
 };
 

@@ -1,4 +1,4 @@
-// See plane.hpp.
+// Four vertices and two triangles in the xy plane, u along x and v downwards.
 #include "renderer/scene/plane.hpp"
 
 #include <array>

@@ -1,4 +1,4 @@
-// See surface.hpp.
+// Finds a surface by name and calls its functions, once its resolution fits both the range and the memory.
 #include "renderer/scene/surface.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// See unwrap.hpp. Charts grow from a seed triangle over its neighbours, each tested exactly against what the chart
-// already covers; then their rectangles are packed on shelves.
+// Charts grow from a seed triangle over its neighbours, each tested exactly against what the chart already covers;
+// then their rectangles are packed on shelves.
 #include "renderer/scene/unwrap.hpp"
 
 #include <algorithm>
@@ -159,17 +159,17 @@ class ChartCutter {
   /// Triangles beside each other share two positions; an edge of more than two triangles joins none of them.
   void find_neighbours() {
     using Position = std::array<float, 3>;
-    std::map<Position, std::uint32_t> places;
-    std::vector<std::uint32_t> place_of;
+    std::map<Position, std::uint32_t> known;
+    std::vector<std::uint32_t> position_of;
     for (const Vertex& vertex : mesh_.vertices) {
       const Position position{vertex.position.x, vertex.position.y, vertex.position.z};
-      place_of.push_back(places.emplace(position, static_cast<std::uint32_t>(places.size())).first->second);
+      position_of.push_back(known.emplace(position, static_cast<std::uint32_t>(known.size())).first->second);
     }
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> edges;
     for (std::size_t i = 0; i < mesh_.indices.size(); ++i) {
       if (taken_[i / 3]) continue;  // without area it lies on an edge of others
-      const std::uint32_t a = place_of[mesh_.indices[i]];
-      const std::uint32_t b = place_of[mesh_.indices[i / 3 * 3 + (i + 1) % 3]];
+      const std::uint32_t a = position_of[mesh_.indices[i]];
+      const std::uint32_t b = position_of[mesh_.indices[i / 3 * 3 + (i + 1) % 3]];
       edges[std::minmax(a, b)].push_back(i);
     }
     neighbours_.assign(mesh_.indices.size(), none);
@@ -219,14 +219,14 @@ class ChartCutter {
 /// A rectangle to pack, and where its lower left corner went.
 struct Rectangle {
   glm::dvec2 size;
-  glm::dvec2 place{0.0};
+  glm::dvec2 corner{0.0};
 };
 
 /// Puts rectangles, the highest first, side by side on shelves of `width`, each with `margin` around it. Returns the
 /// height that they take.
 double pack_shelves(std::span<Rectangle*> by_height, double width, double margin) {
   Shelves<double> shelves(width);
-  for (Rectangle* rectangle : by_height) rectangle->place = shelves.place(rectangle->size + 2.0 * margin) + margin;
+  for (Rectangle* rectangle : by_height) rectangle->corner = shelves.place(rectangle->size + 2.0 * margin) + margin;
   return shelves.height();
 }
 
@@ -256,15 +256,15 @@ FlatBounds bounds_of(const Chart& chart, const Mesh& mesh) {
   for (const std::uint32_t triangle : chart.triangles) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const Vertex& vertex = mesh.vertices[mesh.indices[3 * std::size_t{triangle} + corner]];
-      const glm::dvec2 place = chart.plane.flat(glm::dvec3{vertex.position});
-      bounds.low = glm::min(bounds.low, place);
-      bounds.high = glm::max(bounds.high, place);
+      const glm::dvec2 point = chart.plane.flat(glm::dvec3{vertex.position});
+      bounds.low = glm::min(bounds.low, point);
+      bounds.high = glm::max(bounds.high, point);
     }
   }
   return bounds;
 }
 
-/// Gives every chart that meets at a vertex a vertex of its own there, with the chart's place as texture coordinates.
+/// Gives every chart that meets at a vertex a vertex of its own there, with its position in the square as uv.
 /// What no chart has stays at (0, 0).
 void lay_out(const std::vector<Chart>& charts, Mesh& mesh) {
   std::vector<Rectangle> rectangles;
@@ -285,7 +285,7 @@ void lay_out(const std::vector<Chart>& charts, Mesh& mesh) {
         if (chart != i) {
           Vertex vertex = mesh.vertices[index];
           const glm::dvec2 on_plane = charts[i].plane.flat(glm::dvec3{vertex.position}) - corners[i];
-          const glm::dvec2 on_square = (on_plane + rectangles[i].place) / side;
+          const glm::dvec2 on_square = (on_plane + rectangles[i].corner) / side;
           vertex.uv0 = vertex.uv1 = glm::vec2{on_square.x, 1.0 - on_square.y};
           chart = i;
           copy = static_cast<std::uint32_t>(mesh.vertices.size());

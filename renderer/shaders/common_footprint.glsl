@@ -110,7 +110,8 @@ vec4 fetchFinest(sampler2DArray map, int layer, Footprint f) {
 //? end
 
 //? if sampling_point
-// The finest level at a point: the sampler decides between the nearest texel and the bilinear filter of the map's values.
+// The finest level at a point: the sampler decides between the nearest texel and the bilinear filter of the map's
+// values.
 vec4 fetchFinest(sampler2D map, Footprint f) { return textureLod(map, f.uv, 0.0); }
 //? if texture_arrays
 vec4 fetchFinest(sampler2DArray map, int layer, Footprint f) { return textureLod(map, vec3(f.uv, layer), 0.0); }
@@ -125,7 +126,8 @@ vec4 fetch(sampler2DArray map, int layer, Footprint f) { return fetchFinest(map,
 //? end
 
 //? if texel_lookups
-// The texels that `fetch` would blend, one by one, for a map whose texels must not be: eight of two levels for each probe.
+// The texels that `fetch` would blend, one by one, for a map whose texels must not be: eight of two levels for each
+// probe.
 struct FootprintTexel {
   vec2 uv;       // the texel's centre, at its level
   float level;
@@ -159,9 +161,9 @@ FootprintTexel footprintTexel(sampler2DArray map, Footprint f, int i) {
   bool coarser = (i & 4) != 0;
   float own = min(coarser ? lower + 1.0 : lower, coarsest);
   vec2 size = levelSize(textureSize(map, 0).xy, int(own));
-  vec2 place = uv * size - 0.5;
-  vec2 corner = floor(place);
-  vec2 part = place - corner;
+  vec2 in_texels = uv * size - 0.5;
+  vec2 corner = floor(in_texels);
+  vec2 part = in_texels - corner;
   vec2 side = vec2(i & 1, (i >> 1) & 1);
   vec2 bilinear = mix(1.0 - part, part, side);
   float between = coarser ? level - lower : 1.0 - (level - lower);

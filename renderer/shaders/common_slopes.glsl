@@ -80,7 +80,7 @@ float slopeDensity(SlopeLobe e, vec3 h) {
   return lobeDensity(lobeFromVariance(e.base), e.axis, base) * (e.scale * ratio * ratio * ratio);
 }
 //? else
-// A Gaussian of slopes with covariance S + v (Olano and Baker 2010): the base lobe counts by its variance alone.
+// A Gaussian of slopes with covariance S + v (Olano and Baker 2010): the base lobe counts by its slope variance alone.
 SlopeLobe slopeLobe(vec2 mean, mat2 spread, float variance) {
   float slope2 = dot(mean, mean);
   float q = sqrt(1.0 + slope2);
@@ -165,9 +165,9 @@ LobeRow lobeRow(SlopeLobe e) {
 }
 
 NormalLobe lobeOfRow(SlopeLobe e, LobeRow row, int i) {
-  int place = i - row.half_count;
-  vec3 axis = normalOfSlope(e.mean + float(place) * row.step);
-  float x = row.half_count == 0 ? 0.0 : 1.9 * float(place) / float(row.half_count);
+  int steps = i - row.half_count;
+  vec3 axis = normalOfSlope(e.mean + float(steps) * row.step);
+  float x = row.half_count == 0 ? 0.0 : 1.9 * float(steps) / float(row.half_count);
   float share = exp(-0.5 * x * x) / (row.half_count == 0 ? 1.0 : row.half_count == 2 ? 2.6026 : 3.8622);
   float lobe = lobeFromVariance(row.across);
 //? if roughness_stretched

@@ -22,13 +22,13 @@ DrawnDirection drawFromEnvironment(uvec3 bits, vec2 inside) {
   umulExtended(bits.x, uint(size.x * size.y), texel, low);
   vec2 alias = texelFetch(environment_alias, ivec2(int(texel) % size.x, int(texel) / size.x), 0).xy;
   if (unitInterval(bits.y) >= alias.x) texel = uint(alias.y);
-  ivec2 place = ivec2(int(texel) % size.x, int(texel) / size.x);
-  vec4 held = texelFetch(environment_radiance, place, 0);
-  float upper = cos(pi * float(place.y) / environment_size.y);
-  float lower = cos(pi * float(place.y + 1) / environment_size.y);
+  ivec2 at = ivec2(int(texel) % size.x, int(texel) / size.x);
+  vec4 held = texelFetch(environment_radiance, at, 0);
+  float upper = cos(pi * float(at.y) / environment_size.y);
+  float lower = cos(pi * float(at.y + 1) / environment_size.y);
   float y = mix(upper, lower, inside.x);
   float sine = sqrt(max(1.0 - y * y, 0.0));
-  float azimuth = azimuthOf(float(place.x) + inside.y);
+  float azimuth = azimuthOf(float(at.x) + inside.y);
   return DrawnDirection(vec3(sine * sin(azimuth), y, -sine * cos(azimuth)), held.rgb, held.a);
 }
 
@@ -36,8 +36,8 @@ DrawnDirection drawFromEnvironment(uvec3 bits, vec2 inside) {
 vec4 environmentTexel(vec3 d) {
   float u = fract(0.5 + (atan(d.x, -d.z) + environment_size.z) / (2.0 * pi));
   float v = acos(clamp(d.y, -1.0, 1.0)) / pi;
-  ivec2 place = min(ivec2(vec2(u, v) * environment_size.xy), ivec2(environment_size.xy) - 1);
-  return texelFetch(environment_radiance, place, 0);
+  ivec2 texel = min(ivec2(vec2(u, v) * environment_size.xy), ivec2(environment_size.xy) - 1);
+  return texelFetch(environment_radiance, texel, 0);
 }
 
 vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame) {

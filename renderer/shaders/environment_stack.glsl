@@ -8,10 +8,10 @@ layout(std140, binding = 5) uniform EnvironmentBlock {
 //? include octahedral.glsl
 
 // Map 2 l is level l of layer 0, map 2 l + 1 that of layer 1.
-vec3 stackMap(int map, vec2 place) {
+vec3 stackMap(int map, vec2 uv) {
   int level = map >> 1;
   vec2 size = levelSize(textureSize(environment_stack, 0).xy, level);
-  return textureLod(environment_stack, vec3(borderedPlace(place, size), map & 1), float(level)).rgb;
+  return textureLod(environment_stack, vec3(borderedUv(uv, size), map & 1), float(level)).rgb;
 }
 
 // The environment's mean over a vMF lobe. Every map's lobe is half as sharp as the one before it. Between two of them
@@ -19,14 +19,14 @@ vec3 stackMap(int map, vec2 place) {
 // a lamp in the sharpness itself, and between the two nothing is off by more than 6%. Behind the last map it goes to
 // the mean over all directions as the sharpness goes to 0.
 vec3 stackRadiance(vec3 axis, float sharpness) {
-  vec2 place = octahedral(axis);
+  vec2 uv = octahedral(axis);
   float finest = environment_stack_range.x;
   int last = int(environment_stack_range.y) - 1;
   float steps = log2(finest / max(sharpness, 1e-6));
-  if (steps >= float(last)) return mix(environment_mean.rgb, stackMap(last, place), exp2(float(last) - steps));
+  if (steps >= float(last)) return mix(environment_mean.rgb, stackMap(last, uv), exp2(float(last) - steps));
   steps = max(steps, 0.0);
   int map = min(int(steps), last - 1);
-  return mix(stackMap(map, place), stackMap(map + 1, place), steps - float(map));
+  return mix(stackMap(map, uv), stackMap(map + 1, uv), steps - float(map));
 }
 
 // The share of a vMF lobe that lies above a plane, t the cosine of axis and plane's normal; to 0.021. A logistic whose
@@ -124,7 +124,7 @@ vec3 lobeRadiance(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wo, mat3 fr
 // centre of a lobe says little of it. So its visible normals are sampled, as quadrature: once slopes are divided by
 // alpha, wo reflected by them fills a spherical cap evenly (Dupuy and Benyoub 2023). Rings of the cap, by the part of
 // its area within them: the core, half of the energy, and two rings of the tail.
-const vec2 ggx_rings[3] = vec2[](vec2(0.25, 0.5), vec2(0.605662, 0.25), vec2(0.894338, 0.25));  // place, share
+const vec2 ggx_rings[3] = vec2[](vec2(0.25, 0.5), vec2(0.605662, 0.25), vec2(0.894338, 0.25));  // area within, share
 const float ggx_node_sharpness = 4.0;  // of what a node stands for, over the lobe's own
 // Variance of what the core's and the tail's nodes stand for, over that of the nodes alone.
 const vec2 ggx_spread = vec2(1.76, 1.11);
@@ -150,14 +150,14 @@ struct NodeSum {
   float weight;
 };
 
-// Adds one node of lobe i, `place` of environment_stack_range.z around a ring.
-void addNode(inout NodeSum sum, Effective e, int i, NormalLobe lobe, vec2 ring, int place, vec3 f0, vec3 wo, mat3 axes) {
+// Adds one node of lobe i, number `node` of environment_stack_range.z around a ring.
+void addNode(inout NodeSum sum, Effective e, int i, NormalLobe lobe, vec2 ring, int node, vec3 f0, vec3 wo, mat3 axes) {
   float alpha = sqrt(2.0 / lobe.sharpness);
   vec3 seen = wo * axes;
   vec3 stretched = normalize(vec3(alpha * seen.xy, seen.z));
   float z = 1.0 - ring.x * (1.0 + stretched.z);
   float around = environment_stack_range.z;
-  float azimuth = 2.0 * pi / around * (float(place) + (ring.x == ggx_rings[1].x ? 0.0 : 0.5));
+  float azimuth = 2.0 * pi / around * (float(node) + (ring.x == ggx_rings[1].x ? 0.0 : 0.5));
   vec3 cap = vec3(sqrt(max(1.0 - z * z, 0.0)) * vec2(cos(azimuth), sin(azimuth)), z) + stretched;
   vec3 h = axes * normalize(vec3(alpha * cap.xy, max(cap.z, 1e-6)));
   vec3 wi = 2.0 * dot(h, wo) * h - wo;
@@ -239,8 +239,8 @@ vec3 environmentDiffuse(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) 
   float size = length(facets.mean_normal);
   vec3 n = size > 1e-6 ? facets.mean_normal / size : vec3(0.0, 0.0, 1.0);
   vec2 irradiance_size = vec2(textureSize(environment_irradiance, 0));
-  vec2 place = borderedPlace(octahedral(frame * n), irradiance_size);
-  vec3 facing = textureLod(environment_irradiance, place, 0.0).rgb;  // irradiance over pi
+  vec2 uv = borderedUv(octahedral(frame * n), irradiance_size);
+  vec3 facing = textureLod(environment_irradiance, uv, 0.0).rgb;  // irradiance over pi
   vec3 reflected = facets.share * mix(environment_mean.rgb, facing, min(size, 1.0));
 //? if environment_visibility
   reflected *= visibleDiffuse();

@@ -5,10 +5,10 @@ in vec3 visible_diffuse;        // of a Lambert surface's irradiance, the visibl
 
 // The angle from a direction of the world to the nearest edge between visible and hidden; below 0 where it is hidden.
 float signedDistance(vec3 direction) {
-  vec2 place = borderedPlace(octahedral(direction), vec2(textureSize(visibility_maps, 0).xy));
+  vec2 uv = borderedUv(octahedral(direction), vec2(textureSize(visibility_maps, 0).xy));
   float distance = 0.0;
   for (int i = 0; i < 4; ++i) {
-    distance += dot(visibility_weights[i], textureLod(visibility_maps, vec3(place, i), 0.0));
+    distance += dot(visibility_weights[i], textureLod(visibility_maps, vec3(uv, i), 0.0));
   }
   return distance;
 }

@@ -19,8 +19,8 @@ vec4 meanNormal(Footprints f) {
   vec4 normal = vec4(0.0, 0.0, 1.0, 1.0);
 //? end
 //? if normal_layers
-  // The slopes of the two add, and of two independent layers so do the variances (1 - |Na|) / |Na| that the lengths
-  // tell: 1 / |Na| = 1 / |Na1| + 1 / |Na2| - 1.
+  // The slopes of the two add, and of two independent layers so do the slope variances (1 - |Na|) / |Na| that the
+  // lengths tell: 1 / |Na| = 1 / |Na1| + 1 / |Na2| - 1.
   vec4 layer = storedMeanNormal(fetch(mean_layer, f.layer).xyz);
   float size = 1.0 / (1.0 / max(normal.w, 1e-6) + 1.0 / max(layer.w, 1e-6) - 1.0);
   normal = vec4(withSlopesAdded(normal.xyz, layer.xyz), size);

@@ -7,4 +7,4 @@ vec2 octahedral(vec3 d) {
 }
 
 // A border of one texel repeats what lies across the edge, so that linear filtering has no seam.
-vec2 borderedPlace(vec2 place, vec2 size) { return (1.0 + place * (size - 2.0)) / size; }
+vec2 borderedUv(vec2 uv, vec2 size) { return (1.0 + uv * (size - 2.0)) / size; }

@@ -24,14 +24,15 @@ FacetDraw drawnFacets() {
 int patchFacet(FacetDraw draw, int k) {
   ivec2 size = textureSize(base_facets, 0);
   int share = size.x * size.y / facets_per_sample;
-  float place = fract(draw.random.x + 0.618034 * float(k));  // even over k, whatever the sample drew
-  return k * share + min(int(place * float(share)), share - 1);
+  float drawn = fract(draw.random.x + 0.618034 * float(k));  // even over k, whatever the sample drew
+  return k * share + min(int(drawn * float(share)), share - 1);
 }
 
-// The sight of a facet towards w: that of one of the four cells of directions around w, drawn with the bilinear weights.
+// The sight of a facet towards w: that of one of the four cells of directions around w, drawn with the bilinear
+// weights.
 bool facetSees(int facet, vec3 w, vec2 random) {
-  vec2 place = hemisphereToSquare(w) * float(visibility_side) - 0.5 + random;
-  ivec2 cell = clamp(ivec2(floor(place)), ivec2(0), ivec2(visibility_side - 1));
+  vec2 in_cells = hemisphereToSquare(w) * float(visibility_side) - 0.5 + random;
+  ivec2 cell = clamp(ivec2(floor(in_cells)), ivec2(0), ivec2(visibility_side - 1));
   int bit = cell.y * visibility_side + cell.x;
   int texel = (facet % facets_per_row) * texels_per_facet + bit / bits_per_texel;
   float word = texelFetch(base_visibility, ivec2(texel, facet / facets_per_row), 0)[bit % bits_per_texel / 24];
@@ -52,8 +53,8 @@ vec4 drawnNormal(FacetDraw draw, int k, vec3 wi, vec3 wo, out float paint) {
 // a_v over the facets' area. The table has it over the cosine, which is smooth down to the horizon.
 float visibleArea(vec3 wo) {
   vec2 size = vec2(float(visibility_side));
-  vec2 place = clamp(hemisphereToSquare(wo) * size, vec2(0.5), size - 0.5) / size;
-  return textureLod(base_visible_area, place, 0.0).r * max(wo.z, 0.0);
+  vec2 uv = clamp(hemisphereToSquare(wo) * size, vec2(0.5), size - 0.5) / size;
+  return textureLod(base_visible_area, uv, 0.0).r * max(wo.z, 0.0);
 }
 
 const float least_visible_area = 1e-6;

@@ -13,11 +13,11 @@ uniform mat4 world_to_map;
 out float depth;
 
 void main() {
-  vec4 place = world_to_map * vec4(in_position, 1.0);
+  vec4 on_map = world_to_map * vec4(in_position, 1.0);
 //? if alpha_mask
   uv0 = in_uv0;
   uv1 = in_uv1;
 //? end
-  depth = place.z;
-  gl_Position = vec4(2.0 * place.xy - place.w, 0.0, place.w);
+  depth = on_map.z;
+  gl_Position = vec4(2.0 * on_map.xy - on_map.w, 0.0, on_map.w);
 }

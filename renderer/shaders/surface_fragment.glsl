@@ -70,8 +70,8 @@ uvec3 hashed(uvec3 v) {
 
 // Of each number `draw` of a sample, others.
 uvec3 drawBits(uint draw) {
-  uvec2 place = uvec2(ivec2(gl_FragCoord.xy) + sample_origin);
-  return hashed(uvec3(place, sample_seed.y) ^ hashed(uvec3(sample_seed.x, 0x9e3779b9u + draw, sample_seed.y)));
+  uvec2 pixel = uvec2(ivec2(gl_FragCoord.xy) + sample_origin);
+  return hashed(uvec3(pixel, sample_seed.y) ^ hashed(uvec3(sample_seed.x, 0x9e3779b9u + draw, sample_seed.y)));
 }
 
 vec2 drawTexelOffsets() {

@@ -24,6 +24,6 @@ float clearOfShadow(float first_view, vec3 point, vec3 n, vec3 from_light) {
   float along = dot(n, axis_texel.xyz);
   float texel = axis_texel.w * (shadow_views[view].world_to_map * vec4(point, 1.0)).w;
   float moved = 1.45 * texel * sqrt(max(1.0 - along * along, 0.0)) + shadow_views[view].faces_rounding.y;
-  vec4 place = shadow_views[view].world_to_map * vec4(point + moved * n, 1.0);
-  return texture(shadow_maps, vec4(place.xy / place.w, float(view), place.z));
+  vec4 on_map = shadow_views[view].world_to_map * vec4(point + moved * n, 1.0);
+  return texture(shadow_maps, vec4(on_map.xy / on_map.w, float(view), on_map.z));
 }

@@ -1,4 +1,4 @@
-// Rays from places spread over all triangles to each light, until one is blocked.
+// Rays from points spread over all triangles to each light, until one is blocked.
 #include "renderer/visibility/cast_shadows.hpp"
 
 #include <tbb/blocked_range.h>
@@ -15,7 +15,7 @@
 namespace footprint {
 namespace {
 
-constexpr std::size_t fewest_area_places = 4096;  // so that large triangles are looked at closely
+constexpr std::size_t fewest_area_points = 4096;  // so that large triangles are looked at closely
 constexpr float near_corner = 0.9F;               // of the way from the middle to a corner
 
 // A light closer to a triangle's plane than this does not shine on it: rays along a surface meet its own triangles.
@@ -39,8 +39,8 @@ double area(const Occluders& occluders, const TriangleId& id) {
                                       glm::dvec3(c->position) - glm::dvec3(a->position)));
 }
 
-// The middle and a place near each corner.
-std::array<SurfacePlace, 4> places_of(const TriangleId& id) {
+// The middle and a point near each corner.
+std::array<SurfacePoint, 4> points_of(const TriangleId& id) {
   constexpr float middle = 1.0F / 3.0F;
   constexpr float far = middle + near_corner * (1.0F - middle);
   constexpr float rest = 0.5F * (1.0F - far);
@@ -50,9 +50,9 @@ std::array<SurfacePlace, 4> places_of(const TriangleId& id) {
            {id.mesh, id.triangle, rest, far}}};
 }
 
-// A place of a triangle for a number in [0, 1): the numbers i / n spread evenly over it (the triangle is halved again
+// A point of a triangle for a number in [0, 1): the numbers i / n spread evenly over it (the triangle is halved again
 // and again, Basu and Owen 2015).
-SurfacePlace place_for(const TriangleId& id, double number) {
+SurfacePoint point_for(const TriangleId& id, double number) {
   glm::dvec2 a(0.0), b(1.0, 0.0), c(0.0, 1.0);
   for (int depth = 0; depth < 12; ++depth) {
     number *= 4.0;
@@ -69,7 +69,7 @@ SurfacePlace place_for(const TriangleId& id, double number) {
 }
 
 void append_by_area(const std::vector<TriangleId>& triangles, const Occluders& occluders, std::size_t count,
-                    std::vector<SurfacePlace>& places) {
+                    std::vector<SurfacePoint>& points) {
   std::vector<double> upto;
   double total = 0;
   for (const TriangleId& id : triangles) upto.push_back(total += area(occluders, id));
@@ -79,7 +79,7 @@ void append_by_area(const std::vector<TriangleId>& triangles, const Occluders& o
     const auto found = std::min(std::ranges::upper_bound(upto, wanted), upto.end() - 1);
     const auto index = static_cast<std::size_t>(found - upto.begin());
     const double before = index == 0 ? 0.0 : upto[index - 1];
-    places.push_back(place_for(triangles[index], (wanted - before) / (upto[index] - before)));
+    points.push_back(point_for(triangles[index], (wanted - before) / (upto[index] - before)));
   }
 }
 
@@ -89,26 +89,26 @@ class Search {
   Search(const Scene& scene, const Occluders& occluders, const Light& light)
       : scene_(&scene), occluders_(&occluders), light_(&light) {}
 
-  // Whether a place is kept from the light, or keeps another from it.
-  [[nodiscard]] bool shadows(const SurfacePlace& place) const {
-    const glm::vec3 point = occluders_->point(place);
-    const auto ray = ray_to_light(*light_, point);
+  // Whether a point is kept from the light, or keeps another from it.
+  [[nodiscard]] bool shadows(const SurfacePoint& point) const {
+    const glm::vec3 position = occluders_->position(point);
+    const auto ray = ray_to_light(*light_, position);
     if (!ray) return false;
-    const float side = facing(place, ray->direction);
+    const float side = facing(point, ray->direction);
     const glm::vec3 start =
-        point + std::copysign(occluders_->offset(), side) * occluders_->normal(place.mesh, place.triangle);
-    if (lit(place, side) && occluders_->blocked(start, ray->direction, ray->distance)) return true;
-    const auto next = occluders_->nearest(point, -ray->direction, 2.0F * occluders_->offset());
-    return next && lit(*next, facing(*next, ray->direction)) && ray_to_light(*light_, occluders_->point(*next));
+        position + std::copysign(occluders_->offset(), side) * occluders_->normal(point.mesh, point.triangle);
+    if (lit(point, side) && occluders_->blocked(start, ray->direction, ray->distance)) return true;
+    const auto next = occluders_->nearest(position, -ray->direction, 2.0F * occluders_->offset());
+    return next && lit(*next, facing(*next, ray->direction)) && ray_to_light(*light_, occluders_->position(*next));
   }
 
  private:
-  [[nodiscard]] float facing(const SurfacePlace& place, const glm::vec3& to_light) const {
-    return glm::dot(occluders_->normal(place.mesh, place.triangle), to_light);
+  [[nodiscard]] float facing(const SurfacePoint& point, const glm::vec3& to_light) const {
+    return glm::dot(occluders_->normal(point.mesh, point.triangle), to_light);
   }
 
-  [[nodiscard]] bool lit(const SurfacePlace& place, float side) const {
-    const auto material = static_cast<std::size_t>(scene_->meshes[place.mesh].material);
+  [[nodiscard]] bool lit(const SurfacePoint& point, float side) const {
+    const auto material = static_cast<std::size_t>(scene_->meshes[point.mesh].material);
     return (scene_->materials[material].double_sided ? std::abs(side) : side) > grazing;
   }
 
@@ -117,26 +117,26 @@ class Search {
   const Light* light_;
 };
 
-constexpr int directions_a_place = 16;
+constexpr int directions_a_point = 16;
 constexpr float lowest = 0.05F;  // over the plane, as a sine: lower ones meet the surface's own uneven triangles
 
-// Directions of equal solid angle, turned from place to place.
-glm::vec3 spread_direction(std::size_t place, int i) {
+// Directions of equal solid angle, turned from point to point.
+glm::vec3 spread_direction(std::size_t point, int i) {
   constexpr double golden = 0.6180339887498949;
-  const double z = 1.0 - (2.0 * i + 1.0) / directions_a_place;
-  const double azimuth = 2.0 * std::numbers::pi * (golden * (static_cast<double>(place) * directions_a_place + i));
+  const double z = 1.0 - (2.0 * i + 1.0) / directions_a_point;
+  const double azimuth = 2.0 * std::numbers::pi * (golden * (static_cast<double>(point) * directions_a_point + i));
   const double r = std::sqrt(1.0 - z * z);
   return {static_cast<float>(r * std::cos(azimuth)), static_cast<float>(r * std::sin(azimuth)), static_cast<float>(z)};
 }
 
-bool sees_something(const Scene& scene, const Occluders& occluders, const SurfacePlace& place, std::size_t index) {
-  const glm::vec3 normal = occluders.normal(place.mesh, place.triangle);
-  const bool both_sides = scene.materials[static_cast<std::size_t>(scene.meshes[place.mesh].material)].double_sided;
-  for (int i = 0; i < directions_a_place; ++i) {
+bool sees_something(const Scene& scene, const Occluders& occluders, const SurfacePoint& point, std::size_t index) {
+  const glm::vec3 normal = occluders.normal(point.mesh, point.triangle);
+  const bool both_sides = scene.materials[static_cast<std::size_t>(scene.meshes[point.mesh].material)].double_sided;
+  for (int i = 0; i < directions_a_point; ++i) {
     const glm::vec3 direction = spread_direction(index, i);
     const float elevation = glm::dot(direction, normal);
     if ((both_sides ? std::abs(elevation) : elevation) < lowest) continue;
-    const glm::vec3 start = occluders.point(place) + std::copysign(occluders.offset(), elevation) * normal;
+    const glm::vec3 start = occluders.position(point) + std::copysign(occluders.offset(), elevation) * normal;
     if (occluders.blocked(start, direction)) return true;
   }
   return false;
@@ -145,39 +145,39 @@ bool sees_something(const Scene& scene, const Occluders& occluders, const Surfac
 }  // namespace
 
 bool hides_surroundings(const Scene& scene, const Occluders& occluders, std::size_t limit) {
-  const std::vector<SurfacePlace> places = spread_places(scene, occluders, limit);
+  const std::vector<SurfacePoint> points = spread_points(scene, occluders, limit);
   std::atomic<bool> found = false;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, places.size(), 64), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 64), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end() && !found; ++i) {
-      if (sees_something(scene, occluders, places[i], i)) found = true;
+      if (sees_something(scene, occluders, points[i], i)) found = true;
     }
   });
   return found;
 }
 
-std::vector<SurfacePlace> spread_places(const Scene& scene, const Occluders& occluders, std::size_t limit) {
+std::vector<SurfacePoint> spread_points(const Scene& scene, const Occluders& occluders, std::size_t limit) {
   std::vector<TriangleId> triangles = all_triangles(scene);
   std::erase_if(triangles, [&](const TriangleId& id) { return !(area(occluders, id) > 0.0); });
-  std::vector<SurfacePlace> places;
+  std::vector<SurfacePoint> points;
   const std::size_t looked_at = std::min(triangles.size(), limit);
   for (std::size_t i = 0; i < looked_at; ++i) {
-    const auto of_triangle = places_of(triangles[i * triangles.size() / looked_at]);
-    places.insert(places.end(), of_triangle.begin(), of_triangle.end());
+    const auto of_triangle = points_of(triangles[i * triangles.size() / looked_at]);
+    points.insert(points.end(), of_triangle.begin(), of_triangle.end());
   }
-  append_by_area(triangles, occluders, std::clamp(looked_at, std::min(fewest_area_places, limit), limit), places);
-  std::erase_if(places, [&](const SurfacePlace& place) { return !occluders.present(place); });
-  return places;
+  append_by_area(triangles, occluders, std::clamp(looked_at, std::min(fewest_area_points, limit), limit), points);
+  std::erase_if(points, [&](const SurfacePoint& point) { return !occluders.present(point); });
+  return points;
 }
 
 std::vector<bool> lights_casting_shadows(const Scene& scene, const Occluders& occluders, std::size_t limit) {
-  const std::vector<SurfacePlace> places = spread_places(scene, occluders, limit);
+  const std::vector<SurfacePoint> points = spread_points(scene, occluders, limit);
   std::vector<bool> casting;
   for (const Light& light : scene.lights) {
     const Search search(scene, occluders, light);
     std::atomic<bool> found = false;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, places.size(), 64), [&](const auto& range) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 64), [&](const auto& range) {
       for (std::size_t i = range.begin(); i < range.end() && !found; ++i) {
-        if (search.shadows(places[i])) found = true;
+        if (search.shadows(points[i])) found = true;
       }
     });
     casting.push_back(found);

@@ -8,20 +8,20 @@
 
 namespace footprint {
 
-/// The places of a scene that the search looks at: at most `limit` triangles, spread over all, by their middle and by
-/// places near their corners, and as many places again, spread over the area. Deterministic. Triangles without an area
-/// and places that an alpha mask cuts out have none.
-[[nodiscard]] std::vector<SurfacePlace> spread_places(const Scene& scene, const Occluders& occluders,
+/// The points of a scene that the search looks at: at most `limit` triangles, spread over all, by their middle and by
+/// points near their corners, and as many points again, spread over the area. Deterministic. Triangles without an area
+/// and points that an alpha mask cuts out have none.
+[[nodiscard]] std::vector<SurfacePoint> spread_points(const Scene& scene, const Occluders& occluders,
                                                       std::size_t limit);
 
-/// For each light of the scene: whether something keeps it from a place that faces it. From every place a ray goes to
-/// the light, if the place faces it (a double-sided one always does), and a ray away from it, which tells whether the
-/// place itself keeps it from the next: so a small part over a large one is found as well as the reverse. A plane or a
+/// For each light of the scene: whether something keeps it from a point that faces it. From every point a ray goes to
+/// the light, if the point faces it (a double-sided one always does), and a ray away from it, which tells whether the
+/// point itself keeps it from the next: so a small part over a large one is found as well as the reverse. A plane or a
 /// one-sided convex body casts no shadow. Deterministic; time grows with the number of triangles up to `limit`.
 [[nodiscard]] std::vector<bool> lights_casting_shadows(const Scene& scene, const Occluders& occluders,
                                                        std::size_t limit = std::size_t{1} << 16U);
 
-/// Whether anything in a scene hides a part of what lies above the plane of a place: rays from the same places, 16
+/// Whether anything in a scene hides a part of what lies above the plane of a point: rays from the same points, 16
 /// directions each. Deterministic.
 [[nodiscard]] bool hides_surroundings(const Scene& scene, const Occluders& occluders,
                                       std::size_t limit = std::size_t{1} << 13U);

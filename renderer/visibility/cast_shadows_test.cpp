@@ -102,17 +102,17 @@ TEST(CastShadows, DegenerateTrianglesAreNoOnesConcern) {
   EXPECT_FALSE(casts(scene, from_above));
 }
 
-TEST(CastShadows, PlacesAreSpreadByArea) {
+TEST(CastShadows, PointsAreSpreadByArea) {
   Scene scene = white_floor();
   scene.meshes.push_back(box_mesh({3, 3, 0}, {4, 4, 1}));
   fit_bounds(scene);
   const Occluders occluders(scene);
-  const auto places = spread_places(scene, occluders, 14);
-  ASSERT_EQ(places.size(), 14U * 5U);
+  const auto points = spread_points(scene, occluders, 14);
+  ASSERT_EQ(points.size(), 14U * 5U);
   std::size_t on_floor = 0;
-  for (std::size_t i = 14U * 4U; i < places.size(); ++i) on_floor += places[i].mesh == 0 ? 1 : 0;
+  for (std::size_t i = 14U * 4U; i < points.size(); ++i) on_floor += points[i].mesh == 0 ? 1 : 0;
   EXPECT_NEAR(static_cast<double>(on_floor), 14.0 * 4.0 / (4.0 + 6.0), 1.0);
-  for (const SurfacePlace& place : places) EXPECT_TRUE(place.u >= 0.0F && place.v >= 0.0F && place.u + place.v <= 1.0F);
+  for (const SurfacePoint& point : points) EXPECT_TRUE(point.u >= 0.0F && point.v >= 0.0F && point.u + point.v <= 1.0F);
 }
 
 }  // namespace

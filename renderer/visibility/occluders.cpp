@@ -43,15 +43,15 @@ std::array<const Vertex*, 3> corners_of(const Mesh& mesh, std::size_t triangle) 
           &mesh.vertices[mesh.indices[3 * triangle + 2]]};
 }
 
-bool is_there(const Mesh& mesh, const Material& material, const SurfacePlace& place) {
+bool is_there(const Mesh& mesh, const Material& material, const SurfacePoint& point) {
   if (!material.alpha_cutoff) return true;
   float alpha = material.base_color.a;
   if (material.base_color_map) {
     const TextureCoordinates& coordinates = material.base_color_map->coordinates;
-    const auto corners = corners_of(mesh, place.triangle);
+    const auto corners = corners_of(mesh, point.triangle);
     const auto uv_of = [&](const Vertex& vertex) { return coordinates.set == 0 ? vertex.uv0 : vertex.uv1; };
     const glm::vec2 uv =
-        (1.0F - place.u - place.v) * uv_of(*corners[0]) + place.u * uv_of(*corners[1]) + place.v * uv_of(*corners[2]);
+        (1.0F - point.u - point.v) * uv_of(*corners[0]) + point.u * uv_of(*corners[1]) + point.v * uv_of(*corners[2]);
     const glm::vec2 mapped = coordinates.transform * glm::vec3(uv, 1.0F);
     const Image& image = *material.base_color_map->image;
     alpha *= image.at(texel_of(mapped.x, image.width, coordinates.wrap[0]),
@@ -111,9 +111,9 @@ void Occluders::let_holes_through(const RTCFilterFunctionNArguments* hit) {
   const auto& [mesh, material] = *static_cast<const CutOut*>(hit->geometryUserPtr);
   for (unsigned i = 0; i < hit->N; ++i) {
     if (hit->valid[i] == 0) continue;
-    const SurfacePlace place{0, RTCHitN_primID(hit->hit, hit->N, i), RTCHitN_u(hit->hit, hit->N, i),
+    const SurfacePoint point{0, RTCHitN_primID(hit->hit, hit->N, i), RTCHitN_u(hit->hit, hit->N, i),
                              RTCHitN_v(hit->hit, hit->N, i)};
-    if (!is_there(*mesh, *material, place)) hit->valid[i] = 0;
+    if (!is_there(*mesh, *material, point)) hit->valid[i] = 0;
   }
 }
 
@@ -139,28 +139,28 @@ std::vector<bool> Occluders::blocked(const glm::vec3& origin, std::span<const gl
   return out;
 }
 
-std::optional<SurfacePlace> Occluders::nearest(const glm::vec3& origin, const glm::vec3& direction, float least) const {
+std::optional<SurfacePoint> Occluders::nearest(const glm::vec3& origin, const glm::vec3& direction, float least) const {
   RTCIntersectContext context{};
   rtcInitIntersectContext(&context);
   RTCRayHit found{.ray = ray_of(origin, direction, least, unlimited), .hit = {}};
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(rays_.get(), &context, &found);
   if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  return SurfacePlace{found.hit.geomID, found.hit.primID, found.hit.u, found.hit.v};
+  return SurfacePoint{found.hit.geomID, found.hit.primID, found.hit.u, found.hit.v};
 }
 
-bool Occluders::present(const SurfacePlace& place) const {
-  const Mesh& mesh = scene_->meshes[place.mesh];
-  return is_there(mesh, scene_->materials[static_cast<std::size_t>(mesh.material)], place);
+bool Occluders::present(const SurfacePoint& point) const {
+  const Mesh& mesh = scene_->meshes[point.mesh];
+  return is_there(mesh, scene_->materials[static_cast<std::size_t>(mesh.material)], point);
 }
 
 std::array<const Vertex*, 3> Occluders::corners(std::size_t mesh, std::size_t triangle) const {
   return corners_of(scene_->meshes[mesh], triangle);
 }
 
-glm::vec3 Occluders::point(const SurfacePlace& place) const {
-  const auto [a, b, c] = corners(place.mesh, place.triangle);
-  return (1.0F - place.u - place.v) * a->position + place.u * b->position + place.v * c->position;
+glm::vec3 Occluders::position(const SurfacePoint& point) const {
+  const auto [a, b, c] = corners(point.mesh, point.triangle);
+  return (1.0F - point.u - point.v) * a->position + point.u * b->position + point.v * c->position;
 }
 
 glm::vec3 Occluders::normal(std::size_t mesh, std::size_t triangle) const {

@@ -14,15 +14,15 @@
 
 namespace footprint {
 
-/// A place on a triangle of a scene: point = (1 - u - v) a + u b + v c of its corners in their order.
-struct SurfacePlace {
+/// A point on a triangle of a scene, at (1 - u - v) a + u b + v c of its corners in their order.
+struct SurfacePoint {
   std::size_t mesh = 0;
   std::size_t triangle = 0;
   float u = 0, v = 0;
 };
 
 /// A scene's triangles, ready for rays (Embree). A triangle stands in the way from both sides, whether or not it is
-/// drawn from both; what an alpha mask cuts out does not, by the texel nearest to the place. Refers to the scene, which
+/// drawn from both; what an alpha mask cuts out does not, by the texel nearest to the point. Refers to the scene, which
 /// must outlive it and keep its meshes and materials as they are. Questions may be asked by many threads at once.
 class Occluders {
  public:
@@ -34,21 +34,21 @@ class Occluders {
   /// Whether anything lies on the ray, from `origin` along the unit vector `direction`, nearer than `distance`.
   [[nodiscard]] bool blocked(const glm::vec3& origin, const glm::vec3& direction, float distance = unlimited) const;
 
-  /// The same for many rays without an end from one place; a value a direction.
+  /// The same for many rays without an end from one point; a value a direction.
   [[nodiscard]] std::vector<bool> blocked(const glm::vec3& origin, std::span<const glm::vec3> directions) const;
 
-  /// The first place on the ray at `least` or further, if there is one.
-  [[nodiscard]] std::optional<SurfacePlace> nearest(const glm::vec3& origin, const glm::vec3& direction,
+  /// The first point on the ray at `least` or further, if there is one.
+  [[nodiscard]] std::optional<SurfacePoint> nearest(const glm::vec3& origin, const glm::vec3& direction,
                                                     float least = 0.0F) const;
 
-  /// Whether a place is there: no alpha mask cuts it out.
-  [[nodiscard]] bool present(const SurfacePlace& place) const;
+  /// Whether a point is there: no alpha mask cuts it out.
+  [[nodiscard]] bool present(const SurfacePoint& point) const;
 
   /// Corners of a triangle, in order.
   [[nodiscard]] std::array<const Vertex*, 3> corners(std::size_t mesh, std::size_t triangle) const;
 
-  /// The point in world space, and the triangle's normal, outwards as it is wound; zero where it has no area.
-  [[nodiscard]] glm::vec3 point(const SurfacePlace& place) const;
+  /// Its position in world space, and the triangle's normal, outwards as it is wound; zero where it has no area.
+  [[nodiscard]] glm::vec3 position(const SurfacePoint& point) const;
   [[nodiscard]] glm::vec3 normal(std::size_t mesh, std::size_t triangle) const;
 
   /// How far from a surface a ray starts so that it does not meet it again by rounding: metres, relative to the

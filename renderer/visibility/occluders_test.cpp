@@ -32,13 +32,13 @@ TEST(Occluders, AgreeWithASphere) {
     const float miss = std::sqrt(std::max(glm::dot(to_centre, to_centre) - along * along, 0.0F));
     if (std::abs(miss - 0.5F) < 1e-3F) continue;
     EXPECT_EQ(occluders.blocked(origin, direction), miss < 0.5F);
-    const auto place = occluders.nearest(origin, direction);
-    ASSERT_EQ(place.has_value(), miss < 0.5F);
-    if (!place) continue;
+    const auto point = occluders.nearest(origin, direction);
+    ASSERT_EQ(point.has_value(), miss < 0.5F);
+    if (!point) continue;
     const float distance = along - std::sqrt(0.25F - miss * miss);
-    EXPECT_NEAR(glm::distance(occluders.point(*place), origin), distance, 2e-2F);
-    EXPECT_NEAR(glm::distance(occluders.point(*place), glm::vec3(0.1F, -0.2F, 0.3F)), 0.5F, 1e-3F);
-    EXPECT_LT(glm::dot(occluders.normal(place->mesh, place->triangle), direction), 0.0F);
+    EXPECT_NEAR(glm::distance(occluders.position(*point), origin), distance, 2e-2F);
+    EXPECT_NEAR(glm::distance(occluders.position(*point), glm::vec3(0.1F, -0.2F, 0.3F)), 0.5F, 1e-3F);
+    EXPECT_LT(glm::dot(occluders.normal(point->mesh, point->triangle), direction), 0.0F);
     EXPECT_FALSE(occluders.blocked(origin, direction, distance - 2e-2F));
   }
 }

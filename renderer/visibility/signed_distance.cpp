@@ -1,4 +1,4 @@
-// Rays over a grid of directions, and the nearest place where what they meet changes.
+// Rays over a grid of directions, and the nearest direction where what they meet changes.
 #include "renderer/visibility/signed_distance.hpp"
 
 #include <Eigen/Dense>
@@ -49,9 +49,9 @@ std::vector<glm::vec3> edges_of(const SphereVisibility& visible) {
 }  // namespace
 
 std::size_t visibility_cell(const glm::dvec3& direction) {
-  const glm::dvec2 place = octahedral_place(direction) * static_cast<double>(visibility_edge);
-  const int x = std::clamp(static_cast<int>(place.x), 0, visibility_edge - 1);
-  const int y = std::clamp(static_cast<int>(place.y), 0, visibility_edge - 1);
+  const glm::dvec2 cell = octahedral_uv(direction) * static_cast<double>(visibility_edge);
+  const int x = std::clamp(static_cast<int>(cell.x), 0, visibility_edge - 1);
+  const int y = std::clamp(static_cast<int>(cell.y), 0, visibility_edge - 1);
   return static_cast<std::size_t>(y) * visibility_edge + static_cast<std::size_t>(x);
 }
 

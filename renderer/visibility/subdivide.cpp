@@ -61,9 +61,9 @@ class Splitter {
   }
 
   std::uint32_t between(std::uint32_t a, std::uint32_t b) {
-    const auto [place, is_new] = middles_.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(vertices_.size()));
+    const auto [entry, is_new] = middles_.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(vertices_.size()));
     if (is_new) vertices_.push_back(middle(vertices_[a], vertices_[b]));
-    return place->second;
+    return entry->second;
   }
 
   std::vector<Vertex>& vertices_;

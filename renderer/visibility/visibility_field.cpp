@@ -68,13 +68,13 @@ struct Measured {
 };
 
 void require_room(std::size_t vertices, const std::string& source) {
-  constexpr const char* mend = "set `cast = false` in [shadows] of a scene.toml, or use a coarser model";
+  constexpr const char* hint = "set `cast = false` in [shadows] of a scene.toml, or use a coarser model";
   const std::string what = fmt::format("visibility at {} vertices", vertices);
   if (vertices > most_visibility_vertices) {
     throw Error(ErrorKind::machine, source,
-                fmt::format("{} of the environment: the most is {}", what, most_visibility_vertices), mend);
+                fmt::format("{} of the environment: the most is {}", what, most_visibility_vertices), hint);
   }
-  require_memory(vertices * (map_texels * sizeof(float) + sizeof(VertexVisibility)), what, mend);
+  require_memory(vertices * (map_texels * sizeof(float) + sizeof(VertexVisibility)), what, hint);
 }
 
 Measured measure(const std::vector<const Vertex*>& vertices, const Occluders& occluders,
@@ -112,9 +112,9 @@ std::vector<Image> make_layers(const Eigen::RowVectorXf& mean, const Eigen::Matr
                             Image(bordered_edge, bordered_edge, channels));
   for (int y = 0; y < bordered_edge; ++y) {
     for (int x = 0; x < bordered_edge; ++x) {
-      const glm::dvec2 place = octahedral_place(bordered_texel_direction(bordered_edge, x, y));
+      const glm::dvec2 uv = octahedral_uv(bordered_texel_direction(bordered_edge, x, y));
       const glm::ivec2 inside =
-          glm::min(glm::ivec2(place * static_cast<double>(visibility_map_edge)), visibility_map_edge - 1);
+          glm::min(glm::ivec2(uv * static_cast<double>(visibility_map_edge)), visibility_map_edge - 1);
       const int texel = inside.y * visibility_map_edge + inside.x;
       layers[0].at(x, y)[0] = mean[texel];
       for (std::size_t k = 0; k < visibility_components; ++k) {

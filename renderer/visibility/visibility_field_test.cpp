@@ -127,9 +127,9 @@ TEST(VisibleShare, IsThatOfTheSumOverTheSphere) {
 
 float reconstructed(const VisibilityField& field, const VertexVisibility& vertex, const glm::vec3& direction) {
   const int size = field.layers[0].width;
-  const glm::dvec2 place = octahedral_place(direction) * static_cast<double>(size - 2) + 0.5;
-  const glm::ivec2 low(place);
-  const glm::dvec2 part = place - glm::dvec2(low);
+  const glm::dvec2 position = octahedral_uv(direction) * static_cast<double>(size - 2) + 0.5;
+  const glm::ivec2 low(position);
+  const glm::dvec2 part = position - glm::dvec2(low);
   double sum = 0;
   for (std::size_t k = 0; k <= visibility_components; ++k) {
     const auto texel = [&](int x, int y) {

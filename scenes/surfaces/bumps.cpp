@@ -1,4 +1,4 @@
-// bumps: round bumps of random place, width and height, close together, with smooth valleys between them.
+// bumps: round bumps of random position, width and height, close together, with smooth valleys between them.
 #include <cmath>
 
 #include "renderer/core/random.hpp"
@@ -37,15 +37,15 @@ Bumps scatter(int count, std::uint32_t seed) {
   return bumps;
 }
 
-/// The slope at `place`, in cells, for steepness 1: the bumps' slopes weighed by exp(blend h).
-glm::dvec2 slope_at(const Bumps& bumps, const glm::dvec2& place) {
+/// The slope at `point`, in cells, for steepness 1: the bumps' slopes weighed by exp(blend h).
+glm::dvec2 slope_at(const Bumps& bumps, const glm::dvec2& point) {
   glm::dvec2 sum{0.0};
   double weights = 0.0;
-  const int column = static_cast<int>(place.x), row = static_cast<int>(place.y);
+  const int column = static_cast<int>(point.x), row = static_cast<int>(point.y);
   for (int y = row - reach; y <= row + reach; ++y) {
     for (int x = column - reach; x <= column + reach; ++x) {
       const Bump& bump = bumps.at(x, y);
-      const glm::dvec2 offset = place - glm::dvec2{x, y} - bump.centre;
+      const glm::dvec2 offset = point - glm::dvec2{x, y} - bump.centre;
       const double weight = std::exp(blend * (bump.top - bump.sharpness * glm::dot(offset, offset)));
       sum -= 2.0 * weight * bump.sharpness * offset;
       weights += weight;
@@ -58,8 +58,8 @@ Image normals(const SurfaceSettings& settings) {
   const int count = static_cast<int>(settings.parameters.number("count"));
   const double steepness = settings.parameters.number("steepness");
   const Bumps bumps = scatter(count, settings.seed);
-  return fill_normals(settings.resolution, [&](const glm::dvec2& place) {
-    return normal_of_slope(steepness * slope_at(bumps, place * static_cast<double>(count)));
+  return fill_normals(settings.resolution, [&](const glm::dvec2& uv) {
+    return normal_of_slope(steepness * slope_at(bumps, uv * static_cast<double>(count)));
   });
 }
 

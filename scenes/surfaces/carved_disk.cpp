@@ -18,7 +18,7 @@ namespace {
 
 constexpr double tau = 2.0 * std::numbers::pi;
 
-/// A place on the disk: distance from the middle in radii of the disk, angle in radians.
+/// A point of the disk: distance from the middle in radii of the disk, angle in radians.
 struct Polar {
   Height radius, angle;
 };
@@ -55,7 +55,7 @@ class Hand {
   [[nodiscard]] double pressure(std::size_t stroke) const { return pressures_[stroke % pressures_.size()]; }
 
   /// The hammered ground under the carving: gentle, of several widths.
-  [[nodiscard]] Height hammering(const HeightPlace& at) const {
+  [[nodiscard]] Height hammering(const HeightPoint& at) const {
     const Height coarse = coarse_.at(8.0 * at.x, 8.0 * at.y), fine = fine_.at(31.0 * at.x, 31.0 * at.y);
     return unevenness_ * (0.02 * coarse + 0.005 * fine);
   }
@@ -148,7 +148,7 @@ Height rope(const Polar& at) {
   return smooth_ridge(across) * (0.022 + 0.0055 * twist);
 }
 
-/// The rings lie side by side: a place belongs to one of them, or to the plain strips between them.
+/// The rings lie side by side: a point belongs to one of them, or to the plain strips between them.
 Height ring_at(const Polar& at, const Hand& hand) {
   const double radius = at.radius.value();
   if (radius < 0.17) return boss(at);
@@ -160,7 +160,7 @@ Height ring_at(const Polar& at, const Hand& hand) {
   return rope(at);
 }
 
-Height carving(const HeightPlace& at, const Hand& hand) {
+Height carving(const HeightPoint& at, const Hand& hand) {
   const Height squared = at.x * at.x + at.y * at.y;
   // No direction leads out of the very middle; nothing is carved beyond the rim, where there is no disk.
   if (squared.value() < 1e-12 || squared.value() >= 1.0) return Height{0.0};
@@ -170,8 +170,8 @@ Height carving(const HeightPlace& at, const Hand& hand) {
 Image normals(const SurfaceSettings& settings) {
   const Hand hand(settings.seed, settings.parameters.number("unevenness"));
   const double depth = settings.parameters.number("depth");
-  return fill_normals(settings.resolution, [&](const glm::dvec2& place) {
-    return normal_of_slope(depth * slope_of(carving(HeightPlace{2.0 * place - 1.0}, hand)));
+  return fill_normals(settings.resolution, [&](const glm::dvec2& uv) {
+    return normal_of_slope(depth * slope_of(carving(HeightPoint{2.0 * uv - 1.0}, hand)));
   });
 }
 
@@ -180,17 +180,16 @@ Mesh mesh(const SurfaceSettings& settings) {
   constexpr int rings = 24, spokes = 192;
   const double dish = settings.parameters.number("dish");
   const auto vertex_at = [&](double radius, double angle) {
-    const glm::dvec2 place = radius * glm::dvec2{std::cos(angle), std::sin(angle)};
+    const glm::dvec2 point = radius * glm::dvec2{std::cos(angle), std::sin(angle)};
     Vertex vertex;
-    vertex.position = glm::dvec3{place, dish * radius * radius};
-    vertex.normal = normal_of_slope(2.0 * dish * place);
-    vertex.tangent = {glm::vec3{glm::normalize(glm::dvec3{1.0, 0.0, 2.0 * dish * place.x})}, 1.0F};
-    vertex.uv0 = vertex.uv1 = glm::vec2{0.5 + 0.5 * place.x, 0.5 - 0.5 * place.y};
+    vertex.position = glm::dvec3{point, dish * radius * radius};
+    vertex.normal = normal_of_slope(2.0 * dish * point);
+    vertex.tangent = {glm::vec3{glm::normalize(glm::dvec3{1.0, 0.0, 2.0 * dish * point.x})}, 1.0F};
+    vertex.uv0 = vertex.uv1 = glm::vec2{0.5 + 0.5 * point.x, 0.5 - 0.5 * point.y};
     return vertex;
   };
   // A grid bent into rings, whose innermost row is one point: the triangles there that have no area are left out.
-  Mesh mesh =
-      grid_mesh(spokes, rings, [&](const glm::dvec2& place) { return vertex_at(1.0 - place.y, tau * place.x); });
+  Mesh mesh = grid_mesh(spokes, rings, [&](const glm::dvec2& st) { return vertex_at(1.0 - st.y, tau * st.x); });
   std::vector<std::uint32_t> kept;
   const auto innermost = static_cast<std::uint32_t>(rings * (spokes + 1));
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {

@@ -25,8 +25,8 @@ TEST(PeriodicNoise, HasTheGradientOfItsValues) {
   double largest = 0.0, sum = 0.0;
   for (int i = 0; i < 400; ++i) {
     const double x = -3.0 + 0.0523 * i, y = 11.0 - 0.0311 * i, step = 1e-5;
-    const HeightPlace place{{x, y}};
-    const Height at = noise.at(place.x, place.y);
+    const HeightPoint point{{x, y}};
+    const Height at = noise.at(point.x, point.y);
     EXPECT_NEAR(slope_of(at).x, (value(x + step, y) - value(x - step, y)) / (2 * step), 1e-8);
     EXPECT_NEAR(slope_of(at).y, (value(x, y + step) - value(x, y - step)) / (2 * step), 1e-8);
     EXPECT_NEAR(at.value(), value(x + 7, y - 14), 1e-12);
@@ -54,7 +54,7 @@ TEST(Height, StepsBandsAndRidgesMeetTheirEnds) {
   EXPECT_EQ(higher(Height{1.0}, Height{2.0}).value(), 2.0);
 }
 
-/// The share of places where the slopes' curl is that of a height field, up to what differences leave: creases, where
+/// The share of points where the slopes' curl is that of a height field, up to what differences leave: creases, where
 /// the gradient jumps, are the rest.
 double share_without_curl(const Image& map, double tolerance) {
   const auto slope = [&](int x, int y, std::size_t axis) {

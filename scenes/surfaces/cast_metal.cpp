@@ -27,18 +27,18 @@ Image normals(const SurfaceSettings& settings) {
   std::mt19937_64 random(settings.seed);
   const OctaveNoise mould(grain, random);
   const double steepness = settings.parameters.number("steepness");
-  return fill_normals(settings.resolution, [&](const glm::dvec2& place) {
-    return normal_of_slope(steepness * slope_of(mould.relief(HeightPlace{place})));
+  return fill_normals(settings.resolution, [&](const glm::dvec2& uv) {
+    return normal_of_slope(steepness * slope_of(mould.relief(HeightPoint{uv})));
   });
 }
 
-/// How far the patina covers a place of the map of stains: 0 bare and rubbed bright, 1 crusted.
+/// How far the patina covers a point of the map of stains: 0 bare and rubbed bright, 1 crusted.
 class Patina {
  public:
   explicit Patina(const SurfaceSettings& settings)
       : Patina(std::mt19937_64(settings.seed + (std::uint64_t{1} << 32U))) {}
 
-  [[nodiscard]] double at(const glm::dvec2& place) const { return glm::smoothstep(-0.25, 0.35, noise_.value(place)); }
+  [[nodiscard]] double at(const glm::dvec2& uv) const { return glm::smoothstep(-0.25, 0.35, noise_.value(uv)); }
 
  private:
   explicit Patina(std::mt19937_64 random) : noise_(stains, random) {}
@@ -48,23 +48,23 @@ class Patina {
 
 Image base_color(const SurfaceSettings& settings) {
   const Patina patina(settings);
-  return fill_colors(stain_size_of(settings), [&](const glm::dvec2& place) {
-    return glm::mix(glm::dvec3{0.10, 0.05, 0.02}, glm::dvec3{0.10, 0.24, 0.18}, patina.at(place));
+  return fill_colors(stain_size_of(settings), [&](const glm::dvec2& uv) {
+    return glm::mix(glm::dvec3{0.10, 0.05, 0.02}, glm::dvec3{0.10, 0.24, 0.18}, patina.at(uv));
   });
 }
 
 Image specular(const SurfaceSettings& settings) {
   const Patina patina(settings);
-  return fill_rgb(stain_size_of(settings), [&](const glm::dvec2& place) {
-    return glm::mix(glm::dvec3{0.72, 0.46, 0.22}, glm::dvec3{0.05, 0.06, 0.05}, patina.at(place));
+  return fill_rgb(stain_size_of(settings), [&](const glm::dvec2& uv) {
+    return glm::mix(glm::dvec3{0.72, 0.46, 0.22}, glm::dvec3{0.05, 0.06, 0.05}, patina.at(uv));
   });
 }
 
 Image exponents(const SurfaceSettings& settings) {
   const Patina patina(settings);
-  return fill_values(stain_size_of(settings), [&](const glm::dvec2& place) {
+  return fill_values(stain_size_of(settings), [&](const glm::dvec2& uv) {
     constexpr double bright = 400.0, crusted = 8.0;
-    return bright * std::pow(crusted / bright, patina.at(place));
+    return bright * std::pow(crusted / bright, patina.at(uv));
   });
 }
 

@@ -5,13 +5,13 @@
 namespace footprint {
 namespace {
 
-/// Whether a place lies on a glossy square; the others are dull.
+/// Whether a point lies on a glossy square; the others are dull.
 class Board {
  public:
   explicit Board(const SurfaceSettings& settings) : squares_(settings.parameters.number("squares")) {}
 
-  [[nodiscard]] bool is_glossy(const glm::dvec2& place) const {
-    const glm::ivec2 square = glm::ivec2(glm::floor(squares_ * place));
+  [[nodiscard]] bool is_glossy(const glm::dvec2& uv) const {
+    const glm::ivec2 square = glm::ivec2(glm::floor(squares_ * uv));
     return (square.x + square.y) % 2 == 0;
   }
 
@@ -21,15 +21,15 @@ class Board {
 
 Image base_color(const SurfaceSettings& settings) {
   const Board board(settings);
-  return fill_colors(glm::ivec2{settings.resolution}, [&](const glm::dvec2& place) {
-    return board.is_glossy(place) ? glm::dvec3{0.02, 0.03, 0.06} : glm::dvec3{0.34, 0.20, 0.10};
+  return fill_colors(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
+    return board.is_glossy(uv) ? glm::dvec3{0.02, 0.03, 0.06} : glm::dvec3{0.34, 0.20, 0.10};
   });
 }
 
 Image specular(const SurfaceSettings& settings) {
   const Board board(settings);
-  return fill_rgb(glm::ivec2{settings.resolution}, [&](const glm::dvec2& place) {
-    return board.is_glossy(place) ? glm::dvec3{0.5, 0.52, 0.56} : glm::dvec3{0.3, 0.24, 0.18};
+  return fill_rgb(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
+    return board.is_glossy(uv) ? glm::dvec3{0.5, 0.52, 0.56} : glm::dvec3{0.3, 0.24, 0.18};
   });
 }
 
@@ -37,7 +37,7 @@ Image exponents(const SurfaceSettings& settings) {
   const Board board(settings);
   const double glossy = settings.parameters.number("glossy"), dull = settings.parameters.number("dull");
   return fill_values(glm::ivec2{settings.resolution},
-                     [&](const glm::dvec2& place) { return board.is_glossy(place) ? glossy : dull; });
+                     [&](const glm::dvec2& uv) { return board.is_glossy(uv) ? glossy : dull; });
 }
 
 }  // namespace

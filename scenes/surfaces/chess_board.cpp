@@ -14,18 +14,18 @@ constexpr int squares = 8;
 constexpr double square = 0.057, frame = 0.024, inlay = 0.0015, thickness = 0.02;
 
 Image base_color(const SurfaceSettings& settings) {
-  return fill_colors(glm::ivec2{settings.resolution}, [](const glm::dvec2& place) {
-    const glm::ivec2 at = glm::ivec2(glm::floor(static_cast<double>(squares) * place));
+  return fill_colors(glm::ivec2{settings.resolution}, [](const glm::dvec2& uv) {
+    const glm::ivec2 at = glm::ivec2(glm::floor(static_cast<double>(squares) * uv));
     return (at.x + at.y) % 2 == 0 ? glm::dvec3{0.09, 0.035, 0.016} : glm::dvec3{0.55, 0.37, 0.20};
   });
 }
 
 /// A flat side: its middle, and half its width and height. The part of the map is the lower left square's or all.
 Mesh side(const glm::dvec3& middle, const glm::dvec3& right, const glm::dvec3& up, double part) {
-  return grid_mesh(24, 24, [&](const glm::dvec2& place) {
-    const HeightPlace at{2.0 * place - 1.0};
+  return grid_mesh(24, 24, [&](const glm::dvec2& st) {
+    const HeightPoint at{2.0 * st - 1.0};
     const auto along = [&](int axis) -> Height { return middle[axis] + right[axis] * at.x + up[axis] * at.y; };
-    return bent_vertex({along(0), along(1), along(2)}, {part * place.x, 1.0 - part * place.y});
+    return bent_vertex({along(0), along(1), along(2)}, {part * st.x, 1.0 - part * st.y});
   });
 }
 

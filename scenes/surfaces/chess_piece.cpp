@@ -36,7 +36,7 @@ std::vector<Cut> on_foot(double radius, std::initializer_list<Cut> rest) {
 
 Mesh turn(const std::vector<Cut>& cuts, int waves = 0) { return turned_mesh({0.0, cuts, waves}, around, row); }
 
-/// A point of a block from its place in the unit cube.
+/// A point of a block from its coordinates in the unit cube.
 using BlockPoint = std::function<BentPoint(const Height& x, const Height& y, const Height& z)>;
 
 /// The six sides of a block, whose formula must not mirror it.
@@ -44,11 +44,11 @@ Mesh block_mesh(int cells, const BlockPoint& point) {
   Mesh mesh;
   for (int axis = 0; axis < 3; ++axis) {
     for (const bool upper : {false, true}) {
-      append(mesh, grid_mesh(cells, cells, [&](const glm::dvec2& place) {
-               const HeightPlace at{place};
+      append(mesh, grid_mesh(cells, cells, [&](const glm::dvec2& st) {
+               const HeightPoint at{st};
                std::array<Height, 3> cube{Height{upper ? 1.0 : 0.0}, upper ? at.x : at.y, upper ? at.y : at.x};
                std::rotate(cube.begin(), cube.end() - axis, cube.end());
-               return bent_vertex(point(cube[0], cube[1], cube[2]), {place.x, 1.0 - place.y});
+               return bent_vertex(point(cube[0], cube[1], cube[2]), {st.x, 1.0 - st.y});
              }));
     }
   }
@@ -128,7 +128,7 @@ Mesh king() {
   return mesh;
 }
 
-/// A place along a limb that bends in the xy plane.
+/// A cross section of a limb that bends in the xy plane.
 struct Rib {
   double x, y;        ///< of its middle
   double degrees;     ///< the limb's direction: 90 upwards, 0 along x
@@ -150,19 +150,19 @@ Height spline(std::span<const Rib> ribs, double Rib::*number, const Height& at) 
 /// A limb with oval ribs, rounded at its far end.
 Mesh limb_mesh(std::span<const Rib> ribs) {
   constexpr double rounded = 0.86;  // where the rounding begins
-  const auto point = [&](const HeightPlace& place) -> BentPoint {
-    Height at = place.y, closing{1.0};
-    if (place.y.value() > rounded) {
-      const Height angle = 0.5 * pi * (place.y - rounded) / (1.0 - rounded);
+  const auto point = [&](const HeightPoint& st) -> BentPoint {
+    Height at = st.y, closing{1.0};
+    if (st.y.value() > rounded) {
+      const Height angle = 0.5 * pi * (st.y - rounded) / (1.0 - rounded);
       at = rounded + (1.0 - rounded) * sin(angle);
       closing = cos(angle);
     }
-    const Height direction = spline(ribs, &Rib::degrees, at) * (pi / 180.0), turn = 2.0 * pi * place.x;
+    const Height direction = spline(ribs, &Rib::degrees, at) * (pi / 180.0), turn = 2.0 * pi * st.x;
     const Height across = closing * spline(ribs, &Rib::half_width, at) * cos(turn);
     return {spline(ribs, &Rib::x, at) + across * sin(direction), spline(ribs, &Rib::y, at) - across * cos(direction),
             -1.0 * closing * spline(ribs, &Rib::half_depth, at) * sin(turn)};
   };
-  return pinched_grid_mesh(40, 40, point, [](const glm::dvec2& place) { return glm::dvec2{place.x, 1.0 - place.y}; });
+  return pinched_grid_mesh(40, 40, point, [](const glm::dvec2& st) { return glm::dvec2{st.x, 1.0 - st.y}; });
 }
 
 /// The horse looks along x.

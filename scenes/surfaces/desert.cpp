@@ -37,7 +37,7 @@ class MapNoise {
  public:
   MapNoise(int cells, std::mt19937_64& random) : cells_(cells), noise_(cells, random) {}
 
-  [[nodiscard]] Height at(const HeightPlace& at) const { return noise_.at(cells_ * at.x, cells_ * at.y); }
+  [[nodiscard]] Height at(const HeightPoint& at) const { return noise_.at(cells_ * at.x, cells_ * at.y); }
 
  private:
   double cells_;
@@ -56,8 +56,8 @@ class Sand {
     for (const Grains& octave : grains) grains_.emplace_back(octave.cells, random);
   }
 
-  /// The height at a place, in map widths.
-  [[nodiscard]] Height height(const HeightPlace& at) const {
+  /// The height at a point, in map widths.
+  [[nodiscard]] Height height(const HeightPoint& at) const {
     Height sum{0.0};
     for (std::size_t i = 0; i < trains.size(); ++i) sum += trains[i].slope / (tau * trains[i].waves) * ripples(at, i);
     for (std::size_t i = 0; i < grains.size(); ++i) sum += grains[i].slope / grains[i].cells * grains_[i].at(at);
@@ -65,14 +65,14 @@ class Sand {
   }
 
   /// 0 for the lightest sand to 1 for the darkest: heavy dark grains stay in the ripples' troughs.
-  [[nodiscard]] double darkness(const HeightPlace& at) const {
+  [[nodiscard]] double darkness(const HeightPoint& at) const {
     const double darkness = 0.5 - 0.3 * ripples(at, 0).value() + 0.4 * grains_.front().at(at).value();
     return glm::clamp(darkness, 0.0, 1.0);
   }
 
  private:
   /// A train's height, -1 to 1: waves that lean with the wind, which comes from -x, each train strong in places only.
-  [[nodiscard]] Height ripples(const HeightPlace& at, std::size_t train) const {
+  [[nodiscard]] Height ripples(const HeightPoint& at, std::size_t train) const {
     const Ripples& kind = trains[train];
     const Height strength = smooth_step(strengths_[train].at(at), -0.45, 0.25);
     const Height phase = tau * (kind.waves * at.x + kind.lean * at.y + kind.bend * bends_[train].at(at));
@@ -85,8 +85,8 @@ class Sand {
 Image normals(const SurfaceSettings& settings) {
   const Sand sand(settings.seed);
   const double steepness = settings.parameters.number("steepness");
-  return fill_normals(settings.resolution, [&](const glm::dvec2& place) {
-    return normal_of_slope(steepness * slope_of(sand.height(HeightPlace{place})));
+  return fill_normals(settings.resolution, [&](const glm::dvec2& uv) {
+    return normal_of_slope(steepness * slope_of(sand.height(HeightPoint{uv})));
   });
 }
 
@@ -94,15 +94,15 @@ Image base_color(const SurfaceSettings& settings) {
   const Sand sand(settings.seed);
   constexpr glm::dvec3 light{0.62, 0.40, 0.21}, dark{0.50, 0.30, 0.145};
   return fill_colors(glm::ivec2{settings.resolution},
-                     [&](const glm::dvec2& place) { return glm::mix(light, dark, sand.darkness(HeightPlace{place})); });
+                     [&](const glm::dvec2& uv) { return glm::mix(light, dark, sand.darkness(HeightPoint{uv})); });
 }
 
-/// The dunes' height over a place, both in sides of the terrain.
+/// The dunes' height over a point, both in sides of the terrain.
 class Dunes {
  public:
   explicit Dunes(std::uint32_t seed) : Dunes(std::mt19937_64(seed)) {}
 
-  [[nodiscard]] Height at(const HeightPlace& at) const {
+  [[nodiscard]] Height at(const HeightPoint& at) const {
     const Height wander = 0.55 * warp_.at(4.0 * at.x, 4.0 * at.y) + 0.16 * warp_.at(10.0 * at.x, 10.0 * at.y);
     const Height size = 0.35 + 0.65 * smooth_step(size_.at(3.8 * at.x, 3.8 * at.y), -0.4, 0.35);
     const Height rolling = 0.018 * size_.at(2.6 * at.x, 2.6 * at.y);
@@ -130,14 +130,14 @@ Mesh mesh(const SurfaceSettings& settings) {
   constexpr int cells = 240;
   constexpr double side = 120.0;  // metres
   const Dunes dunes(settings.seed);
-  Mesh mesh = grid_mesh(cells, cells, [&](const glm::dvec2& place) {
-    const Height height = dunes.at(HeightPlace{place});
+  Mesh mesh = grid_mesh(cells, cells, [&](const glm::dvec2& st) {
+    const Height height = dunes.at(HeightPoint{st});
     const glm::dvec2 slope = slope_of(height);
     Vertex vertex;
-    vertex.position = side * glm::dvec3{place - 0.5, height.value()};
+    vertex.position = side * glm::dvec3{st - 0.5, height.value()};
     vertex.normal = normal_of_slope(slope);
     vertex.tangent = {glm::vec3{glm::normalize(glm::dvec3{1.0, 0.0, slope.x})}, 1.0F};
-    vertex.uv0 = vertex.uv1 = glm::vec2{place.x, 1.0 - place.y};
+    vertex.uv0 = vertex.uv1 = glm::vec2{st.x, 1.0 - st.y};
     return vertex;
   });
   mesh.name = "dunes";

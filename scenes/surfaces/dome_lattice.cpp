@@ -1,4 +1,4 @@
-// See dome_lattice.hpp.
+// Draws radius, offset and chance of every dome from the seed; a lookup tries the nine domes about it.
 #include "scenes/surfaces/dome_lattice.hpp"
 
 #include <algorithm>
@@ -21,14 +21,14 @@ DomeLattice::DomeLattice(int columns, double fill, double variation, std::uint32
   for (Dome& dome : domes_) dome.chance = uniform(random);
 }
 
-std::optional<DomePart> DomeLattice::at(const glm::dvec2& place) const {
-  const int row = static_cast<int>(place.y * domes_.rows()), column = static_cast<int>(place.x * domes_.columns());
+std::optional<DomePart> DomeLattice::at(const glm::dvec2& uv) const {
+  const int row = static_cast<int>(uv.y * domes_.rows()), column = static_cast<int>(uv.x * domes_.columns());
   for (int y = row - 1; y <= row + 1; ++y) {
     for (int x = column - 1; x <= column + 1; ++x) {
       const Dome& dome = domes_.at(x, y);
       const double shift = y % 2 == 0 ? 0.25 : 0.75;  // of a column
       const glm::dvec2 centre{(x + shift) / domes_.columns(), (y + 0.5) / domes_.rows()};
-      const glm::dvec2 offset = (place - centre - dome.offset) / dome.radius;
+      const glm::dvec2 offset = (uv - centre - dome.offset) / dome.radius;
       if (glm::dot(offset, offset) < 1.0) return DomePart{offset, dome.chance};
     }
   }

@@ -10,7 +10,7 @@
 
 namespace footprint {
 
-/// What of a dome covers a place.
+/// What of a dome covers a point.
 struct DomePart {
   glm::dvec2 offset;  ///< from the dome's middle, as a share of its radius; shorter than 1
   double chance;      ///< of this dome alone, 0 to 1, evenly spread over the domes
@@ -29,12 +29,12 @@ class DomeLattice {
   /// radius of the largest dome as a share of that of touching ones; `variation`: how much smaller the smallest is.
   DomeLattice(int columns, double fill, double variation, std::uint32_t seed);
 
-  /// The dome that covers `place`, if any.
-  [[nodiscard]] std::optional<DomePart> at(const glm::dvec2& place) const;
+  /// The dome that covers `uv`, if any.
+  [[nodiscard]] std::optional<DomePart> at(const glm::dvec2& uv) const;
 
  private:
   struct Dome {
-    glm::dvec2 offset;  ///< from its place in the lattice
+    glm::dvec2 offset;  ///< from its point of the lattice
     double radius = 0.0;
     double chance = 0.0;
   };

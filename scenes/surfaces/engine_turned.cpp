@@ -46,10 +46,10 @@ class EngineTurning {
     for (Disc& disc : discs_) disc = draw_disc(static_cast<int>(scratches_), tilt, random);
   }
 
-  [[nodiscard]] glm::dvec3 normal(const glm::dvec2& place) const {
-    const glm::dvec2 at = static_cast<double>(discs_.columns()) * place;
+  [[nodiscard]] glm::dvec3 normal(const glm::dvec2& uv) const {
+    const glm::dvec2 at = static_cast<double>(discs_.columns()) * uv;
     const int column = static_cast<int>(std::floor(at.x)), row = static_cast<int>(std::floor(at.y));
-    // From the uppermost disc that can reach the place downwards; the last one, in whose square it lies, always does.
+    // From the uppermost disc that can reach the point downwards; the last one, in whose square it lies, always does.
     for (int y = row + 1; y >= row - 1; --y) {
       for (int x = column + 1; x >= column - 1; --x) {
         const glm::dvec2 offset = at - (glm::dvec2(x, y) + 0.5);
@@ -76,7 +76,7 @@ class EngineTurning {
 
 Image normals(const SurfaceSettings& settings) {
   const EngineTurning turning(settings);
-  return fill_normals(settings.resolution, [&](const glm::dvec2& place) { return turning.normal(place); });
+  return fill_normals(settings.resolution, [&](const glm::dvec2& uv) { return turning.normal(uv); });
 }
 
 }  // namespace

@@ -48,14 +48,14 @@ glm::dvec2 lean_of(const glm::dvec2& offset, double edge) {
   return lean * std::min(1.0, 0.98 / std::max(glm::length(lean), 1e-9));
 }
 
-/// The normal at `place`, in columns of scales.
-glm::dvec3 normal_at(const glm::dvec2& place, double edge, const Tilts& tilts) {
-  // From the highest row that can reach the place downwards: the first scale found lies on top.
-  const int top = static_cast<int>(std::floor(2.0 * (place.y + scale_radius)));
+/// The normal at `point`, in columns of scales.
+glm::dvec3 normal_at(const glm::dvec2& point, double edge, const Tilts& tilts) {
+  // From the highest row that can reach the point downwards: the first scale found lies on top.
+  const int top = static_cast<int>(std::floor(2.0 * (point.y + scale_radius)));
   for (int row = top;; --row) {
     const double shift = row % 2 == 0 ? 0.0 : 0.5;
-    const double column = std::round(place.x - shift);
-    const glm::dvec2 offset = place - glm::dvec2{column + shift, 0.5 * row};
+    const double column = std::round(point.x - shift);
+    const glm::dvec2 offset = point - glm::dvec2{column + shift, 0.5 * row};
     if (glm::dot(offset, offset) > scale_radius * scale_radius) continue;
     const glm::dvec2 lean = lean_of(offset, edge);
     const glm::dvec3 normal{lean, std::sqrt(1.0 - glm::dot(lean, lean))};
@@ -68,9 +68,8 @@ Image normals(const SurfaceSettings& settings) {
   const int count = static_cast<int>(parameters.number("count"));
   const double edge = std::sin(glm::radians(parameters.number("edge_degrees")));
   const Tilts tilts = hammer(count, parameters.number("unevenness"), settings.seed);
-  return fill_normals(settings.resolution, [&](const glm::dvec2& place) {
-    return normal_at(static_cast<double>(count) * place, edge, tilts);
-  });
+  return fill_normals(settings.resolution,
+                      [&](const glm::dvec2& uv) { return normal_at(static_cast<double>(count) * uv, edge, tilts); });
 }
 
 Height bulge(const Height& at, double centre, double width) {
@@ -80,7 +79,7 @@ Height bulge(const Height& at, double centre, double width) {
 
 /// The breast plate at an angle around the body (radians, 0 in front) and a height (metres).
 BentPoint plate_at(double angle_value, double height_value) {
-  const HeightPlace at{{angle_value, height_value}};
+  const HeightPoint at{{angle_value, height_value}};
   const Height &angle = at.x, &y = at.y;
   const Height across = 0.30 + 0.10 * smooth_step(y, -0.35, 0.15) - 0.05 * smooth_step(y, 0.1, 0.5);
   const Height deep = 0.23 + 0.045 * smooth_step(y, -0.4, 0.1) - 0.13 * smooth_step(y, 0.1, 0.55);
@@ -96,10 +95,10 @@ double half_angle(double height) {
   return glm::mix(1.45, 0.92, t) - 0.1 * glm::smoothstep(0.0, -0.45, height);
 }
 
-Vertex plate_vertex(const glm::dvec2& place) {
-  const double side = 2.0 * place.x - 1.0;
+Vertex plate_vertex(const glm::dvec2& st) {
+  const double side = 2.0 * st.x - 1.0;
   const double top = 0.46 - 0.16 * std::exp(-(side * side) / 0.12), bottom = -0.44 - 0.1 * (1.0 - side * side);
-  const double height = glm::mix(bottom, top, place.y), angle = side * half_angle(height);
+  const double height = glm::mix(bottom, top, st.y), angle = side * half_angle(height);
   return bent_vertex(plate_at(angle, height), {0.4 * angle, -height});  // texture coordinates in metres, nearly
 }
 

@@ -24,13 +24,13 @@ inline constexpr double aisle_ceiling = 5.6, vault_spring = 6.6;
 struct Wall {
   glm::dvec3 origin, right, up;
 
-  /// The vertex at a place on it, in metres; texture coordinates in units of `map_size` metres.
-  [[nodiscard]] Vertex vertex(const glm::dvec2& place, double map_size) const {
+  /// The vertex at a point of it, in metres; texture coordinates in units of `map_size` metres.
+  [[nodiscard]] Vertex vertex(const glm::dvec2& point, double map_size) const {
     Vertex vertex;
-    vertex.position = origin + place.x * right + place.y * up;
+    vertex.position = origin + point.x * right + point.y * up;
     vertex.normal = glm::cross(right, up);
     vertex.tangent = {glm::vec3{right}, 1.0F};
-    vertex.uv0 = vertex.uv1 = glm::dvec2{place.x, -place.y} / map_size;
+    vertex.uv0 = vertex.uv1 = glm::dvec2{point.x, -point.y} / map_size;
     return vertex;
   }
 };

@@ -29,16 +29,15 @@ Jacquard cloth(const SurfaceSettings& settings) { return {glm::ivec2{200}, {4, 3
 
 Image normals(const SurfaceSettings& settings) {
   const Jacquard silk = cloth(settings);
-  return fill_normals(settings.resolution,
-                      [&](const glm::dvec2& place) { return Jacquard::normal(silk.at(place), 0.5); });
+  return fill_normals(settings.resolution, [&](const glm::dvec2& uv) { return Jacquard::normal(silk.at(uv), 0.5); });
 }
 
 Image base_color(const SurfaceSettings& settings) {
   static constexpr std::array<glm::dvec3, 3> grounds{{{0.34, 0.015, 0.02}, {0.02, 0.16, 0.05}, {0.02, 0.05, 0.26}}};
   const glm::dvec3 ground = grounds.at(dye_of(settings));
   const Jacquard silk = cloth(settings);
-  return fill_colors(glm::ivec2{settings.resolution}, [&](const glm::dvec2& place) {
-    const Thread thread = silk.at(place);
+  return fill_colors(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
+    const Thread thread = silk.at(uv);
     const double shade = (1.0 - 0.35 * thread.across * thread.across) * (0.8 + 0.4 * thread.uneven);
     return glm::min(shade * (thread.weft ? glm::dvec3{0.40, 0.25, 0.07} : ground), 1.0);
   });
@@ -46,16 +45,16 @@ Image base_color(const SurfaceSettings& settings) {
 
 Image exponents(const SurfaceSettings& settings) {
   const Jacquard silk = cloth(settings);
-  return fill_values(glm::ivec2{settings.resolution}, [&](const glm::dvec2& place) {
-    const Thread thread = silk.at(place);
+  return fill_values(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
+    const Thread thread = silk.at(uv);
     return (thread.weft ? 120.0 : 18.0) * std::exp2(2.0 * thread.uneven - 1.0);
   });
 }
 
 /// One curtain in its arch, seen from the nave; `side` -1 hangs on the left.
 Mesh curtain(double side, int index, const PeriodicNoise& noise) {
-  return grid_mesh(96, 48, [&](const glm::dvec2& place) {
-    const HeightPlace at{place};
+  return grid_mesh(96, 48, [&](const glm::dvec2& st) {
+    const HeightPoint at{st};
     const Height fall = 1.0 - at.y;
     const Height wander = noise.at(2.0 * at.x + 3.0 * index, 1.4 * fall + 4.0 * (side + 1.0));
     const Height wave = cos(2.0 * std::numbers::pi * (6.0 * at.x + 0.5 * wander));
@@ -63,7 +62,7 @@ Mesh curtain(double side, int index, const PeriodicNoise& noise) {
     const Height across = (at.x - 0.5) * width * (1.0 + 0.08 * fall * fall);
     const BentPoint point{side * hall::arcade - side * depth, rail - (rail - edge) * fall + 0.03 * wander * fall,
                           hall::bay_middle(index) + side * across};
-    return bent_vertex(point, glm::dvec2{fullness * width * place.x, (rail - edge) * (1.0 - place.y)} / map_size);
+    return bent_vertex(point, glm::dvec2{fullness * width * st.x, (rail - edge) * (1.0 - st.y)} / map_size);
   });
 }
 

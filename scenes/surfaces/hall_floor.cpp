@@ -24,7 +24,7 @@ constexpr std::array<Octave, 4> veins{{{4, 1.0}, {11, 0.5}, {31, 0.25}, {90, 0.1
 
 enum class Stone { black, white, red, cement };
 
-/// What lies at a place, and how its square is tilted.
+/// What lies at a point, and how its square is tilted.
 struct Slab {
   Stone stone;
   glm::dvec2 slope;
@@ -34,8 +34,8 @@ class Paving {
  public:
   Paving(std::uint32_t seed, double tilt) : Paving(std::mt19937_64(seed), tilt) {}
 
-  [[nodiscard]] Slab at(const glm::dvec2& place) const {
-    const glm::dvec2 cell = static_cast<double>(squares) * place;
+  [[nodiscard]] Slab at(const glm::dvec2& uv) const {
+    const glm::dvec2 cell = static_cast<double>(squares) * uv;
     const int column = static_cast<int>(std::floor(cell.x)), row = static_cast<int>(std::floor(cell.y));
     const glm::dvec2 offset = glm::abs(cell - glm::dvec2(column, row) - 0.5);  // from the middle
     const double out = std::max(offset.x, offset.y), lozenge = offset.x + offset.y;
@@ -46,13 +46,11 @@ class Paving {
     return slab;
   }
 
-  [[nodiscard]] glm::dvec2 waves(const glm::dvec2& place) const {
-    return slope_of(waviness_.relief(HeightPlace{place}));
-  }
+  [[nodiscard]] glm::dvec2 waves(const glm::dvec2& uv) const { return slope_of(waviness_.relief(HeightPoint{uv})); }
 
   /// 0 between the veins, to 1 along them.
-  [[nodiscard]] double vein(const glm::dvec2& place) const {
-    return std::pow(1.0 - std::min(1.0, 4.0 * std::abs(veins_.value(place))), 3.0);
+  [[nodiscard]] double vein(const glm::dvec2& uv) const {
+    return std::pow(1.0 - std::min(1.0, 4.0 * std::abs(veins_.value(uv))), 3.0);
   }
 
  private:
@@ -71,35 +69,34 @@ Paving paving(const SurfaceSettings& settings) {
 
 Image normals(const SurfaceSettings& settings) {
   const Paving floor = paving(settings);
-  return fill_normals(settings.resolution, [&](const glm::dvec2& place) {
-    return normal_of_slope(floor.at(place).slope + floor.waves(place));
-  });
+  return fill_normals(settings.resolution,
+                      [&](const glm::dvec2& uv) { return normal_of_slope(floor.at(uv).slope + floor.waves(uv)); });
 }
 
 Image base_color(const SurfaceSettings& settings) {
   const Paving floor = paving(settings);
-  return fill_colors(glm::ivec2{settings.resolution}, [&](const glm::dvec2& place) {
+  return fill_colors(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
     static constexpr std::array<glm::dvec3, 4> colors{
         {{0.025, 0.027, 0.03}, {0.62, 0.58, 0.50}, {0.30, 0.055, 0.035}, {0.30, 0.28, 0.25}}};
     static constexpr std::array<glm::dvec3, 4> vein_colors{
         {{0.30, 0.30, 0.28}, {0.34, 0.32, 0.30}, {0.55, 0.33, 0.28}, {0.30, 0.28, 0.25}}};
-    const auto stone = static_cast<std::size_t>(floor.at(place).stone);
-    return glm::mix(colors.at(stone), vein_colors.at(stone), floor.vein(place));
+    const auto stone = static_cast<std::size_t>(floor.at(uv).stone);
+    return glm::mix(colors.at(stone), vein_colors.at(stone), floor.vein(uv));
   });
 }
 
 Image exponents(const SurfaceSettings& settings) {
   const Paving floor = paving(settings);
-  return fill_values(glm::ivec2{settings.resolution}, [&](const glm::dvec2& place) {
+  return fill_values(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
     static constexpr std::array<double, 4> polish{900.0, 70.0, 300.0, 5.0};
-    return polish.at(static_cast<std::size_t>(floor.at(place).stone));
+    return polish.at(static_cast<std::size_t>(floor.at(uv).stone));
   });
 }
 
 Mesh mesh(const SurfaceSettings& /*settings*/) {
   const hall::Wall ground{{-hall::outer_wall, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}};
-  Mesh mesh = grid_mesh(1, 1, [&](const glm::dvec2& place) {
-    return ground.vertex(place * glm::dvec2{2.0 * hall::outer_wall, hall::length}, map_size);
+  Mesh mesh = grid_mesh(1, 1, [&](const glm::dvec2& st) {
+    return ground.vertex(st * glm::dvec2{2.0 * hall::outer_wall, hall::length}, map_size);
   });
   mesh.name = "floor";
   return mesh;

@@ -29,7 +29,7 @@ class Ashlar {
   explicit Ashlar(std::uint32_t seed) : Ashlar(std::mt19937_64(seed)) {}
 
   /// The height, in map widths: blocks stand out of their joints with rounded edges.
-  [[nodiscard]] Height height(const HeightPlace& at) const {
+  [[nodiscard]] Height height(const HeightPoint& at) const {
     const Height row = static_cast<double>(courses) * at.y, column = static_cast<double>(blocks) * at.x + shift(row);
     const Height from_row = nearest_line(row),
                  from_column = (static_cast<double>(courses) / blocks) * nearest_line(column);
@@ -37,17 +37,17 @@ class Ashlar {
     return 0.25 * joint / courses * smooth_step(edge, 0.3 * joint, 2.0 * joint) + weathering_.relief(at);
   }
 
-  [[nodiscard]] bool is_joint(const glm::dvec2& place) const {
-    const HeightPlace at{place};
+  [[nodiscard]] bool is_joint(const glm::dvec2& uv) const {
+    const HeightPoint at{uv};
     const Height row = static_cast<double>(courses) * at.y, column = static_cast<double>(blocks) * at.x + shift(row);
     return nearest_line(row).value() < joint || nearest_line(column).value() * courses / blocks < joint;
   }
 
   /// -1 to 1: of this block alone, with stains that run over all.
-  [[nodiscard]] double tone(const glm::dvec2& place) const {
-    const int row = static_cast<int>(std::floor(courses * place.y));
-    const int column = static_cast<int>(std::floor(blocks * place.x + (wrap(row, 2) == 0 ? 0.0 : 0.5)));
-    return 0.6 * tones_.at(column, row) + stains_.value(place);
+  [[nodiscard]] double tone(const glm::dvec2& uv) const {
+    const int row = static_cast<int>(std::floor(courses * uv.y));
+    const int column = static_cast<int>(std::floor(blocks * uv.x + (wrap(row, 2) == 0 ? 0.0 : 0.5)));
+    return 0.6 * tones_.at(column, row) + stains_.value(uv);
   }
 
  private:
@@ -70,23 +70,22 @@ class Ashlar {
 
 Image normals(const SurfaceSettings& settings) {
   const Ashlar ashlar(settings.seed);
-  return fill_normals(settings.resolution, [&](const glm::dvec2& place) {
-    return normal_of_slope(slope_of(ashlar.height(HeightPlace{place})));
-  });
+  return fill_normals(settings.resolution,
+                      [&](const glm::dvec2& uv) { return normal_of_slope(slope_of(ashlar.height(HeightPoint{uv}))); });
 }
 
 Image base_color(const SurfaceSettings& settings) {
   const Ashlar ashlar(settings.seed);
-  return fill_colors(glm::ivec2{settings.resolution}, [&](const glm::dvec2& place) {
-    const glm::dvec3 stone = glm::dvec3{0.50, 0.41, 0.30} * (1.0 + 0.22 * ashlar.tone(place));
-    return glm::clamp(ashlar.is_joint(place) ? 0.55 * stone : stone, 0.0, 1.0);
+  return fill_colors(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
+    const glm::dvec3 stone = glm::dvec3{0.50, 0.41, 0.30} * (1.0 + 0.22 * ashlar.tone(uv));
+    return glm::clamp(ashlar.is_joint(uv) ? 0.55 * stone : stone, 0.0, 1.0);
   });
 }
 
 Image exponents(const SurfaceSettings& settings) {
   const Ashlar ashlar(settings.seed);
-  return fill_values(glm::ivec2{settings.resolution}, [&](const glm::dvec2& place) {
-    return ashlar.is_joint(place) ? 4.0 : 14.0 * std::exp2(glm::clamp(ashlar.tone(place), -2.0, 2.0));
+  return fill_values(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
+    return ashlar.is_joint(uv) ? 4.0 : 14.0 * std::exp2(glm::clamp(ashlar.tone(uv), -2.0, 2.0));
   });
 }
 
@@ -101,10 +100,10 @@ Height column_radius(const Height& y) {
 }
 
 Mesh column(double x, double z) {
-  return grid_mesh(32, 110, [&](const glm::dvec2& place) {
+  return grid_mesh(32, 110, [&](const glm::dvec2& st) {
     // Rows are closer together along the mouldings at both ends.
-    const double share = place.y - 0.6 * std::sin(2.0 * std::numbers::pi * place.y) / (2.0 * std::numbers::pi);
-    const HeightPlace at{{2.0 * std::numbers::pi * place.x, hall::spring * share}};
+    const double share = st.y - 0.6 * std::sin(2.0 * std::numbers::pi * st.y) / (2.0 * std::numbers::pi);
+    const HeightPoint at{{2.0 * std::numbers::pi * st.x, hall::spring * share}};
     const Height radius = column_radius(at.y);
     const BentPoint point{x + radius * sin(at.x), at.y, z + radius * cos(at.x)};
     return bent_vertex(point, {0.3 * at.x.value() / map_size, -at.y.value() / map_size});
@@ -114,19 +113,19 @@ Mesh column(double x, double z) {
 /// The face of one bay of the arcade over its arch, `side` 1 seen by whoever looks along -x, -1 along +x.
 Mesh spandrel(double x, double side, int index) {
   const hall::Wall wall{{x, hall::spring, hall::bay_middle(index)}, {0.0, 0.0, -side}, {0.0, 1.0, 0.0}};
-  return grid_mesh(32, 1, [&](const glm::dvec2& place) {
-    const double angle = std::numbers::pi * (1.0 - place.x);
+  return grid_mesh(32, 1, [&](const glm::dvec2& st) {
+    const double angle = std::numbers::pi * (1.0 - st.x);
     const glm::dvec2 towards{std::cos(angle), std::sin(angle)};
     const double reach = 1.0 / std::max(std::abs(towards.x), towards.y);  // to the rectangle around the arch
     const glm::dvec2 frame = reach * towards * glm::dvec2{0.5 * hall::bay, hall::vault_spring - hall::spring};
-    return wall.vertex(glm::mix(hall::arch_radius * towards, frame, place.y), map_size);
+    return wall.vertex(glm::mix(hall::arch_radius * towards, frame, st.y), map_size);
   });
 }
 
 /// The underside of an arch.
 Mesh soffit(double x, int index) {
-  return grid_mesh(32, 1, [&](const glm::dvec2& place) {
-    const HeightPlace at{{std::numbers::pi * place.x, hall::arcade_half_thickness * (2.0 * place.y - 1.0)}};
+  return grid_mesh(32, 1, [&](const glm::dvec2& st) {
+    const HeightPoint at{{std::numbers::pi * st.x, hall::arcade_half_thickness * (2.0 * st.y - 1.0)}};
     const BentPoint point{x + at.y, hall::spring + hall::arch_radius * sin(at.x),
                           hall::bay_middle(index) + hall::arch_radius * cos(at.x)};
     return bent_vertex(point, glm::dvec2{hall::arch_radius * at.x.value(), -at.y.value()} / map_size);
@@ -136,8 +135,8 @@ Mesh soffit(double x, int index) {
 /// The barrel vault over the nave, between the inner faces of the arcades.
 Mesh vault() {
   constexpr double radius = hall::arcade - hall::arcade_half_thickness;
-  return grid_mesh(48, 1, [=](const glm::dvec2& place) {
-    const HeightPlace at{{std::numbers::pi * place.x, hall::length * place.y}};
+  return grid_mesh(48, 1, [=](const glm::dvec2& st) {
+    const HeightPoint at{{std::numbers::pi * st.x, hall::length * st.y}};
     const BentPoint point{radius * cos(at.x), hall::vault_spring + radius * sin(at.x), -1.0 * at.y};
     return bent_vertex(point, glm::dvec2{radius * at.x.value(), -at.y.value()} / map_size);
   });
@@ -145,7 +144,7 @@ Mesh vault() {
 
 /// A rectangle of `size` on a wall, its lower left corner at the origin.
 Mesh rectangle(const hall::Wall& wall, const glm::dvec2& size) {
-  return grid_mesh(1, 1, [&](const glm::dvec2& place) { return wall.vertex(place * size, map_size); });
+  return grid_mesh(1, 1, [&](const glm::dvec2& st) { return wall.vertex(st * size, map_size); });
 }
 
 Mesh mesh(const SurfaceSettings& /*settings*/) {

@@ -13,9 +13,9 @@ namespace footprint {
 /// A number and its derivatives by the two coordinates that a formula starts from.
 using Height = Eigen::AutoDiffScalar<Eigen::Vector2d>;
 
-/// The coordinates of a place, each with its own derivative 1.
-struct HeightPlace {
-  explicit HeightPlace(const glm::dvec2& place) : x(place.x, 2, 0), y(place.y, 2, 1) {}
+/// The coordinates of a point, each with its own derivative 1.
+struct HeightPoint {
+  explicit HeightPoint(const glm::dvec2& point) : x(point.x, 2, 0), y(point.y, 2, 1) {}
   Height x, y;
 };
 

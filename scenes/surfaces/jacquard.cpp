@@ -1,4 +1,4 @@
-// See jacquard.hpp.
+// The figure and the binding of a satin decide which thread lies on top of a crossing.
 #include "scenes/surfaces/jacquard.hpp"
 
 #include <cmath>
@@ -10,9 +10,9 @@
 namespace footprint {
 namespace {
 
-/// Whether a flower of six petals around a disc covers a place; 1 is the tip of a petal.
-bool in_flower(const glm::dvec2& place) {
-  const double radius = glm::length(place), angle = std::atan2(place.y, place.x);
+/// Whether a flower of six petals around a disc covers a point; 1 is the tip of a petal.
+bool in_flower(const glm::dvec2& point) {
+  const double radius = glm::length(point), angle = std::atan2(point.y, point.x);
   if (radius < 0.16) return true;
   if (radius < 0.24) return false;
   const double petal = std::abs(std::cos(3.0 * angle));
@@ -20,19 +20,19 @@ bool in_flower(const glm::dvec2& place) {
   return radius < 0.3 + 0.7 * petal && !vein;
 }
 
-/// Whether the figure covers a place of its repeat, both coordinates within -1 to 1: ovals that touch at the repeat's
+/// Whether the figure covers a point of its repeat, both coordinates within -1 to 1: ovals that touch at the repeat's
 /// corners and middles of sides, a band around each, leaves where they meet.
-bool in_figure(const glm::dvec2& place) {
+bool in_figure(const glm::dvec2& point) {
   const auto oval = [](const glm::dvec2& at) {
     // Pointed at top and bottom: the bounding wave swings from side to side.
     return std::abs(at.x) - 0.5 * (1.0 + std::cos(std::numbers::pi * at.y));
   };
-  const double edge = oval(place);
+  const double edge = oval(point);
   if (std::abs(edge + 0.02) < 0.055) return true;
   if (std::abs(edge + 0.17) < 0.02) return true;
-  if (edge < -0.19) return in_flower(place / glm::dvec2{0.62, 0.5});
+  if (edge < -0.19) return in_flower(point / glm::dvec2{0.62, 0.5});
   // Between the ovals lie those of the rows beside, half a repeat away.
-  const glm::dvec2 other{place.x - std::copysign(1.0, place.x), place.y - std::copysign(1.0, place.y)};
+  const glm::dvec2 other{point.x - std::copysign(1.0, point.x), point.y - std::copysign(1.0, point.y)};
   if (std::abs(oval(other) + 0.17) < 0.02) return true;
   return oval(other) < -0.19 && in_flower(other / glm::dvec2{0.62, 0.5});
 }
@@ -48,8 +48,8 @@ Jacquard::Jacquard(glm::ivec2 threads, glm::ivec2 figures, std::uint32_t seed) :
   for (int i = 0; i < threads.y; ++i) weft_.push_back(uniform(random));
 }
 
-Thread Jacquard::at(const glm::dvec2& place) const {
-  const glm::dvec2 cell = place * glm::dvec2(threads_);
+Thread Jacquard::at(const glm::dvec2& uv) const {
+  const glm::dvec2 cell = uv * glm::dvec2(threads_);
   const int column = static_cast<int>(std::floor(cell.x)), row = static_cast<int>(std::floor(cell.y));
   // The loom decides for whole crossings: the figure's outline is stepped.
   const glm::dvec2 crossing = (glm::dvec2(column, row) + 0.5) / glm::dvec2(threads_);

@@ -7,7 +7,7 @@
 
 namespace footprint {
 
-/// What lies on top at a place of the cloth.
+/// What lies on top at a point of the cloth.
 struct Thread {
   bool weft = false;    ///< a weft thread, which runs along x; else a warp thread, along y
   bool figure = false;  ///< within the woven figure; else of its ground
@@ -23,9 +23,9 @@ class Jacquard {
  public:
   Jacquard(glm::ivec2 threads, glm::ivec2 figures, std::uint32_t seed);
 
-  [[nodiscard]] Thread at(const glm::dvec2& place) const;
+  [[nodiscard]] Thread at(const glm::dvec2& uv) const;
 
-  /// The unit normal of the round thread at the place: `roundness` is the sine of its tilt at the thread's edge.
+  /// The unit normal of the round thread at that point: `roundness` is the sine of its tilt at the thread's edge.
   [[nodiscard]] static glm::dvec3 normal(const Thread& thread, double roundness);
 
  private:

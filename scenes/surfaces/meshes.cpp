@@ -1,4 +1,4 @@
-// See meshes.hpp.
+// Grids of vertices over the unit square, and vertices whose tangent and normal are derivatives of their position.
 #include "scenes/surfaces/meshes.hpp"
 
 #include "renderer/scene/plane.hpp"
@@ -19,7 +19,7 @@ Vertex bent_vertex(const BentPoint& point, const glm::dvec2& uv) {
 
 Mesh square_mesh(const SurfaceSettings& /*settings*/) { return make_plane({2.0F, 2.0F}, {1.0F, 1.0F}); }
 
-Mesh grid_mesh(int columns, int rows, const std::function<Vertex(const glm::dvec2& place)>& vertex_at) {
+Mesh grid_mesh(int columns, int rows, const std::function<Vertex(const glm::dvec2& st)>& vertex_at) {
   Mesh mesh;
   for (int row = 0; row <= rows; ++row) {
     for (int column = 0; column <= columns; ++column) {

@@ -22,6 +22,6 @@ struct BentPoint {
 
 /// Rows and columns of cells, two triangles each, over the unit square: `vertex_at` gives the vertex at (s, t), s to
 /// the right and t upwards as seen from outside. Vertices that are not finite are a fault of the caller.
-[[nodiscard]] Mesh grid_mesh(int columns, int rows, const std::function<Vertex(const glm::dvec2& place)>& vertex_at);
+[[nodiscard]] Mesh grid_mesh(int columns, int rows, const std::function<Vertex(const glm::dvec2& st)>& vertex_at);
 
 }  // namespace footprint

@@ -1,4 +1,4 @@
-// See noise.hpp.
+// Gradient noise with Perlin's quintic fade; its slope follows from the same lookup by the chain rule.
 #include "scenes/surfaces/noise.hpp"
 
 #include <cmath>

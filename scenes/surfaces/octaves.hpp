@@ -24,23 +24,23 @@ class OctaveNoise {
   }
 
   /// Octaves weighed by strength: values, of about the size of the strongest.
-  [[nodiscard]] double value(const glm::dvec2& place) const {
+  [[nodiscard]] double value(const glm::dvec2& uv) const {
     double sum = 0.0;
-    for (std::size_t i = 0; i < noises_.size(); ++i) sum += octaves_[i].strength * at(i, HeightPlace{place}).value();
+    for (std::size_t i = 0; i < noises_.size(); ++i) sum += octaves_[i].strength * at(i, HeightPoint{uv}).value();
     return sum;
   }
 
   /// Octaves whose slope is of about their strength: a height in widths of the map.
-  [[nodiscard]] Height relief(const HeightPlace& place) const {
+  [[nodiscard]] Height relief(const HeightPoint& point) const {
     Height sum{0.0};
-    for (std::size_t i = 0; i < noises_.size(); ++i) sum += octaves_[i].strength / octaves_[i].cells * at(i, place);
+    for (std::size_t i = 0; i < noises_.size(); ++i) sum += octaves_[i].strength / octaves_[i].cells * at(i, point);
     return sum;
   }
 
  private:
-  [[nodiscard]] Height at(std::size_t octave, const HeightPlace& place) const {
+  [[nodiscard]] Height at(std::size_t octave, const HeightPoint& point) const {
     const double cells = octaves_[octave].cells;
-    return noises_[octave].at(cells * place.x, cells * place.y);
+    return noises_[octave].at(cells * point.x, cells * point.y);
   }
 
   std::vector<Octave> octaves_;

@@ -25,8 +25,8 @@ Jacquard cloth(const SurfaceSettings& settings) {
 /// Darker at a thread's edges, where it dives under its neighbours.
 Image base_color(const SurfaceSettings& settings) {
   const Jacquard silk = cloth(settings);
-  return fill_colors(glm::ivec2{settings.resolution}, [&](const glm::dvec2& place) {
-    const Thread thread = silk.at(place);
+  return fill_colors(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
+    const Thread thread = silk.at(uv);
     const double shade = (1.0 - 0.45 * thread.across * thread.across) * (0.8 + 0.4 * thread.uneven);
     return glm::min(shade * (thread.weft ? weft_color : warp_color), 1.0);
   });
@@ -34,16 +34,16 @@ Image base_color(const SurfaceSettings& settings) {
 
 Image specular(const SurfaceSettings& settings) {
   const Jacquard silk = cloth(settings);
-  return fill_rgb(glm::ivec2{settings.resolution}, [&](const glm::dvec2& place) {
-    return silk.at(place).weft ? glm::dvec3{0.55, 0.38, 0.14} : glm::dvec3{0.06, 0.028, 0.034};
+  return fill_rgb(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
+    return silk.at(uv).weft ? glm::dvec3{0.55, 0.38, 0.14} : glm::dvec3{0.06, 0.028, 0.034};
   });
 }
 
 /// Silk is glossy along the weft's long floats and dull where a thread has been worked harder.
 Image exponents(const SurfaceSettings& settings) {
   const Jacquard silk = cloth(settings);
-  return fill_values(glm::ivec2{settings.resolution}, [&](const glm::dvec2& place) {
-    const Thread thread = silk.at(place);
+  return fill_values(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
+    const Thread thread = silk.at(uv);
     return (thread.weft ? 220.0 : 14.0) * std::exp2(2.0 * thread.uneven - 1.0);
   });
 }
@@ -53,14 +53,14 @@ class Stuffing {
  public:
   explicit Stuffing(std::uint32_t seed) : Stuffing(std::mt19937_64(seed)) {}
 
-  [[nodiscard]] BentPoint at(const HeightPlace& place, double facing) const {
-    const Height s = spread(place.x), t = spread(place.y);
+  [[nodiscard]] BentPoint at(const HeightPoint& point, double facing) const {
+    const Height s = spread(point.x), t = spread(point.y);
     // Filling draws the sides in, which leaves the corners out.
     const Height x = half_width * s * (1.0 - 0.10 * (1.0 - t * t) * s * s);
     const Height y = half_height * t * (1.0 - 0.16 * (1.0 - s * s) * t * t);
-    const Height round = cos(quarter * place.x) * cos(quarter * place.y);
-    const Height dents = noise_.at(3.0 * place.x + 3.0 * facing, 1.7 * place.y);
-    return {x, y, facing * half_thickness * round * (1.0 + 0.10 * dents + puckers(place, facing))};
+    const Height round = cos(quarter * point.x) * cos(quarter * point.y);
+    const Height dents = noise_.at(3.0 * point.x + 3.0 * facing, 1.7 * point.y);
+    return {x, y, facing * half_thickness * round * (1.0 + 0.10 * dents + puckers(point, facing))};
   }
 
  private:
@@ -72,11 +72,11 @@ class Stuffing {
   [[nodiscard]] static Height spread(const Height& x) { return 0.9 * sin(quarter * x) + 0.1 * x; }
 
   /// Short creases across the seams and long ones out of the corners.
-  [[nodiscard]] Height puckers(const HeightPlace& place, double facing) const {
-    const Height to_sides = place.x * place.x, to_ends = place.y * place.y;
-    const Height along_sides = noise_.at(11.0 * place.y + 5.0 * facing, 0.8 * place.x);
-    const Height along_ends = noise_.at(19.0 * place.x + 7.0 * facing, 0.8 * place.y);
-    const Height corners = noise_.at(5.0 * (place.x - place.y) + 2.0 * facing, 5.0 * (place.x + place.y));
+  [[nodiscard]] Height puckers(const HeightPoint& point, double facing) const {
+    const Height to_sides = point.x * point.x, to_ends = point.y * point.y;
+    const Height along_sides = noise_.at(11.0 * point.y + 5.0 * facing, 0.8 * point.x);
+    const Height along_ends = noise_.at(19.0 * point.x + 7.0 * facing, 0.8 * point.y);
+    const Height corners = noise_.at(5.0 * (point.x - point.y) + 2.0 * facing, 5.0 * (point.x + point.y));
     return 0.5 * to_sides * to_sides * along_sides + 0.5 * to_ends * to_ends * along_ends +
            0.6 * to_sides * to_ends * corners;
   }
@@ -89,9 +89,9 @@ Mesh mesh(const SurfaceSettings& settings) {
   constexpr int columns = 160, rows = 80;
   const Stuffing stuffing(settings.seed);
   const auto side = [&](double facing) {
-    return grid_mesh(columns, rows, [&](const glm::dvec2& place) {
-      const HeightPlace at{2.0 * place - 1.0};
-      HeightPlace turned = at;
+    return grid_mesh(columns, rows, [&](const glm::dvec2& st) {
+      const HeightPoint at{2.0 * st - 1.0};
+      HeightPoint turned = at;
       turned.x *= facing;
       // Nearer to lengths along the cloth than (s, t) are.
       const auto share = [](double t) { return 0.5 + 0.5 * (0.5 * t + 0.5 * std::sin(std::numbers::pi / 2.0 * t)); };

@@ -14,8 +14,8 @@ Image normals(const SurfaceSettings& settings) {
   const DomeLattice lattice(static_cast<int>(parameters.number("count")), parameters.number("fill"),
                             parameters.number("variation"), settings.seed);
   const double edge = std::sin(glm::radians(parameters.number("edge_degrees")));
-  return fill_normals(settings.resolution, [&](const glm::dvec2& place) {
-    const auto dome = lattice.at(place);
+  return fill_normals(settings.resolution, [&](const glm::dvec2& uv) {
+    const auto dome = lattice.at(uv);
     return dome ? dome->normal(edge) : glm::dvec3{0.0, 0.0, 1.0};
   });
 }

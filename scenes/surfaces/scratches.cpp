@@ -18,7 +18,7 @@ struct Scratch {
   double depth = 0.0;  ///< at its middle line
 };
 
-/// How deep and how steep a place is cut; a flat place is not.
+/// How deep and how steep a point is cut; a flat one is not.
 struct Cut {
   double depth = 0.0;
   glm::dvec2 slope{0.0};
@@ -40,9 +40,9 @@ std::vector<Scratch> scatter(const SurfaceSettings& settings) {
   return scratches;
 }
 
-Cut cut_at(const Scratch& scratch, const glm::dvec2& place) {
+Cut cut_at(const Scratch& scratch, const glm::dvec2& uv) {
   const glm::dvec2 across_direction{-scratch.direction.y, scratch.direction.x};
-  const glm::dvec2 offset = place - scratch.centre;
+  const glm::dvec2 offset = uv - scratch.centre;
   const double along = glm::dot(offset, scratch.direction) / scratch.half_length;
   const double across = glm::dot(offset, across_direction) / scratch.half_width;
   if (std::abs(along) >= 1.0 || std::abs(across) >= 1.0) return {};
@@ -62,11 +62,11 @@ class ScratchGrid {
     }
   }
 
-  /// The deepest cut at `place`.
-  [[nodiscard]] Cut at(const glm::dvec2& place) const {
+  /// The deepest cut at `uv`.
+  [[nodiscard]] Cut at(const glm::dvec2& uv) const {
     Cut deepest;
-    for (const Scratch& scratch : cells_.at(static_cast<int>(place.x * side), static_cast<int>(place.y * side))) {
-      const Cut cut = cut_at(scratch, place);
+    for (const Scratch& scratch : cells_.at(static_cast<int>(uv.x * side), static_cast<int>(uv.y * side))) {
+      const Cut cut = cut_at(scratch, uv);
       if (cut.depth > deepest.depth) deepest = cut;
     }
     return deepest;
@@ -98,7 +98,7 @@ class ScratchGrid {
 Image normals(const SurfaceSettings& settings) {
   const ScratchGrid scratches(scatter(settings));
   return fill_normals(settings.resolution,
-                      [&](const glm::dvec2& place) { return normal_of_slope(scratches.at(place).slope); });
+                      [&](const glm::dvec2& uv) { return normal_of_slope(scratches.at(uv).slope); });
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace footprint {
 namespace {
 
-/// What a place is made of.
+/// What a point is made of.
 struct Stuff {
   glm::dvec3 albedo, specular;
   double exponent;
@@ -26,8 +26,8 @@ DomeLattice studs(const SurfaceSettings& settings) {
   return {static_cast<int>(parameters.number("count")), parameters.number("fill"), 0.15, settings.seed};
 }
 
-Stuff stuff_at(const DomeLattice& lattice, const glm::dvec2& place) {
-  const auto dome = lattice.at(place);
+Stuff stuff_at(const DomeLattice& lattice, const glm::dvec2& uv) {
+  const auto dome = lattice.at(uv);
   if (!dome) return ground;
   Stuff stuff = dome->chance < 0.5 ? gold : steel;
   const double polish = 2.0 * dome->chance - std::floor(2.0 * dome->chance);
@@ -38,8 +38,8 @@ Stuff stuff_at(const DomeLattice& lattice, const glm::dvec2& place) {
 Image normals(const SurfaceSettings& settings) {
   const DomeLattice lattice = studs(settings);
   const double edge = std::sin(glm::radians(settings.parameters.number("edge_degrees")));
-  return fill_normals(settings.resolution, [&](const glm::dvec2& place) {
-    const auto dome = lattice.at(place);
+  return fill_normals(settings.resolution, [&](const glm::dvec2& uv) {
+    const auto dome = lattice.at(uv);
     return dome ? dome->normal(edge) : glm::dvec3{0.0, 0.0, 1.0};
   });
 }
@@ -47,19 +47,19 @@ Image normals(const SurfaceSettings& settings) {
 Image base_color(const SurfaceSettings& settings) {
   const DomeLattice lattice = studs(settings);
   return fill_colors(glm::ivec2{settings.resolution},
-                     [&](const glm::dvec2& place) { return stuff_at(lattice, place).albedo; });
+                     [&](const glm::dvec2& uv) { return stuff_at(lattice, uv).albedo; });
 }
 
 Image specular(const SurfaceSettings& settings) {
   const DomeLattice lattice = studs(settings);
   return fill_rgb(glm::ivec2{settings.resolution},
-                  [&](const glm::dvec2& place) { return stuff_at(lattice, place).specular; });
+                  [&](const glm::dvec2& uv) { return stuff_at(lattice, uv).specular; });
 }
 
 Image exponents(const SurfaceSettings& settings) {
   const DomeLattice lattice = studs(settings);
   return fill_values(glm::ivec2{settings.resolution},
-                     [&](const glm::dvec2& place) { return stuff_at(lattice, place).exponent; });
+                     [&](const glm::dvec2& uv) { return stuff_at(lattice, uv).exponent; });
 }
 
 }  // namespace

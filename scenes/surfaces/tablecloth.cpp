@@ -25,8 +25,8 @@ Image normals(const SurfaceSettings& settings) {
   std::mt19937_64 random(settings.seed);
   const OctaveNoise creases(octaves, random);
   const double steepness = settings.parameters.number("steepness");
-  return fill_normals(settings.resolution, [&](const glm::dvec2& place) {
-    return normal_of_slope(steepness * slope_of(creases.relief(HeightPlace{place})));
+  return fill_normals(settings.resolution, [&](const glm::dvec2& uv) {
+    return normal_of_slope(steepness * slope_of(creases.relief(HeightPoint{uv})));
   });
 }
 
@@ -36,7 +36,7 @@ class Drape {
   explicit Drape(std::uint32_t seed) : Drape(std::mt19937_64(seed)) {}
 
   /// Where the point of the cloth comes to lie that is `at` from its middle, metres: x to the right, y to the back.
-  [[nodiscard]] BentPoint at(const HeightPlace& at) const {
+  [[nodiscard]] BentPoint at(const HeightPoint& at) const {
     const Height radius = sqrt(at.x * at.x + at.y * at.y + 1e-18);
     if (radius.value() <= table_radius) return {at.x, Height{table_height}, -at.y};
     const Height length = radius - table_radius;
@@ -56,7 +56,7 @@ class Drape {
   explicit Drape(std::mt19937_64 random) : wander_(8, random) {}
 
   /// 0 in a hollow to 1 on a ridge: as many waves around the table as the cloth is too wide there.
-  [[nodiscard]] Height folds(const HeightPlace& at, const Height& radius) const {
+  [[nodiscard]] Height folds(const HeightPoint& at, const Height& radius) const {
     constexpr double waves = 9.0;
     const Height angle = atan2(at.y, at.x);
     // The noise is looked up on a circle, so that it closes around the table.
@@ -72,8 +72,8 @@ class Drape {
 Mesh mesh(const SurfaceSettings& settings) {
   constexpr int cells = 260;
   const Drape drape(settings.seed);
-  Mesh mesh = grid_mesh(cells, cells, [&](const glm::dvec2& place) {
-    return bent_vertex(drape.at(HeightPlace{half_side * (2.0 * place - 1.0)}), {place.x, 1.0 - place.y});
+  Mesh mesh = grid_mesh(cells, cells, [&](const glm::dvec2& st) {
+    return bent_vertex(drape.at(HeightPoint{half_side * (2.0 * st - 1.0)}), {st.x, 1.0 - st.y});
   });
   mesh.name = "tablecloth";
   return mesh;

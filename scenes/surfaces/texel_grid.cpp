@@ -1,4 +1,4 @@
-// See texel_grid.hpp.
+// Evaluates a function at the centre of every texel, v upwards, with rows in parallel.
 #include "scenes/surfaces/texel_grid.hpp"
 
 #include <tbb/blocked_range.h>
@@ -8,8 +8,8 @@ namespace footprint {
 namespace {
 
 /// `Count` channels, computed; one more holds 1 where `channels` asks for it.
-template <int Count, typename ValueAtPlace>
-Image fill(glm::ivec2 size, int channels, const ValueAtPlace& value_at) {
+template <int Count, typename ValueAtUv>
+Image fill(glm::ivec2 size, int channels, const ValueAtUv& value_at) {
   Image image(size.x, size.y, channels, 1.0F);
   tbb::parallel_for(tbb::blocked_range<int>(0, size.y), [&](const tbb::blocked_range<int>& rows) {
     for (int y = rows.begin(); y < rows.end(); ++y) {

@@ -1,4 +1,4 @@
-// Fills a surface's square maps texel by texel, in parallel; every texel is a pure function of its place.
+// Fills a surface's square maps texel by texel, in parallel; every texel is a pure function of its uv.
 #pragma once
 
 #include <functional>
@@ -10,13 +10,13 @@
 namespace footprint {
 
 /// The unit normal at a point of the map: x to the right, y upwards, both within (0, 1).
-using NormalAt = std::function<glm::dvec3(const glm::dvec2& place)>;
+using NormalAt = std::function<glm::dvec3(const glm::dvec2& uv)>;
 
 /// The colour (0 to 1, linear) at such a point.
-using ColorAt = std::function<glm::dvec3(const glm::dvec2& place)>;
+using ColorAt = std::function<glm::dvec3(const glm::dvec2& uv)>;
 
 /// A single value, such as the exponent of a lobe, at such a point.
-using ValueAt = std::function<double(const glm::dvec2& place)>;
+using ValueAt = std::function<double(const glm::dvec2& uv)>;
 
 /// The normals at the texels' centres, with weight 1. The functions are called from several threads at once.
 [[nodiscard]] Image fill_normals(int resolution, const NormalAt& normal_at);

@@ -1,4 +1,4 @@
-// See turned.hpp.
+// Each line or arc of the profile becomes a grid of its own, with normals from derivatives; pinched triangles go.
 #include "scenes/surfaces/turned.hpp"
 
 #include <algorithm>
@@ -54,12 +54,12 @@ bool is_pinched(const Mesh& mesh, std::size_t first) {
 
 }  // namespace
 
-Mesh pinched_grid_mesh(int columns, int rows, const std::function<BentPoint(const HeightPlace&)>& point,
+Mesh pinched_grid_mesh(int columns, int rows, const std::function<BentPoint(const HeightPoint&)>& point,
                        const std::function<glm::dvec2(const glm::dvec2&)>& uv_of) {
   // So near to its end a row has a direction still, and for the picture no length.
   constexpr double end = 1e-6;
-  const Mesh grid = grid_mesh(columns, rows, [&](const glm::dvec2& place) {
-    return bent_vertex(point(HeightPlace{{place.x, std::clamp(place.y, end, 1.0 - end)}}), uv_of(place));
+  const Mesh grid = grid_mesh(columns, rows, [&](const glm::dvec2& st) {
+    return bent_vertex(point(HeightPoint{{st.x, std::clamp(st.y, end, 1.0 - end)}}), uv_of(st));
   });
   Mesh mesh = grid;
   mesh.indices.clear();
@@ -81,15 +81,15 @@ Mesh turned_mesh(const Profile& profile, int columns, double row) {
   double wave = 0.0, done = 0.0;
   for (const Cut& cut : profile.cuts) {
     const double length = cut_length(from, cut);
-    const auto point = [&](const HeightPlace& at) -> BentPoint {
+    const auto point = [&](const HeightPoint& at) -> BentPoint {
       const ProfilePoint on = along(from, cut, at.y);
       const Height angle = 2.0 * pi * at.x;
       const Height lift = (wave + (cut.wave - wave) * at.y) * cos(profile.waves * angle);
       return {on.radius * sin(angle), on.height + lift, on.radius * cos(angle)};
     };
     const int rows = static_cast<int>(std::ceil(std::max({1.0, length / row, std::abs(arc_angle(cut)) / widest_turn})));
-    append(mesh, pinched_grid_mesh(columns, rows, point, [&](const glm::dvec2& place) {
-             return glm::dvec2{place.x, 1.0 - (done + length * place.y) / whole};
+    append(mesh, pinched_grid_mesh(columns, rows, point, [&](const glm::dvec2& st) {
+             return glm::dvec2{st.x, 1.0 - (done + length * st.y) / whole};
            }));
     from = cut.to;
     wave = cut.wave;

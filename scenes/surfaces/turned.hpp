@@ -28,9 +28,9 @@ struct Profile {
 /// every 18 degrees of its arc.
 [[nodiscard]] Mesh turned_mesh(const Profile& profile, int columns, double row);
 
-/// grid_mesh of a point as a formula of its place, without the triangles that have no area because a row of the grid
-/// shrinks to a point. Texture coordinates are `uv_of` the place.
-[[nodiscard]] Mesh pinched_grid_mesh(int columns, int rows, const std::function<BentPoint(const HeightPlace&)>& point,
+/// grid_mesh of a point as a formula of (s, t), without the triangles that have no area because a row of the grid
+/// shrinks to a point. Texture coordinates are `uv_of` (s, t).
+[[nodiscard]] Mesh pinched_grid_mesh(int columns, int rows, const std::function<BentPoint(const HeightPoint&)>& point,
                                      const std::function<glm::dvec2(const glm::dvec2&)>& uv_of);
 
 }  // namespace footprint

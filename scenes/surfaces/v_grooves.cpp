@@ -28,10 +28,10 @@ Image normals(const SurfaceSettings& settings) {
       groove_ends(static_cast<int>(parameters.number("count")), parameters.number("variation"), settings.seed);
   const double tilt = glm::radians(parameters.number("tilt_degrees"));
   const glm::dvec3 falling{std::sin(tilt), 0.0, std::cos(tilt)}, rising{-falling.x, 0.0, falling.z};
-  return fill_normals(settings.resolution, [&](const glm::dvec2& place) {
-    const auto end = std::ranges::upper_bound(ends, place.x);
+  return fill_normals(settings.resolution, [&](const glm::dvec2& uv) {
+    const auto end = std::ranges::upper_bound(ends, uv.x);
     const double start = end == ends.begin() ? 0.0 : *(end - 1);
-    return place.x - start < *end - place.x ? falling : rising;
+    return uv.x - start < *end - uv.x ? falling : rising;
   });
 }
 

@@ -145,8 +145,8 @@ TEST(Jacquard, HasOneThreadOnTopAndTiles) {
   int binding = 0, ground = 0;
   for (int row = 0; row < 40; ++row) {
     for (int column = 0; column < 40; ++column) {
-      const glm::dvec2 place{(column + 0.5) / 40.0, (row + 0.5) / 40.0};
-      const Thread thread = cloth.at(place), again = cloth.at(place + glm::dvec2{1.0, -2.0});
+      const glm::dvec2 uv{(column + 0.5) / 40.0, (row + 0.5) / 40.0};
+      const Thread thread = cloth.at(uv), again = cloth.at(uv + glm::dvec2{1.0, -2.0});
       EXPECT_EQ(thread.weft, again.weft);
       EXPECT_EQ(thread.uneven, again.uneven);
       EXPECT_NEAR(thread.across, 0.0, 1e-9);
@@ -160,10 +160,10 @@ TEST(Jacquard, HasOneThreadOnTopAndTiles) {
 TEST(OctaveNoise, HasTheSlopeOfItsRelief) {
   std::mt19937_64 random(3);
   const OctaveNoise noise(std::array{Octave{4, 0.2}, Octave{17, 0.3}}, random);
-  const auto height = [&](double x, double y) { return noise.relief(HeightPlace{{x, y}}).value(); };
+  const auto height = [&](double x, double y) { return noise.relief(HeightPoint{{x, y}}).value(); };
   for (int i = 0; i < 50; ++i) {
     const double x = 0.019 * i, y = 0.37 + 0.011 * i, step = 1e-6;
-    const glm::dvec2 slope = slope_of(noise.relief(HeightPlace{{x, y}}));
+    const glm::dvec2 slope = slope_of(noise.relief(HeightPoint{{x, y}}));
     EXPECT_NEAR(slope.x, (height(x + step, y) - height(x - step, y)) / (2 * step), 1e-6);
     EXPECT_NEAR(slope.y, (height(x, y + step) - height(x, y - step)) / (2 * step), 1e-6);
   }

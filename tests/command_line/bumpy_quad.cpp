@@ -1,4 +1,4 @@
-// See bumpy_quad.hpp.
+// The quad of GltfBuilder under a normal map of 2 x 2 texels, whose PNG file is made in memory.
 #include "tests/command_line/bumpy_quad.hpp"
 
 #include "renderer/image/test_png.hpp"

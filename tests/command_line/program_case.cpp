@@ -1,4 +1,4 @@
-// See program_case.hpp.
+// Runs the program in a folder of its own and checks its exit code, what it prints and the files that it leaves.
 #include "tests/command_line/program_case.hpp"
 
 #include <algorithm>

@@ -60,17 +60,17 @@ class Report(WholeRunTest):
         text = (self.out / "index.html").read_text(encoding="utf-8")
         references = References()
         references.feed(text)
-        loaded = [place for place in references.found if not place.startswith(("data:", "#"))]
+        loaded = [path for path in references.found if not path.startswith(("data:", "#"))]
         pictures = set(re.findall(r"images/[\w.-]+\.(?:exr|png)", text))
         self.assertGreaterEqual(len(pictures), 2 * (1 + 2 * len(METHODS)))
-        for place in [*loaded, *pictures]:
-            self.assertTrue((self.out / place).is_file(), place)
+        for path in [*loaded, *pictures]:
+            self.assertTrue((self.out / path).is_file(), path)
 
     def test_every_picture_of_a_record_is_there(self):
         for record in self.records.values():
-            for place in record["images"].values():
-                self.assertTrue((self.out / place).is_file(), place)
-                self.assertTrue((self.out / place).with_suffix(".png").is_file(), place)
+            for path in record["images"].values():
+                self.assertTrue((self.out / path).is_file(), path)
+                self.assertTrue((self.out / path).with_suffix(".png").is_file(), path)
 
     def test_the_pictures_are_whole(self):
         files = sorted((self.out / "images").glob("*.exr"))

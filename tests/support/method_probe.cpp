@@ -1,4 +1,4 @@
-// See method_probe.hpp.
+// Bakes the method, binds its textures, and evaluates its shader text with the whole map as the footprint.
 #include "tests/support/method_probe.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See process.hpp.
+// fork and execve with output and errors in files; polls them for the end, the text to interrupt at and the timeout.
 #include "tests/support/process.hpp"
 
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-// See rendering.hpp.
+// One EGL context for all tests of a program; every picture bakes its method anew.
 #include "tests/support/rendering.hpp"
 
 #include <algorithm>

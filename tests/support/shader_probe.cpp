@@ -1,4 +1,4 @@
-// See shader_probe.hpp.
+// The text runs in a compute shader with one invocation for each three inputs.
 #include "tests/support/shader_probe.hpp"
 
 #include "renderer/gl/objects.hpp"

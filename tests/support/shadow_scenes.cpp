@@ -1,4 +1,4 @@
-// See shadow_scenes.hpp.
+// Boxes and spheres of plain triangles, and the bounds of the scenes that they stand in.
 #include "tests/support/shadow_scenes.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// See slope_twin.hpp.
+// Both densities in double precision by their formulas, written without the shaders.
 #include "tests/support/slope_twin.hpp"
 
 #include <algorithm>

@@ -20,7 +20,7 @@ struct SlopeTwin {
   double lobe;
 
   [[nodiscard]] glm::dvec3 axis() const;
-  [[nodiscard]] double variance() const;  ///< of the base lobe, per axis
+  [[nodiscard]] double variance() const;  ///< slope variance of the base lobe, per axis
 
   /// Density over solid angle: the base lobe stretched to the covariance, and the Gaussian of slopes.
   [[nodiscard]] double stretched(const glm::dvec3& h) const;

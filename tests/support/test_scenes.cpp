@@ -1,4 +1,4 @@
-// See test_scenes.hpp.
+// Normal maps, random ones by fixed seeds, and a square under one light with the camera above it.
 #include "tests/support/test_scenes.hpp"
 
 #include <algorithm>

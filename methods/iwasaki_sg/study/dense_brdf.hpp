@@ -28,7 +28,7 @@ class FacetSum {
   FacetSum(const Material& material, const TableSettings& settings, BinnedFacets facets,
            std::vector<glm::dvec3> directions, const Progress& progress);
 
-  /// For directions by their places in the list.
+  /// For directions by their indices in the list.
   [[nodiscard]] glm::dvec3 operator()(std::size_t wi, std::size_t wo) const;
 
   [[nodiscard]] const std::vector<glm::dvec3>& directions() const { return bvndf_.directions; }

@@ -14,7 +14,7 @@
 namespace footprint::iwasaki_sg {
 namespace {
 
-// The base lobe as wide as it and the normals' lobe are together: variances add.
+// The base lobe as wide as it and the normals' lobe are together: slope variances add.
 double widened(const Lobe& base, const SphericalGaussian& lobe, const glm::dvec3& h) {
   const float variance = lobe_variance(base) + static_cast<float>(1.0 / lobe.sharpness);
   return lobe_density(lobe_from_variance(base.distribution, variance), one_minus_dot(lobe.axis, h));

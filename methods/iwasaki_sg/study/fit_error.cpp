@@ -28,11 +28,11 @@ std::uint32_t turned_cell(const glm::dvec3& normal) {
 
 // The point of a face of the cube, (u, v) from -1 to 1.
 glm::dvec3 cube_point(int face, double u, double v) {
-  glm::dvec3 place(0.0);
-  place[face / 2] = face % 2 == 0 ? 1.0 : -1.0;
-  place[(face / 2 + 1) % 3] = u;
-  place[(face / 2 + 2) % 3] = v;
-  return place;
+  glm::dvec3 point(0.0);
+  point[face / 2] = face % 2 == 0 ? 1.0 : -1.0;
+  point[(face / 2 + 1) % 3] = u;
+  point[(face / 2 + 2) % 3] = v;
+  return point;
 }
 
 // Adds what a lobe holds in the cell of a face about (u, v), by steps^2 sub-cells, to the cells of the turned cube map.
@@ -42,9 +42,9 @@ void add_shares(const SphericalGaussian& lobe, int face, glm::dvec2 middle, int 
   for (int y = 0; y < steps; ++y) {
     for (int x = 0; x < steps; ++x) {
       const glm::dvec2 at = middle + (glm::dvec2(x, y) + 0.5) * width - 0.5 * cell_width;
-      const glm::dvec3 place = cube_point(face, at.x, at.y);
-      const double length = glm::length(place);
-      const glm::dvec3 direction = place / length;
+      const glm::dvec3 point = cube_point(face, at.x, at.y);
+      const double length = glm::length(point);
+      const glm::dvec3 direction = point / length;
       own[turned_cell(direction)] += value(lobe, direction) * width * width / (length * length * length);
     }
   }

@@ -1,4 +1,4 @@
-// See assemble.hpp.
+// Joins the parts to one model, then settles bounds, camera, lights and exposure, and notes what it had to supply.
 #include "renderer/scene/assembly/assemble.hpp"
 
 #include <algorithm>

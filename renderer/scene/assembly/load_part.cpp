@@ -1,4 +1,4 @@
-// See load_part.hpp.
+// Loads a part's content, lays BRDF, patches, layer and maps over each of its materials, then moves it into the world.
 #include "renderer/scene/assembly/load_part.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See load_scene.hpp: what a SCENE argument names.
+// Tells what a SCENE argument names: a scene of the library, a folder, a .toml file or a model file.
 #include "renderer/scene/assembly/load_scene.hpp"
 
 #include <algorithm>

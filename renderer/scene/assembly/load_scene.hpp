@@ -28,7 +28,7 @@ struct SceneSource {
 
 /// Loads SCENE as the command line takes it: a folder of `library.folder`, a folder with a scene.toml, a path to a
 /// scene.toml, or a .gltf / .glb file (camera framed on its bounds and a light rig supplied where the file has none).
-/// `camera` stands in for the scene's own, where it says anything. Errors (usage) name file, place and mend; an unknown
+/// `camera` stands in for the scene's own, where it says anything. Errors (usage) name file, place and hint; an unknown
 /// key in scene.toml names its line and the nearest right key, and so does a surface that is not in the library.
 [[nodiscard]] Scene load_scene(const std::string& scene, const SceneLibrary& library,
                                const CameraSettings& camera = {});

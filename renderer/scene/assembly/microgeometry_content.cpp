@@ -1,4 +1,4 @@
-// See microgeometry_content.hpp.
+// Makes the patch, by its kind or from a model's triangles; its maps give a material its normals and mean colour.
 #include "renderer/scene/assembly/microgeometry_content.hpp"
 
 #include <fmt/format.h>

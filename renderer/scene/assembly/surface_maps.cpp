@@ -1,4 +1,4 @@
-// See surface_maps.hpp.
+// Decodes texel by texel; normals without a direction get weight 0, those that point inwards are laid flat.
 #include "renderer/scene/assembly/surface_maps.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See accessor.hpp.
+// Finds elements within their buffer view, checks their ends against its length, copies and converts them one by one.
 #include "renderer/scene/gltf/accessor.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
-// See check.hpp. One table of rules says what each member must be; a walker applies them.
+// One table of rules says what each member must be; a walker applies them.
 #include "renderer/scene/gltf/check.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -139,7 +139,7 @@ constexpr auto rules = std::to_array<Rule>({
     {"skins[]", Kind::object},
 });
 
-constexpr auto texture_places = std::to_array<std::string_view>({
+constexpr auto texture_paths = std::to_array<std::string_view>({
     "materials[].pbrMetallicRoughness.baseColorTexture",
     "materials[].pbrMetallicRoughness.metallicRoughnessTexture",
     "materials[].normalTexture",
@@ -147,7 +147,7 @@ constexpr auto texture_places = std::to_array<std::string_view>({
     "materials[].emissiveTexture",
 });
 
-/// What stands under each of `texture_places`.
+/// What stands under each of `texture_paths`.
 constexpr auto texture_rules = std::to_array<Rule>({
     {"", Kind::object},
     {".index", Kind::index, Need::required, "textures"},
@@ -164,8 +164,8 @@ constexpr auto supported = std::to_array<std::string_view>(
     {"KHR_lights_punctual", "KHR_materials_ior", "KHR_mesh_quantization", "KHR_texture_transform"});
 
 [[noreturn]] void fail(const std::string& place, const std::string& message,
-                       const std::string& mend = "repair the file or export it again") {
-  throw Error(ErrorKind::usage, place, message, mend);
+                       const std::string& hint = "repair the file or export it again") {
+  throw Error(ErrorKind::usage, place, message, hint);
 }
 
 std::size_t array_size(const json& document, std::string_view path) {
@@ -353,9 +353,9 @@ void check_gltf_json(const json& document) {
   if (!document.is_object()) fail({}, "the JSON is no object, so this is no glTF file");
   check_version(document);
   for (const Rule& rule : rules) apply_rule(document, rule);
-  for (const std::string_view place : texture_places) {
+  for (const std::string_view texture : texture_paths) {
     for (Rule rule : texture_rules) {
-      const std::string path = std::string{place} + std::string{rule.path};
+      const std::string path = std::string{texture} + std::string{rule.path};
       rule.path = path;
       apply_rule(document, rule);
     }

@@ -1,4 +1,4 @@
-// See document.hpp.
+// Checks container and JSON before tinygltf parses them; images stay encoded, files come from the model's folder alone.
 #include "renderer/scene/gltf/document.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ namespace footprint {
 namespace {
 
 constexpr std::uint64_t largest_file = std::numeric_limits<std::int32_t>::max();  // tinygltf counts in int
-constexpr const char* damaged_mend = "the file is damaged: export or download it again";
+constexpr const char* damaged_hint = "the file is damaged: export or download it again";
 
 std::uint32_t word_at(std::span<const std::uint8_t> bytes, std::size_t offset) {
   const auto b = bytes.subspan(offset, 4);
@@ -30,7 +30,7 @@ std::uint32_t word_at(std::span<const std::uint8_t> bytes, std::size_t offset) {
 }
 
 [[noreturn]] void fail_container(const std::string& message) {
-  throw Error(ErrorKind::usage, "GLB container", message, damaged_mend);
+  throw Error(ErrorKind::usage, "GLB container", message, damaged_hint);
 }
 
 /// The JSON text of a GLB file; checks header and chunks, whose lengths tinygltf 2.7 trusts in part.
@@ -128,7 +128,7 @@ GltfDocument read_gltf(const std::filesystem::path& file) {
   const bool binary = bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
   try {
     if (!binary && std::ranges::find(bytes, 0) != bytes.end()) {
-      throw Error(ErrorKind::usage, {}, "is neither JSON text nor a GLB container", damaged_mend);
+      throw Error(ErrorKind::usage, {}, "is neither JSON text nor a GLB container", damaged_hint);
     }
     check_gltf_json(parse_gltf_json(
         binary ? glb_json(bytes) : std::string_view{reinterpret_cast<const char*>(bytes.data()), bytes.size()}));

@@ -1,4 +1,4 @@
-// See lights_cameras.hpp.
+// Takes position and direction out of a node's transform, and refuses strengths, ranges and angles out of bounds.
 #include "renderer/scene/gltf/lights_cameras.hpp"
 
 #include <fmt/format.h>

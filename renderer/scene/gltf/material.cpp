@@ -1,4 +1,4 @@
-// See material.hpp.
+// Converts each material and each of its images once, on first use, and warns of what is left out.
 #include "renderer/scene/gltf/material.hpp"
 
 #include <fmt/format.h>
@@ -69,11 +69,11 @@ std::string image_name(const tinygltf::Image& image, int index) {
 }  // namespace
 
 int GltfMaterials::use(int gltf_index) {
-  if (const auto known = places_.find(gltf_index); known != places_.end()) return known->second;
+  if (const auto known = indices_.find(gltf_index); known != indices_.end()) return known->second;
   materials_.push_back(convert(gltf_index));
-  const int place = static_cast<int>(materials_.size()) - 1;
-  places_.emplace(gltf_index, place);
-  return place;
+  const int index = static_cast<int>(materials_.size()) - 1;
+  indices_.emplace(gltf_index, index);
+  return index;
 }
 
 Material GltfMaterials::convert(int gltf_index) {

@@ -20,7 +20,7 @@ class GltfMaterials {
   GltfMaterials(const GltfDocument& document, std::vector<std::string>& warnings)
       : document_(document), warnings_(warnings) {}
 
-  /// The place in `materials()` of glTF material `gltf_index`; -1 is glTF's default material. Errors (usage) name
+  /// The index in `materials()` of glTF material `gltf_index`; -1 is glTF's default material. Errors (usage) name
   /// material and texture: an image that is missing, empty, no image or of hostile size, factors that are not finite.
   [[nodiscard]] int use(int gltf_index);
 
@@ -43,7 +43,7 @@ class GltfMaterials {
   const GltfDocument& document_;
   std::vector<std::string>& warnings_;
   std::vector<Material> materials_;
-  std::map<int, int> places_;
+  std::map<int, int> indices_;
   std::map<std::pair<int, Transfer>, Image> stored_;  ///< as in the files, for this conversion only
   std::map<std::string, MapPointer> maps_;            ///< decoded, by image, use and factors
 };

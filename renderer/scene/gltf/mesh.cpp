@@ -1,4 +1,4 @@
-// See mesh.hpp.
+// Reads the attributes, moves them into the world, and repairs or computes the normals and tangents.
 #include "renderer/scene/gltf/mesh.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See model.hpp.
+// Walks the node tree with a stack of its own and joins all primitives of a material to one mesh.
 #include "renderer/scene/gltf/model.hpp"
 
 #include <fmt/format.h>
@@ -23,8 +23,8 @@ namespace {
 constexpr int deepest_node = 1000;
 
 [[noreturn]] void fail(const std::string& place, const std::string& message,
-                       const std::string& mend = "repair the file or export it again") {
-  throw Error(ErrorKind::usage, place, message, mend);
+                       const std::string& hint = "repair the file or export it again") {
+  throw Error(ErrorKind::usage, place, message, hint);
 }
 
 glm::dvec3 vector_or(const std::vector<double>& values, double otherwise) {

@@ -1,4 +1,4 @@
-// See test_builder.hpp.
+// Grows JSON and its binary data side by side; they leave as text with a data URI, or as a GLB container.
 #include "renderer/scene/gltf/test_builder.hpp"
 
 #include <fmt/format.h>

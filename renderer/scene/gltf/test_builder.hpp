@@ -58,7 +58,7 @@ template <typename Action>
     (void)action();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage) << error.what();
-    EXPECT_FALSE(error.mend().empty()) << error.what();
+    EXPECT_FALSE(error.hint().empty()) << error.what();
     return error.what();
   }
   return {};

@@ -1,4 +1,4 @@
-// See environment_settings.hpp.
+// Reads [environment], refuses the keys of other kinds, and makes the map that the settings name.
 #include "renderer/scene/settings/environment.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// See part_settings.hpp.
+// Reads each table of a part with its keys and ranges; what excludes what is refused here, by line.
 #include "renderer/scene/settings/part.hpp"
 
 #include <fmt/format.h>
@@ -152,9 +152,9 @@ std::optional<MapFile> read_map(const TomlTable& maps, std::string_view key, con
 MapSettings read_maps(const TomlTable& table, const BrdfSettings& brdf, const std::filesystem::path& folder) {
   MapSettings maps;
   const auto lobe = find_lobe(table, brdf.distribution);
-  const auto refuse_width = [&](bool refused, const std::string& message, const std::string& mend) {
+  const auto refuse_width = [&](bool refused, const std::string& message, const std::string& hint) {
     const std::string_view key = lobe.value_or("roughness");
-    if (refused && table.has(key)) throw table.error_at(key, message, mend);
+    if (refused && table.has(key)) throw table.error_at(key, message, hint);
   };
   refuse_width(lobe && table.has("roughness"), "excludes a map of roughness", "give one of the two");
   refuse_width(brdf.lobe_parameter.has_value(), "excludes a lobe parameter of [brdf]", "leave one of them out");
@@ -192,9 +192,9 @@ std::map<std::string, std::string> read_parameters(const TomlTable& table, const
 SurfaceContent read_surface(const TomlTable& table, std::span<const Surface> surfaces) {
   std::vector<std::string> names;
   for (const Surface& surface : surfaces) names.push_back(surface.name);
-  const auto place = table.choice("name", names);
-  if (!place) refuse_missing(table, "name");
-  const Surface& surface = surfaces[*place];
+  const auto index = table.choice("name", names);
+  if (!index) refuse_missing(table, "name");
+  const Surface& surface = surfaces[*index];
   SurfaceSettings settings = surface_settings(surface, read_parameters(table, surface.parameters));
   if (const auto resolution = table.whole_number("resolution", {1.0, largest_surface_resolution})) {
     settings.resolution = static_cast<int>(*resolution);
@@ -220,8 +220,8 @@ MicrogeometrySettings read_microgeometry(const TomlTable& table, const std::file
   MicrogeometrySettings settings;
   std::vector<std::string> names;
   for (const PatchKind& kind : patch_kinds()) names.push_back(kind.name);
-  if (const auto place = table.choice("kind", names)) {
-    settings.kind = &patch_kinds()[*place];
+  if (const auto index = table.choice("kind", names)) {
+    settings.kind = &patch_kinds()[*index];
     settings.parameters = read_parameters(table, settings.kind->parameters);
   } else {
     settings.model = folder / *table.word("model");

@@ -1,4 +1,4 @@
-// See scene_settings.hpp.
+// Reads frame, lights, camera, zoom and shadows; parts and environment have readers of their own.
 #include "renderer/scene/settings/scene.hpp"
 
 #include <fmt/format.h>

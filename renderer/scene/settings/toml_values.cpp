@@ -1,4 +1,4 @@
-// See toml_values.hpp.
+// Lists of three numbers as vectors, colours and unit directions.
 #include "renderer/scene/settings/toml_values.hpp"
 
 namespace footprint {

@@ -3,7 +3,8 @@ set(FOOTPRINT_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
 
 # With the headers read beforehand GCC 12 at -O3 forgets that they are the system's, and warns of std::string's own code
 # where nothing is wrong; a build without them keeps these warnings.
-set(FOOTPRINT_PRECOMPILED_OPTIONS $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds$<SEMICOLON>-Wno-restrict$<SEMICOLON>-Wno-stringop-overflow$<SEMICOLON>-Wno-stringop-overread>)
+set(FOOTPRINT_PRECOMPILED_OPTIONS -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
+list(TRANSFORM FOOTPRINT_PRECOMPILED_OPTIONS REPLACE "(.+)" "$<$<CXX_COMPILER_ID:GNU>:\\1>")
 
 # footprint_reuse_headers(TARGET NAME): TARGET starts from what footprint_precompile(NAME) read; nothing where there is no
 # such library, as in a project that uses this build folder.
@@ -12,6 +13,7 @@ function(footprint_reuse_headers target name)
     return()
   endif()
   target_precompile_headers(${target} REUSE_FROM ${name})
+  target_link_libraries(${target} PRIVATE fmt::fmt)  # its macros are part of what was read
   # ccache preprocesses a source: with this the result names the precompiled file in place of all that it holds.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess> ${FOOTPRINT_PRECOMPILED_OPTIONS})
 endfunction()

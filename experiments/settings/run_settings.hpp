@@ -51,6 +51,9 @@ struct ViewSettings {
   ZoomSettings zoom;                 ///< in place of `distances`; consecutive frames, between which flicker is measured
   CameraSettings camera;             ///< monostate: the scene's own
   std::optional<Exposure> exposure;  ///< none: the scene's own, else automatic
+  /// The error at the top of every error picture, for pictures of several runs on one scale; none: what the run calls
+  /// for.
+  std::optional<double> error_scale;
 };
 
 /// How a method looks its maps up over a pixel's footprint.

@@ -311,8 +311,10 @@ class Comparison {
     }
   }
 
-  // One scale for every false-colour picture: the largest 99th percentile over all of them, in two digits.
-  void finish_error_pictures() {
+  // One scale for every false-colour picture: what was asked for, else the largest 99th percentile over all of them, in
+  // two digits.
+  [[nodiscard]] double error_scale() const {
+    if (settings_.view.error_scale) return *settings_.view.error_scale;
     double scale = smallest_error_scale;
     for (const Draft& draft : drafts_) {
       std::vector<double> values;
@@ -320,7 +322,11 @@ class Comparison {
       if (!values.empty()) scale = std::max(scale, quantile(std::move(values), scale_quantile));
     }
     const double step = std::pow(10.0, std::floor(std::log10(scale)) - 1.0);
-    results_.error_scale = std::ceil(scale / step) * step;
+    return std::ceil(scale / step) * step;
+  }
+
+  void finish_error_pictures() {
+    results_.error_scale = error_scale();
     write_distance_strips();
     for (Draft& draft : drafts_) {
       draft.record.images.error = write_error_picture(folder_, draft.stem + "_error", draft.exhibit.error,

@@ -55,18 +55,7 @@ Footprints pixelFootprints() {
 }
 
 //? if random_draws
-// PCG3D (Jarzynski and Olano 2020): independent numbers for each sample of the picture, whatever the tile.
-uvec3 hashed(uvec3 v) {
-  v = v * 1664525u + 1013904223u;
-  v.x += v.y * v.z;
-  v.y += v.z * v.x;
-  v.z += v.x * v.y;
-  v ^= v >> 16u;
-  v.x += v.y * v.z;
-  v.y += v.z * v.x;
-  v.z += v.x * v.y;
-  return v;
-}
+//? include random_numbers.glsl
 
 // Of each number `draw` of a sample, others.
 uvec3 drawBits(uint draw) {

@@ -1,5 +1,5 @@
-// Reads statement by statement; faces become fans of triangles, corners with equal indices share a vertex. A reader of our
-// own: tinyobjloader 2.0.0rc10 takes `v 0 0`, `v 0 1x 0` and `v 0 nan 0` for zeros without an error or a warning.
+// Reads statement by statement; faces become fans of triangles, corners with equal indices share a vertex. A reader of
+// our own: tinyobjloader 2.0.0rc10 takes `v 0 0`, `v 0 1x 0` and `v 0 nan 0` for zeros without an error or a warning.
 #include "renderer/scene/obj_model.hpp"
 
 #include <fmt/format.h>

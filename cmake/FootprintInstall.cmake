@@ -2,6 +2,7 @@
 #   runtime      the program, scenes, experiments, published figures, documents, man page, completions of shells
 #   development  headers, libraries and find_package(Footprint) for methods out of the tree
 include(GNUInstallDirs)
+set(CMAKE_INSTALL_DOCDIR "${CMAKE_INSTALL_DATADIR}/doc/footprint")
 
 # footprint_install_program(TARGET): the program, and all that it reads or that tells of it. What the program writes of
 # itself is written when it is built.

@@ -147,7 +147,7 @@ std::vector<MapLobe> BuiltMap::lobes() const {
   }
   const auto got = probe(
       "int i = int(a.x);\nif (i >= e.count) return vec4(0.0);\n"
-      "Lobe lobe = lobeOf(e.lobes[i], e.weights[i]);\n"
+      "Lobe lobe = lobeOf(lobes[i], weights[i]);\n"
       "return b.x == 0.0 ? vec4(lobe.mean, lobe.amount / amountsOf(e.covered)) : vec4(kappaOfLobe(lobe.base));",
       inputs);
   std::vector<MapLobe> lobes;

@@ -150,7 +150,7 @@ TEST(XuParts, MakeUpTheWholeUnderAnyFootprint) {
   }
   const std::string sum =
       "footprints.normal = Footprint(a.xy, vec2(a.z, 0.0), vec2(0.0, a.w));\ne = effective(footprints);\n"
-      "vec3 sum = vec3(0.0);\nfor (int i = 0; i < e.count; ++i) sum += e.weights[i].y * e.lobes[i].xyz;\n"
+      "vec3 sum = vec3(0.0);\nfor (int i = 0; i < e.count; ++i) sum += weights[i].y * lobes[i].xyz;\n"
       "return vec4(sum * (1.0 - facetsLobeAt(footprints, 0).shortfall), 0.0);";
   const std::vector<glm::vec4> whole = BuiltMap(scene, {{"j", "1"}}).probe(sum, footprints);
   for (const std::string j : {"4", "8"}) {

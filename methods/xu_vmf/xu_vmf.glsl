@@ -28,10 +28,10 @@ Effective effective(Footprints f) {
       Part part = nextPart(walk, weight);
       if (hasLobe(part, weight)) {
         KeptLobe kept = lobeOfPart(own, part, weight);
-        e.lobes[e.count] = kept.lobe;
-        e.weights[e.count] = kept.weights;
+        lobes[e.count] = kept.lobe;
+        weights[e.count] = kept.weights;
 //? if environment_light
-        e.shares[e.count] = kept.share;
+        shares[e.count] = kept.share;
 //? end
         ++e.count;
         e.covered += weight * part.r.w;
@@ -40,10 +40,10 @@ Effective effective(Footprints f) {
 //? end
     if (e.count == first) {
       KeptLobe kept = keptLobe(own, own.axis, own.shortfall, 1.0, 1.0);
-      e.lobes[e.count] = kept.lobe;
-      e.weights[e.count] = kept.weights;
+      lobes[e.count] = kept.lobe;
+      weights[e.count] = kept.weights;
 //? if environment_light
-      e.shares[e.count] = kept.share;
+      shares[e.count] = kept.share;
 //? end
       ++e.count;
       e.covered = 1.0;
@@ -52,9 +52,9 @@ Effective effective(Footprints f) {
     // Each of the facets' lobes has parts of its own, which cover what they cover.
     int i = first;
     do {
-      e.weights[i] *= own.weight / vec2(amountsOf(e.covered), e.covered);
+      weights[i] *= own.weight / vec2(amountsOf(e.covered), e.covered);
 //? if environment_light
-      e.shares[i] *= own.weight / amountsOf(e.covered);
+      shares[i] *= own.weight / amountsOf(e.covered);
 //? end
     } while (++i < e.count);
     e.covered = 1.0;
@@ -83,9 +83,9 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   float cosine = 0.0;  // of the facets' unit normals with the light
   int i = 0;
   do {
-    Lobe lobe = lobeOf(e.lobes[i], e.weights[i]);
+    Lobe lobe = lobeOf(lobes[i], weights[i]);
     sum += lobe.amount * densityOf(lobe, h) * geometryFactor(lobe.base, geometryAxis(e.normal, lobe.mean), h, wi, wo);
-    cosine += e.weights[i].y * max(dot(lobe.mean, wi), 0.0);
+    cosine += weights[i].y * max(dot(lobe.mean, wi), 0.0);
   } while (++i < e.count);
   Reflected r;
   r.specular = vec3(0.0);
@@ -107,7 +107,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
 float ndf(Effective e, vec3 h) {
   float sum = 0.0;
   for (int i = 0; i < e.count; ++i) {
-    Lobe lobe = lobeOf(e.lobes[i], e.weights[i]);
+    Lobe lobe = lobeOf(lobes[i], weights[i]);
     sum += lobe.amount * densityOf(lobe, h);
   }
   return sum / amountsOf(e.covered);
@@ -119,8 +119,8 @@ int lobeCount(Effective e) { return e.count; }
 // What its facets cover, seen along their own normals, is what they reflect: the share, which is no integral of the
 // density.
 NormalLobe normalLobe(Effective e, int i) {
-  Lobe lobe = lobeOf(e.lobes[i], e.weights[i]);
-  float share = e.shares[i] / amountsOf(e.covered);
+  Lobe lobe = lobeOf(lobes[i], weights[i]);
+  float share = shares[i] / amountsOf(e.covered);
 //? if lobe_base
   return baseNormalLobe(lobe.mean, lobe.base, share);
 //? else
@@ -137,7 +137,7 @@ vec3 meanNormal(Effective e) {
   if (facet_lobe_count > 0) return e.normal;
 //? end
   vec3 sum = vec3(0.0);
-  for (int i = 0; i < e.count; ++i) sum += e.weights[i].y * e.lobes[i].xyz;
+  for (int i = 0; i < e.count; ++i) sum += weights[i].y * lobes[i].xyz;
   return sum / e.covered;
 }
 //? end

@@ -315,7 +315,7 @@ TEST(XuMeanNormal, IsThatOfTheFacets) {
   truth /= 256.0;
   ASSERT_LT(glm::length(truth), 0.95);
   const std::string sum =
-      "vec3 sum = vec3(0.0);\nfor (int i = 0; i < e.count; ++i) sum += e.weights[i].y * e.lobes[i].xyz;\n"
+      "vec3 sum = vec3(0.0);\nfor (int i = 0; i < e.count; ++i) sum += weights[i].y * lobes[i].xyz;\n"
       "return vec4(sum / e.covered, 0.0);";
   for (const Scene& scene : {facets_of_two_roughnesses(normals), blinn_phong_square(normals, 30)}) {
     for (const std::string j : {"1", "4", "8", "adaptive"}) {

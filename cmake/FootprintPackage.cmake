@@ -27,10 +27,10 @@ function(footprint_package)
   include(CPack)
 endfunction()
 
-# footprint_development_packages(VARIABLE): the Debian packages of headers that scripts/packages.txt builds with, commas
-# between.
+# footprint_development_packages(VARIABLE): the Debian packages of headers that scripts/packages.txt builds with, and what
+# their CMake files insist on, commas between.
 function(footprint_development_packages variable)
-  file(STRINGS scripts/packages.txt lines REGEX "^(lib|nlohmann)[a-z0-9-]+-dev ")
+  file(STRINGS scripts/packages.txt lines REGEX "^((lib|nlohmann)[a-z0-9-]+-dev|openimageio-tools) ")
   list(TRANSFORM lines REPLACE " .*" "")
   list(JOIN lines ", " packages)
   set(${variable} "${packages}" PARENT_SCOPE)

@@ -36,10 +36,11 @@ Image complement(const Image& mean, const Image& half) {
   return other;
 }
 
-// Turns numbers of samples in alpha into coverage.
-void scale_alpha(Image& image, double samples) {
+// Turns the numbers of samples with radiance in alpha into the share of the pixel that the surface covers. A pixel all
+// of whose samples fell on invalid texels shows nothing: 0.
+void set_coverage(Image& image, const Image& squares, double samples) {
   for (std::size_t i = 3; i < image.texels.size(); i += 4) {
-    image.texels[i] = static_cast<float>(image.texels[i] / samples);
+    if (image.texels[i] > 0.0F) image.texels[i] = static_cast<float>(squares.texels[i] / samples);
   }
 }
 
@@ -96,7 +97,7 @@ class Supersampler::Accumulator {
   }
 
  private:
-  static constexpr GLint sum_count = 3;  // mean and count, squares, mean and count of the even passes
+  static constexpr GLint sum_count = 3;  // mean and count, squares and covered, mean and count of the even passes
   static constexpr std::array<GLenum, 1> sample_format{GL_RGBA32F};
   static constexpr std::array<GLenum, 3> sum_formats{GL_RGBA32F, GL_RGBA32F, GL_RGBA32F};
 
@@ -177,13 +178,11 @@ Supersampled Supersampler::render(const View& view, int spp, std::uint64_t seed,
   Supersampled out{.spp = spp, .mean = {}, .standard_error = standard_error_of(squares, mean), .halves = {}};
   if (samples.offsets.size() >= 2) {
     Image other = complement(mean, half);
-    const std::size_t even_passes = (samples.offsets.size() + 1) / 2;
-    const double even_samples = static_cast<double>(even_passes) * samples.grid * samples.grid;
-    scale_alpha(half, even_samples);
-    scale_alpha(other, spp - even_samples);
+    set_coverage(half, squares, spp);
+    set_coverage(other, squares, spp);
     out.halves.emplace(std::move(half), std::move(other));
   }
-  scale_alpha(mean, spp);
+  set_coverage(mean, squares, spp);
   out.mean = std::move(mean);
   return out;
 }

@@ -13,9 +13,12 @@ namespace footprint {
 /// A supersampled picture. All images have the view's size, row 0 at the top.
 struct Supersampled {
   int spp = 0;
-  Image mean;            ///< RGBA: mean radiance over the covered samples, coverage 0..1
+  /// RGBA: mean radiance over the samples that have one, and the share 0..1 that the surface covers. Samples of invalid
+  /// texels (docs/base-brdf.md) are covered and enter no mean; a pixel that has no other has coverage 0.
+  Image mean;
   Image standard_error;  ///< RGB: sqrt(sample variance / samples), an upper bound for stratified samples
-  /// RGBA means of the even and of the odd passes; none with fewer than two passes. Their difference tells the noise.
+  /// RGBA means of the even and of the odd passes, with the coverage of all; none with fewer than two passes. Their
+  /// difference tells the noise.
   std::optional<std::pair<Image, Image>> halves;
 };
 

@@ -12,9 +12,9 @@ Effective effective(Footprints f) {
 //? if normal_variation
   vec4 texel = fetchFinest(base_normal, f.normal);
 //? if not sampling_frame and microgeometry_visibility
-  if (texel.w < 0.5 && base_has_patch < 0.5) discard;
+  nothing_to_shade = texel.w < 0.5 && base_has_patch < 0.5;
 //? elif not sampling_frame
-  if (texel.w < 0.5) discard;  // an invalid normal of the map: nothing is there to shade
+  nothing_to_shade = texel.w < 0.5;  // an invalid normal of the map: the surface is there, what it reflects is not known
 //? end
   vec3 normal = normalize(texel.xyz);
 //? else
@@ -23,7 +23,7 @@ Effective effective(Footprints f) {
 //? if normal_layers
   vec4 layer = fetchFinest(base_layer, f.layer);
 //? if not sampling_frame
-  if (layer.w < 0.5) discard;
+  if (layer.w < 0.5) nothing_to_shade = true;
 //? end
   normal = withSlopesAdded(normal, layer.xyz);
 //? end

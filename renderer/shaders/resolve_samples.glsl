@@ -1,9 +1,12 @@
 // Adds one pass of samples to the running mean and variance of each pixel (Chan, Golub and LeVeque 1983): sums of
 // squares would lose a small variance beside a large mean in 32 bits. A fragment shader that reads the old sums and
 // writes the new ones: software rasterisers run fragments on every core, and compute shaders far slower.
+//
+// A sample's alpha is 0 beside the surface, 1 on it, and 2 or more where it fell on an invalid texel: the surface
+// covers it, but it has no radiance and enters no mean.
 layout(binding = 0) uniform sampler2D samples;              // grid x grid samples a pixel
-layout(binding = 1) uniform sampler2D old_mean_count;       // mean radiance over covered samples, their number
-layout(binding = 2) uniform sampler2D old_squares;          // sum of squared deviations
+layout(binding = 1) uniform sampler2D old_mean_count;       // mean radiance over samples that have one, their number
+layout(binding = 2) uniform sampler2D old_squares;          // sum of squared deviations, number of covered samples
 layout(binding = 3) uniform sampler2D old_half_mean_count;  // mean and number over the even passes alone
 
 layout(location = 0) out vec4 mean_count;
@@ -30,8 +33,10 @@ void main() {
   for (int y = 0; y < grid; ++y) {
     for (int x = 0; x < grid; ++x) {
       vec4 s = texelFetch(samples, pixel * grid + ivec2(x, y), 0);
-      vec3 d = (s.rgb - origin) * s.a;
-      sum += vec4(d, s.a);
+      float shaded = s.a > 0.5 && s.a < 1.5 ? 1.0 : 0.0;
+      squares.a += min(s.a, 1.0);
+      vec3 d = (s.rgb - origin) * shaded;
+      sum += vec4(d, shaded);
       square_sum += d * d;
     }
   }

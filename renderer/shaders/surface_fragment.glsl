@@ -21,6 +21,7 @@ uniform vec3 to_camera;
 //? if not sampling_frame
 uniform ivec2 sample_origin;  // of this tile in the whole picture's sample grid
 uniform uvec2 sample_seed;    // seed and pass
+bool nothing_to_shade = false;  // set by a module whose sample fell on an invalid texel
 //? end
 
 //? module
@@ -195,6 +196,12 @@ void main() {
   tangent_to_camera = world_to_camera * p.frame;
 //? end
   p.effective = effective(f);
+//? if not sampling_frame
+  if (nothing_to_shade) {
+    radiance_coverage = vec4(0.0, 0.0, 0.0, 2.0);  // covered, without radiance: resolve_samples.glsl
+    return;
+  }
+//? end
   p.surface.albedo = base_color.rgb * (1.0 - metallic);
   p.surface.f0 = mix(dielectric_specular, base_color.rgb, metallic);
 //? if orthographic

@@ -146,7 +146,7 @@ TEST(NormalLayers, AreLeftOutByTheOthers) {
   }
 }
 
-// An invalid texel of the layer is a hole in the surface, as one of the normal map is.
+// An invalid texel of the layer has no radiance, as one of the normal map has none.
 TEST(NormalLayers, InvalidTexelsDoNotCount) {
   Image layer = constant_normals(8, 8, {0.28F, 0.0F, 0.96F});
   for (int i = 0; i < 4; ++i) std::ranges::fill(layer.at(i, 3), 0.0F);

@@ -127,7 +127,7 @@ vec4 fetch(sampler2DArray map, int layer, Footprint f) { return fetchFinest(map,
 
 //? if texel_lookups
 // The texels that `fetch` would blend, one by one, for a map whose texels must not be: eight of two levels for each
-// probe.
+// probe. The map is known by its size alone: its chain goes down to one texel.
 struct FootprintTexel {
   vec2 uv;       // the texel's centre, at its level
   float level;
@@ -137,30 +137,29 @@ struct FootprintTexel {
 //? if sampling_frame
 //? if anisotropic
 const int most_footprint_texels = 8 * int(max_probes);
-int footprintTexelCount(sampler2DArray map, Footprint f) { return 8 * probesOf(vec2(textureSize(map, 0).xy), f).count; }
+int footprintTexelCount(ivec2 finest, Footprint f) { return 8 * probesOf(vec2(finest), f).count; }
 //? else
 const int most_footprint_texels = 8;
-int footprintTexelCount(sampler2DArray map, Footprint f) { return 8; }
+int footprintTexelCount(ivec2 finest, Footprint f) { return 8; }
 //? end
 
-FootprintTexel footprintTexel(sampler2DArray map, Footprint f, int i) {
-  vec2 finest = vec2(textureSize(map, 0).xy);
+FootprintTexel footprintTexel(ivec2 finest, Footprint f, int i) {
 //? if anisotropic
-  Probes p = probesOf(finest, f);
+  Probes p = probesOf(vec2(finest), f);
   vec2 uv = probeUv(f, p, i >> 3);
   float level = p.level;
   float share = 1.0 / float(p.count);
 //? else
   vec2 uv = f.uv;
-  float level = levelOf(finest, f);
+  float level = levelOf(vec2(finest), f);
   float share = 1.0;
 //? end
-  float coarsest = float(textureQueryLevels(map) - 1);
+  float coarsest = float(findMSB(max(finest.x, finest.y)));
   level = clamp(level, 0.0, coarsest);
   float lower = floor(level);
   bool coarser = (i & 4) != 0;
   float own = min(coarser ? lower + 1.0 : lower, coarsest);
-  vec2 size = levelSize(textureSize(map, 0).xy, int(own));
+  vec2 size = levelSize(finest, int(own));
   vec2 in_texels = uv * size - 0.5;
   vec2 corner = floor(in_texels);
   vec2 part = in_texels - corner;
@@ -171,15 +170,20 @@ FootprintTexel footprintTexel(sampler2DArray map, Footprint f, int i) {
 }
 //? else
 const int most_footprint_texels = 1;
-int footprintTexelCount(sampler2DArray map, Footprint f) { return 1; }
+int footprintTexelCount(ivec2 finest, Footprint f) { return 1; }
 //? if sampling_texel
-FootprintTexel footprintTexel(sampler2DArray map, Footprint f, int i) {
-  return FootprintTexel(drawnTexel(vec2(textureSize(map, 0).xy), f), 0.0, 1.0);
+FootprintTexel footprintTexel(ivec2 finest, Footprint f, int i) {
+  return FootprintTexel(drawnTexel(vec2(finest), f), 0.0, 1.0);
 }
 //? else
-FootprintTexel footprintTexel(sampler2DArray map, Footprint f, int i) { return FootprintTexel(f.uv, 0.0, 1.0); }
+FootprintTexel footprintTexel(ivec2 finest, Footprint f, int i) { return FootprintTexel(f.uv, 0.0, 1.0); }
 //? end
 //? end
+
+int footprintTexelCount(sampler2DArray map, Footprint f) { return footprintTexelCount(textureSize(map, 0).xy, f); }
+FootprintTexel footprintTexel(sampler2DArray map, Footprint f, int i) {
+  return footprintTexel(textureSize(map, 0).xy, f, i);
+}
 
 vec4 fetchTexel(sampler2DArray map, int layer, FootprintTexel t) { return textureLod(map, vec3(t.uv, layer), t.level); }
 //? end

@@ -148,6 +148,36 @@ std::string shadow_fragment_shader(const EffectSet& effects) {
   return text.text();
 }
 
+std::string interior_vertex_shader() {
+  ShaderText text({});
+  text.add(version_line);
+  text.include("interior_vertex.glsl");
+  return text.text();
+}
+
+std::string interior_fragment_shader(const ShaderVariant& variant, std::string_view textures) {
+  const ShaderFlags flags = shader_flags(variant, no_options());
+  ShaderText text(flags);
+  text.add(version_line);
+  text.add(std::string(textures) + light_capacities(variant));
+  add_material_block(text, flags, variant.facet_lobes);
+  if (calls_for_shadow_maps(variant.effects)) {
+    text.include("surface_lights.glsl");
+    text.include("surface_shadows.glsl");
+  }
+  text.include("interior_fragment.glsl");
+  return text.text();
+}
+
+std::string interior_compare_shader(bool shadows) {
+  EffectSet effects;
+  effects.set(static_cast<std::size_t>(Effect::cast_shadow), shadows);
+  ShaderText text(shader_flags({.effects = effects, .brdf = {}}, no_options()));
+  text.add(version_line);
+  text.include("interior_compare.glsl");
+  return text.text();
+}
+
 std::string screen_vertex_shader() {
   ShaderText text({});
   text.add(version_line);

@@ -37,6 +37,13 @@ namespace footprint {
 [[nodiscard]] std::string shadow_vertex_shader(const EffectSet& effects);
 [[nodiscard]] std::string shadow_fragment_shader(const EffectSet& effects);
 
+/// The stages that draw the samples of the mask of interior pixels: pieces of surface, or where `variant` has
+/// cast_shadow the shares of lights. `textures` declares what they read.
+[[nodiscard]] std::string interior_vertex_shader();
+[[nodiscard]] std::string interior_fragment_shader(const ShaderVariant& variant, std::string_view textures);
+/// The stage that compares the samples of a pixel.
+[[nodiscard]] std::string interior_compare_shader(bool shadows);
+
 /// A vertex stage that covers the whole viewport by 3 vertices, without attributes.
 [[nodiscard]] std::string screen_vertex_shader();
 /// The stage that adds a pass of samples to the reference's sums.

@@ -96,14 +96,8 @@ vec3 reflected(SurfacePoint p, vec3 to_light, vec3 irradiance_at_normal) {
 }
 
 //? if cast_shadow
-vec3 seen_facet;  // the triangle's own normal, on the side of the camera
-
-// Zero where the pixel sees the triangle edge-on.
-vec3 facetNormal(vec3 along_x, vec3 along_y, vec3 to_viewer) {
-  vec3 n = cross(along_x, along_y);
-  float size = length(n);
-  return size > 0.0 ? n * (sign(dot(n, to_viewer)) / size) : vec3(0.0);
-}
+//? include facet_normal.glsl
+vec3 seen_facet;  // of the pixel
 
 //? end
 //? if environment_sampled

@@ -1,0 +1,291 @@
+// The mask of interior pixels: it leaves out each kind of edge, by the criterion that is meant for it and by no other,
+// and keeps what is smooth.
+#include "renderer/pipeline/interior.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "renderer/image/metrics.hpp"
+#include "renderer/scene/camera.hpp"
+#include "tests/support/rendering.hpp"
+#include "tests/support/shadow_scenes.hpp"
+#include "tests/support/test_scenes.hpp"
+
+namespace footprint::testing {
+namespace {
+
+constexpr int spp = 64;
+
+Interior interior_of(const Scene& scene, int edge, const InteriorCriteria& criteria = {}, int tile = 0) {
+  (void)shared_context();
+  GpuScene gpu(shared_context().info(), scene, effects_on(derive_effects(scene)));
+  const InteriorFinder finder(gpu, scene, tile, criteria);
+  Interior found = finder.render({.size = {edge, edge}, .camera = scene.camera}, spp, 1, no_progress);
+  shared_context().check("finding interior pixels");
+  return found;
+}
+
+double count(const Image& mask) { return std::accumulate(mask.texels.begin(), mask.texels.end(), 0.0); }
+
+// The whole column of a picture, or none of it.
+double column_sum(const Image& mask, int x) {
+  double sum = 0;
+  for (int y = 0; y < mask.height; ++y) sum += mask.at(x, y)[0];
+  return sum;
+}
+
+Vertex vertex(const glm::vec3& position, const glm::vec3& normal, const glm::vec2& uv) {
+  return {.position = position, .normal = glm::normalize(normal), .uv0 = uv};
+}
+
+// A quad of corners a, b, c, d, counter-clockwise from above, with its own vertices.
+void add_quad(Mesh& mesh, const std::array<Vertex, 4>& corners) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
+  mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
+}
+
+// The strip of x from `left` to `right` and y from -2 to 2, at heights that fall with `drop` a metre from x = 0 on; its
+// uv are its x and y, moved by `shift` and sheared by `shear` away from y = 2.
+struct Strip {
+  float left = 0, right = 2, height = 0, slope = 0, shift = 0, shear = 0;
+};
+
+void add_strip(Mesh& mesh, const Strip& s) {
+  const glm::vec3 normal(-s.slope, 0, 1);
+  const auto at = [&](float x, float y) {
+    return vertex({x, y, s.height + s.slope * x}, normal, {x + s.shift + s.shear * (2 - y), y});
+  };
+  add_quad(mesh, {at(s.left, -2), at(s.right, -2), at(s.right, 2), at(s.left, 2)});
+}
+
+// Two strips that meet at x = 0, over which an orthographic camera looks straight down on x and y from -1 to 1. The
+// picture of 33 pixels has that line in the midst of its column 16.
+constexpr int edge = 33, middle = 16;
+
+Scene two_strips(const Strip& left, const Strip& right) {
+  Scene scene = square_scene(random_normals(16, 16, 0.3F, 3), {});
+  Mesh mesh{.name = "strips", .vertices = {}, .indices = {}, .material = 0};
+  add_strip(mesh, left);
+  add_strip(mesh, right);
+  scene.meshes = {mesh};
+  scene.camera.orthographic = true;
+  scene.camera.ymag = 1.0F;
+  scene.shadows.cast = false;
+  fit_bounds(scene);
+  return scene;
+}
+
+// The strips of one plane.
+constexpr Strip left_half{.left = -2, .right = 0}, right_half{.left = 0, .right = 2};
+
+// Every pixel but those of the middle column is interior, and these are none.
+void expect_an_edge_in_the_middle(const Image& mask) {
+  for (int x = 0; x < edge; ++x) EXPECT_EQ(column_sum(mask, x), x == middle ? 0 : edge) << "column " << x;
+}
+
+TEST(Interior, KeepsAFlatQuadWhole) {
+  EXPECT_EQ(count(interior_of(two_strips(left_half, right_half), edge).mask), edge * edge);
+  EXPECT_EQ(count(interior_of(square_scene(random_normals(64, 64, 0.9F, 1), {}), 32).mask), 32 * 32);
+}
+
+TEST(Interior, KeepsAPlaneThatRecedes) {
+  const Scene scene = receding_grooves();
+  TestRenderer renderer(scene, {96, 96});
+  const Image reference = renderer.reference(spp).mean;
+  const Image mask = interior_of(scene, 96).mask;
+  EXPECT_EQ(count(mask), static_cast<double>(object_pixel_count(reference)));
+  EXPECT_GT(count(mask), 1000);
+}
+
+Scene sphere_scene(int rings) {
+  Scene scene = white_floor();
+  scene.meshes = {sphere_mesh({0, 0, 0}, 0.9F, rings)};
+  scene.camera.orthographic = true;
+  scene.camera.ymag = 1.0F;
+  scene.lights = {DirectionalLight{.direction = {0, 0, -1}, .illuminance = glm::vec3(3)}};
+  fit_bounds(scene);
+  return scene;
+}
+
+// The normal of a sphere of R pixels' radius changes by 1 / (R cos t) radians a pixel at the angle t from the viewer.
+TEST(Interior, KeepsASmoothSpheresInside) {
+  constexpr int pixels = 128;
+  const Image mask = interior_of(sphere_scene(256), pixels).mask;
+  int inside = 0;
+  for (int y = 0; y < pixels; ++y) {
+    for (int x = 0; x < pixels; ++x) {
+      const double r = std::hypot(x + 0.5 - pixels / 2.0, y + 0.5 - pixels / 2.0) / (0.9 * pixels / 2.0);
+      if (r < 0.95) {
+        EXPECT_EQ(mask.at(x, y)[0], 1.0F) << x << ", " << y;
+        ++inside;
+      }
+      if (r > 0.995) {
+        EXPECT_EQ(mask.at(x, y)[0], 0.0F) << x << ", " << y;
+      }
+    }
+  }
+  EXPECT_GT(inside, 9000);
+}
+
+TEST(Interior, LeavesOutSilhouettes) {
+  Scene scene = two_strips(left_half, right_half);
+  scene.meshes[0].indices.resize(6);  // the left strip alone
+  const Image mask = interior_of(scene, edge).mask;
+  EXPECT_EQ(column_sum(mask, middle), 0);
+  EXPECT_EQ(count(mask), edge * middle);
+  EXPECT_EQ(column_sum(interior_of(scene, edge, {.coverage = false}).mask, middle), edge) << "without the criterion";
+}
+
+// Two sheets of one chart, one above the other, joined by a riser that the camera sees edge-on.
+TEST(Interior, LeavesOutDepthSteps) {
+  Strip lower = right_half;
+  lower.height = -0.2F;  // three pixels; their uv go on
+  Scene scene = two_strips(left_half, lower);
+  Mesh& mesh = scene.meshes[0];
+  mesh.indices.insert(mesh.indices.end(), {1, 4, 7, 1, 7, 2});
+  expect_an_edge_in_the_middle(interior_of(scene, edge).mask);
+  EXPECT_EQ(count(interior_of(scene, edge, {.depth = false}).mask), edge * edge) << "without the criterion";
+}
+
+// A twentieth of the pixel is no step; the criterion goes by the pixel, not by metres.
+TEST(Interior, DepthStepsAreOfThePixelsSize) {
+  Strip lower = right_half;
+  lower.height = -0.05F * 2.0F / edge;
+  Scene scene = two_strips(left_half, lower);
+  Mesh& mesh = scene.meshes[0];
+  mesh.indices.insert(mesh.indices.end(), {1, 4, 7, 1, 7, 2});
+  EXPECT_EQ(count(interior_of(scene, edge).mask), edge * edge);
+}
+
+// At a slant a step along the view lies nearly in the plane: what the pixel spans there tells it.
+TEST(Interior, LeavesOutStepsBetweenGrazingSheets) {
+  Scene scene = two_strips({.left = -2, .right = 2, .height = 0}, {.left = -2, .right = 2, .height = -0.2F});
+  Mesh& mesh = scene.meshes[0];
+  for (const std::size_t far : {6, 7}) mesh.vertices[far].position.y = 9.0F;  // goes on behind the upper one's end
+  for (Vertex& v : mesh.vertices) v.uv0 = v.position;
+  mesh.indices.insert(mesh.indices.end(), {3, 2, 5, 3, 5, 4});
+  scene.camera.world = look_at({0.0, -6.0, 0.5}, {0.0, 2.0, 0.0}, {0.0, 0.0, 1.0});  // at 3.6 degrees
+  scene.camera.ymag = 0.3F;
+  const double with = count(interior_of(scene, edge).mask);
+  const double without = count(interior_of(scene, edge, {.depth = false}).mask);
+  EXPECT_LE(with, without - edge);
+  EXPECT_GT(with, edge * edge / 2.0);
+}
+
+// A roof of 15 degrees over all; its ridge lies in the midst of the pixels, so that no step between samples leaves the
+// plane of the first by more than 10.
+TEST(Interior, LeavesOutCreases) {
+  const float slope = std::tan(7.5F * 3.14159265F / 180.0F);
+  Strip left = left_half, right = right_half;
+  left.slope = slope;
+  right.slope = -slope;
+  const Scene scene = two_strips(left, right);
+  expect_an_edge_in_the_middle(interior_of(scene, edge).mask);
+  EXPECT_EQ(column_sum(interior_of(scene, edge, {.normals = false}).mask, middle), edge) << "without the criterion";
+}
+
+// The facets agree; the vertices' normals do not.
+TEST(Interior, LeavesOutCreasesOfVertexNormals) {
+  Scene scene = two_strips(left_half, right_half);
+  for (std::size_t i = 4; i < 8; ++i) scene.meshes[0].vertices[i].normal = glm::normalize(glm::vec3(0.3F, 0, 1));
+  expect_an_edge_in_the_middle(interior_of(scene, edge).mask);
+  EXPECT_EQ(count(interior_of(scene, edge, {.normals = false}).mask), edge * edge) << "without the criterion";
+}
+
+TEST(Interior, LeavesOutBordersOfMaterials) {
+  Scene scene = two_strips(left_half, right_half);
+  scene.materials.push_back(scene.materials.front());
+  Mesh right = scene.meshes[0];
+  right.material = 1;
+  right.indices.erase(right.indices.begin(), right.indices.begin() + 6);
+  scene.meshes[0].indices.resize(6);
+  scene.meshes.push_back(right);
+  expect_an_edge_in_the_middle(interior_of(scene, edge).mask);
+  EXPECT_EQ(count(interior_of(scene, edge, {.pieces = false}).mask), edge * edge) << "without the criterion";
+}
+
+TEST(Interior, LeavesOutBordersOfCharts) {
+  Strip moved = right_half;
+  moved.shift = 5.0F;  // by whole turns of a map that repeats: the same texels, but another island
+  const Scene scene = two_strips(left_half, moved);
+  expect_an_edge_in_the_middle(interior_of(scene, edge).mask);
+  EXPECT_EQ(count(interior_of(scene, edge, {.pieces = false}).mask), edge * edge) << "without the criterion";
+}
+
+// One island, whose halves meet in a corner beyond the picture and are cut apart within it.
+TEST(Interior, LeavesOutCutsWithinAChart) {
+  Strip sheared = right_half;
+  sheared.shear = 0.2F;
+  const Scene scene = two_strips(left_half, sheared);
+  expect_an_edge_in_the_middle(interior_of(scene, edge).mask);
+  EXPECT_EQ(count(interior_of(scene, edge, {.pieces = false}).mask), edge * edge) << "without the criterion";
+}
+
+// A box over a floor, and light that comes slanting along x: the edge of its shadow lies at x = 0.55.
+Scene shadowed_floor(int resolution) {
+  Scene scene = box_over_floor();
+  scene.lights = {DirectionalLight{.direction = glm::normalize(glm::vec3(0.6F, 0, -1)), .illuminance = glm::vec3(3)}};
+  scene.shadows.cast = true;
+  scene.shadows.resolution = resolution;
+  return scene;
+}
+
+TEST(Interior, LeavesOutEdgesOfShadows) {
+  constexpr int pixels = 81;  // the edge lies within one
+  const auto column = [](double x) { return static_cast<int>((x + 1.0) / 2.0 * pixels); };
+  const Image mask = interior_of(shadowed_floor(2048), pixels).mask;
+  const Image all = interior_of(shadowed_floor(2048), pixels, {.shadows = false}).mask;
+  EXPECT_EQ(mask.at(column(0.55), pixels / 2)[0], 0.0F) << "at the edge";
+  EXPECT_EQ(mask.at(column(0.45), pixels / 2)[0], 1.0F) << "in the shadow";
+  EXPECT_EQ(mask.at(column(0.65), pixels / 2)[0], 1.0F) << "in the light";
+  EXPECT_EQ(all.at(column(0.55), pixels / 2)[0], 1.0F) << "without the criterion";
+}
+
+// Texels of a quarter of a metre: their soft edge is 24 pixels wide, and a pixel's centre stands for it.
+TEST(Interior, KeepsWideSoftEdgesOfShadows) {
+  const Scene scene = shadowed_floor(16);
+  const double all = count(interior_of(scene, 224, {.shadows = false}).mask);
+  EXPECT_GT(count(interior_of(scene, 224).mask), 0.99 * all);
+  EXPECT_LT(count(interior_of(scene, 64).mask), 0.99 * count(interior_of(scene, 64, {.shadows = false}).mask));
+}
+
+// Five lights of three kinds are more than one look at shadows takes.
+TEST(Interior, LooksAtEveryLight) {
+  Scene scene = shadowed_floor(512);
+  const Light slanted = scene.lights.front();
+  const PointLight above{.position = {0, 0, 40}, .intensity = glm::vec3(4), .range = {}};  // its shadow hides below
+  scene.lights = {above, above, SpotLight{.point = above}, SpotLight{.point = above}, slanted};
+  constexpr int pixels = 41;
+  const Image mask = interior_of(scene, pixels).mask;
+  EXPECT_EQ(mask.at(static_cast<int>(1.55 / 2.0 * pixels), pixels / 2)[0], 0.0F);
+}
+
+TEST(Interior, DoesNotDependOnTheTiles) {
+  for (const Scene& scene : {sphere_scene(64), shadowed_floor(512)}) {
+    EXPECT_EQ(interior_of(scene, 50).mask, interior_of(scene, 50, {}, 16).mask);
+  }
+}
+
+TEST(Interior, KnowsTheFootprintInTexels) {
+  const Image texels = interior_of(square_scene(random_normals(64, 128, 0.3F, 1), {}), 16).texels;
+  for (const float t : texels.texels) EXPECT_NEAR(t, 8.0F, 1e-2F);
+  for (const float t : interior_of(white_floor(), 16).texels.texels) EXPECT_EQ(t, 0.0F) << "without a normal map";
+}
+
+// What an alpha mask cuts out is not there.
+TEST(Interior, LeavesOutEdgesOfAlpha) {
+  Scene scene = two_strips(left_half, right_half);
+  Image alpha(2, 1, 4, 1.0F);
+  alpha.at(1, 0)[3] = 0.0F;
+  scene.materials[0].base_color_map = TextureMap{"alpha", std::make_shared<const Image>(alpha), {}};
+  scene.materials[0].alpha_cutoff = 0.5F;
+  const Image mask = interior_of(scene, edge).mask;
+  EXPECT_LT(count(mask), 0.6 * edge * edge);
+  EXPECT_GT(count(mask), 0.3 * edge * edge);
+}
+
+}  // namespace
+}  // namespace footprint::testing

@@ -1,0 +1,97 @@
+// One sample's geometry, for the mask of interior pixels: which piece of surface it sees, where, and how it lies there.
+// With `cast_shadow` the share of four lights that reach it instead.
+in vec3 world_position;
+in vec3 world_normal;
+in vec2 uv0;
+in vec2 uv1;
+flat in float chart;
+
+//? if cast_shadow
+layout(location = 0) out vec4 light_shares;
+uniform int first_light;  // of the four, points before spots before directions
+//? else
+layout(location = 0) out vec4 position_chart;   // world space; 0: nothing is there
+layout(location = 1) out vec4 facet_normal;     // the triangle's own, towards the viewer
+layout(location = 2) out vec4 normal_extent;    // the vertices' normal; what the pixel spans on the surface, metres
+layout(location = 3) out vec4 mapped_stretch;   // uv, their gradient's length in 1/m, the footprint's longer edge in texels
+uniform float grid;     // samples along a pixel's edge
+uniform vec2 map_size;  // of the normal map, texels; 0: there is none
+//? end
+//? if orthographic
+uniform vec3 to_camera;
+//? else
+uniform vec3 camera_position;
+//? end
+
+//? include facet_normal.glsl
+
+//? if cast_shadow
+// A light below the horizon does not reach the surface (docs/base-brdf.md), whatever its map says.
+float shareOf(float first_view, vec3 facet, vec3 normal, vec3 to_light) {
+  if (dot(normal, to_light) <= 0.0) return 0.0;
+  return clearOfShadow(first_view, world_position, facet, -to_light);
+}
+
+vec4 lightShares(vec3 facet, vec3 normal) {
+  vec4 shares = vec4(0.0);
+  int place = -first_light;
+//? if point_light
+  for (int i = 0; i < point_light_count; ++i, ++place) {
+    if (place < 0 || place > 3) continue;
+    shares[place] = shareOf(point_lights[i].intensity.w, facet, normal, point_lights[i].position_range.xyz - world_position);
+  }
+//? end
+//? if spot_light
+  for (int i = 0; i < spot_light_count; ++i, ++place) {
+    if (place < 0 || place > 3) continue;
+    shares[place] = shareOf(spot_lights[i].intensity.w, facet, normal, spot_lights[i].position_range.xyz - world_position);
+  }
+//? end
+//? if directional_light
+  for (int i = 0; i < directional_light_count; ++i, ++place) {
+    if (place < 0 || place > 3) continue;
+    shares[place] = shareOf(directional_lights[i].illuminance.w, facet, normal, directional_lights[i].to_light.xyz);
+  }
+//? end
+  return shares;
+}
+//? end
+
+void main() {
+  vec3 along_x = dFdx(world_position);  // before any pixel is discarded
+  vec3 along_y = dFdy(world_position);
+//? if not cast_shadow
+  vec2 mapped = mat2(uv_linear[0].xy, uv_linear[0].zw) * (uv_offset_set[0].z < 0.5 ? uv0 : uv1) + uv_offset_set[0].xy;
+  vec2 mapped_x = dFdx(mapped);
+  vec2 mapped_y = dFdy(mapped);
+//? end
+//? if alpha_mask
+  float alpha = base_color_factor.a;
+//? if base_color_variation
+  vec2 uv = uv_offset_set[2].z < 0.5 ? uv0 : uv1;
+  alpha *= textureLod(base_color_map, mat2(uv_linear[2].xy, uv_linear[2].zw) * uv + uv_offset_set[2].xy, 0.0).a;
+//? end
+  if (alpha < lobe_cutoff.y) discard;
+//? end
+//? if orthographic
+  vec3 to_viewer = to_camera;
+//? else
+  vec3 to_viewer = normalize(camera_position - world_position);
+//? end
+  vec3 facet = facetNormal(along_x, along_y, to_viewer);
+  vec3 normal = normalize(gl_FrontFacing ? world_normal : -world_normal);
+//? if cast_shadow
+  light_shares = lightShares(facet, normal);
+//? else
+  // Of the texture coordinates over the triangle's plane: u changes by dot(gradient, step) over a step.
+  vec3 across_x = cross(along_y, facet), across_y = cross(facet, along_x);
+  float area = max(abs(dot(along_x, across_x)), 1e-30);
+  vec3 gradient_u = (mapped_x.x * across_x + mapped_y.x * across_y) / area;
+  vec3 gradient_v = (mapped_x.y * across_x + mapped_y.y * across_y) / area;
+  position_chart = vec4(world_position, chart);
+  facet_normal = vec4(facet, 0.0);
+  normal_extent = vec4(normal, grid * (length(along_x) + length(along_y)));
+  mapped_stretch = vec4(mapped, length(vec2(length(gradient_u), length(gradient_v))),
+                        grid * max(length(mapped_x * map_size), length(mapped_y * map_size)));
+//? end
+}

@@ -62,6 +62,7 @@ std::string method_text(const MethodInfo& method) {
   std::string text = fmt::format("  {}\n      {}\n", method.name, method.summary);
   if (!method.paper.empty()) text += fmt::format("      {}\n", method.paper);
   if (method.slow_precompute) text += "      bakes for seconds; kept on disk between runs\n";
+  if (method.slow_frame) text += "      slow: draws for seconds; a bound, in no list of all methods\n";
   return text + options_text(method.options, ":");
 }
 
@@ -101,6 +102,7 @@ Json method_json(const MethodInfo& method) {
           {"summary", method.summary},
           {"paper", method.paper},
           {"slow_precompute", method.slow_precompute},
+          {"slow_frame", method.slow_frame},
           {"honours", effect_names(method.honours)},
           {"options", options_json(method.options)}};
 }

@@ -12,7 +12,7 @@ namespace footprint {
 /// method or option, with the nearest.
 [[nodiscard]] std::vector<MethodSpec> parse_known_methods(const std::string& text);
 
-/// Every method of the program, with its own defaults.
+/// Every method of the program but those that are slow (MethodInfo::slow_frame), with its own defaults.
 [[nodiscard]] std::vector<MethodSpec> every_method();
 
 }  // namespace footprint

@@ -270,7 +270,8 @@ SettingType one_method(Field<std::vector<MethodSpec>> field) {
 SettingType methods(Field<std::vector<MethodSpec>> field) {
   return {.word = "LIST",
           .option_takes = "name or name:option=value each, commas between",
-          .file_takes = R"(a list as ["direct", "toksvig:storage=fp16"], or "all" for every method with its defaults)",
+          .file_takes =
+              R"(a list as ["direct", "toksvig:storage=fp16"], or "all" for all but slow ones with their defaults)",
           .read_text = [=](RunSettings& run, std::string_view,
                            const std::string& text) { field(run) = parse_known_methods(text); },
           .read_file = [=](RunSettings& run, const TomlTable& table,

@@ -71,7 +71,7 @@ std::vector<Setting> what_is_drawn() {
        .commands = {"ndf"},
        .type = methods(all_of),
        .help = "the methods",
-       .otherwise = "all that take the material"},
+       .otherwise = "all but slow ones that take the material"},
       {.table = "experiment", .key = "methods", .type = methods(all_of), .help = "the methods", .required = true},
       {.option = "--without",
        .commands = {"compare"},

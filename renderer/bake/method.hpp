@@ -26,6 +26,8 @@ struct MethodInfo {
   EffectSet honours;              ///< effects that it can simulate; others are left out, and the table says so
   bool draws_directions = false;  ///< the module integrates an environment itself where many samples are taken
   bool slow_precompute = false;   ///< seconds, not milliseconds: kept on disk between runs (bake_cache.hpp)
+  /// Seconds a frame, not milliseconds: a bound to hold others against. `all` methods are all but these.
+  bool slow_frame = false;
   /// Whether it shows a map's texels where they are large on screen. Not so: one effective BRDF for the whole material,
   /// which is right where the whole map lies in a pixel.
   bool resolves_texels = true;

@@ -31,7 +31,7 @@ constexpr const char* examples =
     "\n"
     "Examples:\n"
     "  footprint ndf normals.png -o ndf\n"
-    "  footprint ndf normals.exr --lobe ggx:0.1 --methods toksvig,naive_mip --footprint 0,0,0.25,0.25 -o ndf\n"
+    "  footprint ndf normals.exr --lobe ggx:0.1 --methods toksvig,naive_mip --region 0,0,0.25,0.25 -o ndf\n"
     "  footprint ndf model.gltf --material 2 --texels 256,128,320,192 -o ndf";
 
 struct Arguments {
@@ -67,7 +67,7 @@ FootprintRect parse_rectangle(const std::string& option, const std::string& text
 // The footprint in texture coordinates, whichever way it was given.
 FootprintRect footprint_of(const Arguments& arguments, const Material& material) {
   FootprintRect rect;
-  if (!arguments.footprint.empty()) rect = parse_rectangle("--footprint", arguments.footprint);
+  if (!arguments.footprint.empty()) rect = parse_rectangle("--region", arguments.footprint);
   if (!arguments.texels.empty()) {
     rect = parse_rectangle("--texels", arguments.texels);
     const glm::dvec2 size = material.normal_map
@@ -75,7 +75,7 @@ FootprintRect footprint_of(const Arguments& arguments, const Material& material)
                                 : glm::dvec2(1.0);
     rect = {rect.lower / size, rect.upper / size};
   }
-  check_footprint(rect, arguments.texels.empty() ? "--footprint" : "--texels");
+  check_footprint(rect, arguments.texels.empty() ? "--region" : "--texels");
   return rect;
 }
 
@@ -84,7 +84,7 @@ void run_ndf(const Arguments& arguments) {
                        .footprint = {},
                        .resolution = arguments.resolution,
                        .picture = arguments.picture_size};
-  if (!arguments.footprint.empty()) (void)parse_rectangle("--footprint", arguments.footprint);
+  if (!arguments.footprint.empty()) (void)parse_rectangle("--region", arguments.footprint);
   if (!arguments.texels.empty()) (void)parse_rectangle("--texels", arguments.texels);
   const std::optional<Lobe> lobe =
       arguments.lobe.empty() ? std::nullopt : std::optional(parse_lobe("--lobe", arguments.lobe));
@@ -118,7 +118,7 @@ void add_ndf_command(CLI::App& app) {
       app.add_subcommand("ndf", "Show the effective NDF of a footprint by each method beside the true one");
   const auto arguments = std::make_shared<Arguments>(*command);
   command->add_option("source", arguments->source, "SCENE or MAP")->required();
-  auto* footprint = command->add_option("--footprint", arguments->footprint,
+  auto* footprint = command->add_option("--region", arguments->footprint,
                                         "u0,v0,u1,v1 in texture coordinates; if not given the whole map");
   command->add_option("--texels", arguments->texels, "The same as x0,y0,x1,y1 in texels of the normal map")
       ->excludes(footprint);

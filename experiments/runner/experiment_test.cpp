@@ -78,7 +78,7 @@ description = "words"
 size = [500, 400]
 exposure = 0.25
 without = ["fresnel", "cast_shadow"]
-anisotropy = 8
+footprint = "anisotropic:8"
 repeats = 3
 [zoom]
 from = 1
@@ -122,7 +122,7 @@ TEST_F(ExperimentFile, EveryKeyIsRead) {
   EXPECT_EQ(given_distances(experiment.run.view), (std::vector<double>{1, 2, 4}));
   EXPECT_EQ(experiment.run.view.exposure->factor, 0.25F);
   EXPECT_EQ(experiment.run.view.exposure->source, ExposureSource::experiment);
-  EXPECT_EQ(experiment.run.footprint_filter.probes, 8);
+  EXPECT_EQ(experiment.run.footprint, (FootprintFilter{FootprintFilterKind::anisotropic, 8}));
   EXPECT_EQ(experiment.run.timing.repeats, 3);
   EXPECT_EQ(experiment.run.reference.spp, 256);
   EXPECT_EQ(experiment.run.reference.seed, 7U);

@@ -16,6 +16,7 @@
 #include "renderer/pipeline/environment_use.hpp"
 #include "renderer/pipeline/reference_filter.hpp"
 #include "renderer/scene/camera.hpp"
+#include "renderer/scene/footprint_filter.hpp"
 #include "renderer/scene/surface.hpp"
 
 namespace footprint {
@@ -56,11 +57,6 @@ struct ViewSettings {
   std::optional<double> error_scale;
 };
 
-/// How a method looks its maps up over a pixel's footprint.
-struct FootprintFilter {
-  int probes = 1;  ///< trilinear ones along the footprint's major axis, at most; 1: isotropic
-};
-
 /// What errors are measured against.
 struct ReferenceSettings {
   int spp = 64;                                            ///< samples a pixel, 1 to 4096
@@ -91,7 +87,7 @@ struct RunSettings {
   std::vector<MethodSpec> methods;
   EffectSet without;  ///< effects that every method and the reference leave out
   ViewSettings view;
-  FootprintFilter footprint_filter;
+  std::optional<FootprintFilter> footprint;  ///< none: the scene's own, else default_footprint_filter
   ReferenceSettings reference;
   TimingSettings timing;
   BackendSettings backend;

@@ -257,6 +257,20 @@ SettingType exposure(Field<std::optional<Exposure>> field) {
           .text = [=](RunSettings run) { return field(run) ? fmt::format("{}", field(run)->factor) : "auto"; }};
 }
 
+SettingType footprint_filter(Field<std::optional<FootprintFilter>> field) {
+  const std::string takes = footprint_filter_choices();
+  return {.word = "FILTER",
+          .option_takes = takes,
+          .file_takes = takes,
+          .read_text = [=](RunSettings& run, std::string_view option,
+                           const std::string& text) { field(run) = parse_footprint_filter(text, option); },
+          .read_file =
+              [=](RunSettings& run, const TomlTable& table, std::string_view key) {
+                field(run) = at_key(table, key, [&] { return parse_footprint_filter(*table.word(key), ""); });
+              },
+          .text = [=](RunSettings run) { return field(run) ? footprint_filter_text(*field(run)) : ""; }};
+}
+
 SettingType one_method(Field<std::vector<MethodSpec>> field) {
   return {.word = "M",
           .option_takes = "name or name:option=value",

@@ -45,6 +45,9 @@ using Field = Value& (*)(RunSettings& run);
 /// A factor on radiance, or "auto" for none.
 [[nodiscard]] SettingType exposure(Field<std::optional<Exposure>> field);
 
+/// A footprint filter.
+[[nodiscard]] SettingType footprint_filter(Field<std::optional<FootprintFilter>> field);
+
 /// One method, or `reference`; an option alone.
 [[nodiscard]] SettingType one_method(Field<std::vector<MethodSpec>> field);
 

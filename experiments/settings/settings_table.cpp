@@ -153,12 +153,13 @@ std::vector<Setting> what_is_seen() {
        .type = positive_number([](Run& run) -> std::optional<double>& { return run.view.error_scale; }, 1e-6, 1.0),
        .help = "normalised colour error at the top of every error picture",
        .otherwise = "the largest 99th percentile of all pictures"},
-      {.option = "--anisotropy",
+      {.option = "--footprint",
        .commands = with_a_footprint,
        .table = "experiment",
-       .key = "anisotropy",
-       .type = whole_number([](Run& run) -> int& { return run.footprint_filter.probes; }, 1, 16),
-       .help = "probes along the footprint's major axis; 1 is isotropic"},
+       .key = "footprint",
+       .type = footprint_filter([](Run& run) -> std::optional<FootprintFilter>& { return run.footprint; }),
+       .help = "how what lies under a pixel is filtered (docs/filters.md)",
+       .otherwise = "the scene's, else anisotropic:8"},
   };
 }
 

@@ -31,7 +31,10 @@ constexpr double scale_quantile = 0.99;
 constexpr double smallest_error_scale = 0.01;
 constexpr std::uint64_t curve_seed = 0x9e3779b97f4a7c15;  // keeps the curve's samples apart from the reference's
 
-// `direct` is what every ratio is taken to; it is staged first, also where it is not asked for.
+// `direct` is what every ratio is taken to: it is staged first, also where it is not asked for, and looks its maps up
+// by one trilinear lookup whatever the footprint filter, so that ratios of several filters compare.
+constexpr FootprintFilter filter_of_the_unit{FootprintFilterKind::trilinear, 1};
+
 RunSettings with_direct(RunSettings settings) {
   settings.methods.insert(settings.methods.begin(), {.text = "direct", .name = "direct", .options = {}});
   return settings;
@@ -86,7 +89,7 @@ class Comparison {
         folder_(std::move(folder)),
         whole_(progress, 4),
         stage_(load_scene(settings.scene, settings.scene_library, settings.view.camera), with_direct(settings),
-               whole_.next(1, "")),
+               whole_.next(1, ""), pictures_of_a_frame, filter_of_the_unit),
         distances_(run_distances(settings.view, stage_.scene())),
         parts_(whole_.next(3, ""), static_cast<double>(distances_.size()) *
                                        (settings.reference.spp + other_samples() + curve_samples() + method_weight())) {
@@ -351,6 +354,7 @@ class Comparison {
     results_.reference.spp = settings_.reference.spp;
     results_.reference.filter = word_for(reference_filters, settings_.reference.filter);
     results_.reference.seed = settings_.reference.seed;
+    results_.footprint = footprint_filter_text(footprint_filter_of(settings_, stage_.scene()));
     results_.timing = {.frames = settings_.timing.repeats, .processes = processes};
     if (has(stage_.effects(), Effect::environment_light))
       results_.reference.environment = word_for(reference_integrals, settings_.reference.environment);

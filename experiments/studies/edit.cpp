@@ -96,8 +96,7 @@ struct Drawing {
         method(std::make_unique<GpuMethod>(gpu_scene, *baked)),
         frames(context.info(), gpu_scene, *method, size,
                ProgramSettings{.sampling = Sampling::frame,
-                               .lookup = Lookup::trilinear,
-                               .max_probes = settings.footprint_filter.probes,
+                               .footprint = footprint_filter_of(settings, scene),
                                .orthographic = scene.camera.orthographic},
                settings.backend.tile) {}
 

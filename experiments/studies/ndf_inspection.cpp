@@ -24,6 +24,8 @@ constexpr double part_in_pictures = 1.0 / 16.0;
 // What lies below the horizon needs no more than this.
 constexpr double part_in_energy = 1.0 / 8.0;
 
+FootprintFilter filter_of(const RunSettings& run) { return run.footprint.value_or(default_footprint_filter); }
+
 // What is evaluated, and the truth there.
 struct Grid {
   HemisphereGrid hemisphere;
@@ -82,7 +84,7 @@ NdfResults described(const NdfSource& source, const NdfSettings& settings, const
   results.valid_share = texels.valid_share;
   results.facets = texels.facets.size();
   results.level = footprint_level(source.material, rect);
-  results.anisotropy = settings.run.footprint_filter.probes;
+  results.filter = footprint_filter_text(filter_of(settings.run));
   results.notes = source.notes;
   return results;
 }
@@ -110,7 +112,7 @@ class Bench {
     const Method& method = find_method(spec.name);
     const BakedMethod baked = bake(method, spec, scene_, effects_, progress, cache_ ? &*cache_ : nullptr);
     const MethodNdf ndf(context_.info(), gpu_scene_, baked, scene_.materials.front(),
-                        settings_.run.footprint_filter.probes, settings_.run.backend.tile);
+                        filter_of(settings_.run), settings_.run.backend.tile);
     for (const std::string& note : baked.materials.front().notes)
       results.notes.push_back(fmt::format("{}: {}", spec.text, note));
     const std::vector<float> densities = ndf.densities(settings_.footprint, grid.hemisphere.directions);
@@ -139,7 +141,7 @@ class Bench {
 
 NdfResults inspect_ndf(const NdfSource& source, const NdfSettings& settings, const std::filesystem::path& folder,
                        const Progress& progress) {
-  check_footprint(settings.footprint, "--footprint");
+  check_footprint(settings.footprint, "--region");
   const std::vector<MethodSpec> methods = methods_of(settings);
   ProgressParts parts(progress, static_cast<double>(methods.size() + 2));
   const FootprintTexels texels = texels_under(source.material, settings.footprint);

@@ -45,6 +45,10 @@ glm::ivec2 frame_size(const Scene& scene, const std::optional<glm::ivec2>& wante
   return size;
 }
 
+FootprintFilter footprint_filter_of(const RunSettings& settings, const Scene& scene) {
+  return settings.footprint.value_or(scene.footprint.value_or(default_footprint_filter));
+}
+
 void require_pictures(const glm::ivec2& size, int count) {
   const std::uint64_t bytes = frame_bytes(static_cast<std::uint64_t>(size.x), static_cast<std::uint64_t>(size.y),
                                           pixel_bytes * static_cast<std::uint64_t>(count));
@@ -52,18 +56,17 @@ void require_pictures(const glm::ivec2& size, int count) {
 }
 
 StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& scene, const Scene& values,
-                           const EffectSet& effects, const MethodSpec& spec, const glm::ivec2& size,
-                           const RunSettings& settings, const Progress& progress)
+                           const EffectSet& effects, const MethodSpec& spec, const FootprintFilter& filter,
+                           const glm::ivec2& size, const RunSettings& settings, const Progress& progress)
     : baked_(std::make_unique<BakedMethod>(bake_method(values, effects, spec, settings.cache, progress))),
       gpu_(std::make_unique<GpuMethod>(scene, *baked_)),
-      frames_(std::make_unique<FrameRenderer>(context, scene, *gpu_, size,
-                                              ProgramSettings{.sampling = Sampling::frame,
-                                                              .lookup = Lookup::trilinear,
-                                                              .max_probes = settings.footprint_filter.probes,
-                                                              .orthographic = values.camera.orthographic},
-                                              settings.backend.tile)) {}
+      frames_(std::make_unique<FrameRenderer>(
+          context, scene, *gpu_, size,
+          ProgramSettings{.sampling = Sampling::frame, .footprint = filter, .orthographic = values.camera.orthographic},
+          settings.backend.tile)) {}
 
-Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress, int pictures)
+Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress, int pictures,
+             const std::optional<FootprintFilter>& first_filter)
     : context_(settings.backend.context),
       scene_(std::move(scene)),
       settings_(settings),
@@ -75,8 +78,9 @@ Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress,
   ProgressParts parts(progress, static_cast<double>(settings.methods.size() + 2));
   gpu_scene_ = std::make_unique<GpuScene>(context_.info(), scene_, effects_, parts.next(1, ""));
   for (const MethodSpec& spec : settings.methods) {
-    methods_.emplace_back(context_.info(), *gpu_scene_, scene_, effects_, spec, size_, settings,
-                          parts.next(1, "bake "));
+    const FootprintFilter all = footprint_filter_of(settings, scene_);
+    methods_.emplace_back(context_.info(), *gpu_scene_, scene_, effects_, spec,
+                          methods_.empty() ? first_filter.value_or(all) : all, size_, settings, parts.next(1, "bake "));
   }
   base_ = std::make_unique<BakedMethod>(bake_base(scene_, effects_, parts.next(1, "bake ")));
   gpu_base_ = std::make_unique<GpuMethod>(*gpu_scene_, *base_);

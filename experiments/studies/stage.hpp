@@ -19,6 +19,9 @@ inline constexpr int pictures_of_a_frame = 3;
 /// Errors (usage): a side below 1.
 [[nodiscard]] glm::ivec2 frame_size(const Scene& scene, const std::optional<glm::ivec2>& wanted);
 
+/// The footprint filter: the settings', else the scene's, else default_footprint_filter.
+[[nodiscard]] FootprintFilter footprint_filter_of(const RunSettings& settings, const Scene& scene);
+
 /// Errors (machine): so many pictures (RGBA, 32-bit floats) of this size are more than memory holds.
 void require_pictures(const glm::ivec2& size, int count);
 
@@ -26,7 +29,8 @@ void require_pictures(const glm::ivec2& size, int count);
 class StagedMethod {
  public:
   StagedMethod(const gl::ContextInfo& context, GpuScene& scene, const Scene& values, const EffectSet& effects,
-               const MethodSpec& spec, const glm::ivec2& size, const RunSettings& settings, const Progress& progress);
+               const MethodSpec& spec, const FootprintFilter& filter, const glm::ivec2& size,
+               const RunSettings& settings, const Progress& progress);
 
   [[nodiscard]] const BakedMethod& baked() const { return *baked_; }
   [[nodiscard]] const GpuMethod& gpu() const { return *gpu_; }
@@ -42,8 +46,10 @@ class StagedMethod {
 class Stage {
  public:
   /// The settings' methods over `scene`, which need not be the settings' own. `pictures` as large as the frame are held
-  /// at once. Errors of the parts: usage (scene, method, option), machine (no GL, limits, memory).
-  Stage(Scene scene, const RunSettings& settings, const Progress& progress, int pictures = pictures_of_a_frame);
+  /// at once. `first_filter` is the footprint filter of the first method alone; none: that of all. Errors of the parts:
+  /// usage (scene, method, option), machine (no GL, limits, memory).
+  Stage(Scene scene, const RunSettings& settings, const Progress& progress, int pictures = pictures_of_a_frame,
+        const std::optional<FootprintFilter>& first_filter = {});
 
   [[nodiscard]] const gl::Context& context() const { return context_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }

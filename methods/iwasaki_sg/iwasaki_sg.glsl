@@ -11,8 +11,16 @@ struct Effective {
 
 //? if microgeometry_visibility or normal_variation
 int tableLobes() { return textureSize(iwasaki_lobes, 0).x; }
-vec4 lobeOf(int j) { return texelFetch(iwasaki_lobes, ivec2(j, 0), 0); }  // axis, sharpness
-float shareOf(int j) { return texelFetch(iwasaki_lobes, ivec2(j, 1), 0).x; }
+// Axis and sharpness.
+vec4 lobeOf(int j) {
+  countLookups(1);
+  return texelFetch(iwasaki_lobes, ivec2(j, 0), 0);
+}
+
+float shareOf(int j) {
+  countLookups(1);
+  return texelFetch(iwasaki_lobes, ivec2(j, 1), 0).x;
+}
 //? else
 const float flat_sharpness = 1e6;  // `sharpest` of ndf_fit.hpp
 int tableLobes() { return 1; }
@@ -46,6 +54,7 @@ TableTexels tableTexels(vec3 wi, vec3 wo) {
 }
 
 vec4 tableLayer(int layer, TableTexels texels) {
+  countLookups(4);
   vec4 sum = vec4(0.0);
   for (int k = 0; k < 4; ++k) sum += texels.weights[k] * textureLod(iwasaki_amplitudes, vec3(texels.uv[k], layer), 0.0);
   return sum;
@@ -71,6 +80,8 @@ float convolved(vec4 lobe, vec3 h) {
 //? else
   float sum = 0.0;
   int count = textureSize(iwasaki_brdf, 0).x;
+  countLookups(count);
+  countLobes(count);
   for (int s = 0; s < count; ++s) {
     vec2 brdf = texelFetch(iwasaki_brdf, ivec2(s, 0), 0).xy;  // sharpness, amplitude
 //? if convolution_exact

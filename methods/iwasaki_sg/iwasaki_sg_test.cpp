@@ -236,7 +236,7 @@ TEST(IwasakiSg, SeveralMaterialsBlendByCoverage) {
   EXPECT_LT(
       compare_images(renderer.frame(iwasaki_sg_method(), "iwasaki_sg:facets=4096"), truth, 1.0F).value().relative_rmse,
       0.06);
-  const Image far = renderer.frame(iwasaki_sg_method(), "iwasaki_sg:facets=4096", 1, 0, 6.0);
+  const Image far = renderer.frame(iwasaki_sg_method(), "iwasaki_sg:facets=4096", {}, 0, 6.0);
   for (std::size_t i = 3; i < far.texels.size(); i += 4) {
     ASSERT_TRUE(far.texels[i] == 1.0F || far.texels[i] == 0.0F);
   }

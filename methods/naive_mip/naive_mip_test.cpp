@@ -27,10 +27,10 @@ Scene striped_square() {
 }
 
 double far_difference(const std::string& text, float kappa) {
-  const Image filtered = TestRenderer(striped_square(), {16, 16}).frame(naive_mip_method(), text, 1, 0, 8.0);
+  const Image filtered = TestRenderer(striped_square(), {16, 16}).frame(naive_mip_method(), text, {}, 0, 8.0);
   Scene even = square_scene({}, {.brdf = vmf, .specular = glm::vec3(0.5F)});
   even.materials[0].lobe_parameter = kappa;
-  const Image constant = TestRenderer(even, {16, 16}).frame(naive_mip_method(), text, 1, 0, 8.0);
+  const Image constant = TestRenderer(even, {16, 16}).frame(naive_mip_method(), text, {}, 0, 8.0);
   return compare_images(filtered, constant, 1.0F).value().relative_rmse;
 }
 
@@ -60,7 +60,7 @@ TEST(NaiveMip, LobesTurnWithTheMeanNormal) {
     Scene scene = square_scene(normals, {.brdf = vmf, .specular = glm::vec3(0.5F)});
     scene.materials[0].lobes = {{.axis = {0.6F, 0.0F, 0.8F}, .parameter = 30.0F, .weight = 0.5F},
                                 {.axis = {-0.6F, 0.0F, 0.8F}, .parameter = 30.0F, .weight = 0.5F}};
-    return TestRenderer(scene, {16, 16}).frame(naive_mip_method(), {}, 1, 0, 4.0);
+    return TestRenderer(scene, {16, 16}).frame(naive_mip_method(), {}, {}, 0, 4.0);
   };
   EXPECT_LT(largest_difference(far(ridges), far({})), 1e-5);
 }

@@ -91,6 +91,7 @@ float amountOverDisc(float share, vec2 mean, float width, float height, float ba
 
 // Over solid angle: an area of the disc is h_z times the solid angle above it.
 float densityOverDisc(float amount, vec2 mean, float width, vec3 h) {
+  countLobes(1);
   vec2 d = h.xy - mean;
   return amount * exp(-0.5 * dot(d, d) / width) * max(h.z, 0.0);
 }

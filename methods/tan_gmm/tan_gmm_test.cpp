@@ -356,7 +356,7 @@ TEST(TanGmm, GrazingViewKeepsTheBound) {
 }
 
 double picture_error(TestRenderer& renderer, const Image& truth, const std::string& text, double distance = 1.0) {
-  return compare_images(renderer.frame(tan_gmm_method(), text, 1, 0, distance), truth, 1.0F).value().relative_rmse;
+  return compare_images(renderer.frame(tan_gmm_method(), text, {}, 0, distance), truth, 1.0F).value().relative_rmse;
 }
 
 // Where a pixel holds many grooves, two lobes and not one; between texels, aligned ones.

@@ -59,8 +59,8 @@ TEST(Template, EqualsTheBaseSurfaceOnAConstantMap) {
   normals.at(0, 0)[0] += 2e-5F;  // keeps a flat map from being left out, and is no bump to speak of
   TestRenderer renderer(square_scene(normals, {.brdf = blinn_phong}));
   for (const double distance : {0.05, 1.0, 4.0}) {
-    const Image truth = renderer.frame(base_surface(), {}, 1, 0, distance);
-    EXPECT_LT(difference(renderer.frame(template_method(), {}, 1, 0, distance), truth), 1e-3) << distance;
+    const Image truth = renderer.frame(base_surface(), {}, {}, 0, distance);
+    EXPECT_LT(difference(renderer.frame(template_method(), {}, {}, 0, distance), truth), 1e-3) << distance;
   }
 }
 
@@ -79,7 +79,7 @@ TEST(Template, StaysFiniteWhereNormalsCancel) {
   Image pair(2, 1, 4, 1.0F);
   pair.texels = {1, 0, 0, 1, -1, 0, 0, 1};
   TestRenderer renderer(square_scene(pair, {}));
-  for (const float value : renderer.frame(template_method(), {}, 1, 0, 20.0).texels)
+  for (const float value : renderer.frame(template_method(), {}, {}, 0, 20.0).texels)
     ASSERT_TRUE(std::isfinite(value) && value >= 0.0F);
 }
 

@@ -178,8 +178,8 @@ TEST(CameraSpace, ShowsAPlaneAsTheTangentFrameDoes) {
       scene.camera.yfov *= 0.25F;
       TestRenderer renderer(scene, {32, 32});
       for (const double distance : {1.0, 2.0}) {
-        const Image tangent = renderer.frame(xu_vmf_method(), "xu_vmf:j=1", 1, 0, distance);
-        const Image camera = renderer.frame(xu_vmf_method(), "xu_vmf:j=1:space=camera", 1, 0, distance);
+        const Image tangent = renderer.frame(xu_vmf_method(), "xu_vmf:j=1", {}, 0, distance);
+        const Image camera = renderer.frame(xu_vmf_method(), "xu_vmf:j=1:space=camera", {}, 0, distance);
         ASSERT_GT(covered_mean(tangent), 1e-3);
         EXPECT_LT(largest_difference(camera, tangent), 1e-4) << mirrored << ", " << degrees << ", " << distance;
       }

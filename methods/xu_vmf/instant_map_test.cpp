@@ -228,11 +228,11 @@ TEST(XuMap, HasTheLobesOfAFacetInLayersOfTheirOwn) {
 TEST(XuMap, OfTwoEqualLobesShowsOne) {
   Scene scene = blinn_phong_square(random_normals(64, 64, 0.6F, 42), 100);
   scene.materials[0].brdf.diffuse = false;
-  const Image one = TestRenderer(scene).frame(xu_vmf_method(), "xu_vmf:j=8", 1, 0, 2.0);
+  const Image one = TestRenderer(scene).frame(xu_vmf_method(), "xu_vmf:j=8", {}, 0, 2.0);
   ASSERT_GT(covered_mean(one), 1e-3);
   scene.materials[0].lobe_parameter.reset();
   scene.materials[0].lobes = {{{0.0F, 0.0F, 1.0F}, 100.0F, 0.5F}, {{0.0F, 0.0F, 1.0F}, 100.0F, 0.5F}};
-  EXPECT_LT(largest_difference(TestRenderer(scene).frame(xu_vmf_method(), "xu_vmf:j=8", 1, 0, 2.0), one), 1e-4);
+  EXPECT_LT(largest_difference(TestRenderer(scene).frame(xu_vmf_method(), "xu_vmf:j=8", {}, 0, 2.0), one), 1e-4);
 }
 
 }  // namespace

@@ -52,6 +52,7 @@ float densityOf(Lobe lobe, vec3 h) {
 //? if lobe_base
   return lobeDensity(lobe.base, lobe.mean, h);
 //? else
+  countLobes(1);
   return vmfDensity(lobe.kappa, lobe.mean, h);
 //? end
 }

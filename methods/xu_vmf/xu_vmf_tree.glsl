@@ -36,6 +36,7 @@ Probe probeAt(int own, vec2 uv, float level) {
                vec4(beyond.y, beyond.y, 1.0 - beyond.y, 1.0 - beyond.y);  // in the order of textureGather
   share *= 1.0 - clamp(level, 0.0, 1.0);
   p.texel = texelsAbout(xu_vmf_whole, middle);
+  countLookups(4);
   for (int i = 0; i < 4; ++i) {
     p.part[i] = partOfCell(cellOf(p.texel[i].xyz));
     p.texel[i] *= share[i];
@@ -43,6 +44,7 @@ Probe probeAt(int own, vec2 uv, float level) {
   p.guard = vec4(0.0);
 //? if storage_fp16 and roughness_variation
   p.guard = share * textureGather(xu_vmf_whole_guard, middle, 0);
+  countLookups(1);
 //? end
   return p;
 }
@@ -53,9 +55,11 @@ Part partAt(Probe p, float facet_shortfall, int part) {
   int layers = textureSize(xu_vmf_parts, 0).z / facetsLobeCount();
   vec3 at = vec3(p.uv, p.own * layers + part);
   vec4 r = share * textureLod(xu_vmf_parts, at, p.level - 1.0);
+  countLookups(1);
   float guard = 0.0;
 //? if storage_fp16 and roughness_variation
   guard = share * textureLod(xu_vmf_parts_guard, at, p.level - 1.0).r;
+  countLookups(1);
 //? end
   int beyond = beyondPart(part);
   for (int i = 0; i < 4; ++i) {
@@ -73,7 +77,7 @@ struct Walk {
   float facet_shortfall;
   int next;  // part; from `parts` on the walk is over
   int parts;
-//? if not anisotropic
+//? if not several_probes
   Probe probe;
 //? end
 //? if j_adaptive and thresholds_blended
@@ -81,7 +85,7 @@ struct Walk {
 //? end
 };
 
-//? if anisotropic
+//? if several_probes
 Part partUnder(Walk walk, int part) {
   Footprint f = walk.footprint;
   Probes p = probesOf(vec2(textureSize(xu_vmf_whole, 0).xy), f);
@@ -89,10 +93,10 @@ Part partUnder(Walk walk, int part) {
   float least = 0.0;
   for (int i = 0; i < p.count; ++i) {
     Part one = partAt(probeAt(walk.own, probeUv(f, p, i), p.level), walk.facet_shortfall, part);
-    r += one.r;
-    least += one.least;
+    r += probeWeight(p, i) * one.r;
+    least += probeWeight(p, i) * one.least;
   }
-  return Part(r / float(p.count), least / float(p.count));
+  return Part(r, least);
 }
 //? end
 
@@ -118,8 +122,8 @@ Walk walkOver(Footprint f, int own, float facet_shortfall) {
   walk.facet_shortfall = facet_shortfall;
   walk.next = 0;
   walk.parts = textureSize(xu_vmf_parts, 0).z / facetsLobeCount();
-//? if not anisotropic
-  walk.probe = probeAt(own, f.uv, levelOf(vec2(textureSize(xu_vmf_whole, 0).xy), f));
+//? if not several_probes
+  walk.probe = probeAt(own, f.uv, probesOf(vec2(textureSize(xu_vmf_whole, 0).xy), f).level);
 //? end
 //? if j_adaptive and thresholds_blended
   walk.coarse_weight = 0.0;
@@ -130,7 +134,7 @@ Walk walkOver(Footprint f, int own, float facet_shortfall) {
 
 Part nextPart(inout Walk walk, out float weight) {
   int i = walk.next;
-//? if anisotropic
+//? if several_probes
   Part part = partUnder(walk, i);
 //? else
   Part part = partAt(walk.probe, walk.facet_shortfall, i);

@@ -69,4 +69,15 @@ class TomlTable {
   std::string name_;
 };
 
+/// What `read` makes of a key's value; what it found wrong becomes an error at the line of the key.
+template <typename Read>
+auto at_key(const TomlTable& table, std::string_view key, Read read) {
+  try {
+    return read();
+  } catch (const Error& error) {
+    const std::string place = error.place().empty() ? "" : error.place() + ": ";
+    throw table.error_at(key, "cannot be taken: " + place + error.message(), error.hint());
+  }
+}
+
 }  // namespace footprint

@@ -70,6 +70,13 @@ int integer(GLenum name) {
   return value;
 }
 
+bool has_extension(std::string_view name) {
+  for (GLuint i = 0; i < static_cast<GLuint>(integer(GL_NUM_EXTENSIONS)); ++i) {
+    if (name == reinterpret_cast<const char*>(api().GetStringi(GL_EXTENSIONS, i))) return true;
+  }
+  return false;
+}
+
 /// What the current context says of itself.
 ContextInfo describe(Backend backend) {
   ContextInfo info;
@@ -84,6 +91,8 @@ ContextInfo describe(Backend backend) {
   info.max_framebuffer_size = std::min({viewport[0], viewport[1], integer(GL_MAX_RENDERBUFFER_SIZE)});
   info.max_uniform_block_bytes = integer(GL_MAX_UNIFORM_BLOCK_SIZE);
   info.max_texture_units = integer(GL_MAX_TEXTURE_IMAGE_UNITS);
+  if (has_extension("GL_EXT_texture_filter_anisotropic") || has_extension("GL_ARB_texture_filter_anisotropic"))
+    info.max_anisotropy = integer(GL_MAX_TEXTURE_MAX_ANISOTROPY);
   info.software = std::ranges::any_of(std::array{"llvmpipe", "softpipe", "swrast", "Software Rasterizer"},
                                       [&](const char* name) { return info.renderer.find(name) != std::string::npos; });
   return info;

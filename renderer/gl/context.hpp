@@ -34,6 +34,7 @@ struct ContextInfo {
   int max_framebuffer_size = 0;  ///< the smaller of the largest viewport and renderbuffer, texels a side
   int max_uniform_block_bytes = 0;
   int max_texture_units = 0;  ///< for the fragment stage
+  int max_anisotropy = 1;     ///< probes of a sampler; 1: it has no anisotropic filter
   bool software = false;      ///< llvmpipe, softpipe or swrast: timer queries mean nothing there
 };
 

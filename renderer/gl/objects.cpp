@@ -85,8 +85,10 @@ void delete_query(GLuint name) {
   if (has_current_context()) api().DeleteQueries(1, &name);
 }
 
-Sampler trilinear_sampler(GLenum wrap_s, GLenum wrap_t) {
-  return make_sampler(GL_LINEAR, GL_LINEAR_MIPMAP_LINEAR, wrap_s, wrap_t);
+Sampler trilinear_sampler(GLenum wrap_s, GLenum wrap_t, int probes) {
+  Sampler sampler = make_sampler(GL_LINEAR, GL_LINEAR_MIPMAP_LINEAR, wrap_s, wrap_t);
+  if (probes > 1) api().SamplerParameteri(sampler.name(), GL_TEXTURE_MAX_ANISOTROPY, probes);
+  return sampler;
 }
 
 Sampler nearest_sampler(GLenum wrap_s, GLenum wrap_t) {

@@ -50,7 +50,8 @@ using Query = Handle<delete_query>;
 using Framebuffer = Handle<delete_framebuffer>;
 
 /// Magnifies linearly, minifies linearly within and between mip levels; a wrap mode is GL_REPEAT, GL_CLAMP_TO_EDGE, ...
-[[nodiscard]] Sampler trilinear_sampler(GLenum wrap_s, GLenum wrap_t);
+/// `probes`: of its anisotropic filter, at most ContextInfo::max_anisotropy.
+[[nodiscard]] Sampler trilinear_sampler(GLenum wrap_s, GLenum wrap_t, int probes = 1);
 
 /// Looks up the nearest texel of the nearest level.
 [[nodiscard]] Sampler nearest_sampler(GLenum wrap_s, GLenum wrap_t);

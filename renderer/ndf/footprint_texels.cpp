@@ -156,7 +156,7 @@ void unite_equal(std::vector<WeightedFacet>& facets) {
 void multiply_by_lobes(const std::vector<FacetLobe>& lobes, std::vector<WeightedFacet>& facets) {
   std::vector<WeightedFacet> out;
   require_memory(frame_bytes(facets.size(), lobes.size(), sizeof(WeightedFacet)),
-                 fmt::format("{} facets of {} lobes", facets.size(), lobes.size()), "give a smaller --footprint");
+                 fmt::format("{} facets of {} lobes", facets.size(), lobes.size()), "give a smaller --region");
   out.reserve(facets.size() * lobes.size());
   for (const WeightedFacet& facet : facets) {
     for (const FacetLobe& lobe : lobes) {
@@ -205,7 +205,7 @@ FootprintTexels texels_under(const Material& material, const FootprintRect& rect
   const std::vector<Stretch> rows = axis(1);
   require_memory(frame_bytes(columns.size(), rows.size(), sizeof(WeightedFacet)),
                  fmt::format("a footprint of {} x {} texels", columns.size(), rows.size()),
-                 "give a smaller --footprint, or free memory");
+                 "give a smaller --region, or free memory");
   const double area = rect.size().x * rect.size().y;
   FootprintTexels out{area * static_cast<double>(maps.normals().texel_count()), 0.0, {}};
   out.facets.reserve(columns.size() * rows.size());
@@ -219,7 +219,7 @@ FootprintTexels texels_under(const Material& material, const FootprintRect& rect
   for (const WeightedFacet& facet : out.facets) out.valid_share += facet.share;
   if (out.facets.empty()) {
     throw Error(ErrorKind::usage, fmt::format("material {}", material.name), "no texel of the footprint has a normal",
-                "give a --footprint where the map has some");
+                "give a --region where the map has some");
   }
   for (WeightedFacet& facet : out.facets) facet.share /= out.valid_share;
   if (!material.lobes.empty()) multiply_by_lobes(material.lobes, out.facets);

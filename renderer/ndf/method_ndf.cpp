@@ -17,19 +17,19 @@ namespace {
 constexpr int largest_edge = 1024;  // of the square of directions that is evaluated at once
 constexpr std::array<GLenum, 1> density_format{GL_R32F};
 
-ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, int probes) {
+ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const FootprintFilter& filter) {
   ShaderVariant variant;
   variant.effects = scene.effects() & baked.method->info().honours;
   variant.brdf = scene.brdf();
-  variant.max_probes = probes;
+  variant.footprint = filter;
   variant.facet_lobes = scene.facet_lobes();
   variant.surface_coordinates = baked.materials.front().surface_coordinates.has_value();
   return variant;
 }
 
-gl::Program program_of(const GpuScene& scene, const BakedMethod& baked, int probes) {
+gl::Program program_of(const GpuScene& scene, const BakedMethod& baked, const FootprintFilter& filter) {
   const ShaderText density =
-      ndf_shader(variant_of(scene, baked, probes), baked.method->shader(), baked.options, baked.materials.front());
+      ndf_shader(variant_of(scene, baked, filter), baked.method->shader(), baked.options, baked.materials.front());
   return {fmt::format("ndf of {} ({})", baked.spec.text, density.lines()), screen_vertex_shader(), density.text()};
 }
 
@@ -77,13 +77,14 @@ double footprint_level(const Material& material, const FootprintRect& rect) {
 }
 
 MethodNdf::MethodNdf(const gl::ContextInfo& context, GpuScene& scene, const BakedMethod& baked,
-                     const Material& material, int probes, int tile)
+                     const Material& material, const FootprintFilter& filter, int tile)
     : scene_(&scene),
       material_(&material),
       gpu_(scene, baked),
+      lookup_(frame_lookup(filter, context)),
       directions_unit_(static_cast<GLuint>(TextureUnits(scene.effects(), baked.materials.front()).size())),
       edge_(std::min({tile > 0 ? tile : largest_edge, context.max_framebuffer_size, context.max_texture_size})),
-      program_(program_of(scene, baked, probes)) {
+      program_(program_of(scene, baked, filter)) {
   GLuint name = 0;
   gl::api().CreateVertexArrays(1, &name);
   no_vertices_ = gl::VertexArray(name);
@@ -118,7 +119,7 @@ void MethodNdf::draw(const gl::RenderTarget& target, const gl::Texture& directio
   gl::api().Disable(GL_CULL_FACE);
   gl::api().UseProgram(program_.name());
   gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::material, batch.material_block.name());
-  gpu_.bind(batch, *scene_, Lookup::trilinear);
+  gpu_.bind(batch, *scene_, lookup_);
   gl::api().BindTextureUnit(directions_unit_, directions.name());
   gl::api().BindSampler(directions_unit_, 0);
   gl::api().Uniform1i(program_.uniform("ndf_directions"), static_cast<GLint>(directions_unit_));

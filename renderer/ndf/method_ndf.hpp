@@ -22,11 +22,10 @@ namespace footprint {
 /// the material must outlive it.
 class MethodNdf {
  public:
-  /// `probes` along the footprint's major axis, at most; 1: isotropic. `tile`: side of the square of directions that is
-  /// evaluated at once; 0: 1024. Errors (machine): the module does not compile,
-  /// the textures do not fit.
+  /// `tile`: side of the square of directions that is evaluated at once; 0: 1024. Errors (machine): the module does not
+  /// compile, the textures do not fit, the samplers have no such filter.
   MethodNdf(const gl::ContextInfo& context, GpuScene& scene, const BakedMethod& baked, const Material& material,
-            int probes, int tile = 0);
+            const FootprintFilter& filter, int tile = 0);
 
   /// The method's density per solid angle at each direction, for a pixel whose footprint is `rect`: its centre, and
   /// edges as long as the rectangle along u and along v. 0 at directions of length 0.
@@ -39,6 +38,7 @@ class MethodNdf {
   GpuScene* scene_;
   const Material* material_;
   GpuMethod gpu_;
+  Lookup lookup_;
   GLuint directions_unit_;
   int edge_;
   gl::Program program_;

@@ -158,9 +158,9 @@ TEST(FootprintTexels, RefuseRectanglesThatAreNone) {
                                     {{0, nan}, {1, 1}},
                                     {{0, 0}, {1, std::numeric_limits<double>::infinity()}},
                                     {{-1e9, 0}, {1, 1}}}) {
-    EXPECT_THROW(check_footprint(rect, "--footprint"), Error);
+    EXPECT_THROW(check_footprint(rect, "--region"), Error);
   }
-  EXPECT_NO_THROW(check_footprint({{-1, 0.25}, {2, 0.26}}, "--footprint"));
+  EXPECT_NO_THROW(check_footprint({{-1, 0.25}, {2, 0.26}}, "--region"));
 }
 
 TEST(TrueNdf, OfOneNormalIsTheLobe) {

@@ -191,8 +191,10 @@ GLuint SamplerCache::sampler(const TextureCoordinates& coordinates, Lookup looku
   for (const Entry& entry : entries_) {
     if (entry.wrap == coordinates.wrap && entry.lookup == lookup) return entry.sampler.name();
   }
-  const auto make = lookup == Lookup::trilinear ? gl::trilinear_sampler : gl::nearest_sampler;
-  entries_.push_back({coordinates.wrap, lookup, make(gl_wrap(coordinates.wrap[0]), gl_wrap(coordinates.wrap[1]))});
+  const GLenum along_u = gl_wrap(coordinates.wrap[0]), along_v = gl_wrap(coordinates.wrap[1]);
+  entries_.push_back({coordinates.wrap, lookup,
+                      lookup.blends ? gl::trilinear_sampler(along_u, along_v, lookup.probes)
+                                    : gl::nearest_sampler(along_u, along_v)});
   return entries_.back().sampler.name();
 }
 

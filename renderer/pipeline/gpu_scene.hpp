@@ -20,10 +20,18 @@ namespace footprint {
 
 class TextureUnits;
 
-/// How a program looks up textures.
-enum class Lookup { trilinear, nearest };
+/// How a program's samplers look textures up.
+struct Lookup {
+  bool blends = true;  ///< trilinear; else the nearest texel of the nearest level
+  int probes = 1;      ///< of the sampler's own anisotropic filter, at most
 
-/// A sampler for the wrap modes of some coordinates. Owned by GpuScene's cache: one for each of the 18 kinds.
+  friend bool operator==(const Lookup&, const Lookup&) = default;
+  static const Lookup trilinear, nearest;
+};
+inline constexpr Lookup Lookup::trilinear{.blends = true, .probes = 1};
+inline constexpr Lookup Lookup::nearest{.blends = false, .probes = 1};
+
+/// A sampler for the wrap modes of some coordinates. Owned by GpuScene's cache: one for each kind.
 class SamplerCache {
  public:
   [[nodiscard]] GLuint sampler(const TextureCoordinates& coordinates, Lookup lookup);

@@ -25,6 +25,17 @@ bool is_sampling(const Variant& v) {
   return v.sampling == sampling;
 }
 
+template <FootprintFilterKind kind>
+bool is_filter(const Variant& v) {
+  return v.sampling == Sampling::frame && v.footprint.kind == kind;
+}
+
+// What is fetched is a mean over lookups whose number the compiler does not know.
+bool averages_probes(const Variant& v) {
+  return v.sampling == Sampling::frame && v.footprint.kind != FootprintFilterKind::trilinear &&
+         v.footprint.kind != FootprintFilterKind::shaded;
+}
+
 bool samples_environment(const Variant& v) {
   return has(v.effects, Effect::environment_light) && v.environment != EnvironmentUse::prefiltered;
 }
@@ -59,7 +70,13 @@ constexpr auto rows = std::to_array<FlagRow>({
     {"sampling_texel", is_sampling<Sampling::texel>},
     {"sampling_point", is_sampling<Sampling::point>},
     {"random_draws", draws},
-    {"anisotropic", [](const Variant& v) { return v.max_probes > 1; }},
+    {"filter_anisotropic", is_filter<FootprintFilterKind::anisotropic>},
+    {"filter_box", is_filter<FootprintFilterKind::box>},
+    {"filter_ewa", is_filter<FootprintFilterKind::ewa>},
+    {"filter_hardware", is_filter<FootprintFilterKind::hardware>},
+    {"filter_shaded", is_filter<FootprintFilterKind::shaded>},
+    {"several_probes", averages_probes},
+    {"counting", [](const Variant& v) { return v.counting; }},
     {"orthographic", [](const Variant& v) { return v.orthographic; }},
     {"shared_coordinates", [](const Variant& v) { return v.shared_coordinates; }},
     {"surface_coordinates", [](const Variant& v) { return v.surface_coordinates; }},

@@ -8,6 +8,7 @@
 #include "renderer/core/options.hpp"
 #include "renderer/effects/effects.hpp"
 #include "renderer/pipeline/environment_use.hpp"
+#include "renderer/scene/footprint_filter.hpp"
 #include "renderer/scene/material.hpp"
 
 namespace footprint {
@@ -24,7 +25,8 @@ struct ShaderVariant {
   EffectSet effects;
   BaseBrdf brdf;
   Sampling sampling = Sampling::frame;
-  int max_probes = 1;  ///< anisotropic probes along the major axis; 1: isotropic
+  FootprintFilter footprint{};  ///< of a frame
+  bool counting = false;      ///< writes what a pixel looks up and evaluates, in place of its radiance
   bool orthographic = false;
   bool shared_coordinates = false;   ///< every map of the scene is looked up at one uv
   bool surface_coordinates = false;  ///< the method has coordinates of its own (Prefiltered::surface_coordinates)

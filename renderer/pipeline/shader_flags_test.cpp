@@ -22,10 +22,10 @@ TEST(ShaderFlags, FollowEffectsTermsAndWordOptions) {
   const std::vector<OptionSpec> specs{word_option("storage", {"fp32", "fp16"}, ""), number_option("n", 1, 0, 2, "")};
   ShaderVariant variant;
   variant.effects.set(static_cast<std::size_t>(Effect::fresnel));
-  variant.max_probes = 4;
+  variant.footprint = {FootprintFilterKind::anisotropic, 4};
   const ShaderFlags flags = shader_flags(variant, Options(specs, {{"storage", "fp16"}}, "t"));
   EXPECT_EQ(on(flags), (std::set<std::string>{"fresnel", "fresnel_schlick", "distribution_ggx", "geometry_smith",
-                                              "sampling_frame", "anisotropic", "storage_fp16"}));
+                                              "sampling_frame", "filter_anisotropic", "several_probes", "storage_fp16"}));
 }
 
 // What is off is known all the same: texts may ask for it.

@@ -25,6 +25,7 @@ std::string light_capacities(const ShaderVariant& v) {
   capacity(Effect::point_light, "point_light", v.point_lights);
   capacity(Effect::spot_light, "spot_light", v.spot_lights);
   capacity(Effect::directional_light, "directional_light", v.directional_lights);
+  text += fmt::format("const int light_capacity = {};\n", v.point_lights + v.spot_lights + v.directional_lights);
   if (calls_for_shadow_maps(v.effects)) capacity(Effect::cast_shadow, "shadow_view", v.shadow_maps);
   return text;
 }
@@ -68,14 +69,18 @@ ShaderText begun(const ShaderFlags& flags, const ShaderModule& module) {
 // block) and may call.
 void add_method_pass(ShaderText& text, const ShaderVariant& variant, const ShaderFlags& flags, const Options& options,
                      const Prefiltered& prefiltered, std::string_view pass) {
-  if (variant.max_probes > 1) text.add(fmt::format("const float max_probes = {}.0;\n", variant.max_probes));
-  text.add(number_options(options) + scalar_declarations(prefiltered));
+  text.add(footprint_constants(variant.footprint) + number_options(options) + scalar_declarations(prefiltered));
   add_material_block(text, flags, variant.facet_lobes);
   add_shared_functions(text, flags);
   text.include(pass);
 }
 
 }  // namespace
+
+// The parts are no constant: a loop whose rounds are known is unrolled, which takes compilers seconds.
+std::string footprint_constants(const FootprintFilter& filter) {
+  return fmt::format("const int most_probes = {0};\nuniform int footprint_parts = {0};\n", filter.count);
+}
 
 std::string shared_functions(const ShaderFlags& flags, const ShaderModule& module) {
   ShaderText text(flags, module);

@@ -16,6 +16,9 @@ namespace footprint {
 /// that evaluate them outside of a frame.
 [[nodiscard]] std::string shared_functions(const ShaderFlags& flags, const ShaderModule& module = {});
 
+/// The numbers of a footprint filter, in front of the shared functions where it is not trilinear.
+[[nodiscard]] std::string footprint_constants(const FootprintFilter& filter);
+
 [[nodiscard]] std::string vertex_shader(const ShaderVariant& variant);
 
 /// The forward pass around a method's module; `prefiltered` (any material's) gives the names of its textures and

@@ -17,7 +17,8 @@ constexpr int default_tile_edge = 512;
 ProgramSettings settings_of(ReferenceFilter filter, bool orthographic, EnvironmentUse environment) {
   return {.sampling = filter == ReferenceFilter::after_shading ? Sampling::texel : Sampling::point,
           .lookup = filter == ReferenceFilter::bilinear ? Lookup::trilinear : Lookup::nearest,
-          .max_probes = 1,
+          .footprint = {},
+          .counting = false,
           .orthographic = orthographic,
           .environment = environment};
 }

@@ -8,6 +8,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "renderer/bake/shared_maps.hpp"
+#include "renderer/core/error.hpp"
 #include "renderer/pipeline/frame_build_job.hpp"
 
 namespace footprint {
@@ -32,7 +33,8 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
   return {.effects = effects_of(scene, *baked.method),
           .brdf = scene.brdf(),
           .sampling = settings.sampling,
-          .max_probes = settings.max_probes,
+          .footprint = settings.footprint,
+          .counting = settings.counting,
           .orthographic = settings.orthographic,
           .shared_coordinates = scene.shared_coordinates(),
           .surface_coordinates = baked.materials.front().surface_coordinates.has_value(),
@@ -42,6 +44,11 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
           .spot_lights = scene.light_counts().spot,
           .directional_lights = scene.light_counts().directional,
           .shadow_maps = scene.light_counts().shadow_maps};
+}
+
+ProgramSettings with_lookup(ProgramSettings settings, const gl::ContextInfo& context) {
+  if (settings.sampling == Sampling::frame) settings.lookup = frame_lookup(settings.footprint, context);
+  return settings;
 }
 
 TextureUnits units_of(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings) {
@@ -106,6 +113,17 @@ void set_state(const GpuBatch& batch) {
 }
 
 }  // namespace
+
+Lookup frame_lookup(const FootprintFilter& filter, const gl::ContextInfo& context) {
+  if (filter.kind != FootprintFilterKind::hardware) return Lookup::trilinear;
+  if (filter.count > context.max_anisotropy) {
+    throw Error(ErrorKind::machine, footprint_filter_text(filter),
+                context.max_anisotropy > 1 ? fmt::format("this OpenGL's samplers have {} probes", context.max_anisotropy)
+                                           : "this OpenGL has no anisotropic samplers",
+                fmt::format("take anisotropic:{}, whose probes are in the shader", filter.count));
+  }
+  return {.blends = true, .probes = filter.count};
+}
 
 GpuMethod::GpuMethod(const GpuScene& scene, const BakedMethod& baked)
     : baked_(&baked),
@@ -174,7 +192,7 @@ void GpuMethod::bind(const GpuBatch& batch, GpuScene& scene, Lookup lookup) cons
 }
 
 SurfaceProgram::SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings)
-    : settings_(settings),
+    : settings_(with_lookup(settings, scene.context())),
       environment_light_(has(effects_of(scene, *baked.method), Effect::environment_light)),
       environment_(environment_of(*baked.method, settings)),
       units_(units_of(scene, baked, settings)),

@@ -55,11 +55,15 @@ class GpuMethod {
   mutable std::optional<Built> built_;
 };
 
+/// How the samplers of a frame look up. Errors (machine): they have no such filter.
+[[nodiscard]] Lookup frame_lookup(const FootprintFilter& filter, const gl::ContextInfo& context);
+
 /// How a program samples, and what the scene's camera asks of it.
 struct ProgramSettings {
   Sampling sampling = Sampling::frame;
-  Lookup lookup = Lookup::trilinear;
-  int max_probes = 1;
+  Lookup lookup = Lookup::trilinear;  ///< of samples; that of a frame follows from its footprint filter
+  FootprintFilter footprint{};  ///< of a frame
+  bool counting = false;      ///< writes texture lookups and lobe evaluations a pixel, in place of radiance
   bool orthographic = false;
   EnvironmentUse environment = EnvironmentUse::sampled;  ///< of a module that integrates it itself
 };

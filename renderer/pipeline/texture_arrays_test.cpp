@@ -22,18 +22,17 @@ Prefiltered three_layers(TextureFilter filter) {
 
 // Evaluates `expression` (a vec4 of Footprint f, int layer) for footprints given as uv, dx, dy.
 std::vector<glm::vec4> looked_up(const Prefiltered& prefiltered, const std::string& expression, int layer,
-                                 std::span<const std::array<glm::vec4, 3>> footprints, int max_probes) {
+                                 std::span<const std::array<glm::vec4, 3>> footprints, const FootprintFilter& filter) {
   const gl::Context& context = shared_context();
   const GpuTexture texture = upload(prefiltered.textures[0]);
   SamplerCache samplers;
   gl::api().BindTextureUnit(0, texture.texture.name());
   gl::api().BindSampler(0, samplers.sampler(texture.coordinates, texture.lookup(Lookup::trilinear)));
   ShaderVariant variant;
-  variant.max_probes = max_probes;
+  variant.footprint = filter;
   const ShaderFlags flags = shader_flags(variant, Options({}, {}, "test"), prefiltered);
   const std::string text =
-      "layout(binding = 0) uniform sampler2DArray map;\nconst float max_probes = " + std::to_string(max_probes) +
-      ".0;\n" + shared_functions(flags);
+      "layout(binding = 0) uniform sampler2DArray map;\n" + footprint_constants(filter) + shared_functions(flags);
   const std::string body =
       "Footprint f = Footprint(a.xy, b.xy, c.xy); int layer = " + std::to_string(layer) + ";\n" + expression;
   std::vector<glm::vec4> out = evaluate_glsl(text, body, footprints);
@@ -60,14 +59,15 @@ std::vector<std::array<glm::vec4, 3>> some_footprints() {
 }
 
 TEST(TextureArrays, TexelsOfAFootprintSumToWhatTheSamplerBlends) {
-  for (const int probes : {1, 4}) {
+  for (const char* const text : {"trilinear", "anisotropic:4", "box:3", "ewa:6"}) {
+    const FootprintFilter filter = parse_footprint_filter(text, "");
     for (int layer = 0; layer < 3; ++layer) {
       const auto expected =
-          looked_up(three_layers(TextureFilter::trilinear), blended, layer, some_footprints(), probes);
-      const auto got = looked_up(three_layers(TextureFilter::nearest), summed, layer, some_footprints(), probes);
+          looked_up(three_layers(TextureFilter::trilinear), blended, layer, some_footprints(), filter);
+      const auto got = looked_up(three_layers(TextureFilter::nearest), summed, layer, some_footprints(), filter);
       ASSERT_EQ(got.size(), expected.size());
       for (std::size_t i = 0; i < got.size(); ++i)
-        for (int c = 0; c < 4; ++c) EXPECT_NEAR(got[i][c], expected[i][c], 2e-4F) << probes << " " << layer << " " << i;
+        for (int c = 0; c < 4; ++c) EXPECT_NEAR(got[i][c], expected[i][c], 2e-4F) << text << " " << layer << " " << i;
     }
   }
 }
@@ -78,7 +78,7 @@ TEST(TextureArrays, LayersAreApart) {
       {{glm::vec4(0.5F), glm::vec4(8, 0, 0, 0), glm::vec4(0, 8, 0, 0)}}};
   for (int layer = 0; layer < 3; ++layer) {
     const auto top = decode_level(prefiltered.textures[0], prefiltered.textures[0].levels.size() - 1, layer).texels;
-    const glm::vec4 got = looked_up(prefiltered, blended, layer, whole, 1)[0];
+    const glm::vec4 got = looked_up(prefiltered, blended, layer, whole, {})[0];
     for (int c = 0; c < 4; ++c) EXPECT_NEAR(got[c], top[static_cast<std::size_t>(c)], 1e-5F) << layer;
   }
 }

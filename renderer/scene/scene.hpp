@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "renderer/scene/environment.hpp"
+#include "renderer/scene/footprint_filter.hpp"
 #include "renderer/scene/material.hpp"
 
 namespace footprint {
@@ -97,6 +98,7 @@ struct Scene {
   std::optional<Environment> environment;
   Camera camera;
   Bounds bounds;
+  std::optional<FootprintFilter> footprint;  ///< that its pictures are meant for; none: default_footprint_filter
   std::optional<float> exposure;  ///< multiplies radiance before display and the clamped measures; none: automatic
   std::vector<double> distances{
       1.0};  ///< the default zoom path: factors on the camera's distance to the bounds' centre

@@ -21,7 +21,46 @@ struct Footprints {
 //? if normal_layers
   Footprint layer;
 //? end
+//? if material_index
+  Footprint share;
+//? end
 };
+
+//? if filter_shaded
+// Part `i` of n x n: a footprint of its own.
+Footprint partOf(Footprint f, int i) {
+  vec2 at = (vec2(i % footprint_parts, i / footprint_parts) + 0.5) / float(footprint_parts) - 0.5;
+  return Footprint(f.uv + f.dx * at.x + f.dy * at.y, f.dx / float(footprint_parts), f.dy / float(footprint_parts));
+}
+
+Footprints partOf(Footprints f, int i) {
+  Footprints part;
+  part.normal = partOf(f.normal, i);
+//? if shared_coordinates
+  part.roughness = part.normal;
+  part.base_color = part.normal;
+//? if specular_variation
+  part.specular = part.normal;
+//? end
+//? else
+  part.roughness = partOf(f.roughness, i);
+  part.base_color = partOf(f.base_color, i);
+//? if specular_variation
+  part.specular = partOf(f.specular, i);
+//? end
+//? end
+//? if surface_coordinates
+  part.surface = partOf(f.surface, i);
+//? end
+//? if normal_layers
+  part.layer = partOf(f.layer, i);
+//? end
+//? if material_index
+  part.share = partOf(f.share, i);
+//? end
+  return part;
+}
+//? end
 
 //? if surface_coordinates
 // From the tangent frame of the point that is shaded to the camera's axes: x right, y up, z towards the viewer.
@@ -32,63 +71,62 @@ mat3 tangent_to_camera;
 // `textureSize` for one level to eight pixels.
 vec2 levelSize(ivec2 finest, int level) { return vec2(max(finest >> level, ivec2(1))); }
 
-//? if sampling_frame
-//? if anisotropic
-// Explicit probes along the major axis, at the level of the minor one: the formulas of EXT_texture_filter_anisotropic,
-// spelled out because drivers differ in theirs.
-struct Probes {
-  int count;
-  float level;
-  vec2 axis;
-};
+// Count what a pixel looks up and which lobes it evaluates, where that is asked for. A module that looks a map up by
+// itself, or has lobes that are none of the shared ones, calls them too.
+//? if counting
+int lookups = 0;
+int lobe_evaluations = 0;
+void countLookups(int count) { lookups += count; }
+void countLobes(int count) { lobe_evaluations += count; }
+//? else
+void countLookups(int count) {}
+void countLobes(int count) {}
+//? end
 
-Probes probesOf(vec2 size, Footprint f) {
-  float along_x = length(f.dx * size);
-  float along_y = length(f.dy * size);
-  float major = max(max(along_x, along_y), 1e-12);
-  float minor = min(along_x, along_y);
-  int count = int(ceil(min(major / max(minor, 1e-12), max_probes)));
-  return Probes(count, log2(major / float(count)), along_x > along_y ? f.dx : f.dy);
+//? if sampling_frame
+//? include footprint_probes.glsl
+//? if filter_hardware
+vec4 fetch(sampler2D map, Footprint f) {
+  countLookups(1);
+  return textureGrad(map, f.uv, f.dx, f.dy);
 }
 
-vec2 probeUv(Footprint f, Probes p, int i) { return f.uv + p.axis * (float(i + 1) / float(p.count + 1) - 0.5); }
-
+//? if texture_arrays
+vec4 fetch(sampler2DArray map, int layer, Footprint f) {
+  countLookups(1);
+  return textureGrad(map, vec3(f.uv, layer), f.dx, f.dy);
+}
+//? end
+//? else
 vec4 fetch(sampler2D map, Footprint f) {
   Probes p = probesOf(vec2(textureSize(map, 0)), f);
+  countLookups(p.count);
   vec4 sum = vec4(0.0);
-  for (int i = 0; i < p.count; ++i) sum += textureLod(map, probeUv(f, p, i), p.level);
-  return sum / float(p.count);
+  for (int i = 0; i < p.count; ++i) sum += probeWeight(p, i) * textureLod(map, probeUv(f, p, i), p.level);
+  return sum;
 }
 
 //? if texture_arrays
 vec4 fetch(sampler2DArray map, int layer, Footprint f) {
   Probes p = probesOf(vec2(textureSize(map, 0).xy), f);
+  countLookups(p.count);
   vec4 sum = vec4(0.0);
-  for (int i = 0; i < p.count; ++i) sum += textureLod(map, vec3(probeUv(f, p, i), layer), p.level);
-  return sum / float(p.count);
-}
-//? end
-//? else
-// Trilinear at the level whose texels are as large as the footprint's longer edge (OpenGL 4.5, section 8.14).
-float levelOf(vec2 size, Footprint f) {
-  vec2 edge_x = f.dx * size;
-  vec2 edge_y = f.dy * size;
-  return 0.5 * log2(max(max(dot(edge_x, edge_x), dot(edge_y, edge_y)), 1e-24));
-}
-
-vec4 fetch(sampler2D map, Footprint f) { return textureLod(map, f.uv, levelOf(vec2(textureSize(map, 0)), f)); }
-
-//? if texture_arrays
-vec4 fetch(sampler2DArray map, int layer, Footprint f) {
-  return textureLod(map, vec3(f.uv, layer), levelOf(vec2(textureSize(map, 0).xy), f));
+  for (int i = 0; i < p.count; ++i) sum += probeWeight(p, i) * textureLod(map, vec3(probeUv(f, p, i), layer), p.level);
+  return sum;
 }
 //? end
 //? end
 
 // The finest level, whatever the footprint: no filtering.
-vec4 fetchFinest(sampler2D map, Footprint f) { return textureLod(map, f.uv, 0.0); }
+vec4 fetchFinest(sampler2D map, Footprint f) {
+  countLookups(1);
+  return textureLod(map, f.uv, 0.0);
+}
 //? if texture_arrays
-vec4 fetchFinest(sampler2DArray map, int layer, Footprint f) { return textureLod(map, vec3(f.uv, layer), 0.0); }
+vec4 fetchFinest(sampler2DArray map, int layer, Footprint f) {
+  countLookups(1);
+  return textureLod(map, vec3(f.uv, layer), 0.0);
+}
 //? end
 //? end
 
@@ -135,25 +173,13 @@ struct FootprintTexel {
 };
 
 //? if sampling_frame
-//? if anisotropic
-const int most_footprint_texels = 8 * int(max_probes);
 int footprintTexelCount(ivec2 finest, Footprint f) { return 8 * probesOf(vec2(finest), f).count; }
-//? else
-const int most_footprint_texels = 8;
-int footprintTexelCount(ivec2 finest, Footprint f) { return 8; }
-//? end
 
 FootprintTexel footprintTexel(ivec2 finest, Footprint f, int i) {
-//? if anisotropic
   Probes p = probesOf(vec2(finest), f);
   vec2 uv = probeUv(f, p, i >> 3);
   float level = p.level;
-  float share = 1.0 / float(p.count);
-//? else
-  vec2 uv = f.uv;
-  float level = levelOf(vec2(finest), f);
-  float share = 1.0;
-//? end
+  float share = probeWeight(p, i >> 3);
   float coarsest = float(findMSB(max(finest.x, finest.y)));
   level = clamp(level, 0.0, coarsest);
   float lower = floor(level);
@@ -169,7 +195,6 @@ FootprintTexel footprintTexel(ivec2 finest, Footprint f, int i) {
   return FootprintTexel((corner + side + 0.5) / size, own, share * between * bilinear.x * bilinear.y);
 }
 //? else
-const int most_footprint_texels = 1;
 int footprintTexelCount(ivec2 finest, Footprint f) { return 1; }
 //? if sampling_texel
 FootprintTexel footprintTexel(ivec2 finest, Footprint f, int i) {
@@ -185,5 +210,8 @@ FootprintTexel footprintTexel(sampler2DArray map, Footprint f, int i) {
   return footprintTexel(textureSize(map, 0).xy, f, i);
 }
 
-vec4 fetchTexel(sampler2DArray map, int layer, FootprintTexel t) { return textureLod(map, vec3(t.uv, layer), t.level); }
+vec4 fetchTexel(sampler2DArray map, int layer, FootprintTexel t) {
+  countLookups(1);
+  return textureLod(map, vec3(t.uv, layer), t.level);
+}
 //? end

@@ -24,6 +24,7 @@ float oneMinusDot(vec3 n, vec3 h) {
 //? if distribution_blinn_phong
 // (s + 1) / (2 pi) (n.h)^s: unit energy over solid angle.
 float lobeDensity(float s, vec3 n, vec3 h) {
+  countLobes(1);
   float u = oneMinusDot(n, h);
   if (u >= 1.0) return 0.0;
   return (s + 1.0) / (2.0 * pi) * exp(s * log1m(u));
@@ -37,7 +38,10 @@ float lobeEnergy(float s) { return 1.0; }
 
 //? if distribution_vmf
 //? include vmf.glsl
-float lobeDensity(float kappa, vec3 n, vec3 h) { return vmfDensity(kappa, n, h); }
+float lobeDensity(float kappa, vec3 n, vec3 h) {
+  countLobes(1);
+  return vmfDensity(kappa, n, h);
+}
 float lobeFromAlpha(float alpha) { return 2.0 / max(alpha * alpha, smallest_alpha * smallest_alpha); }
 float lobeVariance(float kappa) { return 1.0 / max(kappa, 1e-6); }
 float lobeFromVariance(float variance) { return min(1.0 / max(variance, 1e-12), largest_exponent); }
@@ -48,6 +52,7 @@ float lobeEnergy(float kappa) { return 1.0; }
 //? if distribution_beckmann
 // e^{-tan^2 / alpha^2} / (pi alpha^2 cos^4) (Beckmann 1963; Walter 2007, equation 25).
 float lobeDensity(float alpha, vec3 n, vec3 h) {
+  countLobes(1);
   float c = dot(n, h);
   if (c <= 1e-3) return 0.0;  // tan overflows, and the exponential has long been zero
   vec3 s = cross(n, h);       // |s| = sin, exact where 1 - c^2 cancels
@@ -73,6 +78,7 @@ float lobeEnergy(float alpha) {
 //? if distribution_ggx
 // alpha^2 / (pi (alpha^2 cos^2 + sin^2)^2) (Trowbridge and Reitz 1975; Walter 2007, equation 33).
 float lobeDensity(float alpha, vec3 n, vec3 h) {
+  countLobes(1);
   float c = dot(n, h);
   if (c <= 0.0) return 0.0;
   vec3 s = cross(n, h);  // |s| = sin, exact where 1 - c^2 cancels

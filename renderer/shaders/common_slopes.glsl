@@ -94,6 +94,7 @@ SlopeLobe slopeLobe(vec2 mean, mat2 spread, float variance) {
 
 // p22 / h_z^3: density over solid angle (dh = h_z^3 db).
 float slopeDensity(SlopeLobe e, vec3 h) {
+  countLobes(1);
   float cosine = max(h.z, smallest_slope_cosine);
   vec2 offset = -h.xy / cosine - e.mean;
   return e.scale * exp(-0.5 * max(dot(offset, e.shape * offset), 0.0)) / (cosine * cosine * cosine);

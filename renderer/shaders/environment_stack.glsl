@@ -11,6 +11,7 @@ layout(std140, binding = 5) uniform EnvironmentBlock {
 vec3 stackMap(int map, vec2 uv) {
   int level = map >> 1;
   vec2 size = levelSize(textureSize(environment_stack, 0).xy, level);
+  countLookups(1);
   return textureLod(environment_stack, vec3(borderedUv(uv, size), map & 1), float(level)).rgb;
 }
 
@@ -198,6 +199,7 @@ vec3 environmentSpecular(Effective e, vec3 f0, vec3 wo, mat3 frame) {
   for (int i = 0; i < count; ++i) {
     NormalLobe lobe = normalLobe(e, i);
     if (lobe.weight <= 0.0) continue;
+    countLobes(1);
 //? if distribution_ggx
     if (lobe.tailed) {
       radiance += tailedRadiance(e, i, lobe, f0, wo, frame);
@@ -240,6 +242,7 @@ vec3 environmentDiffuse(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) 
   vec3 n = size > 1e-6 ? facets.mean_normal / size : vec3(0.0, 0.0, 1.0);
   vec2 irradiance_size = vec2(textureSize(environment_irradiance, 0));
   vec2 uv = borderedUv(octahedral(frame * n), irradiance_size);
+  countLookups(1);
   vec3 facing = textureLod(environment_irradiance, uv, 0.0).rgb;  // irradiance over pi
   vec3 reflected = facets.share * mix(environment_mean.rgb, facing, min(size, 1.0));
 //? if environment_visibility

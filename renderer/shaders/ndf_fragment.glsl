@@ -24,5 +24,12 @@ void main() {
   all.surface = all.normal;
   tangent_to_camera = mat3(1.0);  // the plane lies as the camera sees it
 //? end
+//? if filter_shaded
+  density = 0.0;
+  int parts = footprint_parts * footprint_parts;
+  for (int i = 0; i < parts; ++i) density += ndf(effective(partOf(all, i)), h);
+  density /= float(parts);
+//? else
   density = ndf(effective(all), h);
+//? end
 }

@@ -52,6 +52,9 @@ Footprints pixelFootprints() {
 //? if normal_layers
   f.layer = footprintOf(uv_linear[3], uv_offset_set[3]);
 //? end
+//? if material_index
+  f.share = footprintOf(share_uv_linear, share_uv_offset_set);
+//? end
   return f;
 }
 
@@ -71,6 +74,14 @@ vec2 drawTexelOffsets() {
 
 //? include tangent_frame.glsl
 
+//? if cast_shadow
+//? include facet_normal.glsl
+vec3 seen_facet;  // of the pixel
+
+//? end
+//? include incident_light.glsl
+
+// What is seen through a pixel, or a part of it.
 struct SurfacePoint {
   Effective effective;
   Surface surface;
@@ -88,63 +99,120 @@ vec3 reflectance(Effective e, Surface s, vec3 wi, vec3 wo) {
 //? end
 }
 
-// One light's share. A light below the surface's own horizon does not reach it.
-vec3 reflected(SurfacePoint p, vec3 to_light, vec3 irradiance_at_normal) {
-  vec3 wi = to_light * p.frame;
-  if (wi.z <= 0.0) return vec3(0.0);
-  return reflectance(p.effective, p.surface, wi, p.wo) * irradiance_at_normal;
+// One light's share.
+vec3 reflected(SurfacePoint p, Incident light) {
+  if (light.wi.z <= 0.0) return vec3(0.0);
+  return reflectance(p.effective, p.surface, light.wi, p.wo) * light.irradiance_at_normal;
 }
 
-//? if cast_shadow
-//? include facet_normal.glsl
-vec3 seen_facet;  // of the pixel
-
-//? end
 //? if environment_sampled
 //? include environment_sampling.glsl
 //? elif environment_light
 //? include environment_stack.glsl
 //? end
 
-vec3 lit(SurfacePoint p) {
-  vec3 radiance = vec3(0.0);
+//? if filter_shaded
+// Every light once a pixel, whatever the number of its parts.
+Incident arriving[max(light_capacity, 1)];
+int arriving_count = 0;
+
+void add(Incident light) {
+  if (light.wi.z > 0.0) arriving[arriving_count++] = light;
+}
+
+void findLight(mat3 frame) {
 //? if point_light
-  for (int i = 0; i < point_light_count; ++i) {
-    vec3 d = point_lights[i].position_range.xyz - world_position;
-    float d2 = dot(d, d);
-    float attenuation = distanceAttenuation(d2, point_lights[i].position_range.w);
-//? if cast_shadow
-    attenuation *= clearOfShadow(point_lights[i].intensity.w, world_position, seen_facet, -d);
-//? end
-    radiance += reflected(p, d * inversesqrt(max(d2, 1e-24)), point_lights[i].intensity.rgb * attenuation);
-  }
+  for (int i = 0; i < point_light_count; ++i) add(incidentPoint(i, frame));
 //? end
 //? if spot_light
-  for (int i = 0; i < spot_light_count; ++i) {
-    vec3 d = spot_lights[i].position_range.xyz - world_position;
-    float d2 = dot(d, d);
-    vec3 to_light = d * inversesqrt(max(d2, 1e-24));
-    float angular = clamp(-dot(spot_lights[i].direction.xyz, to_light) * spot_lights[i].cone.x + spot_lights[i].cone.y, 0.0, 1.0);
-    float attenuation = distanceAttenuation(d2, spot_lights[i].position_range.w) * angular * angular;
-//? if cast_shadow
-    attenuation *= clearOfShadow(spot_lights[i].intensity.w, world_position, seen_facet, -d);
-//? end
-    radiance += reflected(p, to_light, spot_lights[i].intensity.rgb * attenuation);
-  }
+  for (int i = 0; i < spot_light_count; ++i) add(incidentSpot(i, frame));
 //? end
 //? if directional_light
-  for (int i = 0; i < directional_light_count; ++i) {
-    vec3 irradiance = directional_lights[i].illuminance.rgb;
-//? if cast_shadow
-    irradiance *= clearOfShadow(directional_lights[i].illuminance.w, world_position, seen_facet, vec3(0.0));
+  for (int i = 0; i < directional_light_count; ++i) add(incidentDirectional(i, frame));
 //? end
-    radiance += reflected(p, directional_lights[i].to_light.xyz, irradiance);
-  }
+}
+//? end
+
+vec3 lit(SurfacePoint p) {
+  vec3 radiance = vec3(0.0);
+//? if filter_shaded
+  for (int i = 0; i < arriving_count; ++i) radiance += reflected(p, arriving[i]);
+//? else
+//? if point_light
+  for (int i = 0; i < point_light_count; ++i) radiance += reflected(p, incidentPoint(i, p.frame));
+//? end
+//? if spot_light
+  for (int i = 0; i < spot_light_count; ++i) radiance += reflected(p, incidentSpot(i, p.frame));
+//? end
+//? if directional_light
+  for (int i = 0; i < directional_light_count; ++i) radiance += reflected(p, incidentDirectional(i, p.frame));
+//? end
 //? end
 //? if environment_light
   radiance += environmentLit(p.effective, p.surface, p.wo, p.frame);
 //? end
   return radiance;
+}
+
+vec4 baseColor(Footprints f) {
+//? if base_color_variation
+  return base_color_factor * fetch(base_color_map, f.base_color);
+//? else
+  return base_color_factor;
+//? end
+}
+
+Surface surfaceUnder(Footprints f, vec3 base_color) {
+  float metallic = dielectric_specular_metallic.w;
+//? if metallic_variation
+  metallic = fetch(metallic_map, f.roughness).r;
+//? end
+  vec3 dielectric_specular = dielectric_specular_metallic.rgb;
+//? if specular_variation
+  dielectric_specular *= fetch(specular_map, f.specular).rgb;
+//? end
+  return Surface(base_color * (1.0 - metallic), mix(dielectric_specular, base_color, metallic));
+}
+
+//? if alpha_mask
+// The pixel is cut out as a whole, by the mean over it.
+float meanAlpha(Footprints f) {
+//? if filter_shaded
+  float sum = 0.0;
+  int parts = footprint_parts * footprint_parts;
+  for (int i = 0; i < parts; ++i) sum += baseColor(partOf(f, i)).a;
+  return sum / float(parts);
+//? else
+  return baseColor(f).a;
+//? end
+}
+//? end
+
+// What a footprint reflects, in the share of it that is the material's.
+vec3 reflectedBy(Footprints f, mat3 frame, vec3 wo) {
+//? if material_index
+  float share = fetch(material_share, f.share).r;
+  if (share <= 0.0) return vec3(0.0);
+//? end
+  SurfacePoint p = SurfacePoint(effective(f), surfaceUnder(f, baseColor(f).rgb), frame, wo);
+//? if material_index
+  return share * lit(p);
+//? else
+  return lit(p);
+//? end
+}
+
+// The mean over the pixel's footprint.
+vec3 meanReflected(Footprints f, mat3 frame, vec3 wo) {
+//? if filter_shaded
+  findLight(frame);
+  vec3 sum = vec3(0.0);
+  int parts = footprint_parts * footprint_parts;
+  for (int i = 0; i < parts; ++i) sum += reflectedBy(partOf(f, i), frame, wo);
+  return sum / float(parts);
+//? else
+  return reflectedBy(f, frame, wo);
+//? end
 }
 
 void main() {
@@ -156,60 +224,38 @@ void main() {
 //? if random_draws
   texel_draw = drawTexelOffsets();
 //? end
-//? if material_index
-  float share = fetch(material_share, footprintOf(share_uv_linear, share_uv_offset_set)).r;
-//? end
-  vec4 base_color = base_color_factor;
-//? if base_color_variation
-  base_color *= fetch(base_color_map, f.base_color);
-//? end
 //? if alpha_mask
-  if (base_color.a < lobe_cutoff.y) discard;
+  if (meanAlpha(f) < lobe_cutoff.y) discard;
 //? end
-//? if material_index
-  if (share <= 0.0) {
-    radiance_coverage = vec4(0.0, 0.0, 0.0, share_uv_offset_set.w);
-    return;
-  }
-//? end
-  float metallic = dielectric_specular_metallic.w;
-//? if metallic_variation
-  metallic = fetch(metallic_map, f.roughness).r;
-//? end
-  vec3 dielectric_specular = dielectric_specular_metallic.rgb;
-//? if specular_variation
-  dielectric_specular *= fetch(specular_map, f.specular).rgb;
-//? end
-  SurfacePoint p;
 //? if double_sided
-  p.frame = tangentFrame(gl_FrontFacing ? world_normal : -world_normal, world_tangent);
+  mat3 frame = tangentFrame(gl_FrontFacing ? world_normal : -world_normal, world_tangent);
 //? else
-  p.frame = tangentFrame(world_normal, world_tangent);
+  mat3 frame = tangentFrame(world_normal, world_tangent);
 //? end
 //? if surface_coordinates
-  tangent_to_camera = world_to_camera * p.frame;
+  tangent_to_camera = world_to_camera * frame;
 //? end
-  p.effective = effective(f);
+//? if orthographic
+  vec3 to_viewer = to_camera;
+//? else
+  vec3 to_viewer = normalize(camera_position - world_position);
+//? end
+//? if cast_shadow
+  seen_facet = facetNormal(along_x, along_y, to_viewer);
+//? end
+  vec3 radiance = meanReflected(f, frame, to_viewer * frame);
 //? if not sampling_frame
   if (nothing_to_shade) {
     radiance_coverage = vec4(0.0, 0.0, 0.0, 2.0);  // covered, without radiance: resolve_samples.glsl
     return;
   }
 //? end
-  p.surface.albedo = base_color.rgb * (1.0 - metallic);
-  p.surface.f0 = mix(dielectric_specular, base_color.rgb, metallic);
-//? if orthographic
-  vec3 to_viewer = to_camera;
-//? else
-  vec3 to_viewer = normalize(camera_position - world_position);
-//? end
-  p.wo = to_viewer * p.frame;
-//? if cast_shadow
-  seen_facet = facetNormal(along_x, along_y, to_viewer);
+//? if counting
+  radiance = vec3(lookups, lobe_evaluations, 0.0);
 //? end
 //? if material_index
-  radiance_coverage = vec4(share * lit(p), share_uv_offset_set.w);
+  radiance_coverage = vec4(radiance, share_uv_offset_set.w);
 //? else
-  radiance_coverage = vec4(lit(p), 1.0);
+  radiance_coverage = vec4(radiance, 1.0);
 //? end
 }

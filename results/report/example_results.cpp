@@ -112,6 +112,7 @@ Results example_results() {
                    .defaults = {"a camera framed on the bounds", "a rig of two lights"},
                    .warnings = {"KHR_materials_clearcoat is optional here and was left out"}};
   results.reference = {256, "after_shading", 7, 0.0042};
+  results.footprint = "anisotropic:8";
   results.timing = {.frames = 9, .processes = 5};
   results.error_scale = 0.1;
   for (const double distance : {1.0, 4.0, 16.0}) {

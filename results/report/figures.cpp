@@ -130,6 +130,7 @@ std::vector<Provenance> provenance(const Results& results) {
       {"Scene", scene_text(scene)},
       {"Exposure", fmt::format("{} ({})", three_figures(scene.exposure), scene.exposure_source)},
       {"Reference", reference_text(results.reference)},
+      {"Footprint", fmt::format("{} (docs/filters.md)", results.footprint)},
       {"Timing", timing_text(results.timing)},
       {"Supplied", list_text(scene.defaults, "nothing, the input has it all")}};
   for (const std::string& warning : scene.warnings) lines.push_back({"Warning", warning});

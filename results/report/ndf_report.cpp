@@ -53,7 +53,7 @@ std::string ndf_json(const NdfResults& r) {
       {"lobe", {{"narrowest", r.lobe}, {"varies", r.lobe_varies}}},
       {"footprint", {{"u0", r.footprint[0]}, {"v0", r.footprint[1]}, {"u1", r.footprint[2]}, {"v1", r.footprint[3]}}},
       {"texels", {{"area", number(r.texels)}, {"valid_share", number(r.valid_share)}, {"distinct", r.facets}}},
-      {"fetch", {{"level", number(r.level)}, {"anisotropy", r.anisotropy}}},
+      {"fetch", {{"level", number(r.level)}, {"filter", r.filter}}},
       {"grid", {{"resolution", r.resolution}, {"directions", r.directions}, {"fine_enough", r.fine_enough}}},
       {"pictures", {{"scale", number(r.scale)}, {"strip", r.strip}}},
       {"truth",

@@ -52,7 +52,7 @@ struct NdfResults {
   double valid_share = 1.0;           ///< of that area
   std::size_t facets = 0;             ///< different ones among them
   double level = 0.0;                 ///< that an isotropic trilinear fetch takes
-  int anisotropy = 1;                 ///< most probes
+  std::string filter;                 ///< the footprint filter
   int resolution = 0;                 ///< rings of directions
   std::size_t directions = 0;         ///< in all
   bool fine_enough = true;            ///< energy and expected_energy agree to `ndf_energy_tolerance`

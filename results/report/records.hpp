@@ -174,6 +174,7 @@ struct Results {
   BackendInfo backend;
   SceneInfo scene;
   ReferenceInfo reference;
+  std::string footprint;  ///< the footprint filter, as parse_footprint_filter reads it
   TimingInfo timing;
   std::vector<SupersamplingPoint> supersampling;
   std::vector<Record> records;

@@ -156,6 +156,7 @@ nlohmann::ordered_json results_document(const Results& results) {
           {"backend", backend_json(results.backend)},
           {"scene", scene_json(results.scene)},
           {"reference", reference_json(results.reference)},
+          {"footprint", results.footprint},
           {"timing", timing_json(results.timing)},
           {"experiment", results.experiment ? experiment_json(*results.experiment) : Json(nullptr)},
           {"error_scale", json_number(results.error_scale)},

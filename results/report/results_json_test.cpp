@@ -20,6 +20,7 @@ TEST(ResultsJson, HasThePublishedFields) {
                             "/reference/spp",
                             "/reference/filter",
                             "/reference/standard_error",
+                            "/footprint",
                             "/timing/frames",
                             "/timing/processes",
                             "/supersampling/0/spp",

@@ -18,16 +18,16 @@ Case row(const std::string& name, std::vector<std::string> arguments, std::vecto
 
 std::vector<Case> footprints() {
   return {
-      row("EmptyFootprint", {"--footprint", "0.5,0,0.5,1"}, {"--footprint", "is empty", "u0 < u1"}),
-      row("ReversedFootprint", {"--footprint", "0.5,0,0.25,1"}, {"--footprint", "is reversed", "u0,v0,u1,v1"}),
-      row("FootprintThatIsNoNumber", {"--footprint", "0,0,nan,1"}, {"--footprint", "is not finite"}),
-      row("HugeFootprint", {"--footprint", "0,0,1e9,1"}, {"--footprint", "64 maps"}),
-      row("FootprintOfThreeNumbers", {"--footprint", "0,0,1"},
-          {"--footprint", "`0,0,1` is no rectangle", "0,0,0.5,0.5"}),
-      row("FootprintOfFiveNumbers", {"--footprint", "0,0,1,1,1"}, {"--footprint", "is no rectangle"}),
-      row("FootprintInWords", {"--footprint", "left"}, {"--footprint", "`left` is no rectangle"}),
+      row("EmptyFootprint", {"--region", "0.5,0,0.5,1"}, {"--region", "is empty", "u0 < u1"}),
+      row("ReversedFootprint", {"--region", "0.5,0,0.25,1"}, {"--region", "is reversed", "u0,v0,u1,v1"}),
+      row("FootprintThatIsNoNumber", {"--region", "0,0,nan,1"}, {"--region", "is not finite"}),
+      row("HugeFootprint", {"--region", "0,0,1e9,1"}, {"--region", "64 maps"}),
+      row("FootprintOfThreeNumbers", {"--region", "0,0,1"},
+          {"--region", "`0,0,1` is no rectangle", "0,0,0.5,0.5"}),
+      row("FootprintOfFiveNumbers", {"--region", "0,0,1,1,1"}, {"--region", "is no rectangle"}),
+      row("FootprintInWords", {"--region", "left"}, {"--region", "`left` is no rectangle"}),
       row("EmptyTexels", {"--texels", "1,1,1,2"}, {"--texels", "is empty"}),
-      row("FootprintTwice", {"--texels", "0,0,1,1", "--footprint", "0,0,1,1"}, {"--texels", "--footprint"}),
+      row("FootprintTwice", {"--texels", "0,0,1,1", "--region", "0,0,1,1"}, {"--texels", "--region"}),
   };
 }
 
@@ -71,7 +71,7 @@ std::vector<Case> good() {
   map.output_has = {"toksvig", "naive_mip:storage=fp16", "energy", "lobes"};
   map.leaves = {"out/ndf.json", "out/ndf.png", "out/images/truth.exr", "out/images/toksvig_difference.png"};
   Case wrapped =
-      row("NdfBeyondTheMap", {"--methods", "direct", "--footprint", "-1.5,0.5,0.25,2", "--picture-size", "32"}, {});
+      row("NdfBeyondTheMap", {"--methods", "direct", "--region", "-1.5,0.5,0.25,2", "--picture-size", "32"}, {});
   wrapped.exit_code = 0;
   wrapped.leaves = {"out/ndf.json"};
   Case coarse = row("NdfOfACoarseGrid", {"--methods", "direct", "--lobe", "vmf:1e5", "--resolution", "16"}, {});
@@ -79,7 +79,7 @@ std::vector<Case> good() {
   coarse.says = {"too coarse for vmf:100000", "--resolution"};
   Case help{.name = "HelpOfNdf",
             .arguments = {"ndf", "--help"},
-            .output_has = {"Examples:", "footprint ndf", "--footprint", "--lobe", "--material"}};
+            .output_has = {"Examples:", "footprint ndf", "--region", "--lobe", "--material"}};
   return {map, wrapped, coarse, help};
 }
 

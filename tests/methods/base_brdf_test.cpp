@@ -20,8 +20,8 @@ class EveryMethodsBaseBrdf : public ::testing::TestWithParam<const Method*> {
   static bool honours(Effect effect) { return has(GetParam()->info().honours, effect); }
   static double difference_from_direct(const Scene& scene, double distance) {
     TestRenderer renderer(scene, {24, 24});
-    const Image direct = renderer.frame(find_method("direct"), {}, 1, 0, distance);
-    const Image picture = renderer.frame(*GetParam(), {}, 1, 0, distance);
+    const Image direct = renderer.frame(find_method("direct"), {}, {}, 0, distance);
+    const Image picture = renderer.frame(*GetParam(), {}, {}, 0, distance);
     return compare_images(picture, direct, 1.0F).value().relative_rmse;
   }
 };
@@ -66,7 +66,7 @@ TEST_P(EveryMethodsBaseBrdf, SeveralLobesStayFiniteAtTheLimits) {
     scene.materials[0].lobes = {{.axis = {0.99F, 0, 0.14106736F}, .parameter = parameter(brdf, 0.0F), .weight = 1e-6F},
                                 {.axis = {0, 0, 1}, .parameter = parameter(brdf, 0.999F), .weight = 1e3F}};
     for (const double distance : {0.05, 20.0}) {
-      for (const float value : TestRenderer(scene, {16, 16}).frame(*GetParam(), {}, 1, 0, distance).texels) {
+      for (const float value : TestRenderer(scene, {16, 16}).frame(*GetParam(), {}, {}, 0, distance).texels) {
         ASSERT_TRUE(std::isfinite(value) && value >= 0.0F);
       }
     }
@@ -95,10 +95,10 @@ TEST_P(EveryMethodsBaseBrdf, AMapOfLobeParametersIsDirectsAtMagnificationWhereIt
     });
     EXPECT_LT(difference_from_direct(scene, 0.05), 1e-3);
     // ... which is that of the one parameter.
-    const Image mapped = TestRenderer(scene, {24, 24}).frame(*GetParam(), {}, 1, 0, 0.05);
+    const Image mapped = TestRenderer(scene, {24, 24}).frame(*GetParam(), {}, {}, 0, 0.05);
     scene.materials[0].lobe_parameter_map.reset();
     scene.materials[0].lobe_parameter = parameter(brdf, 0.25F);
-    const Image constant = TestRenderer(scene, {24, 24}).frame(*GetParam(), {}, 1, 0, 0.05);
+    const Image constant = TestRenderer(scene, {24, 24}).frame(*GetParam(), {}, {}, 0, 0.05);
     EXPECT_LT(compare_images(mapped, constant, 1.0F).value().relative_rmse, 1e-3);
   }
 }

@@ -53,8 +53,8 @@ TEST_P(UnderAnEnvironment, EqualsDirectOnAConstantMapAtAnyDistance) {
     const BaseBrdf brdf{distribution, GeometryTerm::smith, FresnelTerm::schlick, true};
     TestRenderer renderer(lit_square(normals, {.brdf = brdf}, uneven_environment()), {32, 32});
     for (const double distance : {0.05, 1.0, 4.0}) {
-      const Image direct = renderer.frame(find_method("direct"), {}, 1, 0, distance);
-      const Image picture = renderer.frame(*GetParam(), {}, 1, 0, distance);
+      const Image direct = renderer.frame(find_method("direct"), {}, {}, 0, distance);
+      const Image picture = renderer.frame(*GetParam(), {}, {}, 0, distance);
       EXPECT_LT(compare_images(picture, direct, 1.0F).value().relative_rmse, 2e-3)
           << "distribution " << static_cast<int>(distribution) << ", distance " << distance;
     }
@@ -68,7 +68,7 @@ TEST_P(UnderAnEnvironment, IsTheSameFourPixelsByFourPixels) {
   Scene scene = lit_square(random_normals(64, 64, 0.6F, 5), {.brdf = brdf, .roughness = 0.3F}, uneven_environment());
   scene.camera = receding_grooves().camera;
   TestRenderer renderer(scene, {24, 24});
-  EXPECT_LT(largest_difference(renderer.frame(*GetParam(), {}, 1, 2), renderer.frame(*GetParam())), 1e-4);
+  EXPECT_LT(largest_difference(renderer.frame(*GetParam(), {}, {}, 2), renderer.frame(*GetParam())), 1e-4);
 }
 
 TEST_P(UnderAnEnvironment, StaysFiniteAtTheLimits) {
@@ -80,7 +80,7 @@ TEST_P(UnderAnEnvironment, StaysFiniteAtTheLimits) {
       scene.camera = receding_grooves().camera;
       TestRenderer renderer(scene, {32, 32});
       for (const double distance : {0.05, 4.0}) {
-        const Image picture = renderer.frame(*GetParam(), {}, 1, 0, distance);
+        const Image picture = renderer.frame(*GetParam(), {}, {}, 0, distance);
         for (const float value : picture.texels) ASSERT_TRUE(std::isfinite(value) && value >= 0.0F);
       }
     }

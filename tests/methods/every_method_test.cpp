@@ -17,8 +17,8 @@ class EveryMethod : public ::testing::TestWithParam<const Method*> {
  protected:
   static double difference_from_direct(const Scene& scene, double distance) {
     TestRenderer renderer(scene);
-    const Image direct = renderer.frame(find_method("direct"), {}, 1, 0, distance);
-    const Image picture = renderer.frame(*GetParam(), {}, 1, 0, distance);
+    const Image direct = renderer.frame(find_method("direct"), {}, {}, 0, distance);
+    const Image picture = renderer.frame(*GetParam(), {}, {}, 0, distance);
     return compare_images(picture, direct, 1.0F).value().relative_rmse;
   }
 };
@@ -64,7 +64,7 @@ TEST_P(EveryMethod, StaysFiniteAtTheLimits) {
       for (const float tilt : {0.0F, 0.999F}) {
         const Scene scene = square_scene(random_normals(33, 17, tilt, 3), {.brdf = brdf, .roughness = roughness});
         for (const double distance : {0.05, 1.0, 20.0}) {
-          for (const float value : TestRenderer(scene).frame(*GetParam(), {}, 1, 0, distance).texels) {
+          for (const float value : TestRenderer(scene).frame(*GetParam(), {}, {}, 0, distance).texels) {
             ASSERT_TRUE(std::isfinite(value) && value >= 0.0F);
           }
         }
@@ -79,9 +79,10 @@ TEST_P(EveryMethod, IsTheSameFourPixelsByFourPixels) {
   Scene scene = square_scene(random_normals(64, 64, 0.6F, 5), {.brdf = brdfs[2], .roughness = 0.4F});
   scene.camera = receding_grooves().camera;
   TestRenderer renderer(scene, {24, 24});
-  for (const int probes : {1, 4}) {
-    const Image whole = renderer.frame(*GetParam(), {}, probes);
-    EXPECT_LT(largest_difference(renderer.frame(*GetParam(), {}, probes, 2), whole), 1e-4) << probes;
+  for (const char* const text : {"trilinear", "anisotropic:4", "shaded:2"}) {
+    const FootprintFilter filter = parse_footprint_filter(text, "");
+    const Image whole = renderer.frame(*GetParam(), {}, filter);
+    EXPECT_LT(largest_difference(renderer.frame(*GetParam(), {}, filter, 2), whole), 1e-4) << text;
   }
 }
 

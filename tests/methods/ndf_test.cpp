@@ -42,17 +42,17 @@ class Inspection {
     truth_ = truth.densities(grid_.directions, no_progress);
   }
 
-  [[nodiscard]] std::vector<float> densities(const std::string& text, int probes = 1) {
+  [[nodiscard]] std::vector<float> densities(const std::string& text, const FootprintFilter& filter = {}) {
     const MethodSpec spec = parse_methods(text).front();
     const BakedMethod baked = bake(find_method(spec.name), spec, scene_, effects(), no_progress);
-    const MethodNdf ndf(shared_context().info(), gpu_, baked, scene_.materials.front(), probes);
+    const MethodNdf ndf(shared_context().info(), gpu_, baked, scene_.materials.front(), filter);
     std::vector<float> out = ndf.densities(rect_, grid_.directions);
     shared_context().check("evaluating an NDF");
     return out;
   }
 
-  [[nodiscard]] NdfFigures figures(const std::string& text, int probes = 1) {
-    return compare_ndfs(grid_, densities(text, probes), truth_);
+  [[nodiscard]] NdfFigures figures(const std::string& text, const FootprintFilter& filter = {}) {
+    return compare_ndfs(grid_, densities(text, filter), truth_);
   }
 
  private:

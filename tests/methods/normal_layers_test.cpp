@@ -80,9 +80,9 @@ TEST(NormalLayers, MethodsEqualDirectOnConstantMaps) {
       layered_scene(constant_normals(16, 16, {0.28F, 0.0F, 0.96F}), constant_normals(4, 4, {0.0F, 0.28F, 0.96F}), 3.0F);
   TestRenderer renderer(scene);
   for (const double distance : {0.05, 1.0, 4.0}) {
-    const Image direct = renderer.frame(find_method("direct"), {}, 1, 0, distance);
+    const Image direct = renderer.frame(find_method("direct"), {}, {}, 0, distance);
     for (const char* const name : honouring) {
-      const Image picture = renderer.frame(find_method(name), {}, 1, 0, distance);
+      const Image picture = renderer.frame(find_method(name), {}, {}, 0, distance);
       EXPECT_LT(relative_difference(picture, direct), 1e-3) << name << " " << distance;
     }
   }

@@ -29,13 +29,12 @@ BakedMethod TestRenderer::baked(const Method& method, const std::string& text) c
   return bake(method, spec, scene_, effects_, no_progress);
 }
 
-Image TestRenderer::frame(const Method& method, const std::string& text, int anisotropy, int tile, double distance) {
+Image TestRenderer::frame(const Method& method, const std::string& text, const FootprintFilter& filter, int tile, double distance) {
   const BakedMethod bake_result = baked(method, text);
   const GpuMethod gpu(gpu_scene_, bake_result);
   const FrameRenderer frames(context_->info(), gpu_scene_, gpu, size_,
                              {.sampling = Sampling::frame,
-                              .lookup = Lookup::trilinear,
-                              .max_probes = anisotropy,
+                              .footprint = filter,
                               .orthographic = scene_.camera.orthographic},
                              tile);
   Image picture = frames.render({.size = size_, .camera = camera_at_distance(scene_, distance)});

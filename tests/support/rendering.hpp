@@ -18,7 +18,7 @@ class TestRenderer {
   explicit TestRenderer(const Scene& scene, const glm::ivec2& size = {64, 64}, std::optional<EffectSet> effects = {},
                         const gl::Context& context = shared_context());
 
-  [[nodiscard]] Image frame(const Method& method, const std::string& text = {}, int anisotropy = 1, int tile = 0,
+  [[nodiscard]] Image frame(const Method& method, const std::string& text = {}, const FootprintFilter& filter = {}, int tile = 0,
                             double distance = 1.0);
   [[nodiscard]] Supersampled supersampled(const Method& method, int spp, std::uint64_t seed = 1,
                                           ReferenceFilter filter = ReferenceFilter::after_shading, int tile = 0,

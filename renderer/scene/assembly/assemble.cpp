@@ -58,6 +58,7 @@ void set_lights(const SceneSettings& settings, std::vector<Light> own, Scene& sc
   scene.lights.insert(scene.lights.end(), settings.lights.begin(), settings.lights.end());
   if (settings.environment) scene.environment = make_environment(*settings.environment, scene.warnings);
   scene.exposure = settings.exposure;
+  scene.footprint = settings.footprint;
   if (!scene.lights.empty() || scene.environment) return;
   scene.lights = supplied_lights(scene.camera, scene.bounds);
   scene.defaults.emplace_back("lights: a key and a fill directional light and a point light, white at radiance 0.8");

@@ -29,6 +29,9 @@ void read_frame(const TomlTable& table, SceneSettings& settings) {
     }
     settings.frame_size = glm::ivec2{static_cast<int>((*size)[0]), static_cast<int>((*size)[1])};
   }
+  if (const auto filter = table.word("footprint")) {
+    settings.footprint = at_key(table, "footprint", [&] { return parse_footprint_filter(*filter, ""); });
+  }
   if (table.is_word("exposure")) {
     settings.automatic_exposure = table.choice("exposure", {"auto"}).has_value();
   } else if (const auto exposure = table.number("exposure", {1e-9, 1e9})) {
@@ -116,7 +119,7 @@ void read_lights(const TomlTable& root, const std::filesystem::path& folder, Sce
 }
 
 void read_view(const TomlTable& root, SceneSettings& settings) {
-  if (const auto frame = root.table("frame", {"size", "exposure"})) read_frame(*frame, settings);
+  if (const auto frame = root.table("frame", {"size", "exposure", "footprint"})) read_frame(*frame, settings);
   if (const auto camera = root.table("camera", camera_keys())) settings.camera = read_camera(*camera);
   if (const auto zoom = root.table("zoom", {"distances"})) {
     if (auto distances = zoom->numbers("distances", 0, {smallest_distance, largest_distance}))

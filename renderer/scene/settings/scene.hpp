@@ -21,6 +21,7 @@ struct SceneSettings {
   std::vector<PartSettings> parts;  ///< at least one
   std::optional<glm::ivec2> frame_size;
   std::optional<float> exposure;
+  std::optional<FootprintFilter> footprint;
   bool automatic_exposure = false;  ///< asked for by name, also with the supplied lights
   std::vector<Light> lights;
   bool keep_model_lights = true;

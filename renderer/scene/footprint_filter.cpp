@@ -1,0 +1,79 @@
+// The words of footprint filters: one table that reading, writing and help share.
+#include "renderer/scene/footprint_filter.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <vector>
+
+#include "renderer/core/error.hpp"
+#include "renderer/core/words.hpp"
+
+namespace footprint {
+namespace {
+
+using Kind = FootprintFilterKind;
+
+// Most probes along one axis: what hardware offers. N x N of a box or of parts: 64 lookups or shadings a pixel.
+constexpr auto words = std::to_array<FootprintFilterWord>({
+    {Kind::trilinear, "trilinear", 1, 1},
+    {Kind::anisotropic, "anisotropic", 1, 16},
+    {Kind::box, "box", 1, 8},
+    {Kind::ewa, "ewa", 1, 16},
+    {Kind::shaded, "shaded", 1, 8},
+    {Kind::hardware, "hardware", 1, 16},
+});
+
+bool takes_number(const FootprintFilterWord& word) { return word.most > 1; }
+
+std::string form_of(const FootprintFilterWord& word) {
+  return takes_number(word) ? fmt::format("{}:N ({} to {})", word.name, word.least, word.most) : std::string(word.name);
+}
+
+std::optional<int> whole(std::string_view text) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return {};
+  return value;
+}
+
+}  // namespace
+
+std::span<const FootprintFilterWord> footprint_filter_words() { return words; }
+
+std::string footprint_filter_choices() {
+  std::vector<std::string> forms;
+  for (const FootprintFilterWord& word : words) forms.push_back(form_of(word));
+  return fmt::format("{}", fmt::join(forms, ", "));
+}
+
+FootprintFilter parse_footprint_filter(std::string_view text, std::string_view place) {
+  const std::size_t colon = text.find(':');
+  std::vector<std::string> names;
+  for (const FootprintFilterWord& word : words) names.emplace_back(word.name);
+  const FootprintFilterWord& word = words.at(find_word(names, text.substr(0, colon), "footprint filter", place));
+  const auto refuse = [&](const std::string& what) {
+    return Error(ErrorKind::usage, std::string(place), fmt::format("footprint filter `{}` {}", text, what),
+                 "write " + form_of(word));
+  };
+  if (colon == std::string_view::npos) {
+    if (takes_number(word)) throw refuse("has no number");
+    return {word.kind, 1};
+  }
+  if (!takes_number(word)) throw refuse("has a number, and takes none");
+  const std::optional<int> count = whole(text.substr(colon + 1));
+  if (!count) throw refuse("has no whole number behind the colon");
+  if (*count < word.least || *count > word.most) throw refuse("is out of range");
+  return {word.kind, *count};
+}
+
+std::string footprint_filter_text(const FootprintFilter& filter) {
+  const FootprintFilterWord& word = *std::ranges::find(words, filter.kind, &FootprintFilterWord::kind);
+  return takes_number(word) ? fmt::format("{}:{}", word.name, filter.count) : std::string(word.name);
+}
+
+}  // namespace footprint

@@ -1,0 +1,46 @@
+// Footprint filters as words: what is read is written again, and what is none is told.
+#include "renderer/scene/footprint_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+namespace {
+
+std::string complaint(const std::string& text) {
+  try {
+    (void)parse_footprint_filter(text, "--footprint");
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(FootprintFilter, IsWrittenAsItIsRead) {
+  for (const FootprintFilterWord& word : footprint_filter_words()) {
+    for (const int count : {word.least, word.most}) {
+      const FootprintFilter filter{word.kind, count};
+      EXPECT_EQ(parse_footprint_filter(footprint_filter_text(filter), ""), filter) << footprint_filter_text(filter);
+    }
+  }
+  EXPECT_EQ(footprint_filter_text(default_footprint_filter), "anisotropic:8") << "as help and documents have it";
+}
+
+TEST(FootprintFilter, WhatIsNoneIsToldWithWhatWouldBe) {
+  EXPECT_NE(complaint("anisotropc:8").find("anisotropic"), std::string::npos);
+  EXPECT_NE(complaint("box").find("has no number"), std::string::npos);
+  EXPECT_NE(complaint("trilinear:2").find("takes none"), std::string::npos);
+  for (const char* const number : {"box:0", "box:9", "shaded:-1", "ewa:17", "anisotropic:99999999999"}) {
+    EXPECT_NE(complaint(number), "none") << number;
+  }
+  for (const char* const text : {"box:", "box:2.5", "box:2 ", "box:two", "box:2:3"}) {
+    EXPECT_NE(complaint(text).find("no whole number"), std::string::npos) << text;
+  }
+  EXPECT_NE(complaint("box:9").find("box:N (1 to 8)"), std::string::npos);
+  EXPECT_NE(complaint("").find("--footprint"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace footprint

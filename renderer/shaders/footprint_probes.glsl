@@ -1,0 +1,94 @@
+// The footprint filters (docs/filters.md): the trilinear lookups that stand for a footprint, their places, their one
+// level and their weights, which sum to one.
+
+struct Probes {
+  int count;
+  float level;
+//? if filter_anisotropic or filter_ewa or filter_hardware
+  vec2 axis;  // in texture coordinates: the longer one
+//? end
+//? if filter_ewa
+  float falloff;  // the weight of the probe at axis t is exp(-falloff t^2) of the middle's
+  float whole;    // their sum
+//? end
+};
+
+// Texels as wide as the longer edge of one of `parts` x `parts` equal parts (OpenGL 4.5, section 8.14). A trilinear
+// lookup is a tent over boxes: lookups as far apart as texels are wide add up to a box that is flat inside.
+float levelOf(vec2 size, Footprint f, float parts) {
+  vec2 edge_x = f.dx * size;
+  vec2 edge_y = f.dy * size;
+  return 0.5 * log2(max(max(dot(edge_x, edge_x), dot(edge_y, edge_y)) / (parts * parts), 1e-24));
+}
+
+//? if filter_anisotropic or filter_hardware
+// Equal probes along the longer edge, at the level of the shorter one: the formulas of EXT_texture_filter_anisotropic,
+// spelled out because drivers differ in theirs.
+Probes probesOf(vec2 size, Footprint f) {
+  float along_x = length(f.dx * size);
+  float along_y = length(f.dy * size);
+  float major = max(max(along_x, along_y), 1e-12);
+  float minor = min(along_x, along_y);
+  int count = int(ceil(min(major / max(minor, 1e-12), float(most_probes))));
+  return Probes(count, log2(major / float(count)), along_x > along_y ? f.dx : f.dy);
+}
+
+vec2 probeUv(Footprint f, Probes p, int i) { return f.uv + p.axis * (float(i + 1) / float(p.count + 1) - 0.5); }
+float probeWeight(Probes p, int i) { return 1.0 / float(p.count); }
+//? elif filter_box
+// n x n equal probes in the middles of the parts that tile the footprint.
+Probes probesOf(vec2 size, Footprint f) {
+  return Probes(footprint_parts * footprint_parts, levelOf(size, f, float(footprint_parts)));
+}
+
+vec2 probeUv(Footprint f, Probes p, int i) {
+  vec2 at = (vec2(i % footprint_parts, i / footprint_parts) + 0.5) / float(footprint_parts) - 0.5;
+  return f.uv + f.dx * at.x + f.dy * at.y;
+}
+
+float probeWeight(Probes p, int i) { return 1.0 / float(p.count); }
+//? elif filter_ewa
+// From -1 to 1 along the ellipse's longer axis.
+float probeAxis(Probes p, int i) { return p.count > 1 ? 2.0 * float(i) / float(p.count - 1) - 1.0 : 0.0; }
+
+float probeWeight(Probes p, int i) {
+  float t = probeAxis(p, i);
+  return exp(-p.falloff * t * t) / p.whole;
+}
+
+// Heckbert 1989: a Gaussian exp(-2 r^2) over the ellipse that the footprint's edges map the unit circle to, cut off
+// at its border. Its variance along an axis of radius s is s^2 / 4. A trilinear lookup in texels of width t has the
+// variance t^2 / 4 itself (t^2 / 6 of the tent, t^2 / 12 of the texel): with t the shorter radius it is the Gaussian
+// across, and along the longer one probes no farther apart than t are weighed by a Gaussian of the variance that is
+// missing, (s^2 - t^2) / 4, as far as s - t from the middle (as McCormack et al. 1999 place theirs). Where most_probes do not reach, t grows: blur, no gaps.
+Probes probesOf(vec2 size, Footprint f) {
+  // J J^T = (a b; b c) of the edges in texels: its roots are the squared radii.
+  vec2 edge_x = f.dx * size;
+  vec2 edge_y = f.dy * size;
+  float a = edge_x.x * edge_x.x + edge_y.x * edge_y.x;
+  float b = edge_x.x * edge_x.y + edge_y.x * edge_y.y;
+  float c = edge_x.y * edge_x.y + edge_y.y * edge_y.y;
+  float root = length(vec2(a - c, 2.0 * b));
+  float major = sqrt(max(0.5 * (a + c + root), 1e-24));
+  // The area over the longer radius: the difference of the roots would cancel.
+  float minor = abs(edge_x.x * edge_y.y - edge_x.y * edge_y.x) / major;
+  float width = max(minor, 1.0);  // no texel is finer than the finest
+  int count = clamp(int(ceil(2.0 * major / width - 1.0)), 1, most_probes);
+  width = max(width, 2.0 * major / float(count + 1));
+  // The eigenvector, from the row that does not cancel.
+  vec2 along = a >= c ? vec2(0.5 * (a - c + root), b) : vec2(b, 0.5 * (c - a + root));
+  along = root > 0.0 ? normalize(along) : vec2(1.0, 0.0);
+  float reach = max(major - width, 0.0);  // of the outermost probes
+  Probes p = Probes(count, log2(width), along * reach / size, 2.0 * reach / (major + width), 1.0);
+  float sum = 0.0;
+  for (int i = 0; i < count; ++i) sum += probeWeight(p, i);
+  p.whole = sum;
+  return p;
+}
+
+vec2 probeUv(Footprint f, Probes p, int i) { return f.uv + p.axis * probeAxis(p, i); }
+//? else
+Probes probesOf(vec2 size, Footprint f) { return Probes(1, levelOf(size, f, 1.0)); }
+vec2 probeUv(Footprint f, Probes p, int i) { return f.uv; }
+float probeWeight(Probes p, int i) { return 1.0; }
+//? end

@@ -1,0 +1,42 @@
+// Light of one source as it arrives at a pixel: what of it is the same for all that is shaded there.
+struct Incident {
+  vec3 wi;  // tangent frame; a light below the surface's own horizon does not reach it
+  vec3 irradiance_at_normal;
+};
+
+//? if point_light
+Incident incidentPoint(int i, mat3 frame) {
+  vec3 d = point_lights[i].position_range.xyz - world_position;
+  float d2 = dot(d, d);
+  float attenuation = distanceAttenuation(d2, point_lights[i].position_range.w);
+//? if cast_shadow
+  attenuation *= clearOfShadow(point_lights[i].intensity.w, world_position, seen_facet, -d);
+//? end
+  return Incident((d * inversesqrt(max(d2, 1e-24))) * frame, point_lights[i].intensity.rgb * attenuation);
+}
+//? end
+
+//? if spot_light
+Incident incidentSpot(int i, mat3 frame) {
+  vec3 d = spot_lights[i].position_range.xyz - world_position;
+  float d2 = dot(d, d);
+  vec3 to_light = d * inversesqrt(max(d2, 1e-24));
+  float angular =
+      clamp(-dot(spot_lights[i].direction.xyz, to_light) * spot_lights[i].cone.x + spot_lights[i].cone.y, 0.0, 1.0);
+  float attenuation = distanceAttenuation(d2, spot_lights[i].position_range.w) * angular * angular;
+//? if cast_shadow
+  attenuation *= clearOfShadow(spot_lights[i].intensity.w, world_position, seen_facet, -d);
+//? end
+  return Incident(to_light * frame, spot_lights[i].intensity.rgb * attenuation);
+}
+//? end
+
+//? if directional_light
+Incident incidentDirectional(int i, mat3 frame) {
+  vec3 irradiance = directional_lights[i].illuminance.rgb;
+//? if cast_shadow
+  irradiance *= clearOfShadow(directional_lights[i].illuminance.w, world_position, seen_facet, vec3(0.0));
+//? end
+  return Incident(directional_lights[i].to_light.xyz * frame, irradiance);
+}
+//? end

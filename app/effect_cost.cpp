@@ -30,7 +30,8 @@ Variant make_variant(const Stage& stage, const RunSettings& run, const EffectSet
                      const Progress& progress) {
   const gl::ContextInfo& context = stage.context().info();
   auto scene = std::make_unique<GpuScene>(context, stage.scene(), effects, progress);
-  StagedMethod method(context, *scene, stage.scene(), effects, run.methods.front(), size, run, no_progress);
+  StagedMethod method(context, *scene, stage.scene(), effects, run.methods.front(),
+                      footprint_filter_of(run, stage.scene()), size, run, no_progress);
   return {std::move(scene), std::move(method)};
 }
 

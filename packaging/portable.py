@@ -99,6 +99,19 @@ def carry(programs, tree):
         launcher.chmod(0o755)
 
 
+def pack(tree, output, limit):
+    """Writes the archive of a folder, unless it has more bytes than `limit`: then there is none, and an error."""
+    unfinished = output.with_name(output.name + ".tmp")
+    subprocess.run(["tar", "--create", "--use-compress-program=xz -9 -T0", f"--file={unfinished}", "--sort=name",
+                    "--owner=0", "--group=0", "--numeric-owner", f"--directory={tree.parent}", tree.name], check=True)
+    size = unfinished.stat().st_size
+    if size > limit:
+        unfinished.unlink()
+        sys.exit(f"portable.py: the archive has {size} bytes, more than {limit}: what pulled so much in?")
+    unfinished.rename(output)
+    print(f"{output}: {size / 2**20:.1f} MiB")
+
+
 def main():
     if len(sys.argv) < 4:
         sys.exit(__doc__)
@@ -111,15 +124,7 @@ def main():
         (tree / "share/footprint/fonts").mkdir()
         shutil.copyfile(FONT, tree / "share/footprint/fonts" / FONT.name)
         keep_licence(FONT, tree / "share/doc/footprint/licences")
-        unfinished = output.with_name(output.name + ".tmp")
-        subprocess.run(["tar", "--create", "--use-compress-program=xz -9 -T0", f"--file={unfinished}", "--sort=name",
-                        "--owner=0", "--group=0", "--numeric-owner", f"--directory={folder}", name], check=True)
-    size = unfinished.stat().st_size
-    if size > LIMIT:
-        unfinished.unlink()
-        sys.exit(f"portable.py: the archive has {size / 2**20:.1f} MiB, more than {LIMIT / 2**20:.0f}: what pulled so much in?")
-    unfinished.rename(output)
-    print(f"{output}: {size / 2**20:.1f} MiB")
+        pack(tree, output, LIMIT)
 
 
 if __name__ == "__main__":

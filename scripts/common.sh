@@ -48,3 +48,11 @@ check_format() {
   step "Checking the layout of the sources with clang-format"
   (cd -- "$footprint_root" && list_sources "$@" | xargs -0 -r clang-format --dry-run -Werror)
 }
+
+# expect_output FOLDER PROGRAM: dies unless the folder has all that a comparison at distance 1 leaves.
+expect_output() {
+  local file
+  for file in results.json results.csv table.md index.html images/d1_all.png; do
+    [ -s "$1/$file" ] || die "$2 left no $file"
+  done
+}

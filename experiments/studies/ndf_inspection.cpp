@@ -111,8 +111,8 @@ class Bench {
   NdfPicture inspect(const MethodSpec& spec, const Grid& grid, NdfResults& results, const Progress& progress) {
     const Method& method = find_method(spec.name);
     const BakedMethod baked = bake(method, spec, scene_, effects_, progress, cache_ ? &*cache_ : nullptr);
-    const MethodNdf ndf(context_.info(), gpu_scene_, baked, scene_.materials.front(),
-                        filter_of(settings_.run), settings_.run.backend.tile);
+    const MethodNdf ndf(context_.info(), gpu_scene_, baked, scene_.materials.front(), filter_of(settings_.run),
+                        settings_.run.backend.tile);
     for (const std::string& note : baked.materials.front().notes)
       results.notes.push_back(fmt::format("{}: {}", spec.text, note));
     const std::vector<float> densities = ndf.densities(settings_.footprint, grid.hemisphere.directions);

@@ -302,7 +302,9 @@ TEST(Leadr, ProbesSharpenAnObliqueView) {
   TestRenderer renderer(receding_grooves());
   const Image truth = renderer.reference(256).mean;
   const auto error = [&](const char* filter) {
-    return compare_images(renderer.frame(leadr_method(), {}, parse_footprint_filter(filter, "")), truth, 1.0F).value().relative_rmse;
+    return compare_images(renderer.frame(leadr_method(), {}, parse_footprint_filter(filter, "")), truth, 1.0F)
+        .value()
+        .relative_rmse;
   };
   EXPECT_LT(error("anisotropic:8"), 0.6 * error("trilinear"));
 }

@@ -87,6 +87,13 @@ TEST(Suggestion, NamesTheNearestAndAllKnown) {
   EXPECT_EQ(suggestion("zzzzzzzzzz", methods), "known: direct, naive_mip, toksvig");
 }
 
+TEST(Suggestion, ListsTheFirstOfMany) {
+  const std::vector<std::string> many(23, "name");
+  const std::string text = suggestion("zzzzzzzzzz", many);
+  EXPECT_TRUE(text.ends_with("name, name and 3 more")) << text;
+  EXPECT_EQ(std::ranges::count(text, ','), 19);
+}
+
 // --- words.hpp
 
 constexpr std::array<Word<int>, 3> sizes{{{10, "small"}, {20, "medium"}, {30, "large"}}};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace footprint {
@@ -49,8 +50,11 @@ std::string nearest_name(std::string_view wrong, std::span<const std::string> ca
 }
 
 std::string suggestion(std::string_view wrong, std::span<const std::string> candidates) {
+  constexpr std::size_t most_listed = 20;  // a longer list hides what is wrong
   std::string known;
-  for (const std::string& candidate : candidates) known += (known.empty() ? "" : ", ") + candidate;
+  for (const std::string& candidate : candidates.first(std::min(candidates.size(), most_listed)))
+    known += (known.empty() ? "" : ", ") + candidate;
+  if (candidates.size() > most_listed) known += " and " + std::to_string(candidates.size() - most_listed) + " more";
   const std::string nearest = nearest_name(wrong, candidates);
   return (nearest.empty() ? std::string{} : "did you mean `" + nearest + "`? ") + "known: " + known;
 }

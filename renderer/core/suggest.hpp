@@ -11,7 +11,8 @@ namespace footprint {
 /// nearer than half the length of `wrong` (at least 2), or if `candidates` is empty.
 [[nodiscard]] std::string nearest_name(std::string_view wrong, std::span<const std::string> candidates);
 
-/// A sentence for an Error's hint: "did you mean `toksvig`? known: direct, naive_mip, toksvig".
+/// A sentence for an Error's hint: "did you mean `toksvig`? known: direct, naive_mip, toksvig"; of many candidates the
+/// first 20, and how many more there are.
 [[nodiscard]] std::string suggestion(std::string_view wrong, std::span<const std::string> candidates);
 
 }  // namespace footprint

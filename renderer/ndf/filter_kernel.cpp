@@ -43,7 +43,8 @@ ProbeSet tiling(const TexelFootprint& f, int parts) {
 ProbeSet along_the_longer_edge(const TexelFootprint& f, int most) {
   const double x = glm::length(f.dx), y = glm::length(f.dy);
   const double major = std::max(x, y);
-  const int count = static_cast<int>(std::ceil(std::min(major / std::max(std::min(x, y), 1e-12), double(most))));
+  const double ratio = 0.999 * major / std::max(std::min(x, y), 1e-12);  // what rounding makes uneven is even
+  const int count = static_cast<int>(std::ceil(std::min(ratio, static_cast<double>(most))));
   ProbeSet out{std::log2(major / count), {}};
   for (int i = 0; i < count; ++i) {
     out.probes.push_back({f.centre + (x > y ? f.dx : f.dy) * ((i + 1.0) / (count + 1.0) - 0.5), 1.0 / count});

@@ -192,9 +192,9 @@ GLuint SamplerCache::sampler(const TextureCoordinates& coordinates, Lookup looku
     if (entry.wrap == coordinates.wrap && entry.lookup == lookup) return entry.sampler.name();
   }
   const GLenum along_u = gl_wrap(coordinates.wrap[0]), along_v = gl_wrap(coordinates.wrap[1]);
-  entries_.push_back({coordinates.wrap, lookup,
-                      lookup.blends ? gl::trilinear_sampler(along_u, along_v, lookup.probes)
-                                    : gl::nearest_sampler(along_u, along_v)});
+  entries_.push_back(
+      {coordinates.wrap, lookup,
+       lookup.blends ? gl::trilinear_sampler(along_u, along_v, lookup.probes) : gl::nearest_sampler(along_u, along_v)});
   return entries_.back().sampler.name();
 }
 

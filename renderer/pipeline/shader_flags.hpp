@@ -26,7 +26,7 @@ struct ShaderVariant {
   BaseBrdf brdf;
   Sampling sampling = Sampling::frame;
   FootprintFilter footprint{};  ///< of a frame
-  bool counting = false;      ///< writes what a pixel looks up and evaluates, in place of its radiance
+  bool counting = false;        ///< writes what a pixel looks up and evaluates, in place of its radiance
   bool orthographic = false;
   bool shared_coordinates = false;   ///< every map of the scene is looked up at one uv
   bool surface_coordinates = false;  ///< the method has coordinates of its own (Prefiltered::surface_coordinates)

@@ -24,8 +24,9 @@ TEST(ShaderFlags, FollowEffectsTermsAndWordOptions) {
   variant.effects.set(static_cast<std::size_t>(Effect::fresnel));
   variant.footprint = {FootprintFilterKind::anisotropic, 4};
   const ShaderFlags flags = shader_flags(variant, Options(specs, {{"storage", "fp16"}}, "t"));
-  EXPECT_EQ(on(flags), (std::set<std::string>{"fresnel", "fresnel_schlick", "distribution_ggx", "geometry_smith",
-                                              "sampling_frame", "filter_anisotropic", "several_probes", "storage_fp16"}));
+  EXPECT_EQ(on(flags),
+            (std::set<std::string>{"fresnel", "fresnel_schlick", "distribution_ggx", "geometry_smith", "sampling_frame",
+                                   "filter_anisotropic", "several_probes", "storage_fp16"}));
 }
 
 // What is off is known all the same: texts may ask for it.

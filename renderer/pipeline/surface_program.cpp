@@ -118,8 +118,9 @@ Lookup frame_lookup(const FootprintFilter& filter, const gl::ContextInfo& contex
   if (filter.kind != FootprintFilterKind::hardware) return Lookup::trilinear;
   if (filter.count > context.max_anisotropy) {
     throw Error(ErrorKind::machine, footprint_filter_text(filter),
-                context.max_anisotropy > 1 ? fmt::format("this OpenGL's samplers have {} probes", context.max_anisotropy)
-                                           : "this OpenGL has no anisotropic samplers",
+                context.max_anisotropy > 1
+                    ? fmt::format("this OpenGL's samplers have {} probes", context.max_anisotropy)
+                    : "this OpenGL has no anisotropic samplers",
                 fmt::format("take anisotropic:{}, whose probes are in the shader", filter.count));
   }
   return {.blends = true, .probes = filter.count};

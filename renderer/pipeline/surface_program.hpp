@@ -62,8 +62,8 @@ class GpuMethod {
 struct ProgramSettings {
   Sampling sampling = Sampling::frame;
   Lookup lookup = Lookup::trilinear;  ///< of samples; that of a frame follows from its footprint filter
-  FootprintFilter footprint{};  ///< of a frame
-  bool counting = false;      ///< writes texture lookups and lobe evaluations a pixel, in place of radiance
+  FootprintFilter footprint{};        ///< of a frame
+  bool counting = false;              ///< writes texture lookups and lobe evaluations a pixel, in place of radiance
   bool orthographic = false;
   EnvironmentUse environment = EnvironmentUse::sampled;  ///< of a module that integrates it itself
 };

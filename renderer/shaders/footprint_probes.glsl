@@ -23,13 +23,14 @@ float levelOf(vec2 size, Footprint f, float parts) {
 
 //? if filter_anisotropic or filter_hardware
 // Equal probes along the longer edge, at the level of the shorter one: the formulas of EXT_texture_filter_anisotropic,
-// spelled out because drivers differ in theirs.
+// spelled out because drivers differ in theirs. What rounding alone makes longer than wide is even: one probe and two
+// differ by a whole level.
 Probes probesOf(vec2 size, Footprint f) {
   float along_x = length(f.dx * size);
   float along_y = length(f.dy * size);
   float major = max(max(along_x, along_y), 1e-12);
   float minor = min(along_x, along_y);
-  int count = int(ceil(min(major / max(minor, 1e-12), float(most_probes))));
+  int count = int(ceil(min(0.999 * major / max(minor, 1e-12), float(most_probes))));
   return Probes(count, log2(major / float(count)), along_x > along_y ? f.dx : f.dy);
 }
 

@@ -118,8 +118,8 @@ TEST_P(EveryMethod, RepresentsTheBaseBrdfAtItsFinestLevel) {
 
 TEST_P(EveryMethod, TakesAnisotropicProbes) {
   TestRenderer renderer(square_scene(random_normals(64, 64, 0.5F, 6), {}));
-  const Image isotropic = renderer.frame(*GetParam(), {}, 1);
-  const Image probed = renderer.frame(*GetParam(), {}, 8);
+  const Image isotropic = renderer.frame(*GetParam(), {}, {FootprintFilterKind::trilinear, 1});
+  const Image probed = renderer.frame(*GetParam(), {}, {FootprintFilterKind::anisotropic, 8});
   EXPECT_LT(compare_images(probed, isotropic, 1.0F).value().relative_rmse, 0.5);
   for (const float value : probed.texels) ASSERT_TRUE(std::isfinite(value));
 }

@@ -149,7 +149,7 @@ TEST_P(EveryMethodsNdf, IsFiniteAndNotNegativeAtTheLimits) {
 
 TEST_P(EveryMethodsNdf, TakesAnisotropicProbes) {
   Inspection inspection(material_of(random_normals(32, 32, 0.5F, 6), {blinn_phong, 64}), {{0, 0.4}, {1, 0.6}});
-  EXPECT_TRUE(std::isfinite(inspection.figures(name(), 8).l2));
+  EXPECT_TRUE(std::isfinite(inspection.figures(name(), default_footprint_filter).l2));
 }
 
 // The four plain surfaces at a size that is quick to precompute, under one exponent.

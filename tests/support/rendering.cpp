@@ -29,17 +29,23 @@ BakedMethod TestRenderer::baked(const Method& method, const std::string& text) c
   return bake(method, spec, scene_, effects_, no_progress);
 }
 
-Image TestRenderer::frame(const Method& method, const std::string& text, const FootprintFilter& filter, int tile, double distance) {
+Image TestRenderer::frame(const Method& method, const std::string& text, const FootprintFilter& filter, int tile,
+                          double distance) {
   const BakedMethod bake_result = baked(method, text);
   const GpuMethod gpu(gpu_scene_, bake_result);
-  const FrameRenderer frames(context_->info(), gpu_scene_, gpu, size_,
-                             {.sampling = Sampling::frame,
-                              .footprint = filter,
-                              .orthographic = scene_.camera.orthographic},
-                             tile);
+  const FrameRenderer frames(
+      context_->info(), gpu_scene_, gpu, size_,
+      {.sampling = Sampling::frame, .footprint = filter, .orthographic = scene_.camera.orthographic}, tile);
   Image picture = frames.render({.size = size_, .camera = camera_at_distance(scene_, distance)});
   context_->check("drawing a test frame");
   return picture;
+}
+
+PixelWork TestRenderer::work(const Method& method, const std::string& text, const FootprintFilter& filter) {
+  const BakedMethod bake_result = baked(method, text);
+  const GpuMethod gpu(gpu_scene_, bake_result);
+  return pixel_work(context_->info(), gpu_scene_, gpu, {.size = size_, .camera = scene_.camera},
+                    {.footprint = filter, .orthographic = scene_.camera.orthographic});
 }
 
 Supersampled TestRenderer::supersampled(const Method& method, int spp, std::uint64_t seed, ReferenceFilter filter,

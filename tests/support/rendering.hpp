@@ -5,6 +5,7 @@
 
 #include "renderer/gl/context.hpp"
 #include "renderer/pipeline/frame.hpp"
+#include "renderer/pipeline/pixel_work.hpp"
 #include "renderer/pipeline/supersample.hpp"
 
 namespace footprint::testing {
@@ -18,8 +19,10 @@ class TestRenderer {
   explicit TestRenderer(const Scene& scene, const glm::ivec2& size = {64, 64}, std::optional<EffectSet> effects = {},
                         const gl::Context& context = shared_context());
 
-  [[nodiscard]] Image frame(const Method& method, const std::string& text = {}, const FootprintFilter& filter = {}, int tile = 0,
-                            double distance = 1.0);
+  [[nodiscard]] Image frame(const Method& method, const std::string& text = {}, const FootprintFilter& filter = {},
+                            int tile = 0, double distance = 1.0);
+  /// What a pixel of that frame looks up and evaluates.
+  [[nodiscard]] PixelWork work(const Method& method, const std::string& text, const FootprintFilter& filter);
   [[nodiscard]] Supersampled supersampled(const Method& method, int spp, std::uint64_t seed = 1,
                                           ReferenceFilter filter = ReferenceFilter::after_shading, int tile = 0,
                                           EnvironmentUse environment = EnvironmentUse::sampled);

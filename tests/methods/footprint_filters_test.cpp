@@ -1,0 +1,107 @@
+// The footprint filters under every method: parts of one are the whole, parts converge to the reference, what is linear
+// may be averaged before or after it is shaded, and what is counted is what is looked up.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "methods/registry.hpp"
+#include "renderer/image/metrics.hpp"
+#include "renderer/pipeline/frame.hpp"
+#include "tests/support/rendering.hpp"
+#include "tests/support/shadow_scenes.hpp"
+#include "tests/support/test_scenes.hpp"
+
+namespace footprint::testing {
+namespace {
+
+FootprintFilter filter_of(const std::string& text) { return parse_footprint_filter(text, ""); }
+
+double error_of(const Image& picture, const Image& truth) {
+  return compare_images(picture, truth, 1.0F).value().relative_rmse;
+}
+
+class FootprintFilters : public ::testing::TestWithParam<const Method*> {};
+
+TEST_P(FootprintFilters, OnePartIsTheWhole) {
+  Scene scene = square_scene(random_normals(64, 64, 0.6F, 5), {.brdf = {}, .roughness = 0.4F});
+  scene.camera = receding_grooves().camera;
+  TestRenderer renderer(scene, {24, 24});
+  const Image whole = renderer.frame(*GetParam(), {}, filter_of("trilinear"));
+  for (const char* const text : {"shaded:1", "box:1", "anisotropic:1"})
+    EXPECT_LT(largest_difference(renderer.frame(*GetParam(), {}, filter_of(text)), whole), 1e-4) << text;
+}
+
+// Whatever prefilters a part: a pixel of 8 x 8 texels in as many parts has nothing left to prefilter.
+TEST_P(FootprintFilters, PartsConvergeToTheReference) {
+  if (!GetParam()->info().resolves_texels) GTEST_SKIP() << "has one BRDF for the whole map";
+  TestRenderer renderer(square_scene(random_normals(128, 128, 0.5F, 7), {.brdf = {}, .roughness = 0.5F}), {16, 16});
+  const Image truth = renderer.reference(1024, 1, ReferenceFilter::nearest).mean;
+  const double few = error_of(renderer.frame(*GetParam(), {}, filter_of("shaded:2")), truth);
+  const double all = error_of(renderer.frame(*GetParam(), {}, filter_of("shaded:8")), truth);
+  constexpr double noise = 0.005;  // of the reference
+  EXPECT_LT(all, std::max(0.6 * few, noise));
+  EXPECT_LT(all, 0.05);
+}
+
+TEST_P(FootprintFilters, HaveNothingToDoWhereNothingVaries) {
+  Image normals = constant_normals(32, 32, {0.28F, 0, 0.96F});
+  normals.at(0, 0)[0] += 2e-5F;  // keeps a flat map from being left out, and is no bump to speak of
+  TestRenderer renderer(square_scene(normals, {}));
+  const Image direct = renderer.frame(find_method("direct"));
+  for (const char* const text : {"trilinear", "anisotropic:8", "box:3", "ewa:8", "shaded:3"})
+    EXPECT_LT(error_of(renderer.frame(*GetParam(), {}, filter_of(text)), direct), 1e-3) << text;
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, FootprintFilters, ::testing::ValuesIn(all_methods().begin(), all_methods().end()),
+                         [](const auto& tested) { return tested.param->info().name; });
+
+// Lights that are found once a pixel are those that are found for each part: of each kind, with shadows.
+TEST(FootprintFilter, PartsSeeEveryLight) {
+  Scene scene = box_over_floor();
+  const PointLight point{{0.6F, 0.5F, 1.5F}, glm::vec3(5.0F), {}};
+  SpotLight spot{{{-0.7F, 0.2F, 1.4F}, glm::vec3(5.0F), {}}};
+  spot.outer_cone_angle = 0.9F;
+  const DirectionalLight directional{glm::normalize(glm::vec3(0.3F, 0.2F, -1.0F)), glm::vec3(1.0F)};
+  scene.lights = {point, spot, directional, point};
+  TestRenderer renderer(scene, {48, 48});
+  const Image whole = renderer.frame(find_method("direct"), {}, filter_of("trilinear"));
+  EXPECT_LT(largest_difference(renderer.frame(find_method("direct"), {}, filter_of("shaded:2")), whole), 1e-5);
+  scene.lights.pop_back();
+  EXPECT_GT(largest_difference(TestRenderer(scene, {48, 48}).frame(find_method("direct")), whole), 1e-2)
+      << "a light less is seen";
+}
+
+// Colour under Lambert's term is linear: its mean may be shaded, or what is shaded averaged.
+TEST(FootprintFilter, ColoursAreLinear) {
+  Scene scene = square_scene({}, {.brdf = {NormalDistribution::ggx, GeometryTerm::none, FresnelTerm::none, true},
+                                  .specular = glm::vec3(0.0F)});
+  auto colours = std::make_shared<Image>(64, 64, 4, 1.0F);
+  for (std::size_t i = 0; i < colours->texel_count(); ++i) colours->texels[4 * i] = (i * 7919) % 13 < 5 ? 1.0F : 0.1F;
+  scene.materials[0].base_color_map = TextureMap{"colours", colours, {}};
+  TestRenderer renderer(scene, {20, 20});
+  const Image averaged = renderer.frame(find_method("direct"), {}, filter_of("box:3"));
+  EXPECT_LT(largest_difference(renderer.frame(find_method("direct"), {}, filter_of("shaded:3")), averaged), 1e-4);
+  EXPECT_GT(largest_difference(renderer.frame(find_method("direct"), {}, filter_of("trilinear")), averaged), 1e-3);
+}
+
+// One light, a normal map, no other map: what each formula takes by its definition.
+TEST(FootprintFilter, LookupsAndLobesAreCounted) {
+  TestRenderer renderer(square_scene(random_normals(64, 64, 0.5F, 7), {.brdf = {}, .roughness = 0.5F}), {16, 16});
+  const auto expect_work = [&](const char* method, const char* filter, double lookups, double lobes) {
+    const MethodSpec spec = parse_methods(method).front();
+    const PixelWork work = renderer.work(find_method(spec.name), method, filter_of(filter));
+    EXPECT_NEAR(work.lookups, lookups, 1e-6) << method << " " << filter;
+    EXPECT_NEAR(work.lobes, lobes, 1e-6) << method << " " << filter;
+  };
+  expect_work("naive_mip", "trilinear", 1, 1);
+  expect_work("naive_mip", "anisotropic:8", 1, 1);  // the footprint is even
+  expect_work("naive_mip", "box:3", 9, 1);
+  expect_work("naive_mip", "shaded:3", 9, 9);
+  if (shared_context().info().max_anisotropy >= 4) expect_work("naive_mip", "hardware:4", 1, 1);
+  expect_work("lean", "box:2", 12, 1);  // three textures
+  expect_work("direct", "box:3", 1, 1);  // reads the finest level alone
+}
+
+}  // namespace
+}  // namespace footprint::testing

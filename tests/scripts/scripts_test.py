@@ -1,0 +1,123 @@
+"""What the checks of scripts/ and packaging/ refuse: a changed picture, an archive that is too large, missing output."""
+import importlib.machinery
+import importlib.util
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(os.environ["FOOTPRINT_SOURCE_DIR"])
+
+# Stands for the program: writes pictures whose bytes are those of the file beside it.
+PROGRAM = """#!/bin/sh
+while [ "$1" != "-o" ]; do shift; done
+mkdir -p "$2/images"
+cp "$(dirname "$0")"/pictures/* "$2/images/"
+"""
+
+
+def module(path):
+    name = path.name.removesuffix(".py")
+    sys.path.insert(0, str(path.parent))  # what it imports lies beside it
+    loader = importlib.machinery.SourceFileLoader(name, str(path))
+    made = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
+    loader.exec_module(made)
+    return made
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+
+class PictureHashes(InFolder):
+    def setUp(self):
+        super().setUp()
+        self.pictures = self.folder / "pictures"
+        self.pictures.mkdir()
+        (self.pictures / "a.exr").write_bytes(b"one")
+        (self.pictures / "b.exr").write_bytes(b"two")
+        (self.folder / "program").write_text(PROGRAM, encoding="utf-8")
+        (self.folder / "program").chmod(0o755)
+        self.assertEqual(self.run_script("record").returncode, 0)
+
+    def run_script(self, mode):
+        return subprocess.run([SOURCE / "scripts/picture_hashes", mode, self.folder / "program", self.folder / "hashes",
+                               "--scene", "bumps"], capture_output=True, text=True, check=False)
+
+    def test_equal_pictures_pass(self):
+        done = self.run_script("check")
+        self.assertEqual((done.returncode, done.stdout), (0, "2 pictures are what they were\n"))
+
+    def test_one_byte_is_found(self):
+        (self.pictures / "b.exr").write_bytes(b"twO")
+        done = self.run_script("check")
+        self.assertEqual((done.returncode, done.stdout), (1, "bumps/b.exr: differs\n"))
+
+    def test_pictures_that_come_and_go_are_found(self):
+        (self.pictures / "b.exr").rename(self.pictures / "c.exr")
+        done = self.run_script("check")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stdout, "bumps/b.exr: not rendered any more\nbumps/c.exr: was not recorded\n")
+
+    def test_a_program_that_fails_is_told(self):
+        (self.folder / "program").write_text("#!/bin/sh\necho broken >&2\nexit 3\n", encoding="utf-8")
+        done = self.run_script("check")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("ended with 3", done.stderr)
+        self.assertIn("broken", done.stderr)
+
+
+class PortableArchive(InFolder):
+    def setUp(self):
+        super().setUp()
+        self.portable = module(SOURCE / "packaging/portable.py")
+        self.tree = self.folder / "tree"
+        self.tree.mkdir()
+        (self.tree / "file").write_bytes(os.urandom(1 << 16))
+
+    def test_an_archive_under_the_limit_is_kept(self):
+        self.portable.pack(self.tree, self.folder / "small.tar.xz", self.portable.LIMIT)
+        self.assertTrue((self.folder / "small.tar.xz").exists())
+
+    def test_one_over_the_limit_is_refused_and_leaves_nothing(self):
+        with self.assertRaises(SystemExit) as refused:
+            self.portable.pack(self.tree, self.folder / "large.tar.xz", 1 << 15)
+        self.assertIn("more than 32768", str(refused.exception))
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["tree"])
+
+    def test_the_limit_is_what_is_promised(self):
+        self.assertEqual(self.portable.LIMIT, 60 << 20)
+
+
+class ExpectedOutput(InFolder):
+    FILES = ["results.json", "results.csv", "table.md", "index.html", "images/d1_all.png"]
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "images").mkdir()
+        for name in self.FILES:
+            (self.folder / name).write_text("x", encoding="utf-8")
+
+    def expect(self):
+        return subprocess.run(["bash", "-c", '. "$1/scripts/common.sh"; expect_output "$2" prog', "-", SOURCE,
+                               self.folder], capture_output=True, text=True, check=False)
+
+    def test_all_that_is_there_passes(self):
+        self.assertEqual(self.expect().returncode, 0)
+
+    def test_each_file_that_is_missing_or_empty_is_named(self):
+        for name in self.FILES:
+            (self.folder / name).write_text("", encoding="utf-8")
+            done = self.expect()
+            self.assertNotEqual(done.returncode, 0, name)
+            self.assertIn(f"prog left no {name}", done.stderr + done.stdout)
+            (self.folder / name).write_text("x", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    unittest.main()

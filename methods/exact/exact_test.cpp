@@ -159,7 +159,7 @@ class NdfUnderExact {
         effects_(effects_on(derive_effects(scene_))),
         gpu_(shared_context().info(), scene_, effects_),
         baked_(bake(exact_method(), parse_methods(text).front(), scene_, effects_, no_progress)),
-        ndf_(shared_context().info(), gpu_, baked_, scene_.materials.front(), 1) {}
+        ndf_(shared_context().info(), gpu_, baked_, scene_.materials.front(), FootprintFilter{}) {}
 
   [[nodiscard]] std::vector<float> of_shader(const FootprintRect& rect) const {
     return ndf_.densities(rect, grid_.directions);

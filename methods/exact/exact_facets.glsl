@@ -95,6 +95,7 @@ void addSum(inout Sum sum, Sum part, float weight) {
 
 vec4 normalAt(Effective e, vec2 uv) {
 //? if normal_variation
+  countLookups(1);
   vec4 normal = textureLod(base_normal, uv, 0.0);
 //? if normal_layers
   vec4 layer = textureLod(base_layer, e.layer.centre + e.layer.turn * (uv - e.footprint.uv), 0.0);
@@ -160,4 +161,13 @@ vec2 placeIn(ivec2 cell, float edge) {
   if (edge <= 1.0) return vec2(cell) + 0.5;
   uvec3 bits = hashed(uvec3(cell, int(edge)));
   return (vec2(cell) + (vec2(bits.xy >> 8u) + 0.5) * (1.0 / 16777216.0)) * edge;
+}
+
+// How many texels may be looked at one by one: all parts of a pixel share them.
+float mostTexels() {
+//? if filter_shaded
+  return option_texels * option_texels / float(footprint_parts * footprint_parts);
+//? else
+  return option_texels * option_texels;
+//? end
 }

@@ -55,7 +55,7 @@ Sum sumOver(Effective e, Query q) {
   Sum sum = zeroSum();
   int count = footprintTexelCount(finest, e.footprint);
   // Of eight texels four lie on the coarser level, a square of theirs being what all of them cover.
-  float most = 2.0 * option_texels * option_texels / float(count);
+  float most = 2.0 * mostTexels() / float(count);
   int i = 0;
   for (; i < count; ++i) {
     FootprintTexel texel = footprintTexel(finest, e.footprint, i);

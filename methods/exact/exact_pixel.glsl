@@ -8,13 +8,13 @@ struct Pixel {
   mat2 edges;   // columns, in cells
 };
 
-// As many cells as area and circumference call for, at most the square of option_texels: with area A and lengths of
+// As many cells as area and circumference call for, at most mostTexels(): with area A and lengths of
 // both edges B in places, A / edge^2 + 4 B / edge of them; those that the border cuts are dear.
 Pixel pixelOn(Footprint f, vec2 size) {
   mat2 edges = mat2(f.dx * size, f.dy * size);
   float area = abs(determinant(edges));
   float border = 4.0 * (length(edges[0]) + length(edges[1]));
-  float most = option_texels * option_texels;
+  float most = mostTexels();
   float edge = 0.5 * (border + sqrt(border * border + 4.0 * area * most)) / most;
   edge = max(ceil(edge - 1e-3), 1.0);
   return Pixel(edge, f.uv * size / edge, widened(edges * (1.0 / edge)));

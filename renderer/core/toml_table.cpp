@@ -9,6 +9,7 @@
 
 #include "renderer/core/file_bytes.hpp"
 #include "renderer/core/suggest.hpp"
+#include "renderer/core/words.hpp"
 
 namespace footprint {
 namespace {
@@ -104,11 +105,7 @@ std::optional<std::string> TomlTable::word(std::string_view key) const {
 std::optional<std::size_t> TomlTable::choice(std::string_view key, const std::vector<std::string>& choices) const {
   const auto given = word(key);
   if (!given) return std::nullopt;
-  const auto found = std::ranges::find(choices, *given);
-  if (found == choices.end()) {
-    throw error_at(key, fmt::format("is `{:.80}`, which is not known", *given), suggestion(*given, choices));
-  }
-  return static_cast<std::size_t>(found - choices.begin());
+  return at_key(*this, key, [&] { return find_word(choices, *given, "word", ""); });
 }
 
 std::optional<bool> TomlTable::boolean(std::string_view key) const {

@@ -12,7 +12,7 @@
 #include <span>
 
 #include "renderer/core/error.hpp"
-#include "renderer/core/suggest.hpp"
+#include "renderer/core/words.hpp"
 #include "renderer/lobes/vmf.hpp"
 
 namespace footprint {
@@ -123,15 +123,12 @@ float lobe_roughness(const Lobe& lobe) {
 
 Lobe parse_lobe(std::string_view option, const std::string& text) {
   const std::size_t colon = text.find(':');
-  const std::string name = text.substr(0, colon);
   const auto refuse = [&](const std::string& message, const std::string& hint) {
     return Error(ErrorKind::usage, std::string(option), fmt::format("`{}` {}", text, message), hint);
   };
-  const auto& names = distribution_names();
-  const auto found = std::ranges::find(names, name);
-  if (found == names.end()) throw refuse("names no distribution", suggestion(name, names));
+  const std::size_t named = find_word(distribution_names(), text.substr(0, colon), "distribution", option);
   if (colon == std::string::npos) throw refuse("has no parameter", std::string(lobe_hint));
-  Lobe lobe{static_cast<NormalDistribution>(found - names.begin()), 0.0};
+  Lobe lobe{static_cast<NormalDistribution>(named), 0.0};
   const std::string_view digits = std::string_view(text).substr(colon + 1);
   const char* const end = digits.data() + digits.size();
   const auto [stop, status] = std::from_chars(digits.data(), end, lobe.parameter);

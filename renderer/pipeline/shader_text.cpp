@@ -197,7 +197,9 @@ class ShaderText::Reader {
   [[nodiscard]] Error no_text(std::string_view file) const {
     std::vector<std::string> files;
     for (const EmbeddedText& text : embedded::shared_glsl) files.emplace_back(text.file);
-    for (const EmbeddedText& text : to_.module_.folder) files.emplace_back(text.file);
+    for (const EmbeddedText& text : to_.module_.folder) {
+      if (find_text(embedded::shared_glsl, text.file) == nullptr) files.emplace_back(text.file);
+    }
     return line_.bad(fmt::format("there is no text `{}`", file), suggestion(file, files));
   }
 

@@ -29,7 +29,8 @@ float lobeDensity(float s, vec3 n, vec3 h) {
   if (u >= 1.0) return 0.0;
   return (s + 1.0) / (2.0 * pi) * exp(s * log1m(u));
 }
-float lobeFromAlpha(float alpha) { return 2.0 / max(alpha * alpha, smallest_alpha * smallest_alpha) - 2.0; }  // Walter 2007, section 5.2
+// Walter 2007, section 5.2.
+float lobeFromAlpha(float alpha) { return 2.0 / max(alpha * alpha, smallest_alpha * smallest_alpha) - 2.0; }
 float lobeVariance(float s) { return 1.0 / max(s, 1e-6); }
 float lobeFromVariance(float variance) { return min(1.0 / max(variance, 1e-12), largest_exponent); }
 float lobeAlpha(float s) { return sqrt(2.0 / (s + 2.0)); }

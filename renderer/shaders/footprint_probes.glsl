@@ -61,7 +61,8 @@ float probeWeight(Probes p, int i) {
 // at its border. Its variance along an axis of radius s is s^2 / 4. A trilinear lookup in texels of width t has the
 // variance t^2 / 4 itself (t^2 / 6 of the tent, t^2 / 12 of the texel): with t the shorter radius it is the Gaussian
 // across, and along the longer one probes no farther apart than t are weighed by a Gaussian of the variance that is
-// missing, (s^2 - t^2) / 4, as far as s - t from the middle (as McCormack et al. 1999 place theirs). Where most_probes do not reach, t grows: blur, no gaps.
+// missing, (s^2 - t^2) / 4, as far as s - t from the middle (as McCormack et al. 1999 place theirs). Where
+// most_probes do not reach, t grows: blur, no gaps.
 Probes probesOf(vec2 size, Footprint f) {
   // J J^T = (a b; b c) of the edges in texels: its roots are the squared radii.
   vec2 edge_x = f.dx * size;

@@ -32,7 +32,7 @@ std::vector<Case> footprints() {
 
 std::vector<Case> words() {
   return {
-      row("LobeThatIsNone", {"--lobe", "phong:64"}, {"--lobe", "`phong:64` names no distribution", "blinn_phong"}),
+      row("LobeThatIsNone", {"--lobe", "phong:64"}, {"--lobe", "unknown distribution `phong`", "blinn_phong"}),
       row("LobeMisspelt", {"--lobe", "bekmann:0.1"}, {"did you mean `beckmann`?"}),
       row("LobeWithoutParameter", {"--lobe", "ggx"}, {"--lobe", "`ggx` has no parameter", "ggx:0.2"}),
       row("LobeOutOfRange", {"--lobe", "ggx:2"}, {"--lobe", "0.0001 to 1"}),

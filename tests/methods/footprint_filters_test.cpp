@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "methods/registry.hpp"
@@ -83,6 +84,27 @@ TEST(FootprintFilter, ColoursAreLinear) {
   const Image averaged = renderer.frame(find_method("direct"), {}, filter_of("box:3"));
   EXPECT_LT(largest_difference(renderer.frame(find_method("direct"), {}, filter_of("shaded:3")), averaged), 1e-4);
   EXPECT_GT(largest_difference(renderer.frame(find_method("direct"), {}, filter_of("trilinear")), averaged), 1e-3);
+}
+
+// A sum over texels is linear in the kernel: of a box's probes, or of as many parts, it is the same.
+TEST(FootprintFilter, TheExactSumIsThatOfItsParts) {
+  Scene scene = square_scene(random_normals(64, 64, 0.6F, 5), {.brdf = {}, .roughness = 0.4F});
+  scene.camera = receding_grooves().camera;
+  TestRenderer renderer(scene, {16, 16});
+  const Image probes = renderer.frame(find_method("exact"), {}, filter_of("box:3"));
+  EXPECT_LT(error_of(renderer.frame(find_method("exact"), {}, filter_of("shaded:3")), probes), 0.001);
+  EXPECT_GT(error_of(renderer.frame(find_method("exact"), {}, filter_of("shaded:2")), probes), 0.004);
+}
+
+// Parts share the texels that a pixel may look at: none is left out where a loop would end.
+TEST(FootprintFilter, TheExactSumOfManyTexelsIsWhole) {
+  Scene scene = square_scene(random_normals(512, 512, 0.6F, 5), {.brdf = {}, .roughness = 0.4F});
+  scene.lights.resize(4, scene.lights.front());
+  TestRenderer renderer(scene, {2, 2});
+  for (const char* const text : {"shaded:2", "shaded:4"}) {
+    for (const float value : renderer.frame(find_method("exact"), {}, filter_of(text)).texels)
+      ASSERT_TRUE(std::isfinite(value)) << text;
+  }
 }
 
 // One light, a normal map, no other map: what each formula takes by its definition.

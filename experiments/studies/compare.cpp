@@ -164,8 +164,8 @@ class Comparison {
     truth.reference_file = write_picture(folder_, stem_of(distance, "reference"), truth.reference.mean, exposure_);
     truth.curve = supersampling_curve(truth, prefix);
     for (const int spp : settings_.reference.other_spp) {
-      const Supersampled other = stage_.reference().render(truth.view, spp, settings_.reference.seed,
-                                                           parts_.next(spp, prefix + "other reference, "));
+      const Supersampled other = stage_.reference().render(
+          truth.view, spp, settings_.reference.seed, parts_.next(spp, prefix + "other reference, "), TexelUse::drawn);
       truth.others.push_back({.spp = spp, .mean = other.mean, .noise_floor = noise_floor(other, exposure_)});
     }
     return truth;
@@ -175,8 +175,8 @@ class Comparison {
     std::vector<SupersamplingPoint> curve;
     for (const int spp : settings_.reference.supersampling) {
       const std::uint64_t seed = settings_.reference.seed ^ (curve_seed * static_cast<std::uint64_t>(spp));
-      const Supersampled picture =
-          stage_.reference().render(truth.view, spp, seed, parts_.next(spp, prefix + "supersampling, "));
+      const Supersampled picture = stage_.reference().render(
+          truth.view, spp, seed, parts_.next(spp, prefix + "supersampling, "), TexelUse::drawn);
       const int repeats = curve_repeats(spp);
       const DrawFrame draw = [&] { stage_.reference().draw(truth.view, spp, seed); };
       const std::vector<double> times =

@@ -1,15 +1,17 @@
-// Directions drawn from an environment in proportion to its light: Walker's alias method over its texels.
+// Directions drawn from an environment in proportion to its light: its rows, then a row's texels, by their sums.
 #pragma once
 
 #include "renderer/scene/environment.hpp"
 
 namespace footprint {
 
-/// Tables of an environment's size. A texel is drawn by an equally likely entry t of the table: t itself with
-/// probability `keep`, else `other`; then a point of it, uniform in solid angle.
+/// Tables to draw by inversion: monotonous in the two numbers that are drawn, row by y and texel by x. Densities are
+/// those of the sums as they are rounded.
 struct DirectionTable {
   Image radiance;  ///< RGBA: radiance; the density over solid angle with which a direction of this texel is drawn
-  Image alias;     ///< 2 channels: keep; other, a texel's number, row by row
+  /// 2 channels, one column wider than the environment: a texel's share of its row with all those before it; and, at x,
+  /// the first texel whose sum exceeds x / width. The last column has the same of the rows.
+  Image sums;
 };
 
 /// Texels weigh by the mean of their channels times their solid angle; a black environment is drawn from evenly.

@@ -179,19 +179,35 @@ TEST(DirectionTable, DrawsTexelsByTheirLight) {
   const Environment environment = noisy_environment(9, 5);
   const DirectionTable table = direction_table(*environment.radiance);
   const std::vector<double> solid_angles = row_solid_angles(9, 5);
-  std::vector<double> chance(45, 0.0);
   double total = 0;
   for (std::size_t i = 0; i < 45; ++i) {
-    chance[i] += table.alias.texels[2 * i] / 45.0;
-    chance[static_cast<std::size_t>(table.alias.texels[2 * i + 1])] += (1.0 - table.alias.texels[2 * i]) / 45.0;
     const float* const t = &environment.radiance->texels[3 * i];
     total += (t[0] + t[1] + t[2]) * solid_angles[i / 9];
   }
+  const auto sum = [&](std::size_t x, std::size_t y) {
+    return static_cast<double>(table.sums.texels[2 * (10 * y + x)]);
+  };
   for (std::size_t i = 0; i < 45; ++i) {
+    const std::size_t x = i % 9, y = i / 9;
     const float* const t = &environment.radiance->texels[3 * i];
-    const double share = (t[0] + t[1] + t[2]) * solid_angles[i / 9] / total;
-    EXPECT_NEAR(chance[i], share, 1e-6);
-    EXPECT_NEAR(table.radiance.texels[4 * i + 3] * solid_angles[i / 9], share, 1e-6);
+    const double share = (t[0] + t[1] + t[2]) * solid_angles[y] / total;
+    const double row = sum(9, y) - (y > 0 ? sum(9, y - 1) : 0.0);
+    const double column = sum(x, y) - (x > 0 ? sum(x - 1, y) : 0.0);
+    EXPECT_NEAR(row * column, share, 1e-6);
+    EXPECT_NEAR(table.radiance.texels[4 * i + 3] * solid_angles[y], share, 1e-6);
+  }
+}
+
+// A guide is the first entry whose sum exceeds where its part begins: never behind the one that is looked for.
+TEST(DirectionTable, GuidesLeadToTheirEntries) {
+  const DirectionTable table = direction_table(*noisy_environment(9, 5).radiance);
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 0; x < 9; ++x) {
+      const auto guide = static_cast<int>(table.sums.at(x, y)[1]);
+      const float begin = static_cast<float>(x) / 9.0F;
+      EXPECT_GT(table.sums.at(guide, y)[0], begin);
+      EXPECT_TRUE(guide == 0 || table.sums.at(guide - 1, y)[0] <= begin + 1e-6F);
+    }
   }
 }
 

@@ -97,7 +97,7 @@ std::array<std::string_view, 2> environment_textures(EnvironmentUse use) {
     case EnvironmentUse::prefiltered:
       break;
     case EnvironmentUse::sampled:
-      return {"environment_radiance", "environment_alias"};
+      return {"environment_radiance", "environment_sums"};
     case EnvironmentUse::dense:
       return {"environment_lights", "environment_directions"};
   }

@@ -48,9 +48,9 @@ Image FrameRenderer::render(const View& view) const {
 }
 
 void read_tile(const gl::RenderTarget& target, std::size_t attachment, const Tile& tile, Image& picture) {
-  constexpr int channels = 4;
+  const int channels = picture.channels;
   std::vector<float> texels(static_cast<std::size_t>(target.width()) * static_cast<std::size_t>(target.height()) *
-                            channels);
+                            static_cast<std::size_t>(channels));
   target.read(attachment, channels, texels);
   for (int y = 0; y < tile.size.y; ++y) {
     const auto row = texels.begin() + static_cast<std::ptrdiff_t>(y) * target.width() * channels;

@@ -34,7 +34,8 @@ class FrameRenderer {
   gl::RenderTarget target_;
 };
 
-/// Reads a tile of `target`'s attachment into its part of `picture`, whose row 0 is the top one.
+/// Reads a tile of `target`'s attachment, as many channels as `picture` has, into its part of that, whose row 0 is the
+/// top one.
 void read_tile(const gl::RenderTarget& target, std::size_t attachment, const Tile& tile, Image& picture);
 
 /// Clears the bound framebuffer to no radiance, no coverage, and the far plane.

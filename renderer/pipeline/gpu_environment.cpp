@@ -12,8 +12,7 @@
 namespace footprint {
 namespace {
 
-constexpr float directions_a_sample = 2.0F;  // of each kind: docs/base-brdf.md
-constexpr float nodes_around = 4.0F;         // a ring of a lobe with a tail: docs/base-brdf.md
+constexpr float nodes_around = 4.0F;  // a ring of a lobe with a tail: docs/base-brdf.md
 
 gl::Buffer block_of(const std::array<glm::vec4, 2>& values) { return gl::Buffer(std::as_bytes(std::span(values))); }
 
@@ -43,12 +42,12 @@ GpuEnvironment::Part GpuEnvironment::table_part() const {
   const DirectionTable table = direction_table(map);
   Part part;
   part.first = plain_texture(table.radiance, GL_RGBA32F, GL_RGBA);
-  part.second = plain_texture(table.alias, GL_RG32F, GL_RG);
+  part.second = plain_texture(table.sums, GL_RG32F, GL_RG);
   part.sampler = gl::nearest_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
-  part.block = block_of({glm::vec4(static_cast<float>(map.width), static_cast<float>(map.height), environment_.rotation,
-                                   directions_a_sample),
-                         glm::vec4(0.0F)});
-  part.bytes = (table.radiance.texels.size() + table.alias.texels.size()) * sizeof(float);
+  part.block =
+      block_of({glm::vec4(static_cast<float>(map.width), static_cast<float>(map.height), environment_.rotation, 0.0F),
+                glm::vec4(0.0F)});
+  part.bytes = (table.radiance.texels.size() + table.sums.texels.size()) * sizeof(float);
   return part;
 }
 

@@ -84,10 +84,6 @@ std::vector<glm::vec4> material_block(const Material& material, const EffectSet&
   return block;
 }
 
-bool same_uv(const TextureCoordinates& a, const TextureCoordinates& b) {
-  return a.set == b.set && a.transform == b.transform;
-}
-
 bool maps_share_coordinates(const Material& m) {
   std::vector<TextureCoordinates> used;
   if (m.normal_map) used.push_back(m.normal_map->coordinates);
@@ -135,6 +131,7 @@ GpuBatch batch_of(const Scene& scene, std::size_t material, const EffectSet& eff
   batch.vertex_count = vertices.size();
   batch.material = material;
   batch.double_sided = scene.materials[material].double_sided;
+  batch.coordinates = normal_coordinates(scene.materials[material]);
   batch.adds = adds_to_surface(scene.materials[material]);
   const std::vector<glm::vec4> block = material_block(scene.materials[material], effects);
   batch.material_block = gl::Buffer(std::as_bytes(std::span(block)), gl::Buffer::Content::changing);
@@ -161,6 +158,10 @@ void require_capacity(const gl::ContextInfo& context, std::size_t vectors, const
 }
 
 }  // namespace
+
+bool same_uv(const TextureCoordinates& a, const TextureCoordinates& b) {
+  return a.set == b.set && a.transform == b.transform;
+}
 
 gl::VertexArray vertex_array(const gl::Buffer& vertices, const gl::Buffer& indices, const gl::Buffer* surface) {
   GLuint name = 0;

@@ -58,6 +58,9 @@ struct GpuTexture {
   }
 };
 
+/// Whether two maps are looked up at the same uv.
+[[nodiscard]] bool same_uv(const TextureCoordinates& a, const TextureCoordinates& b);
+
 /// Uploads a prefiltered texture with its whole chain; of a built one it makes the storage alone. Errors (machine):
 /// over the GL limits, out of memory.
 [[nodiscard]] GpuTexture upload(const PrefilteredTexture& texture);
@@ -87,6 +90,7 @@ struct GpuBatch {
   std::size_t material = 0;
   bool double_sided = false;
   bool adds = false;                        ///< to what the material before it left on the same triangles
+  TextureCoordinates coordinates;           ///< of the normal map, or where it would be looked up
   std::vector<GpuTexture> shared_textures;  ///< of the rows of shared_maps() whose effects are on
 };
 

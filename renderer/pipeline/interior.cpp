@@ -22,11 +22,11 @@ constexpr float rounding_share = 4e-6F;  // of a few 32-bit operations on a coor
 constexpr std::array<GLenum, 4> piece_formats{GL_RGBA32F, GL_RGBA32F, GL_RGBA32F, GL_RGBA32F};
 constexpr std::array<GLenum, 1> one_format{GL_RGBA32F};
 
-// Where the reference samples a pixel: the first passes of its own.
+// Where the reference samples a pixel: passes of its own, of its first sequence where there are too many.
 SampleGrid samples_of_reference(int spp, std::uint64_t seed) {
   SampleGrid samples = sample_grid(spp, seed);
   const auto most_passes = static_cast<std::size_t>(most_samples / (samples.grid * samples.grid));
-  if (samples.offsets.size() > most_passes) samples.offsets.resize(most_passes);
+  if (samples.passes.size() > most_passes) samples.passes.resize(most_passes);
   return samples;
 }
 
@@ -140,7 +140,7 @@ void InteriorFinder::draw(const Look& look, const gl::RenderTarget& target, cons
   for (GLint i = 1; !look.shadows && i < static_cast<GLint>(piece_formats.size()); ++i)
     gl::api().ClearBufferfv(GL_COLOR, i, nothing.data());
   gl::api().UseProgram(look.draw.name());
-  const glm::mat4 matrix = tile_matrix(view, tile, samples.offsets[pass] / static_cast<double>(samples.grid));
+  const glm::mat4 matrix = tile_matrix(view, tile, samples.passes[pass].offset / static_cast<double>(samples.grid));
   gl::api().UniformMatrix4fv(uniform("world_to_clip"), 1, GL_FALSE, glm::value_ptr(matrix));
   const glm::vec3 camera = orthographic_ ? direction_to_camera(view.camera) : camera_position(view.camera);
   gl::api().Uniform3fv(uniform(orthographic_ ? "to_camera" : "camera_position"), 1, glm::value_ptr(camera));
@@ -188,7 +188,7 @@ void InteriorFinder::compare(const Look& look, const gl::RenderTarget& drawn, co
 }
 
 void InteriorFinder::look_at(const Look& look, const View& view, const Tile& tile, const SampleGrid& samples) const {
-  for (std::size_t pass = 0; pass < samples.offsets.size(); ++pass) {
+  for (std::size_t pass = 0; pass < samples.passes.size(); ++pass) {
     const gl::RenderTarget& target = pass == 0 ? look.first : look.other;
     draw(look, target, view, tile, samples, pass);
     compare(look, target, view, tile, samples.grid);

@@ -33,12 +33,34 @@ TEST(Reference, DoesNotDependOnTheTiles) {
   EXPECT_LT(figures->relative_rmse, 1e-3);  // a sample on the edge of two texels may take the other one
 }
 
-TEST(Reference, StandardErrorFallsWithTheRootOfTheSamples) {
+TEST(Reference, StandardErrorFallsFasterThanTheRootOfTheSamples) {
   TestRenderer renderer(bumpy_square());
   const double coarse = relative_standard_error(renderer.reference(16)).value();
   const double fine = relative_standard_error(renderer.reference(256)).value();
-  EXPECT_NEAR(coarse / fine, 4.0, 0.4);
+  EXPECT_GT(coarse / fine, 8.0);  // independent samples: 4
   EXPECT_FALSE(relative_standard_error(renderer.reference(1)).has_value());
+}
+
+// One texel a sample and all four have one expectation, also where maps of other sizes take their texels at random.
+TEST(Reference, DrawnAndFilteredTexelsAgree) {
+  Scene scene = bumpy_square();
+  Image roughness(5, 3, 4, 0.3F);
+  for (std::size_t i = 1; i < roughness.texels.size(); i += 8) roughness.texels[i] = 0.9F;
+  scene.materials.front().metallic_roughness_map = {
+      .name = "rough", .image = std::make_shared<const Image>(roughness), .coordinates = {}};
+  TestRenderer renderer(scene, {16, 16});
+  const auto mean = [&](TexelUse texels) {
+    return renderer.reference(4096, 5, ReferenceFilter::after_shading, 0, EnvironmentUse::sampled, texels);
+  };
+  const Supersampled drawn = mean(TexelUse::drawn), filtered = mean(TexelUse::filtered);
+  double off = 0, error = 0;
+  for (std::size_t i = 0; i < drawn.mean.texel_count(); ++i) {
+    off += std::pow(drawn.mean.texels[4 * i] - filtered.mean.texels[4 * i], 2);
+    error += std::pow(drawn.standard_error.texels[3 * i], 2) + std::pow(filtered.standard_error.texels[3 * i], 2);
+  }
+  EXPECT_GT(off, 0.0);
+  EXPECT_LT(off, 2.0 * error);
+  EXPECT_NEAR(covered_mean(drawn.mean) / covered_mean(filtered.mean), 1.0, 1e-3);
 }
 
 TEST(Reference, HalvesAverageToTheWhole) {

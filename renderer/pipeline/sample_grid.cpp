@@ -1,20 +1,17 @@
-// The grid that divides the samples into enough passes, and the jitter of each pass.
+// The grid that divides the samples into enough passes, and the points of each pass.
 #include "renderer/pipeline/sample_grid.hpp"
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <random>
-
 #include "renderer/core/error.hpp"
-#include "renderer/core/random.hpp"
+#include "renderer/pipeline/sample_sequence.hpp"
 
 namespace footprint {
 namespace {
 
-constexpr int most_samples = 4096;
 constexpr int largest_grid = 4;   // a pass then takes 16 times a picture's memory
-constexpr int fewest_passes = 4;  // for two halves that tell the noise, and for jitter
+constexpr int fewest_passes = 4;  // two sequences of two blocks
+constexpr double fixed_point = 0x1.0p-32;
 
 // The largest grid that divides the samples into enough passes.
 int grid_of(int spp) {
@@ -25,26 +22,16 @@ int grid_of(int spp) {
   return 1;
 }
 
-// A seeded order of 0 .. count - 1 (Fisher and Yates), again without a library's own distribution.
-std::vector<int> shuffled(int count, std::mt19937_64& random) {
-  std::vector<int> order(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) {
-    const auto j = static_cast<std::size_t>(uniform(random) * (i + 1));
-    order[static_cast<std::size_t>(i)] = order[j];
-    order[j] = i;
-  }
-  return order;
+glm::dvec2 offset_of(std::uint32_t pass, std::uint32_t seed) {
+  const SampleDigits point = sample_digits(SamplePair::pixel, pass);
+  return {scrambled(point.x, combined_seed(seed, 0)) * fixed_point - 0.5,
+          scrambled(point.y, combined_seed(seed, 1)) * fixed_point - 0.5};
 }
 
-// columns x rows strata for `count` points: exact where count has two near factors, else the square above it, of which
-// a random choice stays empty.
-glm::ivec2 strata_of(int count) {
-  for (int rows = static_cast<int>(std::sqrt(count)); rows >= 1; --rows) {
-    const int columns = count / rows;
-    if (count % rows == 0 && columns <= 2 * rows) return {columns, rows};
-  }
-  const auto edge = static_cast<int>(std::ceil(std::sqrt(count)));
-  return {edge, edge};
+// Of a column or row: its first binary digit in bit 0, as the sequence's digits are.
+std::uint32_t digits_of(int grid, int place) {
+  const auto p = static_cast<std::uint32_t>(place);
+  return grid == 4 ? (p >> 1U) | ((p & 1U) << 1U) : p;
 }
 
 }  // namespace
@@ -54,19 +41,36 @@ SampleGrid sample_grid(int spp, std::uint64_t seed) {
     throw Error(ErrorKind::usage, "--spp", fmt::format("{} samples a pixel", spp),
                 fmt::format("give 1 to {}", most_samples));
   }
-  std::mt19937_64 random(seed);
-  SampleGrid out{.grid = grid_of(spp), .offsets = {}};
-  const int passes = spp / (out.grid * out.grid);
-  const glm::ivec2 strata = strata_of(passes);
-  const std::vector<int> order = shuffled(strata.x * strata.y, random);
-  for (int pass = 0; pass < passes; ++pass) {
-    const int stratum = order[static_cast<std::size_t>(pass)];
-    const int column = stratum % strata.x, row = stratum / strata.x;
-    const double x = (column + uniform(random)) / strata.x - 0.5;
-    const double y = (row + uniform(random)) / strata.y - 0.5;
-    out.offsets.emplace_back(x, y);
+  SampleGrid out{.grid = grid_of(spp), .passes = {}};
+  const int all = spp / (out.grid * out.grid);
+  for (const int half : {0, 1}) {
+    const int passes = half == 0 ? (all + 1) / 2 : all / 2;
+    for (int number = 0; number < passes; ++number) {
+      const auto pass = static_cast<std::uint32_t>(number);
+      out.passes.push_back({.offset = offset_of(pass, half_seed(seed, half)),
+                            .half = half,
+                            .block = 2 * number < passes ? 0 : 1,
+                            .number = pass});
+    }
   }
   return out;
+}
+
+std::uint32_t half_seed(std::uint64_t seed, int half) {
+  return combined_seed(combined_seed(static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32U)),
+                       static_cast<std::uint32_t>(half) + 0x100U);
+}
+
+std::uint32_t sample_in_cell(int grid, const glm::ivec2& cell) {
+  if (grid != 2 && grid != 4) return static_cast<std::uint32_t>(cell.y * grid + cell.x);
+  const std::uint32_t x = digits_of(grid, cell.x), y = digits_of(grid, cell.y);
+  const auto cells = static_cast<std::uint32_t>(grid * grid);
+  const std::uint32_t mask = static_cast<std::uint32_t>(grid) - 1U;
+  for (std::uint32_t index = 0; index < cells; ++index) {
+    const SampleDigits point = sample_digits(SamplePair::pixel, index);
+    if ((point.x & mask) == x && (point.y & mask) == y) return index;
+  }
+  return 0;
 }
 
 }  // namespace footprint

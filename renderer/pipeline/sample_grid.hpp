@@ -1,4 +1,4 @@
-// Where the reference samples a pixel: a jittered grid, taken in passes of grid x grid samples.
+// Which samples a pixel has: two independently scrambled sequences, taken in passes of a grid of samples.
 #pragma once
 
 #include <cstdint>
@@ -7,15 +7,33 @@
 
 namespace footprint {
 
-/// N = passes * grid^2 samples a pixel. One pass draws a picture grid times as large each way, whose samples lie in one
-/// point of their cell; the passes' points are stratified over the cell and jittered within their strata, so that all
-/// samples together are a jittered grid.
-struct SampleGrid {
-  int grid = 1;
-  std::vector<glm::dvec2> offsets;  ///< one a pass: from a cell's centre, in cells, -0.5 to 0.5
+inline constexpr int most_samples = 4096;  ///< a pixel
+
+/// Two sequences of equal length, scrambled independently of one another: the mean over each is an estimate of its own,
+/// and their difference tells the error of both together (docs/metrics.md). One draw fills a grid of samples, which lie
+/// in one point of their cells.
+struct SamplePass {
+  glm::dvec2 offset{0};      ///< from a cell's centre, in cells, -0.5 to 0.5
+  int half = 0;              ///< the sequence, 0 or 1
+  int block = 0;             ///< first or second part of its sequence
+  std::uint32_t number = 0;  ///< of the pass in its sequence: its samples are grid^2 * number and those behind it
 };
 
-/// 1 <= spp <= 4096. Deterministic for a seed. Errors (usage): spp out of range.
+/// N = passes * grid^2 samples a pixel, in the order (half, block, number).
+struct SampleGrid {
+  int grid = 1;
+  std::vector<SamplePass> passes;
+};
+
+/// 1 <= spp <= most_samples. Deterministic for a seed; more samples of the same grid begin with the same ones. Errors
+/// (usage): spp out of range.
 [[nodiscard]] SampleGrid sample_grid(int spp, std::uint64_t seed);
+
+/// What seeds everything that sequence `half` draws for a picture.
+[[nodiscard]] std::uint32_t half_seed(std::uint64_t seed, int half);
+
+/// The number of the sample of a pass that lies in `cell` (column, row) of the grid, 0 to grid^2 - 1: in the order of
+/// the sequence where the grid is a power of two, so that pixel and other dimensions go together.
+[[nodiscard]] std::uint32_t sample_in_cell(int grid, const glm::ivec2& cell);
 
 }  // namespace footprint

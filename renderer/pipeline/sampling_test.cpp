@@ -1,8 +1,11 @@
 // Sample grids, tiles and timing statistics: the arithmetic around a picture.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <span>
 
 #include "renderer/core/error.hpp"
 #include "renderer/pipeline/sample_grid.hpp"
@@ -12,12 +15,14 @@
 namespace footprint {
 namespace {
 
-std::vector<glm::dvec2> all_samples(const SampleGrid& grid) {
+// In the pixel, each from 0 to 1, of one sequence or (half -1) of both.
+std::vector<glm::dvec2> all_samples(const SampleGrid& grid, int half = -1) {
   std::vector<glm::dvec2> samples;
-  for (const glm::dvec2& offset : grid.offsets) {
+  for (const SamplePass& pass : grid.passes) {
+    if (half >= 0 && pass.half != half) continue;
     for (int y = 0; y < grid.grid; ++y) {
       for (int x = 0; x < grid.grid; ++x)
-        samples.push_back((glm::dvec2(x, y) + 0.5 + offset) / static_cast<double>(grid.grid));
+        samples.push_back((glm::dvec2(x, y) + 0.5 + pass.offset) / static_cast<double>(grid.grid));
     }
   }
   return samples;
@@ -31,28 +36,75 @@ TEST(SampleGrid, HasTheCountAskedForInsideThePixel) {
   }
 }
 
-TEST(SampleGrid, SquaresAreStratified) {
-  for (const int edge : {2, 4, 6, 8}) {
-    std::set<std::pair<int, int>> cells;
-    for (const glm::dvec2& s : all_samples(sample_grid(edge * edge, 9)))
-      cells.emplace(static_cast<int>(s.x * edge), static_cast<int>(s.y * edge));
-    EXPECT_EQ(cells.size(), static_cast<std::size_t>(edge * edge));
+// The samples of one sequence in `columns` x `rows` equal boxes: as many in each.
+bool fill_evenly(const std::vector<glm::dvec2>& samples, int columns, int rows) {
+  std::vector<std::size_t> counts(static_cast<std::size_t>(columns * rows), 0);
+  for (const glm::dvec2& s : samples)
+    ++counts[static_cast<std::size_t>(static_cast<int>(s.y * rows) * columns + static_cast<int>(s.x * columns))];
+  return std::ranges::all_of(counts, [&](std::size_t n) { return n * counts.size() == samples.size(); });
+}
+
+// The offsets of a sequence are a (0, m, 2)-net of a cell, so that its samples are one of the pixel wherever a box is
+// no longer than four cells: the grid itself is not finer.
+TEST(SampleGrid, EachSequenceFillsElementaryIntervals) {
+  for (const int spp : {64, 128, 256, 1024, 4096}) {
+    for (const int half : {0, 1}) {
+      const auto samples = all_samples(sample_grid(spp, 9), half);
+      const int count = spp / 2;
+      for (int columns = 4; columns <= count / 4; columns *= 2)
+        EXPECT_TRUE(fill_evenly(samples, columns, count / columns)) << spp << ": " << columns;
+    }
   }
+  const auto both = all_samples(sample_grid(1024, 9));
+  EXPECT_FALSE(fill_evenly(both, 32, 32));  // the check can fail: the two sequences know nothing of one another
 }
 
 TEST(SampleGrid, FollowsTheSeed) {
-  EXPECT_EQ(sample_grid(64, 5).offsets, sample_grid(64, 5).offsets);
-  EXPECT_NE(sample_grid(64, 5).offsets, sample_grid(64, 6).offsets);
+  EXPECT_EQ(all_samples(sample_grid(64, 5)), all_samples(sample_grid(64, 5)));
+  EXPECT_NE(all_samples(sample_grid(64, 5)), all_samples(sample_grid(64, 6)));
+  EXPECT_NE(all_samples(sample_grid(64, 5)), all_samples(sample_grid(64, 5 + (std::uint64_t{1} << 32U))));
 }
 
-TEST(SampleGrid, IsUnbiasedWhereStrataStayEmpty) {
-  glm::dvec2 mean(0);
-  constexpr int seeds = 2000;
-  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    for (const glm::dvec2& s : all_samples(sample_grid(7, seed))) mean += s / (7.0 * seeds);
+TEST(SampleGrid, MoreSamplesBeginWithTheSame) {
+  const SampleGrid few = sample_grid(128, 3), many = sample_grid(512, 3);
+  for (const int half : {0, 1}) {
+    const auto first = all_samples(few, half), all = all_samples(many, half);
+    EXPECT_TRUE(std::ranges::equal(first, std::span(all).first(first.size())));
   }
-  EXPECT_NEAR(mean.x, 0.5, 0.01);
-  EXPECT_NEAR(mean.y, 0.5, 0.01);
+}
+
+TEST(SampleGrid, BlocksCutEachSequenceInTwo) {
+  for (const int spp : {4, 64, 144, 4096}) {
+    std::map<std::pair<int, int>, int> passes;
+    const SampleGrid grid = sample_grid(spp, 1);
+    for (const SamplePass& pass : grid.passes) ++passes[{pass.half, pass.block}];
+    ASSERT_EQ(passes.size(), 4U) << spp;
+    for (const auto& [block, count] : passes) EXPECT_NEAR(4.0 * count, static_cast<double>(grid.passes.size()), 3.0);
+  }
+}
+
+TEST(SampleGrid, CellsAreNumberedOnce) {
+  for (const int grid : {1, 2, 3, 4}) {
+    std::set<std::uint32_t> numbers;
+    for (int cell = 0; cell < grid * grid; ++cell) numbers.insert(sample_in_cell(grid, {cell % grid, cell / grid}));
+    EXPECT_EQ(numbers.size(), static_cast<std::size_t>(grid * grid));
+    EXPECT_LT(*numbers.rbegin(), static_cast<std::uint32_t>(grid * grid));
+  }
+}
+
+// Over seeds, the means of x and y and of their product are those of an even distribution.
+TEST(SampleGrid, IsUnbiased) {
+  for (const int spp : {1, 7, 16}) {
+    glm::dvec3 mean(0);
+    constexpr int seeds = 4000;
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+      for (const glm::dvec2& s : all_samples(sample_grid(spp, seed)))
+        mean += glm::dvec3(s, s.x * s.y) / static_cast<double>(spp * seeds);
+    }
+    EXPECT_NEAR(mean.x, 0.5, 0.015) << spp;
+    EXPECT_NEAR(mean.y, 0.5, 0.015) << spp;
+    EXPECT_NEAR(mean.z, 0.25, 0.015) << spp;
+  }
 }
 
 TEST(SampleGrid, RefusesCountsOutOfRange) {

@@ -1,4 +1,4 @@
-// Passes of samples drawn tile by tile and added up on the GPU; means and errors of the sums.
+// Passes of samples drawn tile by tile and added up on the GPU, block by block; sample_blocks.hpp has their means.
 #include "renderer/pipeline/supersample.hpp"
 
 #include <fmt/format.h>
@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
-#include "renderer/core/error.hpp"
+#include "renderer/pipeline/sample_blocks.hpp"
 
 namespace footprint {
 namespace {
@@ -21,39 +22,6 @@ ProgramSettings settings_of(ReferenceFilter filter, bool orthographic, Environme
           .counting = false,
           .orthographic = orthographic,
           .environment = environment};
-}
-
-// Fills `other` with the mean of the samples of `mean` that are not in `half`; alpha of both is a number of samples.
-Image complement(const Image& mean, const Image& half) {
-  Image other(mean.width, mean.height, 4);
-  for (std::size_t i = 0; i < mean.texels.size(); i += 4) {
-    const float count = mean.texels[i + 3] - half.texels[i + 3];
-    other.texels[i + 3] = count;
-    if (count <= 0.0F) continue;
-    for (std::size_t c = i; c < i + 3; ++c) {
-      other.texels[c] = (mean.texels[c] * mean.texels[i + 3] - half.texels[c] * half.texels[i + 3]) / count;
-    }
-  }
-  return other;
-}
-
-// Turns the numbers of samples with radiance in alpha into the share of the pixel that the surface covers. A pixel all
-// of whose samples fell on invalid texels shows nothing: 0.
-void set_coverage(Image& image, const Image& squares, double samples) {
-  for (std::size_t i = 3; i < image.texels.size(); i += 4) {
-    if (image.texels[i] > 0.0F) image.texels[i] = static_cast<float>(squares.texels[i] / samples);
-  }
-}
-
-// Turns sums of squared deviations into the standard error of the mean.
-Image standard_error_of(const Image& squares, const Image& mean_count) {
-  Image out(squares.width, squares.height, 3);
-  for (std::size_t i = 0; i < squares.texel_count(); ++i) {
-    const float n = mean_count.texels[4 * i + 3];
-    if (n < 2.0F) continue;
-    for (std::size_t c = 0; c < 3; ++c) out.texels[3 * i + c] = std::sqrt(squares.texels[4 * i + c] / (n - 1.0F) / n);
-  }
-  return out;
 }
 
 }  // namespace
@@ -82,10 +50,9 @@ class Supersampler::Accumulator {
   }
 
   // Adds the samples that have been drawn to the sums of the tile's pixels.
-  void add(const gl::Program& resolve, const Tile& tile, bool even_pass) {
+  void add(const gl::Program& resolve, const Tile& tile) {
     gl::api().UseProgram(resolve.name());
     gl::api().Uniform1i(resolve.uniform("grid"), grid_);
-    gl::api().Uniform1i(resolve.uniform("even_pass"), even_pass ? 1 : 0);
     bind(0, samples_.color(0));
     for (GLuint i = 0; i < sum_count; ++i) bind(i + 1, sums().color(i));
     newest_ = 1 - newest_;
@@ -98,9 +65,9 @@ class Supersampler::Accumulator {
   }
 
  private:
-  static constexpr GLint sum_count = 3;  // mean and count, squares and covered, mean and count of the even passes
+  static constexpr GLint sum_count = 2;  // mean and count, number of covered samples
   static constexpr std::array<GLenum, 1> sample_format{GL_RGBA32F};
-  static constexpr std::array<GLenum, 3> sum_formats{GL_RGBA32F, GL_RGBA32F, GL_RGBA32F};
+  static constexpr std::array<GLenum, 2> sum_formats{GL_RGBA32F, GL_R32F};
 
   static gl::RenderTarget sums_of(const glm::ivec2& tile) { return {tile.x, tile.y, sum_formats, false}; }
 
@@ -135,17 +102,29 @@ Supersampler::Accumulator& Supersampler::accumulator(const glm::ivec2& picture, 
   return *accumulator_;
 }
 
-void Supersampler::accumulate(Accumulator& sums, const View& view, const Tile& tile, const SampleGrid& samples,
-                              std::uint64_t seed, std::size_t pass) const {
-  const glm::ivec2 size = tile.size * samples.grid;
+// What is the same for all passes of a picture.
+struct Supersampler::Sampling {
+  const View* view;
+  int grid;
+  std::uint64_t seed;
+  TexelUse texels;
+};
+
+void Supersampler::accumulate(Accumulator& sums, const Sampling& sampling, const Tile& tile,
+                              const SamplePass& pass) const {
+  const int grid = sampling.grid;
+  const glm::ivec2 size = tile.size * grid;
   gl::api().BindFramebuffer(GL_FRAMEBUFFER, sums.samples().framebuffer());
   gl::api().Viewport(0, 0, size.x, size.y);
   clear_target();
-  program_.set_sample(tile.origin * samples.grid, static_cast<std::uint32_t>(seed ^ (seed >> 32U)),
-                      static_cast<std::uint32_t>(pass));
-  const glm::dvec2 offset = samples.offsets[pass] / static_cast<double>(samples.grid);
-  program_.draw(*scene_, *method_, view, tile_matrix(view, tile, offset));
-  sums.add(resolve_, tile, pass % 2 == 0);
+  program_.set_samples({.origin = tile.origin * grid,
+                        .grid = grid,
+                        .seed = half_seed(sampling.seed, pass.half),
+                        .first = pass.number * static_cast<std::uint32_t>(grid * grid),
+                        .texels = sampling.texels});
+  program_.draw(*scene_, *method_, *sampling.view,
+                tile_matrix(*sampling.view, tile, pass.offset / static_cast<double>(grid)));
+  sums.add(resolve_, tile);
 }
 
 void Supersampler::draw(const View& view, int spp, std::uint64_t seed) const {
@@ -153,39 +132,36 @@ void Supersampler::draw(const View& view, int spp, std::uint64_t seed) const {
   method_->build_frame(view);
   for (const Tile& tile : tiles_of(view.size, tile_edge_)) {
     Accumulator& sums = accumulator(view.size, samples.grid);
-    for (std::size_t pass = 0; pass < samples.offsets.size(); ++pass) accumulate(sums, view, tile, samples, seed, pass);
+    for (const SamplePass& pass : samples.passes) {
+      accumulate(sums, {.view = &view, .grid = samples.grid, .seed = seed, .texels = TexelUse::drawn}, tile, pass);
+    }
   }
 }
 
-Supersampled Supersampler::render(const View& view, int spp, std::uint64_t seed, const Progress& progress) const {
+Supersampled Supersampler::render(const View& view, int spp, std::uint64_t seed, const Progress& progress,
+                                  TexelUse texels) const {
   const SampleGrid samples = sample_grid(spp, seed);
+  const Sampling sampling{.view = &view, .grid = samples.grid, .seed = seed, .texels = texels};
   method_->build_frame(view);
   const std::vector<Tile> tiles = tiles_of(view.size, tile_edge_);
-  const auto steps = static_cast<double>(tiles.size() * samples.offsets.size());
-  Image mean(view.size.x, view.size.y, 4);
-  Image squares(view.size.x, view.size.y, 4);
-  Image half(view.size.x, view.size.y, 4);
+  const auto steps = static_cast<double>(tiles.size() * samples.passes.size());
+  SampleBlocks blocks(view.size);
   double done = 0;
   for (const Tile& tile : tiles) {
-    Accumulator& sums = accumulator(view.size, samples.grid);
-    for (std::size_t pass = 0; pass < samples.offsets.size(); ++pass) {
-      progress(fmt::format("{} samples a pixel", spp), done++ / steps);
-      accumulate(sums, view, tile, samples, seed, pass);
+    for (std::size_t first = 0, last = 0; first < samples.passes.size(); first = last) {
+      const SamplePass& begin = samples.passes[first];
+      Accumulator& sums = accumulator(view.size, samples.grid);
+      for (; last < samples.passes.size() && samples.passes[last].half == begin.half &&
+             samples.passes[last].block == begin.block;
+           ++last) {
+        progress(fmt::format("{} samples a pixel", spp), done++ / steps);
+        accumulate(sums, sampling, tile, samples.passes[last]);
+      }
+      const auto samples_taken = static_cast<double>(last - first) * samples.grid * samples.grid;
+      blocks.add(sums.sums(), tile, begin.half, begin.block, samples_taken);
     }
-    read_tile(sums.sums(), 0, tile, mean);
-    read_tile(sums.sums(), 1, tile, squares);
-    read_tile(sums.sums(), 2, tile, half);
   }
-  Supersampled out{.spp = spp, .mean = {}, .standard_error = standard_error_of(squares, mean), .halves = {}};
-  if (samples.offsets.size() >= 2) {
-    Image other = complement(mean, half);
-    set_coverage(half, squares, spp);
-    set_coverage(other, squares, spp);
-    out.halves.emplace(std::move(half), std::move(other));
-  }
-  set_coverage(mean, squares, spp);
-  out.mean = std::move(mean);
-  return out;
+  return blocks.result(spp);
 }
 
 std::optional<double> relative_standard_error(const Supersampled& reference) {

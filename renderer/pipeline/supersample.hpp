@@ -1,6 +1,7 @@
-// The reference accumulator: many jittered samples a pixel, their mean, and how far that mean can be trusted.
+// The reference accumulator: many samples a pixel, their mean, and how far that mean can be trusted.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -16,9 +17,11 @@ struct Supersampled {
   /// RGBA: mean radiance over the samples that have one, and the share 0..1 that the surface covers. Samples of invalid
   /// texels (docs/base-brdf.md) are covered and enter no mean; a pixel that has no other has coverage 0.
   Image mean;
-  Image standard_error;  ///< RGB: sqrt(sample variance / samples), an upper bound for stratified samples
-  /// RGBA means of the even and of the odd passes, with the coverage of all; none with fewer than two passes. Their
-  /// difference tells the noise.
+  /// RGB: what the mean is off by, root mean square, from how far the means of the sequences' blocks lie apart
+  /// (docs/metrics.md). 0 with one block.
+  Image standard_error;
+  /// RGBA means of the two sequences, which share no random number, with the coverage of both; none with fewer than two
+  /// passes. Their difference tells the noise.
   std::optional<std::pair<Image, Image>> halves;
 };
 
@@ -32,23 +35,26 @@ class Supersampler {
   Supersampler(Supersampler&&) noexcept;
   ~Supersampler();
 
-  /// Deterministic for a seed. Errors (usage): spp outside 1 to 4096; (interrupted) by `progress`.
-  [[nodiscard]] Supersampled render(const View& view, int spp, std::uint64_t seed, const Progress& progress) const;
+  /// Deterministic for a seed. Plain supersampling takes texels as `drawn`. Errors (usage): spp outside 1 to 4096;
+  /// (interrupted) by `progress`.
+  [[nodiscard]] Supersampled render(const View& view, int spp, std::uint64_t seed, const Progress& progress,
+                                    TexelUse texels = TexelUse::filtered) const;
 
-  /// Draws and accumulates without reading back: what supersampling costs is the time of this call up to glFinish.
+  /// Draws and accumulates without reading back: what plain supersampling costs is the time of this call up to
+  /// glFinish.
   void draw(const View& view, int spp, std::uint64_t seed) const;
 
  private:
   class Accumulator;
+  struct Sampling;
   /// The sums of a tile, cleared; made anew where the size changes.
   Accumulator& accumulator(const glm::ivec2& picture, int grid) const;
-  void accumulate(Accumulator& sums, const View& view, const Tile& tile, const SampleGrid& samples, std::uint64_t seed,
-                  std::size_t pass) const;
+  void accumulate(Accumulator& sums, const Sampling& sampling, const Tile& tile, const SamplePass& pass) const;
 
   GpuScene* scene_;
   const GpuMethod* method_;
   int tile_edge_;
-  SurfaceProgram program_;
+  mutable SurfaceProgram program_;
   gl::Program resolve_;
   mutable std::unique_ptr<Accumulator> accumulator_;  // kept from picture to picture: its memory is what it costs
 };

@@ -10,6 +10,8 @@
 #include "renderer/bake/shared_maps.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/pipeline/frame_build_job.hpp"
+#include "renderer/pipeline/sample_grid.hpp"
+#include "renderer/pipeline/sample_sequence.hpp"
 
 namespace footprint {
 namespace {
@@ -68,6 +70,13 @@ void bind_texture(GLuint unit, const GpuTexture& texture, GpuScene& scene, Looku
   gl::api().BindTextureUnit(unit, texture.texture.name());
   gl::api().BindSampler(unit, scene.samplers().sampler(texture.coordinates, texture.lookup(lookup)));
 }
+
+// Directions of each kind that a sample draws from an environment, its texels together (docs/base-brdf.md). One that
+// sums over a patch's facets costs far more.
+constexpr std::uint32_t directions_a_sample = 4;
+constexpr std::uint32_t directions_of_a_patch = 2;
+
+bool has_patches(const EffectSet& effects) { return has(effects, Effect::microgeometry_visibility); }
 
 // Puts back at its end what of the GL's state a frame build may change and a draw does not set for itself.
 class StateKeeper {
@@ -156,6 +165,19 @@ GLuint GpuMethod::vertex_array(const GpuBatch& batch) const {
   return own ? own.name() : batch.vertex_array.name();
 }
 
+glm::ivec2 GpuMethod::texels(const GpuBatch& batch) const {
+  glm::ivec2 largest(1);
+  const auto look_at = [&](std::span<const GpuTexture> textures) {
+    for (const GpuTexture& map : textures) {
+      const glm::ivec2 size(map.texture.width(), map.texture.height());
+      if (same_uv(map.coordinates, batch.coordinates) && size.x * size.y > largest.x * largest.y) largest = size;
+    }
+  };
+  look_at(batch.shared_textures);
+  look_at(part_of(batch).textures);
+  return largest;
+}
+
 bool GpuMethod::is_built_for(const View& view) const {
   const std::optional<BuildInputs> inputs = build_->kept_until_change_of();
   if (!inputs || !built_) return false;
@@ -196,6 +218,7 @@ SurfaceProgram::SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const 
     : settings_(with_lookup(settings, scene.context())),
       environment_light_(has(effects_of(scene, *baked.method), Effect::environment_light)),
       environment_(environment_of(*baked.method, settings)),
+      effects_(scene.effects()),
       units_(units_of(scene, baked, settings)),
       fragment_(fragment_shader(variant_of(scene, baked, settings), baked.method->shader(), baked.options,
                                 baked.materials.front())),
@@ -205,11 +228,57 @@ SurfaceProgram::SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const 
   if (environment_light_) scene.environment()->prepare(environment_);
 }
 
-void SurfaceProgram::set_sample(const glm::ivec2& origin, std::uint32_t seed, std::uint32_t pass) const {
-  const GLint origin_location = program_.uniform("sample_origin");
-  const GLint seed_location = program_.uniform("sample_seed");
-  if (origin_location >= 0) gl::api().ProgramUniform2i(program_.name(), origin_location, origin.x, origin.y);
-  if (seed_location >= 0) gl::api().ProgramUniform2ui(program_.name(), seed_location, seed, pass);
+void SurfaceProgram::set_samples(const SampleDraw& samples) {
+  texels_ = samples.texels;
+  const auto cells = static_cast<std::size_t>(samples.grid * samples.grid);
+  std::vector<glm::uvec2> texels(cells);
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    const auto at = static_cast<int>(cell);
+    const SampleDigits point = sample_digits(
+        SamplePair::texel, samples.first + sample_in_cell(samples.grid, {at % samples.grid, at / samples.grid}));
+    texels[cell] = {point.x, point.y};
+  }
+  const GLuint name = program_.name();
+  const auto set = [&](const char* uniform, auto call) {
+    const GLint location = program_.uniform(uniform);
+    if (location >= 0) call(location);
+  };
+  set("sample_origin", [&](GLint l) { gl::api().ProgramUniform2i(name, l, samples.origin.x, samples.origin.y); });
+  set("sample_grid", [&](GLint l) { gl::api().ProgramUniform1i(name, l, samples.grid); });
+  set("sample_seed", [&](GLint l) { gl::api().ProgramUniform1ui(name, l, samples.seed); });
+  set("sample_texels", [&](GLint l) {
+    gl::api().ProgramUniform2uiv(name, l, static_cast<GLsizei>(cells), glm::value_ptr(texels.front()));
+  });
+  if (program_.uniform("directions_a_sample") >= 0) set_directions(samples);
+}
+
+// Sample i takes the directions of the points n i to n i + n - 1.
+void SurfaceProgram::set_directions(const SampleDraw& samples) const {
+  const std::uint32_t count = has_patches(effects_) ? directions_of_a_patch : directions_a_sample;
+  std::vector<glm::uvec4> directions;
+  std::vector<std::uint32_t> choices;
+  for (int cell = 0; cell < samples.grid * samples.grid; ++cell) {
+    const std::uint32_t sample =
+        samples.first + sample_in_cell(samples.grid, {cell % samples.grid, cell / samples.grid});
+    for (std::uint32_t i = count * sample; i < count * sample + count; ++i) {
+      const SampleDigits light = sample_digits(SamplePair::light, i), lobe = sample_digits(SamplePair::lobe, i);
+      directions.emplace_back(light.x, light.y, lobe.x, lobe.y);
+      choices.push_back(sample_digits(SamplePair::choice, i).x);
+    }
+  }
+  const GLuint name = program_.name();
+  const auto size = static_cast<GLsizei>(choices.size());
+  gl::api().ProgramUniform1i(name, program_.uniform("directions_a_sample"), static_cast<GLint>(count));
+  gl::api().ProgramUniform4uiv(name, program_.uniform("sample_directions"), size, glm::value_ptr(directions.front()));
+  gl::api().ProgramUniform1uiv(name, program_.uniform("sample_choices"), size, choices.data());
+}
+
+// The size of the map whose texels a sample of this batch tells apart, and how many it shades.
+glm::vec3 SurfaceProgram::drawn_texels(const GpuMethod& method, const GpuBatch& batch) const {
+  const glm::ivec2 size = method.texels(batch);
+  const bool one =
+      texels_ == TexelUse::drawn || has(effects_, Effect::alpha_mask) || has_patches(effects_) || size == glm::ivec2(1);
+  return {size, one ? 1.0F : 4.0F};
 }
 
 void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& view,
@@ -226,9 +295,11 @@ void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& 
   }
   scene.bind_lights(program_, units_);
   if (environment_light_ && scene.visibility()) scene.visibility()->bind(units_.unit("visibility_maps"));
+  const GLint texels_location = program_.uniform("drawn_texels");
   gl::api().Enable(GL_DEPTH_TEST);
   for (const GpuBatch& batch : scene.batches()) {
     set_state(batch);
+    if (texels_location >= 0) gl::api().Uniform3fv(texels_location, 1, glm::value_ptr(drawn_texels(method, batch)));
     gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::material, batch.material_block.name());
     GLuint unit = 0;
     for (const GpuTexture& texture : batch.shared_textures) bind_texture(unit++, texture, scene, settings_.lookup);

@@ -28,6 +28,9 @@ class GpuMethod {
   void build_frame(const View& view) const;
   /// Runs it whatever was built before.
   void rebuild(const View& view) const;
+  /// The size of the largest map of a batch that is looked up as the normal map is: whose texels a sample tells apart.
+  /// (1, 1) where there is none.
+  [[nodiscard]] glm::ivec2 texels(const GpuBatch& batch) const;
   /// Binds textures (after the shared ones) and scalars of a batch.
   void bind(const GpuBatch& batch, GpuScene& scene, Lookup lookup) const;
   /// The triangles of a batch, with this method's surface coordinates where it has some.
@@ -58,6 +61,21 @@ class GpuMethod {
 /// How the samplers of a frame look up. Errors (machine): they have no such filter.
 [[nodiscard]] Lookup frame_lookup(const FootprintFilter& filter, const gl::ContextInfo& context);
 
+/// What one sample of a texel shades where a filter blends four.
+enum class TexelUse {
+  drawn,     ///< one of them, drawn with the filter's weights
+  filtered,  ///< all four, their radiances weighed; one where texels are cut out or hold facets of their own
+};
+
+/// The samples that one draw takes.
+struct SampleDraw {
+  glm::ivec2 origin{0};     ///< of the tile in the whole picture's sample grid
+  int grid = 1;             ///< samples a pixel each way, 1 to 4
+  std::uint32_t seed = 0;   ///< of the sequence, for this picture
+  std::uint32_t first = 0;  ///< the number in it of a pixel's first sample
+  TexelUse texels = TexelUse::drawn;
+};
+
 /// How a program samples, and what the scene's camera asks of it.
 struct ProgramSettings {
   Sampling sampling = Sampling::frame;
@@ -75,18 +93,24 @@ class SurfaceProgram {
   /// lines); those of TextureUnits.
   SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings);
 
-  /// Draws the scene into the bound framebuffer, whose viewport is the tile's (times the sample grid).
+  /// Draws the scene into the bound framebuffer, whose viewport is the tile's (times the sample grid). Other programs
+  /// than Sampling::frame's draw the samples that `set_samples` was told last.
   void draw(GpuScene& scene, const GpuMethod& method, const View& view, const glm::mat4& world_to_clip) const;
 
-  /// Sets what samples are drawn from: origin of the tile in the sample grid, seed, pass. Not for Sampling::frame.
-  void set_sample(const glm::ivec2& origin, std::uint32_t seed, std::uint32_t pass) const;
+  /// Sets what samples draw from. Not for Sampling::frame.
+  void set_samples(const SampleDraw& samples);
 
   [[nodiscard]] const std::string& fragment_text() const { return fragment_.text(); }
 
  private:
+  void set_directions(const SampleDraw& samples) const;
+  [[nodiscard]] glm::vec3 drawn_texels(const GpuMethod& method, const GpuBatch& batch) const;
+
   ProgramSettings settings_;
   bool environment_light_;
   EnvironmentUse environment_;
+  EffectSet effects_;  // of the scene
+  TexelUse texels_ = TexelUse::drawn;
   TextureUnits units_;
   ShaderText fragment_;
   gl::Program program_;

@@ -1,11 +1,12 @@
 // Directions drawn from the environment's texels and from the module's own lobe, weighed by the balance heuristic
 // (Veach and Guibas 1995).
 layout(std140, binding = 5) uniform EnvironmentBlock {
-  vec4 environment_size;  // columns, rows; turn of the map about +y in radians; directions of each kind a sample
+  vec4 environment_size;  // columns, rows; turn of the map about +y in radians
 };
 
-// From 24 bits: exact in a float, below 1.
-float unitInterval(uint bits) { return float(bits >> 8u) * (1.0 / 16777216.0); }
+uniform int directions_a_sample;
+uniform uvec4 sample_directions[64];  // digits for each cell and direction: out of the environment, out of the lobe
+uniform uint sample_choices[64];
 
 struct DrawnDirection {
   vec3 direction;  // world
@@ -15,20 +16,34 @@ struct DrawnDirection {
 
 float azimuthOf(float column) { return 2.0 * pi * (column / environment_size.x - 0.5) - environment_size.z; }
 
-// A texel by the alias method (Walker 1977), then a point of it, uniform in solid angle.
-DrawnDirection drawFromEnvironment(uvec3 bits, vec2 inside) {
+// Of a distribution over `count` entries, that which holds u: a guide tells where to begin (Chen and Asau 1974), and the
+// entries hold sums up to and with their own. Then u is where in the entry it lies, 0 to 1. `at` and `step` lead through
+// the table.
+int drawnEntry(ivec2 at, ivec2 step, int count, inout float u) {
+  int entry = int(texelFetch(environment_sums, at + step * min(int(u * float(count)), count - 1), 0).g);
+  float below = entry > 0 ? texelFetch(environment_sums, at + step * (entry - 1), 0).r : 0.0;
+  float above = texelFetch(environment_sums, at + step * entry, 0).r;
+  while (above <= u && entry < count - 1) {
+    ++entry;
+    below = above;
+    above = texelFetch(environment_sums, at + step * entry, 0).r;
+  }
+  u = clamp((u - below) / max(above - below, 1e-30), 0.0, 1.0);
+  return entry;
+}
+
+// A row, a texel of it, and a point of that, uniform in solid angle: monotonous in both numbers, so that points which
+// fill the square evenly fill the sky evenly.
+DrawnDirection drawFromEnvironment(vec2 u) {
   ivec2 size = ivec2(environment_size.xy);
-  uint texel, low;
-  umulExtended(bits.x, uint(size.x * size.y), texel, low);
-  vec2 alias = texelFetch(environment_alias, ivec2(int(texel) % size.x, int(texel) / size.x), 0).xy;
-  if (unitInterval(bits.y) >= alias.x) texel = uint(alias.y);
-  ivec2 at = ivec2(int(texel) % size.x, int(texel) / size.x);
-  vec4 held = texelFetch(environment_radiance, at, 0);
-  float upper = cos(pi * float(at.y) / environment_size.y);
-  float lower = cos(pi * float(at.y + 1) / environment_size.y);
-  float y = mix(upper, lower, inside.x);
+  int row = drawnEntry(ivec2(size.x, 0), ivec2(0, 1), size.y, u.y);
+  int column = drawnEntry(ivec2(0, row), ivec2(1, 0), size.x, u.x);
+  vec4 held = texelFetch(environment_radiance, ivec2(column, row), 0);
+  float upper = cos(pi * float(row) / environment_size.y);
+  float lower = cos(pi * float(row + 1) / environment_size.y);
+  float y = mix(upper, lower, u.y);
   float sine = sqrt(max(1.0 - y * y, 0.0));
-  float azimuth = azimuthOf(float(at.x) + inside.y);
+  float azimuth = azimuthOf(float(column) + u.x);
   return DrawnDirection(vec3(sine * sin(azimuth), y, -sine * cos(azimuth)), held.rgb, held.a);
 }
 
@@ -40,19 +55,23 @@ vec4 environmentTexel(vec3 d) {
   return texelFetch(environment_radiance, texel, 0);
 }
 
+// The texels of a sample share its directions.
 vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame) {
   vec3 radiance = vec3(0.0);
-  int count = int(environment_size.w);
-  for (int i = 0; i < count; ++i) {
-    uint draw = uint(4 * i + 1);
-    uvec3 inside = drawBits(draw + 1u);
-    DrawnDirection light = drawFromEnvironment(drawBits(draw), vec2(unitInterval(inside.x), unitInterval(inside.y)));
+  uvec3 seed = hashed(sample_pixel);
+  uvec3 lobe_seed = hashed(seed);
+  int texels = int(drawn_texels.z);
+  int count = max(directions_a_sample / texels, 1);
+  int first = sample_cell * directions_a_sample + sample_texel * count;
+  for (int i = first; i < first + count; ++i) {
+    uvec4 digits = sample_directions[i];
+    DrawnDirection light = drawFromEnvironment(scrambledPair(digits.xy, seed.xy));
     vec3 wi = light.direction * frame;
     if (wi.z > 0.0 && light.density > 0.0 && arrives(light.direction)) {
       radiance += reflectance(e, s, wi, wo) * light.radiance / (light.density + directionDensity(e, wi, wo));
     }
-    uvec3 of_lobe = drawBits(draw + 2u);
-    wi = drawDirection(e, wo, vec3(unitInterval(of_lobe.x), unitInterval(of_lobe.y), unitInterval(of_lobe.z)));
+    float choice = unitInterval(scrambled(sample_choices[i], seed.z));
+    wi = drawDirection(e, wo, vec3(scrambledPair(digits.zw, lobe_seed.xy), choice));
     float density = wi.z > 0.0 ? directionDensity(e, wi, wo) : 0.0;
     if (density > 0.0 && arrives(frame * wi)) {
       vec4 held = environmentTexel(frame * wi);

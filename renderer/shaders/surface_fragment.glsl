@@ -19,8 +19,6 @@ uniform mat3 world_to_camera;
 uniform vec3 to_camera;
 //? end
 //? if not sampling_frame
-uniform ivec2 sample_origin;  // of this tile in the whole picture's sample grid
-uniform uvec2 sample_seed;    // seed and pass
 bool nothing_to_shade = false;  // set by a module whose sample fell on an invalid texel
 //? end
 
@@ -59,17 +57,7 @@ Footprints pixelFootprints() {
 }
 
 //? if random_draws
-//? include random_numbers.glsl
-
-// Of each number `draw` of a sample, others.
-uvec3 drawBits(uint draw) {
-  uvec2 pixel = uvec2(ivec2(gl_FragCoord.xy) + sample_origin);
-  return hashed(uvec3(pixel, sample_seed.y) ^ hashed(uvec3(sample_seed.x, 0x9e3779b9u + draw, sample_seed.y)));
-}
-
-vec2 drawTexelOffsets() {
-  return vec2(drawBits(0u).xy >> 8u) * (1.0 / 16777216.0);  // 24 bits: exact in a float, below 1
-}
+//? include sample_draws.glsl
 //? end
 
 //? include tangent_frame.glsl
@@ -215,6 +203,27 @@ vec3 meanReflected(Footprints f, mat3 frame, vec3 wo) {
 //? end
 }
 
+//? if sampling_texel
+// The bilinear filter of radiance: the mean over the texels that a sample takes, each with its weight. In alpha what
+// resolve_samples.glsl reads: 1, and more by the share of invalid texels.
+vec4 meanOverTexels(Footprints f, mat3 frame, vec3 wo) {
+  vec3 radiance = vec3(0.0);
+  float invalid = 0.0;
+  for (int i = 0; i < int(drawn_texels.z); ++i) {
+    float weight = drawTexel(f.normal, i);
+    if (weight <= 0.0) continue;
+    nothing_to_shade = false;
+    vec3 own = reflectedBy(f, frame, wo);
+    if (nothing_to_shade) {
+      invalid += weight;
+    } else {
+      radiance += weight * own;
+    }
+  }
+  return vec4(radiance / max(1.0 - invalid, 1e-6), 1.0 + invalid);
+}
+
+//? end
 void main() {
   Footprints f = pixelFootprints();
 //? if cast_shadow
@@ -222,7 +231,7 @@ void main() {
   vec3 along_y = dFdy(world_position);
 //? end
 //? if random_draws
-  texel_draw = drawTexelOffsets();
+  drawPoint();
 //? end
 //? if alpha_mask
   if (meanAlpha(f) < lobe_cutoff.y) discard;
@@ -243,19 +252,25 @@ void main() {
 //? if cast_shadow
   seen_facet = facetNormal(along_x, along_y, to_viewer);
 //? end
+//? if sampling_texel
+  vec4 mean = meanOverTexels(f, frame, to_viewer * frame);
+  vec3 radiance = mean.rgb;
+  float coverage = mean.a;
+//? else
   vec3 radiance = meanReflected(f, frame, to_viewer * frame);
-//? if not sampling_frame
-  if (nothing_to_shade) {
-    radiance_coverage = vec4(0.0, 0.0, 0.0, 2.0);  // covered, without radiance: resolve_samples.glsl
-    return;
-  }
+//? if sampling_frame
+  float coverage = 1.0;
+//? else
+  float coverage = nothing_to_shade ? 2.0 : 1.0;  // covered, without radiance: resolve_samples.glsl
+  if (nothing_to_shade) radiance = vec3(0.0);
+//? end
 //? end
 //? if counting
   radiance = vec3(lookups, lobe_evaluations, 0.0);
 //? end
 //? if material_index
-  radiance_coverage = vec4(radiance, share_uv_offset_set.w);
+  radiance_coverage = vec4(radiance, share_uv_offset_set.w + coverage - 1.0);
 //? else
-  radiance_coverage = vec4(radiance, 1.0);
+  radiance_coverage = vec4(radiance, coverage);
 //? end
 }

@@ -49,18 +49,18 @@ PixelWork TestRenderer::work(const Method& method, const std::string& text, cons
 }
 
 Supersampled TestRenderer::supersampled(const Method& method, int spp, std::uint64_t seed, ReferenceFilter filter,
-                                        int tile, EnvironmentUse environment) {
+                                        int tile, EnvironmentUse environment, TexelUse texels) {
   const BakedMethod bake_result = baked(method, {});
   const GpuMethod gpu(gpu_scene_, bake_result);
   const Supersampler sampler(context_->info(), gpu_scene_, gpu, filter, scene_.camera.orthographic, tile, environment);
-  Supersampled picture = sampler.render({.size = size_, .camera = scene_.camera}, spp, seed, no_progress);
+  Supersampled picture = sampler.render({.size = size_, .camera = scene_.camera}, spp, seed, no_progress, texels);
   context_->check("supersampling a test picture");
   return picture;
 }
 
 Supersampled TestRenderer::reference(int spp, std::uint64_t seed, ReferenceFilter filter, int tile,
-                                     EnvironmentUse environment) {
-  return supersampled(base_surface(), spp, seed, filter, tile, environment);
+                                     EnvironmentUse environment, TexelUse texels) {
+  return supersampled(base_surface(), spp, seed, filter, tile, environment, texels);
 }
 
 std::string TestRenderer::fragment_text(const Method& method) {

@@ -25,10 +25,12 @@ class TestRenderer {
   [[nodiscard]] PixelWork work(const Method& method, const std::string& text, const FootprintFilter& filter);
   [[nodiscard]] Supersampled supersampled(const Method& method, int spp, std::uint64_t seed = 1,
                                           ReferenceFilter filter = ReferenceFilter::after_shading, int tile = 0,
-                                          EnvironmentUse environment = EnvironmentUse::sampled);
+                                          EnvironmentUse environment = EnvironmentUse::sampled,
+                                          TexelUse texels = TexelUse::filtered);
   [[nodiscard]] Supersampled reference(int spp, std::uint64_t seed = 1,
                                        ReferenceFilter filter = ReferenceFilter::after_shading, int tile = 0,
-                                       EnvironmentUse environment = EnvironmentUse::sampled);
+                                       EnvironmentUse environment = EnvironmentUse::sampled,
+                                       TexelUse texels = TexelUse::filtered);
   [[nodiscard]] std::string fragment_text(const Method& method);
   /// Goes on with another scene of the same parts (GpuScene::update).
   void update(const Scene& scene);

@@ -1,6 +1,6 @@
-// How much of a pixel's parallelogram a texel has. A place (x, y) weighs k(x) k(y) in the texel whose centre is 0, k being
-// the tent of bilinear filtering or, for areas, 1 inside of the texel. Over the parallelogram P that is a sum over its
-// edges, by Green's theorem: with K an antiderivative of k,
+// How much of a pixel's parallelogram a texel has. A place (x, y) weighs k(x) k(y) in the texel whose centre is 0, k
+// being the tent of bilinear filtering or, for areas, 1 inside of the texel. Over the parallelogram P that is a sum over
+// its edges, by Green's theorem: with K an antiderivative of k,
 //
 //   integral over P of k(x) k(y) dx dy = - (integral around P of k(x) K(y) dx),   counterclockwise,
 //

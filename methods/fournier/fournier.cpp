@@ -2,6 +2,8 @@
 // footprint's texels are summed. Fournier 1992, "Normal distribution functions and multiple surfaces".
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <span>
 
 #include "methods/fournier/peak_chain.hpp"
@@ -22,8 +24,7 @@ namespace {
 // lobes.
 double base_variance(const Material& material) {
   if (width_map(material) == nullptr) return mean_lobe_variance(material);
-  const double deviation = lobe_deviation_chain(material).back().texels.front();
-  return deviation * deviation;
+  return lobe_variance_chain(material).back().texels.front();
 }
 
 OptionSpec peak_storage_option() {
@@ -49,16 +50,13 @@ class Fournier final : public Method {
     const Storage storage = parse_storage(options.word("storage"));
     Prefiltered out;
     if (has(effects, Effect::normal_variation)) {
-      add_peaks(material, static_cast<std::size_t>(options.number("peaks")), storage, progress, out);
+      add_peaks(material, options, progress, out);
       if (has(effects, Effect::diffuse)) {
         out.textures.push_back(
             make_texture("fournier_mean", mean_normal_chain(material), storage, normal_coordinates(material)));
       }
     }
-    if (has(effects, Effect::roughness_variation)) {
-      out.textures.push_back(
-          make_texture("fournier_deviation", lobe_deviation_chain(material), storage, roughness_coordinates(material)));
-    }
+    std::ranges::move(bake_lobe_variance(material, storage, effects).textures, std::back_inserter(out.textures));
     return out;
   }
 
@@ -69,10 +67,12 @@ class Fournier final : public Method {
   [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::fournier_glsl, "fournier.glsl"); }
 
  private:
-  static void add_peaks(const Material& material, std::size_t count, Storage storage, const Progress& progress,
-                        Prefiltered& out) {
+  static void add_peaks(const Material& material, const Options& options, const Progress& progress, Prefiltered& out) {
+    const Storage storage = parse_storage(options.word("storage"));
+    const auto start = options.word("starts") == "own" ? fournier::Start::own : fournier::Start::inherited;
     const fournier::PeakChain chain =
-        fournier::fit_peak_chain(normal_map_of(material), base_variance(material), count, progress);
+        fournier::fit_peak_chain(normal_map_of(material), base_variance(material),
+                                 static_cast<std::size_t>(options.number("peaks")), start, progress);
     if (chain.statistics.not_converged > 0) out.notes.push_back(note_on(chain.statistics));
     const TextureCoordinates coordinates = normal_coordinates(material);
     out.textures.push_back(
@@ -89,6 +89,9 @@ class Fournier final : public Method {
                       "peaks", 7, 1, 8,
                       "Peaks a texel above the finest level: 7 as Fournier has them, 4 in Tan 2005, figure 7. A "
                       "pixel sums up to 8 times as many."),
+                  word_option("starts", {"inherited", "own"},
+                              "Where the fit of a texel starts from: the peaks of the finer texels below it, or the "
+                              "heaviest of its own normals, each with those nearest to it."),
                   peak_storage_option()},
       .honours = map_effects_but({Effect::normal_layers}),
       .slow_precompute = true};

@@ -1,6 +1,8 @@
 // Fournier 1992: every texel of the mip chain holds Phong peaks fitted to its distribution of normals. Peaks of
 // neighbouring texels have nothing to do with each other, so none is blended: the peaks of all texels of the footprint
 // are scaled by the texels' weights and summed, 8 times as many as a texel has, again for every light.
+//? include lobe_variance.glsl
+
 struct Effective {
   Footprint footprint;
   float variance;  // the base lobe's slope variance per axis
@@ -19,12 +21,7 @@ Effective effective(Footprints f) {
 //? if normal_variation and diffuse
   e.mean = fetch(fournier_mean, f.normal).xyz;
 //? end
-//? if roughness_variation
-  float deviation = fetch(fournier_deviation, f.roughness).r;
-  e.variance = deviation * deviation;
-//? else
-  e.variance = lobeVariance(lobe_cutoff.x);
-//? end
+  e.variance = baseVariance(f);
 //? if environment_light
   e.total = weightOfPeaks(f.normal);
 //? else

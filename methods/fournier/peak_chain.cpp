@@ -1,4 +1,4 @@
-// Fits every texel of every level, each from the peaks of the texels below it.
+// Fits every texel of every level, each from the peaks of the texels below it or from its own normals.
 #include "methods/fournier/peak_chain.hpp"
 
 #include <fmt/format.h>
@@ -42,8 +42,8 @@ struct Outcome {
 
 class ChainBuilder {
  public:
-  ChainBuilder(const Image& normals, double base_variance, std::size_t count, const Progress& progress)
-      : base_variance_(base_variance), cells_(base_variance), count_(count), progress_(&progress) {
+  ChainBuilder(const Image& normals, double base_variance, std::size_t count, Start start, const Progress& progress)
+      : base_variance_(base_variance), cells_(base_variance), count_(count), start_(start), progress_(&progress) {
     chain_.rest.resize(std::max<std::size_t>(count, 2) - 1);
     add_finest_level(normals);
   }
@@ -96,7 +96,9 @@ class ChainBuilder {
     Outcome outcome;
     std::vector<Peak> peaks = target_of(bins);
     if (peaks.size() > count_) {
-      Fit fit = fit_peaks(peaks, merged_peaks(std::move(children), count_), base_variance_);
+      const std::vector<Peak> from = start_ == Start::own ? clustered_peaks(peaks, count_, std::sqrt(base_variance_))
+                                                          : merged_peaks(std::move(children), count_);
+      Fit fit = fit_peaks(peaks, from, base_variance_);
       outcome = {.fitted = true, .converged = fit.converged, .error = fit.error};
       peaks = std::move(fit.peaks);
     } else {
@@ -162,6 +164,7 @@ class ChainBuilder {
   double base_variance_;
   NormalCells cells_;
   std::size_t count_;
+  Start start_;
   const Progress* progress_;
   int levels_ = 1;
   PeakChain chain_;
@@ -172,8 +175,9 @@ class ChainBuilder {
 
 }  // namespace
 
-PeakChain fit_peak_chain(const Image& normals, double base_variance, std::size_t count, const Progress& progress) {
-  return ChainBuilder(normals, base_variance, count, progress).build();
+PeakChain fit_peak_chain(const Image& normals, double base_variance, std::size_t count, Start start,
+                         const Progress& progress) {
+  return ChainBuilder(normals, base_variance, count, start, progress).build();
 }
 
 }  // namespace footprint::fournier

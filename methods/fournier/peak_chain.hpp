@@ -24,11 +24,14 @@ struct PeakChain {
   FitStatistics statistics;
 };
 
+/// Where the fit of a texel starts from: the peaks of the finer texels below it, merged, or its own heaviest normals.
+enum class Start { inherited, own };
+
 /// Fits `count` peaks to every texel above the finest level, whose only peak is its normal. `normals`: xyz and a weight
 /// of 0 or 1; weights of 0 leave a texel without peaks. `base_variance`: of the lobe about each normal. `rest` has one
 /// chain less than `count`, but at least one. Progress is called from this thread alone. The same at any number of
 /// threads.
-[[nodiscard]] PeakChain fit_peak_chain(const Image& normals, double base_variance, std::size_t count,
+[[nodiscard]] PeakChain fit_peak_chain(const Image& normals, double base_variance, std::size_t count, Start start,
                                        const Progress& progress);
 
 }  // namespace footprint::fournier

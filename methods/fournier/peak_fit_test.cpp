@@ -78,5 +78,39 @@ TEST(PeakFit, IsNeverWorseThanTheStart) {
   }
 }
 
+// Normals in four heaps, their own heaviest ones the seeds: each heap becomes a peak with its weight and mean.
+TEST(ClusteredPeaks, AreTheHeapsOfTheNormals) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-0.03, 0.03);
+  std::vector<Peak> normals;
+  for (const Peak& heap : known) {
+    for (int i = 0; i < 20; ++i) {
+      const Eigen::Vector3d axis = (heap.axis + Eigen::Vector3d(unit(random), unit(random), 0.0)).normalized();
+      normals.push_back({heap.weight / 20.0 * (i == 7 ? 1.01 : 1.0), axis, 0.0});
+    }
+  }
+  const std::vector<Peak> peaks = clustered_peaks(normals, known.size(), 0.2);
+  ASSERT_EQ(peaks.size(), known.size());
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    EXPECT_NEAR(peaks[i].weight, known[i].weight, 1e-3);
+    EXPECT_LT((peaks[i].axis - known[i].axis).norm(), 0.02);
+    EXPECT_GT(peaks[i].spread, 0.0);
+  }
+}
+
+// Where no normals lie so far apart, the heaviest of the others are seeds too; nothing of the weight is lost.
+TEST(ClusteredPeaks, TakeNearNormalsWhereThereAreNoOthers) {
+  const std::vector<Peak> normals{{0.1, tilted(0.0, 0.0), 0.0},
+                                  {0.5, tilted(0.01, 0.0), 0.0},
+                                  {0.1, tilted(0.0, 0.01), 0.0},
+                                  {0.3, tilted(0.01, 0.01), 0.0}};
+  const std::vector<Peak> peaks = clustered_peaks(normals, 3, 0.5);
+  ASSERT_EQ(peaks.size(), 3U);
+  double total = 0.0;
+  for (const Peak& peak : peaks) total += peak.weight;
+  EXPECT_NEAR(total, 1.0, 1e-12);
+  EXPECT_GE(peaks[0].weight, 0.5);
+}
+
 }  // namespace
 }  // namespace footprint::fournier

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 
 namespace footprint::fournier {
 namespace {
@@ -49,7 +51,42 @@ void merge_cheapest_pair(std::vector<Moments>& sets, std::vector<Partner>& partn
   }
 }
 
+// The heaviest first; of equal ones the one that comes first.
+std::vector<std::size_t> by_weight(const std::vector<Peak>& normals) {
+  std::vector<std::size_t> order(normals.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return normals[i].weight; });
+  return order;
+}
+
+// Indices of the heaviest normals that are `apart` from each other, then of the heaviest of the others.
+std::vector<std::size_t> seeds_of(const std::vector<Peak>& normals, std::size_t count, double apart) {
+  std::vector<std::size_t> seeds, near;
+  for (const std::size_t i : by_weight(normals)) {
+    const bool is_apart = std::ranges::all_of(
+        seeds, [&](std::size_t seed) { return (normals[seed].axis - normals[i].axis).norm() >= apart; });
+    (is_apart ? seeds : near).push_back(i);
+    if (seeds.size() == count) break;
+  }
+  for (std::size_t k = 0; seeds.size() < count; ++k) seeds.push_back(near[k]);
+  return seeds;
+}
+
 }  // namespace
+
+std::vector<Peak> clustered_peaks(const std::vector<Peak>& normals, std::size_t count, double apart) {
+  const std::vector<std::size_t> seeds = seeds_of(normals, count, apart);
+  std::vector<Moments> sets(count);
+  for (const Peak& normal : normals) {
+    const auto nearest = std::ranges::min_element(
+        seeds, {}, [&](std::size_t seed) { return (normals[seed].axis - normal.axis).squaredNorm(); });
+    sets[static_cast<std::size_t>(nearest - seeds.begin())].add(moments_of(normal));
+  }
+  std::vector<Peak> peaks;
+  for (const Moments& set : sets) peaks.push_back(peak_of(set));
+  std::ranges::stable_sort(peaks, std::greater{}, &Peak::weight);
+  return peaks;
+}
 
 Moments moments_of(const Peak& peak) { return {peak.weight, peak.axis * (peak.weight / (1.0 + peak.spread))}; }
 

@@ -36,6 +36,10 @@ inline constexpr double largest_spread = 1e4;
 /// sets' means (Ward 1963) becomes one, again and again. Sets of weight 0 are dropped. Heaviest first.
 [[nodiscard]] std::vector<Peak> merged_peaks(std::vector<Moments> sets, std::size_t count);
 
+/// `count` sets out of single normals, `apart` (a chord) from each other where there are as many: the heaviest normals,
+/// each with those that are nearest to it. For count >= 1 and at least as many normals. Heaviest first.
+[[nodiscard]] std::vector<Peak> clustered_peaks(const std::vector<Peak>& normals, std::size_t count, double apart);
+
 /// Lambert's azimuthal equal-area map of the sphere to the disc of radius 2 (the upper hemisphere: sqrt 2), and back:
 /// well conditioned at the horizon too, where (x, y) alone is not. Downright normals go to (2, 0).
 [[nodiscard]] Eigen::Vector2d disc_from_direction(const Eigen::Vector3d& direction);

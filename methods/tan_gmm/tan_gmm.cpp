@@ -1,5 +1,7 @@
 // `tan_gmm`: a mixture of Gaussians over the normals of every texel of every level, aligned between neighbours so that
 // the texture filter can blend it. Tan, Lin, Quan, Guo, Shum 2005, "Multiresolution Reflectance Filtering".
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "methods/tan_gmm/mixture_chain.hpp"
@@ -71,10 +73,7 @@ class TanGmm final : public Method {
                                                                  fit_settings(options), moment, progress);
       out.textures.push_back(make_array_texture("tan_gmm_mixture", chain, storage, normal_coordinates(material)));
     }
-    if (has(effects, Effect::roughness_variation)) {
-      out.textures.push_back(
-          make_texture("tan_gmm_deviation", lobe_deviation_chain(material), storage, roughness_coordinates(material)));
-    }
+    std::ranges::move(bake_lobe_variance(material, storage, effects).textures, std::back_inserter(out.textures));
     return out;
   }
 

@@ -1,6 +1,8 @@
 // Tan et al. 2005, "Multiresolution Reflectance Filtering": the normals under a footprint are a mixture of isotropic
 // Gaussians over the unit disc of (n_x, n_y). A component's weight, mean and second moment are linear in its samples,
 // so that the texture filter blends them; mean and variance are recovered behind the filter (section 4.2).
+//? include lobe_variance.glsl
+
 //? if normal_variation
 const int components = int(option_n);
 //? else
@@ -176,8 +178,7 @@ float componentReflectance(Effective e, int i, vec3 h, vec3 wi, vec3 wo) {
 
 float baseLobe(Footprints f) {
 //? if roughness_variation
-  float deviation = fetch(tan_gmm_deviation, f.roughness).r;
-  return lobeFromVariance(deviation * deviation);
+  return lobeFromVariance(baseVariance(f));
 //? else
   return lobe_cutoff.x;
 //? end

@@ -379,20 +379,27 @@ TEST(TanGmm, PicturesOfGroovesNeedAlignedMixtures) {
   EXPECT_LT(picture_error(renderer, truth, "tan_gmm:storage=fp16"), 1.2 * aligned);
 }
 
-// A base lobe that varies enters as the mean of its variance.
+// A base lobe that varies enters as the mean of its variance: stripes of two roughnesses, two texels to a pixel, are
+// the one of alpha^2 = (0.3^4 + 0.7^4) / 2.
 TEST(TanGmm, HonoursVaryingRoughness) {
-  Scene scene = square_scene(random_normals(64, 64, 0.3F, 5), {.brdf = {}, .roughness = 1.0F});
-  Image maps(2, 2, 2, 0.0F);
-  maps.texels = {0.3F, 0.0F, 0.3F, 0.0F, 0.7F, 0.0F, 0.7F, 0.0F};
-  scene.materials[0].metallic_roughness_map = TextureMap{"roughness", std::make_shared<const Image>(maps), {}};
-  TestRenderer renderer(scene, {32, 32});
-  const Image truth = renderer.reference(256).mean;
-  Scene without = scene;
-  without.materials[0].metallic_roughness_map.reset();
-  without.materials[0].roughness = 0.3F;
-  TestRenderer constant(without, {32, 32});
-  const std::string gaussian = "tan_gmm:lobe=gaussian";
-  EXPECT_LT(picture_error(renderer, truth, gaussian), 0.5 * picture_error(constant, truth, gaussian));
+  Scene striped = square_scene(random_normals(64, 64, 0.3F, 5), {.brdf = {}, .roughness = 1.0F});
+  auto stripes = std::make_shared<Image>(64, 64, 2);
+  for (int i = 0; i < 64 * 64; ++i) stripes->at(i % 64, i / 64)[0] = i % 2 == 0 ? 0.3F : 0.7F;
+  striped.materials[0].metallic_roughness_map = TextureMap{"roughness", stripes, {}};
+  Scene even = striped;
+  even.materials[0].metallic_roughness_map.reset();
+  const auto picture = [](const Scene& scene, const char* text) {
+    return TestRenderer(scene, {32, 32}).frame(tan_gmm_method(), text);
+  };
+  for (const char* const text : {"tan_gmm", "tan_gmm:lobe=gaussian"}) {
+    const Image expected = picture(striped, text);
+    const auto difference = [&](float roughness) {
+      even.materials[0].roughness = roughness;
+      return compare_images(picture(even, text), expected, 1.0F).value().relative_rmse;
+    };
+    EXPECT_LT(difference(std::pow(0.5F * (std::pow(0.3F, 4.0F) + std::pow(0.7F, 4.0F)), 0.25F)), 1e-3) << text;
+    EXPECT_GT(difference(0.5F), 0.02) << text;  // the mean roughness
+  }
 }
 
 }  // namespace

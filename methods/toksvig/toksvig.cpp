@@ -1,6 +1,8 @@
 // `toksvig`: the mean resultant length of the normals under a footprint tells their spread; one lobe about the mean
 // normal takes that spread into its width. Toksvig 2004/2005, "Mipmapping Normal Maps".
-#include "renderer/bake/material_maps.hpp"
+#include <algorithm>
+#include <iterator>
+
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
 
@@ -20,10 +22,7 @@ class Toksvig final : public Method {
                                        const Progress& /*progress*/) const override {
     const Storage storage = parse_storage(options.word("storage"));
     Prefiltered out = bake_mean_normal(material, storage, effects);
-    if (has(effects, Effect::roughness_variation)) {
-      out.textures.push_back(
-          make_texture("toksvig_deviation", lobe_deviation_chain(material), storage, roughness_coordinates(material)));
-    }
+    std::ranges::move(bake_lobe_variance(material, storage, effects).textures, std::back_inserter(out.textures));
     return out;
   }
 

@@ -4,20 +4,12 @@
 // is a sum of slope variances per axis, which serves every distribution: alpha^2 / 2 takes the place of 1 / s for
 // Beckmann and GGX (Walter 2007, section 5.2), 1 / kappa for vMF.
 //? include mean_normal.glsl
+//? include lobe_variance.glsl
 
 struct Effective {
   Facets facets;
   float consistency;  // |Na|, 1 where all normals agree
 };
-
-float baseVariance(Footprints f) {
-//? if roughness_variation
-  float deviation = fetch(toksvig_deviation, f.roughness).r;
-  return deviation * deviation;
-//? else
-  return lobeVariance(lobe_cutoff.x);
-//? end
-}
 
 Effective effective(Footprints f) {
   vec4 mean = meanNormal(f);

@@ -59,12 +59,22 @@ Image lobe_variance_map(const Material& material) {
   return variance;
 }
 
-std::vector<Image> lobe_deviation_chain(const Material& material) {
+std::vector<Image> lobe_variance_chain(const Material& material) {
   std::vector<Image> chain = mip_chain(lobe_variance_map(material));
-  for (Image& level : chain) {
-    std::ranges::transform(level.texels, level.texels.begin(), [](float v) { return std::sqrt(std::min(v, 1.0F)); });
-  }
+  for (Image& level : chain)
+    std::ranges::transform(level.texels, level.texels.begin(), [](float v) { return std::min(v, 1.0F); });
   return chain;
+}
+
+Prefiltered bake_lobe_variance(const Material& material, Storage storage, const EffectSet& effects) {
+  Prefiltered out;
+  if (!has(effects, Effect::roughness_variation)) return out;
+  std::vector<Image> chain = lobe_variance_chain(material);
+  for (Image& level : chain)
+    std::ranges::transform(level.texels, level.texels.begin(), [](float v) { return v / stored_lobe_variance; });
+  out.textures.push_back(make_texture("lobe_variance", chain, storage == Storage::unorm8 ? Storage::fp16 : storage,
+                                      roughness_coordinates(material)));
+  return out;
 }
 
 OptionSpec storage_option() {

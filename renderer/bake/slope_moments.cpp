@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/normal_chain.hpp"
@@ -146,10 +147,8 @@ Prefiltered bake_slopes(const Material& material, const Options& options, const 
   }
   if (has(effects, Effect::normal_layers))
     add("layer", slope_moment_chain(layer_map_of(material), no_variance), layer_coordinates(material));
-  if (has(effects, Effect::roughness_variation) && !in_moments) {
-    out.textures.push_back(
-        make_texture("slope_deviation", lobe_deviation_chain(material), storage, roughness_coordinates(material)));
-  }
+  if (!in_moments)
+    std::ranges::move(bake_lobe_variance(material, storage, effects).textures, std::back_inserter(out.textures));
   return out;
 }
 

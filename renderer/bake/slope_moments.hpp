@@ -55,8 +55,8 @@ enum class SlopeVariant { full, scalar };
 
 /// The textures that common_slopes.glsl reads, for options with the two specs above:
 /// `slope_moments` (Bx, By, Mxx, Myy; scalar: Bx, By, Mxx + Myy) and `slope_cross` (Mxy; not scalar) where normals
-/// vary; `slope_deviation` (root of the base lobe's slope variance) where the roughness varies and the moments do not
-/// hold it. Errors (usage): roughness in the moments of maps that differ in size or coordinates.
+/// vary; `lobe_variance` (bake_lobe_variance) where the roughness varies and the moments do not hold it. Errors
+/// (usage): roughness in the moments of maps that differ in size or coordinates.
 [[nodiscard]] Prefiltered bake_slopes(const Material& material, const Options& options, const EffectSet& effects,
                                       SlopeVariant variant);
 

@@ -1,6 +1,9 @@
 // A footprint's normals as slopes, b = -n_xy / n_z, with mean B and covariance S, and the lobe over them: what methods
 // that keep moments of slope share. A module takes it in by `//? include common_slopes.glsl`; its textures and its
 // option `roughness` are those of renderer/bake/slope_moments.hpp.
+//? if not normal_variation or not roughness_moments
+//? include lobe_variance.glsl
+//? end
 
 const float smallest_slope_cosine = 1e-3;  // hard stop of slopes at the horizon
 
@@ -105,11 +108,8 @@ float slopeDensity(SlopeLobe e, vec3 h) {
 float addedVariance(Footprints f) {
 //? if normal_variation and roughness_moments
   return 0.0;
-//? elif roughness_variation
-  float deviation = fetch(slope_deviation, f.roughness).r;
-  return deviation * deviation;
 //? else
-  return lobeVariance(lobe_cutoff.x);
+  return baseVariance(f);
 //? end
 }
 

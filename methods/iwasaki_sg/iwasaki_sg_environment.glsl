@@ -51,9 +51,8 @@ NormalLobe normalLobe(Effective e, int i) {
 float meanHeight(float height, float sharpness) {
   float deviation = sqrt(max(1.0 - height * height, 0.0) / sharpness);
   if (deviation < 1e-4) return max(height, 0.0) * meanCosine(sharpness);
-  float a = clamp(height / deviation, -5.0, 40.0);
-  float above = normalCdf(a);
-  float mean = deviation * (a + inverse_root_two_pi * exp(-0.5 * a * a) / max(above, 1e-7));
+  float a = max(height / deviation, -5.0);
+  float mean = height + deviation * inverse_root_two_pi * exp(-0.5 * a * a) / max(normalCdf(a), 1e-7);
   return max(mean, 0.0) * mix(1.0, meanCosine(sharpness), clamp(height, 0.0, 1.0));
 }
 

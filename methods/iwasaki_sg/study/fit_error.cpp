@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <glm/gtc/matrix_transform.hpp>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -18,13 +16,7 @@
 namespace footprint::iwasaki_sg {
 namespace {
 
-// The cell of a normal in a cube map that is turned, so that facets along the axes, which are common, have their
-// normals inside a cell and not where four meet: a lobe about them then lies in one. Turned by this angle, all six axes
-// lie a third of a cell or more from every border, five times the width of the sharpest lobe.
-std::uint32_t turned_cell(const glm::dvec3& normal) {
-  static const glm::dmat3 turn(glm::rotate(glm::dmat4(1.0), 0.784, glm::normalize(glm::dvec3(1.0, 2.0, 3.0))));
-  return cube_cell(turn * normal, cube_side);
-}
+constexpr double cell_width = 2.0 / cube_side;
 
 // The point of a face of the cube, (u, v) from -1 to 1.
 glm::dvec3 cube_point(int face, double u, double v) {
@@ -35,43 +27,54 @@ glm::dvec3 cube_point(int face, double u, double v) {
   return point;
 }
 
-// Adds what a lobe holds in the cell of a face about (u, v), by steps^2 sub-cells, to the cells of the turned cube map.
-void add_shares(const SphericalGaussian& lobe, int face, glm::dvec2 middle, int steps, std::span<double> own) {
-  constexpr double cell_width = 2.0 / cube_side;
-  const double width = cell_width / steps;
-  for (int y = 0; y < steps; ++y) {
-    for (int x = 0; x < steps; ++x) {
-      const glm::dvec2 at = middle + (glm::dvec2(x, y) + 0.5) * width - 0.5 * cell_width;
-      const glm::dvec3 point = cube_point(face, at.x, at.y);
-      const double length = glm::length(point);
-      const glm::dvec3 direction = point / length;
-      own[turned_cell(direction)] += value(lobe, direction) * width * width / (length * length * length);
-    }
+// Directions to the middles of a cube map's cells.
+std::vector<glm::dvec3> cell_middles() {
+  std::vector<glm::dvec3> middles;
+  for (int cell = 0; cell < 6 * cube_side * cube_side; ++cell) {
+    const glm::dvec2 at = (glm::dvec2(cell % cube_side, cell / cube_side % cube_side) + 0.5) * cell_width - 1.0;
+    middles.push_back(glm::normalize(cube_point(cell / (cube_side * cube_side), at.x, at.y)));
   }
+  return middles;
 }
 
-// Each lobe's share in each cell of the cube map, [lobe][cell]: sub-cells as fine as its width asks for.
-std::vector<std::vector<double>> shares_in_cells(std::span<const SphericalGaussian> lobes) {
-  std::vector<std::vector<double>> shares;
-  constexpr double cell_width = 2.0 / cube_side;
-  constexpr int finest = 32;
-  constexpr double nothing = 40.0;  // an exponent below which a lobe adds nothing
-  for (const SphericalGaussian& lobe : lobes) {
-    const int steps = std::clamp(static_cast<int>(std::ceil(2.0 * cell_width * std::sqrt(lobe.sharpness))), 1, finest);
-    // From the axis to the middle of the last cell that the lobe reaches.
-    const double reach = std::acos(std::max(1.0 - nothing / lobe.sharpness, -1.0)) + cell_width;
-    const double beyond = 1.0 - std::cos(std::min(reach, std::numbers::pi));
-    std::vector<double>& own = shares.emplace_back(6 * cube_side * cube_side);
-    for (int cell = 0; cell < 6 * cube_side * cube_side; ++cell) {
-      const glm::dvec2 middle = (glm::dvec2(cell % cube_side, cell / cube_side % cube_side) + 0.5) * cell_width - 1.0;
-      const int face = cell / (cube_side * cube_side);
-      const glm::dvec3 direction = glm::normalize(cube_point(face, middle.x, middle.y));
-      if (one_minus_dot(direction, lobe.axis) <= beyond) add_shares(lobe, face, middle, steps, own);
+// What a lobe holds in a cell, by steps^2 sub-cells.
+double held_by(const SphericalGaussian& lobe, int cell, int steps) {
+  const glm::dvec2 corner = glm::dvec2(cell % cube_side, cell / cube_side % cube_side) * cell_width - 1.0;
+  const double width = cell_width / steps;
+  double sum = 0.0;
+  for (int y = 0; y < steps; ++y) {
+    for (int x = 0; x < steps; ++x) {
+      const glm::dvec2 at = corner + (glm::dvec2(x, y) + 0.5) * width;
+      const glm::dvec3 point = cube_point(cell / (cube_side * cube_side), at.x, at.y);
+      const double length = glm::length(point);
+      sum += value(lobe, point / length) * width * width / (length * length * length);
     }
-    const double sum = std::accumulate(own.begin(), own.end(), 0.0);
-    for (double& share : own) share /= sum;
   }
-  return shares;
+  return sum;
+}
+
+// A lobe over the cells that it reaches: (cell, share), the sum of the shares 1.
+using Spread = std::vector<std::pair<std::uint32_t, double>>;
+
+// Sub-cells are as fine as the lobe's width asks for.
+Spread spread_of(const SphericalGaussian& lobe, std::span<const glm::dvec3> middles) {
+  constexpr int finest = 64;
+  constexpr double nothing = 40.0;  // an exponent below which a lobe adds nothing
+  const int steps = std::clamp(static_cast<int>(std::ceil(2.0 * cell_width * std::sqrt(lobe.sharpness))), 1, finest);
+  // From the axis to the middle of the last cell that the lobe reaches.
+  const double reach = std::acos(std::max(1.0 - nothing / lobe.sharpness, -1.0)) + cell_width;
+  const double beyond = 1.0 - std::cos(std::min(reach, std::numbers::pi));
+  Spread spread;
+  double sum = 0.0;
+  for (std::size_t cell = 0; cell < middles.size(); ++cell) {
+    if (one_minus_dot(middles[cell], lobe.axis) > beyond) continue;
+    const double held = held_by(lobe, static_cast<int>(cell), steps);
+    if (held <= 0.0) continue;
+    spread.emplace_back(static_cast<std::uint32_t>(cell), held);
+    sum += held;
+  }
+  for (auto& [cell, share] : spread) share /= sum;
+  return spread;
 }
 
 struct Sums {
@@ -79,21 +82,28 @@ struct Sums {
   double differences = 0.0;  // of gamma~ less the lobes, squared
 };
 
-// What one pair of directions adds. Over the cells that have facets the difference is summed as it is; over the others
-// the lobes stand alone: all of their products less those over the former.
+// What one pair of directions adds. A facet's normal is as wide as the sharpest lobe: one that stands for a single
+// normal is then just that. Over the cells that facets reach the difference is summed as it is; over the others the
+// lobes stand alone, by their products.
 class PairSums {
  public:
   PairSums(const Bvndf& bvndf, const Amplitudes& table, Cosines cosines)
-      : bvndf_(bvndf), table_(table), cosines_(cosines), shares_(shares_in_cells(table.lobes)) {
-    for (std::size_t i = 0; i < bvndf.bins.size(); ++i) bins_in_[turned_cell(bvndf.bins[i].normal)].push_back(i);
+      : bvndf_(bvndf), table_(table), cosines_(cosines) {
+    const std::vector<glm::dvec3> middles = cell_middles();
+    for (const SphericalGaussian& lobe : table.lobes) {
+      std::vector<double>& own = shares_.emplace_back(middles.size());
+      for (const auto& [cell, share] : spread_of(lobe, middles)) own[cell] = share;
+    }
+    for (std::size_t i = 0; i < bvndf.bins.size(); ++i) {
+      for (const auto& [cell, share] : spread_of({bvndf.bins[i].normal, sharpest}, middles))
+        bins_in_[cell].emplace_back(i, share);
+    }
     const std::size_t n = shares_.size();
     elsewhere_.resize(n * n);
-    for (std::size_t a = 0; a < n; ++a) {
-      for (std::size_t b = 0; b < n; ++b) {
-        for (std::size_t cell = 0; cell < shares_[a].size(); ++cell) {
-          if (!bins_in_.contains(static_cast<std::uint32_t>(cell)))
-            elsewhere_[a * n + b] += shares_[a][cell] * shares_[b][cell];
-        }
+    for (std::size_t cell = 0; cell < middles.size(); ++cell) {
+      if (bins_in_.contains(static_cast<std::uint32_t>(cell))) continue;
+      for (std::size_t a = 0; a < n; ++a) {
+        for (std::size_t b = 0; b < n; ++b) elsewhere_[a * n + b] += shares_[a][cell] * shares_[b][cell];
       }
     }
   }
@@ -105,7 +115,7 @@ class PairSums {
     const auto mass = [&](std::size_t j) { return double{table_.masses[j * pairs + wi * table_.directions + wo]}; };
     for (const auto& [cell, bins] : bins_in_) {
       double truth = 0.0;
-      for (const std::size_t bin : bins) truth += seen(bin, wi, wo);
+      for (const auto& [bin, share] : bins) truth += share * seen(bin, wi, wo);
       double difference = truth;
       for (std::size_t j = 0; j < n; ++j) difference -= mass(j) * shares_[j][cell];
       sums.squares += truth * truth;
@@ -131,7 +141,7 @@ class PairSums {
   const Amplitudes& table_;
   Cosines cosines_;
   std::vector<std::vector<double>> shares_;
-  std::map<std::uint32_t, std::vector<std::size_t>> bins_in_;  // of each cell that has facets
+  std::map<std::uint32_t, std::vector<std::pair<std::size_t, double>>> bins_in_;  // of each cell that facets reach
   std::vector<double> elsewhere_;
 };
 

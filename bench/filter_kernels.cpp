@@ -72,6 +72,7 @@ void run(const std::string& file) {
   std::vector<std::vector<Image>> boxes;
   for (const Case& c : cases) {
     std::vector<Image> own;
+    own.reserve(phases);
     for (int i = 0; i < phases; ++i) own.push_back(box_kernel({place(i), c.dx, c.dy}, edge));
     boxes.push_back(std::move(own));
   }

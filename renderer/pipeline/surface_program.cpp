@@ -230,7 +230,7 @@ SurfaceProgram::SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const 
 
 void SurfaceProgram::set_samples(const SampleDraw& samples) {
   texels_ = samples.texels;
-  const auto cells = static_cast<std::size_t>(samples.grid * samples.grid);
+  const auto cells = static_cast<std::size_t>(samples.grid) * static_cast<std::size_t>(samples.grid);
   std::vector<glm::uvec2> texels(cells);
   for (std::size_t cell = 0; cell < cells; ++cell) {
     const auto at = static_cast<int>(cell);

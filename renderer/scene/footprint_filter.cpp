@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <iterator>
 #include <optional>
 #include <vector>
 
@@ -47,14 +48,14 @@ std::span<const FootprintFilterWord> footprint_filter_words() { return words; }
 
 std::string footprint_filter_choices() {
   std::vector<std::string> forms;
-  for (const FootprintFilterWord& word : words) forms.push_back(form_of(word));
+  std::ranges::transform(words, std::back_inserter(forms), form_of);
   return fmt::format("{}", fmt::join(forms, ", "));
 }
 
 FootprintFilter parse_footprint_filter(std::string_view text, std::string_view place) {
   const std::size_t colon = text.find(':');
   std::vector<std::string> names;
-  for (const FootprintFilterWord& word : words) names.emplace_back(word.name);
+  std::ranges::transform(words, std::back_inserter(names), [](const auto& word) { return std::string(word.name); });
   const FootprintFilterWord& word = words.at(find_word(names, text.substr(0, colon), "footprint filter", place));
   const auto refuse = [&](const std::string& what) {
     return Error(ErrorKind::usage, std::string(place), fmt::format("footprint filter `{}` {}", text, what),

@@ -117,7 +117,7 @@ TEST(Expression, WhatIsRebuiltEachFrameIsTakenApartFromTheShading) {
 
 TEST(Expression, PlainSupersamplingIsTimedByItsCountOfSamples) {
   Results results = two_frames();
-  results.supersampling = {{1.0, 16, 0.1, 20.0}, {1.0, 64, 0.0, 80.0}, {2.5, 64, 0.0, 40.0}};
+  results.supersampling = {{1.0, 16, 0.1, {}, 20.0}, {1.0, 64, 0.0, {}, 80.0}, {2.5, 64, 0.0, {}, 40.0}};
   const auto value = [&](const std::string& text) { return Expression(text, "").evaluate(results).value; };
   EXPECT_EQ(value("supersampling_time(a, spp=64)"), 60.0);
   EXPECT_EQ(value("supersampling_time(a, spp=64, distance=2.5)"), 40.0);

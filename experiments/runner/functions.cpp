@@ -142,6 +142,11 @@ Evaluate over_errors(double RecordError::*member) {
   return over_records([member](const Record& r) { return r.error ? Figure((*r.error).*member) : Figure(); });
 }
 
+Evaluate over_causes(std::optional<double> ErrorCauses::*member, std::string absent) {
+  return over_records([member](const Record& r) { return r.error ? r.error->causes.*member : Figure(); },
+                      std::move(absent));
+}
+
 Evaluate over_flicker(double Flicker::*member) {
   return over_records([member](const Record& r) { return r.flicker ? Figure((*r.flicker).*member) : Figure(); });
 }
@@ -210,6 +215,19 @@ std::vector<FigureFunction> function_table() {
       {"energy_bias", records, nothing, over_errors(&RecordError::energy_bias)},
       {"representation", records, nothing, over_errors(&RecordError::representation)},
       {"filtering", records, nothing, over_errors(&RecordError::filtering)},
+      {"shading_error", records, nothing,
+       over_samples(
+           [](const Measure& /*measure*/, const Record& r) {
+             return Sample{.value = r.error ? r.error->causes.shading : Figure(),
+                           .at_noise_floor = shading_at_noise_floor(r)};
+           },
+           "no pixel is interior")},
+      {"edge_error", records, nothing, over_causes(&ErrorCauses::edges, "no pixel has an edge")},
+      {"filter_error", records, nothing, over_causes(&ErrorCauses::filter, "the bound was not drawn")},
+      {"method_error", records, nothing, over_causes(&ErrorCauses::method, "the bound was not drawn")},
+      {"light_error", records, nothing, over_causes(&ErrorCauses::light, "there is no environment")},
+      {"interior_pixels", records, nothing,
+       over_records([](const Record& r) { return static_cast<double>(r.pixels.interior); })},
       {"noise_floor", records, nothing,
        over_records([](const Record& r) { return r.error ? r.error->noise_floor : Figure(); })},
       {"equivalent_spp", records, nothing,

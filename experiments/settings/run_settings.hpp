@@ -57,6 +57,20 @@ struct ViewSettings {
   std::optional<double> error_scale;
 };
 
+/// Whether the picture of the method `exact` is drawn beside the others: what the footprint filter leaves of the error.
+enum class BoundUse {
+  automatic,  ///< of as many pixels as are cheap
+  on,         ///< of all of them
+  off
+};
+
+/// As users write it.
+inline constexpr std::array<Word<BoundUse>, 3> bound_uses{{
+    {BoundUse::automatic, "auto"},
+    {BoundUse::on, "on"},
+    {BoundUse::off, "off"},
+}};
+
 /// What errors are measured against.
 struct ReferenceSettings {
   int spp = 64;                                            ///< samples a pixel, 1 to 4096
@@ -65,6 +79,7 @@ struct ReferenceSettings {
   std::uint64_t seed = 1;                                  ///< same seed, same bytes
   ReferenceFilter filter = ReferenceFilter::after_shading;
   EnvironmentUse environment = EnvironmentUse::sampled;  ///< how it integrates one
+  BoundUse bound = BoundUse::automatic;
 };
 
 /// How frame times are taken.

@@ -198,6 +198,13 @@ std::vector<Setting> what_errors_are_measured_against() {
        .type = one_word([](Run& run) -> EnvironmentUse& { return run.reference.environment; }, reference_integrals,
                         "way to integrate an environment"),
        .help = "how the reference integrates an environment; dense: 6 x 32 x 32 lights for every sample"},
+      {.option = "--bound",
+       .commands = {"compare"},
+       .table = "reference",
+       .key = "bound",
+       .type = one_word([](Run& run) -> BoundUse& { return run.reference.bound; }, bound_uses, "use of the bound"),
+       .help =
+           "whether `exact` is drawn to tell what the footprint filter leaves; auto: of as many pixels as are cheap"},
   };
 }
 

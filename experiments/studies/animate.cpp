@@ -13,6 +13,7 @@
 #include "experiments/studies/zoom.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
+#include "results/report/ranking.hpp"
 
 namespace footprint {
 namespace {
@@ -46,7 +47,9 @@ class Animator {
     std::optional<HeldFrame> before;
     for (std::size_t frame = 0; frame < distances_.size(); ++frame) before = add_frame(frame, before);
     animation_.backend = backend_info(stage_.context().info());
-    animation_.scene = scene_info(stage_.scene(), exposure_, animation_.reference);
+    animation_.scene = scene_info(stage_.scene(), exposure_);
+    if (auto warning = convergence_warning(animation_.reference))
+      animation_.scene.warnings.push_back(std::move(*warning));
     const glm::ivec2 size = stage_.view(1.0).size;
     animation_.width = size.x;
     animation_.height = size.y;

@@ -12,12 +12,15 @@
 #include <set>
 #include <utility>
 
+#include "experiments/studies/error_causes.hpp"
 #include "experiments/studies/exposure.hpp"
 #include "experiments/studies/picture_files.hpp"
+#include "experiments/studies/plain_supersampling.hpp"
 #include "experiments/studies/reference_noise.hpp"
 #include "experiments/studies/run_info.hpp"
 #include "experiments/studies/stage.hpp"
 #include "experiments/studies/zoom.hpp"
+#include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/timing.hpp"
@@ -30,6 +33,11 @@ namespace {
 constexpr double scale_quantile = 0.99;
 constexpr double smallest_error_scale = 0.01;
 constexpr std::uint64_t curve_seed = 0x9e3779b97f4a7c15;  // keeps the curve's samples apart from the reference's
+
+constexpr std::string_view bound_name = "exact";
+constexpr double cheap_facets = 1.5e7;  // shaded for all lights, of one distance: about a second on a CPU's two cores
+constexpr double pixels_lit_by_all = 512;  // by each of some 6000 directional lights: about a second a method
+constexpr double interior_weight = 16;     // of progress, in samples of the reference
 
 // `direct` is what every ratio is taken to: it is staged first, also where it is not asked for, and looks its maps up
 // by one trilinear lookup whatever the footprint filter, so that ratios of several filters compare.
@@ -44,7 +52,7 @@ RunSettings with_direct(RunSettings settings) {
 // large). Beside them what is worked on: most of all the strips of one distance, made of all its pictures in 5 steps.
 int pictures_held(std::size_t methods, std::size_t distances) {
   const double kept = static_cast<double>(distances) * (1.0 + 1.25 * static_cast<double>(methods));
-  constexpr double own_of_the_reference = 6;
+  constexpr double own_of_the_reference = 9;  // with its masks and the bound
   return static_cast<int>(std::ceil(kept + 5.0 * static_cast<double>(methods + 1) + own_of_the_reference));
 }
 
@@ -55,14 +63,24 @@ struct OtherTruth {
   std::optional<double> noise_floor;
 };
 
+// The picture of `exact`, and where it was drawn.
+struct BoundPicture {
+  Image picture;
+  Image pixels;  // interior ones; a mask
+};
+
 // What is known of one distance besides the methods.
 struct Truth {
   std::size_t frame = 0;
   double distance = 1;
   View view;
   Supersampled reference;
-  std::optional<double> noise_floor;
-  std::string reference_file;
+  std::optional<double> noise_floor, shading_floor;
+  PixelParts parts;
+  std::optional<BoundPicture> bound;
+  std::vector<Tile> light_tiles;  // lit by all of an environment, and the interior pixels there
+  Image light_pixels;
+  std::string reference_file, interior_file;
   std::vector<SupersamplingPoint> curve;
   std::vector<OtherTruth> others;
 };
@@ -98,6 +116,8 @@ class Comparison {
 
   Results run(std::span<const FrameTimes> further_times) {
     std::filesystem::create_directories(folder_ / "images");
+    interior_finder_.emplace(stage_.interior_finder());
+    stage_bound();
     for (std::size_t i = 0; i < distances_.size(); ++i) {
       Truth truth = find_truth(i);
       results_.supersampling.insert(results_.supersampling.end(), truth.curve.begin(), truth.curve.end());
@@ -147,7 +167,13 @@ class Comparison {
                 .view = stage_.view(distance),
                 .reference = {},
                 .noise_floor = {},
+                .shading_floor = {},
+                .parts = {},
+                .bound = {},
+                .light_tiles = {},
+                .light_pixels = {},
                 .reference_file = {},
+                .interior_file = {},
                 .curve = {},
                 .others = {}};
     truth.reference = stage_.reference().render(truth.view, settings_.reference.spp, settings_.reference.seed,
@@ -161,7 +187,9 @@ class Comparison {
     references_.push_back({.caption = fmt::format("reference, {} spp", settings_.reference.spp),
                            .picture = truth.reference.mean,
                            .error = {}});
-    truth.reference_file = write_picture(folder_, stem_of(distance, "reference"), truth.reference.mean, exposure_);
+    truth.reference_file =
+        write_exposable_picture(folder_, stem_of(distance, "reference"), truth.reference.mean, exposure_);
+    find_parts(truth, prefix);
     truth.curve = supersampling_curve(truth, prefix);
     for (const int spp : settings_.reference.other_spp) {
       const Supersampled other = stage_.reference().render(
@@ -171,19 +199,75 @@ class Comparison {
     return truth;
   }
 
+  // The pixels that are interior, and the bound over them.
+  void find_parts(Truth& truth, const std::string& prefix) {
+    const Interior interior = interior_finder_->render(truth.view, settings_.reference.spp, settings_.reference.seed,
+                                                       parts_.next(interior_weight, prefix));
+    stage_.context().check("finding interior pixels");
+    truth.parts = pixel_parts(truth.reference.mean, interior);
+    truth.shading_floor = noise_floor_over(truth.reference, exposure_, truth.parts.interior);
+    truth.interior_file = write_mask(folder_, stem_of(truth.distance, "interior"), truth.parts.interior);
+    if (has(stage_.effects(), Effect::environment_light)) {
+      truth.light_tiles = cheap_parts(
+          truth.parts, light_tile, [](int, int) { return 1.0; }, pixels_lit_by_all);
+      truth.light_pixels = within(truth.parts.interior, truth.light_tiles);
+      truth.parts.counts.light = count_pixels(truth.light_pixels);
+    }
+    const Progress progress = parts_.next(interior_weight, prefix);
+    if (!bound_) return;
+    progress("exact", 0.0);
+    truth.bound = draw_bound(truth, interior.texels);
+    truth.parts.counts.bound = count_pixels(truth.bound->pixels);
+    stage_.context().check("drawing the bound");
+  }
+
+  // Whole where that was asked for or is cheap, else in squares.
+  [[nodiscard]] BoundPicture draw_bound(const Truth& truth, const Image& texels) const {
+    const double lights = static_cast<double>(std::max<std::size_t>(stage_.scene().lights.size(), 1));
+    const PixelCost facets = [&](int x, int y) { return lights * facets_of_bound(texels.at(x, y)[0]); };
+    const std::vector<Tile> whole{{.origin = {0, 0}, .size = truth.view.size}};
+    const bool all =
+        settings_.reference.bound == BoundUse::on || cost_of(whole.front(), truth.parts, facets) <= cheap_facets;
+    const std::vector<Tile> tiles = all ? whole : cheap_parts(truth.parts, bound_tile, facets, cheap_facets);
+    const FrameRenderer& frames = bound_->frames();
+    BoundPicture bound{.picture = all ? frames.render(truth.view) : frames.render(truth.view, tiles),
+                       .pixels = within(truth.parts.interior, tiles)};
+    leave_out_infinite(bound.picture, bound.pixels);  // of more texels and lights than it sums
+    return bound;
+  }
+
+  // `exact`, where this build has it and it knows every effect of the scene; else why not is said.
+  void stage_bound() {
+    if (settings_.reference.bound == BoundUse::off) return;
+    const auto all = all_methods();
+    const auto found = std::ranges::find(all, bound_name, [](const Method* m) { return m->info().name; });
+    if (found == all.end()) return;
+    const EffectSet left_out = stage_.effects() & ~(*found)->info().honours;
+    if (left_out.any()) {
+      results_.scene.warnings.push_back(
+          fmt::format("no bound is drawn: {} leaves out {}", bound_name, fmt::join(effect_names(left_out), ", ")));
+      return;
+    }
+    bound_.emplace(stage_.stage(parse_methods(std::string(bound_name)).front(), no_progress));
+  }
+
   std::vector<SupersamplingPoint> supersampling_curve(const Truth& truth, const std::string& prefix) {
+    const FrameRenderer& direct = stage_.methods().front().frames();
     std::vector<SupersamplingPoint> curve;
     for (const int spp : settings_.reference.supersampling) {
       const std::uint64_t seed = settings_.reference.seed ^ (curve_seed * static_cast<std::uint64_t>(spp));
-      const Supersampled picture = stage_.reference().render(
-          truth.view, spp, seed, parts_.next(spp, prefix + "supersampling, "), TexelUse::drawn);
+      const std::vector<glm::dvec2> offsets = frame_offsets(spp, seed);
+      const Image picture = mean_of_frames(direct, truth.view, offsets, parts_.next(spp, prefix + "supersampling, "));
       const int repeats = curve_repeats(spp);
-      const DrawFrame draw = [&] { stage_.reference().draw(truth.view, spp, seed); };
+      const DrawFrame draw = [&] {
+        for (const glm::dvec2& offset : offsets) direct.draw(truth.view, offset);
+      };
       const std::vector<double> times =
           repeated_times(stage_.context().info(), draw, repeats, parts_.next(spp * repeats, prefix));
       curve.push_back({.distance = truth.distance,
                        .spp = spp,
-                       .normalized_color = normalized_color(picture.mean, truth.reference.mean, exposure_),
+                       .normalized_color = normalized_color(picture, truth.reference.mean, exposure_),
+                       .shading = normalized_color_over(picture, truth.reference.mean, exposure_, truth.parts.interior),
                        .ms = quantile(times, 0.5)});
     }
     return curve;
@@ -202,12 +286,14 @@ class Comparison {
     stage_.context().check("rendering " + settings_.methods[index].text);
     try {
       set_error(draft.record, truth, picture, finest.mean);
+      set_light_error(draft.record, truth, picture, staged);
     } catch (const Error& error) {
       throw error.within("method " + settings_.methods[index].text);
     }
     set_flicker(draft.record, truth, picture, index);
-    draft.record.images.color = write_picture(folder_, draft.stem, picture, exposure_);
+    draft.record.images.color = write_exposable_picture(folder_, draft.stem, picture, exposure_);
     draft.record.images.reference = truth.reference_file;
+    draft.record.images.interior = truth.interior_file;
     Image error = error_map(picture, truth.reference.mean, exposure_);
     draft.exhibit = {
         .caption = settings_.methods[index].text, .picture = std::move(picture), .error = std::move(error)};
@@ -225,6 +311,7 @@ class Comparison {
     record.frame = static_cast<int>(truth.frame);
     record.width = truth.view.size.x;
     record.height = truth.view.size.y;
+    record.pixels = truth.parts.counts;
     record.precompute_seconds = baked.seconds;
     record.precompute_bytes = baked.bytes;
     if (baked.texels > 0)
@@ -248,15 +335,44 @@ class Comparison {
                                .energy_bias = figures->energy_bias,
                                .noise_floor = truth.noise_floor,
                                .representation = normalized_color(finest, reference, exposure_).value(),
-                               .filtering = normalized_color(picture, finest, exposure_).value()};
-    record.equivalent =
-        equivalent_samples(footprint::supersampling_curve(truth.curve, truth.distance), figures->normalized_color);
+                               .filtering = normalized_color(picture, finest, exposure_).value(),
+                               .causes = causes_of(truth, picture)};
+    // Over interior pixels, where there are some: supersampling mends edges, and no method here does.
+    const std::optional<double>& shading = record.error->causes.shading;
+    record.equivalent = equivalent_samples(
+        footprint::supersampling_curve(truth.curve, truth.distance,
+                                       shading ? &SupersamplingPoint::shading : &SupersamplingPoint::normalized_color),
+        shading.value_or(figures->normalized_color));
     for (const OtherTruth& other : truth.others) {
       if (const auto error = normalized_color(picture, other.mean, exposure_)) {
         record.other_references.push_back(
             {.spp = other.spp, .normalized_color = *error, .noise_floor = other.noise_floor});
       }
     }
+  }
+
+  [[nodiscard]] ErrorCauses causes_of(const Truth& truth, const Image& picture) const {
+    ErrorCauses causes = error_causes({.method = picture,
+                                       .reference = truth.reference.mean,
+                                       .bound = truth.bound ? &truth.bound->picture : nullptr,
+                                       .bound_pixels = truth.bound ? &truth.bound->pixels : nullptr},
+                                      truth.parts, exposure_);
+    causes.shading_floor = truth.shading_floor;
+    if (truth.reference.halves)
+      causes.shading_noise = error_noise(picture, *truth.reference.halves, exposure_, truth.parts.interior);
+    return causes;
+  }
+
+  // The lookup of an environment by the method's lobes against all of its light shaded by the method.
+  void set_light_error(Record& record, const Truth& truth, const Image& picture, const StagedMethod& staged) {
+    const bool is_lit = has(staged.baked().method->info().honours, Effect::environment_light);
+    if (!record.error || truth.light_tiles.empty() || !is_lit) return;
+    if (!dense_frames_.contains(&staged)) dense_frames_.emplace(&staged, stage_.dense_frames(staged));
+    const Image lit = dense_frames_.at(&staged).render(truth.view, truth.light_tiles);
+    Image pixels = truth.light_pixels;
+    leave_out_infinite(lit, pixels);
+    record.pixels.light = count_pixels(pixels);
+    record.error->causes.light = error_between(picture, lit, truth.reference.mean, exposure_, pixels);
   }
 
   // Against the frame before: the picture of the same method, one round of drafts earlier.
@@ -314,12 +430,12 @@ class Comparison {
     }
   }
 
-  // One scale for every false-colour picture: what was asked for, else the largest 99th percentile over all of them, in
-  // two digits.
-  [[nodiscard]] double error_scale() const {
+  // What stands at the top of the pictures of some drafts: what was asked for, else the largest 99th percentile over
+  // them, in two digits.
+  [[nodiscard]] double error_scale(std::span<const Draft> drafts) const {
     if (settings_.view.error_scale) return *settings_.view.error_scale;
     double scale = smallest_error_scale;
-    for (const Draft& draft : drafts_) {
+    for (const Draft& draft : drafts) {
       std::vector<double> values;
       std::ranges::copy_if(draft.exhibit.error.texels, std::back_inserter(values), [](float v) { return v > 0.0F; });
       if (!values.empty()) scale = std::max(scale, quantile(std::move(values), scale_quantile));
@@ -328,25 +444,35 @@ class Comparison {
     return std::ceil(scale / step) * step;
   }
 
+  // The drafts stand in the order of the distances, as many for each as there are methods.
+  [[nodiscard]] std::span<Draft> drafts_at(std::size_t distance) {
+    return std::span(drafts_).subspan(distance * settings_.methods.size(), settings_.methods.size());
+  }
+
   void finish_error_pictures() {
-    results_.error_scale = error_scale();
-    write_distance_strips();
-    for (Draft& draft : drafts_) {
-      draft.record.images.error = write_error_picture(folder_, draft.stem + "_error", draft.exhibit.error,
-                                                      static_cast<float>(results_.error_scale));
-      results_.records.push_back(std::move(draft.record));
+    results_.error_scale = error_scale(drafts_);
+    for (std::size_t i = 0; i < distances_.size(); ++i) {
+      const double scale = error_scale(drafts_at(i));
+      results_.error_scales.push_back({.distance = distances_[i], .error = scale});
+      write_distance_strips(i, scale);
+      for (Draft& draft : drafts_at(i)) finish_error_picture(draft, scale);
     }
   }
 
-  // The drafts stand in the order of the distances, as many for each as there are methods.
-  void write_distance_strips() {
-    for (std::size_t i = 0; i < distances_.size(); ++i) {
-      std::vector<Exhibit> exhibits{std::move(references_[i])};
-      for (std::size_t m = 0; m < settings_.methods.size(); ++m)
-        exhibits.push_back(drafts_[i * settings_.methods.size() + m].exhibit);
-      write_strips(folder_, stem_of(distances_[i], "all"), exhibits, exposure_,
-                   static_cast<float>(results_.error_scale));
-    }
+  void finish_error_picture(Draft& draft, double scale) {
+    const auto write = [&](const std::string& end, double top) {
+      return write_error_picture(folder_, draft.stem + end, draft.exhibit.error, static_cast<float>(top));
+    };
+    RecordImages& images = draft.record.images;
+    images.error = write("_error", scale);
+    images.error_shared = scale == results_.error_scale ? images.error : write("_error_shared", results_.error_scale);
+    results_.records.push_back(std::move(draft.record));
+  }
+
+  void write_distance_strips(std::size_t distance, double scale) {
+    std::vector<Exhibit> exhibits{std::move(references_[distance])};
+    for (const Draft& draft : drafts_at(distance)) exhibits.push_back(draft.exhibit);
+    write_strips(folder_, stem_of(distances_[distance], "all"), exhibits, exposure_, static_cast<float>(scale));
   }
 
   void describe(int processes) {
@@ -358,7 +484,9 @@ class Comparison {
     results_.timing = {.frames = settings_.timing.repeats, .processes = processes};
     if (has(stage_.effects(), Effect::environment_light))
       results_.reference.environment = word_for(reference_integrals, settings_.reference.environment);
-    results_.scene = scene_info(stage_.scene(), chosen_exposure_, results_.reference);
+    std::vector<std::string> notes = std::move(results_.scene.warnings);
+    results_.scene = scene_info(stage_.scene(), chosen_exposure_);
+    std::ranges::move(notes, std::back_inserter(results_.scene.warnings));
     add_left_out();
     add_precompute_notes();
   }
@@ -386,6 +514,9 @@ class Comparison {
   ProgressParts whole_;
   Stage stage_;
   std::vector<double> distances_;
+  std::optional<InteriorFinder> interior_finder_;  // of a run that measures errors
+  std::optional<StagedMethod> bound_;
+  std::map<const StagedMethod*, FrameRenderer> dense_frames_;  // of a scene with an environment
   ProgressParts parts_;
   Exposure chosen_exposure_;
   float exposure_ = 1.0F;  // its factor

@@ -137,7 +137,7 @@ class Editor {
     std::filesystem::create_directories(folder_ / "images");
     for (int frame = 0; frame < settings_.frames; ++frame) add_frame(frame);
     run_.backend = backend_info(context_.info());
-    run_.scene = scene_info(scene_, exposure_, {});
+    run_.scene = scene_info(scene_, exposure_);
     run_.kind = settings_.sweeps.front().kind;
     run_.method = method().text;
     run_.width = size_.x;

@@ -10,6 +10,12 @@
 #include "renderer/image/image_io.hpp"
 
 namespace footprint {
+namespace {
+
+constexpr float dark_gain = 1.0F / 16.0F;  // four stops: results/report/page.js
+
+}  // namespace
+
 Image stacked(const Image& top, const Image& bottom) {
   Image both(std::max(top.width, bottom.width), top.height + bottom.height, top.channels);
   const auto place = [&](const Image& part, int first_row) {
@@ -46,6 +52,19 @@ std::string write_error_picture(const std::filesystem::path& folder, const std::
                                 float scale) {
   write_png(folder / "images" / (stem + ".png"), false_color(error, scale));
   return "images/" + stem + ".png";
+}
+
+std::string write_exposable_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,
+                                    float exposure) {
+  write_png(folder / "images" / (stem + "_dark.png"), to_display(radiance, exposure * dark_gain));
+  return write_picture(folder, stem, radiance, exposure);
+}
+
+std::string write_mask(const std::filesystem::path& folder, const std::string& stem, const Image& mask) {
+  Image picture(mask.width, mask.height, 4, 1.0F);
+  for (std::size_t i = 0; i < mask.texels.size(); ++i)
+    std::fill_n(picture.texels.begin() + static_cast<std::ptrdiff_t>(4 * i), 3, mask.texels[i]);
+  return write_picture(folder, stem, picture, 1.0F);
 }
 
 void write_strips(const std::filesystem::path& folder, const std::string& stem, const std::vector<Exhibit>& exhibits,

@@ -30,6 +30,13 @@ std::string write_picture(const std::filesystem::path& folder, const std::string
 std::string write_error_picture(const std::filesystem::path& folder, const std::string& stem, const Image& error,
                                 float scale);
 
+/// The same, and STEM_dark.png four stops darker, from which the page shows highlights that the other one clips.
+std::string write_exposable_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,
+                                    float exposure);
+
+/// Writes a mask, one channel of 1 and 0, as FOLDER/images/STEM.exr and STEM.png beside it; returns "images/STEM.exr".
+std::string write_mask(const std::filesystem::path& folder, const std::string& stem, const Image& mask);
+
 /// A picture of a comparison, for the strips that show all of one distance side by side.
 struct Exhibit {
   std::string caption;

@@ -11,10 +11,14 @@ constexpr double halves_over_whole = 2.0;  // A - B has twice the deviation of t
 }  // namespace
 
 std::optional<double> noise_floor(const Supersampled& reference, float exposure) {
+  return noise_floor_over(reference, exposure, object_pixels(reference.mean));
+}
+
+std::optional<double> noise_floor_over(const Supersampled& reference, float exposure, const Image& mask) {
   if (!reference.halves) return std::nullopt;
-  const auto difference = compare_images(reference.halves->first, reference.halves->second, exposure);
+  const auto difference = normalized_color_over(reference.halves->first, reference.halves->second, exposure, mask);
   if (!difference) return std::nullopt;
-  return difference->normalized_color / halves_over_whole;
+  return *difference / halves_over_whole;
 }
 
 std::optional<Flicker> flicker_between(const Image& before, const Image& picture, const Supersampled& reference_before,

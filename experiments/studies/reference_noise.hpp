@@ -12,6 +12,9 @@ namespace footprint {
 /// object covers no whole pixel.
 [[nodiscard]] std::optional<double> noise_floor(const Supersampled& reference, float exposure);
 
+/// The same over those object pixels at which `mask` (one channel) is above 0.
+[[nodiscard]] std::optional<double> noise_floor_over(const Supersampled& reference, float exposure, const Image& mask);
+
 /// The flicker from the frame `before` to `picture`, with that which the references' noise alone causes. None where no
 /// pixel is covered wholly in both.
 [[nodiscard]] std::optional<Flicker> flicker_between(const Image& before, const Image& picture,

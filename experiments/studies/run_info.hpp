@@ -11,7 +11,7 @@ namespace footprint {
 /// The backend; the processor is left to the program, which knows it.
 [[nodiscard]] BackendInfo backend_info(const gl::ContextInfo& context);
 
-/// The scene with its exposure; a reference that has not converged is one of its warnings.
-[[nodiscard]] SceneInfo scene_info(const Scene& scene, const Exposure& exposure, const ReferenceInfo& reference);
+/// The scene with its exposure.
+[[nodiscard]] SceneInfo scene_info(const Scene& scene, const Exposure& exposure);
 
 }  // namespace footprint

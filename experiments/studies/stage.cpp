@@ -92,6 +92,25 @@ Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress,
 
 View Stage::view(double distance) const { return {.size = size_, .camera = camera_at_distance(scene_, distance)}; }
 
+StagedMethod Stage::stage(const MethodSpec& method, const Progress& progress) const {
+  return {context_.info(), *gpu_scene_, scene_,  effects_, method, footprint_filter_of(settings_, scene_),
+          size_,           settings_,   progress};
+}
+
+InteriorFinder Stage::interior_finder() const { return {*gpu_scene_, scene_}; }
+
+FrameRenderer Stage::dense_frames(const StagedMethod& method) const {
+  return {context_.info(),
+          *gpu_scene_,
+          method.gpu(),
+          size_,
+          ProgramSettings{.sampling = Sampling::frame,
+                          .footprint = footprint_filter_of(settings_, scene_),
+                          .orthographic = scene_.camera.orthographic,
+                          .environment = EnvironmentUse::dense},
+          settings_.backend.tile};
+}
+
 Supersampler Stage::finest_level(const StagedMethod& method) const {
   return {context_.info(),       *gpu_scene_, method.gpu(), settings_.reference.filter, scene_.camera.orthographic,
           settings_.backend.tile};

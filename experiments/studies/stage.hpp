@@ -8,6 +8,7 @@
 #include "experiments/settings/run_settings.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/pipeline/frame.hpp"
+#include "renderer/pipeline/interior.hpp"
 #include "renderer/pipeline/supersample.hpp"
 
 namespace footprint {
@@ -59,6 +60,16 @@ class Stage {
   [[nodiscard]] const std::vector<StagedMethod>& methods() const { return methods_; }
   [[nodiscard]] const Supersampler& reference() const { return *reference_; }
   [[nodiscard]] View view(double distance) const;
+
+  /// Another method over the same scene.
+  [[nodiscard]] StagedMethod stage(const MethodSpec& method, const Progress& progress) const;
+
+  /// What finds the pixels in which the reference sees one smooth piece of surface.
+  [[nodiscard]] InteriorFinder interior_finder() const;
+
+  /// A method's frames with the environment as directional lights, each of which is shaded: what the lookup by lobes
+  /// stands for.
+  [[nodiscard]] FrameRenderer dense_frames(const StagedMethod& method) const;
 
   /// A method's own finest level, supersampled as the reference is.
   [[nodiscard]] Supersampler finest_level(const StagedMethod& method) const;

@@ -114,6 +114,25 @@ std::optional<ErrorFigures> compare_images(const Image& picture, const Image& re
                       .energy_bias = ratio(sum - reference_sum, reference_sum)};
 }
 
+std::optional<double> normalized_color_over(const Image& picture, const Image& reference, float exposure,
+                                            const Image& mask) {
+  if (mask.channels != 1 || mask.width != reference.width || mask.height != reference.height) {
+    throw Error(ErrorKind::usage, "comparison", "the mask is no picture of one channel and the reference's size");
+  }
+  require_comparable(picture, reference);
+  double distance = 0;
+  std::size_t pixels = 0;
+  for (int y = 0; y < reference.height; ++y) {
+    for (int x = 0; x < reference.width; ++x) {
+      if (mask.at(x, y)[0] <= 0.0F || !covers_whole_pixel(reference.at(x, y))) continue;
+      const Rgb shown = rgb_of(picture, x, y, "the picture"), truth = rgb_of(reference, x, y, "the reference");
+      distance += std::sqrt(displayed_squared_distance(shown, truth, exposure) / 3);
+      ++pixels;
+    }
+  }
+  return pixels > 0 ? std::optional(distance / static_cast<double>(pixels)) : std::nullopt;
+}
+
 std::optional<FlickerFigures> compare_changes(const Image& before, const Image& picture, const Image& reference_before,
                                               const Image& reference, float exposure) {
   require_comparable(before, reference_before);
@@ -144,6 +163,13 @@ Image error_map(const Image& picture, const Image& reference, float exposure) {
     map.at(column, row)[0] = static_cast<float>(std::sqrt(displayed_squared_distance(x, r, exposure) / 3));
   });
   return map;
+}
+
+Image object_pixels(const Image& reference) {
+  Image mask(reference.width, reference.height, 1);
+  for (std::size_t i = 0; i < mask.texels.size() && reference.channels == 4; ++i)
+    mask.texels[i] = covers_whole_pixel(std::span(reference.texels).subspan(4 * i, 4)) ? 1.0F : 0.0F;
+  return mask;
 }
 
 std::size_t object_pixel_count(const Image& reference) {

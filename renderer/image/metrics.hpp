@@ -22,6 +22,11 @@ struct ErrorFigures {
 /// either (naming the pixel).
 [[nodiscard]] std::optional<ErrorFigures> compare_images(const Image& picture, const Image& reference, float exposure);
 
+/// The normalised colour error alone, over those object pixels at which `mask` (one channel, the size of the pictures)
+/// is above 0. Empty if there is none. Errors as for compare_images.
+[[nodiscard]] std::optional<double> normalized_color_over(const Image& picture, const Image& reference, float exposure,
+                                                          const Image& mask);
+
 /// How otherwise a picture changes from the frame before it than the reference does: flicker, docs/metrics.md.
 struct FlickerFigures {
   double mean = 0;  ///< of |(d(x) - d(x')) - (d(r) - d(r'))| / sqrt(3), ' the frame before; exposed, clamped values
@@ -39,5 +44,8 @@ struct FlickerFigures {
 
 /// Pixels whose reference coverage is 1.
 [[nodiscard]] std::size_t object_pixel_count(const Image& reference);
+
+/// Those pixels as a mask: one channel, 1 or 0.
+[[nodiscard]] Image object_pixels(const Image& reference);
 
 }  // namespace footprint

@@ -50,6 +50,20 @@ std::string error_text(const std::function<void()>& action) {
   return "no error";
 }
 
+// Three pixels off by .1, .2 and .4 in red, a fourth beside the object.
+TEST(Metrics, ErrorOverSomePixels) {
+  const Image reference = pixels({{0.1F, 0, 0, 1}, {0.1F, 0, 0, 1}, {0.1F, 0, 0, 1}, {0.1F, 0, 0, 0}});
+  const Image picture = pixels({{0.2F, 0, 0, 1}, {0.3F, 0, 0, 1}, {0.5F, 0, 0, 1}, {0.9F, 0, 0, 1}});
+  Image mask(4, 1, 1);
+  EXPECT_FALSE(normalized_color_over(picture, reference, 1.0F, mask).has_value());
+  mask.texels = {1, 0, 1, 1};
+  EXPECT_NEAR(normalized_color_over(picture, reference, 1.0F, mask).value(), 0.5 / 2 / std::sqrt(3.0), 1e-7);
+  EXPECT_EQ(object_pixels(reference).texels, (std::vector<float>{1, 1, 1, 0}));
+  EXPECT_NEAR(normalized_color_over(picture, reference, 1.0F, object_pixels(reference)).value(),
+              compare_images(picture, reference, 1.0F)->normalized_color, 1e-12);
+  EXPECT_THROW((void)normalized_color_over(picture, reference, 1.0F, Image(3, 1, 1)), Error);
+}
+
 // Two object pixels, worked out by hand. Exposure 2: shown differences (.2, 0, 0) and, clamped at 1, (0, .5, 0).
 TEST(Metrics, HandComputedFigures) {
   const Image reference = pixels({{0.1F, 0.2F, 0.3F, 1}, {0.8F, 0.25F, 0.0F, 1}});

@@ -25,23 +25,29 @@ FrameRenderer::FrameRenderer(const gl::ContextInfo& context, GpuScene& scene, co
       tiles_(tiles_of(size, edge_of(context, tile_edge))),
       target_(tiles_.front().size.x, tiles_.front().size.y, radiance_format, true) {}
 
-void FrameRenderer::draw_tile(const View& view, const Tile& tile) const {
+void FrameRenderer::draw_tile(const View& view, const Tile& tile, const glm::dvec2& offset) const {
   gl::api().BindFramebuffer(GL_FRAMEBUFFER, target_.framebuffer());
   gl::api().Viewport(0, 0, tile.size.x, tile.size.y);
   clear_target();
-  program_.draw(*scene_, *method_, view, tile_matrix(view, tile, {0.0, 0.0}));
+  program_.draw(*scene_, *method_, view, tile_matrix(view, tile, offset));
 }
 
-void FrameRenderer::draw(const View& view) const {
+void FrameRenderer::draw(const View& view, const glm::dvec2& offset) const {
   method_->build_frame(view);
-  for (const Tile& tile : tiles_) draw_tile(view, tile);
+  for (const Tile& tile : tiles_) draw_tile(view, tile, offset);
 }
 
-Image FrameRenderer::render(const View& view) const {
+Image FrameRenderer::render(const View& view, const glm::dvec2& offset) const { return render(view, tiles_, offset); }
+
+Image FrameRenderer::render(const View& view, std::span<const Tile> parts) const {
+  return render(view, parts, {0.0, 0.0});
+}
+
+Image FrameRenderer::render(const View& view, std::span<const Tile> parts, const glm::dvec2& offset) const {
   method_->build_frame(view);
   Image picture(view.size.x, view.size.y, 4);
-  for (const Tile& tile : tiles_) {
-    draw_tile(view, tile);
+  for (const Tile& tile : parts) {
+    draw_tile(view, tile, offset);
     read_tile(target_, 0, tile, picture);
   }
   return picture;

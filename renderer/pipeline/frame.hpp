@@ -1,6 +1,8 @@
 // One picture by one method: one sample a pixel over the pixel's footprint, in tiles where GL's limit asks for them.
 #pragma once
 
+#include <span>
+
 #include "renderer/pipeline/surface_program.hpp"
 
 namespace footprint {
@@ -14,10 +16,14 @@ class FrameRenderer {
 
   /// Runs the method's frame build, where one is due, and draws a view; the pixels stay on the GPU. What a frame costs
   /// is the time of this call up to glFinish.
-  void draw(const View& view) const;
+  void draw(const View& view, const glm::dvec2& offset = {0.0, 0.0}) const;
 
-  /// Builds, draws and reads: RGBA, linear radiance and coverage, row 0 at the top.
-  [[nodiscard]] Image render(const View& view) const;
+  /// Builds, draws and reads: RGBA, linear radiance and coverage, row 0 at the top. `offset` moves the samples from the
+  /// pixels' centres, in pixels.
+  [[nodiscard]] Image render(const View& view, const glm::dvec2& offset = {0.0, 0.0}) const;
+
+  /// Some rectangles of that picture alone, each no larger than a tile; 0 elsewhere.
+  [[nodiscard]] Image render(const View& view, std::span<const Tile> parts) const;
 
   /// Draws `method` from here on: another bake of the same method with the same options.
   void exchange(const GpuMethod& method) { method_ = &method; }
@@ -25,7 +31,8 @@ class FrameRenderer {
   [[nodiscard]] const SurfaceProgram& program() const { return program_; }
 
  private:
-  void draw_tile(const View& view, const Tile& tile) const;
+  void draw_tile(const View& view, const Tile& tile, const glm::dvec2& offset) const;
+  [[nodiscard]] Image render(const View& view, std::span<const Tile> parts, const glm::dvec2& offset) const;
 
   GpuScene* scene_;
   const GpuMethod* method_;

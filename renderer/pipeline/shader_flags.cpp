@@ -47,8 +47,9 @@ bool reflects_diffusely(const Variant& v) {
 
 // What is drawn at random: a texel of the maps, directions to an environment, facets of a patch.
 bool draws(const Variant& v) {
+  const bool directions = samples_environment(v) && v.environment == EnvironmentUse::sampled;
   const bool facets = has(v.effects, Effect::microgeometry_visibility) && v.sampling != Sampling::frame;
-  return v.sampling == Sampling::texel || samples_environment(v) || facets;
+  return v.sampling == Sampling::texel || directions || facets;
 }
 
 struct FlagRow {

@@ -25,8 +25,10 @@ EffectSet effects_of(const GpuScene& scene, const Method& method) {
   return scene.effects() & (method.info().honours | shared);
 }
 
-// A method whose samples are many, and whose module can, integrates itself; one sample a pixel would be all noise.
+// A method whose samples are many, and whose module can, integrates itself; drawn for one sample a pixel, directions
+// would be all noise. Directional lights serve every module.
 EnvironmentUse environment_of(const Method& method, const ProgramSettings& settings) {
+  if (settings.environment == EnvironmentUse::dense) return EnvironmentUse::dense;
   const bool itself = method.info().draws_directions && settings.sampling != Sampling::frame;
   return itself ? settings.environment : EnvironmentUse::prefiltered;
 }

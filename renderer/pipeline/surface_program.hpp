@@ -83,7 +83,7 @@ struct ProgramSettings {
   FootprintFilter footprint{};        ///< of a frame
   bool counting = false;              ///< writes texture lookups and lobe evaluations a pixel, in place of radiance
   bool orthographic = false;
-  EnvironmentUse environment = EnvironmentUse::sampled;  ///< of a module that integrates it itself
+  EnvironmentUse environment = EnvironmentUse::sampled;  ///< dense for all; sampled: of a module that draws directions
 };
 
 /// One compiled forward pass.

@@ -32,12 +32,11 @@ double crossing(const CurvePoint& left, const CurvePoint& right, double error) {
 
 }  // namespace
 
-std::vector<CurvePoint> supersampling_curve(std::span<const SupersamplingPoint> points, double distance) {
+std::vector<CurvePoint> supersampling_curve(std::span<const SupersamplingPoint> points, double distance,
+                                            std::optional<double> SupersamplingPoint::*error) {
   std::vector<CurvePoint> curve;
   for (const SupersamplingPoint& point : points) {
-    if (point.distance == distance && point.normalized_color) {
-      curve.push_back({static_cast<double>(point.spp), *point.normalized_color});
-    }
+    if (point.distance == distance && point.*error) curve.push_back({static_cast<double>(point.spp), *(point.*error)});
   }
   return curve;
 }

@@ -15,8 +15,10 @@ struct CurvePoint {
   double error = 0;  ///< any error measure, 0 or more; the same measure all along the curve
 };
 
-/// The curve of one distance, without the counts whose error could not be measured.
-[[nodiscard]] std::vector<CurvePoint> supersampling_curve(std::span<const SupersamplingPoint> points, double distance);
+/// The curve of one distance by one of its errors, without the counts whose error could not be measured.
+[[nodiscard]] std::vector<CurvePoint> supersampling_curve(
+    std::span<const SupersamplingPoint> points, double distance,
+    std::optional<double> SupersamplingPoint::*error = &SupersamplingPoint::normalized_color);
 
 /// The largest spp at which the curve still has at least `error`: up to there the method is worth that many samples
 /// on every reading of a noisy curve that rises again. Between two points the curve is a straight line of log(error)

@@ -32,9 +32,18 @@ Record example_record(const Results& results, const Behaviour& behaviour, double
   record.distance = distance;
   record.width = record.height = 256;
   const double error = behaviour.error * std::pow(behaviour.growth, std::log2(distance));
-  record.error = RecordError{error,   error * 4.1,  error * 9.3, -20 * std::log10(error), -0.013 * distance,
-                             0.00071, error * 0.22, error * 0.91};
-  record.equivalent = equivalent_samples(supersampling_curve(results.supersampling, distance), error);
+  record.error = RecordError{error,
+                             error * 4.1,
+                             error * 9.3,
+                             -20 * std::log10(error),
+                             -0.013 * distance,
+                             0.00071,
+                             error * 0.22,
+                             error * 0.91,
+                             {error * 0.8, 0.0005, 1e-5, error * 1.6, 0.006, error * 0.8 - 0.004, {}}};
+  record.pixels = {.object = 12'345, .interior = 9'260, .minified = 9'000, .bound = 9'260, .light = {}};
+  record.equivalent = equivalent_samples(
+      supersampling_curve(results.supersampling, distance, &SupersamplingPoint::shading), error * 0.8);
   const double ms = behaviour.milliseconds / std::pow(distance, 0.3);
   record.frame_ms = {ms, ms * 0.96, ms * 1.11};
   record.fps = 1000 / ms;
@@ -46,7 +55,8 @@ Record example_record(const Results& results, const Behaviour& behaviour, double
   record.effects_on = {"diffuse", "fresnel", "normal_variation"};
   if (behaviour.bytes != 0) record.effects_left_out = {"roughness_variation"};
   const std::string stem = fmt::format("images/method{}_d{}", &behaviour - behaviours.data(), distance);
-  record.images = {stem + ".exr", fmt::format("images/reference_d{}.exr", distance), stem + "_error.png"};
+  record.images = {stem + ".exr", fmt::format("images/reference_d{}.exr", distance), stem + "_error.png",
+                   stem + "_error_shared.png", fmt::format("images/interior_d{}.exr", distance)};
   return record;
 }
 
@@ -116,15 +126,24 @@ Results example_results() {
   results.timing = {.frames = 9, .processes = 5};
   results.error_scale = 0.1;
   for (const double distance : {1.0, 4.0, 16.0}) {
+    results.error_scales.push_back({distance, 0.1 / distance});
     for (const int spp : {1, 2, 4, 8, 16, 32, 64}) {
       const double error = 0.024 * std::pow(distance, 0.9) / std::sqrt(spp);
-      results.supersampling.push_back({distance, spp, error, (1.6 + 0.72 * spp) / std::pow(distance, 0.3)});
+      results.supersampling.push_back(
+          {distance, spp, error, error * 0.8, (1.6 + 0.72 * spp) / std::pow(distance, 0.3)});
     }
     for (const Behaviour& behaviour : behaviours) {
       results.records.push_back(example_record(results, behaviour, distance));
     }
   }
   results.records[2].error->normalized_color = 0.0006;  // below the noise floor
+  results.records[2].error->causes.shading = 0.0004;
+  for (std::size_t i = 4; i < 8; ++i)
+    results.records[i].pixels = {.object = 150, .interior = 60, .minified = 60, .bound = {}, .light = {}};
+  for (std::size_t i = 8; i < 12; ++i)
+    results.records[i].pixels = {.object = 30, .interior = 7, .minified = 7, .bound = {}, .light = {}};
+  results.records[1].error->causes.light = 0.0021;
+  results.records[1].fetches = 96.5;
   results.records[3].frame_build = FrameBuildTime{.ms = 0.31, .timing = BuildTiming::every_frame};
   results.records[3].precompute_cached = true;
   results.records[0].other_references = {{16, 0.0223, 0.0029}, {36, 0.0217, {}}};

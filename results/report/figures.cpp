@@ -16,14 +16,6 @@ std::string plural(const std::string& count, std::string_view noun) {
   return count == "1" ? fmt::format("1 {}", noun) : fmt::format("{} {}s", count, noun);
 }
 
-std::string worth(const Record& record) {
-  if (!record.equivalent) return fmt::format("off by {}", error_text(record.error->normalized_color));
-  const auto [spp, side] = *record.equivalent;
-  if (side == CurveSide::within) return "worth " + plural(equivalent_text(record), "sample");
-  return fmt::format("worth {} than {}", side == CurveSide::below ? "less" : "more",
-                     plural(fmt::format("{:g}", spp), "sample"));
-}
-
 std::string reference_text(const ReferenceInfo& reference) {
   std::string text = fmt::format("{} a pixel, filter {}, seed {}", plural(std::to_string(reference.spp), "sample"),
                                  reference.filter, reference.seed);
@@ -50,6 +42,8 @@ std::string error_text(double error) {
   if (error == 0) return "0";
   return std::abs(error) < 5e-4 ? fmt::format("{:.1e}", error) : fmt::format("{:.5f}", error);
 }
+
+std::string error_text(const std::optional<double>& error) { return error ? error_text(*error) : "n/a"; }
 
 std::string three_figures(double value) {
   if (!std::isfinite(value)) return "n/a";
@@ -105,20 +99,14 @@ bool at_noise_floor(const Record& record) {
   return record.error && record.error->noise_floor && record.error->normalized_color <= *record.error->noise_floor;
 }
 
-std::string list_text(const std::vector<std::string>& words, const std::string& none) {
-  return words.empty() ? none : fmt::format("{}", fmt::join(words, ", "));
+bool shading_at_noise_floor(const Record& record) {
+  if (!record.error) return false;
+  const ErrorCauses& causes = record.error->causes;
+  return causes.shading && causes.shading_floor && *causes.shading <= *causes.shading_floor;
 }
 
-std::string reading(const Record& record) {
-  const std::string subject = fmt::format("{} at distance {}", record.method, record.distance);
-  if (!record.error) return subject + " has no error: the object covers no whole pixel.";
-  const double ratio = record.ratio_to_direct.median;
-  const std::string price =
-      std::isfinite(ratio)
-          ? fmt::format("at the price of {} direct {}", three_figures(ratio), ratio == 1 ? "frame" : "frames")
-          : fmt::format("at {} ms a frame", three_figures(record.frame_ms.median));
-  const std::string floor = at_noise_floor(record) ? "; its error is within the noise of the reference" : "";
-  return fmt::format("{} is {} {}{}.", subject, worth(record), price, floor);
+std::string list_text(const std::vector<std::string>& words, const std::string& none) {
+  return words.empty() ? none : fmt::format("{}", fmt::join(words, ", "));
 }
 
 std::vector<Provenance> provenance(const Results& results) {

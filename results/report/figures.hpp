@@ -14,6 +14,9 @@ namespace footprint {
 /// An error between 0 and 1: five decimals, or two figures and an exponent where those would hide it.
 [[nodiscard]] std::string error_text(double error);
 
+/// The same of an error that there may not be: "n/a" without one.
+[[nodiscard]] std::string error_text(const std::optional<double>& error);
+
 /// Three figures, never an exponent up to a million: "0.0123", "1.31", "41.2", "1234".
 [[nodiscard]] std::string three_figures(double value);
 
@@ -39,14 +42,14 @@ namespace footprint {
 /// "reproduced", "not_reproduced", "undecided".
 [[nodiscard]] std::string_view verdict_name(Verdict verdict);
 
-/// Whether the error cannot be told from the reference's own noise.
+/// Whether the error, over all of the object, cannot be told from the reference's own noise.
 [[nodiscard]] bool at_noise_floor(const Record& record);
+
+/// Whether the shading error cannot.
+[[nodiscard]] bool shading_at_noise_floor(const Record& record);
 
 /// "a, b, c", or `none` for an empty list.
 [[nodiscard]] std::string list_text(const std::vector<std::string>& words, const std::string& none);
-
-/// "toksvig at distance 4 is worth 41 samples at the price of 1.31 direct frames.", from measured figures only.
-[[nodiscard]] std::string reading(const Record& record);
 
 /// One labelled line of where the figures come from.
 struct Provenance {

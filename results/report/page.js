@@ -6,7 +6,7 @@ const data = JSON.parse(document.getElementById('data').textContent);
 const records = data.results.records.map((record, i) => ({...record, display: data.display[i]}));
 const distances = [...new Set(records.map((record) => record.distance))];
 const methods = [...new Set(records.map((record) => record.method))];
-const state = {distance: distances[0], all: false, sort: null, descending: false};
+const state = {distance: distances[0], all: false, sort: null, descending: false, scale: 'own', stops: 0};
 const dark = window.matchMedia('(prefers-color-scheme: dark)');
 
 // Okabe and Ito's colours, told apart by every kind of colour vision; each with a mark of its own.
@@ -19,20 +19,30 @@ const marks = ['circle', 'rectRot', 'triangle', 'rect', 'star', 'crossRot'];
 const columns = [
   {title: 'Distance', words: false, text: 'distance', value: (r) => r.distance, only: () => state.all,
    meaning: 'How far the camera stands, as a factor on the distance at which the scene places it.'},
-  {title: 'Error', text: 'error', value: (r) => r.error?.normalized_color, best: true, ofError: true,
+  {title: 'Rank', text: 'rank', value: (r) => (r.display.rank === '–' ? null : Number(r.display.rank)),
+   meaning: 'Place by shading error. Methods that differ by no more than the reference’s noise share it; – where too few pixels are interior.'},
+  {title: 'Error', text: 'error', value: (r) => r.error?.normalized_color,
    meaning: 'Normalised colour error against the reference: mean over the object’s pixels, 0 to 1.'},
-  {title: 'Noise floor', text: 'noise_floor', value: (r) => r.error?.noise_floor,
-   meaning: 'The error that the reference’s own noise causes; errors below it cannot be told apart.'},
+  {title: 'Shading', text: 'shading', value: (r) => r.error?.shading, best: 'is_best',
+   meaning: 'The same over interior pixels alone, in which the reference sees one smooth piece of surface. Methods are ranked by it.'},
+  {title: 'Edges', text: 'edges', value: (r) => r.error?.edges,
+   meaning: 'The same over the object’s other pixels, which no method filters.'},
+  {title: 'Filter', text: 'filter', value: (r) => r.error?.filter,
+   meaning: 'What the true distribution of normals is off by under the same footprint filter: the filter’s share.'},
+  {title: 'Method', text: 'method', value: (r) => r.error?.method,
+   meaning: 'What the method’s picture differs from that by: its own share.'},
+  {title: 'Light', text: 'light', value: (r) => r.error?.light, only: () => records.some((r) => Number.isFinite(r.error?.light)),
+   meaning: 'What the lookup of an environment by lobes costs.'},
   {title: 'Represent.', text: 'representation', value: (r) => r.error?.representation,
    meaning: 'Error of the method’s finest level, supersampled: what filtering cannot mend.'},
-  {title: 'Filtering', text: 'filtering', value: (r) => r.error?.filtering,
-   meaning: 'Error of the method against its own supersampled finest level.'},
-  {title: 'Worth spp', text: 'equivalent', value: worth, best: true, ofError: true, higher: true,
-   meaning: 'Samples a pixel at which plain supersampling has the same error.'},
-  {title: 'Frame ms', text: 'frame', value: (r) => r.time.frame_ms.median, best: true,
+  {title: 'Worth spp', text: 'equivalent', value: worth, best: 'is_best',
+   meaning: 'Frames of direct, averaged, that have the same shading error.'},
+  {title: 'Pixels', text: 'pixels', value: (r) => r.pixels.interior,
+   meaning: 'Interior pixels, over which the shading error is taken; ! marks fewer than 100.'},
+  {title: 'Frame ms', text: 'frame', value: (r) => r.time.frame_ms.median, best: 'is_fastest',
    meaning: 'Time of one frame: median (least–90th percentile of the repeats).'},
   {title: '× direct', text: 'ratio', value: (r) => r.time.ratio_to_direct.median,
-   meaning: 'Frame time over that of the unfiltered method beside it: median (least–most).'},
+   meaning: 'Frame time over that of direct beside it: median (least–most); about 1 where that spread covers it.'},
   {title: 'fps', text: 'fps', value: (r) => r.time.fps, meaning: 'Frames a second at the median frame time.'},
   {title: 'Build ms', text: 'build', value: (r) => r.time.frame_build_ms,
    only: () => records.some((r) => r.time.frame_build_ms !== null), meaning: 'What the method rebuilds when something moves, and whether the timed frames have it in them.'},
@@ -103,9 +113,17 @@ function showHead() {
   for (const {title, meaning} of columns) byId('meanings').append(element('dt', '', title), element('dd', '', meaning));
 }
 
+const ofDistance = () => data.distances.find((entry) => entry.distance === state.distance);
+
+function showCautions() {
+  const warnings = data.results.ranking_warnings;
+  byId('caution').hidden = warnings.length === 0;
+  byId('cautions').replaceChildren(...warnings.map((text) => element('li', '', text)));
+}
+
 function showWords() {
-  byId('words').replaceChildren(
-    ...shown().map((record) => element('li', '', key(record.method), element('span', '', record.display.reading))));
+  byId('pixels').textContent = ofDistance()?.pixels ?? '';
+  byId('words').replaceChildren(...(ofDistance()?.findings ?? []).map((text) => element('li', '', text)));
 }
 
 // ---- table
@@ -137,39 +155,30 @@ function headCell(column) {
   return cell;
 }
 
-function bodyCell(record, column, best) {
+function bodyCell(record, column) {
   const text = String(column.text === 'distance' ? record.distance : record.display[column.text]);
   const [figure, spread] = text.split(/ (?=\()/);
   const cell = element('td', column.words ? 'words-column' : '', figure);
   if (spread) cell.append(element('small', '', ' ' + spread));
-  if (column.text === 'error' && record.display.at_floor) cell.prepend(element('span', 'floor-mark', '≈ '));
-  if (best.has(column) && column.value(record) === best.get(column)) cell.classList.add('best');
+  if (column.text === 'shading' && record.display.at_floor) cell.prepend(element('span', 'floor-mark', '≈ '));
+  if (column.best && !state.all && record.display[column.best]) cell.classList.add('best');
   return cell;
-}
-
-/** The best figure of each column that has one, where there is a choice; errors within the noise are no win. */
-function bestFigures(rows) {
-  const best = new Map();
-  const noisy = rows.some((record) => record.display.at_floor);
-  for (const column of columns.filter((candidate) => candidate.best && !(noisy && candidate.ofError))) {
-    const values = rows.map(column.value).filter((value) => typeof value === 'number');
-    if (values.length > 1) best.set(column, column.higher ? Math.max(...values) : Math.min(...values));
-  }
-  return best;
 }
 
 function showTable() {
   const rows = sorted(state.all ? records : shown());
   const visible = columns.filter((column) => !column.only || column.only());
-  const best = state.all ? new Map() : bestFigures(rows);
   byId('table').tHead.replaceChildren(element('tr', '', headCell(nameColumn), ...visible.map(headCell)));
   byId('table').tBodies[0].replaceChildren(...rows.map((record) => element(
     'tr', '', element('td', 'name words-column', key(record.method), ...breakable(record.method)),
-    ...visible.map((column) => bodyCell(record, column, best)))));
+    ...visible.map((column) => bodyCell(record, column)))));
   byId('floor-note').hidden = !rows.some((record) => record.display.at_floor);
 }
 
 // ---- plot
+
+/** What the plot shows: shading errors, or where no pixel is interior errors over all of the object. */
+const plotted = (figures) => figures?.shading ?? figures?.normalized_color;
 
 const figure = (value) => (value >= 1000 ? String(Math.round(value)) : String(Number(value.toPrecision(3))));
 
@@ -223,9 +232,8 @@ function methodSeries(record) {
   const {median, min, p90} = record.time.frame_ms;
   return {
     label: record.method,
-    data: [{x: median, y: record.error.normalized_color}],
+    data: [{x: median, y: plotted(record.error)}],
     whiskers: [min, p90],
-    note: record.display.reading,
     borderColor: color,
     backgroundColor: color,
     pointStyle: marks[methods.indexOf(record.method) % marks.length],
@@ -238,7 +246,7 @@ function methodSeries(record) {
 function curveSeries(points) {
   return {
     label: 'plain supersampling',
-    data: points.map((point) => ({x: point.ms, y: point.normalized_color})),
+    data: points.map((point) => ({x: point.ms, y: plotted(point)})),
     counts: points.map((point) => point.spp),
     showLine: true,
     borderColor: styleValue('--muted'),
@@ -286,18 +294,18 @@ function logAxis(title, range) {
 function tooltipText(item) {
   const set = item.dataset;
   const {x, y} = item.raw;
-  const name = set.counts ? `supersampling, ${set.counts[item.dataIndex]} spp` : set.label;
-  return [`${name}: error ${figure(y)} in ${figure(x)} ms`, ...(set.note ? [set.note] : [])];
+  const name = set.counts ? `mean of ${set.counts[item.dataIndex]} frames of direct` : set.label;
+  return `${name}: error ${figure(y)} in ${figure(x)} ms`;
 }
 
 /** What stands on logarithmic axes at the chosen distance, and what cannot. */
 function plotContent() {
   const positive = (time, error) => time > 0 && error > 0;
-  const drawn = shown().filter((r) => positive(r.time.frame_ms.median, r.error?.normalized_color));
+  const drawn = shown().filter((r) => positive(r.time.frame_ms.median, plotted(r.error)));
   const curve = data.results.supersampling
-    .filter((point) => point.distance === state.distance && positive(point.ms, point.normalized_color))
+    .filter((point) => point.distance === state.distance && positive(point.ms, plotted(point)))
     .sort((a, b) => a.spp - b.spp);
-  const floors = shown().map((r) => r.error?.noise_floor).filter((floor) => floor > 0);
+  const floors = shown().map((r) => r.error?.shading_floor ?? r.error?.noise_floor).filter((floor) => floor > 0);
   const missing = shown().filter((r) => !drawn.includes(r));
   return {drawn, curve, floor: floors.length ? Math.max(...floors) : null, missing};
 }
@@ -313,7 +321,7 @@ function showPlot() {
   if (drawn.length + curve.length === 0) return;
   const frameTimes = drawn.flatMap((r) => Object.values(r.time.frame_ms)).filter((ms) => ms > 0);
   const times = [...frameTimes, ...curve.map((p) => p.ms)];
-  const errors = [...drawn.map((r) => r.error.normalized_color), ...curve.map((p) => p.normalized_color)];
+  const errors = [...drawn.map((r) => plotted(r.error)), ...curve.map(plotted)];
   const x = padded(times, 1.25, 1.45);
   const y = padded(floor ? [...errors, floor] : errors, 1.4, 1.5);
   const datasets = drawn.map(methodSeries);
@@ -326,7 +334,7 @@ function showPlot() {
     options: {
       animation: false,
       maintainAspectRatio: false,
-      scales: {x: logAxis('Frame time (ms)', x), y: logAxis('Normalised colour error', y)},
+      scales: {x: logAxis('Frame time (ms)', x), y: logAxis('Shading error', y)},
       plugins: {
         legend: {
           position: 'bottom',
@@ -340,7 +348,9 @@ function showPlot() {
 
 // ---- pictures
 
-const pngOf = (path) => path.replace(/\.exr$/i, '.png');
+// Below 0 stops pictures are those that were written four stops darker, so that highlights come back.
+const darkStops = 4;
+const pngOf = (path) => path.replace(/\.exr$/i, state.stops < 0 ? '_dark.png' : '.png');
 const urlOf = (path) => path.split('/').map(encodeURIComponent).join('/');
 
 function picture(path, description) {
@@ -371,13 +381,13 @@ function comparison(record) {
 function card(record) {
   const {display} = record;
   const error = element('div', 'picture',
-    picture(record.images.error, `Error of ${record.method} at distance ${record.distance}`),
+    picture(state.scale === 'own' ? record.images.error : record.images.error_shared, `Error of ${record.method} at distance ${record.distance}`),
     element('span', 'tag left', 'error'));
   const pair = element('div', 'pair', comparison(record), error);
   for (const node of pair.children) node.style.aspectRatio = record.size.join(' / ');
   return element('article', 'card',
     element('header', '', element('h3', '', key(record.method), record.method),
-      element('p', '', `error ${display.error} · worth ${display.equivalent} spp · ${display.frame} ms`)),
+      element('p', '', `shading error ${display.shading} · ${display.frame} ms`)),
     pair);
 }
 
@@ -392,7 +402,19 @@ function setZoom(factor) {
 
 function showScale() {
   byId('ramp').style.background = `linear-gradient(to right, ${data.scale_colors.join(', ')})`;
-  byId('scale-top').textContent = data.scale_top;
+  byId('scale-top').textContent = state.scale === 'own' ? ofDistance()?.scale_top : data.scale_top;
+}
+
+/** Radiance times 2^stops, in linear light. */
+function setExposure(stops) {
+  const changes = (stops < 0) !== (state.stops < 0);
+  state.stops = stops;
+  byId('stops').textContent = stops > 0 ? `+${stops}` : String(stops);
+  for (const gain of document.querySelectorAll('#gain feComponentTransfer *')) {
+    gain.setAttribute('slope', 2 ** (stops < 0 ? stops + darkStops : stops));
+  }
+  byId('cards').classList.toggle('exposed', stops !== 0);
+  if (changes) showCards();
 }
 
 // ---- the whole
@@ -401,6 +423,7 @@ function showDistance() {
   showWords();
   showTable();
   showPlot();
+  showScale();
   showCards();
 }
 
@@ -411,6 +434,12 @@ segments('distances', distances.map((value) => ({value, text: String(value)})), 
 segments('zooms', [1, 2, 4, 8].map((value) => ({value, text: `${value}×`})), 1, setZoom);
 segments('layouts', [{value: 'list', text: 'large'}, {value: 'grid', text: 'side by side'}], 'list', (layout) =>
   byId('cards').classList.toggle('grid', layout === 'grid'));
+segments('scales', [{value: 'own', text: 'this distance'}, {value: 'shared', text: 'all distances'}], 'own', (scale) => {
+  state.scale = scale;
+  showScale();
+  showCards();
+});
+byId('exposure').addEventListener('input', (event) => setExposure(Number(event.target.value)));
 byId('all-distances').addEventListener('change', (event) => {
   state.all = event.target.checked;
   showTable();
@@ -423,5 +452,5 @@ dark.addEventListener('change', () => {
 });
 
 showHead();
-showScale();
+showCautions();
 showDistance();

@@ -1,6 +1,7 @@
 // Writes a report with pictures for the tests of the page and of the schema: footprint_page_fixture FOLDER KIND.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
@@ -40,16 +41,30 @@ std::filesystem::path png_of(const std::filesystem::path& folder, const std::str
   return (folder / image).replace_extension(".png");
 }
 
+constexpr float dark_gain = 1.0F / 16.0F;  // four stops, as in the page's script
+
+std::filesystem::path dark_png_of(const std::filesystem::path& folder, const std::string& image) {
+  const std::filesystem::path file = folder / image;
+  return file.parent_path() / (file.stem().string() + "_dark.png");
+}
+
 void write_pictures(const Results& results, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder / "images");
   for (const Record& record : results.records) {
     const Image reference = ball(record.width, 0.05);
     const Image picture = ball(record.width, 20 * (record.error ? record.error->normalized_color : 0));
     write_png(png_of(folder, record.images.reference), to_display(reference, 1));
+    write_png(dark_png_of(folder, record.images.reference), to_display(reference, dark_gain));
     const bool left_out = record.images.color.find("absent") != std::string::npos;
-    if (!left_out) write_png(png_of(folder, record.images.color), to_display(picture, 1));
-    const auto top = static_cast<float>(results.error_scale);
-    write_png(folder / record.images.error, false_color(error_map(picture, reference, 1), top));
+    if (!left_out) {
+      write_png(png_of(folder, record.images.color), to_display(picture, 1));
+      write_png(dark_png_of(folder, record.images.color), to_display(picture, dark_gain));
+    }
+    const auto scale = std::ranges::find(results.error_scales, record.distance, &ErrorScale::distance);
+    const Image errors = error_map(picture, reference, 1);
+    write_png(folder / record.images.error, false_color(errors, static_cast<float>(scale->error)));
+    write_png(folder / record.images.error_shared, false_color(errors, static_cast<float>(results.error_scale)));
+    write_png(png_of(folder, record.images.interior), to_display(ball(record.width, 1), 1));
   }
   if (!results.experiment) return;
   for (const std::string& name : results.experiment->pictures) write_png(folder / name, to_display(ball(64, 1), 1));

@@ -167,7 +167,8 @@ def check_distances(browser):
     after = browser.run(sources)
     assert all("_d1.png" in source for source in before), before
     assert all("_d4.png" in source for source in after), after
-    assert "at distance 4 is worth" in browser.run("return document.getElementById('words').textContent")
+    assert "over 60 interior pixels" in browser.run("return document.getElementById('words').textContent")
+    assert "150 object pixels" in browser.run("return document.getElementById('pixels').textContent")
     assert words != browser.run("return document.getElementById('words').textContent")
     assert drawn != plot(browser), "the plot did not follow the distance"
     wait_for_pictures(browser)
@@ -201,13 +202,55 @@ def check_zoom_and_layout(browser):
     browser.click("#layouts label:nth-of-type(1)")
 
 
+def check_exposure(browser):
+    """The slider multiplies linear radiance; below 0 it does so on the pictures that were written darker."""
+    slope = "return document.querySelector('#gain feFuncG').getAttribute('slope')"
+    source = "return document.querySelector('.compare img').getAttribute('src')"
+    filtered = "return getComputedStyle(document.querySelector('.compare img')).filter"
+    assert browser.run(filtered) == "none" and "_dark" not in browser.run(source)
+    set_stops = "const s = document.getElementById('exposure'); s.value = arguments[0]; s.dispatchEvent(new Event('input'))"
+    browser.run(set_stops, 2)
+    assert float(browser.run(slope)) == 4 and "gain" in browser.run(filtered)
+    browser.run(set_stops, -3)
+    assert float(browser.run(slope)) == 2 and browser.run(source).endswith("_dark.png"), browser.run(source)
+    wait_for_pictures(browser)
+    browser.run(set_stops, 0)
+    assert browser.run(filtered) == "none" and "_dark" not in browser.run(source)
+
+
+def check_scales(browser):
+    """Error pictures on the scale of their distance, or on the one that all share."""
+    source = "return document.querySelectorAll('.card .picture:nth-child(2) img')[0].getAttribute('src')"
+    top = "return document.getElementById('scale-top').textContent"
+    own, own_top = browser.run(source), browser.run(top)
+    browser.click("#scales label:nth-of-type(2)")
+    assert browser.run(source).endswith("_error_shared.png") and own.endswith("_error.png"), (browser.run(source), own)
+    assert browser.run(top) != own_top, "both scales have one top"
+    wait_for_pictures(browser)
+    browser.click("#scales label:nth-of-type(1)")
+
+
+def check_cautions(browser):
+    cautions = browser.run("return document.getElementById('caution').textContent")
+    assert "At distance 16 there are fewer than 20 interior pixels" in cautions, cautions
+    above = """return document.getElementById('caution').getBoundingClientRect().bottom
+        <= document.getElementById('table').getBoundingClientRect().top"""
+    assert browser.run(above), "warnings stand above the table"
+
+
+def check_best(browser):
+    """One method alone is first, and coloured; where frame times overlap none is."""
+    best = "return [...document.querySelectorAll('#table td.best')].map((cell) => cell.closest('tr').cells[0].textContent)"
+    assert browser.run(best) == ["toksvig", "toksvig"], browser.run(best)  # shading and worth; times overlap
+
+
 def check_table(browser):
     errors = """return [...document.querySelectorAll('#table tbody tr')].map(
-        (row) => parseFloat(row.cells[1].textContent.replace('≈', '')))"""
-    browser.click("#table thead th:nth-child(2) button")
+        (row) => parseFloat(row.cells[3].textContent.replace('≈', '')))"""
+    browser.click("#table thead th:nth-child(4) button")
     rising = browser.run(errors)
     assert rising == sorted(rising), rising
-    browser.click("#table thead th:nth-child(2) button")
+    browser.click("#table thead th:nth-child(4) button")
     assert browser.run(errors) == rising[::-1]
     browser.click("#all-distances")
     assert browser.run("return document.querySelectorAll('#table tbody tr').length") == 12
@@ -233,7 +276,11 @@ def check_looks(browser, folder):
 def check_example(browser, folder):
     browser.open(folder / "index.html")
     check_first_sight(browser)
+    check_cautions(browser)
     check_distances(browser)
+    check_best(browser)
+    check_exposure(browser)
+    check_scales(browser)
     check_slider(browser)
     check_zoom_and_layout(browser)
     check_table(browser)

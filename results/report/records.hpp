@@ -47,6 +47,27 @@ struct TimeRatio {
   double median = 0, minimum = 0, maximum = 0;
 };
 
+/// What an error is made of: normalised colour errors over parts of the object's pixels; docs/metrics.md. None: no such
+/// pixel, or what tells it was not drawn.
+struct ErrorCauses {
+  std::optional<double> shading;        ///< of the picture, over interior pixels: what methods are ranked by
+  std::optional<double> shading_floor;  ///< what the reference's own noise causes there
+  std::optional<double> shading_noise;  ///< standard error of `shading`, of the reference's noise
+  std::optional<double> edges;          ///< of the picture, over all other object pixels
+  std::optional<double> filter;         ///< of `exact` under the same footprint filter, over the bound's pixels
+  std::optional<double> method;         ///< of the picture against that of `exact`, likewise
+  std::optional<double> light;          ///< of the lookup of an environment by lobes, over the pixels for light
+};
+
+/// How many pixels errors are taken over.
+struct PixelCounts {
+  std::size_t object = 0;            ///< that the reference covers wholly
+  std::size_t interior = 0;          ///< of those, in which it sees one smooth piece of surface
+  std::size_t minified = 0;          ///< of the interior ones, whose footprint spans more than a texel of a normal map
+  std::optional<std::size_t> bound;  ///< of those, that `exact` was drawn of; none: it was not drawn
+  std::optional<std::size_t> light;  ///< of those, that were lit by all of an environment; none without one
+};
+
 /// Errors of one picture; docs/metrics.md. Absent figures are null in the JSON and "n/a" in tables.
 struct RecordError {
   double normalized_color = 0;
@@ -57,6 +78,7 @@ struct RecordError {
   std::optional<double> noise_floor;  ///< normalised colour error that the reference's own noise causes
   double representation = 0;          ///< normalised colour error of the method's finest level, supersampled
   double filtering = 0;               ///< normalised colour error against that supersampled finest level
+  ErrorCauses causes = {};
 };
 
 /// How much more or otherwise a picture changes from the frame before than the reference does; docs/metrics.md.
@@ -75,9 +97,11 @@ struct OtherReference {
 
 /// Pictures of one record, as paths relative to the output folder.
 struct RecordImages {
-  std::string color;      ///< EXR; a .png of the same stem lies beside it
-  std::string reference;  ///< EXR, likewise
-  std::string error;      ///< PNG, false colour on the shared scale
+  std::string color;         ///< EXR; a .png of the same stem lies beside it
+  std::string reference;     ///< EXR, likewise
+  std::string error;         ///< PNG, false colour on the scale of its distance
+  std::string error_shared;  ///< the same on the scale that all distances share
+  std::string interior;      ///< EXR, white where a pixel is interior; a .png likewise
 };
 
 /// One method at one distance.
@@ -88,6 +112,7 @@ struct Record {
   double distance = 1;
   int frame = 0;
   int width = 0, height = 0;
+  PixelCounts pixels;
   std::optional<RecordError> error;              ///< none: the object covers no whole pixel
   std::optional<EquivalentSamples> equivalent;   ///< none: there is no error, or no curve
   std::vector<OtherReference> other_references;  ///< none where there is no error
@@ -96,6 +121,7 @@ struct Record {
   std::optional<FrameBuildTime> frame_build;  ///< none: the method rebuilds nothing
   double fps = 0;                             ///< 1000 / frame_ms.median
   TimeRatio ratio_to_direct;
+  std::optional<double> fetches;  ///< of texels a pixel, mean over the object; none: not counted
   double precompute_seconds = 0;
   std::uint64_t precompute_bytes = 0;
   std::optional<double> precompute_bytes_per_texel;  ///< over the finest level's texels; none: no texture
@@ -105,12 +131,19 @@ struct Record {
   RecordImages images;
 };
 
-/// Plain supersampling of the base BRDF at one count, at one distance.
+/// The mean of so many frames of `direct`, at one distance; that of one is the frame at pixel centres.
 struct SupersamplingPoint {
   double distance = 1;
   int spp = 1;
   std::optional<double> normalized_color;
+  std::optional<double> shading;  ///< over interior pixels
   double ms = 0;
+};
+
+/// What stands at the top of a distance's false-colour pictures.
+struct ErrorScale {
+  double distance = 1;
+  double error = 0;  ///< normalised colour error
 };
 
 /// The effective NDF of one footprint by one method, beside the exact one (renderer/ndf).
@@ -181,7 +214,8 @@ struct Results {
   std::vector<NdfFigures> ndf;                 ///< empty where no footprint was looked into
   std::vector<QuantityFigure> quantities;      ///< empty where none was asked for
   std::optional<ExperimentReport> experiment;  ///< none: a plain comparison
-  double error_scale = 0;                      ///< the normalised colour error at the top of every false-colour picture
+  double error_scale = 0;                      ///< at the top of the false-colour pictures on the shared scale
+  std::vector<ErrorScale> error_scales;        ///< of the pictures on the scale of their distance
 };
 
 }  // namespace footprint

@@ -8,7 +8,7 @@
 
 namespace footprint {
 
-/// The document of docs/results.schema.json, "schema": "footprint-results/1"; pretty-printed, key order fixed,
+/// The document of docs/results.schema.json, "schema": "footprint-results/2"; pretty-printed, key order fixed,
 /// infinities and absent figures as null.
 [[nodiscard]] std::string results_json(const Results& results);
 

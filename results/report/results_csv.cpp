@@ -27,6 +27,18 @@ constexpr std::array columns{"scene",
                              "noise_floor",
                              "representation_error",
                              "filtering_error",
+                             "shading_error",
+                             "shading_floor",
+                             "shading_noise",
+                             "edges_error",
+                             "filter_error",
+                             "method_error",
+                             "light_error",
+                             "object_pixels",
+                             "interior_pixels",
+                             "minified_pixels",
+                             "bound_pixels",
+                             "light_pixels",
                              "equivalent_spp",
                              "equivalent_bound",
                              "flicker",
@@ -37,6 +49,7 @@ constexpr std::array columns{"scene",
                              "frame_build_ms",
                              "frame_build",
                              "frames_per_second",
+                             "fetches",
                              "ratio_to_direct_median",
                              "ratio_to_direct_min",
                              "ratio_to_direct_max",
@@ -48,7 +61,9 @@ constexpr std::array columns{"scene",
                              "effects_left_out",
                              "image_color",
                              "image_reference",
-                             "image_error"};
+                             "image_error",
+                             "image_error_shared",
+                             "image_interior"};
 
 constexpr std::string_view line_end = "\r\n";
 
@@ -62,19 +77,35 @@ std::string options_text(const Record& record) {
   return fmt::format("{}", fmt::join(pairs, ";"));
 }
 
-std::array<std::string, 8> error_fields(const std::optional<RecordError>& error) {
+std::array<std::string, 15> error_fields(const std::optional<RecordError>& error) {
   if (!error) return {};
-  return {csv_field(error->normalized_color), csv_field(error->relative_rmse),
-          csv_field(error->relmse),           csv_field(error->psnr),
-          csv_field(error->energy_bias),      csv_field(error->noise_floor),
-          csv_field(error->representation),   csv_field(error->filtering)};
+  return {csv_field(error->normalized_color),
+          csv_field(error->relative_rmse),
+          csv_field(error->relmse),
+          csv_field(error->psnr),
+          csv_field(error->energy_bias),
+          csv_field(error->noise_floor),
+          csv_field(error->representation),
+          csv_field(error->filtering),
+          csv_field(error->causes.shading),
+          csv_field(error->causes.shading_floor),
+          csv_field(error->causes.shading_noise),
+          csv_field(error->causes.edges),
+          csv_field(error->causes.filter),
+          csv_field(error->causes.method),
+          csv_field(error->causes.light)};
+}
+
+std::array<std::string, 5> pixel_fields(const PixelCounts& pixels) {
+  return {fmt::format("{}", pixels.object), fmt::format("{}", pixels.interior), fmt::format("{}", pixels.minified),
+          pixels.bound ? fmt::format("{}", *pixels.bound) : "", pixels.light ? fmt::format("{}", *pixels.light) : ""};
 }
 
 std::string line(const Record& record) {
   const FrameTime& frame = record.frame_ms;
   const TimeRatio& ratio = record.ratio_to_direct;
   const std::optional<FrameBuildTime>& build = record.frame_build;
-  const std::array<std::string, columns.size() - 15> after_error{
+  const std::array<std::string, columns.size() - 27> after_error{
       csv_field(equivalent_spp(record)),
       equivalent_bound(record),
       csv_field(record.flicker ? std::optional(record.flicker->mean) : std::nullopt),
@@ -85,6 +116,7 @@ std::string line(const Record& record) {
       csv_field(build ? std::optional(build->ms) : std::nullopt),
       std::string(build ? timing_name(build->timing) : ""),
       csv_field(record.fps),
+      csv_field(record.fetches),
       csv_field(ratio.median),
       csv_field(ratio.minimum),
       csv_field(ratio.maximum),
@@ -96,10 +128,13 @@ std::string line(const Record& record) {
       csv_field(fmt::format("{}", fmt::join(record.effects_left_out, ";"))),
       csv_field(record.images.color),
       csv_field(record.images.reference),
-      csv_field(record.images.error)};
-  return fmt::format("{},{},{},{},{},{},{},{},{}", csv_field(record.scene), csv_field(record.method),
+      csv_field(record.images.error),
+      csv_field(record.images.error_shared),
+      csv_field(record.images.interior)};
+  return fmt::format("{},{},{},{},{},{},{},{},{},{}", csv_field(record.scene), csv_field(record.method),
                      csv_field(options_text(record)), csv_field(record.distance), record.frame, record.width,
-                     record.height, fmt::join(error_fields(record.error), ","), fmt::join(after_error, ","));
+                     record.height, fmt::join(error_fields(record.error), ","),
+                     fmt::join(pixel_fields(record.pixels), ","), fmt::join(after_error, ","));
 }
 
 }  // namespace

@@ -57,6 +57,16 @@ TEST(ResultsCsv, FiguresStandUnderTheirColumn) {
   EXPECT_EQ(value(lines, 4, "method"), "toksvig:storage=unorm8");
   EXPECT_EQ(std::stod(value(lines, 4, "normalized_color_error")), record.error->normalized_color);
   EXPECT_EQ(std::stod(value(lines, 4, "filtering_error")), record.error->filtering);
+  EXPECT_EQ(std::stod(value(lines, 4, "shading_error")), record.error->causes.shading);
+  EXPECT_EQ(std::stod(value(lines, 4, "edges_error")), record.error->causes.edges);
+  EXPECT_EQ(std::stod(value(lines, 4, "method_error")), record.error->causes.method);
+  EXPECT_EQ(value(lines, 4, "light_error"), "");
+  EXPECT_EQ(value(lines, 2, "light_error"), "0.0021");
+  EXPECT_EQ(value(lines, 2, "fetches"), "96.5");
+  EXPECT_EQ(value(lines, 4, "interior_pixels"), "9260");
+  EXPECT_EQ(value(lines, 4, "bound_pixels"), "9260");
+  EXPECT_EQ(value(lines, 5, "bound_pixels"), "");
+  EXPECT_EQ(value(lines, 4, "image_interior"), "images/interior_d1.exr");
   ASSERT_TRUE(record.equivalent);
   EXPECT_EQ(std::stod(value(lines, 4, "equivalent_spp")), record.equivalent->spp);
   EXPECT_EQ(std::stod(value(lines, 4, "frame_p90_ms")), record.frame_ms.p90);

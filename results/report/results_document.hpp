@@ -8,7 +8,7 @@
 namespace footprint {
 
 /// What `"schema"` says in every results.json that this version writes.
-inline constexpr const char* results_schema = "footprint-results/1";
+inline constexpr const char* results_schema = "footprint-results/2";
 
 /// The document of docs/results.schema.json, keys in its order; NaN, infinities and absent figures are null.
 [[nodiscard]] nlohmann::ordered_json results_document(const Results& results);

@@ -4,6 +4,7 @@
 
 #include "results/report/experiment_json.hpp"
 #include "results/report/figures.hpp"
+#include "results/report/ranking.hpp"
 #include "results/report/report.hpp"
 #include "results/report/results_document.hpp"
 
@@ -29,7 +30,22 @@ Json error_json(const std::optional<RecordError>& error) {
           {"energy_bias", json_number(error->energy_bias)},
           {"noise_floor", json_number(error->noise_floor)},
           {"representation", json_number(error->representation)},
-          {"filtering", json_number(error->filtering)}};
+          {"filtering", json_number(error->filtering)},
+          {"shading", json_number(error->causes.shading)},
+          {"shading_floor", json_number(error->causes.shading_floor)},
+          {"shading_noise", json_number(error->causes.shading_noise)},
+          {"edges", json_number(error->causes.edges)},
+          {"filter", json_number(error->causes.filter)},
+          {"method", json_number(error->causes.method)},
+          {"light", json_number(error->causes.light)}};
+}
+
+Json pixels_json(const PixelCounts& pixels) {
+  return {{"object", pixels.object},
+          {"interior", pixels.interior},
+          {"minified", pixels.minified},
+          {"bound", pixels.bound ? Json(*pixels.bound) : Json()},
+          {"light", pixels.light ? Json(*pixels.light) : Json()}};
 }
 
 Json other_references_json(const Record& record) {
@@ -51,6 +67,7 @@ Json time_json(const Record& record) {
           {"frame_build_ms", build ? json_number(build->ms) : Json()},
           {"frame_build", build ? Json(timing_name(build->timing)) : Json()},
           {"fps", json_number(record.fps)},
+          {"fetches", json_number(record.fetches)},
           {"ratio_to_direct",
            {{"median", json_number(record.ratio_to_direct.median)},
             {"min", json_number(record.ratio_to_direct.minimum)},
@@ -64,6 +81,7 @@ Json record_json(const Record& record) {
           {"distance", json_number(record.distance)},
           {"frame", record.frame},
           {"size", Json::array({record.width, record.height})},
+          {"pixels", pixels_json(record.pixels)},
           {"error", error_json(record.error)},
           {"equivalent_spp", json_number(equivalent_spp(record))},
           {"equivalent_bound", equivalent_bound(record)},
@@ -77,7 +95,11 @@ Json record_json(const Record& record) {
             {"cached", record.precompute_cached}}},
           {"effects", {{"on", record.effects_on}, {"left_out", record.effects_left_out}}},
           {"images",
-           {{"color", record.images.color}, {"reference", record.images.reference}, {"error", record.images.error}}}};
+           {{"color", record.images.color},
+            {"reference", record.images.reference},
+            {"error", record.images.error},
+            {"error_shared", record.images.error_shared},
+            {"interior", record.images.interior}}}};
 }
 
 Json ndf_json(const NdfFigures& figures) {
@@ -98,6 +120,7 @@ Json supersampling_json(const SupersamplingPoint& point) {
   return {{"distance", json_number(point.distance)},
           {"spp", point.spp},
           {"normalized_color", json_number(point.normalized_color)},
+          {"shading", json_number(point.shading)},
           {"ms", json_number(point.ms)}};
 }
 
@@ -151,6 +174,9 @@ nlohmann::ordered_json results_document(const Results& results) {
   for (const NdfFigures& figures : results.ndf) ndf.push_back(ndf_json(figures));
   Json quantities = Json::array();
   for (const QuantityFigure& figure : results.quantities) quantities.push_back(quantity_json(figure));
+  Json scales = Json::array();
+  for (const ErrorScale& scale : results.error_scales)
+    scales.push_back({{"distance", json_number(scale.distance)}, {"error", json_number(scale.error)}});
   return {{"schema", results_schema},
           {"tool", tool_json(results.tool)},
           {"backend", backend_json(results.backend)},
@@ -159,7 +185,9 @@ nlohmann::ordered_json results_document(const Results& results) {
           {"footprint", results.footprint},
           {"timing", timing_json(results.timing)},
           {"experiment", results.experiment ? experiment_json(*results.experiment) : Json(nullptr)},
+          {"ranking_warnings", ranking_warnings(results)},
           {"error_scale", json_number(results.error_scale)},
+          {"error_scales", std::move(scales)},
           {"supersampling", std::move(supersampling)},
           {"records", std::move(records)},
           {"ndf", std::move(ndf)},

@@ -13,7 +13,7 @@ using nlohmann::json;
 
 TEST(ResultsJson, HasThePublishedFields) {
   const json document = json::parse(results_json(example_results()));
-  EXPECT_EQ(document.at("schema"), "footprint-results/1");
+  EXPECT_EQ(document.at("schema"), "footprint-results/2");
   for (const char* place : {"/tool/version",
                             "/backend/renderer",
                             "/scene/exposure",
@@ -39,6 +39,24 @@ TEST(ResultsJson, HasThePublishedFields) {
                             "/records/0/error/noise_floor",
                             "/records/0/error/representation",
                             "/records/0/error/filtering",
+                            "/records/0/error/shading",
+                            "/records/0/error/shading_floor",
+                            "/records/0/error/shading_noise",
+                            "/records/0/error/edges",
+                            "/records/0/error/filter",
+                            "/records/0/error/method",
+                            "/records/0/error/light",
+                            "/records/0/pixels/object",
+                            "/records/0/pixels/interior",
+                            "/records/0/pixels/minified",
+                            "/records/0/pixels/bound",
+                            "/records/0/pixels/light",
+                            "/records/0/time/fetches",
+                            "/records/0/images/interior",
+                            "/records/0/images/error_shared",
+                            "/ranking_warnings/0",
+                            "/error_scales/2/error",
+                            "/supersampling/0/shading",
                             "/records/0/equivalent_spp",
                             "/records/0/other_references/0/spp",
                             "/records/4/flicker/p99",
@@ -86,6 +104,13 @@ TEST(ResultsJson, NumbersAreWrittenToTheLastBit) {
   EXPECT_EQ(document["records"][0]["other_references"][1]["normalized_color"], 0.0217);
   EXPECT_EQ(document["records"][4]["flicker"]["p99"], 0.4);
   EXPECT_EQ(document["experiment"]["quick"], true);
+  EXPECT_EQ(document["records"][1]["error"]["light"], 0.0021);
+  EXPECT_EQ(document["records"][0]["error"]["method"], *results.records[0].error->causes.method);
+  EXPECT_EQ(document["records"][0]["pixels"],
+            (json{{"object", 12345}, {"interior", 9260}, {"minified", 9000}, {"bound", 9260}, {"light", nullptr}}));
+  EXPECT_EQ(document["records"][4]["pixels"]["bound"], nullptr);
+  EXPECT_EQ(document["records"][1]["time"]["fetches"], 96.5);
+  EXPECT_EQ(document["error_scales"][1], (json{{"distance", 4.0}, {"error", 0.025}}));
 }
 
 TEST(ResultsJson, WhatIsAbsentOrNotFiniteIsNull) {

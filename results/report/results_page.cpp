@@ -1,6 +1,7 @@
 // Results as one page that opens from disk: page.html with its style, its script, Chart.js and the data filled in.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include "renderer/image/false_color.hpp"
 #include "results/report/experiment_section.hpp"
 #include "results/report/figures.hpp"
+#include "results/report/ranking.hpp"
 #include "results/report/report.hpp"
 #include "results/report/results_document.hpp"
 #include "results/report/text_template.hpp"
@@ -38,39 +40,69 @@ Json scale_colors() {
   return list;
 }
 
+/// Whether the record's frames are shorter than all others of its distance, whatever the spread.
+bool is_fastest(const Record& record, const DistanceRecords& records) {
+  return records.size() > 1 && std::ranges::all_of(records, [&](const Record& other) {
+           return &other == &record || record.frame_ms.p90 < other.frame_ms.minimum;
+         });
+}
+
+/// Whether the record alone is first in its distance's ranking.
+bool is_best(const Record& record, const DistanceRecords& records) {
+  const auto is_first = [&](const Record& r) { return rank(r, records) == 1; };
+  return records.size() > 1 && is_first(record) && std::ranges::count_if(records, is_first) == 1;
+}
+
 /// A record's figures as the page prints them, the same as in the table.
-Json display(const Record& record) {
-  const auto figure = [&record](auto member) -> std::string {
-    return record.error ? error_text((*record.error).*member) : "n/a";
-  };
-  const bool floor_known = record.error && record.error->noise_floor;
-  const TimeRatio& ratio = record.ratio_to_direct;
+Json display(const Record& record, const DistanceRecords& records) {
+  const auto cause = [&record](auto member) { return record.error ? error_text(record.error->causes.*member) : "n/a"; };
+  const std::optional<int> place = rank(record, records);
   const std::optional<FrameBuildTime>& build = record.frame_build;
-  return {{"error", figure(&RecordError::normalized_color)},
-          {"at_floor", at_noise_floor(record)},
-          {"noise_floor", floor_known ? error_text(*record.error->noise_floor) : "n/a"},
-          {"representation", figure(&RecordError::representation)},
-          {"filtering", figure(&RecordError::filtering)},
+  const std::size_t interior = record.pixels.interior;
+  return {{"rank", place ? fmt::format("{}", *place) : "–"},
+          {"error", record.error ? error_text(record.error->normalized_color) : "n/a"},
+          {"shading", cause(&ErrorCauses::shading)},
+          {"at_floor", shading_at_noise_floor(record)},
+          {"edges", cause(&ErrorCauses::edges)},
+          {"filter", cause(&ErrorCauses::filter)},
+          {"method", cause(&ErrorCauses::method)},
+          {"light", cause(&ErrorCauses::light)},
+          {"representation", record.error ? error_text(record.error->representation) : "n/a"},
           {"equivalent", equivalent_text(record)},
+          {"pixels", fmt::format("{}{}", interior, interior < few_pixels ? " !" : "")},
           {"frame", spread_text(record.frame_ms.median, record.frame_ms.minimum, record.frame_ms.p90)},
-          {"ratio", spread_text(ratio.median, ratio.minimum, ratio.maximum)},
+          {"ratio", ratio_text(record.ratio_to_direct)},
           {"fps", three_figures(record.fps)},
           {"build", build ? fmt::format("{}, {}", three_figures(build->ms), timing_name(build->timing)) : "none"},
           {"precompute", three_figures(record.precompute_seconds)},
           {"bytes", readable_bytes(record.precompute_bytes)},
           {"bytes_per_texel", bytes_per_texel_text(record)},
           {"left_out", list_text(record.effects_left_out, "none")},
-          {"reading", reading(record)}};
+          {"is_best", is_best(record, records)},
+          {"is_fastest", is_fastest(record, records)}};
+}
+
+/// What was found at a distance, and the scale of its error pictures.
+Json distance_json(const Results& results, double distance) {
+  const auto scale = std::ranges::find(results.error_scales, distance, &ErrorScale::distance);
+  const double top = scale == results.error_scales.end() ? results.error_scale : scale->error;
+  return {{"distance", distance},
+          {"pixels", pixels_and_noise(records_at(results, distance).front())},
+          {"findings", findings(results, distance)},
+          {"scale_top", error_text(top)}};
 }
 
 std::string page_data(const Results& results) {
   Json head = Json::array();
   for (const Provenance& line : provenance(results)) head.push_back({{"label", line.label}, {"value", line.value}});
   Json records = Json::array();
-  for (const Record& record : results.records) records.push_back(display(record));
+  for (const Record& record : results.records) records.push_back(display(record, records_at(results, record.distance)));
+  Json distances = Json::array();
+  for (const double distance : distances_of(results)) distances.push_back(distance_json(results, distance));
   const Json data{{"results", results_document(results)},
                   {"provenance", std::move(head)},
                   {"display", std::move(records)},
+                  {"distances", std::move(distances)},
                   {"scale_top", error_text(results.error_scale)},
                   {"scale_colors", scale_colors()}};
   return script_escaped(json_text(data, -1));

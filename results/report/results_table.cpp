@@ -7,11 +7,13 @@
 #include <iterator>
 #include <map>
 #include <span>
+#include <sstream>
 
 #include "renderer/core/memory.hpp"
 #include "results/report/experiment_section.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/markdown_table.hpp"
+#include "results/report/ranking.hpp"
 #include "results/report/report.hpp"
 
 namespace footprint {
@@ -19,69 +21,123 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-std::vector<std::reference_wrapper<const Record>> records_at(const Results& results, double distance) {
-  std::vector<std::reference_wrapper<const Record>> records;
-  std::ranges::copy_if(results.records, std::back_inserter(records),
-                       [distance](const Record& r) { return r.distance == distance; });
-  return records;
+/// "2", or "-" where the record is not ranked; `ties` pads for the mark of those that share a place.
+std::string rank_text(const Record& record, const DistanceRecords& records) {
+  const std::optional<int> place = rank(record, records);
+  if (!place) return "-";
+  const auto same = [&](const Record& other) { return rank(other, records) == place; };
+  return fmt::format("{}{}", *place, std::ranges::count_if(records, same) > 1 ? "=" : " ");
 }
 
-/// The error with its mark; unmarked ones keep its room, so that the figures stand under each other.
-std::string marked_error(const Record& record, bool any_marked) {
+/// The pixels that the shading error is over, marked where they are few.
+std::string pixels_text(const Record& record) {
+  return fmt::format("{}{}", record.pixels.interior, record.pixels.interior < few_pixels ? " !" : "");
+}
+
+/// The shading error with its mark; unmarked ones keep its room, so that the figures stand under each other.
+std::string marked_shading(const Record& record, bool any_marked) {
   if (!record.error) return "n/a";
-  const std::string_view mark = at_noise_floor(record) ? " *" : any_marked ? "  " : "";
-  return error_text(record.error->normalized_color).append(mark);
+  const std::string_view mark = shading_at_noise_floor(record) ? " *" : any_marked ? "  " : "";
+  return error_text(record.error->causes.shading).append(mark);
 }
 
-std::vector<std::string> main_row(const Record& record, bool any_marked) {
-  const auto figure = [&record](auto member) -> std::string {
-    return record.error ? error_text((*record.error).*member) : "n/a";
-  };
-  const bool floor_known = record.error && record.error->noise_floor;
+bool has_light(const DistanceRecords& records) {
+  return std::ranges::any_of(records, [](const Record& r) { return r.error && r.error->causes.light; });
+}
+
+std::vector<std::string> error_row(const Record& record, const DistanceRecords& records) {
+  const auto cause = [&record](auto member) { return record.error ? error_text(record.error->causes.*member) : "n/a"; };
+  std::vector<std::string> row{record.method,
+                               rank_text(record, records),
+                               record.error ? error_text(record.error->normalized_color) : "n/a",
+                               marked_shading(record, std::ranges::any_of(records, shading_at_noise_floor)),
+                               cause(&ErrorCauses::edges),
+                               cause(&ErrorCauses::filter),
+                               cause(&ErrorCauses::method)};
+  if (has_light(records)) row.push_back(cause(&ErrorCauses::light));
+  row.push_back(record.error ? error_text(record.error->representation) : "n/a");
+  row.push_back(equivalent_text(record));
+  row.push_back(pixels_text(record));
+  return row;
+}
+
+std::vector<MarkdownColumn> error_columns(const DistanceRecords& records) {
+  std::vector<MarkdownColumn> columns{{"Name", false}, {"Rank"},   {"Error"}, {"Shading"},
+                                      {"Edges"},       {"Filter"}, {"Method"}};
+  if (has_light(records)) columns.push_back({"Light"});
+  for (const char* title : {"Repr.", "Worth spp", "Pixels"}) columns.push_back({title});
+  return columns;
+}
+
+std::vector<std::string> time_row(const Record& record) {
   const FrameTime& frame = record.frame_ms;
-  const TimeRatio& ratio = record.ratio_to_direct;
-  return {record.method,
-          marked_error(record, any_marked),
-          floor_known ? error_text(*record.error->noise_floor) : "n/a",
-          figure(&RecordError::representation),
-          figure(&RecordError::filtering),
-          equivalent_text(record),
-          spread_text(frame.median, frame.minimum, frame.p90),
-          spread_text(ratio.median, ratio.minimum, ratio.maximum),
+  return {spread_text(frame.median, frame.minimum, frame.p90), ratio_text(record.ratio_to_direct),
           three_figures(record.fps)};
 }
 
-/// Rows cut to their first column and `count` more from `first` on.
-Rows cut(const Rows& rows, std::size_t first, std::size_t count) {
-  Rows parts;
-  for (const std::vector<std::string>& row : rows) {
-    std::vector<std::string>& part = parts.emplace_back(1, row[0]);
-    part.insert(part.end(), row.begin() + static_cast<std::ptrdiff_t>(first),
-                row.begin() + static_cast<std::ptrdiff_t>(first + count));
+constexpr std::size_t terminal = 130;  // columns
+
+/// One table, or as many as it takes that none is wider than a terminal; each begins with the first column.
+std::string split_table(const std::vector<MarkdownColumn>& columns, const Rows& rows) {
+  const auto part = [&](std::size_t first, std::size_t count) {
+    const auto cut = [&](const auto& all) {
+      auto some = std::vector(all.begin(), all.begin() + 1);
+      some.insert(some.end(), all.begin() + static_cast<std::ptrdiff_t>(first),
+                  all.begin() + static_cast<std::ptrdiff_t>(first + count));
+      return some;
+    };
+    Rows cut_rows;
+    for (const auto& row : rows) cut_rows.push_back(cut(row));
+    return markdown_table(cut(columns), cut_rows);
+  };
+  std::string text;
+  for (std::size_t first = 1, count = columns.size() - 1; first < columns.size(); count = columns.size() - first) {
+    while (count > 1 && part(first, count).find('\n') > terminal) --count;
+    text += (text.empty() ? "" : "\n") + part(first, count);
+    first += count;
   }
-  return parts;
+  return text;
 }
 
-/// One table; errors and times in two where long method names would make it wider than a terminal.
-std::string main_table(const Rows& rows) {
-  constexpr std::size_t terminal = 130;
-  const std::vector<MarkdownColumn> errors{{"Method", false}, {"Error"},   {"Floor"},
-                                           {"Repr."},         {"Filter."}, {"Worth spp"}};
-  const std::vector<MarkdownColumn> times{{"Method", false}, {"Frame ms"}, {"x direct"}, {"fps"}};
-  std::vector<MarkdownColumn> all = errors;
-  all.insert(all.end(), times.begin() + 1, times.end());
-  std::string whole = markdown_table(all, rows);
+/// Errors and times of a distance: in one table where it fits, else each in its own.
+std::string main_table(const DistanceRecords& records) {
+  const std::vector<MarkdownColumn> errors = error_columns(records);
+  const std::vector<MarkdownColumn> times{{"Frame ms"}, {"x direct"}, {"fps"}};
+  Rows error_rows, time_rows, whole_rows;
+  for (const Record& record : records) {
+    error_rows.push_back(error_row(record, records));
+    time_rows.push_back(time_row(record));
+    whole_rows.push_back(error_rows.back());
+    whole_rows.back().insert(whole_rows.back().end(), time_rows.back().begin(), time_rows.back().end());
+    time_rows.back().insert(time_rows.back().begin(), record.method);
+  }
+  std::vector<MarkdownColumn> all = errors, named_times = times;
+  all.insert(all.end(), times.begin(), times.end());
+  named_times.insert(named_times.begin(), errors.front());
+  std::string whole = markdown_table(all, whole_rows);
   if (whole.find('\n') <= terminal) return whole;
-  return markdown_table(errors, cut(rows, 1, errors.size() - 1)) + "\n" +
-         markdown_table(times, cut(rows, errors.size(), times.size() - 1));
+  return split_table(errors, error_rows) + "\n" + split_table(named_times, time_rows);
+}
+
+/// An entry of a list, escaped, in lines of a terminal's width.
+std::string list_entry(const std::string& text) {
+  constexpr std::size_t width = 120;
+  std::string entry, line = "-";
+  std::istringstream words(markdown_escaped(text));
+  for (std::string word; words >> word;) {
+    if (line.size() + 1 + word.size() > width) {
+      entry += line + "\n";
+      line = " ";
+    }
+    line += " " + word;
+  }
+  return entry + line + "\n";
 }
 
 std::string distance_section(const Results& results, double distance) {
-  const auto records = records_at(results, distance);
-  const bool any_marked = std::ranges::any_of(records, at_noise_floor);
-  Rows rows;
-  for (const Record& record : records) rows.push_back(main_row(record, any_marked));
-  return fmt::format("\n## Distance {}\n\n{}{}", distance, main_table(rows),
+  const DistanceRecords records = records_at(results, distance);
+  const bool any_marked = std::ranges::any_of(records, shading_at_noise_floor);
+  return fmt::format("\n## Distance {}\n\n{}\n\n{}{}", distance, pixels_and_noise(records.front()), main_table(records),
                      any_marked ? "\n\\* at the noise floor: the reference's own noise explains this error.\n" : "");
 }
 
@@ -188,14 +244,29 @@ std::string supersampling_section(const Results& results) {
   return text;
 }
 
+std::string warnings_section(const Results& results) {
+  const std::vector<std::string> warnings = ranking_warnings(results);
+  if (warnings.empty()) return {};
+  std::string text = "\n## Before you rank\n\n";
+  for (const std::string& warning : warnings) text += list_entry(warning);
+  return text;
+}
+
 std::string words_section(const Results& results) {
-  std::string text = "\n## In words\n\n";
-  for (const Record& record : results.records) text += fmt::format("- {}\n", markdown_escaped(reading(record)));
+  std::string text = "\n## In words\n";
+  for (const double distance : distances_of(results)) {
+    text += fmt::format("\nDistance {}:\n\n", distance);
+    for (const std::string& finding : findings(results, distance)) text += list_entry(finding);
+  }
   return text + R"(
-Error: normalised colour error, mean over the object's pixels. Floor: the part of it that the reference's own noise
-causes. Repr.: the error of the method's finest level, supersampled. Filter.: that of the method against its own
-supersampled finest level. Worth spp: the samples a pixel at which plain supersampling has the same error. Frame ms:
-median (least-90th percentile). x direct: frame time over that of `direct`, median (least-most).
+Errors are normalised colour errors. Error: mean over the object's pixels. Shading: over interior pixels alone, in which
+the reference sees one smooth piece of surface (`Pixels` counts them); methods are ranked by it, and share a place (=)
+where they differ by no more than the reference's noise explains. Edges: over the object's other pixels, which no method
+filters. Filter: of the shading error what the true distribution of normals leaves under the same footprint filter.
+Method: what the method's picture differs from that by. Light: what its lookup of an environment by lobes differs by from
+all of that light. Repr.: the error of the method's finest level, supersampled. Worth spp: the frames of `direct`,
+averaged, that have the same shading error. Frame ms: median (least-90th percentile). x direct: frame time over that of
+`direct`, median (least-most); about 1 where that spread covers it.
 )";
 }
 
@@ -206,6 +277,7 @@ std::string results_table(const Results& results) {
   for (const Provenance& line : provenance(results)) {
     text += fmt::format("- {}: {}\n", line.label, markdown_escaped(line.value));
   }
+  text += warnings_section(results);
   if (results.experiment) text += experiment_markdown(*results.experiment);
   for (const double distance : distances_of(results)) text += distance_section(results, distance);
   return text + flicker_section(results) + ndf_section(results) + quantity_section(results) +

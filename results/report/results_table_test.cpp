@@ -35,27 +35,6 @@ TEST(Figures, NumbersReadTheSameEverywhere) {
   EXPECT_EQ(spread_text(1.31, 1.25, 1.4), "1.31 (1.25-1.40)");
 }
 
-TEST(Figures, ReadingUsesMeasuredFiguresOnly) {
-  Record record = example_results().records[2];
-  record.distance = 4;
-  record.error->normalized_color = 0.02;
-  record.equivalent = EquivalentSamples{41.2, CurveSide::within};
-  record.ratio_to_direct.median = 1.3;
-  EXPECT_EQ(reading(record), "toksvig at distance 4 is worth 41 samples at the price of 1.30 direct frames.");
-  record.equivalent = EquivalentSamples{64, CurveSide::above};
-  EXPECT_EQ(reading(record), "toksvig at distance 4 is worth more than 64 samples at the price of 1.30 direct frames.");
-  record.equivalent = EquivalentSamples{1, CurveSide::below};
-  record.ratio_to_direct.median = std::nan("");
-  record.frame_ms.median = 2.5;
-  EXPECT_EQ(reading(record), "toksvig at distance 4 is worth less than 1 sample at 2.50 ms a frame.");
-  record.equivalent.reset();
-  EXPECT_EQ(reading(record), "toksvig at distance 4 is off by 0.02000 at 2.50 ms a frame.");
-  record.error->noise_floor = 0.02;
-  EXPECT_TRUE(says(reading(record), "within the noise of the reference"));
-  record.error.reset();
-  EXPECT_EQ(reading(record), "toksvig at distance 4 has no error: the object covers no whole pixel.");
-}
-
 TEST(MarkdownTable, ColumnsAlignAndMarkupIsEscaped) {
   const std::string text = markdown_table({{"Name", false}, {"ms"}}, {{"a|b", "1.25"}, {"µ <b> <1 x *", "10"}});
   EXPECT_EQ(text,
@@ -94,8 +73,27 @@ TEST(ResultsTable, SaysWhatWasMeasuredAndUnderWhatConditions) {
                            "Plain supersampling", "roughness_variation", "16.0 MiB", "0.31"}) {
     EXPECT_TRUE(says(table, part)) << part;
   }
-  EXPECT_TRUE(says(table, "0.00060 *")) << "an error below the noise floor carries the mark";
+  EXPECT_TRUE(says(table, "4.0e-04 *")) << "a shading error below the noise floor carries the mark";
+  EXPECT_TRUE(says(table, "60 !")) << "few pixels carry their mark";
   EXPECT_EQ(lines_of(table).front(), "# ClearCoatTest");
+}
+
+// What bears on the ranking comes before any figure.
+TEST(ResultsTable, WarningsStandAboveIt) {
+  const std::string table = results_table(example_results());
+  const std::size_t warnings = table.find("## Before you rank");
+  ASSERT_NE(warnings, std::string::npos);
+  EXPECT_LT(warnings, table.find("## Distance 1"));
+  EXPECT_TRUE(says(table, "At distance 16 there are fewer than 20 interior pixels"));
+  EXPECT_TRUE(
+      says(table, "12345 object pixels, 9260 of them interior (75%); noise floor 0.00071, over interior pixels "));
+}
+
+TEST(ResultsTable, HasAColumnForLightWhereThereIsOne) {
+  Results results = example_results();
+  EXPECT_TRUE(says(results_table(results), "Light |"));
+  results.records[1].error->causes.light.reset();
+  EXPECT_FALSE(says(results_table(results), "Light |"));
 }
 
 TEST(ResultsTable, NamesCannotBreakIt) {

@@ -74,7 +74,7 @@ class Report(WholeRunTest):
 
     def test_the_pictures_are_whole(self):
         files = sorted((self.out / "images").glob("*.exr"))
-        self.assertEqual(len(files), 2 * (1 + len(METHODS)))
+        self.assertEqual(len(files), 2 * (2 + len(METHODS)))  # the reference, interior pixels, methods
         for name, facts in picture_facts(files).items():
             self.assertEqual(facts["size"], (64, 64), name)
             self.assertEqual(facts["format"], "float openexr", name)
@@ -103,6 +103,30 @@ class Report(WholeRunTest):
             # Stratified samples beat the square root of their number; half of it is left to chance.
             self.assertLess(curve[64], curve[1] / 4)
             self.assertLess(curve[64], curve[8])
+
+    def test_causes_make_up_the_error(self):
+        for record in self.records.values():
+            error, pixels = record["error"], record["pixels"]
+            self.assertEqual(pixels["bound"], pixels["interior"], "the bound of a small picture is drawn whole")
+            self.assertGreater(pixels["interior"], 20)
+            self.assertLessEqual(error["shading"], error["filter"] + error["method"] + 1e-9)
+            edges = pixels["object"] - pixels["interior"]
+            whole = (error["shading"] * pixels["interior"] + (error["edges"] or 0.0) * edges) / pixels["object"]
+            self.assertTrue(math.isclose(whole, error["normalized_color"], rel_tol=1e-9))
+            self.assertIsNone(error["light"], "there is no environment")
+
+    def test_no_bound_where_none_is_asked_for(self):
+        arguments = ["ribbed_plane", "--size", "32x32", "--spp", "4", "--distance", "2", "--bound", "off"]
+        for record in results_of(self.compare("unbound", *arguments))["records"]:
+            self.assertIsNone(record["error"]["filter"])
+            self.assertIsNone(record["pixels"]["bound"])
+            self.assertIsNotNone(record["error"]["shading"])
+
+    def test_one_sample_is_a_frame_of_direct(self):
+        for point in self.results["supersampling"]:
+            if point["spp"] == 1:
+                self.assertAlmostEqual(point["normalized_color"], self.error("direct", point["distance"]), 9)
+                self.assertAlmostEqual(point["shading"], self.error("direct", point["distance"], "shading"), 9)
 
     def test_times_add_up(self):
         for record in self.records.values():

@@ -2,6 +2,7 @@
 // and what the reference integrates.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -59,6 +60,21 @@ TEST_P(UnderAnEnvironment, EqualsDirectOnAConstantMapAtAnyDistance) {
           << "distribution " << static_cast<int>(distribution) << ", distance " << distance;
     }
   }
+}
+
+// Every light of the environment shaded by the method, and no map looked up: on a constant map that is what the
+// reference sees. The lookup by lobes is off by what tables call light.
+TEST_P(UnderAnEnvironment, AllOfItsLightsMeetTheReferenceOnAConstantMap) {
+  Image normals = constant_normals(16, 16, {0.28F, 0, 0.96F});
+  normals.at(0, 0)[0] += 2e-5F;
+  const BaseBrdf brdf{NormalDistribution::ggx, GeometryTerm::smith, FresnelTerm::schlick, true};
+  TestRenderer renderer(lit_square(normals, {.brdf = brdf, .roughness = 0.6F}, uneven_environment()), {6, 6});
+  const Image truth = renderer.reference(64, 1, ReferenceFilter::after_shading, 0, EnvironmentUse::dense).mean;
+  const Image picture = renderer.frame(*GetParam(), {}, {}, 0, 1.0, EnvironmentUse::dense);
+  if (std::ranges::none_of(picture.texels, [](float value) { return std::isfinite(value) && value != 1.0F; }))
+    GTEST_SKIP() << "takes more rounds of loops than the software renderer has";
+  EXPECT_LT(compare_images(picture, truth, 1.0F).value().relative_rmse, 4e-3);
+  EXPECT_GT(compare_images(renderer.frame(*GetParam()), truth, 1.0F).value().relative_rmse, 4e-3) << "the lookup";
 }
 
 // What four pixels show, whose differences are a footprint, is their own: neighbours that look other levels up, or have

@@ -30,12 +30,16 @@ BakedMethod TestRenderer::baked(const Method& method, const std::string& text) c
 }
 
 Image TestRenderer::frame(const Method& method, const std::string& text, const FootprintFilter& filter, int tile,
-                          double distance) {
+                          double distance, EnvironmentUse environment) {
   const BakedMethod bake_result = baked(method, text);
   const GpuMethod gpu(gpu_scene_, bake_result);
   const FrameRenderer frames(
       context_->info(), gpu_scene_, gpu, size_,
-      {.sampling = Sampling::frame, .footprint = filter, .orthographic = scene_.camera.orthographic}, tile);
+      {.sampling = Sampling::frame,
+       .footprint = filter,
+       .orthographic = scene_.camera.orthographic,
+       .environment = environment},
+      tile);
   Image picture = frames.render({.size = size_, .camera = camera_at_distance(scene_, distance)});
   context_->check("drawing a test frame");
   return picture;

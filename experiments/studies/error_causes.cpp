@@ -1,0 +1,120 @@
+// Masks of pixels, errors over them, and the share of a picture that an exact sum can be afforded for.
+#include "experiments/studies/error_causes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "renderer/image/metrics.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr double most_facets_a_level = 128.0 * 128.0;
+
+// Tiles have row 0 at the bottom, pictures at the top.
+template <typename Visit>  // visit(column, row of the picture)
+void visit_pixels(const Tile& tile, int height, Visit visit) {
+  for (int y = tile.origin.y; y < tile.origin.y + tile.size.y; ++y) {
+    for (int x = tile.origin.x; x < tile.origin.x + tile.size.x; ++x) visit(x, height - 1 - y);
+  }
+}
+
+}  // namespace
+
+PixelParts pixel_parts(const Image& reference, const Interior& interior) {
+  const Image object = object_pixels(reference);
+  PixelParts parts{.interior = object, .edges = object, .counts = {}};
+  for (std::size_t i = 0; i < object.texels.size(); ++i) {
+    (interior.mask.texels[i] > 0.0F ? parts.edges : parts.interior).texels[i] = 0.0F;
+    if (parts.interior.texels[i] > 0.0F && interior.texels.texels[i] > 1.0F) ++parts.counts.minified;
+  }
+  parts.counts.object = count_pixels(object);
+  parts.counts.interior = count_pixels(parts.interior);
+  return parts;
+}
+
+ErrorCauses error_causes(const CausePictures& pictures, const PixelParts& parts, float exposure) {
+  ErrorCauses causes;
+  causes.shading = normalized_color_over(pictures.method, pictures.reference, exposure, parts.interior);
+  causes.edges = normalized_color_over(pictures.method, pictures.reference, exposure, parts.edges);
+  if (pictures.bound == nullptr) return causes;
+  causes.filter = normalized_color_over(*pictures.bound, pictures.reference, exposure, *pictures.bound_pixels);
+  causes.method = error_between(pictures.method, *pictures.bound, pictures.reference, exposure, *pictures.bound_pixels);
+  return causes;
+}
+
+std::optional<double> error_between(const Image& picture, const Image& other, const Image& reference, float exposure,
+                                    const Image& mask) {
+  Image covered = other;
+  for (std::size_t i = 3; i < covered.texels.size(); i += 4) covered.texels[i] = reference.texels[i];
+  return normalized_color_over(picture, covered, exposure, mask);
+}
+
+std::optional<double> error_noise(const Image& picture, const std::pair<Image, Image>& halves, float exposure,
+                                  const Image& mask) {
+  const Image first = error_map(picture, halves.first, exposure), second = error_map(picture, halves.second, exposure);
+  double squares = 0;
+  std::size_t pixels = 0;
+  for (std::size_t i = 0; i < mask.texels.size(); ++i) {
+    if (mask.texels[i] <= 0.0F) continue;
+    squares += std::pow(0.5 * (static_cast<double>(first.texels[i]) - second.texels[i]), 2);
+    ++pixels;
+  }
+  return pixels > 0 ? std::optional(std::sqrt(squares) / static_cast<double>(pixels)) : std::nullopt;
+}
+
+double facets_of_bound(double texels) {
+  const double level = std::log2(std::max(texels, 1.0));
+  const auto facets = [](double whole_level) {
+    return std::min(std::pow(4.0, whole_level + 1.0), most_facets_a_level);
+  };
+  return facets(std::floor(level)) + facets(std::floor(level) + 1.0);
+}
+
+double cost_of(const Tile& tile, const PixelParts& parts, const PixelCost& cost) {
+  double sum = 0;
+  visit_pixels(tile, parts.interior.height, [&](int x, int y) {
+    if (parts.interior.at(x, y)[0] + parts.edges.at(x, y)[0] > 0.0F) sum += cost(x, y);
+  });
+  return sum;
+}
+
+std::vector<Tile> cheap_parts(const PixelParts& parts, int edge, const PixelCost& cost, double most) {
+  const std::vector<Tile> tiles = tiles_of({parts.interior.width, parts.interior.height}, edge);
+  std::vector<std::size_t> order(tiles.size());
+  std::iota(order.begin(), order.end(), 0U);
+  // Multiples of the golden ratio fill the unit interval evenly (Weyl's sequence): each tile's turn.
+  const auto turn = [](std::size_t i) { return std::fmod(static_cast<double>(i) * std::numbers::phi, 1.0); };
+  std::ranges::stable_sort(order, {}, turn);
+  std::vector<Tile> chosen;
+  for (const std::size_t i : order) {
+    const double price = cost_of(tiles[i], parts, cost);
+    if (price == 0.0) continue;
+    if (price > most) break;
+    most -= price;
+    chosen.push_back(tiles[i]);
+  }
+  return chosen;
+}
+
+void leave_out_infinite(const Image& picture, Image& mask) {
+  for (std::size_t i = 0; i < mask.texels.size(); ++i) {
+    const std::span<const float> texel = std::span(picture.texels).subspan(4 * i, 4);
+    if (!std::ranges::all_of(texel, [](float value) { return std::isfinite(value); })) mask.texels[i] = 0.0F;
+  }
+}
+
+std::size_t count_pixels(const Image& mask) {
+  return static_cast<std::size_t>(std::ranges::count_if(mask.texels, [](float value) { return value > 0.0F; }));
+}
+
+Image within(const Image& mask, std::span<const Tile> tiles) {
+  Image inside(mask.width, mask.height, 1);
+  for (const Tile& tile : tiles)
+    visit_pixels(tile, mask.height, [&](int x, int y) { inside.at(x, y)[0] = mask.at(x, y)[0]; });
+  return inside;
+}
+
+}  // namespace footprint

@@ -1,0 +1,79 @@
+// What an error is made of (docs/metrics.md): over which pixels it is taken, and what is drawn to tell its causes
+// apart.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "renderer/effects/effects.hpp"
+#include "renderer/image/image.hpp"
+#include "renderer/pipeline/interior.hpp"
+#include "renderer/pipeline/view.hpp"
+#include "results/report/records.hpp"
+
+namespace footprint {
+
+/// The object pixels of a reference by where errors come from. Masks have one channel, 1 or 0.
+struct PixelParts {
+  Image interior;  ///< one smooth piece of surface: what methods are ranked over
+  Image edges;     ///< all others
+  PixelCounts counts;
+};
+
+/// `reference` is the mean of the samples that `interior` was found with.
+[[nodiscard]] PixelParts pixel_parts(const Image& reference, const Interior& interior);
+
+/// The pictures that errors of one distance are taken between.
+struct CausePictures {
+  const Image& method;
+  const Image& reference;
+  const Image* bound = nullptr;  ///< of `exact`, where it was drawn
+  const Image* bound_pixels = nullptr;
+};
+
+/// E over the parts, `causes.light` aside. Where the bound is there, filter and method are over its pixels.
+[[nodiscard]] ErrorCauses error_causes(const CausePictures& pictures, const PixelParts& parts, float exposure);
+
+/// The standard error that the reference's noise gives E(picture, reference) over `mask`, from the reference's two
+/// halves: half of the difference of a pixel's errors against them has the deviation of its error against the whole.
+/// Errors of two methods that differ by several of it differ by more than noise. None where no pixel counts.
+[[nodiscard]] std::optional<double> error_noise(const Image& picture, const std::pair<Image, Image>& halves,
+                                                float exposure, const Image& mask);
+
+/// E between two pictures of methods over a mask. Which pixels count is the reference's to say: its coverage stands for
+/// theirs.
+[[nodiscard]] std::optional<double> error_between(const Image& picture, const Image& other, const Image& reference,
+                                                  float exposure, const Image& mask);
+
+/// The edge of the squares in which the bound is drawn where it is not drawn whole, and of those that are lit by all of
+/// an environment, pixels.
+inline constexpr int bound_tile = 32, light_tile = 8;
+
+/// The facets that `exact` shades for a pixel whose footprint's longer edge spans so many texels: those under the four
+/// texels of each of two levels, as a trilinear filter blends them, up to 128 x 128 a level.
+[[nodiscard]] double facets_of_bound(double texels);
+
+/// What a pixel costs; column, row.
+using PixelCost = std::function<double(int, int)>;
+
+/// What the object pixels of a part of the picture cost together.
+[[nodiscard]] double cost_of(const Tile& tile, const PixelParts& parts, const PixelCost& cost);
+
+/// Squares of the picture, `edge` pixels a side, whose object pixels cost at most `most`, in a fixed order that spreads
+/// them over the picture. `parts` tell where the object is.
+[[nodiscard]] std::vector<Tile> cheap_parts(const PixelParts& parts, int edge, const PixelCost& cost, double most);
+
+/// Takes out of a mask the pixels at which the picture has a value that is no finite number.
+void leave_out_infinite(const Image& picture, Image& mask);
+
+/// Pixels at which a mask is above 0.
+[[nodiscard]] std::size_t count_pixels(const Image& mask);
+
+/// The mask's pixels that lie in the tiles.
+[[nodiscard]] Image within(const Image& mask, std::span<const Tile> tiles);
+
+}  // namespace footprint

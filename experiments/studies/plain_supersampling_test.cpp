@@ -1,0 +1,75 @@
+// One sample is a frame at pixel centres; many are the picture that a finer one averages to.
+#include "experiments/studies/plain_supersampling.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "methods/registry.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
+#include "tests/support/rendering.hpp"
+#include "tests/support/test_scenes.hpp"
+
+namespace footprint::testing {
+namespace {
+
+// The mean of frames of `direct` at the offsets, of a square with random normals.
+Image mean_at(int texels, int edge, std::span<const glm::dvec2> offsets) {
+  (void)shared_context();
+  const Scene scene = square_scene(random_normals(texels, texels, 0.5F, 1), {});
+  const EffectSet effects = effects_on(derive_effects(scene));
+  GpuScene gpu_scene(shared_context().info(), scene, effects);
+  const BakedMethod baked = bake(find_method("direct"), parse_methods("direct").front(), scene, effects, no_progress);
+  const GpuMethod gpu(gpu_scene, baked);
+  const FrameRenderer frames(shared_context().info(), gpu_scene, gpu, {edge, edge}, {});
+  return mean_of_frames(frames, {.size = {edge, edge}, .camera = scene.camera}, offsets, no_progress);
+}
+
+TEST(FrameOffsets, LieInThePixelAboutItsCentre) {
+  EXPECT_EQ(frame_offsets(1, 7), std::vector<glm::dvec2>{glm::dvec2(0.0)});
+  for (const int spp : {2, 8, 64}) {
+    glm::dvec2 mean(0.0);
+    const std::vector<glm::dvec2> offsets = frame_offsets(spp, 3);
+    ASSERT_EQ(offsets.size(), static_cast<std::size_t>(spp));
+    for (const glm::dvec2& offset : offsets) {
+      EXPECT_LE(std::max(std::abs(offset.x), std::abs(offset.y)), 0.5);
+      mean += offset / static_cast<double>(spp);
+    }
+    EXPECT_LT(glm::length(mean), 1.0 / spp);
+    std::set<int> columns, rows;  // as many as samples, one in each
+    for (const glm::dvec2& offset : offsets) {
+      columns.insert(static_cast<int>(std::floor((offset.x - offsets[0].x) * spp + 0.5 + spp)) % spp);
+      rows.insert(static_cast<int>(std::floor((offset.y - offsets[0].y) * spp + 0.5 + spp)) % spp);
+    }
+    EXPECT_EQ(columns.size(), offsets.size());
+    EXPECT_EQ(rows.size(), offsets.size());
+  }
+}
+
+TEST(MeanOfFrames, OfOneIsTheFrame) {
+  TestRenderer renderer(square_scene(random_normals(64, 64, 0.5F, 1), {}), {24, 24});
+  EXPECT_EQ(mean_at(64, 24, frame_offsets(1, 1)), renderer.frame(find_method("direct")));
+}
+
+// Texels as large as pixels: a frame moved by a pixel shows what stood one pixel further on.
+TEST(MeanOfFrames, MovesSamplesByPixels) {
+  const Image frame = mean_at(16, 16, std::vector{glm::dvec2(0.0)});
+  const Image moved = mean_at(16, 16, std::vector{glm::dvec2(1.0, 0.0)});
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 15; ++x) EXPECT_NEAR(moved.at(x, y)[0], frame.at(x + 1, y)[0], 1e-3F) << x << ", " << y;
+    EXPECT_EQ(moved.at(15, y)[3], 0.0F) << "beside the square";
+  }
+}
+
+TEST(MeanOfFrames, IsTheMeanOverWhatIsCovered) {
+  const std::vector offsets{glm::dvec2(0.0), glm::dvec2(1.0, 0.0)};
+  const Image both = mean_at(16, 16, offsets), first = mean_at(16, 16, std::span(offsets).first(1)),
+              second = mean_at(16, 16, std::span(offsets).last(1));
+  EXPECT_NEAR(both.at(3, 5)[1], 0.5F * (first.at(3, 5)[1] + second.at(3, 5)[1]), 1e-6F);
+  EXPECT_NEAR(both.at(15, 5)[1], first.at(15, 5)[1], 1e-6F);
+  EXPECT_EQ(both.at(15, 5)[3], 0.5F);
+}
+
+}  // namespace
+}  // namespace footprint::testing

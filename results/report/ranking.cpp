@@ -1,0 +1,243 @@
+// Compares the records of a distance by their shading error, and says in words what follows.
+#include "results/report/ranking.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string_view>
+
+#include "results/report/figures.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr double standard_errors = 3;             // beyond which a difference is none of chance
+constexpr double converged_standard_error = 0.5;  // of the mean radiance; above it no small difference is trusted
+
+// "a", "a and b", "a, b and c".
+std::string enumerated(const std::vector<std::string>& parts) {
+  if (parts.size() < 2) return parts.empty() ? std::string() : parts.front();
+  return fmt::format("{} and {}", fmt::join(parts.begin(), parts.end() - 1, ", "), parts.back());
+}
+
+std::string range_text(double low, double high) {
+  const std::string a = error_text(low), b = error_text(high);
+  return a == b ? a : fmt::format("{} to {}", a, b);
+}
+
+// The standard error of the difference of two records' errors. Both are against one reference, so that their noise is
+// alike and the true one is less.
+std::optional<double> difference_noise(const Record& a, const Record& b) {
+  const std::optional<double>&of_a = a.error->causes.shading_noise, &of_b = b.error->causes.shading_noise;
+  return of_a && of_b ? std::optional(std::hypot(*of_a, *of_b)) : std::nullopt;
+}
+
+std::string percent(std::size_t part, std::size_t whole) {
+  const double share = 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(whole, 1));
+  return share > 0.0 && share < 1.0 ? "under 1%" : fmt::format("{:.0f}%", share);
+}
+
+// Those that are ranked, the best first.
+DistanceRecords ranked(const DistanceRecords& records) {
+  DistanceRecords sorted;
+  std::ranges::copy_if(records, std::back_inserter(sorted),
+                       [](const Record& r) { return ranked_error(r).has_value(); });
+  std::ranges::stable_sort(sorted, {}, [](const Record& r) { return *ranked_error(r); });
+  return sorted;
+}
+
+std::string with_error(const Record& record) {
+  return fmt::format("{} ({})", record.method, error_text(*ranked_error(record)));
+}
+
+std::string who_is_best(const DistanceRecords& sorted, std::size_t best) {
+  const Record& first = sorted.front();
+  const std::size_t pixels = first.pixels.interior;
+  if (best == 1) {
+    return fmt::format("{} has the least shading error, {}, over {} interior pixels.", first.method,
+                       error_text(*ranked_error(first)), pixels);
+  }
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < best; ++i) names.push_back(sorted[i].get().method);
+  return fmt::format(
+      "{} have the least shading error, {} over {} interior pixels, and are not told apart: they differ "
+      "by no more than the reference's noise explains.",
+      enumerated(names), range_text(*ranked_error(first), *ranked_error(sorted[best - 1])), pixels);
+}
+
+std::string who_is_worse(const DistanceRecords& sorted, std::size_t best) {
+  std::vector<std::string> names;
+  for (std::size_t i = best; i < sorted.size(); ++i) names.push_back(with_error(sorted[i]));
+  return fmt::format("Worse by more than the noise: {}.", enumerated(names));
+}
+
+std::string worth_text(const Record& record) {
+  if (!record.equivalent) return {};
+  const auto [spp, side] = *record.equivalent;
+  if (side == CurveSide::below) return ", and one frame of direct is closer to the reference";
+  const std::string count = side == CurveSide::above ? fmt::format("more than {:g}", spp) : equivalent_text(record);
+  if (count == "1") return ", and is as far from the reference as one frame of direct";
+  return fmt::format(", and is as close to the reference as the mean of {} frames of direct", count);
+}
+
+std::string price_text(const Record& record) {
+  const TimeRatio& ratio = record.ratio_to_direct;
+  if (!std::isfinite(ratio.median)) return fmt::format("takes {} ms a frame", three_figures(record.frame_ms.median));
+  if (record.method == "direct") return "is direct itself";
+  if (is_about_one(ratio)) return "costs about what direct does";
+  return fmt::format("costs {} times what direct does", ratio_text(ratio));
+}
+
+std::string what_it_costs(const Record& record) {
+  if (record.method == "direct") return {};  // against itself there is nothing to say
+  return fmt::format("{} {}{}.", record.method, price_text(record), worth_text(record));
+}
+
+std::string what_the_bound_leaves(const Record& record) {
+  const ErrorCauses& causes = record.error->causes;
+  if (!causes.filter || !causes.method || !record.pixels.bound) return {};
+  return fmt::format(
+      "The true distribution of normals under the same footprint filter is off by {}: that much is the "
+      "filter's. {} differs from that by {}, its own share (over {} pixels).",
+      error_text(*causes.filter), record.method, error_text(*causes.method), *record.pixels.bound);
+}
+
+std::string what_the_lookup_costs(const Record& record) {
+  const std::optional<double>& light = record.error->causes.light;
+  if (!light || !record.pixels.light) return {};
+  return fmt::format(
+      "Its lookup of the environment by lobes differs by {} from all of that light shaded by the same "
+      "lobes (over {} pixels).",
+      error_text(*light), *record.pixels.light);
+}
+
+std::string what_edges_add(const DistanceRecords& records) {
+  std::vector<double> errors;
+  for (const Record& record : records) {
+    if (record.error && record.error->causes.edges) errors.push_back(*record.error->causes.edges);
+  }
+  if (errors.empty()) return {};
+  const PixelCounts& pixels = records.front().get().pixels;
+  const auto [least, most] = std::ranges::minmax(errors);
+  return fmt::format("Edges are {} of the object's pixels; there every method is off by {}, and none filters them.",
+                     percent(pixels.object - pixels.interior, pixels.object), range_text(least, most));
+}
+
+bool has_nothing_to_filter(const PixelCounts& pixels) { return pixels.interior > 0 && pixels.minified == 0; }
+
+// Whether even the best and the worst cannot be told apart.
+bool is_all_noise(const DistanceRecords& records) {
+  const DistanceRecords sorted = ranked(records);
+  return sorted.size() > 1 && !is_better(sorted.front(), sorted.back());
+}
+
+bool has_few(const PixelCounts& pixels) { return pixels.interior < few_pixels && pixels.interior >= too_few_pixels; }
+
+// A sentence with the distances of which `holds`, put in front; empty where there is none.
+template <typename Holds>
+std::string at_distances(const Results& results, Holds holds, std::string_view sentence) {
+  std::vector<std::string> found;
+  for (const double distance : distances_of(results)) {
+    if (holds(records_at(results, distance))) found.push_back(fmt::format("{:.4g}", distance));
+  }
+  if (found.empty()) return {};
+  return fmt::format("At distance{} {} {}", found.size() == 1 ? "" : "s", enumerated(found), sentence);
+}
+
+template <typename... Sentences>
+std::vector<std::string> those_said(Sentences... sentences) {
+  std::vector<std::string> all{std::move(sentences)...};
+  std::erase(all, std::string());
+  return all;
+}
+
+}  // namespace
+
+DistanceRecords records_at(const Results& results, double distance) {
+  DistanceRecords records;
+  std::ranges::copy_if(results.records, std::back_inserter(records),
+                       [distance](const Record& r) { return r.distance == distance; });
+  return records;
+}
+
+std::optional<double> ranked_error(const Record& record) {
+  if (!record.error || record.pixels.interior < too_few_pixels) return {};
+  return record.error->causes.shading;
+}
+
+bool is_better(const Record& a, const Record& b) {
+  const std::optional<double> of_a = ranked_error(a), of_b = ranked_error(b);
+  const std::optional<double> noise = of_a && of_b ? difference_noise(a, b) : std::nullopt;
+  return noise && *of_b - *of_a > standard_errors * *noise;
+}
+
+std::optional<int> rank(const Record& record, const DistanceRecords& records) {
+  if (!ranked_error(record)) return {};
+  return 1 + static_cast<int>(
+                 std::ranges::count_if(records, [&](const Record& other) { return is_better(other, record); }));
+}
+
+bool is_about_one(const TimeRatio& ratio) { return ratio.minimum <= 1.0 && ratio.maximum >= 1.0; }
+
+std::string ratio_text(const TimeRatio& ratio) {
+  if (!is_about_one(ratio)) return spread_text(ratio.median, ratio.minimum, ratio.maximum);  // n/a too
+  return fmt::format("about 1 ({}-{})", three_figures(ratio.minimum), three_figures(ratio.maximum));
+}
+
+std::optional<std::string> convergence_warning(const ReferenceInfo& reference) {
+  if (!reference.standard_error || *reference.standard_error <= converged_standard_error) return {};
+  return fmt::format(
+      "the reference has not converged: its standard error is {:.2g} of the mean radiance, as happens where lights "
+      "make "
+      "highlights too sharp for {} samples; raise --spp before small differences are trusted",
+      *reference.standard_error, reference.spp);
+}
+
+std::vector<std::string> ranking_warnings(const Results& results) {
+  const auto pixels = [](const DistanceRecords& records) { return records.front().get().pixels; };
+  return those_said(
+      convergence_warning(results.reference).value_or(std::string()),
+      at_distances(
+          results, [&](const auto& records) { return pixels(records).interior < too_few_pixels; },
+          fmt::format("there are fewer than {} interior pixels: methods are not ranked", too_few_pixels)),
+      at_distances(
+          results, [&](const auto& records) { return has_few(pixels(records)); },
+          fmt::format("there are fewer than {} interior pixels (marked !): the ranking rests on few", few_pixels)),
+      at_distances(
+          results, [&](const auto& records) { return has_nothing_to_filter(pixels(records)); },
+          "nothing is to be filtered: no pixel's footprint spans more than a texel of a normal map"),
+      at_distances(
+          results, is_all_noise,
+          "the methods differ by no more than the reference's noise explains: raise --spp to tell them apart"));
+}
+
+std::string pixels_and_noise(const Record& record) {
+  const PixelCounts& pixels = record.pixels;
+  const std::string text = fmt::format("{} object pixels, {} of them interior ({})", pixels.object, pixels.interior,
+                                       percent(pixels.interior, pixels.object));
+  if (!record.error || !record.error->noise_floor) return text + "; the reference's noise is not known.";
+  return fmt::format("{}; noise floor {}, over interior pixels {}.", text, error_text(*record.error->noise_floor),
+                     error_text(record.error->causes.shading_floor));
+}
+
+std::vector<std::string> findings(const Results& results, double distance) {
+  const DistanceRecords records = records_at(results, distance);
+  const DistanceRecords sorted = ranked(records);
+  if (sorted.empty()) return those_said(std::string("No method is ranked."), what_edges_add(records));
+  const auto worse = std::ranges::find_if(sorted, [&](const Record& r) { return is_better(sorted.front(), r); });
+  const auto best = static_cast<std::size_t>(worse - sorted.begin());
+  const Record& cheapest =
+      *std::ranges::min_element(sorted.begin(), worse, {}, [](const Record& r) { return r.frame_ms.median; });
+  return those_said(
+      has_nothing_to_filter(sorted.front().get().pixels)
+          ? std::string("Nothing is to be filtered here: no pixel's footprint spans more than a texel of a normal map.")
+          : std::string(),
+      sorted.size() > 1 ? who_is_best(sorted, best) : std::string(),
+      best < sorted.size() ? who_is_worse(sorted, best) : std::string(), what_it_costs(cheapest),
+      what_the_bound_leaves(cheapest), what_the_lookup_costs(cheapest), what_edges_add(records));
+}
+
+}  // namespace footprint

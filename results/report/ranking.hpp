@@ -1,0 +1,52 @@
+// What a reader may conclude from the errors of a run: which methods are apart beyond noise, over how many pixels.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "results/report/records.hpp"
+
+namespace footprint {
+
+/// Interior pixels below which a distance is marked, and below which it is not ranked.
+inline constexpr std::size_t few_pixels = 100, too_few_pixels = 20;
+
+/// The records of one distance, in the order of the run.
+using DistanceRecords = std::vector<std::reference_wrapper<const Record>>;
+[[nodiscard]] DistanceRecords records_at(const Results& results, double distance);
+
+/// The error that methods are ranked by: shading, over interior pixels. None without one, or over too few pixels.
+[[nodiscard]] std::optional<double> ranked_error(const Record& record);
+
+/// Whether `a` is better than `b` by more than the reference's own noise over those pixels explains: by three standard
+/// errors of the difference. Never where that noise is not known.
+[[nodiscard]] bool is_better(const Record& a, const Record& b);
+
+/// The place of a record among those of its distance: 1 and the number of those that are better beyond noise. Several
+/// may share one. None where it is not ranked.
+[[nodiscard]] std::optional<int> rank(const Record& record, const DistanceRecords& records);
+
+/// Whether the ratio's spread over the repeats covers 1: the method costs about what `direct` does.
+[[nodiscard]] bool is_about_one(const TimeRatio& ratio);
+
+/// "1.31 (1.25-1.40)", or "about 1 (0.95-1.08)".
+[[nodiscard]] std::string ratio_text(const TimeRatio& ratio);
+
+/// That no small difference is to be trusted, where the reference is as noisy as that.
+[[nodiscard]] std::optional<std::string> convergence_warning(const ReferenceInfo& reference);
+
+/// What bears on the ranking and a reader must know first, one sentence each: a reference that has not converged,
+/// distances with few interior pixels, with differences below the noise, or with nothing to filter.
+[[nodiscard]] std::vector<std::string> ranking_warnings(const Results& results);
+
+/// "12,345 object pixels, 8,100 of them interior (66%); noise floor 0.00017, over interior pixels 0.00012.", of a
+/// distance any of whose records this is.
+[[nodiscard]] std::string pixels_and_noise(const Record& record);
+
+/// What was found at one distance, in sentences: which methods are best and which are not told apart, what the best
+/// one costs and what it is worth, what the bound leaves, and what edges add.
+[[nodiscard]] std::vector<std::string> findings(const Results& results, double distance);
+
+}  // namespace footprint

@@ -1,0 +1,181 @@
+// Who is ranked where, and that words claim no more than the figures bear.
+#include "results/report/ranking.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/says.hpp"
+
+namespace footprint {
+namespace {
+
+using test::says;
+
+// A method of a distance, as far as the ranking looks at it.
+Record method(const std::string& name, double shading, std::size_t interior = 5000, double distance = 1) {
+  Record record;
+  record.method = name;
+  record.distance = distance;
+  record.pixels = {.object = 8000, .interior = interior, .minified = interior, .bound = {}, .light = {}};
+  record.error = RecordError{};
+  record.error->normalized_color = 2 * shading;
+  record.error->noise_floor = 0.002;
+  record.error->causes = {.shading = shading,
+                          .shading_floor = 0.01,
+                          .shading_noise = 0.00025,
+                          .edges = 0.1 + shading,
+                          .filter = {},
+                          .method = {},
+                          .light = {}};
+  record.frame_ms = {2.0, 1.9, 2.2};
+  record.ratio_to_direct = {1.3, 1.2, 1.4};
+  return record;
+}
+
+Results run_of(std::vector<Record> records) {
+  Results results;
+  results.records = std::move(records);
+  return results;
+}
+
+// All that is said of a distance, in one text.
+std::string said(const Results& results, double distance = 1) {
+  std::string text;
+  for (const std::string& sentence : findings(results, distance)) text += sentence + "\n";
+  return text;
+}
+
+std::string warned(const Results& results) {
+  std::string text;
+  for (const std::string& sentence : ranking_warnings(results)) text += sentence + "\n";
+  return text;
+}
+
+TEST(Ranking, GoesByShadingAndSharesPlacesWithinTheNoise) {
+  const Results results = run_of({method("d", 0.05), method("a", 0.02), method("b", 0.0209), method("c", 0.0305)});
+  const DistanceRecords records = records_at(results, 1);
+  EXPECT_EQ(rank(results.records[1], records), 1);
+  EXPECT_EQ(rank(results.records[2], records), 1) << "0.0009 is under three standard errors, 0.00106";
+  EXPECT_EQ(rank(results.records[3], records), 3);
+  EXPECT_EQ(rank(results.records[0], records), 4);
+  EXPECT_FALSE(is_better(results.records[1], results.records[2]));
+  EXPECT_TRUE(is_better(results.records[1], results.records[3]));
+  EXPECT_FALSE(is_better(results.records[3], results.records[1]));
+}
+
+TEST(Ranking, IsNotDoneOverTooFewPixels) {
+  const Results results = run_of({method("a", 0.02, too_few_pixels - 1), method("b", 0.2, too_few_pixels - 1)});
+  EXPECT_EQ(rank(results.records[0], records_at(results, 1)), std::nullopt);
+  EXPECT_FALSE(is_better(results.records[0], results.records[1]));
+  EXPECT_TRUE(says(said(results), "No method is ranked"));
+  EXPECT_TRUE(says(warned(results), "At distance 1 there are fewer than 20 interior pixels"));
+  EXPECT_TRUE(rank(method("a", 0.02, too_few_pixels), records_at(results, 1)).has_value());
+}
+
+TEST(Ranking, WithoutAnErrorThereIsNone) {
+  Record record = method("a", 0.02);
+  record.error.reset();
+  EXPECT_EQ(ranked_error(record), std::nullopt);
+  record = method("a", 0.02);
+  record.error->causes.shading.reset();
+  EXPECT_EQ(ranked_error(record), std::nullopt);
+}
+
+// Without an estimate of the noise nothing is told apart.
+TEST(Ranking, NeedsTheNoise) {
+  Results results = run_of({method("a", 0.02), method("b", 0.9)});
+  results.records[1].error->causes.shading_noise.reset();
+  EXPECT_FALSE(is_better(results.records[0], results.records[1]));
+  EXPECT_TRUE(says(warned(results), "raise --spp"));
+}
+
+TEST(RatioText, SaysAboutOneWhereTheSpreadCoversIt) {
+  EXPECT_EQ(ratio_text({1.02, 0.95, 1.08}), "about 1 (0.950-1.08)");
+  EXPECT_EQ(ratio_text({1.31, 1.25, 1.4}), "1.31 (1.25-1.40)");
+  EXPECT_EQ(ratio_text({0.8, 0.7, 0.9}), "0.800 (0.700-0.900)");
+  EXPECT_EQ(ratio_text({std::nan(""), std::nan(""), std::nan("")}), "n/a");
+}
+
+TEST(RankingWarnings, AreSilentWhereAllIsWell) {
+  EXPECT_EQ(warned(run_of({method("a", 0.02), method("b", 0.05)})), "");
+}
+
+TEST(RankingWarnings, NameTheDistances) {
+  const Results results =
+      run_of({method("a", 0.02), method("b", 0.04), method("a", 0.02, 60, 4), method("b", 0.04, 60, 4),
+              method("a", 0.02, 5, 16), method("b", 0.04, 5, 16), method("a", 0.02, 5, 32), method("b", 0.04, 5, 32)});
+  EXPECT_TRUE(says(warned(results), "At distance 4 there are fewer than 100 interior pixels"));
+  EXPECT_TRUE(says(warned(results), "At distances 16 and 32 there are fewer than 20"));
+}
+
+TEST(RankingWarnings, TellDifferencesBelowTheNoise) {
+  EXPECT_TRUE(says(warned(run_of({method("a", 0.02), method("b", 0.0208)})), "raise --spp"));
+  EXPECT_EQ(warned(run_of({method("a", 0.02)})), "") << "one method alone differs from none";
+}
+
+TEST(RankingWarnings, TellWhereNothingIsToBeFiltered) {
+  Results results = run_of({method("a", 0.02), method("b", 0.04)});
+  for (Record& record : results.records) record.pixels.minified = 0;
+  EXPECT_TRUE(says(warned(results), "nothing is to be filtered"));
+  EXPECT_TRUE(says(said(results), "Nothing is to be filtered here"));
+}
+
+TEST(RankingWarnings, TellAReferenceThatHasNotConverged) {
+  Results results = run_of({method("a", 0.02), method("b", 0.04)});
+  results.reference.standard_error = 11;
+  EXPECT_TRUE(says(warned(results), "the reference has not converged: its standard error is 11"));
+  results.reference.standard_error = 0.4;
+  EXPECT_EQ(warned(results), "");
+}
+
+TEST(Findings, NameTheBestAndThoseThatAreWorse) {
+  const std::string text = said(run_of({method("direct", 0.09), method("toksvig", 0.02), method("lean", 0.05)}));
+  EXPECT_TRUE(says(text, "toksvig has the least shading error, 0.02000, over 5000 interior pixels."));
+  EXPECT_TRUE(says(text, "Worse by more than the noise: lean (0.05000) and direct (0.09000)."));
+  EXPECT_TRUE(says(text, "Edges are 38% of the object's pixels; there every method is off by 0.12000 to 0.19000"));
+}
+
+TEST(Findings, ClaimNoWinnerWithinTheNoise) {
+  const std::string text = said(run_of({method("lean", 0.0205), method("toksvig", 0.02), method("direct", 0.09)}));
+  EXPECT_TRUE(says(text,
+                   "toksvig and lean have the least shading error, 0.02000 to 0.02050 over 5000 interior pixels, "
+                   "and are not told apart"));
+  EXPECT_FALSE(says(text, "toksvig has the least"));
+}
+
+TEST(Findings, SayWhatTheCheapestOfTheBestCosts) {
+  Results results = run_of({method("lean", 0.0205), method("toksvig", 0.02), method("direct", 0.09)});
+  results.records[0].frame_ms.median = 1.0;
+  results.records[0].equivalent = EquivalentSamples{41.2, CurveSide::within};
+  EXPECT_TRUE(says(said(results),
+                   "lean costs 1.30 (1.20-1.40) times what direct does, and is as close to the reference "
+                   "as the mean of 41 frames of direct."));
+  results.records[0].ratio_to_direct = {1.02, 0.9, 1.1};
+  results.records[0].equivalent = EquivalentSamples{64, CurveSide::above};
+  EXPECT_TRUE(says(said(results),
+                   "lean costs about what direct does, and is as close to the reference as the mean of "
+                   "more than 64 frames of direct."));
+  results.records[0].equivalent = EquivalentSamples{1, CurveSide::below};
+  EXPECT_TRUE(says(said(results), "one frame of direct is closer"));
+}
+
+// A method is not compared with itself.
+TEST(Findings, SayNothingOfWhatDirectIsWorth) {
+  Results results = run_of({method("direct", 0.02), method("toksvig", 0.09)});
+  results.records[0].equivalent = EquivalentSamples{1, CurveSide::within};
+  EXPECT_FALSE(says(said(results), "frames of direct"));
+}
+
+TEST(Findings, SayWhatTheBoundLeaves) {
+  Results results = run_of({method("toksvig", 0.02), method("direct", 0.09)});
+  EXPECT_FALSE(says(said(results), "true distribution"));
+  results.records[0].error->causes.filter = 0.015;
+  results.records[0].error->causes.method = 0.008;
+  results.records[0].pixels.bound = 1024;
+  EXPECT_TRUE(says(said(results), "is off by 0.01500"));
+  EXPECT_TRUE(says(said(results), "toksvig differs from that by 0.00800, its own share (over 1024 pixels)"));
+}
+
+}  // namespace
+}  // namespace footprint

@@ -23,6 +23,7 @@
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
+#include "renderer/pipeline/pixel_work.hpp"
 #include "renderer/pipeline/timing.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "results/report/equivalent_spp.hpp"
@@ -423,11 +424,20 @@ class Comparison {
       record.fps = 1000.0 / record.frame_ms.median;
       record.ratio_to_direct = {
           .median = quantile(ratios, 0.5), .minimum = std::ranges::min(ratios), .maximum = std::ranges::max(ratios)};
+      record.work = work_of(m, stage_.view(distances_[distance]));
       if (!method(m).gpu().has_frame_build()) continue;
       record.frame_build =
           FrameBuildTime{.ms = quantile(pooled(processes, distance, build++), 0.5),
                          .timing = method(m).gpu().keeps_builds() ? BuildTiming::reused : BuildTiming::every_frame};
     }
+  }
+
+  // Not of methods that draw for seconds: they would count as long.
+  std::optional<RecordWork> work_of(std::size_t m, const View& view) {
+    if (method(m).baked().method->info().slow_frame) return {};
+    if (counting_.size() <= m) counting_.push_back(stage_.counting_frames(method(m)));
+    const PixelWork work = pixel_work(counting_[m], view);
+    return RecordWork{.fetches = work.lookups, .lobes = work.lobes};
   }
 
   // What stands at the top of the pictures of some drafts: what was asked for, else the largest 99th percentile over
@@ -519,7 +529,8 @@ class Comparison {
   std::map<const StagedMethod*, FrameRenderer> dense_frames_;  // of a scene with an environment
   ProgressParts parts_;
   Exposure chosen_exposure_;
-  float exposure_ = 1.0F;  // its factor
+  std::vector<FrameRenderer> counting_;  // of each method, made where it is first counted
+  float exposure_ = 1.0F;                // its factor
   std::vector<Draft> drafts_;
   std::vector<Exhibit> references_;  // one a distance, for the strips
   Supersampled before_;              // the reference of the frame before

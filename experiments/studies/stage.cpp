@@ -111,6 +111,18 @@ FrameRenderer Stage::dense_frames(const StagedMethod& method) const {
           settings_.backend.tile};
 }
 
+FrameRenderer Stage::counting_frames(const StagedMethod& method) const {
+  return {context_.info(),
+          *gpu_scene_,
+          method.gpu(),
+          size_,
+          ProgramSettings{.sampling = Sampling::frame,
+                          .footprint = footprint_filter_of(settings_, scene_),
+                          .counting = true,
+                          .orthographic = scene_.camera.orthographic},
+          settings_.backend.tile};
+}
+
 Supersampler Stage::finest_level(const StagedMethod& method) const {
   return {context_.info(),       *gpu_scene_, method.gpu(), settings_.reference.filter, scene_.camera.orthographic,
           settings_.backend.tile};

@@ -71,6 +71,9 @@ class Stage {
   /// stands for.
   [[nodiscard]] FrameRenderer dense_frames(const StagedMethod& method) const;
 
+  /// A method's frames whose pixels are counts (PixelWork).
+  [[nodiscard]] FrameRenderer counting_frames(const StagedMethod& method) const;
+
   /// A method's own finest level, supersampled as the reference is.
   [[nodiscard]] Supersampler finest_level(const StagedMethod& method) const;
 

@@ -3,10 +3,8 @@
 
 namespace footprint {
 
-PixelWork pixel_work(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method, const View& view,
-                     ProgramSettings settings, int tile_edge) {
-  settings.counting = true;
-  const Image counts = FrameRenderer(context, scene, method, view.size, settings, tile_edge).render(view);
+PixelWork pixel_work(const FrameRenderer& counting, const View& view) {
+  const Image counts = counting.render(view);
   PixelWork sum;
   std::size_t pixels = 0;
   for (std::size_t i = 0; i < counts.texels.size(); i += 4) {

@@ -37,6 +37,12 @@ struct FrameBuildTime {
   BuildTiming timing = BuildTiming::every_frame;
 };
 
+/// What a pixel costs, counted: means over the object.
+struct RecordWork {
+  double fetches = 0;  ///< texture lookups
+  double lobes = 0;    ///< evaluated, over all lights
+};
+
 /// Median with its spread over the repeats of one run.
 struct FrameTime {
   double median = 0, minimum = 0, p90 = 0;  ///< milliseconds
@@ -121,7 +127,7 @@ struct Record {
   std::optional<FrameBuildTime> frame_build;  ///< none: the method rebuilds nothing
   double fps = 0;                             ///< 1000 / frame_ms.median
   TimeRatio ratio_to_direct;
-  std::optional<double> fetches;  ///< of texels a pixel, mean over the object; none: not counted
+  std::optional<RecordWork> work;  ///< none: not counted
   double precompute_seconds = 0;
   std::uint64_t precompute_bytes = 0;
   std::optional<double> precompute_bytes_per_texel;  ///< over the finest level's texels; none: no texture

@@ -63,6 +63,7 @@ TEST(ResultsCsv, FiguresStandUnderTheirColumn) {
   EXPECT_EQ(value(lines, 4, "light_error"), "");
   EXPECT_EQ(value(lines, 2, "light_error"), "0.0021");
   EXPECT_EQ(value(lines, 2, "fetches"), "96.5");
+  EXPECT_EQ(value(lines, 2, "lobes"), "12.25");
   EXPECT_EQ(value(lines, 4, "interior_pixels"), "9260");
   EXPECT_EQ(value(lines, 4, "bound_pixels"), "9260");
   EXPECT_EQ(value(lines, 5, "bound_pixels"), "");

@@ -52,6 +52,7 @@ TEST(ResultsJson, HasThePublishedFields) {
                             "/records/0/pixels/bound",
                             "/records/0/pixels/light",
                             "/records/0/time/fetches",
+                            "/records/0/time/lobes",
                             "/records/0/images/interior",
                             "/records/0/images/error_shared",
                             "/ranking_warnings/0",

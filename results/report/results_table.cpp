@@ -72,7 +72,8 @@ std::vector<MarkdownColumn> error_columns(const DistanceRecords& records) {
 std::vector<std::string> time_row(const Record& record) {
   const FrameTime& frame = record.frame_ms;
   return {spread_text(frame.median, frame.minimum, frame.p90), ratio_text(record.ratio_to_direct),
-          three_figures(record.fps)};
+          three_figures(record.fps), record.work ? three_figures(record.work->fetches) : "-",
+          record.work ? three_figures(record.work->lobes) : "-"};
 }
 
 constexpr std::size_t terminal = 130;  // columns
@@ -102,7 +103,7 @@ std::string split_table(const std::vector<MarkdownColumn>& columns, const Rows& 
 /// Errors and times of a distance: in one table where it fits, else each in its own.
 std::string main_table(const DistanceRecords& records) {
   const std::vector<MarkdownColumn> errors = error_columns(records);
-  const std::vector<MarkdownColumn> times{{"Frame ms"}, {"x direct"}, {"fps"}};
+  const std::vector<MarkdownColumn> times{{"Frame ms"}, {"x direct"}, {"fps"}, {"Fetches"}, {"Lobes"}};
   Rows error_rows, time_rows, whole_rows;
   for (const Record& record : records) {
     error_rows.push_back(error_row(record, records));
@@ -266,7 +267,8 @@ filters. Filter: of the shading error what the true distribution of normals leav
 Method: what the method's picture differs from that by. Light: what its lookup of an environment by lobes differs by from
 all of that light. Repr.: the error of the method's finest level, supersampled. Worth spp: the frames of `direct`,
 averaged, that have the same shading error. Frame ms: median (least-90th percentile). x direct: frame time over that of
-`direct`, median (least-most); about 1 where that spread covers it.
+`direct`, median (least-most); about 1 where that spread covers it. Fetches, Lobes: texture lookups and lobes a pixel,
+counted.
 )";
 }
 

@@ -33,13 +33,12 @@ Image TestRenderer::frame(const Method& method, const std::string& text, const F
                           double distance, EnvironmentUse environment) {
   const BakedMethod bake_result = baked(method, text);
   const GpuMethod gpu(gpu_scene_, bake_result);
-  const FrameRenderer frames(
-      context_->info(), gpu_scene_, gpu, size_,
-      {.sampling = Sampling::frame,
-       .footprint = filter,
-       .orthographic = scene_.camera.orthographic,
-       .environment = environment},
-      tile);
+  const FrameRenderer frames(context_->info(), gpu_scene_, gpu, size_,
+                             {.sampling = Sampling::frame,
+                              .footprint = filter,
+                              .orthographic = scene_.camera.orthographic,
+                              .environment = environment},
+                             tile);
   Image picture = frames.render({.size = size_, .camera = camera_at_distance(scene_, distance)});
   context_->check("drawing a test frame");
   return picture;
@@ -48,8 +47,9 @@ Image TestRenderer::frame(const Method& method, const std::string& text, const F
 PixelWork TestRenderer::work(const Method& method, const std::string& text, const FootprintFilter& filter) {
   const BakedMethod bake_result = baked(method, text);
   const GpuMethod gpu(gpu_scene_, bake_result);
-  return pixel_work(context_->info(), gpu_scene_, gpu, {.size = size_, .camera = scene_.camera},
-                    {.footprint = filter, .orthographic = scene_.camera.orthographic});
+  const FrameRenderer counting(context_->info(), gpu_scene_, gpu, size_,
+                               {.footprint = filter, .counting = true, .orthographic = scene_.camera.orthographic});
+  return pixel_work(counting, {.size = size_, .camera = scene_.camera});
 }
 
 Supersampled TestRenderer::supersampled(const Method& method, int spp, std::uint64_t seed, ReferenceFilter filter,

@@ -93,8 +93,11 @@ struct Draft {
   std::string stem;
 };
 
-// How often a count is timed: the short ones, which a passing disturbance would spoil, more often.
-int curve_repeats(int spp) { return std::clamp(16 / spp, 1, 5); }
+// Of so many frames those that are timed: more of them take as many times longer.
+int timed_frames(int spp) { return std::min(spp, 8); }
+
+// How often they are timed: few of them, which a passing disturbance would spoil, more often.
+int curve_repeats(int spp) { return std::clamp(16 / spp, 2, 5); }
 
 std::optional<double> normalized_color(const Image& picture, const Image& reference, float exposure) {
   const std::optional<ErrorFigures> figures = compare_images(picture, reference, exposure);
@@ -146,7 +149,7 @@ class Comparison {
   // Of the renders and timed draws of plain supersampling: what it weighs beside the reference.
   [[nodiscard]] double curve_samples() const {
     double samples = 0.0;
-    for (const int spp : settings_.reference.supersampling) samples += spp * (1.0 + curve_repeats(spp));
+    for (const int spp : settings_.reference.supersampling) samples += spp + timed_frames(spp) * curve_repeats(spp);
     return samples;
   }
 
@@ -261,15 +264,15 @@ class Comparison {
       const Image picture = mean_of_frames(direct, truth.view, offsets, parts_.next(spp, prefix + "supersampling, "));
       const int repeats = curve_repeats(spp);
       const DrawFrame draw = [&] {
-        for (const glm::dvec2& offset : offsets) direct.draw(truth.view, offset);
+        for (int i = 0; i < timed_frames(spp); ++i) direct.draw(truth.view, offsets[static_cast<std::size_t>(i)]);
       };
       const std::vector<double> times =
-          repeated_times(stage_.context().info(), draw, repeats, parts_.next(spp * repeats, prefix));
+          repeated_times(stage_.context().info(), draw, repeats, parts_.next(timed_frames(spp) * repeats, prefix));
       curve.push_back({.distance = truth.distance,
                        .spp = spp,
                        .normalized_color = normalized_color(picture, truth.reference.mean, exposure_),
                        .shading = normalized_color_over(picture, truth.reference.mean, exposure_, truth.parts.interior),
-                       .ms = quantile(times, 0.5)});
+                       .ms = quantile(times, 0.5) * spp / timed_frames(spp)});
     }
     return curve;
   }

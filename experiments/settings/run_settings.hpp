@@ -73,7 +73,11 @@ inline constexpr std::array<Word<BoundUse>, 3> bound_uses{{
 
 /// What errors are measured against.
 struct ReferenceSettings {
-  int spp = 64;                                            ///< samples a pixel, 1 to 4096
+  int spp = 64;                 ///< samples a pixel, 1 to 4096; where `by_noise`, those to begin with
+  bool by_noise = false;        ///< goes on tile by tile, 4096 samples at most, until the noise floor is `noise`
+  bool fixed_spp = false;       ///< `spp` was asked for, so that `by_noise` has no say
+  std::optional<double> noise;  ///< normalised colour error; none: a fifth of the least difference between methods
+  int spp_max = 4096;
   std::vector<int> other_spp;                              ///< of further references that errors are measured against
   std::vector<int> supersampling{1, 2, 4, 8, 16, 32, 64};  ///< samples a pixel of the measured curve
   std::uint64_t seed = 1;                                  ///< same seed, same bytes

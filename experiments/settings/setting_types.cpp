@@ -14,6 +14,7 @@
 namespace footprint::setting_types {
 namespace {
 
+constexpr double least_noise = 1e-6, most_noise = 1.0;
 constexpr double smallest_exposure = 1e-30, largest_exposure = 1e30;
 constexpr double largest_exact = 9007199254740992.0;  // 2^53: TOML's numbers are read as doubles
 
@@ -210,6 +211,53 @@ SettingType positive_number(Field<std::optional<double>> field, double low, doub
                 field(run) = *table.number(key, {low, high});
               },
           .text = [=](RunSettings run) { return field(run) ? fmt::format("{}", *field(run)) : ""; }};
+}
+
+SettingType fixed_samples(Field<ReferenceSettings> field, int low, int high) {
+  const std::string takes = fmt::format("{} to {}", low, high);
+  const NumberRange range{static_cast<double>(low), static_cast<double>(high)};
+  const auto set = [=](RunSettings& run, int spp) {
+    field(run).spp = spp;
+    field(run).fixed_spp = true;
+  };
+  return {.word = "N",
+          .option_takes = takes,
+          .file_takes = takes,
+          .read_text =
+              [=](RunSettings& run, std::string_view option, const std::string& text) {
+                const auto number = parse_whole_of<int>(text);
+                if (!number || *number < low || *number > high)
+                  throw does_not_fit(option, text, "does not fit", fmt::format("give a whole number, {}", takes));
+                set(run, *number);
+              },
+          .read_file = [=](RunSettings& run, const TomlTable& table,
+                           std::string_view key) { set(run, static_cast<int>(*table.whole_number(key, range))); },
+          .text = [=](RunSettings run) { return fmt::format("{}", field(run).spp); }};
+}
+
+SettingType noise(Field<ReferenceSettings> field) {
+  const std::string takes = fmt::format("{} to {}, or auto", least_noise, most_noise);
+  const auto set = [=](RunSettings& run, std::optional<double> value) {
+    field(run).by_noise = true;
+    field(run).noise = value;
+  };
+  const auto parse = [=](RunSettings& run, std::string_view option, const std::string& text) {
+    set(run, text == "auto" ? std::nullopt : std::optional(parse_positive(option, text, least_noise, most_noise)));
+  };
+  return {.word = "X",
+          .option_takes = takes,
+          .file_takes = takes,
+          .read_text = parse,
+          .read_file =
+              [=](RunSettings& run, const TomlTable& table, std::string_view key) {
+                if (table.is_word(key)) return at_key(table, key, [&] { parse(run, "", *table.word(key)); });
+                set(run, *table.number(key, {least_noise, most_noise}));
+              },
+          .text =
+              [=](RunSettings run) {
+                if (!field(run).by_noise) return std::string();
+                return field(run).noise ? fmt::format("{}", *field(run).noise) : std::string("auto");
+              }};
 }
 
 SettingType distances(Field<std::vector<double>> field, std::size_t most) {

@@ -36,6 +36,12 @@ using Field = Value& (*)(RunSettings& run);
 /// A number above 0.
 [[nodiscard]] SettingType positive_number(Field<std::optional<double>> field, double low, double high);
 
+/// Samples a pixel, which then are fixed.
+[[nodiscard]] SettingType fixed_samples(Field<ReferenceSettings> field, int low, int high);
+
+/// A noise floor to be reached, or "auto".
+[[nodiscard]] SettingType noise(Field<ReferenceSettings> field);
+
 /// Factors on the camera's distance, `most` at most, none twice.
 [[nodiscard]] SettingType distances(Field<std::vector<double>> field, std::size_t most);
 

@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
 #include <utility>
 
+#include "experiments/studies/converge.hpp"
 #include "experiments/studies/error_causes.hpp"
 #include "experiments/studies/exposure.hpp"
 #include "experiments/studies/picture_files.hpp"
@@ -22,9 +24,11 @@
 #include "experiments/studies/zoom.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/pixel_work.hpp"
 #include "renderer/pipeline/timing.hpp"
+#include "renderer/pipeline/unresolved.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "results/report/equivalent_spp.hpp"
 
@@ -32,6 +36,11 @@ namespace footprint {
 namespace {
 
 constexpr double scale_quantile = 0.99;
+constexpr double least_noise = 1e-5;         // that is asked for unasked
+constexpr double printed_difference = 1e-3;  // of an error, in three figures
+constexpr double automatic_work = 1.0;       // samples beyond the first, in multiples of those
+constexpr double automatic_samples = 16e6;   // likewise, of all pixels: a second or two
+constexpr double unbounded_work = 1e9;
 constexpr double smallest_error_scale = 0.01;
 constexpr std::uint64_t curve_seed = 0x9e3779b97f4a7c15;  // keeps the curve's samples apart from the reference's
 
@@ -75,13 +84,15 @@ struct Truth {
   std::size_t frame = 0;
   double distance = 1;
   View view;
-  Supersampled reference;
+  Supersampled reference;  // its unresolved pixels uncovered
+  Image first;             // its mean over the samples that every pixel has, likewise
+  Image unresolved;        // a mask of them
   std::optional<double> noise_floor, shading_floor;
   PixelParts parts;
   std::optional<BoundPicture> bound;
   std::vector<Tile> light_tiles;  // lit by all of an environment, and the interior pixels there
   Image light_pixels;
-  std::string reference_file, interior_file;
+  std::string reference_file, standard_error_file, interior_file;
   std::vector<SupersamplingPoint> curve;
   std::vector<OtherTruth> others;
 };
@@ -92,6 +103,10 @@ struct Draft {
   Exhibit exhibit;
   std::string stem;
 };
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
 
 // Of so many frames those that are timed: more of them take as many times longer.
 int timed_frames(int spp) { return std::min(spp, 8); }
@@ -113,8 +128,9 @@ class Comparison {
         stage_(load_scene(settings.scene, settings.scene_library, settings.view.camera), with_direct(settings),
                whole_.next(1, ""), pictures_of_a_frame, filter_of_the_unit),
         distances_(run_distances(settings.view, stage_.scene())),
-        parts_(whole_.next(3, ""), static_cast<double>(distances_.size()) *
-                                       (settings.reference.spp + other_samples() + curve_samples() + method_weight())) {
+        parts_(whole_.next(3, ""),
+               static_cast<double>(distances_.size()) * ((1.0 + automatic_work) * settings.reference.spp +
+                                                         other_samples() + curve_samples() + method_weight())) {
     require_pictures(stage_.view(1.0).size, pictures_held(settings.methods.size(), distances_.size()));
   }
 
@@ -170,6 +186,8 @@ class Comparison {
                 .distance = distance,
                 .view = stage_.view(distance),
                 .reference = {},
+                .first = {},
+                .unresolved = {},
                 .noise_floor = {},
                 .shading_floor = {},
                 .parts = {},
@@ -177,30 +195,96 @@ class Comparison {
                 .light_tiles = {},
                 .light_pixels = {},
                 .reference_file = {},
+                .standard_error_file = {},
                 .interior_file = {},
                 .curve = {},
                 .others = {}};
+    const auto begin = std::chrono::steady_clock::now();
     truth.reference = stage_.reference().render(truth.view, settings_.reference.spp, settings_.reference.seed,
                                                 parts_.next(settings_.reference.spp, prefix + "reference, "));
     if (frame == 0) {
       chosen_exposure_ = choose_exposure(settings_.view.exposure, stage_.scene(), truth.reference.mean);
       exposure_ = chosen_exposure_.factor;
-      results_.reference.standard_error = relative_standard_error(truth.reference);
     }
-    truth.noise_floor = noise_floor(truth.reference, exposure_);
+    truth.first = truth.reference.mean;
+    const bool by_noise = settings_.reference.by_noise && !settings_.reference.fixed_spp;
+    samples_ += by_noise ? refine_reference(truth, prefix) : settings_.reference.spp;
+    seconds_ += seconds_since(begin);
     references_.push_back({.caption = fmt::format("reference, {} spp", settings_.reference.spp),
                            .picture = truth.reference.mean,
                            .error = {}});
-    truth.reference_file =
-        write_exposable_picture(folder_, stem_of(distance, "reference"), truth.reference.mean, exposure_);
+    write_reference(truth);
+    leave_out_unresolved(truth);
+    truth.noise_floor = noise_floor(truth.reference, exposure_);
+    if (frame == 0) results_.reference.standard_error = relative_standard_error(truth.reference);
     find_parts(truth, prefix);
     truth.curve = supersampling_curve(truth, prefix);
     for (const int spp : settings_.reference.other_spp) {
-      const Supersampled other = stage_.reference().render(
-          truth.view, spp, settings_.reference.seed, parts_.next(spp, prefix + "other reference, "), TexelUse::drawn);
+      Supersampled other = stage_.reference().render(truth.view, spp, settings_.reference.seed,
+                                                     parts_.next(spp, prefix + "other reference, "), TexelUse::drawn);
+      leave_out(other, truth.unresolved);
       truth.others.push_back({.spp = spp, .mean = other.mean, .noise_floor = noise_floor(other, exposure_)});
     }
     return truth;
+  }
+
+  // Goes on with the reference until its noise is what was asked for; returns its mean samples a pixel.
+  double refine_reference(Truth& truth, const std::string& prefix) {
+    const ReferenceSettings& asked = settings_.reference;
+    const Convergence wanted{.noise = asked.noise.value_or(noise_that_tells_apart(truth)),
+                             .exposure = exposure_,
+                             .spp_max = asked.spp_max,
+                             .most_work = asked.noise ? unbounded_work : most_work(truth.view.size)};
+    return converge(stage_.reference(), truth.reference, truth.view, asked.seed, wanted,
+                    parts_.next(automatic_work * asked.spp, prefix + "reference, "));
+  }
+
+  // Unasked: as many samples as the picture has, and more where that is little.
+  [[nodiscard]] double most_work(const glm::ivec2& size) const {
+    const double first = static_cast<double>(settings_.reference.spp) * size.x * size.y;
+    return std::max(automatic_work, automatic_samples / first);
+  }
+
+  // A fifth of the least difference between the methods' errors that the table prints, or of the least error. Methods
+  // that agree to three figures are one to it.
+  [[nodiscard]] double noise_that_tells_apart(const Truth& truth) const {
+    Supersampled counted = truth.reference;
+    leave_out(counted, unresolved(counted, exposure_));
+    std::vector<double> errors;
+    for (std::size_t m = 0; m < settings_.methods.size(); ++m) {
+      if (const auto error = normalized_color(method(m).frames().render(truth.view), counted.mean, exposure_))
+        errors.push_back(*error);
+    }
+    if (errors.empty()) return least_noise;
+    std::ranges::sort(errors);
+    double least = errors.front();
+    for (std::size_t i = 1; i < errors.size(); ++i) {
+      const double difference = errors[i] - errors[i - 1];
+      if (difference > printed_difference * errors[i]) least = std::min(least, difference);
+    }
+    return std::max(least / 5.0, least_noise);
+  }
+
+  void write_reference(Truth& truth) const {
+    const std::string stem = stem_of(truth.distance, "reference");
+    truth.reference_file = write_exposable_picture(folder_, stem, truth.reference.mean, exposure_);
+    truth.standard_error_file = fmt::format("images/{}_standard_error.exr", stem);
+    write_exr(folder_ / truth.standard_error_file, truth.reference.standard_error);
+  }
+
+  // Every figure is over the pixels that are covered; what is left out stands in the warnings.
+  void leave_out_unresolved(Truth& truth) {
+    const std::size_t whole = object_pixel_count(truth.reference.mean);
+    truth.unresolved = unresolved(truth.reference, exposure_);
+    leave_out(truth.reference, truth.unresolved);
+    uncover(truth.first, truth.unresolved);
+    const std::size_t left_out = whole - object_pixel_count(truth.reference.mean);
+    truth.parts.counts.unresolved = left_out;
+    if (left_out == 0) return;
+    results_.scene.warnings.push_back(fmt::format(
+        "distance {:g}: {:.2g}% of the object unresolved: in {} of {} pixels a few samples carry nearly all of the "
+        "light; they are left out of every figure",
+        truth.distance, 100.0 * static_cast<double>(left_out) / static_cast<double>(whole), left_out, whole));
   }
 
   // The pixels that are interior, and the bound over them.
@@ -208,7 +292,9 @@ class Comparison {
     const Interior interior = interior_finder_->render(truth.view, settings_.reference.spp, settings_.reference.seed,
                                                        parts_.next(interior_weight, prefix));
     stage_.context().check("finding interior pixels");
+    const std::size_t left_out = truth.parts.counts.unresolved;
     truth.parts = pixel_parts(truth.reference.mean, interior);
+    truth.parts.counts.unresolved = left_out;
     truth.shading_floor = noise_floor_over(truth.reference, exposure_, truth.parts.interior);
     truth.interior_file = write_mask(folder_, stem_of(truth.distance, "interior"), truth.parts.interior);
     if (has(stage_.effects(), Effect::environment_light)) {
@@ -284,9 +370,10 @@ class Comparison {
                 .exhibit = {},
                 .stem = stem_of(truth.distance, method_stem(settings_.methods, index))};
     Image picture = staged.frames().render(truth.view);
-    const Supersampled finest =
+    Supersampled finest =
         stage_.finest_level(staged).render(truth.view, settings_.reference.spp, settings_.reference.seed,
                                            parts_.next(settings_.reference.spp, prefix + "finest level, "));
+    leave_out(finest, truth.unresolved);
     stage_.context().check("rendering " + settings_.methods[index].text);
     try {
       set_error(draft.record, truth, picture, finest.mean);
@@ -297,6 +384,7 @@ class Comparison {
     set_flicker(draft.record, truth, picture, index);
     draft.record.images.color = write_exposable_picture(folder_, draft.stem, picture, exposure_);
     draft.record.images.reference = truth.reference_file;
+    draft.record.images.standard_error = truth.standard_error_file;
     draft.record.images.interior = truth.interior_file;
     Image error = error_map(picture, truth.reference.mean, exposure_);
     draft.exhibit = {
@@ -338,7 +426,7 @@ class Comparison {
                                .psnr = figures->psnr,
                                .energy_bias = figures->energy_bias,
                                .noise_floor = truth.noise_floor,
-                               .representation = normalized_color(finest, reference, exposure_).value(),
+                               .representation = normalized_color(finest, truth.first, exposure_).value(),
                                .filtering = normalized_color(picture, finest, exposure_).value(),
                                .causes = causes_of(truth, picture)};
     // Over interior pixels, where there are some: supersampling mends edges, and no method here does.
@@ -491,6 +579,8 @@ class Comparison {
   void describe(int processes) {
     results_.backend = backend_info(stage_.context().info());
     results_.reference.spp = settings_.reference.spp;
+    results_.reference.samples = samples_ / static_cast<double>(distances_.size());
+    results_.reference.seconds = seconds_;
     results_.reference.filter = word_for(reference_filters, settings_.reference.filter);
     results_.reference.seed = settings_.reference.seed;
     results_.footprint = footprint_filter_text(footprint_filter_of(settings_, stage_.scene()));
@@ -531,6 +621,7 @@ class Comparison {
   std::optional<StagedMethod> bound_;
   std::map<const StagedMethod*, FrameRenderer> dense_frames_;  // of a scene with an environment
   ProgressParts parts_;
+  double samples_ = 0, seconds_ = 0;  // of the references of all distances
   Exposure chosen_exposure_;
   std::vector<FrameRenderer> counting_;  // of each method, made where it is first counted
   float exposure_ = 1.0F;                // its factor

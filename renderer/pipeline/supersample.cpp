@@ -24,6 +24,18 @@ ProgramSettings settings_of(ReferenceFilter filter, bool orthographic, Environme
           .environment = environment};
 }
 
+// `tile` has row 0 at the bottom, the pictures at the top.
+void copy_tile(const Image& from, const Tile& tile, Image& to) {
+  for (int y = 0; y < tile.size.y; ++y) {
+    const int row = to.height - 1 - (tile.origin.y + y);
+    const std::size_t first =
+        (static_cast<std::size_t>(row) * static_cast<std::size_t>(to.width) + static_cast<std::size_t>(tile.origin.x)) *
+        static_cast<std::size_t>(to.channels);
+    std::copy_n(from.texels.begin() + static_cast<std::ptrdiff_t>(first), tile.size.x * to.channels,
+                to.texels.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+}
+
 }  // namespace
 
 // What a tile's samples are drawn into and added up in. Sums are read from one target and written to the other.
@@ -95,8 +107,7 @@ Supersampler::Supersampler(const gl::ContextInfo& context, GpuScene& scene, cons
 Supersampler::Supersampler(Supersampler&&) noexcept = default;
 Supersampler::~Supersampler() = default;
 
-Supersampler::Accumulator& Supersampler::accumulator(const glm::ivec2& picture, int grid) const {
-  const glm::ivec2 tile = glm::min(picture, glm::ivec2(tile_edge_));
+Supersampler::Accumulator& Supersampler::accumulator(const glm::ivec2& tile, int grid) const {
   if (!accumulator_ || !accumulator_->fits(tile, grid)) accumulator_ = std::make_unique<Accumulator>(tile, grid);
   accumulator_->clear();
   return *accumulator_;
@@ -130,27 +141,28 @@ void Supersampler::accumulate(Accumulator& sums, const Sampling& sampling, const
 void Supersampler::draw(const View& view, int spp, std::uint64_t seed) const {
   const SampleGrid samples = sample_grid(spp, seed);
   method_->build_frame(view);
-  for (const Tile& tile : tiles_of(view.size, tile_edge_)) {
-    Accumulator& sums = accumulator(view.size, samples.grid);
+  const std::vector<Tile> tiles = tiles_of(view.size, tile_edge_);
+  for (const Tile& tile : tiles) {
+    Accumulator& sums = accumulator(tiles.front().size, samples.grid);
     for (const SamplePass& pass : samples.passes) {
       accumulate(sums, {.view = &view, .grid = samples.grid, .seed = seed, .texels = TexelUse::drawn}, tile, pass);
     }
   }
 }
 
-Supersampled Supersampler::render(const View& view, int spp, std::uint64_t seed, const Progress& progress,
-                                  TexelUse texels) const {
-  const SampleGrid samples = sample_grid(spp, seed);
-  const Sampling sampling{.view = &view, .grid = samples.grid, .seed = seed, .texels = texels};
-  method_->build_frame(view);
-  const std::vector<Tile> tiles = tiles_of(view.size, tile_edge_);
+Supersampled Supersampler::render_tiles(const Sampling& sampling, std::span<const Tile> tiles, int spp,
+                                        const Progress& progress) const {
+  const SampleGrid samples = sample_grid(spp, sampling.seed);
+  method_->build_frame(*sampling.view);
   const auto steps = static_cast<double>(tiles.size() * samples.passes.size());
-  SampleBlocks blocks(view.size);
+  glm::ivec2 largest(1);
+  for (const Tile& tile : tiles) largest = glm::max(largest, tile.size);
+  SampleBlocks blocks(sampling.view->size);
   double done = 0;
   for (const Tile& tile : tiles) {
     for (std::size_t first = 0, last = 0; first < samples.passes.size(); first = last) {
       const SamplePass& begin = samples.passes[first];
-      Accumulator& sums = accumulator(view.size, samples.grid);
+      Accumulator& sums = accumulator(largest, samples.grid);
       for (; last < samples.passes.size() && samples.passes[last].half == begin.half &&
              samples.passes[last].block == begin.block;
            ++last) {
@@ -162,6 +174,27 @@ Supersampled Supersampler::render(const View& view, int spp, std::uint64_t seed,
     }
   }
   return blocks.result(spp);
+}
+
+Supersampled Supersampler::render(const View& view, int spp, std::uint64_t seed, const Progress& progress,
+                                  TexelUse texels) const {
+  const int grid = sample_grid(spp, seed).grid;
+  return render_tiles({.view = &view, .grid = grid, .seed = seed, .texels = texels}, tiles_of(view.size, tile_edge_),
+                      spp, progress);
+}
+
+void Supersampler::refine(Supersampled& picture, const View& view, std::span<const Tile> tiles, int spp,
+                          std::uint64_t seed, const Progress& progress) const {
+  const int grid = sample_grid(spp, seed).grid;
+  const Supersampled finer =
+      render_tiles({.view = &view, .grid = grid, .seed = seed, .texels = TexelUse::filtered}, tiles, spp, progress);
+  for (const Tile& tile : tiles) {
+    copy_tile(finer.mean, tile, picture.mean);
+    copy_tile(finer.standard_error, tile, picture.standard_error);
+    if (!picture.halves || !finer.halves) continue;
+    copy_tile(finer.halves->first, tile, picture.halves->first);
+    copy_tile(finer.halves->second, tile, picture.halves->second);
+  }
 }
 
 std::optional<double> relative_standard_error(const Supersampled& reference) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "renderer/pipeline/frame.hpp"
 #include "renderer/pipeline/reference_filter.hpp"
@@ -40,6 +41,10 @@ class Supersampler {
   [[nodiscard]] Supersampled render(const View& view, int spp, std::uint64_t seed, const Progress& progress,
                                     TexelUse texels = TexelUse::filtered) const;
 
+  /// Takes `tiles` of a picture of the same view and seed anew, with `spp` samples a pixel.
+  void refine(Supersampled& picture, const View& view, std::span<const Tile> tiles, int spp, std::uint64_t seed,
+              const Progress& progress) const;
+
   /// Draws and accumulates without reading back: what plain supersampling costs is the time of this call up to
   /// glFinish.
   void draw(const View& view, int spp, std::uint64_t seed) const;
@@ -48,7 +53,9 @@ class Supersampler {
   class Accumulator;
   struct Sampling;
   /// The sums of a tile, cleared; made anew where the size changes.
-  Accumulator& accumulator(const glm::ivec2& picture, int grid) const;
+  Accumulator& accumulator(const glm::ivec2& tile, int grid) const;
+  [[nodiscard]] Supersampled render_tiles(const Sampling& sampling, std::span<const Tile> tiles, int spp,
+                                          const Progress& progress) const;
   void accumulate(Accumulator& sums, const Sampling& sampling, const Tile& tile, const SamplePass& pass) const;
 
   GpuScene* scene_;

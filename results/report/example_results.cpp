@@ -41,7 +41,8 @@ Record example_record(const Results& results, const Behaviour& behaviour, double
                              error * 0.22,
                              error * 0.91,
                              {error * 0.8, 0.0005, 1e-5, error * 1.6, 0.006, error * 0.8 - 0.004, {}}};
-  record.pixels = {.object = 12'345, .interior = 9'260, .minified = 9'000, .bound = 9'260, .light = {}};
+  record.pixels = {
+      .object = 12'345, .unresolved = 50, .interior = 9'260, .minified = 9'000, .bound = 9'260, .light = {}};
   record.equivalent = equivalent_samples(
       supersampling_curve(results.supersampling, distance, &SupersamplingPoint::shading), error * 0.8);
   const double ms = behaviour.milliseconds / std::pow(distance, 0.3);
@@ -55,8 +56,12 @@ Record example_record(const Results& results, const Behaviour& behaviour, double
   record.effects_on = {"diffuse", "fresnel", "normal_variation"};
   if (behaviour.bytes != 0) record.effects_left_out = {"roughness_variation"};
   const std::string stem = fmt::format("images/method{}_d{}", &behaviour - behaviours.data(), distance);
-  record.images = {stem + ".exr", fmt::format("images/reference_d{}.exr", distance), stem + "_error.png",
-                   stem + "_error_shared.png", fmt::format("images/interior_d{}.exr", distance)};
+  record.images = {stem + ".exr",
+                   fmt::format("images/reference_d{}.exr", distance),
+                   stem + "_error.png",
+                   stem + "_error_shared.png",
+                   fmt::format("images/interior_d{}.exr", distance),
+                   fmt::format("images/reference_d{}_standard_error.exr", distance)};
   return record;
 }
 

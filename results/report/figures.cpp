@@ -17,8 +17,11 @@ std::string plural(const std::string& count, std::string_view noun) {
 }
 
 std::string reference_text(const ReferenceInfo& reference) {
-  std::string text = fmt::format("{} a pixel, filter {}, seed {}", plural(std::to_string(reference.spp), "sample"),
-                                 reference.filter, reference.seed);
+  std::string text = fmt::format("{} a pixel", plural(std::to_string(reference.spp), "sample"));
+  if (reference.samples > reference.spp)
+    text +=
+        fmt::format(" to begin with, {} on average where the noise asked for more", three_figures(reference.samples));
+  text += fmt::format(", {} s, filter {}, seed {}", three_figures(reference.seconds), reference.filter, reference.seed);
   if (!reference.environment.empty()) text += fmt::format(", environment {}", reference.environment);
   if (reference.standard_error) text += fmt::format(", standard error {}", error_text(*reference.standard_error));
   return text;

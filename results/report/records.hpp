@@ -67,7 +67,8 @@ struct ErrorCauses {
 
 /// How many pixels errors are taken over.
 struct PixelCounts {
-  std::size_t object = 0;            ///< that the reference covers wholly
+  std::size_t object = 0;            ///< that the reference covers wholly, and resolves
+  std::size_t unresolved = 0;        ///< that it covers wholly and does not: they are left out of every figure
   std::size_t interior = 0;          ///< of those, in which it sees one smooth piece of surface
   std::size_t minified = 0;          ///< of the interior ones, whose footprint spans more than a texel of a normal map
   std::optional<std::size_t> bound;  ///< of those, that `exact` was drawn of; none: it was not drawn
@@ -103,11 +104,12 @@ struct OtherReference {
 
 /// Pictures of one record, as paths relative to the output folder.
 struct RecordImages {
-  std::string color;         ///< EXR; a .png of the same stem lies beside it
-  std::string reference;     ///< EXR, likewise
-  std::string error;         ///< PNG, false colour on the scale of its distance
-  std::string error_shared;  ///< the same on the scale that all distances share
-  std::string interior;      ///< EXR, white where a pixel is interior; a .png likewise
+  std::string color;           ///< EXR; a .png of the same stem lies beside it
+  std::string reference;       ///< EXR, likewise
+  std::string error;           ///< PNG, false colour on the scale of its distance
+  std::string error_shared;    ///< the same on the scale that all distances share
+  std::string interior;        ///< EXR, white where a pixel is interior; a .png likewise
+  std::string standard_error;  ///< EXR, the reference's own in each pixel and channel
 };
 
 /// One method at one distance.
@@ -199,6 +201,8 @@ struct ReferenceInfo {
   std::optional<double>
       standard_error;  ///< root mean square of the per-pixel standard error over mean radiance, first distance
   std::string environment = {};  ///< sampled or dense; empty without one
+  double samples = 0;  ///< mean samples a pixel over all distances: `spp`, and more where the noise asked for it
+  double seconds = 0;  ///< that its pictures took, all distances together
 };
 
 /// What the medians of frame times are over.

@@ -35,6 +35,7 @@ constexpr std::array columns{"scene",
                              "method_error",
                              "light_error",
                              "object_pixels",
+                             "unresolved_pixels",
                              "interior_pixels",
                              "minified_pixels",
                              "bound_pixels",
@@ -64,7 +65,8 @@ constexpr std::array columns{"scene",
                              "image_reference",
                              "image_error",
                              "image_error_shared",
-                             "image_interior"};
+                             "image_interior",
+                             "image_standard_error"};
 
 constexpr std::string_view line_end = "\r\n";
 
@@ -97,16 +99,20 @@ std::array<std::string, 15> error_fields(const std::optional<RecordError>& error
           csv_field(error->causes.light)};
 }
 
-std::array<std::string, 5> pixel_fields(const PixelCounts& pixels) {
-  return {fmt::format("{}", pixels.object), fmt::format("{}", pixels.interior), fmt::format("{}", pixels.minified),
-          pixels.bound ? fmt::format("{}", *pixels.bound) : "", pixels.light ? fmt::format("{}", *pixels.light) : ""};
+std::array<std::string, 6> pixel_fields(const PixelCounts& pixels) {
+  return {fmt::format("{}", pixels.object),
+          fmt::format("{}", pixels.unresolved),
+          fmt::format("{}", pixels.interior),
+          fmt::format("{}", pixels.minified),
+          pixels.bound ? fmt::format("{}", *pixels.bound) : "",
+          pixels.light ? fmt::format("{}", *pixels.light) : ""};
 }
 
 std::string line(const Record& record) {
   const FrameTime& frame = record.frame_ms;
   const TimeRatio& ratio = record.ratio_to_direct;
   const std::optional<FrameBuildTime>& build = record.frame_build;
-  const std::array<std::string, columns.size() - 27> after_error{
+  const std::array<std::string, columns.size() - 28> after_error{
       csv_field(equivalent_spp(record)),
       equivalent_bound(record),
       csv_field(record.flicker ? std::optional(record.flicker->mean) : std::nullopt),
@@ -132,7 +138,8 @@ std::string line(const Record& record) {
       csv_field(record.images.reference),
       csv_field(record.images.error),
       csv_field(record.images.error_shared),
-      csv_field(record.images.interior)};
+      csv_field(record.images.interior),
+      csv_field(record.images.standard_error)};
   return fmt::format("{},{},{},{},{},{},{},{},{},{}", csv_field(record.scene), csv_field(record.method),
                      csv_field(options_text(record)), csv_field(record.distance), record.frame, record.width,
                      record.height, fmt::join(error_fields(record.error), ","),

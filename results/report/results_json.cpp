@@ -42,6 +42,7 @@ Json error_json(const std::optional<RecordError>& error) {
 
 Json pixels_json(const PixelCounts& pixels) {
   return {{"object", pixels.object},
+          {"unresolved", pixels.unresolved},
           {"interior", pixels.interior},
           {"minified", pixels.minified},
           {"bound", pixels.bound ? Json(*pixels.bound) : Json()},
@@ -100,7 +101,8 @@ Json record_json(const Record& record) {
             {"reference", record.images.reference},
             {"error", record.images.error},
             {"error_shared", record.images.error_shared},
-            {"interior", record.images.interior}}}};
+            {"interior", record.images.interior},
+            {"standard_error", record.images.standard_error}}}};
 }
 
 Json ndf_json(const NdfFigures& figures) {
@@ -161,6 +163,8 @@ Json reference_json(const ReferenceInfo& reference) {
           {"filter", reference.filter},
           {"seed", reference.seed},
           {"standard_error", json_number(reference.standard_error)},
+          {"samples", json_number(reference.samples)},
+          {"seconds", json_number(reference.seconds)},
           {"environment", reference.environment.empty() ? Json(nullptr) : Json(reference.environment)}};
 }
 

@@ -20,6 +20,8 @@ TEST(ResultsJson, HasThePublishedFields) {
                             "/reference/spp",
                             "/reference/filter",
                             "/reference/standard_error",
+                            "/reference/samples",
+                            "/reference/seconds",
                             "/footprint",
                             "/timing/frames",
                             "/timing/processes",
@@ -80,7 +82,10 @@ TEST(ResultsJson, HasThePublishedFields) {
                             "/records/0/effects/left_out",
                             "/records/0/images/color",
                             "/records/0/images/reference",
-                            "/records/0/images/error"}) {
+                            "/records/0/images/error",
+                            "/records/0/images/standard_error",
+                            "/records/0/pixels/object",
+                            "/records/0/pixels/unresolved"}) {
     EXPECT_TRUE(document.contains(json::json_pointer(place))) << place;
   }
   EXPECT_EQ(document["records"][0]["size"], json::array({256, 256}));

@@ -112,8 +112,12 @@ TEST(ResultsJson, NumbersAreWrittenToTheLastBit) {
   EXPECT_EQ(document["experiment"]["quick"], true);
   EXPECT_EQ(document["records"][1]["error"]["light"], 0.0021);
   EXPECT_EQ(document["records"][0]["error"]["method"], *results.records[0].error->causes.method);
-  EXPECT_EQ(document["records"][0]["pixels"],
-            (json{{"object", 12345}, {"interior", 9260}, {"minified", 9000}, {"bound", 9260}, {"light", nullptr}}));
+  EXPECT_EQ(document["records"][0]["pixels"], (json{{"object", 12345},
+                                                    {"unresolved", 50},
+                                                    {"interior", 9260},
+                                                    {"minified", 9000},
+                                                    {"bound", 9260},
+                                                    {"light", nullptr}}));
   EXPECT_EQ(document["records"][4]["pixels"]["bound"], nullptr);
   EXPECT_EQ(document["records"][1]["time"]["fetches"], 96.5);
   EXPECT_EQ(document["error_scales"][1], (json{{"distance", 4.0}, {"error", 0.025}}));

@@ -12,6 +12,7 @@
 #include "experiments/studies/stage.hpp"
 #include "experiments/studies/zoom.hpp"
 #include "renderer/image/metrics.hpp"
+#include "renderer/pipeline/unresolved.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "results/report/ranking.hpp"
 
@@ -68,6 +69,7 @@ class Animator {
     if (frame == 0) describe_reference(now.reference);
     animation_.reference_images.push_back(
         write_picture(folder_, fmt::format("reference_{:04}", frame), now.reference.mean, exposure_.factor));
+    leave_out(now.reference, unresolved(now.reference, exposure_.factor));  // as a comparison does
     const Progress drawing = parts_.next(methods_weight(), prefix);
     for (std::size_t m = 0; m < stage_.methods().size(); ++m) {
       drawing(settings_.methods[m].text, static_cast<double>(m) / static_cast<double>(stage_.methods().size()));

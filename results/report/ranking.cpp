@@ -201,7 +201,11 @@ std::vector<std::string> ranking_warnings(const Results& results) {
   return those_said(
       convergence_warning(results.reference).value_or(std::string()),
       at_distances(
-          results, [&](const auto& records) { return pixels(records).interior < too_few_pixels; },
+          results, [&](const auto& records) { return pixels(records).object == 0; },
+          "the object covers no whole pixel: there is no error"),
+      at_distances(
+          results,
+          [&](const auto& records) { return pixels(records).object > 0 && pixels(records).interior < too_few_pixels; },
           fmt::format("there are fewer than {} interior pixels: methods are not ranked", too_few_pixels)),
       at_distances(
           results, [&](const auto& records) { return has_few(pixels(records)); },

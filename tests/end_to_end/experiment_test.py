@@ -186,7 +186,7 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
 
     def test_the_flicker_of_an_animation_by_hand(self):
         out = self.folder / "by_hand"
-        run("animate", "ribbed_plane", "--method", "direct", "--frames", 2, "--to", 1.5, "--size", "32x32", "--spp", 4, "--exposure", 1,
+        run("animate", "ribbed_plane", "--method", "direct", "--frames", 2, "--to", 1.5, "--size", "32x32", "--spp", 256, "--exposure", 1,
             "--quiet", "-o", out)
 
         def pixels(name):

@@ -20,8 +20,7 @@ class TestRenderer {
                         const gl::Context& context = shared_context());
 
   [[nodiscard]] Image frame(const Method& method, const std::string& text = {}, const FootprintFilter& filter = {},
-                            int tile = 0, double distance = 1.0,
-                            EnvironmentUse environment = EnvironmentUse::sampled);
+                            int tile = 0, double distance = 1.0, EnvironmentUse environment = EnvironmentUse::sampled);
   /// What a pixel of that frame looks up and evaluates.
   [[nodiscard]] PixelWork work(const Method& method, const std::string& text, const FootprintFilter& filter);
   [[nodiscard]] Supersampled supersampled(const Method& method, int spp, std::uint64_t seed = 1,

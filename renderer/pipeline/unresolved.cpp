@@ -19,13 +19,17 @@ bool is_unresolved(std::span<const float> mean, std::span<const float> error, fl
 Image unresolved(const Supersampled& reference, float exposure, const UnresolvedLimits& limits) {
   const Image& mean = reference.mean;
   Image mask(mean.width, mean.height, 1);
+  std::size_t object = 0;
   for (int y = 0; y < mean.height; ++y) {
     for (int x = 0; x < mean.width; ++x) {
       if (mean.at(x, y)[3] <= 0.0F) continue;
+      ++object;
       if (is_unresolved(mean.at(x, y), reference.standard_error.at(x, y), exposure, limits)) mask.at(x, y)[0] = 1.0F;
     }
   }
-  return mask;
+  // A reference that is noisy all over has no such pixels: what is left of it would be its dark ones.
+  const bool is_noise = static_cast<double>(pixel_count(mask)) > limits.most * static_cast<double>(object);
+  return is_noise ? Image(mean.width, mean.height, 1) : mask;
 }
 
 void uncover(Image& picture, const Image& mask) {

@@ -10,6 +10,7 @@ namespace footprint {
 struct UnresolvedLimits {
   double relative = 0.5;    ///< one block of four that has all of the light: 1; two of them: 0.58
   double displayed = 0.01;  ///< of what a display of peak 1 shows
+  double most = 0.05;       ///< of the object's pixels: where more are, the reference is noisy, and none counts
 };
 
 /// One channel, 1 in the object's unresolved pixels: those that a few samples, which another seed would not have, bring

@@ -71,5 +71,15 @@ TEST(Unresolved, AreLeftOutOfEveryFigure) {
   EXPECT_EQ(object_pixel_count(mirror.halves->first), before - pixel_count(mask));
 }
 
+// What is noisy all over is noise: left out, its bright pixels would leave the dark ones as the figure.
+TEST(Unresolved, AreNoneWhereAllPixelsWouldBe) {
+  Supersampled noisy;
+  noisy.spp = 4;
+  noisy.mean = Image(4, 4, 4, 1.0F);
+  noisy.standard_error = Image(4, 4, 3, 0.9F);
+  EXPECT_EQ(pixel_count(unresolved(noisy, 1.0F)), 0U);
+  EXPECT_EQ(pixel_count(unresolved(noisy, 1.0F, {.relative = 0.5, .displayed = 0.01, .most = 1.0})), 16U);
+}
+
 }  // namespace
 }  // namespace footprint::testing

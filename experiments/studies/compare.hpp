@@ -3,17 +3,13 @@
 
 #include <filesystem>
 #include <span>
-#include <vector>
 
 #include "experiments/settings/run_settings.hpp"
+#include "experiments/studies/frame_times.hpp"
 #include "renderer/core/progress.hpp"
 #include "results/report/records.hpp"
 
 namespace footprint {
-
-/// Frame times of one process: [distance][candidate][repeat], milliseconds; candidate 0 is `direct`, then the methods
-/// in the order of the settings (whole frames), then the frame builds alone of those that have one, in the same order.
-using FrameTimes = std::vector<std::vector<std::vector<double>>>;
 
 /// Times frames and does nothing else: what each further process of `--processes` runs.
 [[nodiscard]] FrameTimes time_frames(const RunSettings& settings, const Progress& progress);

@@ -41,6 +41,10 @@ std::string method_stem(std::span<const MethodSpec> methods, std::size_t index) 
   return std::ranges::count_if(methods, same) > 1 || stem == "reference" ? fmt::format("{}.{}", stem, index) : stem;
 }
 
+std::string distance_stem(double distance, const std::string& what) {
+  return fmt::format("d{}_{}", file_stem(fmt::format("{}", distance)), what);
+}
+
 std::string write_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,
                           float exposure) {
   write_exr(folder / "images" / (stem + ".exr"), radiance);

@@ -21,6 +21,9 @@ namespace footprint {
 /// overwrite each other, and so would one that is called `reference`: such a method has its number added.
 [[nodiscard]] std::string method_stem(std::span<const MethodSpec> methods, std::size_t index);
 
+/// The file name part of something at a distance: "d2.5_WHAT".
+[[nodiscard]] std::string distance_stem(double distance, const std::string& what);
+
 /// Writes FOLDER/images/STEM.exr (linear radiance, coverage in alpha) and STEM.png beside it (exposed, sRGB); returns
 /// "images/STEM.exr".
 std::string write_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,

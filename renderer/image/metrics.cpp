@@ -114,6 +114,10 @@ std::optional<ErrorFigures> compare_images(const Image& picture, const Image& re
                       .energy_bias = ratio(sum - reference_sum, reference_sum)};
 }
 
+std::optional<double> normalized_color(const Image& picture, const Image& reference, float exposure) {
+  return normalized_color_over(picture, reference, exposure, object_pixels(reference));
+}
+
 std::optional<double> normalized_color_over(const Image& picture, const Image& reference, float exposure,
                                             const Image& mask) {
   if (mask.channels != 1 || mask.width != reference.width || mask.height != reference.height) {

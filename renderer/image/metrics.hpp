@@ -22,7 +22,10 @@ struct ErrorFigures {
 /// either (naming the pixel).
 [[nodiscard]] std::optional<ErrorFigures> compare_images(const Image& picture, const Image& reference, float exposure);
 
-/// The normalised colour error alone, over those object pixels at which `mask` (one channel, the size of the pictures)
+/// The normalised colour error alone. Empty if there is no object pixel. Errors as for compare_images.
+[[nodiscard]] std::optional<double> normalized_color(const Image& picture, const Image& reference, float exposure);
+
+/// The same over those object pixels at which `mask` (one channel, the size of the pictures)
 /// is above 0. Empty if there is none. Errors as for compare_images.
 [[nodiscard]] std::optional<double> normalized_color_over(const Image& picture, const Image& reference, float exposure,
                                                           const Image& mask);

@@ -1,0 +1,29 @@
+// The bound of a comparison: the picture of `exact`, drawn over as much of the frame as is asked for or cheap, that no
+// method can be better than under the same footprint filter.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/studies/error_causes.hpp"
+#include "experiments/studies/stage.hpp"
+
+namespace footprint {
+
+/// The picture of `exact`, and where it was drawn.
+struct BoundPicture {
+  Image picture;  ///< RGBA
+  Image pixels;   ///< a mask of the interior pixels in which it was drawn, and is finite
+};
+
+/// `exact` over a stage, where this build has it, `use` wants it and it knows every effect of the scene; none
+/// otherwise, and the last reason is added to `warnings`.
+[[nodiscard]] std::optional<StagedMethod> stage_bound(const Stage& stage, BoundUse use,
+                                                      std::vector<std::string>& warnings);
+
+/// Whole where that was asked for or is cheap, else in squares. `texels` are those of Interior.
+[[nodiscard]] BoundPicture draw_bound(const Stage& stage, const StagedMethod& bound, BoundUse use, const View& view,
+                                      const PixelParts& parts, const Image& texels);
+
+}  // namespace footprint

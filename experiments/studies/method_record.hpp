@@ -1,0 +1,42 @@
+// One method at one distance of a comparison, held against what is known there.
+#pragma once
+
+#include <map>
+#include <optional>
+
+#include "experiments/studies/truth.hpp"
+#include "renderer/pipeline/pixel_work.hpp"
+
+namespace footprint {
+
+/// What is drawn of a method to be measured.
+struct MethodPictures {
+  Image frame;   ///< one frame
+  Image finest;  ///< the method's finest level, supersampled with the reference's first samples
+};
+
+/// Fills records. Keeps what a method needs to be drawn otherwise from distance to distance.
+class MethodMeasurer {
+ public:
+  /// Keeps the stage's address.
+  explicit MethodMeasurer(const Stage& stage) : stage_(stage) {}
+
+  /// What is known of the method before it is timed or held against other frames. Errors (usage): a pixel of a picture
+  /// that is no finite number, named.
+  [[nodiscard]] Record measure(const StagedMethod& method, const MethodPictures& pictures, const Truth& truth,
+                               float exposure);
+
+  /// Counted; none of methods that draw for seconds: they would count as long.
+  [[nodiscard]] std::optional<RecordWork> work_of(const StagedMethod& method, const View& view);
+
+ private:
+  [[nodiscard]] Record described(const StagedMethod& method, const Truth& truth) const;
+  void set_light_error(Record& record, const Truth& truth, const Image& picture, const StagedMethod& method,
+                       float exposure);
+
+  const Stage& stage_;
+  std::map<const StagedMethod*, FrameRenderer> dense_frames_;  // of a scene with an environment
+  std::map<const StagedMethod*, FrameRenderer> counting_;
+};
+
+}  // namespace footprint

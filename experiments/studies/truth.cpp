@@ -1,0 +1,177 @@
+// From the reference's first samples to all that methods are held against at one distance.
+#include "experiments/studies/truth.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+#include <utility>
+
+#include "experiments/studies/converge.hpp"
+#include "experiments/studies/measured_curve.hpp"
+#include "experiments/studies/picture_files.hpp"
+#include "experiments/studies/reference_noise.hpp"
+#include "renderer/image/image_io.hpp"
+#include "renderer/image/metrics.hpp"
+#include "renderer/pipeline/unresolved.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr double least_noise = 1e-5;         // that is asked for unasked
+constexpr double printed_difference = 1e-3;  // of an error, in three figures
+constexpr double automatic_work = 1.0;       // samples beyond the first, in multiples of those
+constexpr double automatic_samples = 16e6;   // likewise, of all pixels: a second or two
+constexpr double unbounded_work = 1e9;
+constexpr double pixels_lit_by_all = 512;  // by each of some 6000 directional lights: about a second a method
+constexpr double interior_weight = 16;     // of progress, in samples of the reference
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// Unasked: as many samples as the picture has, and more where that is little.
+double most_work(int spp, const glm::ivec2& size) {
+  const double first = static_cast<double>(spp) * size.x * size.y;
+  return std::max(automatic_work, automatic_samples / first);
+}
+
+LightPart light_part(const PixelParts& parts) {
+  const std::vector<Tile> tiles = cheap_parts(
+      parts, light_tile, [](int, int) { return 1.0; }, pixels_lit_by_all);
+  return {.tiles = tiles, .pixels = within(parts.interior, tiles)};
+}
+
+}  // namespace
+
+TruthFinder::TruthFinder(const RunSettings& settings, const Stage& stage, std::filesystem::path folder,
+                         std::function<float(const Image& first_reference)> exposure, ProgressParts& progress)
+    : settings_(settings),
+      stage_(stage),
+      folder_(std::move(folder)),
+      choose_exposure_(std::move(exposure)),
+      progress_(progress),
+      interior_finder_(stage.interior_finder()),
+      bound_(stage_bound(stage, settings.reference.bound, warnings_)) {}
+
+double TruthFinder::weight(const RunSettings& settings) {
+  const ReferenceSettings& reference = settings.reference;
+  const double others = std::accumulate(reference.other_spp.begin(), reference.other_spp.end(), 0.0);
+  return (1.0 + automatic_work) * reference.spp + others + curve_weight(reference.supersampling) +
+         2.0 * interior_weight;
+}
+
+Truth TruthFinder::find(std::size_t frame, double distance) {
+  const std::string prefix = fmt::format("distance {:g}: ", distance);
+  Truth truth;
+  truth.frame = frame;
+  truth.distance = distance;
+  truth.view = stage_.view(distance);
+  render_reference(truth, prefix);
+  write_reference(truth);
+  leave_out_unresolved(truth);
+  truth.noise_floor = noise_floor(truth.reference, exposure_);
+  find_parts(truth, prefix);
+  truth.curve = measured_curve(
+      stage_, settings_.reference, distance,
+      {.reference = truth.reference.mean, .interior = truth.parts.interior, .exposure = exposure_}, progress_);
+  for (const int spp : settings_.reference.other_spp) truth.others.push_back(other_truth(truth, spp, prefix));
+  return truth;
+}
+
+void TruthFinder::render_reference(Truth& truth, const std::string& prefix) {
+  const ReferenceSettings& asked = settings_.reference;
+  const auto begin = std::chrono::steady_clock::now();
+  truth.reference =
+      stage_.reference().render(truth.view, asked.spp, asked.seed, progress_.next(asked.spp, prefix + "reference, "));
+  if (truth.frame == 0) exposure_ = choose_exposure_(truth.reference.mean);
+  truth.first = truth.reference.mean;
+  truth.samples = asked.by_noise && !asked.fixed_spp ? refine_reference(truth, prefix) : asked.spp;
+  truth.seconds = seconds_since(begin);
+}
+
+// Goes on with the reference until its noise is what was asked for; returns its mean samples a pixel.
+double TruthFinder::refine_reference(Truth& truth, const std::string& prefix) {
+  const ReferenceSettings& asked = settings_.reference;
+  const Convergence wanted{.noise = asked.noise.value_or(noise_that_tells_apart(truth)),
+                           .exposure = exposure_,
+                           .spp_max = asked.spp_max,
+                           .most_work = asked.noise ? unbounded_work : most_work(asked.spp, truth.view.size)};
+  return converge(stage_.reference(), truth.reference, truth.view, asked.seed, wanted,
+                  progress_.next(automatic_work * asked.spp, prefix + "reference, "));
+}
+
+// A fifth of the least difference between the methods' errors that the table prints, or of the least error. Methods
+// that agree to three figures are one to it.
+double TruthFinder::noise_that_tells_apart(const Truth& truth) const {
+  Supersampled counted = truth.reference;
+  leave_out(counted, unresolved(counted, exposure_));
+  std::vector<double> errors;
+  for (const StagedMethod& method : std::span(stage_.methods()).subspan(1)) {
+    if (const auto error = normalized_color(method.frames().render(truth.view), counted.mean, exposure_))
+      errors.push_back(*error);
+  }
+  if (errors.empty()) return least_noise;
+  std::ranges::sort(errors);
+  double least = errors.front();
+  for (std::size_t i = 1; i < errors.size(); ++i) {
+    const double difference = errors[i] - errors[i - 1];
+    if (difference > printed_difference * errors[i]) least = std::min(least, difference);
+  }
+  return std::max(least / 5.0, least_noise);
+}
+
+void TruthFinder::write_reference(Truth& truth) const {
+  const std::string stem = distance_stem(truth.distance, "reference");
+  truth.files.reference = write_exposable_picture(folder_, stem, truth.reference.mean, exposure_);
+  truth.files.standard_error = fmt::format("images/{}_standard_error.exr", stem);
+  write_exr(folder_ / truth.files.standard_error, truth.reference.standard_error);
+}
+
+// Every figure is over the pixels that are covered; what is left out stands in the warnings.
+void TruthFinder::leave_out_unresolved(Truth& truth) const {
+  truth.whole = truth.reference.mean;
+  truth.unresolved = unresolved(truth.reference, exposure_);
+  leave_out(truth.reference, truth.unresolved);
+  uncover(truth.first, truth.unresolved);
+  const std::size_t whole = object_pixel_count(truth.whole);
+  const std::size_t left_out = whole - object_pixel_count(truth.reference.mean);
+  truth.parts.counts.unresolved = left_out;
+  if (left_out == 0) return;
+  truth.warnings.push_back(fmt::format(
+      "distance {:g}: {:.2g}% of the object unresolved: in {} of {} pixels a few samples carry nearly all of the "
+      "light; they are left out of every figure",
+      truth.distance, 100.0 * static_cast<double>(left_out) / static_cast<double>(whole), left_out, whole));
+}
+
+// The pixels that are interior, and the bound over them.
+void TruthFinder::find_parts(Truth& truth, const std::string& prefix) {
+  const Interior interior = interior_finder_.render(truth.view, settings_.reference.spp, settings_.reference.seed,
+                                                    progress_.next(interior_weight, prefix));
+  stage_.context().check("finding interior pixels");
+  const std::size_t left_out = truth.parts.counts.unresolved;
+  truth.parts = pixel_parts(truth.reference.mean, interior);
+  truth.parts.counts.unresolved = left_out;
+  truth.shading_floor = noise_floor_over(truth.reference, exposure_, truth.parts.interior);
+  truth.files.interior = write_mask(folder_, distance_stem(truth.distance, "interior"), truth.parts.interior);
+  if (has(stage_.effects(), Effect::environment_light)) {
+    truth.light = light_part(truth.parts);
+    truth.parts.counts.light = count_pixels(truth.light.pixels);
+  }
+  const Progress progress = progress_.next(interior_weight, prefix);
+  if (!bound_) return;
+  progress("exact", 0.0);
+  truth.bound = draw_bound(stage_, *bound_, settings_.reference.bound, truth.view, truth.parts, interior.texels);
+  truth.parts.counts.bound = count_pixels(truth.bound->pixels);
+  stage_.context().check("drawing the bound");
+}
+
+OtherTruth TruthFinder::other_truth(const Truth& truth, int spp, const std::string& prefix) {
+  Supersampled other = stage_.reference().render(truth.view, spp, settings_.reference.seed,
+                                                 progress_.next(spp, prefix + "other reference, "), TexelUse::drawn);
+  leave_out(other, truth.unresolved);
+  return {.spp = spp, .mean = other.mean, .noise_floor = noise_floor(other, exposure_)};
+}
+
+}  // namespace footprint

@@ -1,0 +1,91 @@
+// What a comparison knows of one distance besides its methods: the reference and how far it can be trusted, which
+// pixels count for what, the bound, and what plain supersampling reaches.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/studies/bound.hpp"
+#include "experiments/studies/error_causes.hpp"
+#include "experiments/studies/stage.hpp"
+
+namespace footprint {
+
+/// Another reference, of another count of samples.
+struct OtherTruth {
+  int spp = 1;
+  Image mean;
+  std::optional<double> noise_floor;
+};
+
+/// The pixels that are lit by all of an environment, to tell what the lookup by lobes costs.
+struct LightPart {
+  std::vector<Tile> tiles;
+  Image pixels;  ///< a mask of the interior ones there
+};
+
+/// Paths from the output folder, as in RecordImages.
+struct TruthFiles {
+  std::string reference, standard_error, interior;
+};
+
+/// What is known of one distance.
+struct Truth {
+  std::size_t frame = 0;
+  double distance = 1;
+  View view;
+  Supersampled reference;  ///< its unresolved pixels uncovered
+  Image whole;             ///< its mean with them
+  Image first;             ///< its mean over the samples that every pixel has, without them
+  Image unresolved;        ///< a mask of them
+  double samples = 0;      ///< a pixel, mean over the picture
+  double seconds = 0;      ///< that the reference took
+  std::optional<double> noise_floor, shading_floor;
+  PixelParts parts;
+  std::optional<BoundPicture> bound;
+  LightPart light;  ///< empty without an environment
+  TruthFiles files;
+  std::vector<SupersamplingPoint> curve;
+  std::vector<OtherTruth> others;
+  std::vector<std::string> warnings;
+};
+
+/// Finds it distance by distance. Keeps the addresses of what it is given.
+class TruthFinder {
+ public:
+  /// `exposure` is asked for the factor once the first reference is there. Pictures go to FOLDER/images.
+  TruthFinder(const RunSettings& settings, const Stage& stage, std::filesystem::path folder,
+              std::function<float(const Image& first_reference)> exposure, ProgressParts& progress);
+
+  /// What it weighs in progress, a distance.
+  [[nodiscard]] static double weight(const RunSettings& settings);
+
+  [[nodiscard]] Truth find(std::size_t frame, double distance);
+
+  /// Why there is no bound, where there is none.
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  void render_reference(Truth& truth, const std::string& prefix);
+  [[nodiscard]] double refine_reference(Truth& truth, const std::string& prefix);
+  [[nodiscard]] double noise_that_tells_apart(const Truth& truth) const;
+  void write_reference(Truth& truth) const;
+  void leave_out_unresolved(Truth& truth) const;
+  void find_parts(Truth& truth, const std::string& prefix);
+  [[nodiscard]] OtherTruth other_truth(const Truth& truth, int spp, const std::string& prefix);
+
+  const RunSettings& settings_;
+  const Stage& stage_;
+  std::filesystem::path folder_;
+  std::function<float(const Image&)> choose_exposure_;
+  ProgressParts& progress_;
+  float exposure_ = 1.0F;
+  InteriorFinder interior_finder_;
+  std::vector<std::string> warnings_;
+  std::optional<StagedMethod> bound_;
+};
+
+}  // namespace footprint

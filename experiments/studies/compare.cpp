@@ -11,6 +11,7 @@
 
 #include "experiments/studies/error_pictures.hpp"
 #include "experiments/studies/exposure.hpp"
+#include "experiments/studies/method_pairs.hpp"
 #include "experiments/studies/method_record.hpp"
 #include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/reference_noise.hpp"
@@ -69,6 +70,8 @@ class Comparison {
     for (std::size_t i = 0; i < distances_.size(); ++i) {
       Truth truth = finder.find(i, distances_[i]);
       for (std::size_t m = 0; m < settings_.methods.size(); ++m) drafts_.push_back(compare_method(truth, m));
+      std::ranges::move(compare_pairs(folder_, drafts_at(i), truth, exposure_.factor),
+                        std::back_inserter(results_.pairs));
       time_records(i, further_times);
       keep(std::move(truth));
     }
@@ -99,7 +102,9 @@ class Comparison {
     stage_.context().check("rendering " + text);
     Draft draft{.record = measurer_.measure(staged, pictures, truth, exposure_.factor),
                 .exhibit = {},
-                .stem = distance_stem(truth.distance, method_stem(settings_.methods, index))};
+                .stem = {},
+                .name = method_stem(settings_.methods, index)};
+    draft.stem = distance_stem(truth.distance, draft.name);
     set_flicker(draft.record, truth, pictures.frame, index);
     draft.record.images.color = write_exposable_picture(folder_, draft.stem, pictures.frame, exposure_.factor);
     Image error = error_map(pictures.frame, truth.reference.mean, exposure_.factor);

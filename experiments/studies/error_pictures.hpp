@@ -17,7 +17,7 @@ namespace footprint {
 struct Draft {
   Record record;
   Exhibit exhibit;
-  std::string stem;  ///< of its files
+  std::string stem, name;  ///< of its files; the part of it that is the method's
 };
 
 /// What stands at the top of the pictures of some drafts: `asked`, else the largest 99th percentile over them, in two

@@ -141,6 +141,17 @@ Results example_results() {
       results.records.push_back(example_record(results, behaviour, distance));
     }
   }
+  for (const double distance : {1.0, 4.0}) {
+    for (std::size_t i = 0; i < behaviours.size(); ++i) {
+      for (std::size_t j = i + 1; j < behaviours.size(); ++j) {
+        const double share = 0.1 * static_cast<double>(i + 2 * j) / distance;
+        results.pairs.push_back({.distance = distance,
+                                 .methods = {behaviours[i].method, behaviours[j].method},
+                                 .closer = {0.05 * static_cast<double>(i), share},
+                                 .picture = fmt::format("images/pair{}{}_d{}.png", i, j, distance)});
+      }
+    }
+  }
   results.records[2].error->normalized_color = 0.0006;  // below the noise floor
   results.records[2].error->causes.shading = 0.0004;
   for (std::size_t i = 4; i < 8; ++i)
@@ -169,6 +180,8 @@ Results hostile_results() {
   results.experiment = example_experiment("<script>document.title='broken'</script> | `\xff` *");
   for (Record& record : results.records) record.scene = results.scene.name;
   Record& named = results.records[1];
+  results.pairs[1].methods[1] = "</script>";
+  results.pairs[2].picture = "images/pair absent <b>#1.png";
   named.method = "<img src=x onerror=\"document.title='broken'\">' , #?%";
   named.options["a/b~c"] = std::string("=;\"");
   named.images.color = "images/absent <b>#1.exr";

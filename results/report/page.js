@@ -44,6 +44,8 @@ const columns = [
   {title: '× direct', text: 'ratio', value: (r) => r.time.ratio_to_direct.median,
    meaning: 'Frame time over that of direct beside it: median (least–most); about 1 where that spread covers it.'},
   {title: 'fps', text: 'fps', value: (r) => r.time.fps, meaning: 'Frames a second at the median frame time.'},
+  {title: 'Fetches', text: 'fetches', value: (r) => r.time.fetches, meaning: 'Texture lookups a pixel, counted; – of methods whose frames take seconds.'},
+  {title: 'Lobes', text: 'lobes', value: (r) => r.time.lobes, meaning: 'Lobes evaluated a pixel over all lights, counted likewise.'},
   {title: 'Build ms', text: 'build', value: (r) => r.time.frame_build_ms,
    only: () => records.some((r) => r.time.frame_build_ms !== null), meaning: 'What the method rebuilds when something moves, and whether the timed frames have it in them.'},
   {title: 'Bake s', text: 'precompute', value: (r) => r.precompute.seconds,
@@ -173,6 +175,48 @@ function showTable() {
     'tr', '', element('td', 'name words-column', key(record.method), ...breakable(record.method)),
     ...visible.map((column) => bodyCell(record, column)))));
   byId('floor-note').hidden = !rows.some((record) => record.display.at_floor);
+}
+
+// ---- pairs
+
+const pairOf = (row, column) => data.results.pairs.find((pair) =>
+  pair.distance === state.distance && pair.methods.includes(row) && pair.methods.includes(column));
+
+function swatch(name, method, share) {
+  return element('span', `verdict ${name}`, `${method} is closer: ${(100 * share).toFixed(1)}%`);
+}
+
+/** Where of the object which of two methods is closer. */
+function showPair(pair) {
+  const undecided = 1 - pair.closer[0] - pair.closer[1];
+  byId('pair-view').hidden = false;
+  byId('pair-picture').replaceChildren(picture(pair.picture, `Where ${pair.methods.join(' or ')} is closer`));
+  byId('pair-picture').style.aspectRatio = shown()[0].size.join(' / ');
+  byId('pair-caption').replaceChildren(swatch('first', pair.methods[0], pair.closer[0]),
+    swatch('second', pair.methods[1], pair.closer[1]),
+    element('span', 'verdict neither', `as close, or noise decides: ${(100 * undecided).toFixed(1)}%`));
+}
+
+function pairCell(row, column) {
+  const pair = row === column ? null : pairOf(row, column);
+  if (!pair) return element('td', '', '–');
+  const share = pair.closer[pair.methods.indexOf(row)];
+  const button = element('button', '', `${(100 * share).toFixed(1)}%`);
+  button.type = 'button';
+  button.title = `Where is ${row} closer than ${column}?`;
+  button.addEventListener('click', () => showPair(pair));
+  return element('td', '', button);
+}
+
+function showPairs() {
+  const here = shown().map((record) => record.method);
+  byId('pair-view').hidden = true;
+  byId('pairs-section').hidden = !data.results.pairs.some((pair) => pair.distance === state.distance);
+  const head = (method) => element('th', '', key(method), ...breakable(method));
+  byId('pairs').tHead.replaceChildren(element('tr', '', element('th', 'words-column', 'closer than'), ...here.map(head)));
+  byId('pairs').tBodies[0].replaceChildren(...here.map((row) => element(
+    'tr', '', element('td', 'name words-column', key(row), ...breakable(row)),
+    ...here.map((column) => pairCell(row, column)))));
 }
 
 // ---- plot
@@ -422,6 +466,7 @@ function setExposure(stops) {
 function showDistance() {
   showWords();
   showTable();
+  showPairs();
   showPlot();
   showScale();
   showCards();

@@ -66,6 +66,10 @@ void write_pictures(const Results& results, const std::filesystem::path& folder)
     write_png(folder / record.images.error_shared, false_color(errors, static_cast<float>(results.error_scale)));
     write_png(png_of(folder, record.images.interior), to_display(ball(record.width, 1), 1));
   }
+  for (const MethodPair& pair : results.pairs) {
+    if (pair.picture.find("absent") == std::string::npos)
+      write_png(folder / pair.picture, to_display(ball(results.records.front().width, 1), 1));
+  }
   if (!results.experiment) return;
   for (const std::string& name : results.experiment->pictures) write_png(folder / name, to_display(ball(64, 1), 1));
 }

@@ -230,6 +230,23 @@ def check_scales(browser):
     browser.click("#scales label:nth-of-type(1)")
 
 
+def check_pairs(browser):
+    """Shares of every two methods, and the picture of those that are chosen."""
+    cells = browser.run("return [...document.querySelectorAll('#pairs tbody td')].map((cell) => cell.textContent)")
+    assert len(cells) == 20 and [cells[i] for i in (1, 7, 13, 19)] == ["–"] * 4, cells
+    assert (cells[2], cells[6]) == ("0.0%", "20.0%"), cells
+    hidden = "return document.getElementById('pair-view').hidden"
+    assert browser.run(hidden), "a pair is shown that nobody chose"
+    browser.click("#pairs tbody tr:nth-child(2) td:nth-child(4) button")
+    wait_for_pictures(browser)
+    assert not browser.run(hidden)
+    caption = browser.run("return [...document.querySelectorAll('#pair-caption span')].map((part) => part.textContent)")
+    assert caption[0] == "naive_mip is closer: 5.0%" and caption[1].startswith("toksvig is closer: "), caption
+    assert browser.run("return document.querySelector('#pair-picture img').naturalWidth") == 256
+    shares = [float(re.search(r"([0-9.]+)%", part)[1]) for part in caption]
+    assert abs(sum(shares) - 100) < 0.11, caption
+
+
 def check_cautions(browser):
     cautions = browser.run("return document.getElementById('caution').textContent")
     assert "At distance 16 there are fewer than 20 interior pixels" in cautions, cautions
@@ -277,6 +294,7 @@ def check_example(browser, folder):
     browser.open(folder / "index.html")
     check_first_sight(browser)
     check_cautions(browser)
+    check_pairs(browser)
     check_distances(browser)
     check_best(browser)
     check_exposure(browser)

@@ -74,6 +74,19 @@ std::string who_is_worse(const DistanceRecords& sorted, std::size_t best) {
   return fmt::format("Worse by more than the noise: {}.", enumerated(names));
 }
 
+// The first two of the ranking, pixel by pixel.
+std::string where_it_is_closer(const Results& results, const DistanceRecords& sorted) {
+  if (sorted.size() < 2) return {};
+  const Record &first = sorted[0], &second = sorted[1];
+  const auto closer = closer_share(results, first.distance, first.method, second.method);
+  const auto farther = closer_share(results, first.distance, second.method, first.method);
+  if (!closer || !farther) return {};
+  return fmt::format(
+      "Pixel by pixel {} is closer to the reference than {} in {:.0f}% of the interior, and farther in {:.0f}%; in the "
+      "rest the two are as close, or noise decides.",
+      first.method, second.method, 100.0 * *closer, 100.0 * *farther);
+}
+
 std::string worth_text(const Record& record) {
   if (!record.equivalent) return {};
   const auto [spp, side] = *record.equivalent;
@@ -227,6 +240,16 @@ std::string pixels_and_noise(const Record& record) {
                      error_text(record.error->causes.shading_floor));
 }
 
+std::optional<double> closer_share(const Results& results, double distance, const std::string& method,
+                                   const std::string& other) {
+  for (const MethodPair& pair : results.pairs) {
+    if (pair.distance != distance) continue;
+    if (pair.methods[0] == method && pair.methods[1] == other) return pair.closer[0];
+    if (pair.methods[1] == method && pair.methods[0] == other) return pair.closer[1];
+  }
+  return {};
+}
+
 std::vector<std::string> findings(const Results& results, double distance) {
   const DistanceRecords records = records_at(results, distance);
   const DistanceRecords sorted = ranked(records);
@@ -240,8 +263,9 @@ std::vector<std::string> findings(const Results& results, double distance) {
           ? std::string("Nothing is to be filtered here: no pixel's footprint spans more than a texel of a normal map.")
           : std::string(),
       sorted.size() > 1 ? who_is_best(sorted, best) : std::string(),
-      best < sorted.size() ? who_is_worse(sorted, best) : std::string(), what_it_costs(cheapest),
-      what_the_bound_leaves(cheapest), what_the_lookup_costs(cheapest), what_edges_add(records));
+      best < sorted.size() ? who_is_worse(sorted, best) : std::string(), where_it_is_closer(results, sorted),
+      what_it_costs(cheapest), what_the_bound_leaves(cheapest), what_the_lookup_costs(cheapest),
+      what_edges_add(records));
 }
 
 }  // namespace footprint

@@ -45,8 +45,14 @@ using DistanceRecords = std::vector<std::reference_wrapper<const Record>>;
 /// distance any of whose records this is.
 [[nodiscard]] std::string pixels_and_noise(const Record& record);
 
+/// The share of interior pixels in which `method` is closer to the reference than `other`, beyond noise. None where
+/// that was not measured.
+[[nodiscard]] std::optional<double> closer_share(const Results& results, double distance, const std::string& method,
+                                                 const std::string& other);
+
 /// What was found at one distance, in sentences: which methods are best and which are not told apart, what the best
-/// one costs and what it is worth, what the bound leaves, and what edges add.
+/// one costs and what it is worth, in how many pixels it is closer than the next, what the bound leaves, and what edges
+/// add.
 [[nodiscard]] std::vector<std::string> findings(const Results& results, double distance);
 
 }  // namespace footprint

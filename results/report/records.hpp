@@ -1,6 +1,7 @@
 // What a run measured, as plain values: the content of results.json (docs/results.md), free of GL and of files.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -139,6 +140,15 @@ struct Record {
   RecordImages images;
 };
 
+/// Two methods at one distance, pixel by pixel.
+struct MethodPair {
+  double distance = 1;
+  std::array<std::string, 2> methods;  ///< as written
+  std::array<double, 2> closer{};  ///< share of interior pixels in which that one is closer to the reference by more
+                                   ///< than the reference's noise explains; in the rest noise decides
+  std::string picture;             ///< of that over the object, PNG: blue the first, orange the second, grey neither
+};
+
 /// The mean of so many frames of `direct`, at one distance; that of one is the frame at pixel centres.
 struct SupersamplingPoint {
   double distance = 1;
@@ -221,6 +231,7 @@ struct Results {
   TimingInfo timing;
   std::vector<SupersamplingPoint> supersampling;
   std::vector<Record> records;
+  std::vector<MethodPair> pairs;               ///< every two methods of a distance
   std::vector<NdfFigures> ndf;                 ///< empty where no footprint was looked into
   std::vector<QuantityFigure> quantities;      ///< empty where none was asked for
   std::optional<ExperimentReport> experiment;  ///< none: a plain comparison

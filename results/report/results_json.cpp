@@ -105,6 +105,13 @@ Json record_json(const Record& record) {
             {"standard_error", record.images.standard_error}}}};
 }
 
+Json pair_json(const MethodPair& pair) {
+  return {{"distance", json_number(pair.distance)},
+          {"methods", pair.methods},
+          {"closer", Json::array({json_number(pair.closer[0]), json_number(pair.closer[1])})},
+          {"picture", pair.picture}};
+}
+
 Json ndf_json(const NdfFigures& figures) {
   return {{"footprint", figures.footprint},    {"method", figures.method},
           {"l2", json_number(figures.l2)},     {"energy", json_number(figures.energy)},
@@ -175,6 +182,8 @@ nlohmann::ordered_json results_document(const Results& results) {
   for (const SupersamplingPoint& point : results.supersampling) supersampling.push_back(supersampling_json(point));
   Json records = Json::array();
   for (const Record& record : results.records) records.push_back(record_json(record));
+  Json pairs = Json::array();
+  for (const MethodPair& pair : results.pairs) pairs.push_back(pair_json(pair));
   Json ndf = Json::array();
   for (const NdfFigures& figures : results.ndf) ndf.push_back(ndf_json(figures));
   Json quantities = Json::array();
@@ -195,6 +204,7 @@ nlohmann::ordered_json results_document(const Results& results) {
           {"error_scales", std::move(scales)},
           {"supersampling", std::move(supersampling)},
           {"records", std::move(records)},
+          {"pairs", std::move(pairs)},
           {"ndf", std::move(ndf)},
           {"quantities", std::move(quantities)}};
 }

@@ -73,6 +73,8 @@ Json display(const Record& record, const DistanceRecords& records) {
           {"frame", spread_text(record.frame_ms.median, record.frame_ms.minimum, record.frame_ms.p90)},
           {"ratio", ratio_text(record.ratio_to_direct)},
           {"fps", three_figures(record.fps)},
+          {"fetches", record.work ? three_figures(record.work->fetches) : "–"},
+          {"lobes", record.work ? three_figures(record.work->lobes) : "–"},
           {"build", build ? fmt::format("{}, {}", three_figures(build->ms), timing_name(build->timing)) : "none"},
           {"precompute", three_figures(record.precompute_seconds)},
           {"bytes", readable_bytes(record.precompute_bytes)},

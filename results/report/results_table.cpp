@@ -120,6 +120,24 @@ std::string main_table(const DistanceRecords& records) {
   return split_table(errors, error_rows) + "\n" + split_table(named_times, time_rows);
 }
 
+/// Every two methods of a distance pixel by pixel: empty where none were.
+std::string pairs_table(const Results& results, const DistanceRecords& records) {
+  std::vector<MarkdownColumn> columns{{"% of pixels closer than", false}};
+  Rows rows;
+  bool any = false;
+  for (const Record& record : records) {
+    columns.push_back({markdown_escaped(record.method)});
+    std::vector<std::string> row{record.method};
+    for (const Record& other : records) {
+      const auto share = closer_share(results, record.distance, record.method, other.method);
+      any = any || share;
+      row.push_back(share ? fmt::format("{:.1f}", 100.0 * *share) : "-");
+    }
+    rows.push_back(std::move(row));
+  }
+  return any ? "\n" + split_table(columns, rows) : std::string();
+}
+
 /// An entry of a list, escaped, in lines of a terminal's width.
 std::string list_entry(const std::string& text) {
   constexpr std::size_t width = 120;
@@ -138,7 +156,8 @@ std::string list_entry(const std::string& text) {
 std::string distance_section(const Results& results, double distance) {
   const DistanceRecords records = records_at(results, distance);
   const bool any_marked = std::ranges::any_of(records, shading_at_noise_floor);
-  return fmt::format("\n## Distance {}\n\n{}\n\n{}{}", distance, pixels_and_noise(records.front()), main_table(records),
+  return fmt::format("\n## Distance {}\n\n{}\n\n{}{}{}", distance, pixels_and_noise(records.front()),
+                     main_table(records), pairs_table(results, records),
                      any_marked ? "\n\\* at the noise floor: the reference's own noise explains this error.\n" : "");
 }
 
@@ -266,9 +285,10 @@ where they differ by no more than the reference's noise explains. Edges: over th
 filters. Filter: of the shading error what the true distribution of normals leaves under the same footprint filter.
 Method: what the method's picture differs from that by. Light: what its lookup of an environment by lobes differs by from
 all of that light. Repr.: the error of the method's finest level, supersampled. Worth spp: the frames of `direct`,
-averaged, that have the same shading error. Frame ms: median (least-90th percentile). x direct: frame time over that of
-`direct`, median (least-most); about 1 where that spread covers it. Fetches, Lobes: texture lookups and lobes a pixel,
-counted.
+averaged, that have the same shading error. % of pixels closer than: interior pixels in which the row's method is closer
+to the reference than the column's, by more than the reference's noise explains. Frame ms: median (least-90th
+percentile). x direct: frame time over that of `direct`, median (least-most); about 1 where that spread covers it.
+Fetches, Lobes: texture lookups and lobes a pixel, counted.
 )";
 }
 

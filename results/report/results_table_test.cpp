@@ -66,6 +66,16 @@ TEST(ResultsTable, LongMethodNamesSplitIt) {
   }
 }
 
+TEST(ResultsTable, HoldsEveryTwoMethodsPixelByPixel) {
+  Results results = example_results();
+  const std::string table = results_table(results);
+  EXPECT_TRUE(says(table, "| % of pixels closer than | direct | naive_mip | toksvig | toksvig:storage=unorm8 |"));
+  EXPECT_TRUE(says(table, "| naive_mip               |   20.0 |         - |     5.0 |                    5.0 |"));
+  EXPECT_TRUE(says(table, "toksvig is closer to the reference than"));
+  results.pairs.clear();  // of a reference that does not know its noise
+  EXPECT_FALSE(says(results_table(results), "| % of pixels"));
+}
+
 TEST(ResultsTable, SaysWhatWasMeasuredAndUnderWhatConditions) {
   const std::string table = results_table(example_results());
   for (const char* part : {"llvmpipe", "AMD EPYC", "0.840 (automatic)", "256 samples a pixel", "after_shading",

@@ -105,14 +105,12 @@ InteriorFinder::Look InteriorFinder::look(bool shadows) const {
 }
 
 void InteriorFinder::add_parts(const Scene& values) {
-  std::uint32_t charts_before = 1;
   for (const GpuBatch& batch : scene_->batches()) {
     if (batch.adds) continue;  // the same triangles once more, for a material that a map chooses
     const auto [vertices, indices] = triangles_of(values, batch.material);
     const Charts charts = charts_of(vertices, indices, values.materials[batch.material]);
-    std::vector<glm::vec2> numbers;
-    for (const std::uint32_t chart : charts.of_vertex) numbers.emplace_back(charts_before + chart, 0.0F);
-    charts_before += charts.count;
+    std::vector<glm::vec2> numbers;  // in 32 bits exact up to 16 million
+    for (const std::uint32_t chart : charts.of_vertex) numbers.emplace_back(chart + 1, batch.material + 1);
     Part part{.batch = &batch,
               .charts = gl::Buffer(std::as_bytes(std::span(numbers))),
               .vertex_array = {},
@@ -171,7 +169,9 @@ void InteriorFinder::compare(const Look& look, const gl::RenderTarget& drawn, co
   gl::api().Uniform1i(uniform("grid"), grid);
   gl::api().Uniform1f(uniform("rounding"), rounding_share * (far_corner_ + glm::length(camera_position(view.camera))));
   gl::api().Uniform1i(uniform("by_coverage"), criteria_.coverage ? 1 : 0);
-  gl::api().Uniform1i(uniform("by_piece"), criteria_.pieces ? 1 : 0);
+  gl::api().Uniform1i(uniform("by_material"), criteria_.materials ? 1 : 0);
+  gl::api().Uniform1i(uniform("by_chart"), criteria_.charts ? 1 : 0);
+  gl::api().Uniform1i(uniform("by_cut"), criteria_.cuts ? 1 : 0);
   gl::api().Uniform1i(uniform("by_normal"), criteria_.normals ? 1 : 0);
   gl::api().Uniform1i(uniform("by_depth"), criteria_.depth ? 1 : 0);
   bind_textures(drawn, textures, 0);

@@ -20,19 +20,19 @@ namespace footprint {
 /// run; tests leave one out to see that it is what tells an edge.
 ///
 /// - coverage: all of them lie on the surface, none beside it.
-/// - pieces: the same material and UV island (charts.hpp), and no cut within it: texture coordinates change at most
-///   twice as fast as over the surface at either sample.
+/// - materials, charts: the same material, and UV island (charts.hpp).
+/// - cuts: none within an island: texture coordinates change at most twice as fast as over the surface at either
+/// sample.
 /// - normals: those of the triangles and those of the vertices lie within 10 degrees of the first sample's. Normals
 ///   spread evenly over 10 degrees have a slope variance of 0.0025, that of a lobe of roughness 0.27: far below what
 ///   normal maps that are worth filtering have, and below what a method could be blamed for.
 /// - depth: the step between the samples' positions lies within 10 degrees of the triangle's plane, as curvature of
-/// that
-///   much allows, and is no longer than twice what the pixel spans in that plane.
+///   that much allows, and is no longer than twice what the pixel spans in that plane.
 /// - shadows: where the scene casts any, the share of each light that reaches the surface (its shadow map is filtered,
 ///   and a light below the horizon does not reach it) differs by at most a sixteenth: within a soft edge that is wider
 ///   than 16 pixels a pixel's centre stands for the pixel.
 struct InteriorCriteria {
-  bool coverage = true, pieces = true, normals = true, depth = true, shadows = true;
+  bool coverage = true, materials = true, charts = true, cuts = true, normals = true, depth = true, shadows = true;
 };
 
 /// What is known of the geometry under each pixel. One channel, the view's size, row 0 at the top.

@@ -198,13 +198,13 @@ TEST(Interior, LeavesOutCreasesOfVertexNormals) {
 TEST(Interior, LeavesOutBordersOfMaterials) {
   Scene scene = two_strips(left_half, right_half);
   scene.materials.push_back(scene.materials.front());
-  Mesh right = scene.meshes[0];
-  right.material = 1;
-  right.indices.erase(right.indices.begin(), right.indices.begin() + 6);
+  Mesh right{.name = "right", .vertices = {}, .indices = {}, .material = 1};
+  add_strip(right, right_half);
   scene.meshes[0].indices.resize(6);
+  scene.meshes[0].vertices.resize(4);
   scene.meshes.push_back(right);
   expect_an_edge_in_the_middle(interior_of(scene, edge).mask);
-  EXPECT_EQ(count(interior_of(scene, edge, {.pieces = false}).mask), edge * edge) << "without the criterion";
+  EXPECT_EQ(count(interior_of(scene, edge, {.materials = false}).mask), edge * edge) << "without the criterion";
 }
 
 TEST(Interior, LeavesOutBordersOfCharts) {
@@ -212,7 +212,7 @@ TEST(Interior, LeavesOutBordersOfCharts) {
   moved.shift = 5.0F;  // by whole turns of a map that repeats: the same texels, but another island
   const Scene scene = two_strips(left_half, moved);
   expect_an_edge_in_the_middle(interior_of(scene, edge).mask);
-  EXPECT_EQ(count(interior_of(scene, edge, {.pieces = false}).mask), edge * edge) << "without the criterion";
+  EXPECT_EQ(count(interior_of(scene, edge, {.charts = false}).mask), edge * edge) << "without the criterion";
 }
 
 // One island, whose halves meet in a corner beyond the picture and are cut apart within it.
@@ -221,7 +221,7 @@ TEST(Interior, LeavesOutCutsWithinAChart) {
   sheared.shear = 0.2F;
   const Scene scene = two_strips(left_half, sheared);
   expect_an_edge_in_the_middle(interior_of(scene, edge).mask);
-  EXPECT_EQ(count(interior_of(scene, edge, {.pieces = false}).mask), edge * edge) << "without the criterion";
+  EXPECT_EQ(count(interior_of(scene, edge, {.cuts = false}).mask), edge * edge) << "without the criterion";
 }
 
 // A box over a floor, and light that comes slanting along x: the edge of its shadow lies at x = 0.55.
@@ -285,6 +285,7 @@ TEST(Interior, LeavesOutEdgesOfAlpha) {
   const Image mask = interior_of(scene, edge).mask;
   EXPECT_LT(count(mask), 0.6 * edge * edge);
   EXPECT_GT(count(mask), 0.3 * edge * edge);
+  EXPECT_EQ(count(interior_of(scene, edge, {.coverage = false}).mask), edge * edge) << "without the criterion";
 }
 
 }  // namespace

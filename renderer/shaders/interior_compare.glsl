@@ -13,7 +13,7 @@ layout(binding = 4) uniform sampler2D first_positions;
 layout(binding = 5) uniform sampler2D first_facets;
 layout(binding = 6) uniform sampler2D first_normals;
 layout(binding = 7) uniform sampler2D first_mapped;
-uniform bool by_coverage, by_piece, by_normal, by_depth;
+uniform bool by_coverage, by_material, by_chart, by_cut, by_normal, by_depth;
 uniform float rounding;  // of positions, metres
 //? end
 uniform int grid;
@@ -53,7 +53,9 @@ bool agrees(ivec2 at, ivec2 first) {
   if (p.w == 0.0 || p0.w == 0.0) return !by_coverage;
   vec3 step = p.xyz - p0.xyz;
   bool yes = true;
-  if (by_piece) yes = yes && p.w == p0.w && isWithoutJump(m.xy - m0.xy, max(m.z, m0.z), length(step) + rounding);
+  if (by_material) yes = yes && f.w == f0.w;
+  if (by_chart) yes = yes && p.w == p0.w;
+  if (by_cut) yes = yes && isWithoutJump(m.xy - m0.xy, max(m.z, m0.z), length(step) + rounding);
   if (by_normal) yes = yes && dot(f.xyz, f0.xyz) >= least_cosine && dot(n.xyz, n0.xyz) >= least_cosine;
   if (by_depth) yes = yes && isOnSurface(step, f0.xyz, n0.w);
   return yes;

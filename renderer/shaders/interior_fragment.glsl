@@ -4,14 +4,14 @@ in vec3 world_position;
 in vec3 world_normal;
 in vec2 uv0;
 in vec2 uv1;
-flat in float chart;
+flat in vec2 piece;  // numbers of chart and material
 
 //? if cast_shadow
 layout(location = 0) out vec4 light_shares;
 uniform int first_light;  // of the four, points before spots before directions
 //? else
 layout(location = 0) out vec4 position_chart;   // world space; 0: nothing is there
-layout(location = 1) out vec4 facet_normal;     // the triangle's own, towards the viewer
+layout(location = 1) out vec4 facet_material;  // the triangle's own normal, towards the viewer
 layout(location = 2) out vec4 normal_extent;    // the vertices' normal; what the pixel spans on the surface, metres
 layout(location = 3) out vec4 mapped_stretch;   // uv, their gradient's length in 1/m, the footprint's longer edge in texels
 uniform float grid;     // samples along a pixel's edge
@@ -88,8 +88,8 @@ void main() {
   float area = max(abs(dot(along_x, across_x)), 1e-30);
   vec3 gradient_u = (mapped_x.x * across_x + mapped_y.x * across_y) / area;
   vec3 gradient_v = (mapped_x.y * across_x + mapped_y.y * across_y) / area;
-  position_chart = vec4(world_position, chart);
-  facet_normal = vec4(facet, 0.0);
+  position_chart = vec4(world_position, piece.x);
+  facet_material = vec4(facet, piece.y);
   normal_extent = vec4(normal, grid * (length(along_x) + length(along_y)));
   mapped_stretch = vec4(mapped, length(vec2(length(gradient_u), length(gradient_v))),
                         grid * max(length(mapped_x * map_size), length(mapped_y * map_size)));

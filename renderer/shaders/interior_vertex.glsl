@@ -3,7 +3,7 @@ layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;
 layout(location = 3) in vec2 in_uv0;
 layout(location = 4) in vec2 in_uv1;
-layout(location = 5) in vec2 in_chart;  // x: its number, over all materials, from 1 on
+layout(location = 5) in vec2 in_piece;  // numbers of the chart, within its material, and of the material, from 1 on
 
 uniform mat4 world_to_clip;
 
@@ -11,13 +11,13 @@ out vec3 world_position;
 out vec3 world_normal;
 out vec2 uv0;
 out vec2 uv1;
-flat out float chart;
+flat out vec2 piece;
 
 void main() {
   world_position = in_position;
   world_normal = in_normal;
   uv0 = in_uv0;
   uv1 = in_uv1;
-  chart = in_chart.x;
+  piece = in_piece;
   gl_Position = world_to_clip * vec4(in_position, 1.0);
 }

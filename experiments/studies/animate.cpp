@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <utility>
 
 #include "experiments/studies/exposure.hpp"
@@ -49,8 +50,7 @@ class Animator {
     for (std::size_t frame = 0; frame < distances_.size(); ++frame) before = add_frame(frame, before);
     animation_.backend = backend_info(stage_.context().info());
     animation_.scene = scene_info(stage_.scene(), exposure_);
-    if (auto warning = convergence_warning(animation_.reference))
-      animation_.scene.warnings.push_back(std::move(*warning));
+    add_noise_warning();
     const glm::ivec2 size = stage_.view(1.0).size;
     animation_.width = size.x;
     animation_.height = size.y;
@@ -58,6 +58,19 @@ class Animator {
   }
 
  private:
+  void add_noise_warning() {
+    std::set<int> noisy;
+    for (const AnimationRecord& record : animation_.records) {
+      if (record.normalized_color && is_mostly_noise(*record.normalized_color, record.noise_floor))
+        noisy.insert(record.frame);
+    }
+    if (noisy.empty()) return;
+    animation_.scene.warnings.push_back(fmt::format(
+        "in {} of {} frames the reference has not converged: its noise floor is more than half of the least "
+        "error; raise --spp",
+        noisy.size(), distances_.size()));
+  }
+
   [[nodiscard]] double methods_weight() const { return method_weight * static_cast<double>(stage_.methods().size()); }
 
   HeldFrame add_frame(std::size_t frame, const std::optional<HeldFrame>& before) {

@@ -22,6 +22,7 @@
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/unresolved.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
+#include "results/report/ranking.hpp"
 
 namespace footprint {
 namespace {
@@ -187,6 +188,8 @@ class Comparison {
     std::vector<std::string> notes = std::move(results_.scene.warnings);
     results_.scene = scene_info(stage_.scene(), exposure_);
     std::ranges::move(notes, std::back_inserter(results_.scene.warnings));
+    if (auto warning = linear_measures_warning(results_.reference))
+      results_.scene.warnings.push_back(std::move(*warning));
     add_left_out();
     add_precompute_notes();
   }

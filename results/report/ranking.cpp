@@ -15,7 +15,7 @@ namespace footprint {
 namespace {
 
 constexpr double standard_errors = 3;             // beyond which a difference is none of chance
-constexpr double converged_standard_error = 0.5;  // of the mean radiance; above it no small difference is trusted
+constexpr double converged_standard_error = 0.5;  // of the mean radiance
 
 // "a", "a and b", "a, b and c".
 std::string enumerated(const std::vector<std::string>& parts) {
@@ -147,6 +147,17 @@ bool is_all_noise(const DistanceRecords& records) {
   return sorted.size() > 1 && !is_better(sorted.front(), sorted.back());
 }
 
+// Of the errors that methods are ranked by, where there are some, else over all of the object.
+bool has_not_converged(const DistanceRecords& records) {
+  const auto is_noise = [](const Record& r) {
+    if (!r.error) return false;
+    const std::optional<double> shading = ranked_error(r);
+    return is_mostly_noise(shading.value_or(r.error->normalized_color),
+                           shading ? r.error->causes.shading_floor : r.error->noise_floor);
+  };
+  return std::ranges::any_of(records, is_noise);
+}
+
 bool has_few(const PixelCounts& pixels) { return pixels.interior < few_pixels && pixels.interior >= too_few_pixels; }
 
 // A sentence with the distances of which `holds`, put in front; empty where there is none.
@@ -200,19 +211,25 @@ std::string ratio_text(const TimeRatio& ratio) {
   return fmt::format("about 1 ({}-{})", three_figures(ratio.minimum), three_figures(ratio.maximum));
 }
 
-std::optional<std::string> convergence_warning(const ReferenceInfo& reference) {
+std::optional<std::string> linear_measures_warning(const ReferenceInfo& reference) {
   if (!reference.standard_error || *reference.standard_error <= converged_standard_error) return {};
   return fmt::format(
-      "the reference has not converged: its standard error is {:.2g} of the mean radiance, as happens where lights "
-      "make "
-      "highlights too sharp for {} samples; raise --spp before small differences are trusted",
-      *reference.standard_error, reference.spp);
+      "measures of linear radiance (relative RMSE, relMSE, energy bias) rest on a few very bright pixels: the "
+      "reference's standard error is {:.2g} of the mean radiance",
+      *reference.standard_error);
+}
+
+bool is_mostly_noise(double least_error, const std::optional<double>& noise_floor) {
+  return noise_floor && *noise_floor > 0.5 * least_error;
 }
 
 std::vector<std::string> ranking_warnings(const Results& results) {
   const auto pixels = [](const DistanceRecords& records) { return records.front().get().pixels; };
   return those_said(
-      convergence_warning(results.reference).value_or(std::string()),
+      at_distances(
+          results, [](const auto& records) { return has_not_converged(records); },
+          "the reference has not converged: its noise floor is more than half of the least error, so that all errors "
+          "are partly noise; give --noise, or raise --spp and --spp-max"),
       at_distances(
           results, [&](const auto& records) { return pixels(records).object == 0; },
           "the object covers no whole pixel: there is no error"),

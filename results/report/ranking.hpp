@@ -34,8 +34,12 @@ using DistanceRecords = std::vector<std::reference_wrapper<const Record>>;
 /// "1.31 (1.25-1.40)", or "about 1 (0.95-1.08)".
 [[nodiscard]] std::string ratio_text(const TimeRatio& ratio);
 
-/// That no small difference is to be trusted, where the reference is as noisy as that.
-[[nodiscard]] std::optional<std::string> convergence_warning(const ReferenceInfo& reference);
+/// That measures of linear radiance rest on a few bright pixels, where the reference's standard error is as large as
+/// that. Errors of clamped values, which methods are ranked by, do not.
+[[nodiscard]] std::optional<std::string> linear_measures_warning(const ReferenceInfo& reference);
+
+/// Whether the reference's noise floor is more than half of the least error measured against it.
+[[nodiscard]] bool is_mostly_noise(double least_error, const std::optional<double>& noise_floor);
 
 /// What bears on the ranking and a reader must know first, one sentence each: a reference that has not converged,
 /// distances with few interior pixels, with differences below the noise, or with nothing to filter.

@@ -123,10 +123,21 @@ TEST(RankingWarnings, TellWhereNothingIsToBeFiltered) {
 
 TEST(RankingWarnings, TellAReferenceThatHasNotConverged) {
   Results results = run_of({method("a", 0.02), method("b", 0.04)});
-  results.reference.standard_error = 11;
-  EXPECT_TRUE(says(warned(results), "the reference has not converged: its standard error is 11"));
-  results.reference.standard_error = 0.4;
+  for (Record& record : results.records) record.error->causes.shading_floor = 0.0101;
+  EXPECT_TRUE(
+      says(warned(results), "At distance 1 the reference has not converged: its noise floor is more than half"));
+  for (Record& record : results.records) record.error->causes.shading_floor = 0.0099;
   EXPECT_EQ(warned(results), "");
+}
+
+// A few mirrors under small lights hold most of the radiance; what is clamped for display knows nothing of them.
+TEST(RankingWarnings, LeaveVeryBrightPixelsToMeasuresOfLinearRadiance) {
+  Results results = run_of({method("a", 0.02), method("b", 0.04)});
+  results.reference.standard_error = 11;
+  EXPECT_EQ(warned(results), "");
+  EXPECT_TRUE(says(linear_measures_warning(results.reference).value(), "standard error is 11 of the mean radiance"));
+  results.reference.standard_error = 0.4;
+  EXPECT_FALSE(linear_measures_warning(results.reference).has_value());
 }
 
 TEST(Findings, NameTheBestAndThoseThatAreWorse) {

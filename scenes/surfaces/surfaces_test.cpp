@@ -95,7 +95,10 @@ TEST_P(EverySurface, HasMapsOfItsBrdfWithinTheirRanges) {
     for (const Image& map : {colors, speculars}) {
       for (const float value : map.texels) ASSERT_TRUE(value >= 0.0F && value <= 1.0F) << value;
     }
-    for (const float value : lobes.texels) ASSERT_TRUE(value >= 1.0F && value <= 1e6F) << value;
+    const bool widths =
+        GetParam().distribution == NormalDistribution::beckmann || GetParam().distribution == NormalDistribution::ggx;
+    const auto [least, most] = widths ? std::array{1e-3F, 1.0F} : std::array{1.0F, 1e6F};
+    for (const float value : lobes.texels) ASSERT_TRUE(value >= least && value <= most) << value;
     EXPECT_TRUE(colors.empty() || colors.channels == 4);
     EXPECT_TRUE(speculars.empty() || speculars.channels == 3);
     EXPECT_TRUE(lobes.empty() || lobes.channels == 1);

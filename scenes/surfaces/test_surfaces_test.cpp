@@ -1,9 +1,11 @@
 // The four flat test surfaces have the normals that their names promise, which figures on paper rest on.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <string>
 
 #include "scenes/surfaces/test_maps.hpp"
 
@@ -28,7 +30,7 @@ bool is_flat(const glm::dvec3& normal) { return normal == glm::dvec3{0.0, 0.0, 1
 
 // Texels on both sides of the map's border differ no more than those of some other two rows or columns that meet.
 TEST(FlatSurfaces, Tile) {
-  for (const std::string name : {"bumps", "scales"}) {
+  for (const std::string name : {"bumps", "scales", "scratched_metal", "car_paint"}) {
     const Image map = make_map(name, 512);
     const auto difference = [&](int x0, int y0, int x1, int y1) {
       double squares = 0.0;
@@ -123,6 +125,65 @@ TEST(Scratches, AreThinLinesOnFlatGround) {
     EXPECT_GT(steeper(20.0), 0.005);
   }
   EXPECT_EQ(share(make_map("scratches", 64, {{"count", "0"}}), is_flat), 1.0);
+}
+
+// Few texels are ground alone, and none is as steep as the deepest scratch and the grain on its flank together.
+TEST(ScratchedMetal, IsScratchesOverGrain) {
+  const Image grain = make_map("scratched_metal", 512, {{"count", "0"}});
+  const Image both = make_map("scratched_metal", 512);
+  const auto steeper = [](const Image& map, double degrees) {
+    return share(map, [=](const glm::dvec3& n) { return n.z < std::cos(glm::radians(degrees)); });
+  };
+  EXPECT_GT(steeper(grain, 1.0), 0.8);
+  EXPECT_EQ(steeper(grain, 15.0), 0.0);
+  EXPECT_GT(steeper(both, 15.0), 0.05);
+  EXPECT_LT(steeper(both, 15.0), 0.4);
+  EXPECT_EQ(steeper(both, 35.0 + 15.0), 0.0);
+}
+
+// Slopes of flakes are Gaussian of variance tilt^2 / 2: lengths squared over tilt^2 are exponential of mean 1.
+TEST(CarPaint, HasFlakesOfABeckmannDistribution) {
+  const double tilt = 0.3;
+  const Image map = make_map("car_paint", 512, {{"flake_tilt", "0.3"}, {"coverage", "1"}, {"flakes", "256"}});
+  for (const double squared : {0.1, 0.5, 1.0, 2.0, 4.0}) {
+    const double steeper =
+        share(map, [&](const glm::dvec3& n) { return (n.x * n.x + n.y * n.y) / (n.z * n.z) > squared * tilt * tilt; });
+    // 65536 flakes: four standard errors, twice over for flakes of different sizes.
+    EXPECT_NEAR(steeper, std::exp(-squared), 0.015) << squared;
+  }
+}
+
+TEST(CarPaint, IsFlatPaintWithoutFlakesAndHasTheShareAskedFor) {
+  EXPECT_EQ(share(make_map("car_paint", 64, {{"coverage", "0"}, {"peel", "0"}}), is_flat), 1.0);
+  for (const double coverage : {0.25, 0.5, 0.75}) {
+    const Image map = make_map("car_paint", 512, {{"coverage", std::to_string(coverage)}, {"peel", "0"}});
+    EXPECT_NEAR(share(map, is_flat), 1.0 - coverage, 0.015) << coverage;
+  }
+}
+
+// Every flake is flat and a few texels wide: where the map has four texels a cell most neighbours have one normal.
+TEST(CarPaint, HasFlatFlakesSeveralTexelsWide) {
+  const Image map = make_map("car_paint", 512, {{"coverage", "1"}, {"flakes", "128"}});
+  int alike = 0;
+  for (int y = 0; y < 512; ++y) {
+    for (int x = 0; x < 512; ++x) alike += std::ranges::equal(map.at(x, y), map.at((x + 1) % 512, y)) ? 1 : 0;
+  }
+  const double share_alike = alike / (512.0 * 512.0);
+  EXPECT_GT(share_alike, 0.6);  // squares of four texels would have three quarters
+  EXPECT_LT(share_alike, 0.85);
+}
+
+// The map of lobes has the flakes where the normals have them.
+TEST(CarPaint, HasTheLobeOfAFlakeWhereThereIsOne) {
+  const Surface& surface = find_surface(all_surfaces(), "car_paint");
+  SurfaceSettings settings = surface_settings(surface, {{"peel", "0"}, {"flake_alpha", "0.05"}});
+  settings.resolution = 128;
+  const Image normals = surface_normals(surface, settings), alphas = surface_lobe_parameter(surface, settings);
+  for (int y = 0; y < 128; ++y) {
+    for (int x = 0; x < 128; ++x) {
+      ASSERT_EQ(alphas.at(x, y)[0], normals.at(x, y)[2] == 1.0F ? 0.2F : 0.05F) << x << ", " << y;
+    }
+  }
 }
 
 // A height field of round bumps has no flat ground and leans to no side.

@@ -14,7 +14,7 @@
 namespace footprint::testing {
 namespace {
 
-constexpr std::array<const char*, 4> honouring{"naive_mip", "toksvig", "lean", "leadr"};
+constexpr std::array<const char*, 5> honouring{"naive_mip", "toksvig", "roughness_bake", "lean", "leadr"};
 
 TextureMap tiled(const Image& normals, float tiles) {
   TextureMap map{"layer", std::make_shared<const Image>(normals), {}};

@@ -1,0 +1,100 @@
+// `roughness_bake`: the mean normal, renormalised, under a lobe widened by what the mean normal's length tells, by the
+// formula of an engine's importer: normal maps baked into roughness mips.
+#include <algorithm>
+
+#include "methods/roughness_bake/presets.hpp"
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/bake/method.hpp"
+#include "renderer/bake/normal_chain.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/image/mipmap.hpp"
+
+namespace footprint {
+
+namespace embedded {
+extern const EmbeddedTexts roughness_bake_glsl;
+}
+
+namespace {
+
+using namespace roughness_bake;
+
+constexpr double free_constant = 2.0, free_cap = 1.0;  // the options' defaults
+
+std::vector<std::string> preset_words() { return {preset_names.begin(), preset_names.end()}; }
+
+// Another preset with a constant of its own would be that preset in name alone.
+Preset checked_preset(const Options& options) {
+  const Preset preset = preset_of(options.word("preset"));
+  const bool has_own = options.number("constant") != free_constant || options.number("cap") != free_cap;
+  if (preset != Preset::free && has_own) {
+    throw Error(ErrorKind::usage, "roughness_bake",
+                "preset=" + options.word("preset") + " has its own constant and cap",
+                "give preset=free for others, or leave `constant` and `cap` out");
+  }
+  return preset;
+}
+
+// The spread of every texel of every level, from the finest level's normals.
+std::vector<Image> spread_chain(const Image& normals, Preset preset) {
+  std::vector<Image> chain;
+  for (const Image& level : mean_normal_chain(normals)) {
+    Image& out = chain.emplace_back(level.width, level.height, 1);
+    for (std::size_t i = 0; i < level.texel_count(); ++i) {
+      const float* const n = &level.texels[3 * i];
+      const double length = std::hypot(double{n[0]}, double{n[1]}, double{n[2]});
+      out.texels[i] = static_cast<float>(stored_spread(preset, 1.0 - length));
+    }
+  }
+  return chain;
+}
+
+class RoughnessBake final : public Method {
+ public:
+  [[nodiscard]] const MethodInfo& info() const override { return info_; }
+
+  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                                       const Progress& /*progress*/) const override {
+    const Preset preset = checked_preset(options);
+    const Storage storage = parse_storage(options.word("storage"));
+    const Storage wide = storage == Storage::unorm8 ? Storage::fp16 : storage;  // bytes hold no sum of variances
+    Prefiltered out = bake_mean_normal(material, storage, effects);
+    if (has(effects, Effect::normal_variation))
+      out.textures.push_back(make_texture("normal_spread", spread_chain(normal_map_of(material), preset), wide,
+                                          normal_coordinates(material)));
+    if (has(effects, Effect::normal_layers))
+      out.textures.push_back(make_texture("layer_spread", spread_chain(layer_map_of(material), preset), wide,
+                                          layer_coordinates(material)));
+    if (has(effects, Effect::roughness_variation))
+      out.textures.push_back(make_texture("baked_roughness", mip_chain(roughness_map_of(material)), storage,
+                                          roughness_coordinates(material)));
+    return out;
+  }
+
+  [[nodiscard]] ShaderModule shader() const override {
+    return module_of(embedded::roughness_bake_glsl, "roughness_bake.glsl");
+  }
+
+ private:
+  MethodInfo info_{
+      .name = "roughness_bake",
+      .summary = "The mean normal under a lobe widened as engines widen roughness mips when they import a normal map.",
+      .paper = "Engines' importers (README); our own constant by default",
+      .options = {word_option("preset", preset_words(),
+                              "Whose formula: engines', or `fit`, the constant that is closest to the true "
+                              "distribution of normals by roughness and distribution, or `free`."),
+                  number_option("constant", free_constant, 0.0, 8.0,
+                                "Of preset=free: alpha^2 + min(constant / kappa, cap)."),
+                  number_option("cap", free_cap, 0.0, 1.0, "Of preset=free: the most that is added to alpha^2."),
+                  storage_option()},
+      .honours = map_effects_but({})};
+};
+
+}  // namespace
+
+const Method& roughness_bake_method() {
+  static const RoughnessBake method;
+  return method;
+}
+
+}  // namespace footprint

@@ -17,7 +17,7 @@
 namespace footprint {
 namespace {
 
-constexpr const char* examples =
+constexpr const char* animate_examples =
     "SCENE is a folder of scenes/, a path to a scene.toml, or a .gltf or .glb file. The folder gets "
     "images/METHOD_NNNN\n"
     "and images/reference_NNNN, each .exr and .png, animation.json, animation.csv and table.md. A film of them:\n"
@@ -27,15 +27,15 @@ constexpr const char* examples =
     "  footprint animate model.gltf --method toksvig --frames 60 -o out\n"
     "  footprint animate ribbed_plane --method direct,toksvig --frames 30 --from 1 --to 16 --spp 64 -o out";
 
-struct Arguments {
-  explicit Arguments(CLI::App& command) : run(command) {}
+struct AnimateArguments {
+  explicit AnimateArguments(CLI::App& command) : run(command) {}
 
   RunOptions run;
   std::string output = "out";
   bool quiet = false;
 };
 
-void add_options(CLI::App& command, Arguments& arguments) {
+void add_options(CLI::App& command, AnimateArguments& arguments) {
   command.add_option("-o,--output", arguments.output, "Folder for animation.json, animation.csv, table.md, images/")
       ->capture_default_str();
   add_quiet_flag(command, arguments.quiet);
@@ -47,7 +47,7 @@ Animation animate_into(OutputFolder& folder, const RunSettings& settings, const 
   return animation;
 }
 
-void run_animate(const Arguments& arguments) {
+void run_animate(const AnimateArguments& arguments) {
   const RunSettings settings = arguments.run.settings();
   ProgressDisplay display(progress_style(arguments.quiet));
   const auto [animation, path] = write_whole(
@@ -60,9 +60,9 @@ void run_animate(const Arguments& arguments) {
 
 void add_animate_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("animate", "Render the frames of a zoom, with error and flicker");
-  const auto arguments = std::make_shared<Arguments>(*command);
+  const auto arguments = std::make_shared<AnimateArguments>(*command);
   add_options(*command, *arguments);
-  command->footer(examples);
+  command->footer(animate_examples);
   command->callback([arguments] { run_animate(*arguments); });
 }
 

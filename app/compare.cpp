@@ -16,7 +16,7 @@
 namespace footprint {
 namespace {
 
-constexpr const char* examples =
+constexpr const char* compare_examples =
     "SCENE is a folder of scenes/, a path to a scene.toml, or a .gltf or .glb file. A method is written name or\n"
     "name:option=value:option=value; `footprint list methods` names them.\n"
     "\n"
@@ -25,8 +25,8 @@ constexpr const char* examples =
     "  footprint compare model.gltf --methods direct,toksvig:storage=fp16 --distance 1,2,4,8 -o out\n"
     "  footprint compare scenes/quad/scene.toml --spp 256 --size 1024x768 --seed 7 -o out";
 
-struct Arguments {
-  explicit Arguments(CLI::App& command) : run(command) {}
+struct CompareArguments {
+  explicit CompareArguments(CLI::App& command) : run(command) {}
 
   RunOptions run;
   std::string output = "out";
@@ -34,7 +34,7 @@ struct Arguments {
   bool quiet = false;
 };
 
-void add_options(CLI::App& command, Arguments& arguments) {
+void add_options(CLI::App& command, CompareArguments& arguments) {
   command
       .add_option("-o,--output", arguments.output,
                   "Folder for results.json, results.csv, table.md, index.html, images/")
@@ -54,7 +54,7 @@ Results compare_into(OutputFolder& folder, const RunSettings& settings, const Pr
   return results;
 }
 
-void run_compare_command(const Arguments& arguments) {
+void run_compare_command(const CompareArguments& arguments) {
   const RunSettings settings = arguments.run.settings();
   ProgressDisplay display(progress_style(arguments.quiet));
   if (!arguments.timing_file.empty()) {
@@ -70,9 +70,9 @@ void run_compare_command(const Arguments& arguments) {
 
 void add_compare_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("compare", "Compare methods with a supersampled reference: the main job");
-  const auto arguments = std::make_shared<Arguments>(*command);
+  const auto arguments = std::make_shared<CompareArguments>(*command);
   add_options(*command, *arguments);
-  command->footer(examples);
+  command->footer(compare_examples);
   command->callback([arguments] { run_compare_command(*arguments); });
 }
 

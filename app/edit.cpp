@@ -18,7 +18,7 @@
 namespace footprint {
 namespace {
 
-constexpr const char* examples =
+constexpr const char* edit_examples =
     "SCENE is a folder of scenes/ or a path to a scene.toml whose [microgeometry] has a kind. KIND.PARAMETER is a\n"
     "parameter of that kind (docs/scenes.md). The folder gets images/METHOD_NNNN, each .exr and .png, edit.json,\n"
     "edit.csv and table.md.\n"
@@ -27,8 +27,8 @@ constexpr const char* examples =
     "  footprint edit woven_cloth --set weave.warp_width=0.1:0.5 --frames 10 -o out\n"
     "  footprint edit woven_cloth --set weave.warp_width=0.9:0.3 --set weave.height=0.1 --method iwasaki_sg:j=4 -o out";
 
-struct Arguments {
-  explicit Arguments(CLI::App& command) : run(command) {}
+struct EditArguments {
+  explicit EditArguments(CLI::App& command) : run(command) {}
 
   RunOptions run;
   std::vector<std::string> sets;
@@ -37,7 +37,7 @@ struct Arguments {
   bool quiet = false;
 };
 
-void add_options(CLI::App& command, Arguments& arguments) {
+void add_options(CLI::App& command, EditArguments& arguments) {
   command.add_option("--set", arguments.sets, "KIND.PARAMETER=FROM:TO, or =VALUE; may be given several times")
       ->required()
       ->expected(1)
@@ -50,7 +50,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
   add_quiet_flag(command, arguments.quiet);
 }
 
-EditSettings settings_from(const Arguments& arguments) {
+EditSettings settings_from(const EditArguments& arguments) {
   EditSettings settings{.run = arguments.run.settings(), .sweeps = {}, .frames = arguments.frames};
   for (const std::string& set : arguments.sets) settings.sweeps.push_back(parse_sweep(set));
   if (settings.run.methods.front().name == "reference")
@@ -64,7 +64,7 @@ EditRun edit_into(OutputFolder& folder, const EditSettings& settings, const Prog
   return run;
 }
 
-void run_edit_command(const Arguments& arguments) {
+void run_edit_command(const EditArguments& arguments) {
   const EditSettings settings = settings_from(arguments);
   ProgressDisplay display(progress_style(arguments.quiet));
   const auto [run, path] = write_whole(
@@ -77,9 +77,9 @@ void run_edit_command(const Arguments& arguments) {
 
 void add_edit_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("edit", "Edit small-scale geometry frame by frame, and time each stage");
-  const auto arguments = std::make_shared<Arguments>(*command);
+  const auto arguments = std::make_shared<EditArguments>(*command);
   add_options(*command, *arguments);
-  command->footer(examples);
+  command->footer(edit_examples);
   command->callback([arguments] { run_edit_command(*arguments); });
 }
 

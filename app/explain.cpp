@@ -24,7 +24,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* examples =
+constexpr const char* explain_examples =
     "SCENE is a folder of scenes/, a path to a scene.toml, or a .gltf or .glb file.\n"
     "\n"
     "Examples:\n"
@@ -32,8 +32,8 @@ constexpr const char* examples =
     "  footprint explain model.gltf --method toksvig --cost\n"
     "  footprint explain model.gltf --json          for programs";
 
-struct Arguments {
-  explicit Arguments(CLI::App& command) : run(command) {}
+struct ExplainArguments {
+  explicit ExplainArguments(CLI::App& command) : run(command) {}
 
   RunOptions run;
   bool cost = false;
@@ -85,7 +85,7 @@ std::vector<TextureUse> texture_uses(const BakedMethod& baked) {
   return uses;
 }
 
-Explanation explain(const Arguments& arguments, const Progress& progress) {
+Explanation explain(const ExplainArguments& arguments, const Progress& progress) {
   const RunSettings run = arguments.run.settings();
   ProgressParts parts(progress, arguments.cost ? 3 : 1);
   const Stage stage(load_scene(run.scene, run.scene_library), run, parts.next(1, ""));
@@ -192,7 +192,7 @@ std::string json_of(const Explanation& explanation) {
   return json.dump(2) + "\n";
 }
 
-void run_explain(const Arguments& arguments) {
+void run_explain(const ExplainArguments& arguments) {
   Explanation explanation;
   {
     ProgressDisplay display(progress_style(arguments.quiet));
@@ -205,11 +205,11 @@ void run_explain(const Arguments& arguments) {
 
 void add_explain_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("explain", "Say which effects a scene calls for, why, and what they cost");
-  const auto arguments = std::make_shared<Arguments>(*command);
+  const auto arguments = std::make_shared<ExplainArguments>(*command);
   command->add_flag("--cost", arguments->cost, "Measure what each effect adds to a frame's time");
   command->add_flag("--json", arguments->json, "Print JSON");
   add_quiet_flag(*command, arguments->quiet);
-  command->footer(examples);
+  command->footer(explain_examples);
   command->callback([arguments] { run_explain(*arguments); });
 }
 

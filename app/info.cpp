@@ -13,7 +13,7 @@
 namespace footprint {
 namespace {
 
-constexpr const char* examples =
+constexpr const char* info_examples =
     "Examples:\n"
     "  footprint info                               backends with their limits, processor, memory\n"
     "  footprint info | grep egl-device             the GPUs, with the number that --device takes";
@@ -30,7 +30,7 @@ void run_info() {
 
 void add_info_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("info", "Say what this program and this machine can do");
-  command->footer(examples);
+  command->footer(info_examples);
   command->callback(run_info);
 }
 

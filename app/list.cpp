@@ -25,7 +25,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* examples =
+constexpr const char* list_examples =
     "Examples:\n"
     "  footprint list                               everything\n"
     "  footprint list methods                       the methods and their options\n"
@@ -33,7 +33,7 @@ constexpr const char* examples =
 
 const std::vector<std::string> kinds{"methods", "scenes", "surfaces", "experiments", "backends"};
 
-struct Arguments {
+struct ListArguments {
   std::string kind;  // empty: all
   bool json = false;
 };
@@ -137,7 +137,7 @@ Json kind_json(const std::string& kind) {
   return json;
 }
 
-void run_list(const Arguments& arguments) {
+void run_list(const ListArguments& arguments) {
   std::vector<std::string> shown = kinds;
   if (!arguments.kind.empty()) shown = {kinds[find_word(kinds, arguments.kind, "kind", "list")]};
   Json json;
@@ -156,10 +156,10 @@ void run_list(const Arguments& arguments) {
 
 void add_list_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("list", "List the methods, scenes, surfaces, experiments and backends");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ListArguments>();
   command->add_option("kind", arguments->kind, "methods, scenes, surfaces, experiments or backends; all if not given");
   command->add_flag("--json", arguments->json, "Print JSON");
-  command->footer(examples);
+  command->footer(list_examples);
   command->callback([arguments] { run_list(*arguments); });
 }
 

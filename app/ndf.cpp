@@ -23,7 +23,7 @@
 namespace footprint {
 namespace {
 
-constexpr const char* examples =
+constexpr const char* ndf_examples =
     "SCENE is a folder of scenes/, a path to a scene.toml, or a .gltf or .glb file. MAP is an EXR of unit normals\n"
     "(x, y, z, each -1 to 1) or an ordinary normal-map image (OpenGL convention). The footprint is in the map's "
     "texture\n"
@@ -34,8 +34,8 @@ constexpr const char* examples =
     "  footprint ndf normals.exr --lobe ggx:0.1 --methods toksvig,naive_mip --region 0,0,0.25,0.25 -o ndf\n"
     "  footprint ndf model.gltf --material 2 --texels 256,128,320,192 -o ndf";
 
-struct Arguments {
-  explicit Arguments(CLI::App& command) : run(command) {}
+struct NdfArguments {
+  explicit NdfArguments(CLI::App& command) : run(command) {}
 
   RunOptions run;
   std::string source;
@@ -65,7 +65,7 @@ FootprintRect parse_rectangle(const std::string& option, const std::string& text
 }
 
 // The footprint in texture coordinates, whichever way it was given.
-FootprintRect footprint_of(const Arguments& arguments, const Material& material) {
+FootprintRect footprint_of(const NdfArguments& arguments, const Material& material) {
   FootprintRect rect;
   if (!arguments.footprint.empty()) rect = parse_rectangle("--region", arguments.footprint);
   if (!arguments.texels.empty()) {
@@ -79,7 +79,7 @@ FootprintRect footprint_of(const Arguments& arguments, const Material& material)
   return rect;
 }
 
-void run_ndf(const Arguments& arguments) {
+void run_ndf(const NdfArguments& arguments) {
   NdfSettings settings{.run = arguments.run.settings(),
                        .footprint = {},
                        .resolution = arguments.resolution,
@@ -116,7 +116,7 @@ void run_ndf(const Arguments& arguments) {
 void add_ndf_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("ndf", "Show the effective NDF of a footprint by each method beside the true one");
-  const auto arguments = std::make_shared<Arguments>(*command);
+  const auto arguments = std::make_shared<NdfArguments>(*command);
   command->add_option("source", arguments->source, "SCENE or MAP")->required();
   auto* footprint = command->add_option("--region", arguments->footprint,
                                         "u0,v0,u1,v1 in texture coordinates; if not given the whole map");
@@ -136,7 +136,7 @@ void add_ndf_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("-o,--output", arguments->output, "Folder for ndf.json, ndf.png, images/")->required();
   add_quiet_flag(*command, arguments->quiet);
-  command->footer(examples);
+  command->footer(ndf_examples);
   command->callback([arguments] { run_ndf(*arguments); });
 }
 

@@ -23,7 +23,7 @@
 namespace footprint {
 namespace {
 
-constexpr const char* examples =
+constexpr const char* render_examples =
     "SCENE is a folder of scenes/, a path to a scene.toml, or a .gltf or .glb file. EXR holds linear radiance with\n"
     "coverage in alpha; PNG is exposed for display.\n"
     "\n"
@@ -34,8 +34,8 @@ constexpr const char* examples =
 
 constexpr int reference_pictures = 6;  // mean, squares, two halves, error, and one to spare
 
-struct Arguments {
-  explicit Arguments(CLI::App& command) : run(command) {}
+struct RenderArguments {
+  explicit RenderArguments(CLI::App& command) : run(command) {}
 
   RunOptions run;
   std::optional<std::size_t> zoom_frame;
@@ -88,7 +88,7 @@ RunSettings staged(const RunOptions& options) {
   return run;
 }
 
-void run_render(const Arguments& arguments) {
+void run_render(const RenderArguments& arguments) {
   const std::filesystem::path path = picture_path(arguments.output);
   const RunSettings run = staged(arguments.run);
   Scene scene = load_scene(run.scene, run.scene_library);
@@ -110,13 +110,13 @@ void run_render(const Arguments& arguments) {
 
 void add_render_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("render", "Render one picture by a method or by the reference");
-  const auto arguments = std::make_shared<Arguments>(*command);
+  const auto arguments = std::make_shared<RenderArguments>(*command);
   command->add_option("-o,--output", arguments->output, "The picture, .exr or .png")->required();
   command->add_option("--frame", arguments->zoom_frame, "Frame of the scene's zoom path, from 0")
       ->check(CLI::NonNegativeNumber)
       ->excludes(command->get_option("--distance"));
   add_quiet_flag(*command, arguments->quiet);
-  command->footer(examples);
+  command->footer(render_examples);
   command->callback([arguments] { run_render(*arguments); });
 }
 

@@ -42,8 +42,8 @@ constexpr const char* check_examples =
     "  footprint check quick -o out                 every method, in seconds\n"
     "  footprint check experiments/tan2005_fig4.toml -o out";
 
-struct Arguments {
-  explicit Arguments(CLI::App& command) : run(command) {}
+struct ExperimentArguments {
+  explicit ExperimentArguments(CLI::App& command) : run(command) {}
 
   RunOptions run;
   std::string experiment;
@@ -54,7 +54,7 @@ struct Arguments {
   bool quiet = false;
 };
 
-void add_options(CLI::App& command, Arguments& arguments) {
+void add_options(CLI::App& command, ExperimentArguments& arguments) {
   command.add_option("experiment", arguments.experiment, "What to run")->required();
   command
       .add_option("-o,--output", arguments.output,
@@ -77,7 +77,7 @@ Results run_into(const Experiment& experiment, OutputFolder& folder, const Progr
 }
 
 // The experiment of a file, run as the command line asks.
-Experiment asked_experiment(const std::filesystem::path& file, const Arguments& arguments) {
+Experiment asked_experiment(const std::filesystem::path& file, const ExperimentArguments& arguments) {
   Experiment experiment = read_experiment(file);
   arguments.run.apply(experiment.run);
   if (arguments.quick) make_quick(experiment);
@@ -85,7 +85,7 @@ Experiment asked_experiment(const std::filesystem::path& file, const Arguments& 
 }
 
 // The experiments to run: the one that is named, or its members, none of which has members of its own.
-std::vector<Experiment> asked_experiments(const Arguments& arguments) {
+std::vector<Experiment> asked_experiments(const ExperimentArguments& arguments) {
   const Experiment named = asked_experiment(find_experiment(arguments.experiment, experiments_folder()), arguments);
   if (named.members.empty()) return {named};
   std::vector<Experiment> members;
@@ -99,7 +99,7 @@ std::vector<Experiment> asked_experiments(const Arguments& arguments) {
 }
 
 // What a further process does: times the frames of one member.
-void take_times(const Arguments& arguments) {
+void take_times(const ExperimentArguments& arguments) {
   for (const Experiment& experiment : asked_experiments(arguments)) {
     if (experiment.name != arguments.timing_member) continue;
     return write_frame_times(arguments.timing_file, time_frames(experiment.run, no_progress));
@@ -109,7 +109,7 @@ void take_times(const Arguments& arguments) {
 }
 
 // Runs the experiment, or each of its members into a folder of its own, prints the tables and gives what fell short.
-std::vector<std::string> run_and_print(const Arguments& arguments) {
+std::vector<std::string> run_and_print(const ExperimentArguments& arguments) {
   const std::vector<Experiment> experiments = asked_experiments(arguments);
   std::vector<std::string> shortfalls;
   for (const Experiment& experiment : experiments) {
@@ -127,7 +127,7 @@ std::vector<std::string> run_and_print(const Arguments& arguments) {
   return shortfalls;
 }
 
-void check(const Arguments& arguments) {
+void check(const ExperimentArguments& arguments) {
   if (!arguments.timing_file.empty()) return take_times(arguments);
   const std::vector<std::string> shortfalls = run_and_print(arguments);
   if (shortfalls.empty()) return;
@@ -144,7 +144,7 @@ void check(const Arguments& arguments) {
 
 void add_run_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("run", "Run an experiment: measured beside published, and its claims");
-  const auto arguments = std::make_shared<Arguments>(*command);
+  const auto arguments = std::make_shared<ExperimentArguments>(*command);
   add_options(*command, *arguments);
   command->add_flag("--quick", arguments->quick, "A quarter of the size and few samples: no measurement");
   command->footer(std::string(experiment_words) + run_examples);
@@ -156,7 +156,7 @@ void add_run_command(CLI::App& app) {
 
 void add_check_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("check", "Run an experiment and hold its claims and thresholds");
-  const auto arguments = std::make_shared<Arguments>(*command);
+  const auto arguments = std::make_shared<ExperimentArguments>(*command);
   add_options(*command, *arguments);
   command->footer(std::string(experiment_words) + check_examples);
   command->callback([arguments] { check(*arguments); });

@@ -22,7 +22,7 @@
 namespace footprint {
 namespace {
 
-constexpr const char* examples =
+constexpr const char* surface_examples =
     "`footprint list surfaces` names the surfaces and their parameters. EXR holds unit normals as they are, x to the\n"
     "right, y upwards, z out of the surface, each -1 to 1, 32-bit float. PNG holds (n + 1) / 2 in 8 bits, as glTF's\n"
     "normal textures do, green up.\n"
@@ -32,7 +32,7 @@ constexpr const char* examples =
     "  footprint surface scales --resolution 1024 --seed 7 --parameter count=16 --parameter fill=0.8 -o scales.exr\n"
     "  footprint surface desert --resolution 2048 -o desert.png";
 
-struct Arguments {
+struct SurfaceArguments {
   std::string surface;
   int resolution = 0;  // 0: the surface's own
   std::uint32_t seed = 1;
@@ -71,7 +71,7 @@ void save(const std::filesystem::path& path, Image normals) {
   write_png(path, normals);
 }
 
-void run_surface(const Arguments& arguments) {
+void run_surface(const SurfaceArguments& arguments) {
   const std::filesystem::path path = arguments.output;
   if (path.extension() != ".exr" && path.extension() != ".png") {
     throw Error(ErrorKind::usage, "--output", fmt::format("`{}` names no picture", arguments.output),
@@ -94,7 +94,7 @@ void run_surface(const Arguments& arguments) {
 
 void add_surface_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("surface", "Write the normal map of a procedural surface");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<SurfaceArguments>();
   command->add_option("name", arguments->surface, "Which surface")->required();
   command->add_option("-o,--output", arguments->output, "The map, .exr or .png")->required();
   command->add_option("--resolution", arguments->resolution, "Texels a side; if not given the surface's own")
@@ -102,7 +102,7 @@ void add_surface_command(CLI::App& app) {
   command->add_option("--seed", arguments->seed, "Same seed, same bytes")->capture_default_str();
   command->add_option("--parameter", arguments->parameters, "NAME=VALUE, one of the surface's own; may be repeated")
       ->allow_extra_args(false);
-  command->footer(examples);
+  command->footer(surface_examples);
   command->callback([arguments] { run_surface(*arguments); });
 }
 

@@ -172,11 +172,11 @@ double shading_ms(const Record& record) {
 }
 
 // The mean over the footprints.
-Evaluate over_footprints(double NdfFigures::*member) {
+Evaluate over_footprints(double FootprintNdf::*member) {
   return [member](const Measure& measure, const std::string& method, const Results& results) {
     double sum = 0;
     std::size_t count = 0;
-    for (const NdfFigures& figures : results.ndf) {
+    for (const FootprintNdf& figures : results.ndf) {
       if (figures.method != method || (measure.footprint && figures.footprint != *measure.footprint)) continue;
       sum += figures.*member;
       ++count;
@@ -248,9 +248,9 @@ std::vector<FigureFunction> function_table() {
       {"bytes", records, nothing,
        over_records([](const Record& r) { return static_cast<double>(r.precompute_bytes); })},
       {"bytes_per_texel", records, nothing, over_records([](const Record& r) { return r.precompute_bytes_per_texel; })},
-      {"ndf_l2", {footprint}, a_footprint, over_footprints(&NdfFigures::l2)},
-      {"ndf_energy", {footprint}, a_footprint, over_footprints(&NdfFigures::energy)},
-      {"ndf_peak", {footprint}, a_footprint, over_footprints(&NdfFigures::peak)},
+      {"ndf_l2", {footprint}, a_footprint, over_footprints(&FootprintNdf::l2)},
+      {"ndf_energy", {footprint}, a_footprint, over_footprints(&FootprintNdf::energy)},
+      {"ndf_peak", {footprint}, a_footprint, over_footprints(&FootprintNdf::peak)},
       {"quantity", {name}, a_quantity, quantity_figure}};
 }
 

@@ -45,7 +45,7 @@ void inspect_footprints(const Experiment& experiment, const std::filesystem::pat
 // The pictures of all footprints, each once.
 std::vector<std::string> ndf_pictures(const Results& results) {
   std::vector<std::string> pictures;
-  for (const NdfFigures& figures : results.ndf) {
+  for (const FootprintNdf& figures : results.ndf) {
     if (pictures.empty() || pictures.back() != figures.picture) pictures.push_back(figures.picture);
   }
   return pictures;

@@ -22,7 +22,7 @@ using testing::Not;
 
 constexpr std::array<GLenum, 1> rgba32f = {GL_RGBA32F};
 
-constexpr std::string_view triangle_shader = R"(#version 450
+constexpr std::string_view deep_triangle_shader = R"(#version 450
 uniform float depth;
 void main() { gl_Position = vec4(4.0 * (gl_VertexID & 1) - 1.0, 4.0 * (gl_VertexID >> 1) - 1.0, depth, 1.0); })";
 
@@ -165,7 +165,7 @@ TEST_F(Objects, ATargetReadsEachAttachmentWithAnyNumberOfChannels) {
 
 TEST_F(Objects, TheDepthBufferHidesWhatIsBehind) {
   const RenderTarget target(2, 2, rgba32f, true);
-  const Program program("plain", triangle_shader, plain_shader);
+  const Program program("plain", deep_triangle_shader, plain_shader);
   GLuint name = 0;
   api().CreateVertexArrays(1, &name);
   const VertexArray vertex_array(name);
@@ -194,7 +194,7 @@ void main() {
   float fine = 1.0;
   color = vec4(undeclared_thing);
 })";
-  const Error error = error_of([&] { const Program program("glossy", triangle_shader, broken); });
+  const Error error = error_of([&] { const Program program("glossy", deep_triangle_shader, broken); });
   EXPECT_EQ(error.kind(), ErrorKind::machine);
   EXPECT_THAT(error.place(), HasSubstr("glossy"));
   EXPECT_THAT(error.what(), HasSubstr("fragment shader"));
@@ -211,7 +211,7 @@ float second() {
 }
 out vec4 color;
 void main() { color = vec4(first() + second()); })";
-  const Error error = error_of([&] { const Program program("parts", triangle_shader, broken); });
+  const Error error = error_of([&] { const Program program("parts", deep_triangle_shader, broken); });
   EXPECT_THAT(error.what(), HasSubstr("3:2 |   return broken_here;"));
 }
 
@@ -220,7 +220,7 @@ TEST_F(Objects, StagesThatDoNotFitAreAnError) {
 in vec3 never_written;
 out vec4 color;
 void main() { color = vec4(never_written, 1.0); })";
-  const Error error = error_of([&] { const Program program("misfit", triangle_shader, wants_more); });
+  const Error error = error_of([&] { const Program program("misfit", deep_triangle_shader, wants_more); });
   EXPECT_THAT(error.what(), HasSubstr("do not link"));
   EXPECT_THAT(error.what(), HasSubstr("never_written"));
   EXPECT_TRUE(context_.take_debug_errors().empty());

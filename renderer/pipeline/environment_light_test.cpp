@@ -18,7 +18,7 @@
 namespace footprint::testing {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 using Inputs = std::vector<std::array<glm::vec4, 3>>;
 
 ShaderFlags flags_of(NormalDistribution distribution, GeometryTerm geometry) {
@@ -30,7 +30,7 @@ ShaderFlags flags_of(NormalDistribution distribution, GeometryTerm geometry) {
 }
 
 // What surface_fragment.glsl takes in, behind a module that has one lobe about `normal` with the parameter `lobe`.
-std::string functions_of(NormalDistribution distribution, GeometryTerm geometry = GeometryTerm::none) {
+std::string light_functions_of(NormalDistribution distribution, GeometryTerm geometry = GeometryTerm::none) {
   const ShaderFlags flags = flags_of(distribution, geometry);
   constexpr std::string_view module =
       "layout(binding = 0) uniform sampler2DArray environment_stack;\n"
@@ -51,7 +51,7 @@ glm::dvec3 about(const glm::dvec3& axis, double cosine, double azimuth) {
 }
 
 // The mean over a vMF lobe of f(direction), by rings of equal share.
-double vmf_mean(const glm::dvec3& axis, double kappa, const std::function<double(const glm::dvec3&)>& f) {
+double vmf_average(const glm::dvec3& axis, double kappa, const std::function<double(const glm::dvec3&)>& f) {
   constexpr int rings = 200;
   constexpr int sectors = 200;
   double sum = 0;
@@ -76,7 +76,7 @@ Environment banded_environment() {
   return {.name = "band", .radiance = std::make_shared<const Image>(std::move(map)), .rotation = 0.4F};
 }
 
-// The maps of an environment where `functions_of` reads them.
+// The maps of an environment where `light_functions_of` reads them.
 GpuEnvironment bound(Environment environment) {
   shared_context().make_current();
   GpuEnvironment gpu(std::move(environment));
@@ -94,7 +94,7 @@ TEST(EnvironmentLight, OctahedralMapIsItsTwin) {
   Inputs inputs;
   for (const glm::dvec3& axis : axes) inputs.push_back({glm::vec4(glm::vec3(axis), 0), {}, {}});
   const auto uvs =
-      evaluate_glsl(functions_of(NormalDistribution::vmf), "return vec4(octahedral(a.xyz), 0.0, 0.0);", inputs);
+      evaluate_glsl(light_functions_of(NormalDistribution::vmf), "return vec4(octahedral(a.xyz), 0.0, 0.0);", inputs);
   for (std::size_t i = 0; i < axes.size(); ++i) {
     EXPECT_NEAR(uvs[i].x, octahedral_uv(axes[i]).x, 1e-6);
     EXPECT_NEAR(uvs[i].y, octahedral_uv(axes[i]).y, 1e-6);
@@ -105,7 +105,7 @@ TEST(EnvironmentLight, OctahedralMapIsItsTwin) {
 // lamp (6% between maps, the rest between texels).
 TEST(EnvironmentLight, StackHoldsMeansOverLobes) {
   const Environment environment = banded_environment();
-  const std::string functions = functions_of(NormalDistribution::vmf);
+  const std::string functions = light_functions_of(NormalDistribution::vmf);
   const GpuEnvironment gpu = bound(environment);
   for (const double kappa : {0.05, 0.5, 1.7, 6.0, 13.0, 40.0, 70.0}) {
     Inputs inputs;
@@ -116,8 +116,8 @@ TEST(EnvironmentLight, StackHoldsMeansOverLobes) {
       std::vector<double> truth;
       truth.reserve(axes.size());
       for (const glm::dvec3& axis : axes) {
-        truth.push_back(vmf_mean(glm::normalize(axis), kappa,
-                                 [&](const glm::dvec3& d) { return environment_radiance(environment, d)[c]; }));
+        truth.push_back(vmf_average(glm::normalize(axis), kappa,
+                                    [&](const glm::dvec3& d) { return environment_radiance(environment, d)[c]; }));
       }
       const double largest = *std::ranges::max_element(truth);
       for (std::size_t i = 0; i < axes.size(); ++i)
@@ -133,12 +133,12 @@ TEST(EnvironmentLight, ShareAboveTheHorizonIsRightToTwoPercent) {
   for (const double kappa : {0.1, 1.0, 3.0, 10.0, 100.0, 2000.0}) {
     for (const double t : {-1.0, -0.5, -0.1, 0.0, 0.05, 0.3, 0.8, 1.0}) {
       inputs.push_back({glm::vec4(t, kappa, 0, 0), {}, {}});
-      truth.push_back(
-          vmf_mean({std::sqrt(1.0 - t * t), 0.0, t}, kappa, [](const glm::dvec3& d) { return d.z > 0.0 ? 1.0 : 0.0; }));
+      truth.push_back(vmf_average({std::sqrt(1.0 - t * t), 0.0, t}, kappa,
+                                  [](const glm::dvec3& d) { return d.z > 0.0 ? 1.0 : 0.0; }));
     }
   }
   const auto shares =
-      evaluate_glsl(functions_of(NormalDistribution::vmf), "return vec4(shareAbove(a.x, a.y));", inputs);
+      evaluate_glsl(light_functions_of(NormalDistribution::vmf), "return vec4(shareAbove(a.x, a.y));", inputs);
   for (std::size_t i = 0; i < inputs.size(); ++i)
     EXPECT_NEAR(shares[i].x, truth[i], 0.022) << "t " << inputs[i][0].x << ", kappa " << inputs[i][0].y;
 }
@@ -152,14 +152,14 @@ TEST(EnvironmentLight, VisibleLobesAreTheFacetsThatFaceTheViewer) {
       const glm::dvec3 wo(std::sin(degrees * pi / 180), 0, std::cos(degrees * pi / 180));
       inputs.push_back({glm::vec4(glm::vec3(wo), static_cast<float>(kappa)), {}, {}});
       const auto facing = [&](const glm::dvec3& h) { return std::max(glm::dot(h, wo), 0.0); };
-      area.push_back(vmf_mean({0, 0, 1}, kappa, facing));
+      area.push_back(vmf_average({0, 0, 1}, kappa, facing));
       mean.push_back(glm::normalize(
-          glm::dvec3(vmf_mean({0, 0, 1}, kappa, [&](const glm::dvec3& h) { return h.x * facing(h); }), 0.0,
-                     vmf_mean({0, 0, 1}, kappa, [&](const glm::dvec3& h) { return h.z * facing(h); }))));
+          glm::dvec3(vmf_average({0, 0, 1}, kappa, [&](const glm::dvec3& h) { return h.x * facing(h); }), 0.0,
+                     vmf_average({0, 0, 1}, kappa, [&](const glm::dvec3& h) { return h.z * facing(h); }))));
     }
   }
   const auto visible =
-      evaluate_glsl(functions_of(NormalDistribution::vmf),
+      evaluate_glsl(light_functions_of(NormalDistribution::vmf),
                     "VisibleLobe v = visibleLobe(NormalLobe(vec3(0, 0, 1), a.w, 1.0, 1.0, false, vec3(0, 0, 1)), "
                     "a.xyz);\nreturn vec4(v.axis, v.area);",
                     inputs);
@@ -184,7 +184,7 @@ TEST(EnvironmentLight, FresnelMeanIsThatOfTheHemisphere) {
     inputs.push_back({glm::vec4(c, 0, 0, 0), {}, {}});
     truth.push_back(1.0 - sum / (400 * 400));
   }
-  const auto means = evaluate_glsl(functions_of(NormalDistribution::vmf),
+  const auto means = evaluate_glsl(light_functions_of(NormalDistribution::vmf),
                                    "return vec4(meanTransmitted(vec3(0.0), a.x), 1.0);", inputs);
   for (std::size_t i = 0; i < inputs.size(); ++i) EXPECT_NEAR(means[i].x, truth[i], 5e-4);
 }
@@ -201,7 +201,7 @@ TEST(EnvironmentLight, NormalsAreDrawnAsTheirDensitySays) {
                              {NormalDistribution::vmf, 6.0F},
                              {NormalDistribution::beckmann, 0.4F},
                              {NormalDistribution::ggx, 0.3F}}) {
-    const std::string functions = functions_of(c.distribution);
+    const std::string functions = light_functions_of(c.distribution);
     const glm::vec4 normal(glm::vec3(glm::normalize(glm::dvec3(0.3, -0.4, 0.8))), c.lobe);
     Inputs drawn, listed;
     constexpr int steps = 64;
@@ -265,7 +265,7 @@ TEST(EnvironmentLight, LobesReflectWhatTheSumOverDirectionsSays) {
       }
     }
     const auto radiance = evaluate_glsl(
-        functions_of(c.distribution),
+        light_functions_of(c.distribution),
         "return vec4(environmentSpecular(Effective(evenFacets(a.xyz, a.w)), vec3(1.0), b.xyz, mat3(1.0)), 1.0);",
         inputs);
     const double bound = 0.08;
@@ -337,7 +337,7 @@ std::vector<glm::vec4> facet_radiance(const Environment& environment) {
         {glm::vec4(glm::vec3(f.normal()), static_cast<float>(f.alpha)), glm::vec4(glm::vec3(f.wo()), 0), {}});
   }
   return evaluate_glsl(
-      functions_of(NormalDistribution::ggx, GeometryTerm::smith),
+      light_functions_of(NormalDistribution::ggx, GeometryTerm::smith),
       "return vec4(environmentSpecular(Effective(evenFacets(a.xyz, a.w)), vec3(1.0), b.xyz, mat3(1.0)), 1.0);", inputs);
 }
 
@@ -374,7 +374,7 @@ TEST(EnvironmentLight, LightFromBelowTheHorizonStaysOut) {
       inputs.push_back(
           {glm::vec4(glm::vec3(f.normal()), static_cast<float>(f.alpha)), glm::vec4(glm::vec3(f.wo()), 0), {}});
     }
-    const auto radiance = evaluate_glsl(functions_of(distribution, GeometryTerm::smith),
+    const auto radiance = evaluate_glsl(light_functions_of(distribution, GeometryTerm::smith),
                                         "mat3 up = mat3(vec3(1, 0, 0), vec3(0, 0, -1), vec3(0, 1, 0));\n"
                                         "Facets f = evenFacets(a.xyz, lobeFromAlpha(a.w));\n"
                                         "return vec4(environmentSpecular(Effective(f), vec3(1.0), b.xyz, up), 1.0);",

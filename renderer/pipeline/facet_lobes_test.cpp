@@ -20,8 +20,8 @@
 namespace footprint::testing {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr BaseBrdf plain{NormalDistribution::vmf, GeometryTerm::none, FresnelTerm::none, false};
+using std::numbers::pi;
+constexpr BaseBrdf plain_vmf{NormalDistribution::vmf, GeometryTerm::none, FresnelTerm::none, false};
 
 // The block and the functions over it.
 std::string multi_lobe_functions(const BaseBrdf& brdf) {
@@ -38,7 +38,7 @@ TEST(FacetLobes, GlslTurnsAsCppAndBack) {
   for (const glm::dvec3& n : sphere_normals()) {
     for (const glm::dvec3& axis : facet_axes()) inputs.push_back({glm::vec4(axis, 0), glm::vec4(n, 0), {}});
   }
-  const std::string functions = multi_lobe_functions(plain);
+  const std::string functions = multi_lobe_functions(plain_vmf);
   const auto there = evaluate_glsl(functions, "return vec4(turnedWithNormal(a.xyz, b.xyz), 0.0);", inputs);
   const auto back =
       evaluate_glsl(functions, "return vec4(inFacetFrame(turnedWithNormal(a.xyz, b.xyz), b.xyz), 0.0);", inputs);
@@ -56,7 +56,8 @@ const std::vector<FacetLobe> two_lobes{{.axis = {0.6F, 0.0F, 0.8F}, .parameter =
 // about axes turned by a quaternion.
 TEST(FacetLobes, AFrameIsTheSumOverTheLobes) {
   const glm::dvec3 normal = glm::normalize(glm::dvec3(0.3, -0.2, 0.9));
-  Scene scene = square_scene(constant_normals(4, 4, glm::vec3(normal)), {.brdf = plain, .specular = glm::vec3(0.5F)});
+  Scene scene =
+      square_scene(constant_normals(4, 4, glm::vec3(normal)), {.brdf = plain_vmf, .specular = glm::vec3(0.5F)});
   scene.materials[0].lobes = two_lobes;
   constexpr int size = 16;
   const Image picture = TestRenderer(scene, {size, size}).frame(base_surface());
@@ -93,7 +94,7 @@ TEST(FacetLobes, OneLobeAboutTheNormalIsTheBaseLobe) {
 
 // A material without lobes beside one with: the effect is on for both.
 TEST(FacetLobes, AMaterialWithoutLobesKeepsItsOwn) {
-  Scene scene = square_scene(random_normals(8, 8, 0.4F, 7), {.brdf = plain, .specular = glm::vec3(0.5F)});
+  Scene scene = square_scene(random_normals(8, 8, 0.4F, 7), {.brdf = plain_vmf, .specular = glm::vec3(0.5F)});
   const Image alone = TestRenderer(scene).frame(base_surface());
   scene.materials.push_back(scene.materials[0]);
   scene.materials[1].lobes = two_lobes;

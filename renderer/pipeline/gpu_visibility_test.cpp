@@ -18,7 +18,7 @@ namespace {
 
 constexpr float wall_height = 0.8F;
 constexpr float gap = 0.02F;
-constexpr int size = 32;
+constexpr int picture_size = 32;
 
 Scene under_white_sky(Scene scene) {
   scene.environment = constant_environment(glm::vec3(1.0F));
@@ -54,17 +54,17 @@ double relative_rmse(const Image& picture, const Image& truth) {
 
 // An endless wall of height H at distance d hides (1 - cos atan(H / d)) / 2 of a floor's irradiance.
 TEST(GpuVisibility, AWallHidesItsPartOfTheIrradiance) {
-  TestRenderer renderer(floor_by_a_wall(), {size, size});
+  TestRenderer renderer(floor_by_a_wall(), {picture_size, picture_size});
   const Image picture = renderer.frame(base_surface());
   const Supersampled reference = renderer.reference(64);
-  for (int x = 0; x < size; ++x) {
-    const double d = gap + 2.0 * (x + 0.5) / size;
+  for (int x = 0; x < picture_size; ++x) {
+    const double d = gap + 2.0 * (x + 0.5) / picture_size;
     const double truth = 0.5 + 0.5 * d / std::hypot(d, wall_height);
-    EXPECT_NEAR(picture.at(x, size / 2)[0], truth, 0.04) << "distance " << d;
+    EXPECT_NEAR(picture.at(x, picture_size / 2)[0], truth, 0.04) << "distance " << d;
     double mean = 0, variance = 0;
-    for (int y = 0; y < size; ++y) {
-      mean += reference.mean.at(x, y)[0] / size;
-      variance += std::pow(static_cast<double>(reference.standard_error.at(x, y)[0]) / size, 2.0);
+    for (int y = 0; y < picture_size; ++y) {
+      mean += reference.mean.at(x, y)[0] / picture_size;
+      variance += std::pow(static_cast<double>(reference.standard_error.at(x, y)[0]) / picture_size, 2.0);
     }
     EXPECT_NEAR(mean, truth, 4.0 * std::sqrt(variance) + 0.04) << "distance " << d;
   }
@@ -72,12 +72,12 @@ TEST(GpuVisibility, AWallHidesItsPartOfTheIrradiance) {
 
 // Where the mirror image of the view meets the wall nothing is seen, where it passes over it the sky is.
 TEST(GpuVisibility, AWallStandsInAMirror) {
-  TestRenderer renderer(metal_by_a_wall(), {size, size});
+  TestRenderer renderer(metal_by_a_wall(), {picture_size, picture_size});
   const Image picture = renderer.frame(base_surface());
   const Image truth = renderer.reference(64).mean;
-  const auto middle = [](const Image& image, int row) { return image.at(size / 2, row)[0]; };
-  int last = size - 1;  // the floor's nearest row
-  while (last > 0 && picture.at(size / 2, last)[3] < 1.0F) --last;
+  const auto middle = [](const Image& image, int row) { return image.at(picture_size / 2, row)[0]; };
+  int last = picture_size - 1;  // the floor's nearest row
+  while (last > 0 && picture.at(picture_size / 2, last)[3] < 1.0F) --last;
   EXPECT_GT(middle(truth, last), 0.9);
   EXPECT_NEAR(middle(picture, last), middle(truth, last), 0.06);
   double lowest = 1;
@@ -86,7 +86,7 @@ TEST(GpuVisibility, AWallStandsInAMirror) {
   EXPECT_LT(relative_rmse(picture, truth), 0.12);
   Scene open = metal_by_a_wall();
   open.shadows.cast = false;
-  EXPECT_GT(relative_rmse(TestRenderer(open, {size, size}).frame(base_surface()), truth), 0.3);
+  EXPECT_GT(relative_rmse(TestRenderer(open, {picture_size, picture_size}).frame(base_surface()), truth), 0.3);
 }
 
 // Of a Lambert surface's irradiance under a white sky what 4000 rays say.
@@ -107,16 +107,16 @@ TEST(GpuVisibility, ABallDarkensTheFloorAsRaysSay) {
   Scene scene = under_white_sky(white_floor());
   scene.meshes.push_back(sphere_mesh({0.1F, 0.0F, 0.35F}, 0.35F, 24));
   fit_bounds(scene);
-  TestRenderer renderer(scene, {size, size});
+  TestRenderer renderer(scene, {picture_size, picture_size});
   const Image picture = renderer.frame(base_surface());
   const Image truth = renderer.reference(64).mean;
   const Occluders occluders(scene);
   double squares = 0, reference_squares = 0;
   int count = 0;
-  for (int y = 1; y < size; y += 4) {
-    for (int x = 1; x < size; x += 2) {
-      const glm::vec3 point(2.0F * (static_cast<float>(x) + 0.5F) / size - 1.0F,
-                            1.0F - 2.0F * (static_cast<float>(y) + 0.5F) / size, 0.0F);
+  for (int y = 1; y < picture_size; y += 4) {
+    for (int x = 1; x < picture_size; x += 2) {
+      const glm::vec3 point(2.0F * (static_cast<float>(x) + 0.5F) / picture_size - 1.0F,
+                            1.0F - 2.0F * (static_cast<float>(y) + 0.5F) / picture_size, 0.0F);
       if (glm::distance(glm::vec2(point), glm::vec2(0.1F, 0.0F)) < 0.5F) continue;
       const double exact = irradiance_by_rays(occluders, point);
       squares += std::pow(picture.at(x, y)[0] - exact, 2.0);
@@ -129,15 +129,15 @@ TEST(GpuVisibility, ABallDarkensTheFloorAsRaysSay) {
   EXPECT_LT(relative_rmse(picture, truth), 0.06);
   for (const float value : picture.texels) EXPECT_LE(value, 1.002F);
   scene.shadows.cast = false;
-  EXPECT_GT(relative_rmse(TestRenderer(scene, {size, size}).frame(base_surface()), truth), 0.1);
+  EXPECT_GT(relative_rmse(TestRenderer(scene, {picture_size, picture_size}).frame(base_surface()), truth), 0.1);
 }
 
 TEST(GpuVisibility, IsNowhereWhereNothingHidesTheEnvironment) {
-  TestRenderer plain(under_white_sky(white_floor()), {size, size});
+  TestRenderer plain(under_white_sky(white_floor()), {picture_size, picture_size});
   EXPECT_FALSE(plain.gpu_scene().visibility());
   EXPECT_FALSE(test::says(plain.fragment_text(base_surface()), "visibility_maps"));
   Scene covered = under_white_sky(box_over_floor());
-  TestRenderer hidden(covered, {size, size});
+  TestRenderer hidden(covered, {picture_size, picture_size});
   ASSERT_TRUE(hidden.gpu_scene().visibility());
   EXPECT_FALSE(hidden.gpu_scene().shadow_maps());
   EXPECT_FALSE(test::says(hidden.fragment_text(base_surface()), "shadow_maps"));
@@ -146,7 +146,7 @@ TEST(GpuVisibility, IsNowhereWhereNothingHidesTheEnvironment) {
   EXPECT_EQ(visibility.bytes(), visibility.vertex_count() * 80 + std::size_t{4} * 18 * 18 * 16);
   covered.environment.reset();
   covered.lights.emplace_back(DirectionalLight{.direction = {0, 0, -1}, .illuminance = glm::vec3(1.0F)});
-  EXPECT_FALSE(TestRenderer(covered, {size, size}).gpu_scene().visibility());
+  EXPECT_FALSE(TestRenderer(covered, {picture_size, picture_size}).gpu_scene().visibility());
 }
 
 // Shorter edges are for the vertices' values alone.
@@ -157,8 +157,8 @@ TEST(GpuVisibility, RefiningChangesNoPicture) {
   EXPECT_GT(fine.meshes[0].vertices.size(), 10 * scene.meshes[0].vertices.size());
   effects.reset(static_cast<std::size_t>(Effect::cast_shadow));
   EXPECT_EQ(refined_for_visibility(scene, effects).meshes[0].vertices.size(), scene.meshes[0].vertices.size());
-  EXPECT_LT(largest_difference(TestRenderer(fine, {size, size}, effects).frame(base_surface()),
-                               TestRenderer(scene, {size, size}, effects).frame(base_surface())),
+  EXPECT_LT(largest_difference(TestRenderer(fine, {picture_size, picture_size}, effects).frame(base_surface()),
+                               TestRenderer(scene, {picture_size, picture_size}, effects).frame(base_surface())),
             1e-4);
 }
 
@@ -166,14 +166,14 @@ TEST(GpuVisibility, RefiningChangesNoPicture) {
 TEST(GpuVisibility, FollowsAnUpdate) {
   Scene scene = under_white_sky(box_over_floor());
   const Scene fine = refined_for_visibility(scene, effects_on(derive_effects(scene)));
-  TestRenderer renderer(fine, {size, size});
+  TestRenderer renderer(fine, {picture_size, picture_size});
   const Image before = renderer.frame(base_surface());
   Scene moved = fine;
   for (Vertex& vertex : moved.meshes[1].vertices) vertex.position.x += 0.4F;
   renderer.update(moved);
   const Image after = renderer.frame(base_surface());
   EXPECT_GT(largest_difference(before, after), 0.1);
-  EXPECT_LT(largest_difference(after, TestRenderer(moved, {size, size}).frame(base_surface())), 1e-5);
+  EXPECT_LT(largest_difference(after, TestRenderer(moved, {picture_size, picture_size}).frame(base_surface())), 1e-5);
 }
 
 }  // namespace

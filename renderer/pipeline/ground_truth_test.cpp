@@ -16,7 +16,7 @@ namespace {
 using glm::dvec3;
 
 constexpr int map_edge = 28;  // texels: no multiple of the pictures', so that footprints cut texels
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // GGX, height-correlated Smith, Schlick and Lambert, as glTF 2.0 (appendix B) prints them.
 double facet_radiance(const dvec3& n, const dvec3& l, const dvec3& v, double alpha, double f0, double albedo) {

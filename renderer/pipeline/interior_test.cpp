@@ -16,13 +16,13 @@
 namespace footprint::testing {
 namespace {
 
-constexpr int spp = 64;
+constexpr int sample_count = 64;
 
 Interior interior_of(const Scene& scene, int edge, const InteriorCriteria& criteria = {}, int tile = 0) {
   (void)shared_context();
   GpuScene gpu(shared_context().info(), scene, effects_on(derive_effects(scene)));
   const InteriorFinder finder(gpu, scene, tile, criteria);
-  Interior found = finder.render({.size = {edge, edge}, .camera = scene.camera}, spp, 1, no_progress);
+  Interior found = finder.render({.size = {edge, edge}, .camera = scene.camera}, sample_count, 1, no_progress);
   shared_context().check("finding interior pixels");
   return found;
 }
@@ -63,7 +63,7 @@ void add_strip(Mesh& mesh, const Strip& s) {
 
 // Two strips that meet at x = 0, over which an orthographic camera looks straight down on x and y from -1 to 1. The
 // picture of 33 pixels has that line in the midst of its column 16.
-constexpr int edge = 33, middle = 16;
+constexpr int view_edge = 33, middle = 16;
 
 Scene two_strips(const Strip& left, const Strip& right) {
   Scene scene = square_scene(random_normals(16, 16, 0.3F, 3), {});
@@ -83,18 +83,18 @@ constexpr Strip left_half{.left = -2, .right = 0}, right_half{.left = 0, .right 
 
 // Every pixel but those of the middle column is interior, and these are none.
 void expect_an_edge_in_the_middle(const Image& mask) {
-  for (int x = 0; x < edge; ++x) EXPECT_EQ(column_sum(mask, x), x == middle ? 0 : edge) << "column " << x;
+  for (int x = 0; x < view_edge; ++x) EXPECT_EQ(column_sum(mask, x), x == middle ? 0 : view_edge) << "column " << x;
 }
 
 TEST(Interior, KeepsAFlatQuadWhole) {
-  EXPECT_EQ(count(interior_of(two_strips(left_half, right_half), edge).mask), edge * edge);
+  EXPECT_EQ(count(interior_of(two_strips(left_half, right_half), view_edge).mask), view_edge * view_edge);
   EXPECT_EQ(count(interior_of(square_scene(random_normals(64, 64, 0.9F, 1), {}), 32).mask), 32 * 32);
 }
 
 TEST(Interior, KeepsAPlaneThatRecedes) {
   const Scene scene = receding_grooves();
   TestRenderer renderer(scene, {96, 96});
-  const Image reference = renderer.reference(spp).mean;
+  const Image reference = renderer.reference(sample_count).mean;
   const Image mask = interior_of(scene, 96).mask;
   EXPECT_EQ(count(mask), static_cast<double>(object_pixel_count(reference)));
   EXPECT_GT(count(mask), 1000);
@@ -133,10 +133,11 @@ TEST(Interior, KeepsASmoothSpheresInside) {
 TEST(Interior, LeavesOutSilhouettes) {
   Scene scene = two_strips(left_half, right_half);
   scene.meshes[0].indices.resize(6);  // the left strip alone
-  const Image mask = interior_of(scene, edge).mask;
+  const Image mask = interior_of(scene, view_edge).mask;
   EXPECT_EQ(column_sum(mask, middle), 0);
-  EXPECT_EQ(count(mask), edge * middle);
-  EXPECT_EQ(column_sum(interior_of(scene, edge, {.coverage = false}).mask, middle), edge) << "without the criterion";
+  EXPECT_EQ(count(mask), view_edge * middle);
+  EXPECT_EQ(column_sum(interior_of(scene, view_edge, {.coverage = false}).mask, middle), view_edge)
+      << "without the criterion";
 }
 
 // Two sheets of one chart, one above the other, joined by a riser that the camera sees edge-on.
@@ -146,18 +147,19 @@ TEST(Interior, LeavesOutDepthSteps) {
   Scene scene = two_strips(left_half, lower);
   Mesh& mesh = scene.meshes[0];
   mesh.indices.insert(mesh.indices.end(), {1, 4, 7, 1, 7, 2});
-  expect_an_edge_in_the_middle(interior_of(scene, edge).mask);
-  EXPECT_EQ(count(interior_of(scene, edge, {.depth = false}).mask), edge * edge) << "without the criterion";
+  expect_an_edge_in_the_middle(interior_of(scene, view_edge).mask);
+  EXPECT_EQ(count(interior_of(scene, view_edge, {.depth = false}).mask), view_edge * view_edge)
+      << "without the criterion";
 }
 
 // A twentieth of the pixel is no step; the criterion goes by the pixel, not by metres.
 TEST(Interior, DepthStepsAreOfThePixelsSize) {
   Strip lower = right_half;
-  lower.height = -0.05F * 2.0F / edge;
+  lower.height = -0.05F * 2.0F / view_edge;
   Scene scene = two_strips(left_half, lower);
   Mesh& mesh = scene.meshes[0];
   mesh.indices.insert(mesh.indices.end(), {1, 4, 7, 1, 7, 2});
-  EXPECT_EQ(count(interior_of(scene, edge).mask), edge * edge);
+  EXPECT_EQ(count(interior_of(scene, view_edge).mask), view_edge * view_edge);
 }
 
 // At a slant a step along the view lies nearly in the plane: what the pixel spans there tells it.
@@ -169,10 +171,10 @@ TEST(Interior, LeavesOutStepsBetweenGrazingSheets) {
   mesh.indices.insert(mesh.indices.end(), {3, 2, 5, 3, 5, 4});
   scene.camera.world = look_at({0.0, -6.0, 0.5}, {0.0, 2.0, 0.0}, {0.0, 0.0, 1.0});  // at 3.6 degrees
   scene.camera.ymag = 0.3F;
-  const double with = count(interior_of(scene, edge).mask);
-  const double without = count(interior_of(scene, edge, {.depth = false}).mask);
-  EXPECT_LE(with, without - edge);
-  EXPECT_GT(with, edge * edge / 2.0);
+  const double with = count(interior_of(scene, view_edge).mask);
+  const double without = count(interior_of(scene, view_edge, {.depth = false}).mask);
+  EXPECT_LE(with, without - view_edge);
+  EXPECT_GT(with, view_edge * view_edge / 2.0);
 }
 
 // A roof of 15 degrees over all; its ridge lies in the midst of the pixels, so that no step between samples leaves the
@@ -183,16 +185,18 @@ TEST(Interior, LeavesOutCreases) {
   left.slope = slope;
   right.slope = -slope;
   const Scene scene = two_strips(left, right);
-  expect_an_edge_in_the_middle(interior_of(scene, edge).mask);
-  EXPECT_EQ(column_sum(interior_of(scene, edge, {.normals = false}).mask, middle), edge) << "without the criterion";
+  expect_an_edge_in_the_middle(interior_of(scene, view_edge).mask);
+  EXPECT_EQ(column_sum(interior_of(scene, view_edge, {.normals = false}).mask, middle), view_edge)
+      << "without the criterion";
 }
 
 // The facets agree; the vertices' normals do not.
 TEST(Interior, LeavesOutCreasesOfVertexNormals) {
   Scene scene = two_strips(left_half, right_half);
   for (std::size_t i = 4; i < 8; ++i) scene.meshes[0].vertices[i].normal = glm::normalize(glm::vec3(0.3F, 0, 1));
-  expect_an_edge_in_the_middle(interior_of(scene, edge).mask);
-  EXPECT_EQ(count(interior_of(scene, edge, {.normals = false}).mask), edge * edge) << "without the criterion";
+  expect_an_edge_in_the_middle(interior_of(scene, view_edge).mask);
+  EXPECT_EQ(count(interior_of(scene, view_edge, {.normals = false}).mask), view_edge * view_edge)
+      << "without the criterion";
 }
 
 TEST(Interior, LeavesOutBordersOfMaterials) {
@@ -203,16 +207,18 @@ TEST(Interior, LeavesOutBordersOfMaterials) {
   scene.meshes[0].indices.resize(6);
   scene.meshes[0].vertices.resize(4);
   scene.meshes.push_back(right);
-  expect_an_edge_in_the_middle(interior_of(scene, edge).mask);
-  EXPECT_EQ(count(interior_of(scene, edge, {.materials = false}).mask), edge * edge) << "without the criterion";
+  expect_an_edge_in_the_middle(interior_of(scene, view_edge).mask);
+  EXPECT_EQ(count(interior_of(scene, view_edge, {.materials = false}).mask), view_edge * view_edge)
+      << "without the criterion";
 }
 
 TEST(Interior, LeavesOutBordersOfCharts) {
   Strip moved = right_half;
   moved.shift = 5.0F;  // by whole turns of a map that repeats: the same texels, but another island
   const Scene scene = two_strips(left_half, moved);
-  expect_an_edge_in_the_middle(interior_of(scene, edge).mask);
-  EXPECT_EQ(count(interior_of(scene, edge, {.charts = false}).mask), edge * edge) << "without the criterion";
+  expect_an_edge_in_the_middle(interior_of(scene, view_edge).mask);
+  EXPECT_EQ(count(interior_of(scene, view_edge, {.charts = false}).mask), view_edge * view_edge)
+      << "without the criterion";
 }
 
 // One island, whose halves meet in a corner beyond the picture and are cut apart within it.
@@ -220,8 +226,9 @@ TEST(Interior, LeavesOutCutsWithinAChart) {
   Strip sheared = right_half;
   sheared.shear = 0.2F;
   const Scene scene = two_strips(left_half, sheared);
-  expect_an_edge_in_the_middle(interior_of(scene, edge).mask);
-  EXPECT_EQ(count(interior_of(scene, edge, {.cuts = false}).mask), edge * edge) << "without the criterion";
+  expect_an_edge_in_the_middle(interior_of(scene, view_edge).mask);
+  EXPECT_EQ(count(interior_of(scene, view_edge, {.cuts = false}).mask), view_edge * view_edge)
+      << "without the criterion";
 }
 
 // A box over a floor, and light that comes slanting along x: the edge of its shadow lies at x = 0.55.
@@ -282,10 +289,11 @@ TEST(Interior, LeavesOutEdgesOfAlpha) {
   alpha.at(1, 0)[3] = 0.0F;
   scene.materials[0].base_color_map = TextureMap{"alpha", std::make_shared<const Image>(alpha), {}};
   scene.materials[0].alpha_cutoff = 0.5F;
-  const Image mask = interior_of(scene, edge).mask;
-  EXPECT_LT(count(mask), 0.6 * edge * edge);
-  EXPECT_GT(count(mask), 0.3 * edge * edge);
-  EXPECT_EQ(count(interior_of(scene, edge, {.coverage = false}).mask), edge * edge) << "without the criterion";
+  const Image mask = interior_of(scene, view_edge).mask;
+  EXPECT_LT(count(mask), 0.6 * view_edge * view_edge);
+  EXPECT_GT(count(mask), 0.3 * view_edge * view_edge);
+  EXPECT_EQ(count(interior_of(scene, view_edge, {.coverage = false}).mask), view_edge * view_edge)
+      << "without the criterion";
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ EffectSet varying_roughness() {
 }
 
 // Two texels beside each other: Blinn-Phong of the exponents s and t.
-Material two_lobes(float s, float t) {
+Material two_lobe_material(float s, float t) {
   Material material = square_scene({}, {}).materials[0];
   material.brdf = {NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, true};
   Image exponents(2, 1, 1);
@@ -55,7 +55,7 @@ double variance_at(const Material& material, Storage storage, float u) {
 }
 
 TEST(LobeVariance, BlendsAsVariancesDo) {
-  const Material material = two_lobes(10.0F, 1000.0F);
+  const Material material = two_lobe_material(10.0F, 1000.0F);
   for (const Storage storage : {Storage::fp32, Storage::fp16, Storage::unorm8}) {
     // Roots that are blended and squared: 0.0302, a fifth less.
     EXPECT_NEAR(variance_at(material, storage, 0.5F) / (0.5 * (0.1 + 0.001)), 1.0, 5e-3) << storage_name(storage);
@@ -65,13 +65,13 @@ TEST(LobeVariance, BlendsAsVariancesDo) {
 }
 
 TEST(LobeVariance, KeepsMirrorsInEveryStorage) {
-  const Material material = two_lobes(1e6F, 5.0F);
+  const Material material = two_lobe_material(1e6F, 5.0F);
   for (const Storage storage : {Storage::fp32, Storage::fp16, Storage::unorm8})
     EXPECT_NEAR(variance_at(material, storage, 0.25F) * 1e6, 1.0, 2e-3) << storage_name(storage);
 }
 
 TEST(LobeVariance, IsNotStoredWhereTheRoughnessIsConstant) {
-  EXPECT_TRUE(bake_lobe_variance(two_lobes(10.0F, 20.0F), Storage::fp32, EffectSet{}).textures.empty());
+  EXPECT_TRUE(bake_lobe_variance(two_lobe_material(10.0F, 20.0F), Storage::fp32, EffectSet{}).textures.empty());
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace footprint::testing {
 namespace {
 
 using Inputs = std::vector<std::array<glm::vec4, 3>>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::string functions_of(const BaseBrdf& brdf) {
   ShaderVariant variant;

@@ -12,7 +12,7 @@
 namespace footprint::testing {
 namespace {
 
-constexpr int edge = 32;
+constexpr int frame_edge = 32;
 
 Scene scene_of(float roughness) {
   SquareMaterial material;
@@ -23,20 +23,20 @@ Scene scene_of(float roughness) {
 }
 
 Supersampled square(float roughness, int spp) {
-  TestRenderer renderer(scene_of(roughness), {edge, edge});
+  TestRenderer renderer(scene_of(roughness), {frame_edge, frame_edge});
   return renderer.reference(spp, 3);
 }
 
 TEST(Unresolved, AreThePixelsOfAMirrorUnderAPointLight) {
   const std::size_t sharp = pixel_count(unresolved(square(0.15F, 64), 1.0F));
   EXPECT_GT(sharp, 20U);
-  EXPECT_LT(sharp, static_cast<std::size_t>(edge * edge));
+  EXPECT_LT(sharp, static_cast<std::size_t>(frame_edge * frame_edge));
   EXPECT_EQ(pixel_count(unresolved(square(0.5F, 64), 1.0F)), 0U);
 }
 
 // Seeds disagree there about much of the light, far more than elsewhere: the share of it that they do not agree on.
 TEST(Unresolved, AreWhereSeedsDisagree) {
-  TestRenderer renderer(scene_of(0.15F), {edge, edge});
+  TestRenderer renderer(scene_of(0.15F), {frame_edge, frame_edge});
   const Supersampled one = renderer.reference(64, 3), other = renderer.reference(64, 4);
   const Image mask = unresolved(one, 1.0F);
   std::array<double, 2> off{}, count{};

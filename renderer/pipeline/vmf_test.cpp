@@ -14,7 +14,7 @@
 namespace footprint::testing {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 using Inputs = std::vector<std::array<glm::vec4, 3>>;
 
 std::vector<glm::vec4> vmf(const std::string& body, const Inputs& inputs) {

@@ -13,13 +13,13 @@ namespace {
 
 std::filesystem::path folder() { return test::write_file("environments/scene.toml", "").parent_path(); }
 
-Scene load(const std::string& environment) {
+Scene load_environment(const std::string& environment) {
   const std::string text = "[plane]\nsize = [1, 1]\n[environment]\n" + environment;
   return load_scene(test::write_file("environments/scene.toml", text).string(), {});
 }
 
-std::string error_of(const std::string& environment) {
-  return test::usage_error([&] { return load(environment); });
+std::string environment_error(const std::string& environment) {
+  return test::usage_error([&] { return load_environment(environment); });
 }
 
 Image ramp(int width, int height, int channels) {
@@ -29,7 +29,7 @@ Image ramp(int width, int height, int channels) {
 }
 
 TEST(EnvironmentFile, ConstantHasItsColourAndIntensity) {
-  const Scene scene = load("kind = \"constant\"\ncolor = [1, 0.5, 0.25]\nintensity = 4.0");
+  const Scene scene = load_environment("kind = \"constant\"\ncolor = [1, 0.5, 0.25]\nintensity = 4.0");
   ASSERT_TRUE(scene.environment);
   const glm::vec3 radiance = environment_radiance(*scene.environment, {0.1, -0.4, 0.3});
   EXPECT_EQ(radiance, glm::vec3(4.0F, 2.0F, 1.0F));
@@ -38,7 +38,7 @@ TEST(EnvironmentFile, ConstantHasItsColourAndIntensity) {
 }
 
 TEST(EnvironmentFile, SkyIsBrightestAtItsSunAndGreyBelow) {
-  const Scene scene = load("kind = \"sky\"\nsun_direction = [1, 1, 0]");
+  const Scene scene = load_environment("kind = \"sky\"\nsun_direction = [1, 1, 0]");
   const Environment& sky = *scene.environment;
   const auto at = [&](double x, double y, double z) { return environment_radiance(sky, {x, y, z}); };
   EXPECT_GT(at(1, 1, 0).g, 100.0F * at(0, 1, 0).g);
@@ -49,8 +49,8 @@ TEST(EnvironmentFile, SkyIsBrightestAtItsSunAndGreyBelow) {
 
 TEST(EnvironmentFile, RotationTurnsCounterClockwiseSeenFromAbove) {
   write_exr(folder() / "ramp.exr", ramp(4, 2, 3));
-  const Environment straight = *load("file = \"ramp.exr\"").environment;
-  const Environment turned = *load("file = \"ramp.exr\"\nrotation_degrees = 90").environment;
+  const Environment straight = *load_environment("file = \"ramp.exr\"").environment;
+  const Environment turned = *load_environment("file = \"ramp.exr\"\nrotation_degrees = 90").environment;
   // What was seen along -z is now along -x.
   EXPECT_EQ(environment_radiance(turned, {-1.0, 0.2, -0.1}), environment_radiance(straight, {0.1, 0.2, -1.0}));
   EXPECT_EQ(environment_radiance(straight, {0.1, 0.2, -1.0}).r, straight.radiance->at(2, 0)[0]);
@@ -59,7 +59,7 @@ TEST(EnvironmentFile, RotationTurnsCounterClockwiseSeenFromAbove) {
 TEST(EnvironmentFile, TakesOneThreeAndFourChannels) {
   for (const int channels : {1, 3, 4}) {
     write_exr(folder() / "map.exr", ramp(4, 2, channels));
-    const Environment environment = *load("file = \"map.exr\"").environment;
+    const Environment environment = *load_environment("file = \"map.exr\"").environment;
     EXPECT_EQ(environment.radiance->channels, 3);
     EXPECT_FLOAT_EQ(environment.radiance->at(1, 0)[0], 0.01F * static_cast<float>(channels + 1));
   }
@@ -69,7 +69,7 @@ TEST(EnvironmentFile, NegativeValuesBecomeZeroWithAWarning) {
   Image image = ramp(4, 2, 3);
   image.texels[5] = -0.5F;
   write_exr(folder() / "negative.exr", image);
-  const Scene scene = load("files = [\"nowhere.exr\", \"negative.exr\"]");
+  const Scene scene = load_environment("files = [\"nowhere.exr\", \"negative.exr\"]");
   EXPECT_EQ(scene.environment->radiance->texels[5], 0.0F);
   ASSERT_EQ(scene.warnings.size(), 1U);
   EXPECT_NE(scene.warnings[0].find("negative.exr: 1 negative value"), std::string::npos);
@@ -80,7 +80,7 @@ TEST(EnvironmentFile, ValuesThatAreNotFiniteNameFileAndTexel) {
     Image image = ramp(4, 3, 3);
     image.at(2, 1)[1] = bad;
     write_exr(folder() / "bad.exr", image);
-    const std::string error = error_of("file = \"bad.exr\"");
+    const std::string error = environment_error("file = \"bad.exr\"");
     EXPECT_NE(error.find("bad.exr"), std::string::npos) << error;
     EXPECT_NE(error.find("column 2, row 1"), std::string::npos) << error;
   }
@@ -88,7 +88,7 @@ TEST(EnvironmentFile, ValuesThatAreNotFiniteNameFileAndTexel) {
 
 TEST(EnvironmentFile, LargeMapsAreAveragedDown) {
   write_exr(folder() / "large.exr", Image(4096, 1024, 3, 0.75F));
-  const Scene scene = load("file = \"large.exr\"");
+  const Scene scene = load_environment("file = \"large.exr\"");
   EXPECT_EQ(scene.environment->radiance->width, largest_environment_width);
   EXPECT_NEAR(scene.environment->radiance->texels[12345], 0.75F, 1e-6F);
   EXPECT_EQ(scene.warnings.size(), 1U);
@@ -97,24 +97,26 @@ TEST(EnvironmentFile, LargeMapsAreAveragedDown) {
 TEST(EnvironmentFile, PhotographedEnvironmentOfAPackageLoads) {
   const std::string file = "/usr/share/blender/datafiles/studiolights/world/courtyard.exr";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "the package blender-data is not installed";
-  const Scene scene = load("file = \"" + file + "\"");
+  const Scene scene = load_environment("file = \"" + file + "\"");
   EXPECT_EQ(scene.environment->radiance->width, 1024);
   EXPECT_EQ(scene.environment->radiance->height, 512);
   for (const float value : scene.environment->radiance->texels) ASSERT_TRUE(std::isfinite(value) && value >= 0.0F);
 }
 
 TEST(EnvironmentFile, BadFilesAndSettingsAreNamed) {
-  EXPECT_NE(error_of("file = \"gone.exr\"\npackage = \"blender-data\"").find("install the package blender-data"),
-            std::string::npos);
+  EXPECT_NE(
+      environment_error("file = \"gone.exr\"\npackage = \"blender-data\"").find("install the package blender-data"),
+      std::string::npos);
   test::write_file("environments/text.exr", "no picture");
-  EXPECT_NE(error_of("file = \"text.exr\"").find("text.exr"), std::string::npos);
-  EXPECT_NE(error_of("intensity = 2").find("kind = \"constant\""), std::string::npos);
-  EXPECT_NE(error_of("kind = \"skye\"").find("`sky`"), std::string::npos);
-  EXPECT_NE(error_of("kind = \"sky\"\ncolor = [1, 1, 1]").find("does not belong"), std::string::npos);
-  EXPECT_NE(error_of("kind = \"sky\"\nsun_direction = [0, -1, 0]").find("below the horizon"), std::string::npos);
-  EXPECT_NE(error_of("kind = \"sky\"\nsun_direction = [0, 0, 0]").find("has no length"), std::string::npos);
-  EXPECT_NE(error_of("kind = \"constant\"\nintensity = -1").find("scene.toml:5"), std::string::npos);
-  EXPECT_NE(error_of("knid = \"sky\"").find("did you mean `kind`"), std::string::npos);
+  EXPECT_NE(environment_error("file = \"text.exr\"").find("text.exr"), std::string::npos);
+  EXPECT_NE(environment_error("intensity = 2").find("kind = \"constant\""), std::string::npos);
+  EXPECT_NE(environment_error("kind = \"skye\"").find("`sky`"), std::string::npos);
+  EXPECT_NE(environment_error("kind = \"sky\"\ncolor = [1, 1, 1]").find("does not belong"), std::string::npos);
+  EXPECT_NE(environment_error("kind = \"sky\"\nsun_direction = [0, -1, 0]").find("below the horizon"),
+            std::string::npos);
+  EXPECT_NE(environment_error("kind = \"sky\"\nsun_direction = [0, 0, 0]").find("has no length"), std::string::npos);
+  EXPECT_NE(environment_error("kind = \"constant\"\nintensity = -1").find("scene.toml:5"), std::string::npos);
+  EXPECT_NE(environment_error("knid = \"sky\"").find("did you mean `kind`"), std::string::npos);
 }
 
 }  // namespace

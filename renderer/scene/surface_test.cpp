@@ -12,7 +12,7 @@
 namespace footprint {
 namespace {
 
-Mesh square(const SurfaceSettings& /*settings*/) { return make_plane({2.0F, 2.0F}, {1.0F, 1.0F}); }
+Mesh field(const SurfaceSettings& /*settings*/) { return make_plane({2.0F, 2.0F}, {1.0F, 1.0F}); }
 
 /// Flat but for x, which holds the seed and a parameter for the test to see.
 Image marked(const SurfaceSettings& settings) {
@@ -25,7 +25,7 @@ Image marked(const SurfaceSettings& settings) {
 
 Image green(const SurfaceSettings& settings) { return {settings.resolution, settings.resolution, 4, 0.5F}; }
 
-std::vector<Surface> made_up_surfaces() {
+std::vector<Surface> hills_and_lawn() {
   const std::vector<OptionSpec> parameters{number_option("height", 2.0, 0, 10, "a number"),
                                            whole_option("count", 3, 1, 9, "a whole number"),
                                            word_option("kind", {"sharp", "round"}, "a word")};
@@ -34,23 +34,23 @@ std::vector<Surface> made_up_surfaces() {
            .parameters = parameters,
            .default_resolution = 8,
            .normals = marked,
-           .mesh = square},
+           .mesh = field},
           {.name = "lawn",
            .summary = "",
            .parameters = parameters,
            .default_resolution = 4,
            .normals = marked,
            .base_color = green,
-           .mesh = square}};
+           .mesh = field}};
 }
 
-Scene load(const std::string& settings) {
-  static const std::vector<Surface> surfaces = made_up_surfaces();
+Scene load_surface(const std::string& settings) {
+  static const std::vector<Surface> surfaces = hills_and_lawn();
   return load_scene(test::write_file("made/scene.toml", settings).string(), {.folder = {}, .surfaces = surfaces});
 }
 
 TEST(SurfaceInScene, ComesWithMapMeshAndMaterial) {
-  const Scene scene = load("[surface]\nname = \"hills\"\n[tiling]\nuv = [3, 5]\n");
+  const Scene scene = load_surface("[surface]\nname = \"hills\"\n[tiling]\nuv = [3, 5]\n");
   ASSERT_EQ(scene.materials.size(), 1U);
   const Material& material = scene.materials.front();
   EXPECT_EQ(material.name, "hills");
@@ -67,7 +67,7 @@ TEST(SurfaceInScene, ComesWithMapMeshAndMaterial) {
 }
 
 TEST(SurfaceInScene, EverySettingIsRead) {
-  const Scene scene = load(
+  const Scene scene = load_surface(
       "[surface]\nname = \"lawn\"\nresolution = 33\nseed = 4294967295\n"
       "[surface.parameters]\nheight = 0.75\ncount = 9\nkind = \"round\"\n");
   const Image& map = *scene.materials.front().normal_map->image;
@@ -80,14 +80,14 @@ TEST(SurfaceInScene, EverySettingIsRead) {
 }
 
 TEST(SurfaceInScene, OwnColoursGiveWayToTheScenes) {
-  const Scene scene = load("[surface]\nname = \"lawn\"\n[brdf]\nbase_color = [1, 0, 0]\n");
+  const Scene scene = load_surface("[surface]\nname = \"lawn\"\n[brdf]\nbase_color = [1, 0, 0]\n");
   EXPECT_FALSE(scene.materials.front().base_color_map);
   EXPECT_EQ(scene.materials.front().base_color, glm::vec4(1, 0, 0, 1));
 }
 
 TEST(SurfaceInScene, MistakesAreNamedWithTheirLine) {
   const auto expect_error = [](const std::string& text, const std::vector<std::string>& wanted) {
-    const std::string error = test::usage_error([&] { return load(text); });
+    const std::string error = test::usage_error([&] { return load_surface(text); });
     for (const std::string& words : wanted) EXPECT_NE(error.find(words), std::string::npos) << words << "\n" << error;
   };
   const std::string hills = "[surface]\nname = \"hills\"\n";

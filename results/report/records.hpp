@@ -165,7 +165,7 @@ struct ErrorScale {
 };
 
 /// The effective NDF of one footprint by one method, beside the exact one (renderer/ndf).
-struct NdfFigures {
+struct FootprintNdf {
   std::string footprint;  ///< its name
   std::string method;     ///< as written
   double l2 = 0;          ///< relative L2 error over solid angle
@@ -232,7 +232,7 @@ struct Results {
   std::vector<SupersamplingPoint> supersampling;
   std::vector<Record> records;
   std::vector<MethodPair> pairs;               ///< every two methods of a distance
-  std::vector<NdfFigures> ndf;                 ///< empty where no footprint was looked into
+  std::vector<FootprintNdf> ndf;               ///< empty where no footprint was looked into
   std::vector<QuantityFigure> quantities;      ///< empty where none was asked for
   std::optional<ExperimentReport> experiment;  ///< none: a plain comparison
   double error_scale = 0;                      ///< at the top of the false-colour pictures on the shared scale

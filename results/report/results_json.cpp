@@ -112,7 +112,7 @@ Json pair_json(const MethodPair& pair) {
           {"picture", pair.picture}};
 }
 
-Json ndf_json(const NdfFigures& figures) {
+Json ndf_json(const FootprintNdf& figures) {
   return {{"footprint", figures.footprint},    {"method", figures.method},
           {"l2", json_number(figures.l2)},     {"energy", json_number(figures.energy)},
           {"peak", json_number(figures.peak)}, {"lobes", figures.lobes},
@@ -185,7 +185,7 @@ nlohmann::ordered_json results_document(const Results& results) {
   Json pairs = Json::array();
   for (const MethodPair& pair : results.pairs) pairs.push_back(pair_json(pair));
   Json ndf = Json::array();
-  for (const NdfFigures& figures : results.ndf) ndf.push_back(ndf_json(figures));
+  for (const FootprintNdf& figures : results.ndf) ndf.push_back(ndf_json(figures));
   Json quantities = Json::array();
   for (const QuantityFigure& figure : results.quantities) quantities.push_back(quantity_json(figure));
   Json scales = Json::array();

@@ -196,7 +196,7 @@ std::string flicker_section(const Results& results) {
 std::string ndf_section(const Results& results) {
   if (results.ndf.empty()) return {};
   Rows rows;
-  for (const NdfFigures& figures : results.ndf) {
+  for (const FootprintNdf& figures : results.ndf) {
     rows.push_back({figures.footprint, figures.method, three_figures(figures.l2), three_figures(figures.energy),
                     three_figures(figures.peak), fmt::format("{}", figures.lobes)});
   }

@@ -26,7 +26,7 @@ class EveryMethodsBaseBrdf : public ::testing::TestWithParam<const Method*> {
   }
 };
 
-constexpr std::array<BaseBrdf, 3> brdfs = {{
+constexpr std::array<BaseBrdf, 3> lobed_brdfs = {{
     {NormalDistribution::ggx, GeometryTerm::smith, FresnelTerm::schlick, true},
     {NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, true},
     {NormalDistribution::vmf, GeometryTerm::tan, FresnelTerm::schlick, true},
@@ -43,7 +43,7 @@ std::vector<FacetLobe> two_lobes(const BaseBrdf& brdf) {
 }
 
 TEST_P(EveryMethodsBaseBrdf, SeveralLobesAreDirectsOnAConstantMap) {
-  for (const BaseBrdf& brdf : brdfs) {
+  for (const BaseBrdf& brdf : lobed_brdfs) {
     for (const glm::vec3& normal : {glm::vec3(0, 0, 1), glm::vec3(0.28F, 0, 0.96F)}) {
       Image normals = constant_normals(16, 16, normal);
       normals.at(0, 0)[0] += 2e-5F;  // keeps a flat map from being left out
@@ -61,7 +61,7 @@ TEST_P(EveryMethodsBaseBrdf, SeveralLobesAreDirectsOnAConstantMap) {
 }
 
 TEST_P(EveryMethodsBaseBrdf, SeveralLobesStayFiniteAtTheLimits) {
-  for (const BaseBrdf& brdf : brdfs) {
+  for (const BaseBrdf& brdf : lobed_brdfs) {
     Scene scene = square_scene(random_normals(9, 5, 0.999F, 3), {.brdf = brdf});
     scene.materials[0].lobes = {{.axis = {0.99F, 0, 0.14106736F}, .parameter = parameter(brdf, 0.0F), .weight = 1e-6F},
                                 {.axis = {0, 0, 1}, .parameter = parameter(brdf, 0.999F), .weight = 1e3F}};
@@ -88,7 +88,7 @@ TextureMap uniform_in_the_middle(int channels, Fill fill) {
 
 TEST_P(EveryMethodsBaseBrdf, AMapOfLobeParametersIsDirectsAtMagnificationWhereItIsUniform) {
   if (!honours(Effect::roughness_variation)) GTEST_SKIP();
-  for (const BaseBrdf& brdf : brdfs) {
+  for (const BaseBrdf& brdf : lobed_brdfs) {
     Scene scene = square_scene({}, {.brdf = brdf, .specular = glm::vec3(0.5F)});
     scene.materials[0].lobe_parameter_map = uniform_in_the_middle(1, [&](int i, int /*channel*/) {
       return parameter(brdf, i < 0 ? 0.25F : 0.1F + 0.01F * static_cast<float>(i % 5));
@@ -105,7 +105,7 @@ TEST_P(EveryMethodsBaseBrdf, AMapOfLobeParametersIsDirectsAtMagnificationWhereIt
 
 // The pipeline filters F0 for all: as `direct`, near and far, beside a normal map with coordinates of its own.
 TEST_P(EveryMethodsBaseBrdf, ASpecularMapIsDirects) {
-  for (const BaseBrdf& brdf : brdfs) {
+  for (const BaseBrdf& brdf : lobed_brdfs) {
     Image normals = constant_normals(16, 16, glm::vec3(0.28F, 0, 0.96F));
     Scene scene = square_scene(normals, {.brdf = brdf, .specular = {1.0F, 0.5F, 0.25F}});
     scene.materials[0].specular_map =

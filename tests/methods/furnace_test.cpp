@@ -34,9 +34,10 @@ Scene furnace(const SquareMaterial& material, float light = 1.0F) {
 
 // White Lambert, and white metals of alpha 1/16, 1/4 and 1/2.
 std::vector<SquareMaterial> white_materials() {
-  constexpr BaseBrdf lambert{NormalDistribution::ggx, GeometryTerm::none, FresnelTerm::none, true};
+  constexpr BaseBrdf diffuse_only{NormalDistribution::ggx, GeometryTerm::none, FresnelTerm::none, true};
   constexpr BaseBrdf metal{NormalDistribution::ggx, GeometryTerm::smith, FresnelTerm::none, false};
-  std::vector<SquareMaterial> materials{{.brdf = lambert, .base_color = glm::vec3(1.0F), .specular = glm::vec3(0.0F)}};
+  std::vector<SquareMaterial> materials{
+      {.brdf = diffuse_only, .base_color = glm::vec3(1.0F), .specular = glm::vec3(0.0F)}};
   for (const float alpha : {0.0625F, 0.25F, 0.5F})
     materials.push_back({.brdf = metal, .roughness = std::sqrt(alpha), .specular = glm::vec3(1.0F)});
   return materials;

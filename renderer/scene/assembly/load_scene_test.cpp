@@ -15,7 +15,7 @@ namespace {
 
 const SceneLibrary library{.folder = testing::source_folder() / "scenes", .surfaces = {}};
 
-Scene load(const std::string& settings) {
+Scene load_made(const std::string& settings) {
   return load_scene(test::write_file("made/scene.toml", settings).string(), {});
 }
 
@@ -90,9 +90,9 @@ TEST(LoadScene, OwnLightsLeaveTheExposureAutomatic) {
 
   const std::string model = "[model]\nfile = \"../made.gltf\"\n";
   const std::string light = "[[light]]\ntype = \"point\"\nposition = [0, 0, 1]\n";
-  EXPECT_EQ(load(model + light).lights.size(), 2U);
-  EXPECT_EQ(load(model + light + "[lights]\nkeep = false\n").lights.size(), 1U);
-  EXPECT_EQ(load(model + "[lights]\nkeep = false\n").lights.size(), 3U);  // the supplied rig
+  EXPECT_EQ(load_made(model + light).lights.size(), 2U);
+  EXPECT_EQ(load_made(model + light + "[lights]\nkeep = false\n").lights.size(), 1U);
+  EXPECT_EQ(load_made(model + "[lights]\nkeep = false\n").lights.size(), 3U);  // the supplied rig
 }
 
 TEST(LoadScene, SettingsOverrideEveryMaterial) {
@@ -100,15 +100,15 @@ TEST(LoadScene, SettingsOverrideEveryMaterial) {
   const std::string plane =
       "[plane]\nsize = [4, 2]\nnormal_map = \"grey.png\"\nbase_color_map = \"grey.png\"\n"
       "metallic_roughness_map = \"grey.png\"\nroughness = 0.5\nmetallic = 1\n[tiling]\nuv = [3, 5]\n";
-  const Material as_given = load(plane).materials.at(0);
+  const Material as_given = load_made(plane).materials.at(0);
   ASSERT_TRUE(as_given.normal_map && as_given.base_color_map && as_given.metallic_roughness_map);
   EXPECT_EQ(as_given.normal_map->coordinates.transform * glm::vec3(1, 1, 1), glm::vec2(3, 5));
   EXPECT_NEAR(as_given.metallic_roughness_map->image->texels[0], 0.25F, 0.002F);
   EXPECT_EQ(as_given.brdf, BaseBrdf{});
 
-  const Material changed = load(plane +
-                                "[brdf]\ndistribution = \"vmf\"\ngeometry = \"none\"\nfresnel = \"none\"\n"
-                                "diffuse = false\nkappa = 100\nspecular = [1, 1, 1]\nbase_color = [0, 1, 0]\n")
+  const Material changed = load_made(plane +
+                                     "[brdf]\ndistribution = \"vmf\"\ngeometry = \"none\"\nfresnel = \"none\"\n"
+                                     "diffuse = false\nkappa = 100\nspecular = [1, 1, 1]\nbase_color = [0, 1, 0]\n")
                                .materials.at(0);
   EXPECT_EQ(changed.brdf, (BaseBrdf{NormalDistribution::vmf, GeometryTerm::none, FresnelTerm::none, false}));
   EXPECT_EQ(changed.lobe_parameter, 100.0F);
@@ -118,7 +118,9 @@ TEST(LoadScene, SettingsOverrideEveryMaterial) {
 }
 
 TEST(LoadScene, ModelsThatAreNotInstalledNameTheirPackage) {
-  const auto error_of = [](const std::string& settings) { return test::usage_error([&] { return load(settings); }); };
+  const auto error_of = [](const std::string& settings) {
+    return test::usage_error([&] { return load_made(settings); });
+  };
   const std::string package = "package = \"some-models\"\n";
   EXPECT_NE(error_of("[model]\nfile = \"missing.gltf\"\n" + package).find("install the package some-models"),
             std::string::npos);
@@ -126,7 +128,7 @@ TEST(LoadScene, ModelsThatAreNotInstalledNameTheirPackage) {
   EXPECT_NE(error_of(several + package).find("install the package some-models"), std::string::npos);
   EXPECT_NE(error_of(several).find("none of these files exists"), std::string::npos);
   (void)test::make_quad().write();
-  EXPECT_EQ(load("[model]\nfiles = [\"missing.gltf\", \"../made.gltf\"]\n").meshes.size(), 1U);
+  EXPECT_EQ(load_made("[model]\nfiles = [\"missing.gltf\", \"../made.gltf\"]\n").meshes.size(), 1U);
 }
 
 TEST(LoadScene, ScenesWithoutATriangleAreRefused) {
@@ -140,7 +142,7 @@ TEST(LoadScene, BrokenMapsOfAPlaneAreNamed) {
   test::write_file("made/words.png", "no image");
   for (const char* name : {"missing.png", "words.png"}) {
     const std::string error =
-        test::usage_error([&] { return load(std::string("[plane]\nnormal_map = \"") + name + "\"\n"); });
+        test::usage_error([&] { return load_made(std::string("[plane]\nnormal_map = \"") + name + "\"\n"); });
     EXPECT_NE(error.find(name), std::string::npos) << error;
   }
 }

@@ -14,13 +14,13 @@
 namespace footprint {
 namespace {
 
-Scene load(const std::string& microgeometry) {
+Scene load_microgeometry(const std::string& microgeometry) {
   const std::string text = "[plane]\n[brdf]\nbase_color = [0.5, 0.5, 0.5]\n[microgeometry]\n" + microgeometry;
   return load_scene(test::write_file("microgeometry/scene.toml", text).string(), {});
 }
 
 TEST(MicrogeometryContent, GivesAMaterialItsPatchAndTheViewFromAbove) {
-  const Scene scene = load(R"(kind = "weave"
+  const Scene scene = load_microgeometry(R"(kind = "weave"
 resolution = 32
 parameters = { warp_width = 0.5, weft_red = 0.0 }
 )");
@@ -36,7 +36,7 @@ parameters = { warp_width = 0.5, weft_red = 0.0 }
 TEST(MicrogeometryContent, TakesAModelsTriangles) {
   const auto model = std::filesystem::path("/usr/share/assimp/models/glTF2/BoxTextured-glTF/BoxTextured.gltf");
   if (!std::filesystem::exists(model)) GTEST_SKIP() << "the package assimp-testmodels is not there";
-  const Scene scene = load("model = \"" + model.string() + "\"\nperiod = [2, 2]\n");
+  const Scene scene = load_microgeometry("model = \"" + model.string() + "\"\nperiod = [2, 2]\n");
   const Patch& patch = scene.materials.at(0).microgeometry->patch;
   EXPECT_EQ(patch.triangles.size(), 12U);
   EXPECT_EQ(patch.period, glm::vec2(2.0F));
@@ -57,7 +57,7 @@ TEST(MicrogeometryContent, MistakesNameTheirLine) {
       {"model = \"nowhere.gltf\"\n", "nowhere.gltf"},
       {"kind = \"flat\"\nresolution = 0\n", "resolution"}};
   for (const auto& mistake : cases) {
-    const std::string error = test::usage_error([&] { return load(mistake.first); });
+    const std::string error = test::usage_error([&] { return load_microgeometry(mistake.first); });
     EXPECT_NE(error.find(mistake.second), std::string::npos) << mistake.first << "got: " << error;
   }
 }
@@ -102,8 +102,8 @@ TEST(MicrogeometryContent, MistakesAroundAMapOfIndicesAreNamed) {
   EXPECT_NE(error_of(map, 2.0F).find("indices.png"), std::string::npos);
   EXPECT_NE(error_of(map, 2.0F).find("names none of the 2"), std::string::npos);
   EXPECT_NE(error_of("[maps]\nmaterial = { file = \"none.png\" }\n", 0.0F).find("none.png"), std::string::npos);
-  const std::string one =
-      test::usage_error([] { return load("kind = \"flat\"\n[maps]\nmaterial = { file = \"a.png\" }\n"); });
+  const std::string one = test::usage_error(
+      [] { return load_microgeometry("kind = \"flat\"\n[maps]\nmaterial = { file = \"a.png\" }\n"); });
   EXPECT_NE(one.find("several [[microgeometry]]"), std::string::npos) << one;
 }
 

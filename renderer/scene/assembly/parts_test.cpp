@@ -9,7 +9,7 @@
 namespace footprint {
 namespace {
 
-Mesh square(const SurfaceSettings& /*settings*/) { return make_plane({2.0F, 2.0F}, {1.0F, 1.0F}); }
+Mesh tile(const SurfaceSettings& /*settings*/) { return make_plane({2.0F, 2.0F}, {1.0F, 1.0F}); }
 Image upright(const SurfaceSettings& settings) {
   Image map(settings.resolution, settings.resolution, 4, 0.0F);
   for (std::size_t i = 0; i < map.texel_count(); ++i) map.texels[4 * i + 2] = map.texels[4 * i + 3] = 1.0F;
@@ -17,7 +17,7 @@ Image upright(const SurfaceSettings& settings) {
 }
 Image exponents(const SurfaceSettings& /*settings*/) { return {2, 3, 1, 50.0F}; }
 
-const std::vector<Surface>& made_up_surfaces() {
+const std::vector<Surface>& tiles() {
   static const std::vector<Surface> surfaces{{.name = "tiles",
                                               .summary = {},
                                               .parameters = {},
@@ -25,22 +25,21 @@ const std::vector<Surface>& made_up_surfaces() {
                                               .normals = upright,
                                               .lobe_parameter = exponents,
                                               .distribution = NormalDistribution::blinn_phong,
-                                              .mesh = square}};
+                                              .mesh = tile}};
   return surfaces;
 }
 
-Scene load(const std::string& settings) {
-  return load_scene(test::write_file("parts/scene.toml", settings).string(),
-                    {.folder = {}, .surfaces = made_up_surfaces()});
+Scene load_parts(const std::string& settings) {
+  return load_scene(test::write_file("parts/scene.toml", settings).string(), {.folder = {}, .surfaces = tiles()});
 }
 
-void expect_error(const std::string& text, const std::vector<std::string>& wanted) {
-  const std::string error = test::usage_error([&] { return load(text); });
+void expect_part_error(const std::string& text, const std::vector<std::string>& wanted) {
+  const std::string error = test::usage_error([&] { return load_parts(text); });
   for (const std::string& words : wanted) EXPECT_THAT(error, ::testing::HasSubstr(words));
 }
 
 TEST(Parts, EachHasItsContentMaterialAndPlace) {
-  const Scene scene = load(R"([brdf]
+  const Scene scene = load_parts(R"([brdf]
 distribution = "blinn_phong"
 fresnel = "none"
 [[part]]
@@ -75,7 +74,7 @@ scale = 3
 }
 
 TEST(Parts, TurnAboutXThenYThenZ) {
-  const Scene scene = load("[[part]]\nplane = {}\nplace = { rotate_degrees = [90, 0, 90] }\n");
+  const Scene scene = load_parts("[[part]]\nplane = {}\nplace = { rotate_degrees = [90, 0, 90] }\n");
   // About x the normal +z goes to -y, about z on to +x.
   EXPECT_NEAR(glm::length(scene.meshes[0].vertices[0].normal - glm::vec3(1, 0, 0)), 0.0F, 1e-6F);
 }
@@ -88,9 +87,9 @@ TEST(Parts, MoveTheirModelsLightsAndCamera) {
     "nodes":[{"extensions":{"KHR_lights_punctual":{"light":0}},"translation":[1,0,0]},
              {"camera":0,"translation":[0,0,4]}],
     "scenes":[{"nodes":[0,1]}],"scene":0})");
-  const Scene scene = load("[[part]]\nmodel = { file = \"" + file.filename().string() +
-                           "\" }\nplace = { translate = [0, 1, 0], rotate_degrees = [0, 90, 0] }\n"
-                           "[[part]]\nplane = {}\n");
+  const Scene scene = load_parts("[[part]]\nmodel = { file = \"" + file.filename().string() +
+                                 "\" }\nplace = { translate = [0, 1, 0], rotate_degrees = [0, 90, 0] }\n"
+                                 "[[part]]\nplane = {}\n");
   ASSERT_EQ(scene.lights.size(), 1U);
   const auto& spot = std::get<SpotLight>(scene.lights[0]);
   EXPECT_NEAR(glm::length(spot.point.position - glm::vec3(0, 1, -1)), 0.0F, 1e-6F);
@@ -101,8 +100,8 @@ TEST(Parts, MoveTheirModelsLightsAndCamera) {
 
 TEST(Parts, AModelMayBeUnwrappedAndDressedInASurface) {
   test::write_file("parts/two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 -1\nf 1 2 3\nf 2 4 3\n");
-  const Scene scene =
-      load("[model]\nfile = \"two.obj\"\nunwrap = true\n[surface]\nname = \"tiles\"\n[brdf]\nspecular = [1, 1, 1]\n");
+  const Scene scene = load_parts(
+      "[model]\nfile = \"two.obj\"\nunwrap = true\n[surface]\nname = \"tiles\"\n[brdf]\nspecular = [1, 1, 1]\n");
   ASSERT_EQ(scene.materials.size(), 1U);
   EXPECT_EQ(scene.materials[0].name, "tiles");
   EXPECT_TRUE(scene.materials[0].lobe_parameter_map && scene.materials[0].normal_map);
@@ -115,18 +114,18 @@ TEST(Parts, AModelMayBeUnwrappedAndDressedInASurface) {
 
 TEST(Parts, MistakesAreNamedWithTheirLine) {
   const std::string part = "[[part]]\nplane = {}\n";
-  expect_error(part + "[model]\nfile = \"a.gltf\"\n", {"scene.toml:3", "`model` excludes [[part]]"});
-  expect_error("[brdf]\nexponent = 3\n" + part, {"scene.toml:2", "unknown key `exponent` in [brdf]"});
-  expect_error(part + "brdf = { fresnel = \"none\" }\n", {"scene.toml:3", "unknown key `fresnel`"});
-  expect_error(part + "brdf = { exponent = 3 }\n", {"scene.toml:3", "does not belong to the distribution"});
-  expect_error(part + "place = { scale = 0 }\n", {"scene.toml:3", "`scale`", "1e-06"});
-  expect_error(part + "place = { turn = 3 }\n", {"scene.toml:3", "unknown key `turn`"});
-  expect_error(part + "surface = { name = \"tiles\" }\n", {"scene.toml:2", "excludes `model` and `surface`"});
-  expect_error("[[part]]\nname = \"empty\"\n", {"scene.toml:1", "must be given"});
-  expect_error("part = 3\n", {"scene.toml:1", "list of tables"});
-  expect_error("part = []\n", {"scene.toml:1"});
-  expect_error(part + "[brdf]\ndistribution = \"vmf\"\n[[part]]\nsurface = { name = \"tiles\" }\n",
-               {"has lobes of its own, of another distribution"});
+  expect_part_error(part + "[model]\nfile = \"a.gltf\"\n", {"scene.toml:3", "`model` excludes [[part]]"});
+  expect_part_error("[brdf]\nexponent = 3\n" + part, {"scene.toml:2", "unknown key `exponent` in [brdf]"});
+  expect_part_error(part + "brdf = { fresnel = \"none\" }\n", {"scene.toml:3", "unknown key `fresnel`"});
+  expect_part_error(part + "brdf = { exponent = 3 }\n", {"scene.toml:3", "does not belong to the distribution"});
+  expect_part_error(part + "place = { scale = 0 }\n", {"scene.toml:3", "`scale`", "1e-06"});
+  expect_part_error(part + "place = { turn = 3 }\n", {"scene.toml:3", "unknown key `turn`"});
+  expect_part_error(part + "surface = { name = \"tiles\" }\n", {"scene.toml:2", "excludes `model` and `surface`"});
+  expect_part_error("[[part]]\nname = \"empty\"\n", {"scene.toml:1", "must be given"});
+  expect_part_error("part = 3\n", {"scene.toml:1", "list of tables"});
+  expect_part_error("part = []\n", {"scene.toml:1"});
+  expect_part_error(part + "[brdf]\ndistribution = \"vmf\"\n[[part]]\nsurface = { name = \"tiles\" }\n",
+                    {"has lobes of its own, of another distribution"});
 }
 
 }  // namespace

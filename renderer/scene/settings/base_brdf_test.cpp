@@ -9,7 +9,7 @@
 namespace footprint {
 namespace {
 
-Mesh square(const SurfaceSettings& /*settings*/) { return make_plane({1.0F, 1.0F}, {1.0F, 1.0F}); }
+Mesh unit_square(const SurfaceSettings& /*settings*/) { return make_plane({1.0F, 1.0F}, {1.0F, 1.0F}); }
 Image flat(const SurfaceSettings& settings) { return {settings.resolution, settings.resolution, 4, 1.0F}; }
 Image kappas(const SurfaceSettings& /*settings*/) { return {3, 2, 1, 500.0F}; }
 Image speculars(const SurfaceSettings& /*settings*/) { return {5, 7, 3, 0.25F}; }
@@ -17,10 +17,10 @@ glm::vec2 four_times(const SurfaceSettings& /*settings*/) { return {4.0F, 2.0F};
 std::vector<FacetLobe> leaning(const SurfaceSettings& /*settings*/) { return {{{0.6F, 0.0F, 0.8F}, 90.0F, 1.0F}}; }
 
 Surface surface_named(const std::string& name) {
-  return {.name = name, .summary = {}, .parameters = {}, .default_resolution = 4, .normals = flat, .mesh = square};
+  return {.name = name, .summary = {}, .parameters = {}, .default_resolution = 4, .normals = flat, .mesh = unit_square};
 }
 
-const std::vector<Surface>& made_up_surfaces() {
+const std::vector<Surface>& glossy_surfaces() {
   static const std::vector<Surface> surfaces = [] {
     Surface glossy = surface_named("glossy");
     glossy.lobe_parameter = kappas;
@@ -35,15 +35,15 @@ const std::vector<Surface>& made_up_surfaces() {
   return surfaces;
 }
 
-Scene load(const std::string& settings) {
+Scene load_lobes(const std::string& settings) {
   return load_scene(test::write_file("made/scene.toml", settings).string(),
-                    {.folder = {}, .surfaces = made_up_surfaces()});
+                    {.folder = {}, .surfaces = glossy_surfaces()});
 }
 
-Material material(const std::string& settings) { return load(settings).materials.at(0); }
+Material material(const std::string& settings) { return load_lobes(settings).materials.at(0); }
 
-void expect_error(const std::string& text, const std::vector<std::string>& wanted) {
-  const std::string error = test::usage_error([&] { return load(text); });
+void expect_brdf_error(const std::string& text, const std::vector<std::string>& wanted) {
+  const std::string error = test::usage_error([&] { return load_lobes(text); });
   for (const std::string& words : wanted) {
     EXPECT_NE(error.find(words), std::string::npos) << "wanted: " << words << "\ngot: " << error;
   }
@@ -63,21 +63,21 @@ TEST(FacetLobeSettings, AxesAreNormalisedAndWeightsSumToOneWhereNoneIsGiven) {
 
 TEST(FacetLobeSettings, MistakesNameTheirLine) {
   const std::string lobe = vmf_plane + "[[brdf.lobe]]\n";
-  expect_error(lobe + "kappa = 3\n", {"scene.toml:4", "`axis` in [[brdf.lobe]] is missing"});
-  expect_error(lobe + "axis = [0, 0, 1]\n", {"scene.toml:4", "`kappa`", "missing"});
-  expect_error(lobe + "axis = [0, 0, 0]\nkappa = 3\n", {"scene.toml:5", "no length"});
-  expect_error(lobe + "axis = [0.7, 0, -0.7]\nkappa = 3\n", {"scene.toml:5", "horizon"});
-  expect_error(lobe + "axis = [0.7, 0.7, 0]\nkappa = 3\n", {"scene.toml:5", "horizon"});
-  expect_error(lobe + "axis = [0, 0, 1]\nkappa = 3\nweight = 0\n", {"scene.toml:7", "`weight`", "not within"});
-  expect_error(lobe + "axis = [0, 0, 1]\nkappa = -3\n", {"scene.toml:6", "not within"});
-  expect_error(lobe + "axis = [0, 0, 1]\nalpha = 0.3\n", {"scene.toml:6", "does not belong"});
-  expect_error(lobe + "axis = [0, 0, 1]\nkapa = 3\n", {"scene.toml:6", "`kappa`"});
+  expect_brdf_error(lobe + "kappa = 3\n", {"scene.toml:4", "`axis` in [[brdf.lobe]] is missing"});
+  expect_brdf_error(lobe + "axis = [0, 0, 1]\n", {"scene.toml:4", "`kappa`", "missing"});
+  expect_brdf_error(lobe + "axis = [0, 0, 0]\nkappa = 3\n", {"scene.toml:5", "no length"});
+  expect_brdf_error(lobe + "axis = [0.7, 0, -0.7]\nkappa = 3\n", {"scene.toml:5", "horizon"});
+  expect_brdf_error(lobe + "axis = [0.7, 0.7, 0]\nkappa = 3\n", {"scene.toml:5", "horizon"});
+  expect_brdf_error(lobe + "axis = [0, 0, 1]\nkappa = 3\nweight = 0\n", {"scene.toml:7", "`weight`", "not within"});
+  expect_brdf_error(lobe + "axis = [0, 0, 1]\nkappa = -3\n", {"scene.toml:6", "not within"});
+  expect_brdf_error(lobe + "axis = [0, 0, 1]\nalpha = 0.3\n", {"scene.toml:6", "does not belong"});
+  expect_brdf_error(lobe + "axis = [0, 0, 1]\nkapa = 3\n", {"scene.toml:6", "`kappa`"});
   const std::string whole = "[[brdf.lobe]]\naxis = [0, 0, 1]\nkappa = 3\n";
-  expect_error(vmf_plane + whole + "weight = 0.5\n" + whole, {"scene.toml:8", "`weight`", "others"});
-  expect_error(vmf_plane + "kappa = 5\n" + whole, {"excludes"});
+  expect_brdf_error(vmf_plane + whole + "weight = 0.5\n" + whole, {"scene.toml:8", "`weight`", "others"});
+  expect_brdf_error(vmf_plane + "kappa = 5\n" + whole, {"excludes"});
   std::string many = vmf_plane;
   for (std::size_t i = 0; i <= most_facet_lobes; ++i) many += whole;
-  expect_error(many, {"`lobe`", "9 times", "8 lobes"});
+  expect_brdf_error(many, {"`lobe`", "9 times", "8 lobes"});
 }
 
 std::string exr(const std::string& name, const Image& image) {
@@ -116,17 +116,18 @@ TEST(MapSettings, MistakesAreNamed) {
   const std::string bad = exr("bad.exr", Image(2, 1, 1, 0.0F));
   const std::string one = exr("one.exr", Image(2, 1, 1, 1.0F));
   const auto kappa_map = [](const std::string& file) { return "[maps.kappa]\nfile = \"" + file + "\"\n"; };
-  expect_error(vmf_plane + "[maps.kapa]\nfile = \"x\"\n", {"scene.toml:4", "`kappa`"});
-  expect_error(vmf_plane + "[maps.kappa]\nuv = [1, 1]\n", {"scene.toml:4", "`file` in [maps.kappa] is missing"});
-  expect_error(vmf_plane + kappa_map(one) + "uv = [0, 1]\n", {"scene.toml:6", "not within"});
-  expect_error(vmf_plane + kappa_map("none.exr"), {"none.exr", "no such file"});
-  expect_error(vmf_plane + kappa_map(bad), {"bad.exr", "texel (0, 0)", "holds 0"});
-  expect_error("[plane]\n" + kappa_map(one), {"scene.toml:2", "does not belong"});
-  expect_error(vmf_plane + "kappa = 3\n" + kappa_map(one), {"scene.toml:5", "excludes"});
-  expect_error(vmf_plane + kappa_map(one) + "[maps.roughness]\nfile = \"one.exr\"\n", {"excludes"});
-  expect_error(vmf_plane + kappa_map(one) + "[[brdf.lobe]]\naxis = [0, 0, 1]\nkappa = 3\n", {"excludes [[brdf.lobe]]"});
+  expect_brdf_error(vmf_plane + "[maps.kapa]\nfile = \"x\"\n", {"scene.toml:4", "`kappa`"});
+  expect_brdf_error(vmf_plane + "[maps.kappa]\nuv = [1, 1]\n", {"scene.toml:4", "`file` in [maps.kappa] is missing"});
+  expect_brdf_error(vmf_plane + kappa_map(one) + "uv = [0, 1]\n", {"scene.toml:6", "not within"});
+  expect_brdf_error(vmf_plane + kappa_map("none.exr"), {"none.exr", "no such file"});
+  expect_brdf_error(vmf_plane + kappa_map(bad), {"bad.exr", "texel (0, 0)", "holds 0"});
+  expect_brdf_error("[plane]\n" + kappa_map(one), {"scene.toml:2", "does not belong"});
+  expect_brdf_error(vmf_plane + "kappa = 3\n" + kappa_map(one), {"scene.toml:5", "excludes"});
+  expect_brdf_error(vmf_plane + kappa_map(one) + "[maps.roughness]\nfile = \"one.exr\"\n", {"excludes"});
+  expect_brdf_error(vmf_plane + kappa_map(one) + "[[brdf.lobe]]\naxis = [0, 0, 1]\nkappa = 3\n",
+                    {"excludes [[brdf.lobe]]"});
   write_png(test::write_file("made/bytes.png", ""), Image(2, 2, 1, 0.5F));
-  expect_error(vmf_plane + kappa_map("bytes.png"), {"bytes.png", "no EXR"});
+  expect_brdf_error(vmf_plane + kappa_map("bytes.png"), {"bytes.png", "no EXR"});
 }
 
 TEST(SurfaceMaps, ASurfaceBringsLobesAndMaps) {
@@ -145,7 +146,8 @@ TEST(SurfaceMaps, TheSceneFileOverridesThem) {
   EXPECT_EQ(own.lobe_parameter, 0.3F);
   EXPECT_FALSE(own.lobe_parameter_map || own.specular_map);
   EXPECT_TRUE(material("[surface]\nname = \"leaner\"\n[brdf]\nalpha = 0.3\n").lobes.empty());
-  expect_error("[surface]\nname = \"leaner\"\n[brdf]\ndistribution = \"ggx\"\n", {"leaner", "of another distribution"});
+  expect_brdf_error("[surface]\nname = \"leaner\"\n[brdf]\ndistribution = \"ggx\"\n",
+                    {"leaner", "of another distribution"});
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ SceneSettings read(const std::string& text) {
   return read_scene_settings(test::write_file("settings/scene.toml", text), {});
 }
 
-void expect_error(const std::string& text, const std::vector<std::string>& wanted) {
+void expect_settings_error(const std::string& text, const std::vector<std::string>& wanted) {
   const std::string error = test::usage_error([&] { return read(text); });
   for (const std::string& words : wanted) {
     EXPECT_NE(error.find(words), std::string::npos) << "wanted: " << words << "\ngot: " << error;
@@ -126,11 +126,11 @@ TEST(SceneSettings, ShadowsAreDerivedUnlessTold) {
   EXPECT_FALSE(read("[plane]\n").shadows.cast);
   EXPECT_FALSE(read("[plane]\n[shadows]\n").shadows.cast);
   EXPECT_EQ(read("[plane]\n[shadows]\ncast = true\n").shadows.cast, true);
-  expect_error("[plane]\n[shadows]\ncast = \"on\"\n", {"scene.toml:3", "cast"});
-  expect_error("[plane]\n[shadows]\ncasts = true\n", {"scene.toml:3", "unknown key `casts`", "`cast`"});
-  expect_error("[plane]\n[shadows]\nresolution = 15\n", {"scene.toml:3", "resolution", "16"});
-  expect_error("[plane]\n[shadows]\nresolution = 100000\n", {"scene.toml:3", "resolution", "16384"});
-  expect_error("[plane]\n[shadows]\nresolution = 64.5\n", {"scene.toml:3", "resolution"});
+  expect_settings_error("[plane]\n[shadows]\ncast = \"on\"\n", {"scene.toml:3", "cast"});
+  expect_settings_error("[plane]\n[shadows]\ncasts = true\n", {"scene.toml:3", "unknown key `casts`", "`cast`"});
+  expect_settings_error("[plane]\n[shadows]\nresolution = 15\n", {"scene.toml:3", "resolution", "16"});
+  expect_settings_error("[plane]\n[shadows]\nresolution = 100000\n", {"scene.toml:3", "resolution", "16384"});
+  expect_settings_error("[plane]\n[shadows]\nresolution = 64.5\n", {"scene.toml:3", "resolution"});
 }
 
 TEST(SceneSettings, ALayerIsHeightsOrNormals) {
@@ -143,67 +143,68 @@ TEST(SceneSettings, ALayerIsHeightsOrNormals) {
   const SceneSettings normals = read("[plane]\n[layer]\nnormal_map = \"n.png\"");
   EXPECT_FALSE(std::get<LayerFile>(normals.parts.front().layer->content).heights);
   EXPECT_EQ(normals.parts.front().layer->strength, 1.0);
-  expect_error("[plane]\n[layer]\nuv = [1, 1]", {"scene.toml:2", "bump_map", "surface"});
-  expect_error("[plane]\n[layer]\nbump_map = \"a\"\nnormal_map = \"b\"", {"scene.toml:3", "only one"});
-  expect_error("[plane]\n[layer]\nbump_map = \"a\"", {"scene.toml:2", "strength", "missing"});
-  expect_error("[plane]\n[layer]\nnormal_map = \"a\"\nstrenght = 2", {"scene.toml:4", "strength"});
+  expect_settings_error("[plane]\n[layer]\nuv = [1, 1]", {"scene.toml:2", "bump_map", "surface"});
+  expect_settings_error("[plane]\n[layer]\nbump_map = \"a\"\nnormal_map = \"b\"", {"scene.toml:3", "only one"});
+  expect_settings_error("[plane]\n[layer]\nbump_map = \"a\"", {"scene.toml:2", "strength", "missing"});
+  expect_settings_error("[plane]\n[layer]\nnormal_map = \"a\"\nstrenght = 2", {"scene.toml:4", "strength"});
 }
 
 TEST(SceneSettings, UnknownKeysNameLineAndNeighbour) {
-  expect_error("[plane]\nsize = [1, 1]\nnormal_mop = \"a.png\"\n",
-               {"scene.toml:3", "unknown key `normal_mop` in [plane]", "did you mean `normal_map`"});
-  expect_error("[plain]\n", {"scene.toml:1", "unknown key `plain`", "plane"});
-  expect_error("[plane]\n[[light]]\ntype = \"point\"\npositon = [0, 0, 1]\n",
-               {"scene.toml:4", "unknown key `positon` in [[light]]", "`position`"});
-  expect_error("[plane]\n[brdf]\ndistribution = \"ggxx\"\n", {"scene.toml:3", "`ggxx`", "`ggx`"});
+  expect_settings_error("[plane]\nsize = [1, 1]\nnormal_mop = \"a.png\"\n",
+                        {"scene.toml:3", "unknown key `normal_mop` in [plane]", "did you mean `normal_map`"});
+  expect_settings_error("[plain]\n", {"scene.toml:1", "unknown key `plain`", "plane"});
+  expect_settings_error("[plane]\n[[light]]\ntype = \"point\"\npositon = [0, 0, 1]\n",
+                        {"scene.toml:4", "unknown key `positon` in [[light]]", "`position`"});
+  expect_settings_error("[plane]\n[brdf]\ndistribution = \"ggxx\"\n", {"scene.toml:3", "`ggxx`", "`ggx`"});
 }
 
 TEST(SceneSettings, WrongTypesAndRangesNameTheirLine) {
   const std::string plane = "[plane]\n";
-  expect_error("= 3", {"scene.toml:1", "not valid TOML"});
-  expect_error("plane = 3\n", {"scene.toml:1", "must be a table"});
-  expect_error("", {"the file is empty"});
-  expect_error(plane + "size = 3\n", {"scene.toml:2", "list of 2 numbers"});
-  expect_error(plane + "size = [1, \"2\"]\n", {"scene.toml:2", "must be a number"});
-  expect_error(plane + "size = [0, 1]\n", {"scene.toml:2", "not within"});
-  expect_error(plane + "roughness = nan\n", {"scene.toml:2", "not within 0 to 1"});
-  expect_error(plane + "roughness = inf\n", {"scene.toml:2"});
-  expect_error(plane + "normal_map = 4\n", {"scene.toml:2", "must be a string"});
-  expect_error(plane + "[brdf]\ndiffuse = 1\n", {"scene.toml:3", "true or false"});
-  expect_error(plane + "[frame]\nsize = [0, 0]\n", {"scene.toml:3"});
-  expect_error(plane + "[frame]\nsize = [1000000, 1000000]\n", {"scene.toml:3"});
-  expect_error(plane + "[frame]\nsize = [2.5, 2]\n", {"scene.toml:3", "whole numbers"});
-  expect_error(plane + "[frame]\nexposure = \"bright\"\n", {"scene.toml:3", "auto"});
-  expect_error(plane + "[zoom]\ndistances = []\n", {"scene.toml:3"});
-  expect_error(plane + "[zoom]\ndistances = [1, -2]\n", {"scene.toml:3"});
-  expect_error(plane + "[tiling]\nuv = [0, 1]\n", {"scene.toml:3"});
-  expect_error(plane + "light = 3\n", {"unknown key `light` in [plane]"});
-  expect_error("light = 3\n" + plane, {"scene.toml:1", "list of tables"});
+  expect_settings_error("= 3", {"scene.toml:1", "not valid TOML"});
+  expect_settings_error("plane = 3\n", {"scene.toml:1", "must be a table"});
+  expect_settings_error("", {"the file is empty"});
+  expect_settings_error(plane + "size = 3\n", {"scene.toml:2", "list of 2 numbers"});
+  expect_settings_error(plane + "size = [1, \"2\"]\n", {"scene.toml:2", "must be a number"});
+  expect_settings_error(plane + "size = [0, 1]\n", {"scene.toml:2", "not within"});
+  expect_settings_error(plane + "roughness = nan\n", {"scene.toml:2", "not within 0 to 1"});
+  expect_settings_error(plane + "roughness = inf\n", {"scene.toml:2"});
+  expect_settings_error(plane + "normal_map = 4\n", {"scene.toml:2", "must be a string"});
+  expect_settings_error(plane + "[brdf]\ndiffuse = 1\n", {"scene.toml:3", "true or false"});
+  expect_settings_error(plane + "[frame]\nsize = [0, 0]\n", {"scene.toml:3"});
+  expect_settings_error(plane + "[frame]\nsize = [1000000, 1000000]\n", {"scene.toml:3"});
+  expect_settings_error(plane + "[frame]\nsize = [2.5, 2]\n", {"scene.toml:3", "whole numbers"});
+  expect_settings_error(plane + "[frame]\nexposure = \"bright\"\n", {"scene.toml:3", "auto"});
+  expect_settings_error(plane + "[zoom]\ndistances = []\n", {"scene.toml:3"});
+  expect_settings_error(plane + "[zoom]\ndistances = [1, -2]\n", {"scene.toml:3"});
+  expect_settings_error(plane + "[tiling]\nuv = [0, 1]\n", {"scene.toml:3"});
+  expect_settings_error(plane + "light = 3\n", {"unknown key `light` in [plane]"});
+  expect_settings_error("light = 3\n" + plane, {"scene.toml:1", "list of tables"});
 }
 
 TEST(SceneSettings, WhatExcludesOrNeedsEachOther) {
   const std::string plane = "[plane]\n";
-  expect_error("[zoom]\ndistances = [1]\n", {"`model` or `plane`"});
-  expect_error("[plane]\n[model]\nfile = \"a.gltf\"\n", {"excludes `model`"});
-  expect_error("[model]\n", {"scene.toml:1", "`files`"});
-  expect_error("[model]\nfile = \"a.gltf\"\nfiles = [\"b.gltf\"]\n", {"only one"});
-  expect_error("[model]\nfiles = [1]\n", {"scene.toml:2", "list of strings"});
-  expect_error(plane + "[brdf]\nalpha = 0.1\nexponent = 5\n", {"exponent"});
-  expect_error(plane + "[brdf]\ndistribution = \"vmf\"\nalpha = 0.1\n", {"scene.toml:4", "does not belong"});
-  expect_error(plane + "[[light]]\nintensity = 1\n", {"scene.toml:2", "`type` in [[light]] is missing"});
-  expect_error(plane + "[[light]]\ntype = \"point\"\n", {"`position`", "missing"});
-  expect_error(plane + "[[light]]\ntype = \"directional\"\n", {"`direction`", "missing"});
-  expect_error(plane + "[[light]]\ntype = \"directional\"\ndirection = [0, 0, 0]\n", {"scene.toml:4", "no length"});
-  expect_error(plane + "[[light]]\ntype = \"point\"\nposition = [0, 0, 1]\ndirection = [0, 0, 1]\n",
-               {"scene.toml:5", "does not belong to a point light"});
-  expect_error(plane +
-                   "[[light]]\ntype = \"spot\"\nposition = [0, 0, 1]\ndirection = [0, 0, 1]\n"
-                   "inner_cone_degrees = 50\n",
-               {"scene.toml:6", "less than outer_cone_degrees"});
-  expect_error(plane + "[camera]\nposition = [0, 0, 1]\n", {"`target`", "missing"});
-  expect_error(plane + "[camera]\nposition = [0, 0, 1]\ntarget = [0, 0, 1]\n", {"where the camera stands"});
-  expect_error(plane + "[camera]\nframe_bounds = {}\nup = [0, 1, 0]\n", {"scene.toml:4", "excludes"});
-  expect_error(plane + "[camera]\nframe_bounds = { direction = [0, 0, 0] }\n", {"scene.toml:3", "no length"});
+  expect_settings_error("[zoom]\ndistances = [1]\n", {"`model` or `plane`"});
+  expect_settings_error("[plane]\n[model]\nfile = \"a.gltf\"\n", {"excludes `model`"});
+  expect_settings_error("[model]\n", {"scene.toml:1", "`files`"});
+  expect_settings_error("[model]\nfile = \"a.gltf\"\nfiles = [\"b.gltf\"]\n", {"only one"});
+  expect_settings_error("[model]\nfiles = [1]\n", {"scene.toml:2", "list of strings"});
+  expect_settings_error(plane + "[brdf]\nalpha = 0.1\nexponent = 5\n", {"exponent"});
+  expect_settings_error(plane + "[brdf]\ndistribution = \"vmf\"\nalpha = 0.1\n", {"scene.toml:4", "does not belong"});
+  expect_settings_error(plane + "[[light]]\nintensity = 1\n", {"scene.toml:2", "`type` in [[light]] is missing"});
+  expect_settings_error(plane + "[[light]]\ntype = \"point\"\n", {"`position`", "missing"});
+  expect_settings_error(plane + "[[light]]\ntype = \"directional\"\n", {"`direction`", "missing"});
+  expect_settings_error(plane + "[[light]]\ntype = \"directional\"\ndirection = [0, 0, 0]\n",
+                        {"scene.toml:4", "no length"});
+  expect_settings_error(plane + "[[light]]\ntype = \"point\"\nposition = [0, 0, 1]\ndirection = [0, 0, 1]\n",
+                        {"scene.toml:5", "does not belong to a point light"});
+  expect_settings_error(plane +
+                            "[[light]]\ntype = \"spot\"\nposition = [0, 0, 1]\ndirection = [0, 0, 1]\n"
+                            "inner_cone_degrees = 50\n",
+                        {"scene.toml:6", "less than outer_cone_degrees"});
+  expect_settings_error(plane + "[camera]\nposition = [0, 0, 1]\n", {"`target`", "missing"});
+  expect_settings_error(plane + "[camera]\nposition = [0, 0, 1]\ntarget = [0, 0, 1]\n", {"where the camera stands"});
+  expect_settings_error(plane + "[camera]\nframe_bounds = {}\nup = [0, 1, 0]\n", {"scene.toml:4", "excludes"});
+  expect_settings_error(plane + "[camera]\nframe_bounds = { direction = [0, 0, 0] }\n", {"scene.toml:3", "no length"});
 }
 
 }  // namespace

@@ -18,6 +18,14 @@ function(footprint_reuse_headers target name)
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess> ${FOOTPRINT_PRECOMPILED_OPTIONS})
 endfunction()
 
+# Four sources are compiled at once, as one, where reading headers takes longer than what is written over them: tests, and
+# libraries that read CLI11, nlohmann's JSON or toml++. What renders is compiled source by source, so that who works on it
+# waits for one. Names of sources united must differ: an anonymous namespace is then one for all of them.
+# footprint_unite(TARGET ...): such targets.
+function(footprint_unite)
+  set_target_properties(${ARGN} PROPERTIES UNITY_BUILD "${FOOTPRINT_UNITY}" UNITY_BUILD_BATCH_SIZE 4)
+endfunction()
+
 # footprint_add_library(NAME SOURCES ... LIBRARIES ...): a static library with the project's settings.
 function(footprint_add_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
@@ -37,6 +45,7 @@ function(footprint_add_test name)
   target_link_libraries(${name} PRIVATE footprint_settings ${ARG_LIBRARIES} GTest::gtest_main)
   target_compile_options(${name} PRIVATE ${FOOTPRINT_TEST_OPTIONS})
   footprint_reuse_headers(${name} footprint_precompiled_tests)
+  footprint_unite(${name})
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES TIMEOUT 300)
 endfunction()

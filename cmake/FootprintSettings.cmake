@@ -10,6 +10,7 @@ endif()
 option(FOOTPRINT_WERROR "Treat warnings as errors" OFF)
 option(FOOTPRINT_TESTS "Build the tests" ON)
 option(FOOTPRINT_BENCH "Build the benchmarks" ON)
+option(FOOTPRINT_UNITY "Compile tests, and sources that read large headers, four at once" ON)
 option(FOOTPRINT_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
 
 add_library(footprint_settings INTERFACE)

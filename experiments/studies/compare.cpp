@@ -44,7 +44,7 @@ int pictures_held(std::size_t methods, std::size_t distances) {
   return static_cast<int>(std::ceil(kept + 5.0 * static_cast<double>(methods + 1) + own_of_the_reference));
 }
 
-double method_weight(const RunSettings& settings) {
+double weight_of_methods(const RunSettings& settings) {
   return static_cast<double>(settings.methods.size()) * (settings.reference.spp + settings.timing.repeats);
 }
 
@@ -58,7 +58,7 @@ class Comparison {
                whole_.next(1, ""), pictures_of_a_frame, filter_of_the_unit),
         distances_(run_distances(settings.view, stage_.scene())),
         parts_(whole_.next(3, ""),
-               static_cast<double>(distances_.size()) * (TruthFinder::weight(settings) + method_weight(settings))),
+               static_cast<double>(distances_.size()) * (TruthFinder::weight(settings) + weight_of_methods(settings))),
         measurer_(stage_) {
     require_pictures(stage_.view(1.0).size, pictures_held(settings.methods.size(), distances_.size()));
   }

@@ -35,7 +35,7 @@ class Lean final : public Method {
   MethodInfo info_{.name = "lean",
                    .summary = "One anisotropic lobe over the mean and the covariance of the footprint's slopes.",
                    .paper = "Olano and Baker 2010, LEAN Mapping, I3D",
-                   .options = {slope_storage_option(), slope_roughness_option(),
+                   .options = {slope_storage_option(), slope_roughness_option(), steepest_slope_option(),
                                word_option("variant", {"lean", "clean"},
                                            "The whole covariance of slopes, or its trace alone (CLEAN): a round lobe "
                                            "and three channels instead of five.")},

@@ -183,6 +183,20 @@ TEST(Lean, NormalsAtTheHorizonStayFinite) {
   }
 }
 
+// One of 16384 texels at the horizon, where slopes have a pole: as steep as it is it would spread the lobe over all.
+TEST(Lean, OneSteepTexelDoesNotOutweighThousands) {
+  const auto peak = [](bool spoilt, const char* steepest) {
+    Image normals = random_normals(128, 128, 0.1F, 4);
+    const glm::vec3 steep(0.9999F, 0.0F, 0.0141F);
+    if (spoilt) std::copy_n(&steep.x, 3, normals.at(40, 50).begin());
+    const Material material = material_of(normals, blinn_phong, 64.0F);
+    return std::ranges::max(probe_ndf(lean(material, {{"steepest", steepest}}), hemisphere_grid(40, 40)));
+  };
+  const double whole = peak(false, "3");
+  EXPECT_NEAR(peak(true, "3") / whole, 1.0, 0.03);
+  EXPECT_LT(peak(true, "50") / whole, 0.7) << "the gate: unbounded it does";
+}
+
 // Grooves have spread across and none along: one slope variance for both axes blurs what two keep apart.
 TEST(Lean, IsNearerToGroovesThanItsScalarVariant) {
   const Material material = material_of(v_grooves(0.3F), blinn_phong, 64);

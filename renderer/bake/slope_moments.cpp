@@ -15,17 +15,18 @@
 namespace footprint {
 namespace {
 
+constexpr double default_steepest = 3.0;  // 71.6 degrees; methods/lean/README.md has what it costs and saves
 constexpr int moment_channels = 5;
 constexpr std::size_t weight_channel = 5;
 
 // B, M and the weight of every texel; nothing but zeros where the weight is 0.
-Image texel_moments(const Image& normals, const Image& variance) {
+Image texel_moments(const Image& normals, const Image& variance, double steepest) {
   Image out(normals.width, normals.height, moment_channels + 1);
   const std::size_t variance_step = variance.texel_count() == 1 ? 0 : 1;
   for (std::size_t i = 0; i < out.texel_count(); ++i) {
     const float* const n = &normals.texels[4 * i];
     if (n[3] <= 0.0F) continue;
-    const glm::dvec2 b = slope_of(glm::normalize(glm::dvec3(n[0], n[1], n[2])));
+    const glm::dvec2 b = slope_of(glm::normalize(glm::dvec3(n[0], n[1], n[2])), steepest);
     const double v = variance.texels[i * variance_step];
     float* const to = &out.texels[i * (weight_channel + 1)];
     to[slope_x] = static_cast<float>(b.x);
@@ -49,14 +50,30 @@ Image spread_over(const Image& image, int width, int height) {
 }
 
 // Normals and base roughness in one set of moments: a texel of one map must lie over a texel of the other.
-std::vector<Image> rough_moment_chain(const Material& material) {
+std::vector<Image> rough_moment_chain(const Material& material, double steepest) {
   const Image variance = lobe_variance_map(material);
   if (variance.texel_count() > 1 && roughness_coordinates(material) != normal_coordinates(material)) {
     throw Error(ErrorKind::usage, fmt::format("material `{}`, roughness=moments", material.name),
                 "its normal and roughness maps have different texture coordinates",
                 "use roughness=stretched or roughness=shading");
   }
-  return slope_moment_chain(spread_over(normal_map_of(material), variance.width, variance.height), variance);
+  return slope_moment_chain(spread_over(normal_map_of(material), variance.width, variance.height), variance, steepest);
+}
+
+// Says so where texels were made less steep than they are; the mend changes them, and a reader should know.
+void note_steep_texels(const Image& normals, std::string_view map, double steepest, Prefiltered& out) {
+  std::size_t steep = 0;
+  for (std::size_t i = 0; i < normals.texel_count(); ++i) {
+    const float* const n = &normals.texels[4 * i];
+    if (n[3] <= 0.0F) continue;
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(n[0], n[1], n[2]));
+    steep += glm::length(slope_of(normal)) > steepest ? 1 : 0;
+  }
+  if (steep > 0)
+    out.notes.push_back(
+        fmt::format("{} of {} texels of the {} are steeper than {:g} and count as that steep (option "
+                    "`steepest`)",
+                    steep, normals.texel_count(), map, steepest));
 }
 
 // Bx, By and the trace of M.
@@ -71,7 +88,11 @@ std::vector<Image> with_trace(const std::vector<Image>& chain) {
 
 }  // namespace
 
-glm::dvec2 slope_of(const glm::dvec3& normal) { return -glm::dvec2(normal) / std::max(normal.z, 1.0 / steepest_slope); }
+glm::dvec2 slope_of(const glm::dvec3& normal, double steepest) {
+  const glm::dvec2 slope = -glm::dvec2(normal) / std::max(normal.z, 1.0 / steepest_slope);
+  const double size = glm::length(slope);
+  return size > steepest ? slope * (steepest / size) : slope;
+}
 
 SlopeMoments layered(const SlopeMoments& a, const SlopeMoments& b) {
   return {a.mean + b.mean, a.second + b.second + glm::outerProduct(a.mean, b.mean) + glm::outerProduct(b.mean, a.mean)};
@@ -88,7 +109,7 @@ glm::dmat2 covariance(const SlopeMoments& moments) {
   return 0.5 * largest * glm::dmat2(1.0 + turn.x, turn.y, turn.y, 1.0 - turn.x);
 }
 
-std::vector<Image> slope_moment_chain(const Image& normals, const Image& variance) {
+std::vector<Image> slope_moment_chain(const Image& normals, const Image& variance, double steepest) {
   if (variance.texel_count() != 1 && (variance.width != normals.width || variance.height != normals.height)) {
     throw Error(
         ErrorKind::usage, "slope moments",
@@ -97,7 +118,7 @@ std::vector<Image> slope_moment_chain(const Image& normals, const Image& varianc
                     variance.width, variance.height, normals.width, normals.height),
         "use roughness=stretched or roughness=shading, or give both maps one size");
   }
-  return channels_of(weighted_mip_chain(texel_moments(normals, variance)),
+  return channels_of(weighted_mip_chain(texel_moments(normals, variance, steepest)),
                      {slope_x, slope_y, slope_xx, slope_xy, slope_yy});
 }
 
@@ -125,10 +146,18 @@ OptionSpec slope_roughness_option() {
       "alone, added to a Gaussian of slopes when shading; or added to the moments when baking.");
 }
 
+OptionSpec steepest_slope_option() {
+  return number_option("steepest", default_steepest, 0.5, steepest_slope,
+                       "The steepest slope of a texel, the tangent of its angle; steeper ones count as that steep. One "
+                       "texel of slope 50 "
+                       "has the second moment of 10000 of slope 0.5.");
+}
+
 Prefiltered bake_slopes(const Material& material, const Options& options, const EffectSet& effects,
                         SlopeVariant variant) {
   const Storage storage = parse_storage(options.word("storage"));
   const bool in_moments = options.word("roughness") == "moments" && has(effects, Effect::normal_variation);
+  const double steepest = options.number("steepest");
   const Image no_variance(1, 1, 1, 0.0F);
   Prefiltered out;
   const auto add = [&](const std::string& name, const std::vector<Image>& chain,
@@ -142,11 +171,17 @@ Prefiltered bake_slopes(const Material& material, const Options& options, const 
     out.textures.push_back(make_texture(name + "_cross", channels_of(chain, {slope_xy}), storage, coordinates));
   };
   if (has(effects, Effect::normal_variation)) {
-    add("slope", in_moments ? rough_moment_chain(material) : slope_moment_chain(normal_map_of(material), no_variance),
+    const Image normals = normal_map_of(material);
+    add("slope",
+        in_moments ? rough_moment_chain(material, steepest) : slope_moment_chain(normals, no_variance, steepest),
         normal_coordinates(material));
+    note_steep_texels(normals, "normal map", steepest, out);
   }
-  if (has(effects, Effect::normal_layers))
-    add("layer", slope_moment_chain(layer_map_of(material), no_variance), layer_coordinates(material));
+  if (has(effects, Effect::normal_layers)) {
+    const Image layer = layer_map_of(material);
+    add("layer", slope_moment_chain(layer, no_variance, steepest), layer_coordinates(material));
+    note_steep_texels(layer, "layer", steepest, out);
+  }
   if (!in_moments)
     std::ranges::move(bake_lobe_variance(material, storage, effects).textures, std::back_inserter(out.textures));
   return out;

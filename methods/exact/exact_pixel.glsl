@@ -17,7 +17,7 @@ Pixel pixelOn(Footprint f, vec2 size) {
   float most = mostTexels();
   float edge = 0.5 * (border + sqrt(border * border + 4.0 * area * most)) / most;
   edge = max(ceil(edge - 1e-3), 1.0);
-  return Pixel(edge, f.uv * size / edge, widened(edges * (1.0 / edge)));
+  return Pixel(edge, f.uv * size / edge, widened(edges * (1.0 / edge), narrowest_pixel));
 }
 
 // What of an edge lies between two heights: least and largest x; the one above the other where it has nothing there.

@@ -129,7 +129,7 @@ TEST_P(ExactWeights, OfALineAreThoseOfANarrowPixel) {
                                          {{0.3, 0.1}, {{0.4, 0.2}, {0.2, 0.1}}},
                                          {{0.0, 0.1}, {{0.0, 0.0}, {2.0, -1.0}}}};
   const auto shares = probe_exact(GetParam(),
-                                  "mat2 edges = widened(mat2(b.xy, b.zw));\n"
+                                  "mat2 edges = widened(mat2(b.xy, b.zw), narrowest_pixel);\n"
                                   "return vec4(texelShare(a.xy, edges) / abs(determinant(edges)), "
                                   "abs(determinant(edges)), 0.0, 0.0);",
                                   as_inputs(lines));

@@ -6,30 +6,12 @@
 //
 // and no polygon has to be cut. Any constant may be added to K: around P the integral of k(x) dx is 0.
 
+//? include parallelogram.glsl
+
 //? if kernel_areas
 const float weight_reach = 0.5;  // of k to either side
 
-// The mean over [a, b] of K(y) = y cut off at -1/2 and 1/2. From the antiderivative C of K it is
-// (C(b) - C(a)) / (b - a), which is 0 / 0 along x; so the lengths below, within and above the texel are weighed by K's
-// means over them: sums of which none cancels.
-float meanClamped(float a, float b) {
-  float low = min(a, b);
-  float high = max(a, b);
-  float whole = high - low;
-  if (whole < 1e-6) return clamp(0.5 * (low + high), -0.5, 0.5);
-  float below = clamp(-0.5 - low, 0.0, whole);
-  float above = clamp(high - 0.5, 0.0, whole);
-  float middle = 0.5 * (clamp(low, -0.5, 0.5) + clamp(high, -0.5, 0.5));
-  return (0.5 * (above - below) + middle * (whole - below - above)) / whole;
-}
-
-// The integral of k(x) K(y) dx along the straight way from `from` by `along`.
-float alongEdge(vec2 from, vec2 along) {
-  float run = abs(along.x) > 1e-9 ? along.x : 1e-9;
-  vec2 t = clamp((vec2(-0.5, 0.5) - from.x) / run, 0.0, 1.0);  // where it enters and leaves the texel's column
-  vec2 y = from.y + along.y * t;
-  return along.x * abs(t.y - t.x) * meanClamped(y.x, y.y);
-}
+float texelShare(vec2 centre, mat2 edges) { return coveredArea(centre, edges); }
 //? else
 const float weight_reach = 1.0;  // of k to either side
 
@@ -68,7 +50,6 @@ float alongEdge(vec2 from, vec2 along) {
   return along.x * (cutInHeight(from, along, heights, columns.x, columns.y) +
                     cutInHeight(from, along, heights, columns.y, columns.z));
 }
-//? end
 
 // The weight of the texel at 0, of side 1, in a parallelogram about `centre` with `edges` for columns. Those of all
 // texels sum to its area, but for rounding: some 1e-7 of its edges' lengths.
@@ -78,20 +59,8 @@ float texelShare(vec2 centre, mat2 edges) {
                  alongEdge(corner + edges[1], edges[0]) - alongEdge(corner, edges[1]);
   return max(determinant(edges) > 0.0 ? -around : around, 0.0);
 }
+//? end
 
 // No parallelogram is narrower than this: of one that is, rounding would leave little. Bilinear weights change by less
 // than half of it over its width.
 const float narrowest_pixel = 1.0 / 256.0;
-
-mat2 widened(mat2 edges) {
-  bool first = dot(edges[0], edges[0]) >= dot(edges[1], edges[1]);
-  vec2 longer = first ? edges[0] : edges[1];
-  vec2 shorter = first ? edges[1] : edges[0];
-  float size = length(longer);
-  if (size < narrowest_pixel) return mat2(narrowest_pixel, 0.0, 0.0, narrowest_pixel);
-  vec2 along = longer / size;
-  vec2 across = vec2(-along.y, along.x);
-  float width = dot(shorter, across);
-  float missing = max(narrowest_pixel - abs(width), 0.0);
-  return mat2(longer, shorter + across * (width < 0.0 ? -missing : missing));
-}

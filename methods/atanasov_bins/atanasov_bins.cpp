@@ -1,0 +1,128 @@
+// `atanasov_bins`: a bin map of the normals and its inverse; the density of normals under a pixel is a count of texels.
+// Atanasov, Křivánek, Koylazov and Wilkie 2020, "Efficient Multiscale Rendering of Specular Microstructure".
+#include <algorithm>
+#include <iterator>
+
+#include "methods/atanasov_bins/bin_textures.hpp"
+#include "methods/atanasov_bins/bins.hpp"
+#include "methods/atanasov_bins/inverse_map.hpp"
+#include "renderer/bake/facet_lobes.hpp"
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/bake/method.hpp"
+#include "renderer/bake/normal_chain.hpp"
+
+namespace footprint {
+
+namespace embedded {
+extern const EmbeddedTexts atanasov_bins_glsl;
+}
+
+namespace {
+
+using namespace atanasov_bins;
+
+// Where texels reflect by lobes, a bin is as wide as this share of a lobe's standard deviation, or wider.
+constexpr double bin_width = 1.5;
+
+// Where the roughness varies, that of the mean slope variance.
+double base_variance(const Material& material) {
+  if (width_map(material) == nullptr) return mean_lobe_variance(material);
+  return lobe_variance_chain(material).back().texels.front();
+}
+
+int bins_across(const Material& material, const Options& options) {
+  const int m = static_cast<int>(options.number("m"));
+  const std::string roughness = options.word("roughness");
+  const double alpha = options.number("alpha");
+  if (roughness == "flakes") return bins_across_for(0.5 * alpha * alpha, bin_width, most_bins_across);
+  return roughness == "lobe" ? bins_across_for(base_variance(material), bin_width, m) : m;
+}
+
+// Flakes have a lobe of their own, and mirrors that face h need none.
+bool reads_base_lobe(const Options& options) {
+  const std::string roughness = options.word("roughness");
+  return roughness == "lobe" || (roughness == "bin" && options.word("surface") == "microfacets");
+}
+
+float wrap_number(Wrap wrap) {
+  if (wrap == Wrap::repeat) return 0.0F;
+  return wrap == Wrap::mirrored_repeat ? 1.0F : 2.0F;
+}
+
+// Means of 4 x 4 texels and coarser: of fewer the shader takes the texels' own.
+PrefilteredTexture mean_normal_texture(const Material& material) {
+  std::vector<Image> chain = mean_normal_chain(material);
+  chain.erase(chain.begin(), chain.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(chain.size() - 1, 2)));
+  return make_texture("bins_mean_normal", chain, Storage::fp16, normal_coordinates(material));
+}
+
+class AtanasovBins final : public Method {
+ public:
+  [[nodiscard]] const MethodInfo& info() const override { return info_; }
+
+  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                                       const Progress& progress) const override {
+    Prefiltered out;
+    const int across = bins_across(material, options);
+    out.scalars["bins_across"] = static_cast<float>(across);
+    if (reads_base_lobe(options)) {
+      std::ranges::move(bake_lobe_variance(material, Storage::fp32, effects).textures,
+                        std::back_inserter(out.textures));
+    }
+    if (!has(effects, Effect::normal_variation)) return out;
+    if (has(effects, Effect::diffuse)) out.textures.push_back(mean_normal_texture(material));
+    add_maps(material, across, options.word("roughness") != "bin", progress, out);
+    return out;
+  }
+
+  [[nodiscard]] ShaderModule shader() const override {
+    return module_of(embedded::atanasov_bins_glsl, "atanasov_bins.glsl");
+  }
+
+ private:
+  static void add_maps(const Material& material, int across, bool lobes, const Progress& progress, Prefiltered& out) {
+    const TextureCoordinates coordinates = normal_coordinates(material);
+    const Image flat = material.normal_map ? Image() : normal_map_of(material);
+    const Image& normals = material.normal_map ? *material.normal_map->image : flat;
+    const BinMap bins = bin_map(normals, across, progress);
+    out.textures.push_back(bin_map_texture(bins, coordinates));
+    const InverseMap inverse = inverse_of(bins, progress);
+    add_inverse_map(inverse, out);
+    if (lobes) add_list_normals(list_normals(inverse, normals), out);
+    out.scalars["bins_wrap_u"] = wrap_number(coordinates.wrap[0]);
+    out.scalars["bins_wrap_v"] = wrap_number(coordinates.wrap[1]);
+  }
+
+  MethodInfo info_{
+      .name = "atanasov_bins",
+      .summary = "Normals sorted into bins of the half vector; trees count each bin's texels under the footprint.",
+      .paper = "Atanasov, Krivanek, Koylazov, Wilkie 2020, Efficient Multiscale Rendering of Specular Microstructure",
+      .options =
+          {whole_option(
+               "m", 127, 1, most_bins_across,
+               "Bins along an edge: the hemisphere has m x m of equal solid angle. With roughness=lobe at most "
+               "so many, none narrower than 1.5 of the lobe's deviations; roughness=flakes takes what alpha "
+               "calls for."),
+           word_option("roughness", {"lobe", "bin", "flakes"},
+                       "What spreads a texel's normal: the base lobe about it, bins around the half vector included; "
+                       "the bin that it is in, as published; a Beckmann lobe of `alpha` of every flake's own."),
+           number_option("alpha", 0.01, 0.0025, 0.04, "With roughness=flakes: Beckmann's width of a flake."),
+           word_option("footprint", {"parallelogram", "box", "filter"},
+                       "Which texels count: those under the pixel's parallelogram; those in the box about it along the "
+                       "map's axes; those that the footprint filter would blend."),
+           word_option("surface", {"facets", "microfacets"},
+                       "What the density is of: texels that each reflect about their own normal, as the reference has "
+                       "them; microfacets of a surface about its own normal, as published, D over the cosine.")},
+      .honours = map_effects_but({Effect::normal_layers, Effect::multi_lobe, Effect::environment_light}),
+      .slow_precompute = true,
+      .slow_frame = true};
+};
+
+}  // namespace
+
+const Method& atanasov_bins_method() {
+  static const AtanasovBins method;
+  return method;
+}
+
+}  // namespace footprint

@@ -1,0 +1,26 @@
+// The texels of a bin: where they are, and how a bin finds them.
+
+// Texels [first, end) of `bins_texels`, and their tree in `bins_forest`.
+struct TexelList {
+  uint first;
+  uint end;
+  uint root;
+};
+
+// Two integers a list, first texel and root; behind the last one where it ends.
+TexelList listAt(uint i) {
+  return TexelList(wordAt(bins_lists, 2u * i), wordAt(bins_lists, 2u * i + 2u), wordAt(bins_lists, 2u * i + 1u));
+}
+
+// The list of a bin; -1: the bin is empty.
+int listOfBin(uint bin) {
+  uint slots = uint(bins_hash_slots);
+  uint slot = (bin * 2654435769u) >> (32 - findMSB(slots));
+  for (uint i = 0u; i < slots; ++i) {
+    uint found = wordAt(bins_hash, 2u * slot);
+    if (found == bin) return int(wordAt(bins_hash, 2u * slot + 1u));
+    if (found == 0xFFFFFFFFu) return -1;
+    slot = (slot + 1u) & (slots - 1u);
+  }
+  return -1;
+}

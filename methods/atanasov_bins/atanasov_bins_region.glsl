@@ -1,0 +1,93 @@
+// A footprint on the map as a parallelogram in texels, and what it covers of boxes.
+//? include parallelogram.glsl
+
+struct Region {
+  vec2 centre;   // in texels; (0, 0) is the first texel's corner
+  mat2 edges;    // columns
+  mat2 to_unit;  // to the square [-1/2, 1/2]^2 that it is the image of
+  vec2 reach;    // half of the sides of the box about it
+  float weight;  // of all regions that a pixel is made of: the sum is 1
+};
+
+Region regionAbout(vec2 centre, mat2 edges, float weight) {
+  return Region(centre, edges, inverse(edges), 0.5 * (abs(edges[0]) + abs(edges[1])), weight);
+}
+
+float areaOf(Region r) { return abs(determinant(r.edges)); }
+
+// A map that a footprint covers more often than this along an axis counts once, as a whole.
+//? if roughness_bin
+const float most_periods = 16.0;
+//? else
+const float most_periods = 4.0;
+//? end
+
+vec2 mapSize() { return vec2(textureSize(bins_map, 0)); }
+
+Region wholeMap(float weight) {
+  vec2 size = mapSize();
+  return regionAbout(0.5 * size, mat2(size.x, 0.0, 0.0, size.y), weight);
+}
+
+// Of no less than a texel: the bilinear filter where texels are large on screen.
+Region regionOf(vec2 centre, mat2 edges, float weight) {
+  Region r = regionAbout(centre, widened(edges, 1.0), weight);
+  vec2 most = mix(vec2(0.5 * most_periods) * mapSize(), vec2(1e6), equal(vec2(bins_wrap_u, bins_wrap_v), vec2(2.0)));
+  return all(lessThan(r.reach, most)) ? r : wholeMap(weight);  // what is no number too
+}
+
+//? if footprint_filter
+// The texels that the footprint filter would blend: each as the texels of the finest level that it stands for.
+int regionCount(Footprint f) { return footprintTexelCount(textureSize(bins_map, 0), f); }
+
+Region regionAt(Footprint f, int i) {
+  ivec2 finest = textureSize(bins_map, 0);
+  FootprintTexel texel = footprintTexel(finest, f, i);
+  vec2 texels = levelSize(finest, int(texel.level));
+  // Beyond the border of a map that does not repeat its outermost texel of that level goes on.
+  vec2 within = clamp(texel.uv, 0.5 / texels, 1.0 - 0.5 / texels);
+  vec2 uv = mix(texel.uv, within, equal(vec2(bins_wrap_u, bins_wrap_v), vec2(2.0)));
+  vec2 sides = vec2(finest) / texels;
+  return regionOf(uv * vec2(finest), mat2(sides.x, 0.0, 0.0, sides.y), texel.weight);
+}
+//? else
+int regionCount(Footprint f) { return 1; }
+
+Region regionAt(Footprint f, int i) {
+  mat2 edges = mat2(f.dx * mapSize(), f.dy * mapSize());
+//? if footprint_box
+  vec2 sides = abs(edges[0]) + abs(edges[1]);
+  edges = mat2(sides.x, 0.0, 0.0, sides.y);
+//? end
+  return regionOf(f.uv * mapSize(), edges, 1.0);
+}
+//? end
+
+// How a box lies to a region.
+const int outside = 0;
+const int cut = 1;
+const int inside = 2;
+
+int sideOf(Region r, vec2 lower, vec2 upper) {
+  vec2 half_sides = 0.5 * (upper - lower);
+  vec2 middle = 0.5 * (upper + lower) - r.centre;
+  vec2 at = abs(r.to_unit * middle);
+  vec2 extent = mat2(abs(r.to_unit[0]), abs(r.to_unit[1])) * half_sides;
+  if (any(greaterThanEqual(at - extent, vec2(0.5))) || any(greaterThanEqual(abs(middle) - half_sides, r.reach)))
+    return outside;
+  return all(lessThanEqual(at + extent, vec2(0.5 + 1e-6))) ? inside : cut;
+}
+
+// The area of a box that a region covers.
+float areaWithin(Region r, vec2 lower, vec2 upper) {
+  vec2 sides = upper - lower;
+  mat2 to_box = mat2(1.0 / sides.x, 0.0, 0.0, 1.0 / sides.y);
+  return coveredArea(to_box * (r.centre - 0.5 * (upper + lower)), to_box * r.edges) * sides.x * sides.y;
+}
+
+float coveredOf(Region r, vec2 lower, vec2 upper) {
+  int side = sideOf(r, lower, upper);
+  if (side == outside) return 0.0;
+  vec2 sides = upper - lower;
+  return side == inside ? sides.x * sides.y : areaWithin(r, lower, upper);
+}

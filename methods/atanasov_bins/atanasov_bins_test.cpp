@@ -1,0 +1,286 @@
+// The shader's density against plain sums over texels: by bins and by lobes, over any footprint and border, with texels
+// that have no normal; its pictures against those of `exact`.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "methods/atanasov_bins/bins_twin.hpp"
+#include "renderer/image/metrics.hpp"
+#include "tests/support/method_probe.hpp"
+#include "tests/support/rendering.hpp"
+#include "tests/support/test_scenes.hpp"
+
+namespace footprint {
+const Method& atanasov_bins_method();
+const Method& exact_method();
+}  // namespace footprint
+
+namespace footprint::testing {
+namespace {
+
+using atanasov_bins::bin_of;
+using atanasov_bins::bin_solid_angle;
+using std::numbers::pi;
+
+constexpr BaseBrdf blinn_phong{NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, false};
+constexpr double exponent = 200.0;
+
+// Random normals, a quarter of them alike, some invalid; none at the border of a bin.
+Image test_normals(int width, int height, float tilt, int m) {
+  Image image = random_normals(width, height, tilt, 21);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const std::span<float> n = image.at(x, y);
+      const bool same = x >= width / 2 && y >= height / 2;
+      const glm::dvec3 normal = same ? glm::dvec3(0.1, -0.05, 0.99) : glm::dvec3(n[0], n[1], n[2]);
+      const std::uint32_t bin = bin_of(glm::normalize(normal), m);
+      const auto across = static_cast<std::uint32_t>(m);
+      // 0.3 and 0.6 of the bin's edges: packed normals and those of 32 bits are in it all the same.
+      const glm::vec3 inner(square_to_hemisphere((glm::dvec2(bin % across, bin / across) + glm::dvec2(0.3, 0.6)) /
+                                                 static_cast<double>(m)));
+      std::copy_n(&inner.x, 3, n.begin());
+      n[3] = x % 5 == 2 && y % 3 == 1 ? 0.0F : 1.0F;
+    }
+  }
+  return image;
+}
+
+Material material_of(Image normals, Wrap wrap) {
+  Material material = square_scene(normals, {.brdf = blinn_phong}).materials[0];
+  material.lobe_parameter = static_cast<float>(exponent);
+  material.normal_map->coordinates.wrap = {wrap, wrap};
+  return material;
+}
+
+// Parallelograms in texels of a map: aligned, sheared, mirrored, over its borders, within a texel, of all of it.
+std::vector<Parallelogram> footprints_on(const glm::dvec2& size) {
+  return {{{0.3 * size.x, 0.4 * size.y}, {{0.2 * size.x, 0.0}, {0.0, 0.3 * size.y}}},
+          {{0.5 * size.x, 0.5 * size.y}, {{0.3 * size.x, 0.1 * size.y}, {-0.05 * size.x, 0.2 * size.y}}},
+          {{0.4 * size.x, 0.6 * size.y}, {{0.0, 0.5 * size.y}, {0.3 * size.x, 0.0}}},
+          {{0.95 * size.x, 0.02 * size.y}, {{0.4 * size.x, -0.1 * size.y}, {0.1 * size.x, 0.3 * size.y}}},
+          {{-0.7 * size.x, 1.6 * size.y}, {{1.4 * size.x, 0.3 * size.y}, {-0.4 * size.x, 1.1 * size.y}}},
+          {{0.31 * size.x, 0.44 * size.y}, {{1.2, 0.1}, {-0.1, 1.4}}},
+          {0.5 * size, {{size.x, 0.0}, {0.0, size.y}}}};
+}
+
+// A probe's input: the footprint in uv, a direction.
+std::array<glm::vec4, 3> input_of(const Parallelogram& p, const glm::dvec2& size, const glm::dvec3& h) {
+  return {glm::vec4(glm::vec2(p.centre / size), 0.0F, 0.0F),
+          glm::vec4(glm::vec2(p.edges[0] / size), glm::vec2(p.edges[1] / size)), glm::vec4(glm::vec3(h), 0.0F)};
+}
+
+std::vector<glm::vec4> probe_footprints(const Material& material, const std::map<std::string, std::string>& options,
+                                        const std::string& value, std::span<const std::array<glm::vec4, 3>> inputs) {
+  ProbedMethod probed{&atanasov_bins_method(), &material, options};
+  return probe_method(
+      probed, "Footprint f = Footprint(a.xy, b.xy, b.zw);\ne = effective(Footprints(f, f, f));\nreturn " + value + ";",
+      inputs);
+}
+
+// The mean over a footprint's texels that have a normal of what `value` says of it.
+template <class Value>
+double plain_mean(const Image& normals, const Parallelogram& p, Wrap wrap, const Value& value) {
+  double sum = 0.0, area = 0.0;
+  for_each_texel(p, {normals.width, normals.height}, wrap, [&](int x, int y, double covered) {
+    const std::span<const float> n = normals.at(x, y);
+    if (n[3] < 0.5F) return;
+    sum += covered * value(glm::dvec3(n[0], n[1], n[2]));
+    area += covered;
+  });
+  return sum / area;
+}
+
+class OverBorders : public ::testing::TestWithParam<Wrap> {};
+
+// Every bin that has a normal, and some that have none; small maps texel by texel, large ones by lists.
+TEST_P(OverBorders, BinsDensityIsAPlainSum) {
+  constexpr int m = 15;
+  for (const glm::ivec2& size : {glm::ivec2(6, 5), {64, 64}, {45, 67}}) {
+    const Image normals = test_normals(size.x, size.y, 0.5F, m);
+    const Material material = material_of(normals, GetParam());
+    for (const Parallelogram& p : footprints_on(glm::dvec2(size))) {
+      std::vector<std::array<glm::vec4, 3>> inputs;
+      std::vector<double> truth;
+      double energy = 0.0;
+      for (std::uint32_t bin = 0; bin < m * m; ++bin) {
+        const glm::dvec3 h = square_to_hemisphere((glm::dvec2(bin % m, bin / m) + 0.5) / double{m});
+        inputs.push_back(input_of(p, size, h));
+        truth.push_back(plain_mean(normals, p, GetParam(), [&](const glm::dvec3& n) {
+          return bin_of(glm::normalize(n), m) == bin ? 1.0 / bin_solid_angle(m) : 0.0;
+        }));
+      }
+      const auto found = probe_footprints(material, {{"m", "15"}, {"roughness", "bin"}}, "vec4(ndf(e, c.xyz))", inputs);
+      for (std::size_t i = 0; i < truth.size(); ++i) {
+        // Of the largest density that there may be. The footprint has been through texture coordinates in 32 bits.
+        ASSERT_NEAR(found[i].x * bin_solid_angle(m), truth[i] * bin_solid_angle(m), 1e-5 * (1.0 + 2.0 * size.x / 64.0))
+            << size.x << ", centre " << p.centre.x << ", bin " << i;
+        energy += found[i].x * bin_solid_angle(m);
+      }
+      EXPECT_NEAR(energy, 1.0, 2e-5) << size.x << ", centre " << p.centre.x;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Wraps, OverBorders,
+                         ::testing::Values(Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge));
+
+// The density of one of the map's corners where a footprint lies elsewhere: what the test above would see.
+TEST(AtanasovBins, AFootprintElsewhereIsSeen) {
+  constexpr int m = 15;
+  const Image normals = test_normals(64, 64, 0.5F, m);
+  const Material material = material_of(normals, Wrap::repeat);
+  const Parallelogram p = footprints_on({64.0, 64.0})[1];
+  const glm::dvec3 h = glm::normalize(glm::dvec3(0.1, -0.05, 0.99));
+  const auto found = probe_footprints(
+      material, {{"m", "15"}, {"roughness", "bin"}}, "vec4(ndf(e, c.xyz))",
+      std::vector{input_of(p, {64.0, 64.0}, h), input_of({p.centre + glm::dvec2(0.5, 0.0), p.edges}, {64.0, 64.0}, h)});
+  EXPECT_GT(std::abs(found[0].x - found[1].x) * bin_solid_angle(m), 1e-3);
+}
+
+// The shader's bins and packed normals are those of bins.cpp.
+TEST(AtanasovBins, PackedNormalsAndBinsAreTheTwins) {
+  constexpr int m = 127;
+  const Material material = material_of(test_normals(8, 8, 0.5F, m), Wrap::repeat);
+  std::vector<std::array<glm::vec4, 3>> inputs;
+  std::vector<glm::dvec3> normals;
+  for (int i = 0; i < 500; ++i) {
+    const double z = 1.0 - (i + 0.5) / 500.0, angle = 2.4 * i, r = std::sqrt(1.0 - z * z);
+    normals.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
+    const std::uint32_t packed = atanasov_bins::packed_normal(normals.back(), m);
+    inputs.push_back({glm::vec4(packed & 0xFFFFU, packed >> 16U, 0, 0), glm::vec4(0), glm::vec4(0)});
+  }
+  const ProbedMethod probed{&atanasov_bins_method(), &material, {{"roughness", "bin"}}};
+  const auto found = probe_method(probed,
+                                  "uint code = uint(a.x) | uint(a.y) << 16;\n"
+                                  "vec3 n = unpackedNormal(code);\n"
+                                  "return vec4(n, binOfPacked(code) == binIn(cellOf(n)) ? float(binOfPacked(code)) : "
+                                  "-1.0);",
+                                  inputs);
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    EXPECT_LT(glm::length(glm::dvec3(found[i]) - normals[i]), 1e-4) << i;
+    EXPECT_EQ(found[i].w, static_cast<float>(bin_of(normals[i], m))) << i;
+  }
+}
+
+double phong_density(const glm::dvec3& n, const glm::dvec3& h) {
+  return (exponent + 1.0) / (2.0 * pi) * std::pow(std::max(glm::dot(n, h), 0.0), exponent);
+}
+
+double beckmann_density(double alpha, const glm::dvec3& n, const glm::dvec3& h) {
+  const double c = std::max(glm::dot(n, h), 1e-3);
+  return std::exp(-(1.0 / (c * c) - 1.0) / (alpha * alpha)) / (pi * alpha * alpha * std::pow(c, 4.0));
+}
+
+const std::vector<glm::dvec3> some_directions{{0.0, 0.0, 1.0}, {0.1, -0.05, 0.99}, {0.2, 0.15, 0.9}, {-0.3, 0.1, 0.9}};
+
+// The largest difference to the plain sum of lobes over directions and footprints, over the largest of the sums.
+template <class Density>
+double largest_error(const Image& normals, const std::vector<Parallelogram>& footprints,
+                     const std::map<std::string, std::string>& options, const Density& density) {
+  const Material material = material_of(normals, Wrap::repeat);
+  const glm::dvec2 size(normals.width, normals.height);
+  std::vector<std::array<glm::vec4, 3>> inputs;
+  std::vector<double> truth;
+  for (const Parallelogram& p : footprints) {
+    for (const glm::dvec3& direction : some_directions) {
+      const glm::dvec3 h = glm::normalize(direction);
+      inputs.push_back(input_of(p, size, h));
+      truth.push_back(plain_mean(normals, p, Wrap::repeat, [&](const glm::dvec3& n) { return density(n, h); }));
+    }
+  }
+  const auto found = probe_footprints(material, options, "vec4(ndf(e, c.xyz))", inputs);
+  double error = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i) error = std::max(error, std::abs(found[i].x - truth[i]));
+  return error / *std::ranges::max_element(truth);
+}
+
+TEST(AtanasovBins, LobesOfASmallFootprintAreAPlainSum) {
+  const Image normals = test_normals(64, 64, 0.4F, 2047);
+  const std::vector<Parallelogram> small{{{20.3, 17.1}, {{12.0, 3.0}, {-4.0, 9.0}}},
+                                         {{63.2, 0.4}, {{2.0, 0.0}, {0.0, 3.0}}}};
+  EXPECT_LT(largest_error(normals, small, {}, phong_density), 3e-4);
+  const auto flake = [](const glm::dvec3& n, const glm::dvec3& h) { return beckmann_density(0.04, n, h); };
+  EXPECT_LT(largest_error(normals, small, {{"roughness", "flakes"}, {"alpha", "0.04"}}, flake), 1e-3);
+  EXPECT_GT(largest_error(normals, small, {{"roughness", "flakes"}, {"alpha", "0.03"}}, flake), 0.05);
+}
+
+// Of a large one the lobe stands about the mean normal of each bin, as wide as that bin's normals make it: the error is
+// that of the bins, and finer ones have less.
+TEST(AtanasovBins, LobesOfALargeFootprintConverge) {
+  const Image normals = test_normals(256, 256, 0.4F, 2047);
+  const std::vector<Parallelogram> large{{{120.3, 117.1}, {{112.0, 13.0}, {-14.0, 99.0}}},
+                                         {{3.0, 250.0}, {{100.0, 0.0}, {0.0, 80.0}}}};
+  const double coarse = largest_error(normals, large, {{"m", "9"}}, phong_density);
+  const double fine = largest_error(normals, large, {{"m", "127"}}, phong_density);
+  EXPECT_LT(fine, 0.02);
+  EXPECT_GT(coarse, 3.0 * fine);
+  const auto flake = [](const glm::dvec3& n, const glm::dvec3& h) { return beckmann_density(0.04, n, h); };
+  // Bins 1.5 of the lobe's deviations wide move a normal by 0.43 deviations, root mean square along an axis, where a
+  // Gaussian lobe's slope is 0.6 of its peak a deviation at most: a quarter of it for one texel, less for more.
+  EXPECT_LT(largest_error(normals, large, {{"roughness", "flakes"}, {"alpha", "0.04"}}, flake), 0.12);
+}
+
+// A map of texels without a normal is the surface's own; normals below the horizon are those on the rim.
+TEST(AtanasovBins, HoldsWhatIsNoNormalAndWhatIsBelowTheHorizon) {
+  const Parallelogram all{{32.0, 32.0}, {{64.0, 0.0}, {0.0, 64.0}}};
+  Image none = random_normals(64, 64, 0.5F, 2);
+  for (std::size_t i = 3; i < none.texels.size(); i += 4) none.texels[i] = 0.0F;
+  const auto up = probe_footprints(material_of(none, Wrap::repeat), {{"m", "15"}, {"roughness", "bin"}},
+                                   "vec4(ndf(e, c.xyz))", std::vector{input_of(all, {64.0, 64.0}, {0.0, 0.0, 1.0})});
+  EXPECT_NEAR(up[0].x * bin_solid_angle(15), 1.0, 1e-5);
+  const glm::vec3 below = glm::normalize(glm::vec3(0.8F, 0.1F, -0.4F));
+  const auto rim = probe_footprints(
+      material_of(constant_normals(64, 64, below), Wrap::repeat), {{"m", "15"}, {"roughness", "bin"}},
+      "vec4(ndf(e, c.xyz))", std::vector{input_of(all, {64.0, 64.0}, glm::normalize(glm::dvec3(0.8, 0.1, 1e-3)))});
+  EXPECT_NEAR(rim[0].x * bin_solid_angle(15), 1.0, 1e-5);
+}
+
+// Walter's form: D over the cosine, so that the surface's projected area is one.
+TEST(AtanasovBins, MicrofacetsHaveTheDensityOverTheCosine) {
+  const Image normals = test_normals(64, 64, 0.5F, 15);
+  Material material = material_of(normals, Wrap::repeat);
+  const Parallelogram p = footprints_on({64.0, 64.0})[1];
+  const glm::dvec3 h = glm::normalize(glm::dvec3(0.1, -0.05, 0.99));
+  const std::string reflected =
+      "vec4(shade(e, Surface(vec3(0.0), vec3(1.0)), c.xyz, c.xyz).specular.x, "
+      "ndf(e, c.xyz), 0.0, 0.0)";
+  for (const char* const roughness : {"bin", "lobe", "flakes"}) {
+    const auto found = probe_footprints(material, {{"m", "15"}, {"roughness", roughness}, {"surface", "microfacets"}},
+                                        reflected, std::vector{input_of(p, {64.0, 64.0}, h)});
+    EXPECT_NEAR(found[0].x, found[0].y / h.z, 1e-5 * found[0].y) << roughness;
+    const auto facets = probe_footprints(material, {{"m", "15"}, {"roughness", roughness}}, reflected,
+                                         std::vector{input_of(p, {64.0, 64.0}, h)});
+    EXPECT_NEAR(facets[0].x, facets[0].y, 1e-5 * facets[0].y) << roughness;
+  }
+}
+
+// ---- pictures ----
+
+double difference(TestRenderer& renderer, const std::string& text, const std::string& exact) {
+  return compare_images(renderer.frame(atanasov_bins_method(), text), renderer.frame(exact_method(), exact), 1.0F)
+      .value()
+      .relative_rmse;
+}
+
+// Pixels of some texels, of hundreds and of thousands, by every footprint: those of `exact`'s kernels.
+TEST(AtanasovBins, PicturesAreThoseOfTheSameTexels) {
+  const BaseBrdf brdf{NormalDistribution::ggx, GeometryTerm::smith, FresnelTerm::schlick, true};
+  for (const int texels : {64, 512, 2048}) {
+    TestRenderer renderer(square_scene(random_normals(texels, texels, 0.5F, 5), {.brdf = brdf, .roughness = 0.25F}),
+                          {24, 24});
+    // What lists stand in: means of bins, and GGX's tail without its last hundredth.
+    EXPECT_LT(difference(renderer, "atanasov_bins", "exact:kernel=areas"), 5e-3) << texels;
+    EXPECT_LT(difference(renderer, "atanasov_bins:footprint=filter", "exact"), 5e-3) << texels;
+    if (texels == 2048) continue;  // where the kernels differ by less than that
+    EXPECT_GT(difference(renderer, "atanasov_bins", "exact"), 0.01) << texels;
+  }
+}
+
+}  // namespace
+}  // namespace footprint::testing

@@ -1,0 +1,97 @@
+// Integers as bytes: no format of the pipeline is an integer, and a byte comes back from a texture exactly.
+#include "methods/atanasov_bins/bin_textures.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+namespace footprint::atanasov_bins {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "words are copied as they lie in memory");
+
+std::vector<std::uint8_t> bytes_of(std::span<const std::uint32_t> words, std::size_t count) {
+  std::vector<std::uint8_t> bytes(4 * count);
+  if (!words.empty()) std::memcpy(bytes.data(), words.data(), words.size_bytes());
+  return bytes;
+}
+
+PrefilteredTexture words_of(std::string name, int width, int height, std::vector<std::uint8_t> bytes) {
+  PrefilteredTexture texture;
+  texture.name = std::move(name);
+  texture.storage = Storage::unorm8;
+  texture.channels = 4;
+  texture.filter = TextureFilter::nearest;
+  texture.levels.push_back({.width = width, .height = height, .bytes = std::move(bytes)});
+  return texture;
+}
+
+// The least power of two whose square is not below the count: 2^28 integers fit 16384 x 16384.
+int columns_for(std::size_t count) {
+  int columns = 1;
+  while (static_cast<std::size_t>(columns) * static_cast<std::size_t>(columns) < count) columns *= 2;
+  return columns;
+}
+
+int rows_for(std::size_t count, int columns) {
+  const auto row = static_cast<std::size_t>(columns);
+  return static_cast<int>((std::max<std::size_t>(count, 1) + row - 1) / row);
+}
+
+}  // namespace
+
+PrefilteredTexture word_texture(std::string name, std::span<const std::uint32_t> words) {
+  const int columns = columns_for(words.size());
+  const int rows = rows_for(words.size(), columns);
+  return words_of(std::move(name), columns, rows,
+                  bytes_of(words, static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)));
+}
+
+std::uint32_t word_at(const PrefilteredTexture& texture, std::size_t i) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, texture.levels.front().bytes.data() + 4 * i, sizeof(word));
+  return word;
+}
+
+PrefilteredTexture bin_map_texture(const BinMap& map, const TextureCoordinates& coordinates) {
+  PrefilteredTexture texture = words_of("bins_map", map.width, map.height, bytes_of(map.normals, map.normals.size()));
+  texture.coordinates = coordinates;
+  return texture;
+}
+
+void add_inverse_map(const InverseMap& map, Prefiltered& out) {
+  std::vector<std::uint32_t> lists;
+  lists.reserve(2 * map.lists.size() + 1);
+  for (const TexelList& list : map.lists) {
+    lists.push_back(list.first);
+    lists.push_back(list.root);
+  }
+  lists.push_back(static_cast<std::uint32_t>(map.texels.size()));
+  const std::vector<std::uint32_t> hash = hashed_lists(map);
+  out.textures.push_back(word_texture("bins_texels", map.texels));
+  out.textures.push_back(word_texture("bins_forest", map.forest));
+  out.textures.push_back(word_texture("bins_lists", lists));
+  out.textures.push_back(word_texture("bins_hash", hash));
+  const bool invalid = map.has_invalid();
+  out.scalars["bins_hash_slots"] = static_cast<float>(hash.size() / 2);
+  out.scalars["bins_list_count"] = static_cast<float>(map.lists.size() - (invalid ? 1 : 0));
+  out.scalars["bins_invalid_list"] = invalid ? static_cast<float>(map.lists.size() - 1) : -1.0F;
+}
+
+void add_list_normals(std::span<const ListNormal> normals, Prefiltered& out) {
+  const int columns = columns_for(normals.size());
+  Image image(columns, rows_for(normals.size(), columns), 4);
+  double most = 0.0;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const glm::vec4 texel(glm::vec3(normals[i].mean), static_cast<float>(normals[i].spread));
+    std::copy_n(&texel.x, 4, image.texels.begin() + static_cast<std::ptrdiff_t>(4 * i));
+    most = std::max(most, normals[i].spread);
+  }
+  out.textures.push_back(make_texture("bins_normals", {image}, Storage::fp32, {}));
+  out.textures.back().filter = TextureFilter::nearest;
+  out.scalars["bins_spread"] = static_cast<float>(most);
+}
+
+}  // namespace footprint::atanasov_bins

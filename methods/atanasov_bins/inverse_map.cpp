@@ -1,0 +1,207 @@
+// A counting sort by bin, then a tree for each long list: texels are partitioned in place, halves of long lists at the
+// same time.
+#include "methods/atanasov_bins/inverse_map.hpp"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <span>
+
+#include "methods/atanasov_bins/bins.hpp"
+#include "renderer/core/error.hpp"
+
+namespace footprint::atanasov_bins {
+namespace {
+
+constexpr int most_texels_along = 16384;      // what OpenGL 4.5 promises of a texture's edge
+constexpr std::size_t parts = 8;              // of the counting sort, each with counts of its own
+constexpr std::size_t texels_a_task = 65536;  // fewer are arranged by one thread
+
+// First of part `i` of so many elements.
+std::size_t part_begin(std::size_t elements, std::size_t i) { return elements * i / parts; }
+
+// Counts of each part and bin become where the part's texels of the bin begin; the whole lists are left in `lists`.
+void add_up(std::vector<std::vector<std::uint32_t>>& counts, std::vector<TexelList>& lists) {
+  std::uint32_t next = 0;
+  for (std::size_t bin = 0; bin < counts.front().size(); ++bin) {
+    const std::uint32_t first = next;
+    for (std::vector<std::uint32_t>& part : counts) {
+      const std::uint32_t count = part[bin];
+      part[bin] = next;
+      next += count;
+    }
+    if (next > first) lists.push_back({.bin = static_cast<std::uint32_t>(bin), .first = first, .root = 0});
+  }
+}
+
+// Texels in order of their bins, those of a bin row by row.
+void sort_by_bin(const BinMap& map, InverseMap& out) {
+  const auto width = static_cast<std::size_t>(map.width);
+  const auto bins = static_cast<std::size_t>(map.across) * static_cast<std::size_t>(map.across);
+  const auto bin_at = [&](std::size_t i) {
+    return map.normals[i] == no_normal ? static_cast<std::uint32_t>(bins) : bin_of_packed(map.normals[i], map.across);
+  };
+  std::vector<std::vector<std::uint32_t>> counts(parts);
+  tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t p) {
+    counts[p].assign(bins + 1, 0);
+    for (std::size_t i = part_begin(map.normals.size(), p); i < part_begin(map.normals.size(), p + 1); ++i)
+      ++counts[p][bin_at(i)];
+  });
+  add_up(counts, out.lists);
+  out.texels.resize(map.normals.size());
+  tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t p) {
+    for (std::size_t i = part_begin(map.normals.size(), p); i < part_begin(map.normals.size(), p + 1); ++i)
+      out.texels[counts[p][bin_at(i)]++] = static_cast<std::uint32_t>(i / width << 16U | i % width);
+  });
+}
+
+// Behind a tree, another whose links are from its own beginning.
+void append(std::vector<std::uint32_t>& forest, const std::vector<std::uint32_t>& tree) {
+  const auto shift = static_cast<std::uint32_t>(forest.size());
+  for (std::size_t i = 0; i < tree.size(); ++i) forest.push_back(tree[i] + (i % 2 == 1 ? shift : 0));
+}
+
+// Arranges texels, the first of which is the map's `first`, and appends their tree, links from the forest's beginning.
+void plant(std::span<std::uint32_t> texels, std::uint32_t first, const TexelRect& rect,
+           std::vector<std::uint32_t>& forest) {
+  if (texels.size() <= leaf_size) return;
+  const Halves halves = halves_of(rect);
+  const auto middle = static_cast<std::uint32_t>(halves.middle);
+  const auto upper = std::partition(texels.begin(), texels.end(), [&](std::uint32_t texel) {
+    return (halves.along_x ? texel & 0xFFFFU : texel >> 16U) < middle;
+  });
+  const auto lower_count = static_cast<std::size_t>(upper - texels.begin());
+  TexelRect lower_rect = rect, upper_rect = rect;
+  (halves.along_x ? lower_rect.upper.x : lower_rect.upper.y) = halves.middle;
+  (halves.along_x ? upper_rect.lower.x : upper_rect.lower.y) = halves.middle;
+  const std::size_t node = forest.size();
+  const std::uint32_t upper_first = first + static_cast<std::uint32_t>(lower_count);
+  forest.push_back(upper_first);
+  forest.push_back(0);
+  if (texels.size() < texels_a_task) {
+    plant(texels.first(lower_count), first, lower_rect, forest);
+    forest[node + 1] = static_cast<std::uint32_t>(forest.size());
+    plant(texels.subspan(lower_count), upper_first, upper_rect, forest);
+    return;
+  }
+  std::vector<std::uint32_t> upper_tree;
+  tbb::parallel_invoke([&] { plant(texels.first(lower_count), first, lower_rect, forest); },
+                       [&] { plant(texels.subspan(lower_count), upper_first, upper_rect, upper_tree); });
+  forest[node + 1] = static_cast<std::uint32_t>(forest.size());
+  append(forest, upper_tree);
+}
+
+// Runs of lists that together have some texels_a_task: first list of each, and the end.
+std::vector<std::size_t> tasks_of(const InverseMap& map) {
+  std::vector<std::size_t> begins{0};
+  std::size_t texels = 0;
+  for (std::size_t i = 0; i < map.lists.size(); ++i) {
+    texels += map.count_of(i);
+    if (texels < texels_a_task && i + 1 < map.lists.size()) continue;
+    begins.push_back(i + 1);
+    texels = 0;
+  }
+  return begins;
+}
+
+void plant_forest(InverseMap& out, const Progress& progress) {
+  const std::vector<std::size_t> begins = tasks_of(out);
+  std::vector<std::vector<std::uint32_t>> trees(begins.size() - 1);
+  const TexelRect whole{{0, 0}, {out.width, out.height}};
+  constexpr std::size_t batch = 64;  // tasks between two reports
+  for (std::size_t start = 0; start < trees.size(); start += batch) {
+    progress("arranging texels", static_cast<double>(start) / static_cast<double>(trees.size()));
+    tbb::parallel_for(start, std::min(start + batch, trees.size()), [&](std::size_t task) {
+      for (std::size_t i = begins[task]; i < begins[task + 1]; ++i) {
+        out.lists[i].root = static_cast<std::uint32_t>(trees[task].size());
+        plant(std::span(out.texels).subspan(out.lists[i].first, out.count_of(i)), out.lists[i].first, whole,
+              trees[task]);
+      }
+    });
+  }
+  for (std::size_t task = 0; task < trees.size(); ++task) {
+    const auto shift = static_cast<std::uint32_t>(out.forest.size());
+    for (std::size_t i = begins[task]; i < begins[task + 1]; ++i) out.lists[i].root += shift;
+    append(out.forest, trees[task]);
+  }
+}
+
+}  // namespace
+
+Halves halves_of(const TexelRect& rect) {
+  const glm::ivec2 sides = rect.upper - rect.lower;
+  if (sides.x >= sides.y) return {.along_x = true, .middle = rect.lower.x + sides.x / 2};
+  return {.along_x = false, .middle = rect.lower.y + sides.y / 2};
+}
+
+BinMap bin_map(const Image& normals, int across, const Progress& progress) {
+  if (std::max(normals.width, normals.height) > most_texels_along) {
+    throw Error(ErrorKind::usage, fmt::format("a normal map of {} x {} texels", normals.width, normals.height),
+                "atanasov_bins keeps a texel's place in two numbers of 16384 values",
+                fmt::format("scale it down to {} texels along an edge", most_texels_along));
+  }
+  progress("binning normals", 0.0);
+  BinMap out{.width = normals.width, .height = normals.height, .across = across, .normals = {}};
+  out.normals.resize(normals.texel_count());
+  tbb::parallel_for(tbb::blocked_range<int>(0, normals.height, 16), [&](const tbb::blocked_range<int>& rows) {
+    for (int y = rows.begin(); y < rows.end(); ++y) {
+      std::uint32_t* const row = out.normals.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(out.width);
+      for (int x = 0; x < out.width; ++x) {
+        const std::span<const float> texel = normals.at(x, y);
+        const glm::dvec3 normal(texel[0], texel[1], texel[2]);
+        const bool valid = texel[3] >= 0.5F && glm::dot(normal, normal) > 0.0;
+        row[x] = valid ? packed_normal(glm::normalize(normal), across) : no_normal;
+      }
+    }
+  });
+  return out;
+}
+
+InverseMap inverse_of(const BinMap& map, const Progress& progress) {
+  InverseMap out{
+      .width = map.width, .height = map.height, .across = map.across, .texels = {}, .lists = {}, .forest = {}};
+  progress("sorting texels", 0.0);
+  sort_by_bin(map, out);
+  plant_forest(out, progress);
+  return out;
+}
+
+std::uint32_t hash_slot(std::uint32_t bin, std::uint32_t slots) {
+  return (bin * 2654435769U) >> (32 - std::bit_width(slots - 1));  // Fibonacci hashing: Knuth, volume 3, section 6.4
+}
+
+std::vector<std::uint32_t> hashed_lists(const InverseMap& map) {
+  const std::uint32_t slots = std::bit_ceil(std::max(2 * static_cast<std::uint32_t>(map.lists.size()), 2U));
+  std::vector<std::uint32_t> table(2 * static_cast<std::size_t>(slots), no_bin);
+  for (std::size_t i = 0; i < map.lists.size(); ++i) {
+    std::uint32_t slot = hash_slot(map.lists[i].bin, slots);
+    while (table[2 * slot] != no_bin) slot = (slot + 1) % slots;
+    table[2 * slot] = map.lists[i].bin;
+    table[2 * slot + 1] = static_cast<std::uint32_t>(i);
+  }
+  return table;
+}
+
+std::vector<ListNormal> list_normals(const InverseMap& map, const Image& normals) {
+  std::vector<ListNormal> out(map.lists.size());
+  tbb::parallel_for(std::size_t{0}, map.lists.size(), [&](std::size_t i) {
+    glm::dvec3 sum(0.0);
+    for (const std::uint32_t texel : std::span(map.texels).subspan(map.lists[i].first, map.count_of(i))) {
+      const auto n = normals.at(static_cast<int>(texel & 0xFFFFU), static_cast<int>(texel >> 16U));
+      const glm::dvec3 normal(n[0], n[1], n[2]);
+      sum += normal / std::max(glm::length(normal), 1e-30);
+    }
+    const double size = glm::length(sum);
+    if (size <= 0.0) return;
+    const double r = std::min(size / map.count_of(i), 1.0);
+    out[i] = {.mean = sum / size, .spread = (1.0 - r) / r};
+  });
+  return out;
+}
+
+}  // namespace footprint::atanasov_bins

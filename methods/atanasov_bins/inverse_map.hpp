@@ -1,0 +1,88 @@
+// The bin map of a normal map and its inverse: for each bin the texels that are in it, so arranged that those under a
+// footprint are counted without looking at each (Atanasov et al. 2020, section 2.3).
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "renderer/core/progress.hpp"
+#include "renderer/image/image.hpp"
+
+namespace footprint::atanasov_bins {
+
+/// B: the packed normal of every texel, row by row.
+struct BinMap {
+  int width = 0;
+  int height = 0;
+  int across = 1;  ///< m, bins along an edge
+  std::vector<std::uint32_t> normals;
+};
+
+/// Of a normal map of four channels (as Material::normal_map). Errors (usage): more than 16384 texels along an edge.
+[[nodiscard]] BinMap bin_map(const Image& normals, int across, const Progress& progress);
+
+/// Most texels that no tree divides.
+inline constexpr std::uint32_t leaf_size = 16;
+
+/// The texels of one bin, InverseMap::texels from `first` to the next list's.
+struct TexelList {
+  std::uint32_t bin = 0;  ///< m^2: texels without a normal
+  std::uint32_t first = 0;
+  std::uint32_t root = 0;  ///< of its tree, in InverseMap::forest, where it has more than leaf_size texels
+};
+
+/// A rectangle of texels, `upper` not in it.
+struct TexelRect {
+  glm::ivec2 lower{0};
+  glm::ivec2 upper{0};
+};
+
+/// Cut across its longer side in the middle, the lower part the smaller one; a square is cut across x.
+struct Halves {
+  bool along_x = true;
+  int middle = 0;
+};
+[[nodiscard]] Halves halves_of(const TexelRect& rect);
+
+/// B^-1. A node of more than leaf_size texels is two integers of `forest`: where in `texels` those of its upper half
+/// begin, and where in `forest` its upper half's node is; its lower half's comes right behind it. The rectangle of a
+/// node is that of the map, halved on the way down; its texels follow one another.
+struct InverseMap {
+  int width = 0;
+  int height = 0;
+  int across = 1;
+  std::vector<std::uint32_t> texels;  ///< x in the lower 16 bits, y in the upper
+  std::vector<TexelList> lists;       ///< ordered by bin, none of them empty
+  std::vector<std::uint32_t> forest;
+
+  /// The number of texels of a list.
+  [[nodiscard]] std::uint32_t count_of(std::size_t list) const {
+    const std::size_t next = list + 1 < lists.size() ? lists[list + 1].first : texels.size();
+    return static_cast<std::uint32_t>(next) - lists[list].first;
+  }
+  /// Whether the last list is that of the texels without a normal.
+  [[nodiscard]] bool has_invalid() const {
+    return !lists.empty() &&
+           lists.back().bin == static_cast<std::uint32_t>(across) * static_cast<std::uint32_t>(across);
+  }
+};
+
+/// Equal maps give equal values at any number of threads.
+[[nodiscard]] InverseMap inverse_of(const BinMap& map, const Progress& progress);
+
+/// From bin to list: slots of two integers, bin and list, by open addressing. `hash_slot` is where to begin to look;
+/// an empty slot, whose bin is no_bin, ends the search.
+inline constexpr std::uint32_t no_bin = 0xFFFFFFFFU;
+[[nodiscard]] std::vector<std::uint32_t> hashed_lists(const InverseMap& map);
+[[nodiscard]] std::uint32_t hash_slot(std::uint32_t bin, std::uint32_t slots);
+
+/// The normals of a list as one: their mean direction, unit, and the slope variance per axis about it, from the length
+/// r of their mean: (1 - r) / r.
+struct ListNormal {
+  glm::dvec3 mean{0.0, 0.0, 1.0};
+  double spread = 0.0;
+};
+[[nodiscard]] std::vector<ListNormal> list_normals(const InverseMap& map, const Image& normals);
+
+}  // namespace footprint::atanasov_bins

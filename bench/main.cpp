@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "bench/footprint_sizes.hpp"
 #include "bench/frame_benchmarks.hpp"
 #include "bench/frame_builds.hpp"
 #include "bench/iwasaki_benchmarks.hpp"
@@ -21,7 +22,8 @@ namespace {
 
 // What the command line asks for.
 struct Request {
-  int ratio_rounds = 0, build_rounds = 0;  // 0: not asked for
+  int ratio_rounds = 0, build_rounds = 0, footprint_rounds = 0;  // 0: not asked for
+  int resolution = 4096;                                         // of the map under the footprints
   std::string scene, methods, over = "direct";
 };
 
@@ -31,6 +33,7 @@ Examples:
   footprint_bench --benchmark_filter=mip
   footprint_bench --ratios 31
   footprint_bench --ratios 15 --scene carved_disk --methods toksvig,tan_gmm --over tan_gmm
+  footprint_bench --footprints 5 --methods atanasov_bins:roughness=bin,tan_gmm --resolution 1024
   footprint_bench --builds 5 --methods xu_vmf:rebuild=changed,xu_vmf:rebuild=changed:conversion=table
 )";
 
@@ -42,6 +45,12 @@ void declare_options(CLI::App& app, Request& request) {
   app.add_option("--builds", request.build_rounds,
                  "Print what frame builds of --methods cost by the size of the map, over this many rounds")
       ->check(rounds);
+  app.add_option("--footprints", request.footprint_rounds,
+                 "Print what frames of --methods cost by the size of a pixel's footprint, over this many rounds")
+      ->check(rounds);
+  app.add_option("--resolution", request.resolution, "With --footprints: texels a side of the map")
+      ->check(CLI::Range(1, 16384))
+      ->capture_default_str();
   app.add_option("--scene", request.scene,
                  "What to draw: as `footprint compare` takes it; if not given, ClearCoatTest");
   app.add_option("--methods", request.methods,
@@ -75,6 +84,13 @@ void run(int argc, char** argv) {
   if (request.build_rounds > 0) {
     if (request.methods.empty()) request.methods = "xu_vmf:rebuild=changed";
     (void)std::fputs(footprint::bench::frame_build_table(request.methods, request.build_rounds).c_str(), stdout);
+    return;
+  }
+  if (request.footprint_rounds > 0) {
+    if (request.methods.empty()) request.methods = "atanasov_bins:roughness=bin";
+    const std::string table =
+        footprint::bench::footprint_size_table(request.methods, request.resolution, request.footprint_rounds);
+    (void)std::fputs(table.c_str(), stdout);
     return;
   }
   std::optional<footprint::Scene> scene = footprint::bench::load_bench_scene(request.scene);

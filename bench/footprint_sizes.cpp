@@ -1,0 +1,97 @@
+// One plane, one bake; the camera's width alone changes from row to row.
+#include "bench/footprint_sizes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "bench/bench_scene.hpp"
+#include "bench/side_by_side.hpp"
+#include "renderer/pipeline/pixel_work.hpp"
+#include "renderer/scene/camera.hpp"
+#include "scenes/surfaces/registry.hpp"
+
+namespace footprint::bench {
+namespace {
+
+constexpr const char* surface_name = "scratched_metal";
+
+// A plane of so many maps a side, one a metre, under a camera and a light that are infinitely far. The map lies turned:
+// no footprint ends where a node of a tree does.
+Scene repeated_map(int resolution, int maps) {
+  Scene scene = load_bench_scene("scratches").value();
+  const Surface& surface = find_surface(all_surfaces(), surface_name);
+  SurfaceSettings settings = surface_settings(surface, {});
+  settings.resolution = resolution;
+  Material& material = scene.materials.at(0);
+  material.normal_map.value().image = std::make_shared<const Image>(surface_normals(surface, settings));
+  material.normal_map->coordinates.wrap = {Wrap::repeat, Wrap::repeat};
+  const auto half = 0.5F * static_cast<float>(maps);
+  Mesh& mesh = scene.meshes.at(0);
+  mesh.vertices.clear();
+  for (const glm::vec2 corner : {glm::vec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
+    Vertex vertex;
+    vertex.position = glm::vec3(half * corner, 0.0F);
+    vertex.normal = {0.0F, 0.0F, 1.0F};
+    vertex.tangent = {1.0F, 0.0F, 0.0F, 1.0F};
+    vertex.uv0 = vertex.uv1 =
+        half * glm::vec2(0.96F * corner.x - 0.28F * corner.y, 0.28F * corner.x + 0.96F * corner.y);
+    mesh.vertices.push_back(vertex);
+  }
+  mesh.indices = {0, 1, 2, 0, 2, 3};
+  scene.lights = {
+      DirectionalLight{.direction = glm::normalize(glm::vec3(-0.1F, 0.05F, -1.0F)), .illuminance = glm::vec3(1.0F)}};
+  scene.bounds = {glm::vec3(-half, -half, 0.0F), glm::vec3(half, half, 0.0F)};
+  scene.camera.orthographic = true;
+  scene.camera.zfar = 20.0F;
+  scene.camera.world = look_at({0.0, 0.0, 10.0}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0});
+  return scene;
+}
+
+// Of the methods at one width of the camera.
+struct Row {
+  std::vector<double> ms, lookups;
+};
+
+Row row_at(const Stage& stage, const View& view, int repeats) {
+  std::vector<DrawFrame> candidates;
+  for (const StagedMethod& method : stage.methods())
+    candidates.emplace_back([&method, &view] { method.frames().draw(view); });
+  const WallAndCpu times = side_by_side(stage.context().info(), candidates, repeats);
+  Row row;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    row.ms.push_back(quantile(times.cpu[i], 0.5));
+    row.lookups.push_back(pixel_work(stage.counting_frames(stage.methods()[i]), view).lookups);
+  }
+  return row;
+}
+
+}  // namespace
+
+std::string footprint_size_table(const std::string& methods, int resolution, int repeats) {
+  const RunSettings settings = bench_settings(methods);
+  const Stage stage(repeated_map(resolution, frame_pixels.x + 1), settings, no_progress);
+  std::string text = fmt::format("{:<10}", "texels");
+  for (const StagedMethod& method : stage.methods()) text += fmt::format(" {:>44}", method.baked().spec.text);
+  text += '\n';
+  std::vector<std::vector<double>> ms(stage.methods().size());
+  for (int texels = 1; texels <= resolution; texels *= 2) {
+    View view = stage.view(1.0);
+    view.camera.ymag = 0.5F * static_cast<float>(view.size.y * texels) / static_cast<float>(resolution);
+    const Row row = row_at(stage, view, repeats);
+    text += fmt::format("{:<10}", fmt::format("{}^2", texels));
+    for (std::size_t i = 0; i < row.ms.size(); ++i) {
+      text += fmt::format(" {:>44}", fmt::format("{:.1f} ms, {:.1f} lookups", row.ms[i], row.lookups[i]));
+      ms[i].push_back(row.ms[i]);
+    }
+    text += '\n';
+  }
+  text += fmt::format("{:<10}", "greatest");
+  for (const std::vector<double>& times : ms)
+    text += fmt::format(" {:>44}",
+                        fmt::format("{:.2f} of the median", *std::ranges::max_element(times) / quantile(times, 0.5)));
+  return text + '\n';
+}
+
+}  // namespace footprint::bench

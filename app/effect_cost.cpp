@@ -29,7 +29,8 @@ struct Variant {
 Variant make_variant(const Stage& stage, const RunSettings& run, const EffectSet& effects, const glm::ivec2& size,
                      const Progress& progress) {
   const gl::ContextInfo& context = stage.context().info();
-  auto scene = std::make_unique<GpuScene>(context, stage.scene(), effects, progress);
+  const std::optional<DiskCache> cache = cache_of(run);
+  auto scene = std::make_unique<GpuScene>(context, stage.scene(), effects, progress, cache ? &*cache : nullptr);
   StagedMethod method(context, *scene, stage.scene(), effects, run.methods.front(),
                       footprint_filter_of(run, stage.scene()), size, run, no_progress);
   return {std::move(scene), std::move(method)};

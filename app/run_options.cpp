@@ -8,7 +8,7 @@
 #include <cctype>
 
 #include "app/folders.hpp"
-#include "renderer/bake/bake_cache.hpp"
+#include "renderer/core/disk_cache.hpp"
 
 namespace footprint {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "app/folders.hpp"
 #include "methods/registry.hpp"
-#include "renderer/bake/bake_cache.hpp"
+#include "renderer/core/disk_cache.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 

@@ -9,6 +9,7 @@
 #include "experiments/settings/known_methods.hpp"
 #include "experiments/studies/ndf_pictures.hpp"
 #include "experiments/studies/picture_files.hpp"
+#include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
@@ -103,14 +104,15 @@ class Bench {
         scene_(scene_of_facets(material)),
         context_(settings.run.backend.context),
         effects_(effects_on(derive_effects(scene_))),
-        gpu_scene_(context_.info(), scene_, effects_) {
-    if (settings.run.cache) cache_.emplace(*settings.run.cache);
+        cache_(cache_of(settings.run)),
+        gpu_scene_(context_.info(), scene_, effects_, no_progress, cache_ ? &*cache_ : nullptr) {
+    if (cache_) bakes_.emplace(*cache_);
   }
 
   // Adds the figures of a method to `results` and gives its picture.
   NdfPicture inspect(const MethodSpec& spec, const Grid& grid, NdfResults& results, const Progress& progress) {
     const Method& method = find_method(spec.name);
-    const BakedMethod baked = bake(method, spec, scene_, effects_, progress, cache_ ? &*cache_ : nullptr);
+    const BakedMethod baked = bake(method, spec, scene_, effects_, progress, bakes_ ? &*bakes_ : nullptr);
     const MethodNdf ndf(context_.info(), gpu_scene_, baked, scene_.materials.front(), filter_of(settings_.run),
                         settings_.run.backend.tile);
     for (const std::string& note : baked.materials.front().notes)
@@ -133,8 +135,9 @@ class Bench {
   Scene scene_;
   gl::Context context_;
   EffectSet effects_;
+  std::optional<DiskCache> cache_;
   GpuScene gpu_scene_;
-  std::optional<BakeCache> cache_;
+  std::optional<BakeCache> bakes_;
 };
 
 }  // namespace

@@ -24,9 +24,9 @@ BakedMethod bake_base(const Scene& scene, const EffectSet& effects, const Progre
 }
 
 BakedMethod bake_method(const Scene& scene, const EffectSet& effects, const MethodSpec& spec,
-                        const std::optional<std::filesystem::path>& folder, const Progress& progress) {
-  if (!folder) return bake(find_method(spec.name), spec, scene, effects, progress);
-  const BakeCache cache(*folder);
+                        const std::optional<DiskCache>& files, const Progress& progress) {
+  if (!files) return bake(find_method(spec.name), spec, scene, effects, progress);
+  const BakeCache cache(*files);
   return bake(find_method(spec.name), spec, scene, effects, progress, &cache);
 }
 
@@ -49,6 +49,11 @@ FootprintFilter footprint_filter_of(const RunSettings& settings, const Scene& sc
   return settings.footprint.value_or(scene.footprint.value_or(default_footprint_filter));
 }
 
+std::optional<DiskCache> cache_of(const RunSettings& settings) {
+  if (!settings.cache) return {};
+  return DiskCache(*settings.cache);
+}
+
 void require_pictures(const glm::ivec2& size, int count) {
   const std::uint64_t bytes = frame_bytes(static_cast<std::uint64_t>(size.x), static_cast<std::uint64_t>(size.y),
                                           pixel_bytes * static_cast<std::uint64_t>(count));
@@ -58,7 +63,7 @@ void require_pictures(const glm::ivec2& size, int count) {
 StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& scene, const Scene& values,
                            const EffectSet& effects, const MethodSpec& spec, const FootprintFilter& filter,
                            const glm::ivec2& size, const RunSettings& settings, const Progress& progress)
-    : baked_(std::make_unique<BakedMethod>(bake_method(values, effects, spec, settings.cache, progress))),
+    : baked_(std::make_unique<BakedMethod>(bake_method(values, effects, spec, cache_of(settings), progress))),
       gpu_(std::make_unique<GpuMethod>(scene, *baked_)),
       frames_(std::make_unique<FrameRenderer>(
           context, scene, *gpu_, size,
@@ -75,8 +80,12 @@ Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress,
       effects_(effects_on(decisions_) & ~settings.without) {
   require_pictures(size_, pictures);
   scene_ = refined_for_visibility(std::move(scene_), effects_);
-  ProgressParts parts(progress, static_cast<double>(settings.methods.size() + 2));
-  gpu_scene_ = std::make_unique<GpuScene>(context_.info(), scene_, effects_, parts.next(1, ""));
+  const std::optional<DiskCache> cache = cache_of(settings);
+  const auto bakes = static_cast<double>(settings.methods.size() + 1);
+  const double upload = hides_environment(effects_) ? bakes : 1.0;  // visibility takes as long as all bakes, or longer
+  ProgressParts parts(progress, upload + bakes);
+  gpu_scene_ =
+      std::make_unique<GpuScene>(context_.info(), scene_, effects_, parts.next(upload, ""), cache ? &*cache : nullptr);
   for (const MethodSpec& spec : settings.methods) {
     const FootprintFilter all = footprint_filter_of(settings, scene_);
     methods_.emplace_back(context_.info(), *gpu_scene_, scene_, effects_, spec,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiments/settings/run_settings.hpp"
+#include "renderer/core/disk_cache.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/pipeline/frame.hpp"
 #include "renderer/pipeline/interior.hpp"
@@ -22,6 +23,9 @@ inline constexpr int pictures_of_a_frame = 3;
 
 /// The footprint filter: the settings', else the scene's, else default_footprint_filter.
 [[nodiscard]] FootprintFilter footprint_filter_of(const RunSettings& settings, const Scene& scene);
+
+/// Where slow work is kept between runs; none where the settings name no folder.
+[[nodiscard]] std::optional<DiskCache> cache_of(const RunSettings& settings);
 
 /// Errors (machine): so many pictures (RGBA, 32-bit floats) of this size are more than memory holds.
 void require_pictures(const glm::ivec2& size, int count);

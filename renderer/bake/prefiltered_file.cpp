@@ -1,78 +1,18 @@
-// A header, the fields in order, and a checksum over all; what does not add up is no bake.
+// The fields in order; what does not add up is no bake.
 #include "renderer/bake/prefiltered_file.hpp"
 
-#include <algorithm>
-#include <cstring>
 #include <string>
-#include <type_traits>
+#include <string_view>
+#include <utility>
 
-#include "renderer/core/hash.hpp"
+#include "renderer/core/sealed_bytes.hpp"
 
 namespace footprint {
 namespace {
 
-constexpr std::string_view magic = "footprint bake 4";  // another layout below: another number here
+constexpr std::string_view form = "footprint bake 5";  // another layout below: another number here
 
-class Writer {
- public:
-  template <class Value>
-  requires std::is_trivially_copyable_v<Value>
-  void add(const Value& value) {
-    const auto* first = reinterpret_cast<const std::uint8_t*>(&value);
-    bytes_.insert(bytes_.end(), first, first + sizeof(Value));
-  }
-  void add_block(std::span<const std::uint8_t> block) {
-    add<std::uint64_t>(block.size());
-    bytes_.insert(bytes_.end(), block.begin(), block.end());
-  }
-  void add_text(std::string_view text) { add_block({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}); }
-  void reserve(std::size_t size) { bytes_.reserve(size); }
-  [[nodiscard]] std::vector<std::uint8_t> take() { return std::move(bytes_); }
-  [[nodiscard]] std::span<const std::uint8_t> bytes() const { return bytes_; }
-
- private:
-  std::vector<std::uint8_t> bytes_;
-};
-
-// Reads what Writer wrote; after the first thing that does not fit, everything is empty and `whole` false.
-class Reader {
- public:
-  explicit Reader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
-
-  template <class Value>
-  requires std::is_trivially_copyable_v<Value> Value get() {
-    Value value{};
-    const std::span<const std::uint8_t> block = take(sizeof(Value));
-    if (!block.empty()) std::memcpy(&value, block.data(), sizeof(Value));
-    return value;
-  }
-  std::span<const std::uint8_t> get_block() { return take(get<std::uint64_t>()); }
-  std::string get_text() {
-    const std::span<const std::uint8_t> block = get_block();
-    return {reinterpret_cast<const char*>(block.data()), block.size()};
-  }
-  /// A count of things that take `least` bytes each: no damaged count makes a loop run long.
-  std::uint64_t get_count(std::size_t least) {
-    const auto count = get<std::uint64_t>();
-    whole_ = whole_ && count <= rest_.size() / least;
-    return whole_ ? count : 0;
-  }
-  [[nodiscard]] bool finished() const { return whole_ && rest_.empty(); }
-
- private:
-  std::span<const std::uint8_t> take(std::uint64_t size) {
-    whole_ = whole_ && size <= rest_.size();
-    if (!whole_) return {};
-    const std::span<const std::uint8_t> block = rest_.first(static_cast<std::size_t>(size));
-    rest_ = rest_.subspan(static_cast<std::size_t>(size));
-    return block;
-  }
-
-  std::span<const std::uint8_t> rest_;
-  bool whole_ = true;
-};
-
-void add_texture(Writer& out, const PrefilteredTexture& texture) {
+void add_texture(SealedWriter& out, const PrefilteredTexture& texture) {
   out.add_text(texture.name);
   out.add(texture.storage);
   out.add(texture.channels);
@@ -90,7 +30,7 @@ void add_texture(Writer& out, const PrefilteredTexture& texture) {
   }
 }
 
-PrefilteredTexture get_texture(Reader& in) {
+PrefilteredTexture get_texture(SealedReader& in) {
   PrefilteredTexture texture;
   texture.name = in.get_text();
   texture.storage = in.get<Storage>();
@@ -112,21 +52,11 @@ PrefilteredTexture get_texture(Reader& in) {
   return texture;
 }
 
-std::string checksum(std::span<const std::uint8_t> bytes) {
-  ContentHash hash;
-  hash.add(magic);
-  hash.add(std::as_bytes(bytes));
-  return hash.hex();
-}
-
-constexpr std::size_t checksum_length = 16;
-
 }  // namespace
 
 std::vector<std::uint8_t> to_bytes(const Prefiltered& prefiltered) {
-  Writer out;
+  SealedWriter out(form);
   out.reserve(byte_count(prefiltered) + (std::size_t{1} << 16U));
-  out.add_text(magic);
   out.add<std::uint64_t>(prefiltered.textures.size());
   for (const PrefilteredTexture& texture : prefiltered.textures) add_texture(out, texture);
   out.add<std::uint64_t>(prefiltered.scalars.size());
@@ -137,22 +67,14 @@ std::vector<std::uint8_t> to_bytes(const Prefiltered& prefiltered) {
   out.add<std::uint64_t>(prefiltered.notes.size());
   for (const std::string& note : prefiltered.notes) out.add_text(note);
   out.add(prefiltered.surface_coordinates.has_value());
-  if (prefiltered.surface_coordinates) {
-    const auto bytes = std::as_bytes(std::span(*prefiltered.surface_coordinates));
-    out.add_block({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
-  }
-  const std::string sum = checksum(out.bytes());
-  std::vector<std::uint8_t> bytes = out.take();
-  bytes.insert(bytes.end(), sum.begin(), sum.end());
-  return bytes;
+  if (prefiltered.surface_coordinates) out.add_values(*prefiltered.surface_coordinates);
+  return std::move(out).seal();
 }
 
 std::optional<Prefiltered> from_bytes(std::span<const std::uint8_t> bytes) {
-  if (bytes.size() < checksum_length) return {};
-  const std::span<const std::uint8_t> body = bytes.first(bytes.size() - checksum_length);
-  if (!std::ranges::equal(checksum(body), bytes.last(checksum_length))) return {};
-  Reader in(body);
-  if (in.get_text() != magic) return {};
+  std::optional<SealedReader> opened = SealedReader::open(bytes, form);
+  if (!opened) return {};
+  SealedReader& in = *opened;
   Prefiltered prefiltered;
   for (std::uint64_t count = in.get_count(1); count > 0; --count) prefiltered.textures.push_back(get_texture(in));
   for (std::uint64_t count = in.get_count(1); count > 0; --count) {
@@ -160,12 +82,7 @@ std::optional<Prefiltered> from_bytes(std::span<const std::uint8_t> bytes) {
     prefiltered.scalars[std::move(name)] = in.get<float>();
   }
   for (std::uint64_t count = in.get_count(1); count > 0; --count) prefiltered.notes.push_back(in.get_text());
-  if (in.get<bool>()) {
-    const std::span<const std::uint8_t> block = in.get_block();
-    prefiltered.surface_coordinates.emplace(block.size() / sizeof(glm::vec2));
-    std::memcpy(prefiltered.surface_coordinates->data(), block.data(),
-                block.size() / sizeof(glm::vec2) * sizeof(glm::vec2));
-  }
+  if (in.get<bool>()) prefiltered.surface_coordinates = in.get_values<glm::vec2>();
   if (!in.finished()) return {};
   return prefiltered;
 }

@@ -213,7 +213,7 @@ GpuTexture upload(const PrefilteredTexture& texture) {
 }
 
 GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects,
-                   const Progress& progress)
+                   const Progress& progress, const DiskCache* cache)
     : context_(&context),
       effects_(effects),
       brdf_(scene.materials.front().brdf),
@@ -236,12 +236,12 @@ GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const Eff
     batches_.push_back(std::move(batch));
   }
   make_lights(context, scene);
-  if (hides_environment(effects)) make_visibility(scene, progress);
+  if (hides_environment(effects)) make_visibility(scene, progress, cache);
 }
 
-void GpuScene::make_visibility(const Scene& scene, const Progress& progress) {
+void GpuScene::make_visibility(const Scene& scene, const Progress& progress, const DiskCache* cache) {
   if (visibility_) shared_bytes_ -= visibility_->bytes();
-  visibility_.emplace(scene, progress);
+  visibility_.emplace(scene, progress, cache);
   shared_bytes_ += visibility_->bytes();
   for (GpuBatch& batch : batches_) {
     const std::vector<glm::vec4> attributes = visibility_->attributes(scene, batch.material);
@@ -301,7 +301,7 @@ void GpuScene::update(const Scene& scene) {
     shadow_maps_.emplace(*context_, scene, effects_, batches_, samplers_);
     require(shadow_maps_->views().views.size() == light_counts_.shadow_maps, "lights");
   }
-  if (visibility_ && content.geometry != content_.geometry) make_visibility(scene, no_progress);
+  if (visibility_ && content.geometry != content_.geometry) make_visibility(scene, no_progress, nullptr);
   const LightBlocks blocks = blocks_of(scene.lights);
   const auto write = [&](const gl::Buffer& buffer, std::span<const glm::vec4> values, std::size_t count) {
     require(values.size() == count, "lights");

@@ -98,13 +98,14 @@ struct GpuBatch {
 class GpuScene {
  public:
   /// Errors (usage): materials with different base BRDFs (a comparison needs one); (machine): over GL's limits; those
-  /// of `progress`, which is called where the visibility of an environment takes time.
+  /// of `progress`, which is called where the visibility of an environment takes time. It is kept in `cache`, where
+  /// there is one.
   GpuScene(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects,
-           const Progress& progress = no_progress);
+           const Progress& progress = no_progress, const DiskCache* cache = nullptr);
 
   /// Takes over vertices, lights and the constants of materials as `scene` has them: the next frame of what moves.
-  /// Maps, environment and base BRDF stay. Errors (usage): another number of materials, vertices or lights of a kind
-  /// than before.
+  /// Maps, environment and base BRDF stay; visibility is asked anew where vertices moved. Errors (usage): another
+  /// number of materials, vertices or lights of a kind than before.
   void update(const Scene& scene);
   [[nodiscard]] const SceneContent& content() const { return content_; }
 
@@ -156,7 +157,7 @@ class GpuScene {
 
   [[nodiscard]] LightBlocks blocks_of(std::span<const Light> lights) const;
   void make_lights(const gl::ContextInfo& context, const Scene& scene);
-  void make_visibility(const Scene& scene, const Progress& progress);
+  void make_visibility(const Scene& scene, const Progress& progress, const DiskCache* cache);
 };
 
 }  // namespace footprint

@@ -25,11 +25,10 @@ Scene refined_for_visibility(Scene scene, const EffectSet& effects) {
   return scene;
 }
 
-GpuVisibility::GpuVisibility(const Scene& scene, const Progress& progress)
-    : sampler_(gl::trilinear_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE)) {
-  const Occluders occluders(scene);
-  field_ =
-      visibility_field(scene, occluders, scene.environment.value_or(constant_environment(glm::vec3(1.0F))), progress);
+GpuVisibility::GpuVisibility(const Scene& scene, const Progress& progress, const DiskCache* cache)
+    : field_(kept_visibility_field(scene, scene.environment.value_or(constant_environment(glm::vec3(1.0F))), cache,
+                                   progress)),
+      sampler_(gl::trilinear_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE)) {
   std::vector<std::vector<Image>> chains;
   for (const Image& layer : field_.layers) chains.push_back({layer});
   const PrefilteredTexture maps = make_array_texture("visibility_maps", chains, Storage::fp32, {});

@@ -7,7 +7,7 @@
 #include "renderer/core/progress.hpp"
 #include "renderer/effects/effects.hpp"
 #include "renderer/gl/objects.hpp"
-#include "renderer/visibility/visibility_field.hpp"
+#include "renderer/visibility/kept_visibility.hpp"
 
 namespace footprint {
 
@@ -22,8 +22,9 @@ namespace footprint {
 /// current, also when destroyed.
 class GpuVisibility {
  public:
-  /// Asks the visibility of all vertices. Errors: those of visibility_field; (machine): over GL's limits.
-  GpuVisibility(const Scene& scene, const Progress& progress);
+  /// Takes the visibility of all vertices from `cache`, or asks it and keeps it there. Errors: those of
+  /// visibility_field; (machine): over GL's limits.
+  GpuVisibility(const Scene& scene, const Progress& progress, const DiskCache* cache);
 
   /// The attributes of a material's vertices in the order of the scene's meshes: five vectors each, the weights (1 for
   /// the mean, then the components) and the diffuse share.

@@ -1,0 +1,80 @@
+// Files kept between runs: what was kept comes back, the oldest go, and a folder that refuses costs no error. And the
+// bytes in them: what is damaged is not read.
+#include "renderer/core/disk_cache.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "renderer/core/sealed_bytes.hpp"
+
+namespace footprint {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path fresh_folder(const std::string& name) {
+  fs::path folder = fs::path(::testing::TempDir()) / ("footprint_disk_cache_" + name);
+  fs::remove_all(folder);
+  return folder;
+}
+
+const std::vector<std::uint8_t> some_bytes{1, 2, 3, 0, 255};
+
+TEST(DiskCache, FindsWhatItKeptAndNothingElse) {
+  const DiskCache cache(fresh_folder("find"));
+  EXPECT_TRUE(cache.find("a").empty());
+  cache.keep("a", some_bytes);
+  EXPECT_EQ(cache.find("a"), some_bytes);
+  EXPECT_TRUE(cache.find("b").empty());
+}
+
+TEST(DiskCache, FolderThatIsAFileCostsNoError) {
+  const fs::path file = fresh_folder("closed");
+  std::ofstream(file) << "a file";
+  const DiskCache cache(file);
+  EXPECT_NO_THROW(cache.keep("a", some_bytes));
+  EXPECT_TRUE(cache.find("a").empty());
+}
+
+TEST(DiskCache, TheLeastRecentlyUsedGoes) {
+  const DiskCache cache(fresh_folder("room"), 2 * some_bytes.size());
+  cache.keep("old", some_bytes);
+  cache.keep("new", some_bytes);
+  const auto earlier = fs::file_time_type::clock::now() - std::chrono::hours(1);
+  fs::last_write_time(cache.folder() / "old.bake", earlier);
+  fs::last_write_time(cache.folder() / "new.bake", earlier - std::chrono::hours(1));
+  EXPECT_FALSE(cache.find("new").empty());  // used just now
+  cache.keep("third", some_bytes);
+  EXPECT_TRUE(cache.find("old").empty());
+  EXPECT_FALSE(cache.find("new").empty());
+  EXPECT_FALSE(cache.find("third").empty());
+}
+
+TEST(DiskCache, WhatIsLargerThanTheFolderMayBeIsNotKept) {
+  const DiskCache cache(fresh_folder("large"), some_bytes.size() - 1);
+  cache.keep("a", some_bytes);
+  EXPECT_TRUE(cache.find("a").empty());
+}
+
+TEST(SealedBytes, ValuesComeBackAndNothingIsLeft) {
+  SealedWriter out("numbers 1");
+  out.add(7);
+  out.add_text("seven");
+  out.add_values(std::vector<float>{1.5F, -2.0F});
+  const std::vector<std::uint8_t> bytes = std::move(out).seal();
+  std::optional<SealedReader> in = SealedReader::open(bytes, "numbers 1");
+  ASSERT_TRUE(in);
+  EXPECT_EQ(in->get<int>(), 7);
+  EXPECT_EQ(in->get_text(), "seven");
+  EXPECT_FALSE(in->finished());
+  EXPECT_EQ(in->get_values<float>(), (std::vector<float>{1.5F, -2.0F}));
+  EXPECT_TRUE(in->finished());
+  EXPECT_EQ(in->get<int>(), 0) << "there is nothing more";
+  EXPECT_FALSE(in->finished());
+  EXPECT_FALSE(SealedReader::open(bytes, "numbers 2"));
+}
+
+}  // namespace
+}  // namespace footprint

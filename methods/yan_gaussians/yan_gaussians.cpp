@@ -1,0 +1,155 @@
+// `yan_gaussians`: position-normal distributions after Yan et al. 2016, one 4D Gaussian a texel and a hierarchy over
+// positions and normals. What prefiltering is compared with where every glint is to be seen.
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "methods/yan_gaussians/element_tree.hpp"
+#include "methods/yan_gaussians/elements.hpp"
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/bake/method.hpp"
+#include "renderer/bake/normal_chain.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/image/mipmap.hpp"
+
+namespace footprint {
+
+namespace embedded {
+extern const EmbeddedTexts yan_gaussians_glsl;
+}
+
+namespace {
+
+// Rows of the textures that are lists; yan_sum.glsl has the same numbers.
+constexpr int order_width = 4096, nodes_width = 2048;
+
+int rows_for(std::size_t count, int width) {
+  return static_cast<int>((count + static_cast<std::size_t>(width) - 1) / static_cast<std::size_t>(width));
+}
+
+// The lobe of every element where the roughness varies, which this method leaves out: of the mean roughness.
+Lobe mean_lobe(const Material& material) {
+  if (width_map(material) == nullptr) return lobe_of(material);
+  const float roughness = mip_chain(roughness_map_of(material)).back().texels.front();
+  return lobe_from_alpha(material.brdf.distribution, roughness * roughness);
+}
+
+ElementTree tree_over(const Elements& elements, double cutoff) {
+  const Image& normals = elements.normals;
+  std::vector<TreePoint> points;
+  std::vector<float> reach;
+  points.reserve(normals.texel_count());
+  reach.reserve(normals.texel_count());
+  for (int y = 0; y < normals.height; ++y) {
+    for (int x = 0; x < normals.width; ++x) {
+      const auto normal = normals.at(x, y);
+      reach.push_back(static_cast<float>(cutoff) * normal_reach(elements, points.size()));
+      points.push_back({(static_cast<float>(x) + 0.5F) / static_cast<float>(normals.width),
+                        (static_cast<float>(y) + 0.5F) / static_cast<float>(normals.height), normal[0], normal[1]});
+    }
+  }
+  return build_element_tree(points, reach);
+}
+
+// The texels' numbers in the order of the leaves, a byte a channel: exact, whatever their number.
+PrefilteredTexture order_texture(const ElementTree& tree) {
+  TextureLevel level{.width = order_width, .height = rows_for(tree.order.size(), order_width), .bytes = {}};
+  level.bytes.resize(std::size_t{4} * static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height));
+  for (std::size_t i = 0; i < tree.order.size(); ++i) {
+    for (unsigned byte = 0; byte < 4; ++byte)
+      level.bytes[4 * i + byte] = static_cast<std::uint8_t>(tree.order[i] >> (8 * byte) & 0xFFU);
+  }
+  return {.name = "yan_order",
+          .storage = Storage::unorm8,
+          .channels = 4,
+          .filter = TextureFilter::nearest,
+          .coordinates = {},
+          .levels = {std::move(level)}};
+}
+
+// Bounds of each node: the low ends in one layer, the high ones in another.
+PrefilteredTexture nodes_texture(const ElementTree& tree) {
+  const int rows = rows_for(tree.nodes.size(), nodes_width);
+  std::array<std::vector<Image>, 2> layers;
+  for (std::size_t layer = 0; layer < 2; ++layer) {
+    Image& image = layers[layer].emplace_back(nodes_width, rows, 4);
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i)
+      std::ranges::copy(layer == 0 ? tree.nodes[i].low : tree.nodes[i].high,
+                        image.texels.begin() + 4 * static_cast<std::ptrdiff_t>(i));
+  }
+  return make_array_texture("yan_nodes", layers, Storage::fp32, {}, TextureFilter::nearest);
+}
+
+PrefilteredTexture jacobian_texture(const Elements& elements) {
+  Image image(elements.normals.width, elements.normals.height, 4);
+  for (std::size_t i = 0; i < elements.jacobians.size(); ++i)
+    std::ranges::copy(elements.jacobians[i], image.texels.begin() + 4 * static_cast<std::ptrdiff_t>(i));
+  return make_texture("yan_jacobian", {std::move(image)}, Storage::fp32, {});
+}
+
+class YanGaussians final : public Method {
+ public:
+  [[nodiscard]] const MethodInfo& info() const override { return info_; }
+
+  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                                       const Progress& progress) const override {
+    Prefiltered out;
+    out.scalars["yan_lobe"] = static_cast<float>(mean_lobe(material).parameter);
+    if (!has(effects, Effect::normal_variation)) return out;
+    const std::array<Wrap, 2> wrap = normal_coordinates(material).wrap;
+    const auto share = [](Wrap along) { return along == Wrap::repeat ? 1.0F : 0.5F; };
+    const auto clamped = [](Wrap along) { return along == Wrap::clamp_to_edge ? 1.0F : 0.0F; };
+    out.scalars.insert({{"yan_share_u", share(wrap[0])},
+                        {"yan_share_v", share(wrap[1])},
+                        {"yan_clamp_u", clamped(wrap[0])},
+                        {"yan_clamp_v", clamped(wrap[1])}});
+    progress("elements", 0.0);
+    const Elements elements = make_elements(material, options.word("jacobian") == "central");
+    progress("hierarchy over positions and normals", 0.1);
+    const ElementTree tree = tree_over(elements, options.number("cutoff"));
+    progress("textures", 0.8);
+    out.scalars["yan_depth"] = static_cast<float>(tree.depth);
+    TextureCoordinates repeating = normal_coordinates(material);
+    repeating.wrap = {Wrap::repeat, Wrap::repeat};
+    out.textures.push_back(make_texture("mean_normal", mean_normal_chain(elements.normals), Storage::fp32, repeating));
+    if (!elements.jacobians.empty()) out.textures.push_back(jacobian_texture(elements));
+    out.textures.push_back(order_texture(tree));
+    out.textures.push_back(nodes_texture(tree));
+    return out;
+  }
+
+  [[nodiscard]] ShaderModule shader() const override {
+    return module_of(embedded::yan_gaussians_glsl, "yan_gaussians.glsl");
+  }
+
+ private:
+  MethodInfo info_{
+      .name = "yan_gaussians",
+      .summary = "A 4D Gaussian of position and normal for every texel, summed by a hierarchy under each pixel.",
+      .paper =
+          "Yan, Hasan, Marschner, Ramamoorthi 2016, Position-Normal Distributions for Efficient Rendering of "
+          "Specular Microstructure",
+      .options = {word_option("roughness", {"lobe", "intrinsic"},
+                              "What an element's normals reflect with: the base lobe; or, as in the paper, a Gaussian "
+                              "of deviation sigma_r on the disc and nothing of the base lobe."),
+                  number_option("sigma_r", 0.005, 1e-4, 1.0,
+                                "The intrinsic roughness: standard deviation along each axis of the disc, with "
+                                "roughness=intrinsic."),
+                  word_option("jacobian", {"central", "none"},
+                              "How normals change across an element: by central differences of its neighbours, as in "
+                              "the paper; or not at all, as a map of steps has it."),
+                  number_option("cutoff", 5.0, 2.0, 8.0,
+                                "Standard deviations beyond which footprint, elements and lobes are cut off.")},
+      .honours = map_effects_but({Effect::normal_layers, Effect::roughness_variation, Effect::environment_light}),
+      .slow_precompute = true,
+      .slow_frame = true};
+};
+
+}  // namespace
+
+const Method& yan_gaussians_method() {
+  static const YanGaussians method;
+  return method;
+}
+
+}  // namespace footprint

@@ -1,0 +1,204 @@
+// The position-normal distribution under a Gaussian footprint (Yan 2016): a sum over the elements that reach both the
+// footprint and the half vector, found by walking the hierarchy. Lengths are in texels.
+
+const float seed_variance = 0.18033688;  // 1 / (8 ln 2), of an element's position along each axis
+
+// Symmetric matrices are (xx, xy, yy).
+struct Effective {
+  vec3 mean_normal;  // not renormalised
+  vec2 centre;
+  vec2 size;         // of the map
+  vec3 inverse_sum;  // of the covariance of footprint and seed together
+  vec3 within;       // covariance of positions in an element, given the footprint
+  vec2 reach;        // half of the rectangle in which elements count
+  float scale;       // from exp(...) to an element's weight
+  bool wide;         // beyond half of the map: copies of an element count
+};
+
+vec3 inverseOf(vec3 m) { return vec3(m.z, -m.y, m.x) / (m.x * m.z - m.y * m.y); }
+
+float quadratic(vec3 m, vec2 d) { return m.x * d.x * d.x + 2.0 * m.y * d.x * d.y + m.z * d.y * d.y; }
+
+// Over a whole grid the weights of elements of covariance `m` sum to this at p from a texel's centre, but for 1e-6: the
+// grid's Poisson sum. Without it a flat map would show its texels, by a tenth where it is magnified.
+float gridSum(vec3 m, vec2 p) {
+  float row = exp(-2.0 * pi * pi * m.x) * cos(2.0 * pi * p.x);
+  float column = exp(-2.0 * pi * pi * m.z) * cos(2.0 * pi * p.y);
+  float rising = exp(-2.0 * pi * pi * (m.x + 2.0 * m.y + m.z)) * cos(2.0 * pi * (p.x + p.y));
+  float falling = exp(-2.0 * pi * pi * (m.x - 2.0 * m.y + m.z)) * cos(2.0 * pi * (p.x - p.y));
+  return 1.0 + 2.0 * (row + column + rising + falling);
+}
+
+// Of the same mean and covariance as the pixel's parallelogram, e e^T / 12 for each edge e. Where it is wider than the
+// map, which repeats, it is drawn together to a deviation of half a map: there the copies' sum is even, but for 1.5%.
+vec3 footprintCovariance(vec2 dx, vec2 dy, vec2 size) {
+  vec3 m = vec3(dx.x * dx.x + dy.x * dy.x, dx.x * dx.y + dy.x * dy.y, dx.y * dx.y + dy.y * dy.y) / 12.0;
+  vec2 narrower = min(0.5 * size * inversesqrt(max(m.xz, 1e-12)), 1.0);
+  return m * vec3(narrower.x * narrower.x, narrower.x * narrower.y, narrower.y * narrower.y);
+}
+
+Effective effective(Footprints f) {
+  Effective e;
+  f.normal = folded(f.normal);
+  e.mean_normal = fetch(mean_normal, f.normal).xyz;
+  e.size = vec2(textureSize(mean_normal, 0));
+  e.centre = f.normal.uv * e.size;
+  e.centre -= e.size * floor(e.centre / e.size);
+  vec3 pixel = footprintCovariance(f.normal.dx * e.size, f.normal.dy * e.size, e.size);
+  vec3 sum = pixel + vec3(seed_variance, 0.0, seed_variance);
+  e.inverse_sum = inverseOf(sum);
+  // (pixel^-1 + seed^-1)^-1 = seed (1 - seed sum^-1), without the difference of large numbers: seed sum^-1 pixel.
+  vec3 i = e.inverse_sum;
+  e.within = seed_variance * vec3(i.x * pixel.x + i.y * pixel.y, i.x * pixel.y + i.y * pixel.z,
+                                  i.y * pixel.y + i.z * pixel.z);
+  e.reach = option_cutoff * sqrt(sum.xz);
+  e.scale = 1.0 / (2.0 * pi * sqrt(sum.x * sum.z - sum.y * sum.y) * gridSum(sum, e.centre - 0.5));
+  e.wide = any(greaterThan(e.reach, 0.5 * e.size));
+  if (e.wide) e.within = vec3(seed_variance, 0.0, seed_variance);
+  return e;
+}
+
+// Where copies count: those of a row, two to either side of the nearest.
+float rowOfCopies(Effective e, vec2 d) {
+  float sum = exp(-0.5 * quadratic(e.inverse_sum, d));
+  for (int i = 1; i <= 2; ++i) {
+    vec2 copy = vec2(float(i) * e.size.x, 0.0);
+    sum += exp(-0.5 * quadratic(e.inverse_sum, d + copy)) + exp(-0.5 * quadratic(e.inverse_sum, d - copy));
+  }
+  return sum;
+}
+
+float copies(Effective e, vec2 d) {
+  float sum = rowOfCopies(e, d);
+  for (int i = 1; i <= 2; ++i) {
+    vec2 copy = vec2(0.0, float(i) * e.size.y);
+    sum += rowOfCopies(e, d + copy) + rowOfCopies(e, d - copy);
+  }
+  return sum;
+}
+
+uint texelAt(uint place) {
+  uvec4 bytes = uvec4(texelFetch(yan_order, ivec2(place & 4095u, place >> 12u), 0) * 255.0 + 0.5);
+  return bytes.x | bytes.y << 8u | bytes.z << 16u | bytes.w << 24u;
+}
+
+//? if jacobian_central
+// The covariance of an element's normals on the disc, from that of its positions by the Jacobian `slopes`, n_x by u and
+// v and n_y by u and v.
+vec3 spreadOnDisc(Effective e, vec4 slopes) {
+  vec2 by_x = vec2(dot(e.within.xy, slopes.xy), dot(e.within.yz, slopes.xy));
+  vec2 by_y = vec2(dot(e.within.xy, slopes.zw), dot(e.within.yz, slopes.zw));
+  return vec3(dot(slopes.xy, by_x), dot(slopes.xy, by_y), dot(slopes.zw, by_y));
+}
+
+float heightOver(vec2 disc) { return sqrt(max(1.0 - dot(disc, disc), 0.0)); }
+
+// The mean of the variances on the sphere along its two axes: n_z changes too, by the difference over two texels, where
+// its derivative on the disc is infinite at the horizon. No normal of a map lies below the horizon: two deviations
+// reach it at most.
+float spreadOnSphere(Effective e, vec2 disc, vec4 slopes) {
+  vec3 spread = spreadOnDisc(e, slopes);
+  vec2 rise = 0.5 * vec2(heightOver(disc + slopes.xz) - heightOver(disc - slopes.xz),
+                         heightOver(disc + slopes.yw) - heightOver(disc - slopes.yw));
+  float height = heightOver(disc);
+  return min(0.5 * (spread.x + spread.z + quadratic(e.within, rise)), 0.25 * height * height);
+}
+
+//? end
+// What an element adds: its weight under the footprint times what its normals there reflect. Given the footprint its
+// positions have the mean `shift` from its own and the covariance `within`, and its normals follow by the Jacobian.
+float elementAt(Effective e, uint place, Query q) {
+  uint texel = texelAt(place);
+  uint width = uint(e.size.x);
+  ivec2 at = ivec2(texel % width, texel / width);
+  vec2 d = e.centre - (vec2(at) + 0.5);
+  d -= e.size * round(d / e.size);
+  float weight = e.wide ? copies(e, d) : exp(-0.5 * quadratic(e.inverse_sum, d));
+  vec3 normal = normalize(texelFetch(mean_normal, at, 0).xyz);
+  countLookups(2);
+//? if jacobian_central
+  vec4 slopes = texelFetch(yan_jacobian, at, 0);
+  countLookups(1);
+  vec2 shift = e.wide ? vec2(0.0) : seed_variance * vec2(dot(e.inverse_sum.xy, d), dot(e.inverse_sum.yz, d));
+//? if roughness_intrinsic
+  vec3 spread = spreadOnDisc(e, slopes);
+//? else
+  float spread = spreadOnSphere(e, normal.xy, slopes);
+//? end
+  if (slopes != vec4(0.0)) normal = onSphere(normal.xy + vec2(dot(slopes.xy, shift), dot(slopes.zw, shift)));
+  float value = elementValue(normal, spread, q);
+//? else
+  float value = elementValue(normal, no_spread, q);
+//? end
+  return weight > 0.0 ? weight * value : 0.0;
+}
+
+// Whether elements of a node may count: their positions within `reach` of the footprint's centre on the map, which
+// repeats, and their normals within `normal_reach` of h.
+bool reaches(Effective e, uint node, vec3 h, float normal_reach) {
+  ivec2 at = ivec2(node & 2047u, node >> 11u);
+  vec4 low = texelFetch(yan_nodes, ivec3(at, 0), 0);
+  vec4 high = texelFetch(yan_nodes, ivec3(at, 1), 0);
+  countLookups(2);
+  vec2 d = e.centre - 0.5 * (low.xy + high.xy) * e.size;
+  d = abs(d - e.size * round(d / e.size)) - 0.5 * (high.xy - low.xy) * e.size;
+  vec2 apart = max(low.zw - h.xy, h.xy - high.zw);
+  return all(lessThanEqual(d, e.reach)) && all(lessThanEqual(apart, vec2(normal_reach)));
+}
+
+// The first place of a leaf, leaf * count / 2^depth, by 64 bits.
+uint leafBegin(uint leaf, uint count, int depth) {
+  uint high, low;
+  umulExtended(leaf, count, high, low);
+  return depth == 0 ? low : high << uint(32 - depth) | low >> uint(depth);
+}
+
+// llvmpipe ends loops after 65535 rounds a pixel, all lights together: no picture may pass for whole then.
+float notWhole() { return uintBitsToFloat(0x7fc00000u); }
+
+// Nodes in preorder: below one that reaches come its children, behind one that does not, or is a leaf, the next right
+// sibling of it or of an ancestor. The last ways lead back to the root, 1.
+float sumOver(Effective e, Query q) {
+  int depth = int(yan_depth);
+  uint leaves = 1u << uint(depth);
+  uint count = uint(e.size.x) * uint(e.size.y);
+  float normal_reach = normalReach();
+  float sum = 0.0;
+  uint node = 1u;
+  bool done = false;
+  while (!done) {
+    bool inside = reaches(e, node, q.h, normal_reach);
+    if (inside && node < leaves) {
+      node *= 2u;
+      continue;
+    }
+    if (inside) {
+      uint place = leafBegin(node - leaves, count, depth);
+      uint end = leafBegin(node - leaves + 1u, count, depth);
+      float held = 0.0;
+      for (; place < end; place += 2u) {
+        held += elementAt(e, place, q);
+        if (place + 1u < end) held += elementAt(e, place + 1u, q);
+      }
+      if (place < end) return notWhole();
+      sum += held;
+    }
+    node += 1u;
+    node >>= uint(findLSB(node));
+    done = node == 1u;
+  }
+  return done ? sum * e.scale : notWhole();
+}
+
+float ndf(Effective e, vec3 h) { return sumOver(e, Query(false, h, h, h)); }
+
+Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
+  Reflected r;
+  r.specular = vec3(0.0);
+  if (halfVectorIsDefined(wi, wo))
+    r.specular = fresnelTerm(s.f0, wi, wo) * sumOver(e, Query(true, halfVector(wi, wo), wi, wo));
+//? if diffuse
+  r.diffuse = diffuse(e.mean_normal, s, wi, wo);
+//? end
+  return r;
+}

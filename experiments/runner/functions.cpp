@@ -213,6 +213,7 @@ std::vector<FigureFunction> function_table() {
       {"relmse", records, nothing, over_errors(&RecordError::relmse)},
       {"psnr", records, nothing, over_errors(&RecordError::psnr)},
       {"energy_bias", records, nothing, over_errors(&RecordError::energy_bias)},
+      {"luminance_distance", records, nothing, over_errors(&RecordError::luminance_distance)},
       {"representation", records, nothing, over_errors(&RecordError::representation)},
       {"filtering", records, nothing, over_errors(&RecordError::filtering)},
       {"shading_error", records, nothing,

@@ -48,6 +48,7 @@ void set_error(Record& record, const Truth& truth, const MethodPictures& picture
                              .relmse = figures->relmse,
                              .psnr = figures->psnr,
                              .energy_bias = figures->energy_bias,
+                             .luminance_distance = figures->luminance_distance,
                              .noise_floor = truth.noise_floor,
                              .representation = normalized_color(pictures.finest, truth.first, exposure).value(),
                              .filtering = normalized_color(pictures.frame, pictures.finest, exposure).value(),

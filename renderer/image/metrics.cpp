@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "renderer/core/error.hpp"
@@ -67,6 +68,15 @@ double luminance(const Rgb& rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.
 // What a display of peak 1 shows.
 double displayed(double value, double exposure) { return std::clamp(exposure * value, 0.0, 1.0); }
 
+// The mean distance of two lists of one size, each sorted: Wasserstein's distance of their distributions.
+double sorted_distance(std::vector<double> a, std::vector<double> b) {
+  std::ranges::sort(a);
+  std::ranges::sort(b);
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]);
+  return sum / static_cast<double>(a.size());
+}
+
 // Sum over the channels of the squared difference of what is displayed.
 double displayed_squared_distance(const Rgb& a, const Rgb& b, double exposure) {
   double sum = 0;
@@ -95,7 +105,13 @@ std::optional<ErrorFigures> compare_images(const Image& picture, const Image& re
   const double epsilon = relmse_epsilon_share * squared(mean_luminance(reference));
 
   double distance = 0, shown_squares = 0, squares = 0, reference_squares = 0, relative = 0, sum = 0, reference_sum = 0;
+  std::vector<double> shown_luminances, true_luminances;
+  const auto shown_luminance = [&](const Rgb& rgb) {
+    return luminance({displayed(rgb[0], exposure), displayed(rgb[1], exposure), displayed(rgb[2], exposure)});
+  };
   visit_object_pixels(picture, reference, [&](int, int, const Rgb& x, const Rgb& r) {
+    shown_luminances.push_back(shown_luminance(x));
+    true_luminances.push_back(shown_luminance(r));
     const double shown = displayed_squared_distance(x, r, exposure);
     distance += std::sqrt(shown / 3);
     shown_squares += shown;
@@ -111,7 +127,8 @@ std::optional<ErrorFigures> compare_images(const Image& picture, const Image& re
                       .relative_rmse = std::sqrt(ratio(squares, reference_squares)),
                       .relmse = relative / (3 * pixels),
                       .psnr = -10 * std::log10(shown_squares / (3 * pixels)),
-                      .energy_bias = ratio(sum - reference_sum, reference_sum)};
+                      .energy_bias = ratio(sum - reference_sum, reference_sum),
+                      .luminance_distance = sorted_distance(std::move(shown_luminances), std::move(true_luminances))};
 }
 
 std::optional<double> normalized_color(const Image& picture, const Image& reference, float exposure) {

@@ -14,6 +14,8 @@ struct ErrorFigures {
   double relmse = 0;            ///< mean of (x - r)^2 / (r^2 + epsilon), epsilon in docs/metrics.md
   double psnr = 0;              ///< dB, peak 1, on exposed clamped values; infinite for equal pictures
   double energy_bias = 0;       ///< (sum x - sum r) / sum r on linear radiance, signed
+  double luminance_distance =
+      0;  ///< mean of |y - y_ref| of exposed clamped luminances, each picture's sorted on its own
 };
 
 /// Compares RGBA pictures of the same size: linear radiance (mean over the covered part of the pixel), coverage in

@@ -82,6 +82,23 @@ TEST(Metrics, HandComputedFigures) {
               1e-6);
 }
 
+// Sparkles elsewhere are as many; dimmer or fewer ones are not. Values over white are white.
+TEST(Metrics, LuminanceDistanceIsThatOfHistograms) {
+  const Image reference = pixels({{0, 0, 0, 1}, {9, 9, 9, 1}, {0, 0, 0, 1}, {0.5F, 0.5F, 0.5F, 1}});
+  const auto distance = [&](const Image& picture) {
+    return compare_images(picture, reference, 1.0F)->luminance_distance;
+  };
+  EXPECT_NEAR(distance(reference), 0, 1e-12);
+  EXPECT_NEAR(distance(pixels({{2, 2, 2, 1}, {0, 0, 0, 1}, {0.5F, 0.5F, 0.5F, 1}, {0, 0, 0, 1}})), 0, 1e-7);
+  EXPECT_NEAR(distance(pixels({{0, 0, 0, 1}, {0.5F, 0.5F, 0.5F, 1}, {0, 0, 0, 1}, {0.5F, 0.5F, 0.5F, 1}})), 0.125,
+              1e-7);
+  // The same mean, without a sparkle: sorted (0, 0, .5, 1) against .375 throughout.
+  EXPECT_NEAR(distance(pixels(std::vector<std::array<float, 4>>(4, {0.375F, 0.375F, 0.375F, 1}))), 0.375, 1e-6);
+  // Green is brighter than blue: 0.7152 over 0.0722.
+  const Image black = pixels({{0, 0, 0, 1}});
+  EXPECT_NEAR(compare_images(pixels({{0, 1, 0, 1}}), black, 1.0F)->luminance_distance, 0.7152, 1e-6);
+}
+
 TEST(Metrics, EqualPicturesDifferByNothing) {
   const Image image = noise(1, 3.0F);
   const ErrorFigures figures = compare_images(image, image, 1.0F).value();

@@ -37,6 +37,7 @@ Record example_record(const Results& results, const Behaviour& behaviour, double
                              error * 9.3,
                              -20 * std::log10(error),
                              -0.013 * distance,
+                             error * 0.4,
                              0.00071,
                              error * 0.22,
                              error * 0.91,

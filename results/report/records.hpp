@@ -83,6 +83,7 @@ struct RecordError {
   double relmse = 0;
   double psnr = 0;  ///< dB; infinite for equal pictures (null in the JSON)
   double energy_bias = 0;
+  double luminance_distance = 0;
   std::optional<double> noise_floor;  ///< normalised colour error that the reference's own noise causes
   double representation = 0;          ///< normalised colour error of the method's finest level, supersampled
   double filtering = 0;               ///< normalised colour error against that supersampled finest level

@@ -24,6 +24,7 @@ constexpr std::array csv_columns{"scene",
                                  "relmse",
                                  "psnr_db",
                                  "energy_bias",
+                                 "luminance_distance",
                                  "noise_floor",
                                  "representation_error",
                                  "filtering_error",
@@ -80,13 +81,14 @@ std::string options_text(const Record& record) {
   return fmt::format("{}", fmt::join(pairs, ";"));
 }
 
-std::array<std::string, 15> error_fields(const std::optional<RecordError>& error) {
+std::array<std::string, 16> error_fields(const std::optional<RecordError>& error) {
   if (!error) return {};
   return {csv_field(error->normalized_color),
           csv_field(error->relative_rmse),
           csv_field(error->relmse),
           csv_field(error->psnr),
           csv_field(error->energy_bias),
+          csv_field(error->luminance_distance),
           csv_field(error->noise_floor),
           csv_field(error->representation),
           csv_field(error->filtering),
@@ -112,7 +114,7 @@ std::string line(const Record& record) {
   const FrameTime& frame = record.frame_ms;
   const TimeRatio& ratio = record.ratio_to_direct;
   const std::optional<FrameBuildTime>& build = record.frame_build;
-  const std::array<std::string, csv_columns.size() - 28> after_error{
+  const std::array<std::string, csv_columns.size() - 29> after_error{
       csv_field(equivalent_spp(record)),
       equivalent_bound(record),
       csv_field(record.flicker ? std::optional(record.flicker->mean) : std::nullopt),

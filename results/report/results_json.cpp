@@ -28,6 +28,7 @@ Json error_json(const std::optional<RecordError>& error) {
           {"relmse", json_number(error->relmse)},
           {"psnr", json_number(error->psnr)},
           {"energy_bias", json_number(error->energy_bias)},
+          {"luminance_distance", json_number(error->luminance_distance)},
           {"noise_floor", json_number(error->noise_floor)},
           {"representation", json_number(error->representation)},
           {"filtering", json_number(error->filtering)},

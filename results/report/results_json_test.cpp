@@ -38,6 +38,7 @@ TEST(ResultsJson, HasThePublishedFields) {
                             "/records/0/error/relmse",
                             "/records/0/error/psnr",
                             "/records/0/error/energy_bias",
+                            "/records/0/error/luminance_distance",
                             "/records/0/error/noise_floor",
                             "/records/0/error/representation",
                             "/records/0/error/filtering",

@@ -226,6 +226,38 @@ TEST(AtanasovBins, LobesOfALargeFootprintConverge) {
   EXPECT_LT(largest_error(normals, large, {{"roughness", "flakes"}, {"alpha", "0.04"}}, flake), 0.12);
 }
 
+// Nodes at the border that count by the share that is covered: of T texels that are strewn at random it is off by about
+// 0.4 / sqrt(T) (README.md), while what is looked at no longer grows with the footprint.
+TEST(AtanasovBins, BorderByNodesIsNearThatByTexels) {
+  constexpr int m = 15;
+  const Image normals = test_normals(1024, 1024, 0.5F, m);
+  const Material material = material_of(normals, Wrap::repeat);
+  const std::string value = "vec4(ndf(e, c.xyz), 0.0, 0.0, 0.0)";
+  for (const double side : {200.0, 700.0}) {
+    const Parallelogram p{{510.0, 300.0}, {{0.96 * side, 0.28 * side}, {-0.28 * side, 0.96 * side}}};
+    std::vector<std::array<glm::vec4, 3>> inputs;
+    for (std::uint32_t bin = 0; bin < m * m; ++bin)
+      inputs.push_back(
+          input_of(p, {1024.0, 1024.0}, square_to_hemisphere((glm::dvec2(bin % m, bin / m) + 0.5) / double{m})));
+    std::map<std::string, std::string> options{{"m", "15"}, {"roughness", "bin"}};
+    const auto texels = probe_footprints(material, options, value, inputs);
+    options["border"] = "nodes";
+    const auto nodes = probe_footprints(material, options, value, inputs);
+    double energy = 0.0, off = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      const double mine = nodes[i].x * bin_solid_angle(m), truth = texels[i].x * bin_solid_angle(m);
+      energy += mine;
+      if (truth <= 0.0) continue;
+      off += std::pow((mine - truth) / truth, 2) * truth * p.area();  // in units of 1 / sqrt(texels)
+      count += 1.0;
+    }
+    EXPECT_NEAR(energy, 1.0, 0.01) << side;
+    std::printf("%g: %g energy %g\n", side, std::sqrt(off / count), energy);
+    EXPECT_LT(std::sqrt(off / count), 0.5) << side;
+    EXPECT_GT(std::sqrt(off / count), 0.01) << side << ": no node was taken for its texels";
+  }
+}
+
 // A map of texels without a normal is the surface's own; normals below the horizon are those on the rim.
 TEST(AtanasovBins, HoldsWhatIsNoNormalAndWhatIsBelowTheHorizon) {
   const Parallelogram all{{32.0, 32.0}, {{64.0, 0.0}, {0.0, 64.0}}};

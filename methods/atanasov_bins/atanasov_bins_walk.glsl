@@ -56,11 +56,27 @@ void addTexel(inout Covered sum, Region r, vec4 beyond, uint i) {
   if (side == cut) sum.partly += areaWithin(r, box.xy, box.zw);
 }
 
+//? if border_nodes
+// Sides below which a node that the border cuts counts by the share of it that is covered, as if its texels were spread
+// evenly: a quarter of the footprint's width.
+float evenSide(Region r) {
+  return areaOf(r) / (4.0 * max(length(r.edges[0]), length(r.edges[1])));
+}
+
+void addNode(inout Covered sum, Region r, vec4 box, uint texels) {
+  vec2 sides = box.zw - box.xy;
+  sum.partly += float(texels) * areaWithin(r, box.xy, box.zw) / (sides.x * sides.y);
+}
+//? end
+
 // Over one copy of the map. One loop looks at nodes and at the texels of leaves alike: pixels that are drawn together
 // wait for each other at the end of every loop. `finished` becomes false where the driver has ended it before its end
 // (notWhole).
 float areaInCopy(Region r, TexelList list, inout bool finished) {
   vec4 beyond = beyondMap(r);
+//? if border_nodes
+  float even_side = evenSide(r);
+//? end
   Node node = Node(list.root, list.end, ivec2(0), textureSize(bins_map, 0));
   uvec4 pending[most_pending];
   int count = 0;
@@ -74,6 +90,12 @@ float areaInCopy(Region r, TexelList list, inout bool finished) {
     } else {
       vec4 box = boxOf(node.lower, node.upper, beyond);
       int side = sideOf(r, box.xy, box.zw);
+//? if border_nodes
+      if (side == cut && all(lessThan(box.zw - box.xy, vec2(even_side)))) {
+        addNode(sum, r, box, node.end - begin);
+        side = outside;
+      }
+//? end
       in_leaf = side == cut && node.end - begin <= leaf_size;
       if (side == cut && !in_leaf) {
         Node later = upperHalfOf(node);

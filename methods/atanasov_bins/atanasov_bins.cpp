@@ -111,10 +111,10 @@ class AtanasovBins final : public Method {
                        "Which texels count: those under the pixel's parallelogram; those in the box about it along the "
                        "map's axes; those that the footprint filter would blend."),
            word_option(
-               "border", {"texels", "nodes"},
-               "How texels count at the footprint's border: one by one; or by nodes of the trees narrower than a "
-               "quarter of it, as if their texels were spread evenly: what a pixel costs then does not grow with its "
-               "footprint."),
+               "border", {"nodes", "texels"},
+               "How texels count at the footprint's border: by nodes of the trees narrower than a quarter of it, as if "
+               "their texels were spread evenly, so that what a pixel costs does not grow with its footprint; or one "
+               "by one, exactly."),
            word_option("surface", {"facets", "microfacets"},
                        "What the density is of: texels that each reflect about their own normal, as the reference has "
                        "them; microfacets of a surface about its own normal, as published, D over the cosine.")},

@@ -150,7 +150,7 @@ int listIn(Lists lists, int i, Effective e, Query q, out float value) {
 //? end
 
 // Texels that are looked at one by one for less than the walks of so many lists, which take some 64 steps each.
-float texelsWorth(Lists lists) { return min(64.0 * float(lists.count), 16384.0); }
+float texelsWorth(Lists lists) { return min(64.0 * float(lists.count), 4096.0); }
 
 // The texels without a normal are a list too, which takes from the area.
 Sum sumOfLists(Effective e, Region r, Lists lists, Query q) {

@@ -58,10 +58,12 @@ void addTexel(inout Covered sum, Region r, vec4 beyond, uint i) {
 
 //? if border_nodes
 // Sides below which a node that the border cuts counts by the share of it that is covered, as if its texels were spread
-// evenly: a quarter of the footprint's width.
-float evenSide(Region r) {
-  return areaOf(r) / (4.0 * max(length(r.edges[0]), length(r.edges[1])));
-}
+// evenly: a quarter of the side of a square as large as the footprint; half of it where many lists are summed.
+//? if roughness_bin
+float evenSide(Region r) { return 0.25 * sqrt(areaOf(r)); }
+//? else
+float evenSide(Region r) { return 0.5 * sqrt(areaOf(r)); }
+//? end
 
 void addNode(inout Covered sum, Region r, vec4 box, uint texels) {
   vec2 sides = box.zw - box.xy;

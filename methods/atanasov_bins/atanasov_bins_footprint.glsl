@@ -64,8 +64,9 @@ float texelValue(float variance, uint code, Query q) {
 Sum sumOfTexels(Effective e, Region r, Query q) {
   Sum sum = Sum(0.0, 0.0);
   TexelBox box = texelsAbout(r);
-  int i = 0;
-  for (; i < box.count; ++i) {
+  int seen = 0;  // of the loop's own counter the compiler knows what it is behind the loop
+  for (int i = 0; i < box.count; ++i) {
+    ++seen;
     ivec2 texel = texelIn(box, i);
     float area = areaOfTexel(r, texel);
     if (area <= 0.0) continue;
@@ -74,7 +75,7 @@ Sum sumOfTexels(Effective e, Region r, Query q) {
     sum.value += area * texelValue(e.variance, code, q);
     sum.area += area;
   }
-  return i < box.count ? notWhole() : sum;
+  return seen < box.count ? notWhole() : sum;
 }
 
 // What is to be counted: lists, one after the other, and what a texel of each is worth.
@@ -156,8 +157,10 @@ float texelsWorth(Lists lists) { return min(64.0 * float(lists.count), 4096.0); 
 Sum sumOfLists(Effective e, Region r, Lists lists, Query q) {
   bool finished = true;
   Sum sum = Sum(0.0, areaOf(r));
-  int i = bins_invalid_list < 0.0 ? 0 : -1;
-  for (; i < lists.count; ++i) {
+  int first = bins_invalid_list < 0.0 ? 0 : -1;
+  int seen = first;
+  for (int i = first; i < lists.count; ++i) {
+    ++seen;
     float value = 0.0;
     int list = i < 0 ? int(bins_invalid_list) : listIn(lists, i, e, q, value);
     if (list < 0) continue;
@@ -169,7 +172,7 @@ Sum sumOfLists(Effective e, Region r, Lists lists, Query q) {
     }
   }
   if (sum.area < 1e-4 * areaOf(r)) sum = Sum(0.0, 0.0);
-  return finished && i >= lists.count ? sum : notWhole();
+  return finished && seen >= lists.count ? sum : notWhole();
 }
 
 // The mean over the footprint; over nothing but texels without a normal that of the surface's own.

@@ -145,11 +145,12 @@ float areaOfList(Region r, TexelList list, inout bool finished) {
   int across = max(columns.y - columns.x + 1, 1);
   int copies = across * max(rows.y - rows.x + 1, 1);
   float area = 0.0;
-  int i = 0;
-  for (; i < copies; ++i) {
+  int seen = 0;
+  for (int i = 0; i < copies; ++i) {
+    ++seen;
     ivec2 copy = ivec2(columns.x + i % across, rows.x + i / across);
     area += areaInCopy(inCopy(r, copy), list, finished);
   }
-  finished = finished && i >= copies;
+  finished = finished && seen >= copies;
   return area;
 }

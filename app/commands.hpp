@@ -14,6 +14,7 @@ void add_run_command(CLI::App& app);
 void add_check_command(CLI::App& app);
 void add_animate_command(CLI::App& app);
 void add_edit_command(CLI::App& app);
+void add_bake_command(CLI::App& app);
 void add_explain_command(CLI::App& app);
 void add_list_command(CLI::App& app);
 void add_ndf_command(CLI::App& app);

@@ -23,6 +23,7 @@ constexpr const char* examples =
     "  footprint compare model.gltf -o out          the error and fps table, pictures and a page\n"
     "  footprint render model.gltf --method toksvig -o out.exr\n"
     "  footprint check quick -o out                 an experiment with its claims held\n"
+    "  footprint bake model.gltf --method lean -o maps\n"
     "  footprint list methods                       the methods and their options\n"
     "\n"
     "Exit codes: 0 fine, 1 a check fell short, 2 the command line or an input is wrong, 3 the machine cannot,\n"
@@ -39,6 +40,7 @@ void run(int argc, const char* const* argv) {
   footprint::add_edit_command(app);
   footprint::add_run_command(app);
   footprint::add_check_command(app);
+  footprint::add_bake_command(app);
   footprint::add_explain_command(app);
   footprint::add_ndf_command(app);
   footprint::add_list_command(app);

@@ -12,11 +12,12 @@ using Run = RunSettings;
 using Commands = std::vector<std::string_view>;
 
 // Subcommands by what they have in common.
-const Commands of_a_scene{"compare", "render", "animate", "edit", "explain"};
+const Commands of_a_scene{"compare", "render", "animate", "edit", "bake", "explain"};
+const Commands of_a_picture{"compare", "render", "animate", "edit", "explain"};
 const Commands with_a_reference{"compare", "render", "animate"};
-const Commands with_a_footprint{"compare", "render", "animate", "edit", "explain", "ndf"};
+const Commands with_a_footprint{"compare", "render", "animate", "edit", "bake", "explain", "ndf"};
 const Commands that_draw{"compare", "render", "animate", "edit", "explain", "ndf", "run", "check"};
-const Commands that_may_cache{"compare", "render", "animate", "explain", "ndf", "run", "check"};
+const Commands that_may_cache{"compare", "render", "animate", "bake", "explain", "ndf", "run", "check"};
 
 constexpr int any_count = std::numeric_limits<int>::max();
 constexpr std::uint64_t any_seed = std::numeric_limits<std::uint64_t>::max();
@@ -67,6 +68,11 @@ std::vector<Setting> what_is_drawn() {
        .type = one_method(all_of),
        .help = "the method whose textures and shader count",
        .start = "direct"},
+      {.option = "--method",
+       .commands = {"bake"},
+       .type = one_method(all_of),
+       .help = "the method whose maps are written",
+       .required = true},
       {.option = "--methods",
        .commands = {"ndf"},
        .type = methods(all_of),
@@ -86,7 +92,7 @@ std::vector<Setting> what_is_drawn() {
 std::vector<Setting> what_is_seen() {
   return {
       {.option = "--size",
-       .commands = of_a_scene,
+       .commands = of_a_picture,
        .table = "experiment",
        .key = "size",
        .type = frame_size([](Run& run) -> std::optional<glm::ivec2>& { return run.view.size; }),

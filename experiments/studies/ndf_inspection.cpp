@@ -8,10 +8,10 @@
 
 #include "experiments/settings/known_methods.hpp"
 #include "experiments/studies/ndf_pictures.hpp"
-#include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/core/file_names.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/ndf/method_ndf.hpp"
 #include "renderer/ndf/ndf_figures.hpp"

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
+#include "renderer/core/file_names.hpp"
 #include "renderer/image/false_color.hpp"
 #include "renderer/image/image_io.hpp"
 
@@ -26,13 +26,6 @@ Image stacked(const Image& top, const Image& bottom) {
   place(top, 0);
   place(bottom, top.height);
   return both;
-}
-
-std::string file_stem(const std::string& text) {
-  std::string stem = text;
-  std::ranges::replace_if(
-      stem, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '.' && c != '_'; }, '_');
-  return stem;
 }
 
 std::string method_stem(std::span<const MethodSpec> methods, std::size_t index) {

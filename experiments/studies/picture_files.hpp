@@ -11,9 +11,6 @@
 
 namespace footprint {
 
-/// A file name part from any text: letters, digits, '-', '.' and '_' stay, all else becomes '_'.
-[[nodiscard]] std::string file_stem(const std::string& text);
-
 /// Two pictures of equally many channels, the first on top, both from the left edge on.
 [[nodiscard]] Image stacked(const Image& top, const Image& bottom);
 

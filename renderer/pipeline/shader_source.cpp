@@ -46,6 +46,26 @@ std::string scalar_declarations(const Prefiltered& prefiltered) {
   return text + "};\n";
 }
 
+// What is uploaded for a bare module: no bindings, so that whoever sets them finds them by their names.
+std::string plain_declarations(const Prefiltered& prefiltered) {
+  std::string text;
+  for (const PrefilteredTexture& texture : prefiltered.textures)
+    text += fmt::format("uniform {} {};\n", texture.layers > 0 ? "sampler2DArray" : "sampler2D", texture.name);
+  for (const auto& [name, value] : prefiltered.scalars) text += fmt::format("uniform float {};\n", name);
+  return text;
+}
+
+// The lines that tell a compiler whose lines follow are of no use to who has one file.
+std::string without_line_numbers(const std::string& text) {
+  std::string kept;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
+    if (text.compare(at, 6, "#line ") != 0) kept.append(text, at, end - at);
+    at = end;
+  }
+  return kept;
+}
+
 void add_material_block(ShaderText& text, const ShaderFlags& flags, std::size_t facet_lobes) {
   if (flags.at("multi_lobe")) text.add(fmt::format("const int most_facet_lobes = {};\n", facet_lobes));
   text.include("surface_material.glsl");
@@ -111,6 +131,18 @@ ShaderText fragment_shader(const ShaderVariant& variant, const ShaderModule& mod
   if (calls_for_shadow_maps(variant.effects)) text.include("surface_shadows.glsl");
   add_method_pass(text, variant, flags, options, prefiltered, "surface_fragment.glsl");
   return text;
+}
+
+std::string bare_module(const ShaderVariant& variant, const ShaderModule& module, const Options& options,
+                        const Prefiltered& prefiltered) {
+  const ShaderFlags flags = shader_flags(variant, options, prefiltered);
+  ShaderText text(flags, module);
+  text.add(plain_declarations(prefiltered) + footprint_constants(variant.footprint) + number_options(options));
+  if (flags.at("multi_lobe")) text.add(fmt::format("const int most_facet_lobes = {};\n", variant.facet_lobes));
+  text.include("bare_material.glsl");
+  add_shared_functions(text, flags);
+  text.include("bare_module.glsl");
+  return without_line_numbers(text.text());
 }
 
 ShaderText ndf_shader(const ShaderVariant& variant, const ShaderModule& module, const Options& options,

@@ -26,6 +26,11 @@ namespace footprint {
 [[nodiscard]] ShaderText fragment_shader(const ShaderVariant& variant, const ShaderModule& module,
                                          const Options& options, const Prefiltered& prefiltered);
 
+/// A method's module for programs of others, without a version line: what it reads are plain uniforms (samplers by the
+/// names of its textures, scalars by theirs, what bare_material.glsl has), and bare_module.glsl says what to call.
+[[nodiscard]] std::string bare_module(const ShaderVariant& variant, const ShaderModule& module, const Options& options,
+                                      const Prefiltered& prefiltered);
+
 /// A pass that evaluates the module's `ndf` at listed directions for one footprint; its vertices are
 /// screen_vertex_shader's. The arguments are fragment_shader's.
 [[nodiscard]] ShaderText ndf_shader(const ShaderVariant& variant, const ShaderModule& module, const Options& options,

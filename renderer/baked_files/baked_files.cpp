@@ -1,0 +1,140 @@
+// Textures one after the other, each as EXR and KTX2 and, where bytes hold it, as PNG.
+#include "renderer/baked_files/baked_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "renderer/baked_files/ktx2.hpp"
+#include "renderer/baked_files/manifest.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/core/file_names.hpp"
+#include "renderer/core/files.hpp"
+#include "renderer/core/interrupt.hpp"
+#include "renderer/image/exr_chain.hpp"
+#include "renderer/image/image_io.hpp"
+#include "renderer/pipeline/shader_source.hpp"
+
+namespace footprint {
+namespace {
+
+// PNG has no two channels that every reader takes for two numbers.
+bool is_held_by_png(const PrefilteredTexture& texture) {
+  return texture.storage == Storage::unorm8 && texture.channels != 2;
+}
+
+TextureFiles files_of(const PrefilteredTexture& texture, const std::string& folder) {
+  TextureFiles files{.exr = {}, .ktx2 = fmt::format("{}/{}.ktx2", folder, texture.name), .png = {}};
+  for (int layer = 0; layer < std::max(texture.layers, 1); ++layer) {
+    const std::string part = texture.layers > 0 ? fmt::format(".layer{}", layer) : std::string();
+    files.exr.push_back(fmt::format("{}/{}{}.exr", folder, texture.name, part));
+    for (std::size_t level = 0; is_held_by_png(texture) && level < texture.levels.size(); ++level)
+      files.png.push_back(fmt::format("{}/{}{}.mip{}.png", folder, texture.name, part, level));
+  }
+  return files;
+}
+
+std::vector<std::string> channel_names(int channels) {
+  if (channels == 1) return {"Y"};
+  constexpr std::array<const char*, 4> names{"R", "G", "B", "A"};
+  return {names.begin(), names.begin() + channels};
+}
+
+std::vector<Image> decoded_chain(const PrefilteredTexture& texture, int layer) {
+  std::vector<Image> chain;
+  for (std::size_t level = 0; level < texture.levels.size(); ++level)
+    chain.push_back(decode_level(texture, level, layer));
+  return chain;
+}
+
+void write_texture(const PrefilteredTexture& texture, const TextureFiles& files, const std::filesystem::path& folder) {
+  const ExrTexel texel = texture.storage == Storage::fp16 ? ExrTexel::half : ExrTexel::full;
+  auto png = files.png.begin();
+  for (int layer = 0; layer < std::max(texture.layers, 1); ++layer) {
+    throw_if_interrupted();
+    const ExrChain chain{.levels = decoded_chain(texture, layer), .channels = channel_names(texture.channels)};
+    write_exr_chain(folder / files.exr.at(static_cast<std::size_t>(layer)), chain, texel);
+    for (std::size_t level = 0; !files.png.empty() && level < chain.levels.size(); ++level)
+      write_png(folder / *png++, chain.levels[level]);
+  }
+  write_file_atomically(folder / files.ktx2, ktx2_bytes(texture));
+}
+
+ShaderVariant variant_of(const BakeToFiles& bake) {
+  std::size_t most_lobes = 1;
+  for (const Material& material : bake.scene.materials) most_lobes = std::max(most_lobes, material.lobes.size());
+  return {.effects = bake.effects & bake.baked.method->info().honours,
+          .brdf = bake.scene.materials.front().brdf,
+          .footprint = bake.footprint,
+          .facet_lobes = most_lobes};
+}
+
+std::string contract(const BakeToFiles& bake) {
+  return fmt::format(
+      R"(// {} as `footprint bake` wrote it (Footprint {}), footprint filter {}.
+//
+// Put it behind `#version 450 core` into a fragment shader. Bind the textures by the names of the samplers below, with
+// the filter and wrap modes, and set the uniforms to the values, that manifest.json gives for each material. Then:
+//
+//   Footprints f = footprintsAt(uv);                 // or member by member, where maps have coordinates of their own
+//   Effective e = effective(f);                      // once a pixel
+//   Surface s = Surface(albedo, f0);                 // diffuse albedo, reflectance at normal incidence
+//   vec3 f_cos = reflectedTowards(e, s, wi, wo);     // for each light; f * cos
+//
+// wi and wo are unit vectors in the tangent frame (x tangent, y bitangent, z normal), towards the light and the viewer.
+)",
+      bake.baked.spec.text, bake.version, footprint_filter_text(bake.footprint));
+}
+
+}  // namespace
+
+BakeListing list_bake(const BakeToFiles& bake) {
+  std::vector<std::string> names;
+  for (const Material& material : bake.scene.materials) names.push_back(material.name);
+  const std::vector<std::string> folders = distinct_stems(names);
+  BakeListing listing{.module = file_stem(bake.baked.spec.name) + ".glsl", .materials = {}};
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    MaterialFiles& files = listing.materials.emplace_back(folders[i], std::vector<TextureFiles>());
+    for (const PrefilteredTexture& texture : bake.baked.materials.at(i).textures)
+      files.textures.push_back(files_of(texture, "maps/" + folders[i]));
+  }
+  return listing;
+}
+
+void require_files(const BakeToFiles& bake) {
+  std::size_t count = 0;
+  for (const Prefiltered& prefiltered : bake.baked.materials) {
+    count += prefiltered.textures.size();
+    const bool is_built = prefiltered.surface_coordinates.has_value() ||
+                          std::ranges::any_of(prefiltered.textures, &PrefilteredTexture::built);
+    if (is_built) {
+      throw Error(ErrorKind::usage, fmt::format("method {}", bake.baked.spec.text),
+                  "its textures are built anew for each frame: there is nothing to bake",
+                  "choose another; `footprint list methods` names them");
+    }
+  }
+  if (count > 0) return;
+  throw Error(ErrorKind::usage, fmt::format("{}, method {}", bake.scene.source, bake.baked.spec.text),
+              "bakes nothing: normals and roughness do not vary on any material", "give a model with a normal map");
+}
+
+std::string module_text(const BakeToFiles& bake) {
+  const BakedMethod& baked = bake.baked;
+  return contract(bake) + bare_module(variant_of(bake), baked.method->shader(), baked.options, baked.materials.front());
+}
+
+void write_bake(const BakeToFiles& bake, const std::filesystem::path& folder) {
+  require_files(bake);
+  const BakeListing listing = list_bake(bake);
+  for (std::size_t i = 0; i < listing.materials.size(); ++i) {
+    const MaterialFiles& files = listing.materials[i];
+    const auto& textures = bake.baked.materials[i].textures;
+    if (!textures.empty()) std::filesystem::create_directories(folder / "maps" / files.folder);
+    for (std::size_t t = 0; t < textures.size(); ++t) write_texture(textures[t], files.textures[t], folder);
+  }
+  write_file_atomically(folder / listing.module, module_text(bake));
+  write_file_atomically(folder / "manifest.json", manifest_json(bake, listing));
+}
+
+}  // namespace footprint

@@ -1,0 +1,153 @@
+// The parts of the file in their order; sections and tables are those of the KTX 2.0 specification and, for the data
+// format descriptor, of the Khronos Data Format Specification 1.3.
+#include "renderer/baked_files/ktx2.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <numeric>
+#include <stdexcept>
+#include <string_view>
+
+namespace footprint {
+namespace {
+
+constexpr std::array<std::uint8_t, 12> identifier{0xAB, 'K', 'T', 'X', ' ', '2', '0', 0xBB, '\r', '\n', 0x1A, '\n'};
+constexpr std::size_t header_bytes = 80;       // identifier, nine words, and the index of four words and two long ones
+constexpr std::size_t level_entry_bytes = 24;  // offset, length, uncompressed length
+constexpr std::uint32_t block_version = 2;     // of a basic descriptor block: KDFS 1.3
+constexpr std::uint32_t model_rgbsda = 1, primaries_unspecified = 0, transfer_linear = 1;
+constexpr std::uint32_t type_signed_float = 0xC0;  // qualifiers of a channel: float and signed
+
+class Bytes {
+ public:
+  void word(std::uint32_t value) { number(value, 4); }
+  void long_word(std::uint64_t value) { number(value, 8); }
+  void text(std::string_view text) { bytes_.insert(bytes_.end(), text.begin(), text.end()); }
+  void block(const std::vector<std::uint8_t>& block) { bytes_.insert(bytes_.end(), block.begin(), block.end()); }
+  void pad_to(std::size_t size) { bytes_.resize(size, 0); }
+  [[nodiscard]] std::size_t size() const { return bytes_.size(); }
+  [[nodiscard]] std::vector<std::uint8_t> take() { return std::move(bytes_); }
+
+ private:
+  void number(std::uint64_t value, int count) {
+    for (int i = 0; i < count; ++i) bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+  }
+
+  std::vector<std::uint8_t> bytes_;
+};
+
+std::uint32_t channel_bits(Storage storage) {
+  switch (storage) {
+    case Storage::fp32:
+      return 32;
+    case Storage::fp16:
+      return 16;
+    case Storage::unorm8:
+      break;
+  }
+  return 8;
+}
+
+std::size_t texel_size(const PrefilteredTexture& texture) {
+  return channel_bits(texture.storage) / 8 * static_cast<std::size_t>(texture.channels);
+}
+
+std::size_t rounded_up(std::size_t size, std::size_t step) { return (size + step - 1) / step * step; }
+
+// KDFS 1.3, section 5: one block, one sample a channel.
+std::vector<std::uint8_t> format_descriptor(const PrefilteredTexture& texture) {
+  const bool is_float = texture.storage != Storage::unorm8;
+  const std::uint32_t bits = channel_bits(texture.storage);
+  const auto channels = static_cast<std::uint32_t>(texture.channels);
+  const std::uint32_t block_size = 24 + 16 * channels;
+  Bytes out;
+  out.word(4 + block_size);
+  out.word(0);  // Khronos' own basic block
+  out.word(block_version | block_size << 16);
+  out.word(model_rgbsda | primaries_unspecified << 8 | transfer_linear << 16);
+  out.word(0);                                                // texel blocks of 1 x 1 x 1 x 1
+  out.word(static_cast<std::uint32_t>(texel_size(texture)));  // bytes of plane 0
+  out.word(0);
+  for (std::uint32_t c = 0; c < channels; ++c) {
+    const std::uint32_t id = c == 3 ? 15 : c;  // alpha is 15
+    out.word(c * bits | (bits - 1) << 16 | (id | (is_float ? type_signed_float : 0)) << 24);
+    out.word(0);  // its place in the block
+    out.word(is_float ? std::bit_cast<std::uint32_t>(-1.0F) : 0);
+    out.word(is_float ? std::bit_cast<std::uint32_t>(1.0F) : 255);
+  }
+  return out.take();
+}
+
+// In the order of the keys, each with its length in front and filled up to four bytes.
+std::vector<std::uint8_t> key_values() {
+  using namespace std::string_view_literals;
+  Bytes out;
+  for (const std::string_view entry : {"KTXorientation\0rd\0"sv, "KTXwriter\0footprint bake\0"sv}) {
+    out.word(static_cast<std::uint32_t>(entry.size()));
+    out.text(entry);
+    out.pad_to(rounded_up(out.size(), 4));
+  }
+  return out.take();
+}
+
+// Where each level's bytes begin, `first` being the first free byte: the coarsest comes first.
+std::vector<std::size_t> level_offsets(const PrefilteredTexture& texture, std::size_t first) {
+  const std::size_t step = std::lcm(texel_size(texture), std::size_t{4});
+  std::vector<std::size_t> offsets(texture.levels.size());
+  for (std::size_t level = offsets.size(); level-- > 0;) {
+    offsets[level] = rounded_up(first, step);
+    first = offsets[level] + texture.levels[level].bytes.size();
+  }
+  return offsets;
+}
+
+}  // namespace
+
+std::uint32_t vk_format(Storage storage, int channels) {
+  constexpr std::array<std::array<std::uint32_t, 4>, 3> formats{{
+      {100, 103, 106, 109},  // VK_FORMAT_R32_SFLOAT, R32G32, R32G32B32, R32G32B32A32
+      {76, 83, 90, 97},      // VK_FORMAT_R16_SFLOAT, ...
+      {9, 16, 23, 37},       // VK_FORMAT_R8_UNORM, R8G8, R8G8B8, R8G8B8A8
+  }};
+  return formats.at(static_cast<std::size_t>(storage)).at(static_cast<std::size_t>(channels - 1));
+}
+
+std::vector<std::uint8_t> ktx2_bytes(const PrefilteredTexture& texture) {
+  if (texture.built) throw std::logic_error("texture " + texture.name + " is built on the GPU: it has no texels");
+  const std::vector<std::uint8_t> descriptor = format_descriptor(texture), keys = key_values();
+  const std::size_t descriptor_at = header_bytes + level_entry_bytes * texture.levels.size();
+  const std::size_t keys_at = descriptor_at + descriptor.size();
+  const std::vector<std::size_t> offsets = level_offsets(texture, keys_at + keys.size());
+  Bytes out;
+  out.block({identifier.begin(), identifier.end()});
+  out.word(vk_format(texture.storage, texture.channels));
+  out.word(channel_bits(texture.storage) / 8);  // typeSize: what a swap of byte orders swaps
+  out.word(static_cast<std::uint32_t>(texture.levels.front().width));
+  out.word(static_cast<std::uint32_t>(texture.levels.front().height));
+  out.word(0);  // no depth
+  out.word(static_cast<std::uint32_t>(texture.layers));
+  out.word(1);  // one face
+  out.word(static_cast<std::uint32_t>(texture.levels.size()));
+  out.word(0);  // no supercompression, and so no global data
+  out.word(static_cast<std::uint32_t>(descriptor_at));
+  out.word(static_cast<std::uint32_t>(descriptor.size()));
+  out.word(static_cast<std::uint32_t>(keys_at));
+  out.word(static_cast<std::uint32_t>(keys.size()));
+  out.long_word(0);
+  out.long_word(0);
+  for (std::size_t level = 0; level < offsets.size(); ++level) {
+    out.long_word(offsets[level]);
+    out.long_word(texture.levels[level].bytes.size());
+    out.long_word(texture.levels[level].bytes.size());
+  }
+  out.block(descriptor);
+  out.block(keys);
+  for (std::size_t level = offsets.size(); level-- > 0;) {
+    out.pad_to(offsets[level]);
+    out.block(texture.levels[level].bytes);
+  }
+  return out.take();
+}
+
+}  // namespace footprint

@@ -1,0 +1,20 @@
+// A prefiltered texture as a KTX 2.0 file (Khronos' KTX File Format Specification, version 2.0): all levels and layers
+// in the texture's own storage, without supercompression.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "renderer/bake/prefiltered.hpp"
+
+namespace footprint {
+
+/// The Vulkan format (VkFormat) of a storage with so many channels, 1 to 4: linear, never sRGB.
+[[nodiscard]] std::uint32_t vk_format(Storage storage, int channels);
+
+/// The file's bytes: header, level index, data format descriptor, the keys KTXorientation (`rd`: the first row is v =
+/// 0) and KTXwriter, and the levels from the coarsest to the finest. Equal textures give equal bytes. Errors:
+/// std::logic_error for a texture that a frame build writes.
+[[nodiscard]] std::vector<std::uint8_t> ktx2_bytes(const PrefilteredTexture& texture);
+
+}  // namespace footprint

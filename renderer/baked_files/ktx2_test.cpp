@@ -1,0 +1,123 @@
+// KTX2 files against a reader that was written from the specification, and the descriptor against its printed examples.
+#include "renderer/baked_files/ktx2.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "renderer/baked_files/ktx2_reader.hpp"
+#include "renderer/image/mipmap.hpp"
+
+namespace footprint {
+namespace {
+
+using test::Ktx2File;
+using test::read_ktx2;
+
+std::vector<Image> counted_chain(int width, int height, int channels) {
+  Image finest(width, height, channels);
+  for (std::size_t i = 0; i < finest.texels.size(); ++i) finest.texels[i] = static_cast<float>(i % 251) / 251.0F;
+  return mip_chain(std::move(finest));
+}
+
+TEST(Ktx2, HoldsEveryStorageAndCountOfChannels) {
+  for (const Storage storage : {Storage::fp32, Storage::fp16, Storage::unorm8}) {
+    for (int channels = 1; channels <= 4; ++channels) {
+      const PrefilteredTexture texture = make_texture("map", counted_chain(13, 6, channels), storage, {});
+      const Ktx2File file = read_ktx2(ktx2_bytes(texture));
+      EXPECT_EQ(file.width, 13U);
+      EXPECT_EQ(file.height, 6U);
+      EXPECT_EQ(file.layers, 0U);
+      ASSERT_EQ(file.levels.size(), texture.levels.size());
+      for (std::size_t level = 0; level < file.levels.size(); ++level) {
+        EXPECT_EQ(file.levels[level].bytes, texture.levels[level].bytes);
+        EXPECT_EQ(static_cast<int>(file.levels[level].width), texture.levels[level].width);
+      }
+    }
+  }
+}
+
+TEST(Ktx2, HoldsArraysLayerAfterLayer) {
+  const std::vector<std::vector<Image>> layers{counted_chain(8, 8, 3), mip_chain(Image(8, 8, 3, 0.25F))};
+  const PrefilteredTexture texture = make_array_texture("lobes", layers, Storage::fp16, {});
+  const Ktx2File file = read_ktx2(ktx2_bytes(texture));
+  EXPECT_EQ(file.layers, 2U);
+  for (std::size_t level = 0; level < file.levels.size(); ++level)
+    EXPECT_EQ(file.levels[level].bytes, texture.levels[level].bytes);
+}
+
+// Numbers of vulkan_core.h.
+TEST(Ktx2, NamesVulkansFormats) {
+  EXPECT_EQ(vk_format(Storage::unorm8, 4), 37U);  // VK_FORMAT_R8G8B8A8_UNORM
+  EXPECT_EQ(vk_format(Storage::unorm8, 1), 9U);   // VK_FORMAT_R8_UNORM
+  EXPECT_EQ(vk_format(Storage::fp16, 4), 97U);    // VK_FORMAT_R16G16B16A16_SFLOAT
+  EXPECT_EQ(vk_format(Storage::fp16, 3), 90U);    // VK_FORMAT_R16G16B16_SFLOAT
+  EXPECT_EQ(vk_format(Storage::fp32, 4), 109U);   // VK_FORMAT_R32G32B32A32_SFLOAT
+  EXPECT_EQ(vk_format(Storage::fp32, 2), 103U);   // VK_FORMAT_R32G32_SFLOAT
+}
+
+TEST(Ktx2, DescribesItsTexels) {
+  const Ktx2File bytes = read_ktx2(ktx2_bytes(make_texture("map", counted_chain(4, 4, 4), Storage::unorm8, {})));
+  EXPECT_EQ(bytes.type_size, 1U);
+  // KDFS 1.3: 92 bytes, RGBSDA, linear, one byte a channel from bit 0 on, alpha as channel 15, 0 to 255.
+  EXPECT_EQ(bytes.descriptor, (std::vector<std::uint32_t>{92,
+                                                          0,
+                                                          88U << 16U | 2,
+                                                          1 | 1U << 16U,
+                                                          0,
+                                                          4,
+                                                          0,  //
+                                                          0 | 7U << 16U,
+                                                          0,
+                                                          0,
+                                                          255,
+                                                          8 | 7U << 16U | 1U << 24U,
+                                                          0,
+                                                          0,
+                                                          255,  //
+                                                          16 | 7U << 16U | 2U << 24U,
+                                                          0,
+                                                          0,
+                                                          255,
+                                                          24 | 7U << 16U | 15U << 24U,
+                                                          0,
+                                                          0,
+                                                          255}));
+  const Ktx2File halves = read_ktx2(ktx2_bytes(make_texture("map", counted_chain(4, 4, 1), Storage::fp16, {})));
+  EXPECT_EQ(halves.type_size, 2U);
+  // One signed float of 16 bits; -1 and 1 as 32-bit floats.
+  EXPECT_EQ(halves.descriptor, (std::vector<std::uint32_t>{44, 0, 40U << 16U | 2, 1 | 1U << 16U, 0, 2, 0,
+                                                           15U << 16U | 0xC0U << 24U, 0, 0xBF800000, 0x3F800000}));
+}
+
+TEST(Ktx2, SaysWhichRowComesFirst) {
+  const Ktx2File file = read_ktx2(ktx2_bytes(make_texture("map", counted_chain(2, 2, 1), Storage::fp32, {})));
+  EXPECT_EQ(file.keys.at("KTXorientation"), std::string("rd\0", 3));
+  EXPECT_EQ(file.keys.count("KTXwriter"), 1U);
+}
+
+TEST(Ktx2, TakesTheFinestLevelAlone) {
+  const PrefilteredTexture texture = make_texture("map", {counted_chain(5, 7, 2).front()}, Storage::fp32, {});
+  EXPECT_EQ(read_ktx2(ktx2_bytes(texture)).levels.size(), 1U);
+}
+
+// The reader tells a wrong file from a right one, else the tests above would say nothing.
+TEST(Ktx2, TheReaderRefusesWrongFiles) {
+  const std::vector<std::uint8_t> right = ktx2_bytes(make_texture("map", counted_chain(6, 6, 3), Storage::fp32, {}));
+  ASSERT_NO_THROW((void)read_ktx2(right));
+  for (const std::size_t at : {std::size_t{0}, std::size_t{28}, std::size_t{36}, std::size_t{44}, std::size_t{48},
+                               std::size_t{80}, std::size_t{88}, std::size_t{96}}) {
+    std::vector<std::uint8_t> wrong = right;
+    wrong[at] ^= 0x01U;
+    EXPECT_THROW((void)read_ktx2(wrong), std::runtime_error) << at;
+  }
+  EXPECT_THROW((void)read_ktx2(std::span(right).first(right.size() - 1)), std::runtime_error);
+}
+
+TEST(Ktx2, RefusesWhatHasNoTexels) {
+  const PrefilteredTexture built = make_built_texture({.name = "built"}, {});
+  EXPECT_THROW((void)ktx2_bytes(built), std::logic_error);
+}
+
+}  // namespace
+}  // namespace footprint

@@ -1,0 +1,171 @@
+// One JSON object a material and a texture, and the uniforms that a module asks for.
+#include "renderer/baked_files/manifest.hpp"
+
+#include <fmt/format.h>
+
+#include <glm/gtc/type_ptr.hpp>
+#include <nlohmann/json.hpp>
+#include <type_traits>
+
+#include "renderer/bake/facet_lobes.hpp"
+#include "renderer/bake/material_maps.hpp"
+
+namespace footprint {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* wrap_word(Wrap wrap) {
+  switch (wrap) {
+    case Wrap::repeat:
+      return "repeat";
+    case Wrap::mirrored_repeat:
+      return "mirrored_repeat";
+    case Wrap::clamp_to_edge:
+      break;
+  }
+  return "clamp_to_edge";
+}
+
+const char* filter_word(TextureFilter filter) {
+  switch (filter) {
+    case TextureFilter::trilinear:
+      return "trilinear";
+    case TextureFilter::nearest:
+      return "nearest";
+    case TextureFilter::linear:
+      break;
+  }
+  return "linear";
+}
+
+const char* geometry_word(GeometryTerm geometry) {
+  switch (geometry) {
+    case GeometryTerm::none:
+      return "none";
+    case GeometryTerm::tan:
+      return "tan";
+    case GeometryTerm::smith:
+      break;
+  }
+  return "smith";
+}
+
+Json brdf_json(const BaseBrdf& brdf) {
+  const std::string lobe = lobe_text({brdf.distribution, 1.0});
+  return {{"distribution", lobe.substr(0, lobe.find(':'))},
+          {"geometry", geometry_word(brdf.geometry)},
+          {"fresnel", brdf.fresnel == FresnelTerm::schlick ? "schlick" : "none"},
+          {"diffuse", brdf.diffuse}};
+}
+
+template <class Vector>
+Json numbers(const Vector& vector) {
+  Json list = Json::array();
+  for (int i = 0; i < Vector::length(); ++i) list.push_back(vector[i]);
+  return list;
+}
+
+Json coordinates_json(const TextureCoordinates& coordinates) {
+  Json transform = Json::array();
+  for (int column = 0; column < 3; ++column) transform.push_back(numbers(coordinates.transform[column]));
+  return {{"set", coordinates.set},
+          {"transform", std::move(transform)},
+          {"wrap", {wrap_word(coordinates.wrap[0]), wrap_word(coordinates.wrap[1])}}};
+}
+
+Json texture_json(const PrefilteredTexture& texture, const TextureFiles& files) {
+  Json levels = Json::array();
+  for (const TextureLevel& level : texture.levels) levels.push_back({level.width, level.height});
+  return {{"name", texture.name},
+          {"sampler", texture.layers > 0 ? "sampler2DArray" : "sampler2D"},
+          {"storage", storage_name(texture.storage)},
+          {"channels", texture.channels},
+          {"layers", texture.layers},
+          {"filter", filter_word(texture.filter)},
+          {"coordinates", coordinates_json(texture.coordinates)},
+          {"levels", std::move(levels)},
+          {"bytes", byte_count(texture)},
+          {"exr", files.exr},
+          {"ktx2", files.ktx2},
+          {"png", files.png}};
+}
+
+// What the module reads of the material: its scalars, its lobe and, where facets have several, those.
+Json uniforms_json(const Material& material, const Prefiltered& prefiltered, bool several_lobes) {
+  Json uniforms = Json::object();
+  uniforms["lobe_cutoff"] = {lobe_of(material).parameter, material.alpha_cutoff.value_or(-1.0F), 0.0, 0.0};
+  for (const auto& [name, value] : prefiltered.scalars) uniforms[name] = value;
+  if (!several_lobes) return uniforms;
+  uniforms["facet_lobe_count"] = material.lobes.size();
+  for (std::size_t k = 0; k < material.lobes.size(); ++k) {
+    const FacetLobe& lobe = material.lobes[k];
+    const std::string place = fmt::format("facet_lobes[{}].", k);
+    uniforms[place + "axis"] = numbers(lobe.axis);
+    uniforms[place + "parameter"] = lobe.parameter;
+    uniforms[place + "weight"] = lobe.weight;
+    uniforms[place + "variance"] = lobe_variance({material.brdf.distribution, lobe.parameter});
+  }
+  return uniforms;
+}
+
+// A map that does not vary on any material of the scene is a factor, as in Footprint's own pipeline.
+Json surface_json(const Material& material, const EffectSet& effects) {
+  const bool metallic_varies = has(effects, Effect::metallic_variation) && metallic_map(material) != nullptr;
+  const bool specular_varies = has(effects, Effect::specular_variation) && material.specular_map;
+  const bool color_varies = has(effects, Effect::base_color_variation) && material.base_color_map;
+  glm::vec3 specular = material.dielectric_specular;
+  if (!specular_varies) specular *= glm::make_vec3(specular_map_of(material).texels.data());
+  return {{"base_color", numbers(material.base_color)},
+          {"dielectric_specular", numbers(specular)},
+          {"metallic", metallic_varies ? 1.0F : metallic_map_of(material).texels.front()},
+          {"double_sided", material.double_sided},
+          {"maps_of_its_own",
+           {{"base_color", color_varies}, {"metallic", metallic_varies}, {"specular", specular_varies}}}};
+}
+
+Json material_json(const BakeToFiles& bake, std::size_t index, const MaterialFiles& files) {
+  const Material& material = bake.scene.materials[index];
+  const Prefiltered& prefiltered = bake.baked.materials[index];
+  const bool several_lobes = has(bake.effects & bake.baked.method->info().honours, Effect::multi_lobe);
+  Json textures = Json::array();
+  for (std::size_t t = 0; t < prefiltered.textures.size(); ++t)
+    textures.push_back(texture_json(prefiltered.textures[t], files.textures[t]));
+  return {{"name", material.name},
+          {"surface", surface_json(material, bake.effects)},
+          {"uniforms", uniforms_json(material, prefiltered, several_lobes)},
+          {"bytes", byte_count(prefiltered)},
+          {"notes", prefiltered.notes},
+          {"textures", std::move(textures)}};
+}
+
+Json options_json(const Options& options) {
+  Json all = Json::object();
+  for (const auto& [name, value] : options.all())
+    std::visit([&, key = name](const auto& held) { all[key] = held; }, value);
+  return all;
+}
+
+}  // namespace
+
+std::string manifest_json(const BakeToFiles& bake, const BakeListing& listing) {
+  const EffectSet& honours = bake.baked.method->info().honours;
+  Json materials = Json::array();
+  for (std::size_t i = 0; i < listing.materials.size(); ++i)
+    materials.push_back(material_json(bake, i, listing.materials[i]));
+  const Json document{{"schema", "footprint-bake/1"},
+                      {"tool", {{"name", "footprint"}, {"version", bake.version}}},
+                      {"scene", {{"name", bake.scene.name}, {"source", bake.scene.source}}},
+                      {"method", bake.baked.spec.text},
+                      {"options", options_json(bake.baked.options)},
+                      {"footprint", footprint_filter_text(bake.footprint)},
+                      {"brdf", brdf_json(bake.scene.materials.front().brdf)},
+                      {"effects", effect_names(bake.effects & honours)},
+                      {"left_out", effect_names(bake.effects & ~honours)},
+                      {"module", listing.module},
+                      {"bytes", bake.baked.bytes},
+                      {"materials", std::move(materials)}};
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace footprint

@@ -1,0 +1,12 @@
+// What a module reads of the material, as uniforms of its own: surface_material.glsl for programs of others.
+uniform vec4 lobe_cutoff;  // x: the base lobe's parameter, where it does not vary
+//? if multi_lobe
+struct FacetLobe {
+  vec3 axis;  // z is the facet's normal
+  float parameter;
+  float weight;
+  float variance;  // slope variance per axis
+};
+uniform int facet_lobe_count;  // 0: one lobe about the normal
+uniform FacetLobe facet_lobes[most_facet_lobes];
+//? end

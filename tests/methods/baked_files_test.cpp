@@ -1,0 +1,180 @@
+// What `footprint bake` writes: a renderer that has the files alone draws Footprint's own picture, for every method
+// whose maps are baked.
+#include "renderer/baked_files/baked_files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "methods/registry.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/image/exr_chain.hpp"
+#include "renderer/image/image_io.hpp"
+#include "tests/methods/bare_renderer.hpp"
+#include "tests/support/fresh_folder.hpp"
+#include "tests/support/rendering.hpp"
+#include "tests/support/says.hpp"
+#include "tests/support/test_scenes.hpp"
+
+namespace footprint::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr glm::ivec2 frame{32, 32};
+constexpr FootprintFilter filter{FootprintFilterKind::anisotropic, 8};
+
+// Bumps and a roughness that varies, seen obliquely: several levels and several probes are read.
+Scene rough_square(int texels = 32) {
+  Scene scene = receding_grooves();
+  Material& material = scene.materials.front();
+  material.normal_map->image = std::make_shared<const Image>(random_normals(texels, texels, 0.5F, 3));
+  Image rough(16, 16, 2, 0.0F);
+  for (std::size_t i = 0; i < rough.texel_count(); ++i) rough.texels[2 * i] = 0.3F + 0.02F * static_cast<float>(i % 16);
+  material.metallic_roughness_map = TextureMap{"roughness", std::make_shared<const Image>(rough), {}};
+  return scene;
+}
+
+struct Bake {
+  Bake(const Scene& of, const std::string& text)
+      : scene(of),
+        effects(effects_on(derive_effects(scene))),
+        spec(parse_methods(text).front()),
+        baked(bake(find_method(spec.name), spec, scene, effects, no_progress)) {}
+
+  [[nodiscard]] BakeToFiles files() const {
+    return {.scene = scene, .baked = baked, .effects = effects, .footprint = filter, .version = "0"};
+  }
+
+  Scene scene;
+  EffectSet effects;
+  MethodSpec spec;
+  BakedMethod baked;
+};
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// The largest difference over the larger of 1 and the picture's largest value.
+double difference_from_the_pipeline(const std::string& text, MapFiles maps) {
+  const bool is_slow = find_method(parse_methods(text).front().name).info().slow_precompute;
+  const Bake bake(rough_square(is_slow ? 16 : 32), text);
+  const fs::path folder = test::fresh_folder();
+  write_bake(bake.files(), folder);
+  const Image own = TestRenderer(bake.scene, frame).frame(find_method(bake.spec.name), text, filter);
+  EXPECT_GT(std::ranges::max(own.texels), 0.1F);
+  return largest_difference(render_from_files(folder, bake.scene, frame, maps), own);
+}
+
+class BakedFiles : public ::testing::TestWithParam<const Method*> {};
+
+TEST_P(BakedFiles, AloneDrawFootprintsPicture) {
+  const std::string& name = GetParam()->info().name;
+  if (name == "xu_vmf") GTEST_SKIP() << "builds its textures for each frame";
+  EXPECT_LT(difference_from_the_pipeline(name, MapFiles::exr), 1e-3);
+  EXPECT_LT(difference_from_the_pipeline(name, MapFiles::ktx2), 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, BakedFiles, ::testing::ValuesIn(all_methods().begin(), all_methods().end()),
+                         [](const auto& each) { return each.param->info().name; });
+
+// Bytes from KTX2 alone: llvmpipe filters them in 8 bits, and the same numbers from EXR in 32.
+TEST(BakedFilesOf, SmallerStoragesDrawFootprintsPicture) {
+  for (const std::string text : {"toksvig:storage=unorm8", "lean:storage=fp16", "roughness_bake:storage=unorm8"})
+    EXPECT_LT(difference_from_the_pipeline(text, MapFiles::ktx2), 1e-3) << text;
+  EXPECT_LT(difference_from_the_pipeline("lean:storage=fp16", MapFiles::exr), 1e-3);
+}
+
+// The test above can fail: it does where one map holds something else.
+TEST(BakedFilesOf, AnotherRoughnessDrawsAnotherPicture) {
+  const Bake bake(rough_square(), "toksvig");
+  const fs::path folder = test::fresh_folder();
+  write_bake(bake.files(), folder);
+  const fs::path map = folder / "maps/square/lobe_variance.exr";
+  ExrChain chain = read_exr_chain(map);
+  for (Image& level : chain.levels) {
+    for (float& value : level.texels) value *= 4.0F;
+  }
+  write_exr_chain(map, chain, ExrTexel::full);
+  const Image own = TestRenderer(bake.scene, frame).frame(find_method("toksvig"), {}, filter);
+  EXPECT_GT(largest_difference(render_from_files(folder, bake.scene, frame, MapFiles::exr), own), 1e-2);
+}
+
+TEST(BakedFilesOf, HoldTheTexelsThatTheShaderReads) {
+  const Bake bake(rough_square(), "lean:storage=fp16");
+  const fs::path folder = test::fresh_folder();
+  write_bake(bake.files(), folder);
+  for (const PrefilteredTexture& texture : bake.baked.materials[0].textures) {
+    const ExrChain chain = read_exr_chain(folder / "maps/square" / (texture.name + ".exr"));
+    ASSERT_EQ(chain.levels.size(), texture.levels.size());
+    for (std::size_t level = 0; level < chain.levels.size(); ++level)
+      EXPECT_EQ(chain.levels[level], decode_level(texture, level)) << texture.name << ", level " << level;
+  }
+}
+
+TEST(BakedFilesOf, BytesAreInPngToo) {
+  const Bake bake(rough_square(), "naive_mip:storage=unorm8");
+  const fs::path folder = test::fresh_folder();
+  write_bake(bake.files(), folder);
+  const PrefilteredTexture& normals = bake.baked.materials[0].textures.front();
+  ASSERT_EQ(normals.storage, Storage::unorm8);
+  for (std::size_t level = 0; level < normals.levels.size(); ++level) {
+    const fs::path file = folder / "maps/square" / fmt::format("{}.mip{}.png", normals.name, level);
+    const Image png = read_image(file, Transfer::linear), own = decode_level(normals, level);
+    ASSERT_EQ(png.texels.size(), own.texels.size());
+    for (std::size_t i = 0; i < own.texels.size(); ++i) EXPECT_NEAR(png.texels[i], own.texels[i], 1e-6);
+  }
+}
+
+TEST(BakedFilesOf, EqualBakesAreEqual) {
+  const fs::path folder = test::fresh_folder();
+  for (const char* name : {"a", "b"}) {
+    fs::create_directories(folder / name);
+    write_bake(Bake(rough_square(), "toksvig").files(), folder / name);
+  }
+  std::size_t count = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "a")) {
+    if (!entry.is_regular_file()) continue;
+    EXPECT_EQ(bytes_of(entry.path()), bytes_of(folder / "b" / fs::relative(entry.path(), folder / "a")));
+    ++count;
+  }
+  EXPECT_EQ(count, 6U);  // two maps in two files each, the module, the manifest
+}
+
+TEST(BakedFilesOf, TheManifestNamesEveryFileAndNoOther) {
+  const Bake bake(rough_square(), "tan_gmm");
+  const fs::path folder = test::fresh_folder();
+  write_bake(bake.files(), folder);
+  const auto manifest = nlohmann::json::parse(bytes_of(folder / "manifest.json"));
+  std::set<std::string> named{"manifest.json", manifest["module"].get<std::string>()}, there;
+  for (const auto& texture : manifest["materials"][0]["textures"]) {
+    named.insert(texture["ktx2"].get<std::string>());
+    for (const char* kind : {"exr", "png"}) named.insert(texture[kind].begin(), texture[kind].end());
+  }
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) there.insert(fs::relative(entry.path(), folder).string());
+  }
+  EXPECT_EQ(named, there);
+}
+
+TEST(BakedFilesOf, NothingAreRefused) {
+  const auto refusal = [](const Scene& scene, const std::string& text) {
+    try {
+      write_bake(Bake(scene, text).files(), test::fresh_folder());
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+      EXPECT_TRUE(fs::is_empty(fs::path(::testing::TempDir()) / "footprint_BakedFilesOf/NothingAreRefused"));
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_TRUE(test::says(refusal(rough_square(), "xu_vmf"), "built anew for each frame"));
+  EXPECT_TRUE(test::says(refusal(square_scene({}, {}), "toksvig"), "do not vary on any material"));
+}
+
+}  // namespace
+}  // namespace footprint::testing

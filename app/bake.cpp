@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -16,6 +18,7 @@
 #include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
 #include "renderer/baked_files/baked_files.hpp"
+#include "renderer/baked_files/bumpslopes.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
@@ -28,15 +31,23 @@ constexpr const char* bake_examples =
     "It gets maps/MATERIAL/NAME.exr and .ktx2 (and .png of storage=unorm8) with whole mip chains, METHOD.glsl that\n"
     "reads them, and manifest.json (docs/baking.md).\n"
     "\n"
+    "SCENE may also be an EXR of OpenImageIO's `maketx --bumpslopes`, for methods that keep moments of slope (lean).\n"
+    "\n"
     "Examples:\n"
     "  footprint bake model.gltf --method toksvig -o maps\n"
-    "  footprint bake model.gltf --method lean:storage=fp16 --footprint trilinear -o maps";
+    "  footprint bake model.gltf --method lean:storage=fp16 --footprint trilinear -o maps\n"
+    "  footprint bake model.gltf --method roughness_bake:preset=filament --gltf --gltf-level 2 -o maps\n"
+    "  footprint bake bumps_slopes.exr --method lean -o maps";
+
+constexpr int coarsest_level = 16;
 
 struct BakeArguments {
   explicit BakeArguments(CLI::App& command) : run(command) {}
 
   RunOptions run;
   std::string output;
+  bool gltf = false;
+  int gltf_level = 0;
   bool quiet = false;
 };
 
@@ -55,6 +66,70 @@ BakedMethod bake_settings(const RunSettings& run, const Scene& scene, const Effe
   return bake(find_method(spec.name), spec, scene, effects, progress, cache ? &*cache : nullptr);
 }
 
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+void require_gltf(const std::string& scene) {
+  if (extension_of(scene) == ".gltf" || extension_of(scene) == ".glb") return;
+  throw Error(ErrorKind::usage, "--gltf", fmt::format("{} is no glTF file of which there could be a copy", scene),
+              "name the .gltf or .glb itself, or leave --gltf out");
+}
+
+// A plane's material with the slopes of a file; how rough it is the file does not say.
+Scene scene_of_slopes(const std::string& file, const ExrChain& slopes) {
+  const std::filesystem::path path = file;
+  Scene scene;
+  scene.name = path.stem().string();
+  scene.source = file;
+  Material& material = scene.materials.emplace_back();
+  material.name = scene.name;
+  material.roughness = 0.5F;
+  material.normal_map = {
+      path.filename().string(), std::make_shared<const Image>(normals_of_bumpslopes(slopes, file)), {}};
+  scene.defaults.emplace_back("material: GGX of roughness 0.5, which the manifest's `lobe_cutoff` says; set your own");
+  return scene;
+}
+
+void take_slopes(const ExrChain& slopes, BakedMethod& baked) {
+  const auto& options = baked.options.all();
+  const auto roughness = options.find("roughness");
+  const bool joined = roughness != options.end() && roughness->second == std::variant<double, std::string>("moments");
+  if (joined || !holds_slope_moments(baked.materials.front())) {
+    throw Error(ErrorKind::usage, fmt::format("method {}", baked.spec.text),
+                "does not keep the moments of slope that the file has, and these alone",
+                "take lean or leadr, with roughness=stretched or roughness=shading");
+  }
+  replace_moments(slopes, baked.materials.front());
+}
+
+std::vector<EngineMaps> engine_maps_of(const Scene& scene, const BakedMethod& baked) {
+  std::vector<EngineMaps> maps;
+  for (const Material& material : scene.materials) maps.push_back(engine_maps(baked, material));
+  return maps;
+}
+
+// The copy of the model with the maps of all materials that have some; what was written.
+std::string copy_gltf(const BakeToFiles& bake, int level, const std::filesystem::path& folder) {
+  const BakeListing listing = list_bake(bake);
+  std::vector<ReplacedMaps> maps;
+  for (std::size_t i = 0; i < bake.engine.size(); ++i) {
+    if (bake.engine[i].textures.empty()) continue;
+    std::vector<std::string> mips;
+    for (const std::string& file : listing.materials[i].imports.at(1).png) mips.push_back("../" + file);
+    maps.push_back(replaced_maps(bake.engine[i], bake.scene.materials[i], level, std::move(mips)));
+  }
+  if (maps.empty()) {
+    throw Error(ErrorKind::usage, "--gltf",
+                fmt::format("{} has no maps that an engine imports for any of the materials", bake.baked.spec.text),
+                "take roughness_bake, and a model with normal maps");
+  }
+  std::filesystem::create_directories(folder / "gltf");
+  return "gltf/" + write_gltf_copy(bake.scene.source, maps, folder / "gltf");
+}
+
 std::string texture_line(const PrefilteredTexture& texture) {
   const TextureLevel& finest = texture.levels.front();
   const std::string layers = texture.layers > 0 ? fmt::format(", {} layers", texture.layers) : std::string();
@@ -70,7 +145,9 @@ std::string summary(const BakeToFiles& bake) {
     text +=
         fmt::format("{}{}\n", bake.scene.materials[i].name, prefiltered.textures.empty() ? ": nothing to filter" : "");
     for (const PrefilteredTexture& texture : prefiltered.textures) text += texture_line(texture);
+    for (const PrefilteredTexture& texture : bake.engine[i].textures) text += texture_line(texture);
     for (const std::string& note : prefiltered.notes) text += fmt::format("  {}\n", note);
+    if (!bake.engine[i].missing.empty()) text += fmt::format("  {}\n", bake.engine[i].missing);
   }
   return text;
 }
@@ -78,21 +155,30 @@ std::string summary(const BakeToFiles& bake) {
 void run_bake(const BakeArguments& arguments) {
   const RunSettings run = arguments.run.settings();
   require_room(arguments.output);
+  if (arguments.gltf) require_gltf(run.scene);
   ProgressDisplay display(progress_style(arguments.quiet));
   const auto [text, path] = write_whole(arguments.output, [&](OutputFolder& folder) {
-    const Scene scene = load_scene(run.scene, run.scene_library);
+    const std::optional<ExrChain> slopes =
+        extension_of(run.scene) == ".exr" ? std::optional(read_exr_chain(run.scene)) : std::nullopt;
+    const Scene scene = slopes ? scene_of_slopes(run.scene, *slopes) : load_scene(run.scene, run.scene_library);
     const EffectSet effects = effects_on(derive_effects(scene));
-    const BakedMethod baked = bake_settings(run, scene, effects, display.callback());
+    BakedMethod baked = bake_settings(run, scene, effects, display.callback());
+    if (slopes) take_slopes(*slopes, baked);
     const BakeToFiles bake{.scene = scene,
                            .baked = baked,
                            .effects = effects,
                            .footprint = footprint_filter_of(run, scene),
-                           .version = FOOTPRINT_VERSION};
+                           .version = FOOTPRINT_VERSION,
+                           .engine = engine_maps_of(scene, baked)};
     write_bake(bake, folder.path());
+    std::string copy;
+    if (arguments.gltf)
+      copy = fmt::format("glTF: {}\n",
+                         (folder.final_path() / copy_gltf(bake, arguments.gltf_level, folder.path())).string());
     keep(folder);
     display.finish();
     write_scene_notes(scene, arguments.quiet);
-    return summary(bake);
+    return summary(bake) + copy;
   });
   write_output(fmt::format("{}manifest: {}\n", text, (path / "manifest.json").string()));
 }
@@ -103,6 +189,14 @@ void add_bake_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("bake", "Write a method's maps as files, with the GLSL that reads them");
   const auto arguments = std::make_shared<BakeArguments>(*command);
   command->add_option("-o,--output", arguments->output, "Folder for manifest.json, METHOD.glsl, maps/")->required();
+  auto* gltf = command->add_flag("--gltf", arguments->gltf,
+                                 "Also write a copy of the model, with the roughness maps that engines import");
+  command
+      ->add_option("--gltf-level", arguments->gltf_level,
+                   "Mip level that the copy's maps are cut down to; 0 is the finest")
+      ->check(CLI::Range(0, coarsest_level))
+      ->needs(gltf)
+      ->capture_default_str();
   add_quiet_flag(*command, arguments->quiet);
   command->footer(bake_examples);
   command->callback([arguments] { run_bake(*arguments); });

@@ -1,6 +1,8 @@
 // `roughness_bake`: the mean normal, renormalised, under a lobe widened by what the mean normal's length tells, by the
 // formula of an engine's importer: normal maps baked into roughness mips.
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "methods/roughness_bake/presets.hpp"
 #include "renderer/bake/material_maps.hpp"
@@ -49,6 +51,63 @@ std::vector<Image> spread_chain(const Image& normals, Preset preset) {
   return chain;
 }
 
+// A texel of the coarse one for each of the fine one's.
+Image repeated(const Image& coarse, int width, int height) {
+  Image fine(width, height, coarse.channels);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x)
+      std::ranges::copy(coarse.at(x * coarse.width / width, y * coarse.height / height), fine.at(x, y).begin());
+  }
+  return fine;
+}
+
+// The chain with finer levels in front, each texel several times, until it begins with that size; one texel serves any.
+// None where its finest level is none of a chain of that size.
+std::optional<std::vector<Image>> extended_chain(const std::vector<Image>& chain, int width, int height) {
+  const Image& finest = chain.front();
+  std::vector<Image> finer;
+  for (int level = 0; level < mip_level_count(width, height); ++level) {
+    const int w = std::max(width >> level, 1), h = std::max(height >> level, 1);
+    if (w == finest.width && h == finest.height) {
+      finer.insert(finer.end(), chain.begin(), chain.end());
+      return finer;
+    }
+    if (w % finest.width != 0 || h % finest.height != 0) return {};
+    finer.push_back(repeated(finest, w, h));
+  }
+  return {};
+}
+
+// One roughness map must be able to hold what both maps say. `sizes_fit`: they have common mip levels.
+void require_one_map(const Material& material, bool sizes_fit) {
+  const bool varies = width_map(material) != nullptr;
+  std::string why;
+  if (varies && roughness_coordinates(material) != normal_coordinates(material))
+    why = "its normal and roughness maps have different texture coordinates";
+  if (!sizes_fit) why = "the sizes of its normal and roughness maps have no common mip levels";
+  if (material.layer_map) why = "it has a detail layer with coordinates of its own";
+  if (!material.lobes.empty()) why = "its facets have lobes of their own";
+  if (why.empty()) return;
+  throw Error(ErrorKind::usage, "material " + material.name, "no roughness map holds what is baked: " + why,
+              "an engine has to draw it by the module");
+}
+
+// The formula at every texel, which the shader evaluates in between as well.
+std::vector<Image> joined_chain(const Formula& formula, const Material& material, std::vector<Image> rough,
+                                const std::vector<Image>& spread) {
+  const NormalDistribution distribution = material.brdf.distribution;
+  const bool varies = width_map(material) != nullptr;
+  for (std::size_t level = 0; level < rough.size(); ++level) {
+    for (std::size_t i = 0; i < rough[level].texel_count(); ++i) {
+      float& r = rough[level].texels[i];
+      const Lobe lobe = varies ? lobe_from_alpha(distribution, r * r) : lobe_of(material);
+      const double widened = widened_alpha2(formula, distribution, 2.0 * lobe_variance(lobe), spread[level].texels[i]);
+      r = static_cast<float>(std::clamp(std::sqrt(std::sqrt(widened)), 0.0, 1.0));
+    }
+  }
+  return rough;
+}
+
 class RoughnessBake final : public Method {
  public:
   [[nodiscard]] const MethodInfo& info() const override { return info_; }
@@ -69,6 +128,20 @@ class RoughnessBake final : public Method {
       out.textures.push_back(make_texture("baked_roughness", mip_chain(roughness_map_of(material)), storage,
                                           roughness_coordinates(material)));
     return out;
+  }
+
+  [[nodiscard]] std::optional<std::vector<Image>> roughness_mips(const Material& material,
+                                                                 const Options& options) const override {
+    if (!material.normal_map) return {};
+    const Image rough = roughness_map_of(material);
+    const std::vector<Image> spread = spread_chain(normal_map_of(material), checked_preset(options));
+    const int width = std::max(rough.width, spread.front().width),
+              height = std::max(rough.height, spread.front().height);
+    const auto fine_spread = extended_chain(spread, width, height);
+    const auto fine_rough = extended_chain(mip_chain(rough), width, height);
+    require_one_map(material, fine_spread && fine_rough);
+    const Formula formula{checked_preset(options), options.number("constant"), options.number("cap")};
+    return joined_chain(formula, material, *fine_rough, *fine_spread);
   }
 
   [[nodiscard]] ShaderModule shader() const override {

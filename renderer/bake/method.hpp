@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,15 @@ class Method {
   [[nodiscard]] virtual std::unique_ptr<FrameBuild> frame_build(const ShaderVariant& /*variant*/,
                                                                 const Options& /*options*/) const {
     return nullptr;
+  }
+
+  /// For a method that stands for what engines import: the perceptual roughness of every texel and level of a normal
+  /// map's mip chain, one channel, 0 to 1, which goes beside the mean normal, renormalised. None of other methods, and
+  /// of a material without a normal map. Errors (usage): a roughness map that has no texel for each of the normal
+  /// map's.
+  [[nodiscard]] virtual std::optional<std::vector<Image>> roughness_mips(const Material& /*material*/,
+                                                                         const Options& /*options*/) const {
+    return {};
   }
 
   /// Lobes of the effective NDF that the shader evaluates for a pixel, with isotropic filtering.

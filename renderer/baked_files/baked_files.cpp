@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "renderer/baked_files/bumpslopes.hpp"
 #include "renderer/baked_files/ktx2.hpp"
 #include "renderer/baked_files/manifest.hpp"
 #include "renderer/core/error.hpp"
@@ -61,6 +62,19 @@ void write_texture(const PrefilteredTexture& texture, const TextureFiles& files,
   write_file_atomically(folder / files.ktx2, ktx2_bytes(texture));
 }
 
+void write_textures(const std::vector<PrefilteredTexture>& textures, const std::vector<TextureFiles>& files,
+                    const std::filesystem::path& folder) {
+  for (std::size_t t = 0; t < textures.size(); ++t) write_texture(textures[t], files[t], folder);
+}
+
+// Moments of slope that hold nothing else: with `roughness=moments` the base lobe is in them.
+bool holds_slopes_alone(const BakedMethod& baked, std::size_t material) {
+  const auto& options = baked.options.all();
+  const auto roughness = options.find("roughness");
+  const bool joined = roughness != options.end() && roughness->second == std::variant<double, std::string>("moments");
+  return holds_slope_moments(baked.materials[material]) && !joined;
+}
+
 ShaderVariant variant_of(const BakeToFiles& bake) {
   std::size_t most_lobes = 1;
   for (const Material& material : bake.scene.materials) most_lobes = std::max(most_lobes, material.lobes.size());
@@ -95,9 +109,16 @@ BakeListing list_bake(const BakeToFiles& bake) {
   const std::vector<std::string> folders = distinct_stems(names);
   BakeListing listing{.module = file_stem(bake.baked.spec.name) + ".glsl", .materials = {}};
   for (std::size_t i = 0; i < folders.size(); ++i) {
-    MaterialFiles& files = listing.materials.emplace_back(folders[i], std::vector<TextureFiles>());
+    const std::string folder = "maps/" + folders[i];
+    MaterialFiles& files = listing.materials.emplace_back();
+    files.folder = folders[i];
     for (const PrefilteredTexture& texture : bake.baked.materials.at(i).textures)
-      files.textures.push_back(files_of(texture, "maps/" + folders[i]));
+      files.textures.push_back(files_of(texture, folder));
+    if (i < bake.engine.size()) {
+      for (const PrefilteredTexture& texture : bake.engine[i].textures)
+        files.imports.push_back(files_of(texture, folder));
+    }
+    if (holds_slopes_alone(bake.baked, i)) files.bumpslopes = folder + "/bumpslopes.exr";
   }
   return listing;
 }
@@ -129,9 +150,13 @@ void write_bake(const BakeToFiles& bake, const std::filesystem::path& folder) {
   const BakeListing listing = list_bake(bake);
   for (std::size_t i = 0; i < listing.materials.size(); ++i) {
     const MaterialFiles& files = listing.materials[i];
-    const auto& textures = bake.baked.materials[i].textures;
-    if (!textures.empty()) std::filesystem::create_directories(folder / "maps" / files.folder);
-    for (std::size_t t = 0; t < textures.size(); ++t) write_texture(textures[t], files.textures[t], folder);
+    const Prefiltered& prefiltered = bake.baked.materials[i];
+    if (!prefiltered.textures.empty()) std::filesystem::create_directories(folder / "maps" / files.folder);
+    write_textures(prefiltered.textures, files.textures, folder);
+    if (i < bake.engine.size()) write_textures(bake.engine[i].textures, files.imports, folder);
+    if (!files.bumpslopes) continue;
+    const bool halves = prefiltered.textures.front().storage == Storage::fp16;
+    write_exr_chain(folder / *files.bumpslopes, *bumpslopes_of(prefiltered), halves ? ExrTexel::half : ExrTexel::full);
   }
   write_file_atomically(folder / listing.module, module_text(bake));
   write_file_atomically(folder / "manifest.json", manifest_json(bake, listing));

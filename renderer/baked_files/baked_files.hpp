@@ -3,10 +3,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "renderer/bake/baked_method.hpp"
+#include "renderer/baked_files/engine_maps.hpp"
 #include "renderer/scene/footprint_filter.hpp"
 #include "renderer/scene/scene.hpp"
 
@@ -15,10 +17,11 @@ namespace footprint {
 /// What is to be written.
 struct BakeToFiles {
   const Scene& scene;
-  const BakedMethod& baked;   ///< of that scene, for `effects`
-  EffectSet effects;          ///< of the scene
-  FootprintFilter footprint;  ///< that the module looks maps up by
-  std::string version;        ///< of the program, for the manifest
+  const BakedMethod& baked;          ///< of that scene, for `effects`
+  EffectSet effects;                 ///< of the scene
+  FootprintFilter footprint;         ///< that the module looks maps up by
+  std::string version;               ///< of the program, for the manifest
+  std::vector<EngineMaps> engine{};  ///< for each material, or for none
 };
 
 /// The files of one texture, as paths from the output folder.
@@ -31,7 +34,9 @@ struct TextureFiles {
 /// Those of one material.
 struct MaterialFiles {
   std::string folder;
-  std::vector<TextureFiles> textures;  ///< in the order of Prefiltered::textures
+  std::vector<TextureFiles> textures;     ///< in the order of Prefiltered::textures
+  std::vector<TextureFiles> imports;      ///< of EngineMaps::textures
+  std::optional<std::string> bumpslopes;  ///< moments of slope as OpenImageIO lays them out; none: there are none
 };
 
 /// Where everything lies, as paths from the output folder.

@@ -91,6 +91,12 @@ Json texture_json(const PrefilteredTexture& texture, const TextureFiles& files) 
           {"png", files.png}};
 }
 
+Json textures_json(const std::vector<PrefilteredTexture>& textures, const std::vector<TextureFiles>& files) {
+  Json list = Json::array();
+  for (std::size_t t = 0; t < textures.size(); ++t) list.push_back(texture_json(textures[t], files[t]));
+  return list;
+}
+
 // What the module reads of the material: its scalars, its lobe and, where facets have several, those.
 Json uniforms_json(const Material& material, const Prefiltered& prefiltered, bool several_lobes) {
   Json uniforms = Json::object();
@@ -127,16 +133,18 @@ Json surface_json(const Material& material, const EffectSet& effects) {
 Json material_json(const BakeToFiles& bake, std::size_t index, const MaterialFiles& files) {
   const Material& material = bake.scene.materials[index];
   const Prefiltered& prefiltered = bake.baked.materials[index];
+  const EngineMaps engine = index < bake.engine.size() ? bake.engine[index] : EngineMaps();
   const bool several_lobes = has(bake.effects & bake.baked.method->info().honours, Effect::multi_lobe);
-  Json textures = Json::array();
-  for (std::size_t t = 0; t < prefiltered.textures.size(); ++t)
-    textures.push_back(texture_json(prefiltered.textures[t], files.textures[t]));
+  std::vector<std::string> notes = prefiltered.notes;
+  if (!engine.missing.empty()) notes.push_back(engine.missing);
   return {{"name", material.name},
           {"surface", surface_json(material, bake.effects)},
           {"uniforms", uniforms_json(material, prefiltered, several_lobes)},
           {"bytes", byte_count(prefiltered)},
-          {"notes", prefiltered.notes},
-          {"textures", std::move(textures)}};
+          {"notes", notes},
+          {"textures", textures_json(prefiltered.textures, files.textures)},
+          {"imports", textures_json(engine.textures, files.imports)},
+          {"bumpslopes", files.bumpslopes ? Json(*files.bumpslopes) : Json()}};
 }
 
 Json options_json(const Options& options) {

@@ -1,4 +1,5 @@
 // Maps as files through the program: written whole, refused where they make no sense.
+#include "tests/command_line/bumpy_quad.hpp"
 #include "tests/command_line/program_case.hpp"
 
 namespace footprint::test {
@@ -15,6 +16,16 @@ const std::vector<Case> good_bakes{
                 "maps/maps/v_grooves/mean_normal.ktx2"}},
 };
 
+const std::vector<Case> bakes_for_engines{
+    {.name = "BakeWithACopyOfTheModel",
+     .arguments = {"bake", "{}/quad.gltf", "--method", "roughness_bake:preset=godot", "--gltf", "--gltf-level", "1",
+                   "-o", "{}/maps"},
+     .output_has = {"engine_normal", "engine_roughness", "glTF: ", "work/maps/gltf/quad.gltf"},
+     .files = {{"quad.gltf", make_bumpy_quad().text()}, {"bumps.png", bumps_png()}},
+     .leaves = {"maps/gltf/quad.gltf", "maps/gltf/bumpy.normal.png", "maps/gltf/bumpy.metallic_roughness.png",
+                "maps/maps/bumpy/engine_roughness.mip1.png"}},
+};
+
 std::vector<Case> wrong_bakes() {
   const auto row = [](const std::string& name, std::vector<std::string> arguments, std::vector<std::string> errors) {
     arguments.insert(arguments.begin(), "bake");
@@ -29,6 +40,11 @@ std::vector<Case> wrong_bakes() {
   Case nothing = row("BakeNothing", {"{}/scene.toml", "--method", "toksvig"},
                      {"scene.toml", "toksvig", "bakes nothing", "normal map"});
   nothing.files = {{"scene.toml", "[plane]\n"}};
+  Case no_maps = row("CopyByAMethodWithoutMapsForEngines", {"{}/quad.gltf", "--method", "toksvig", "--gltf"},
+                     {"--gltf", "toksvig", "roughness_bake"});
+  no_maps.files = {{"quad.gltf", make_bumpy_quad().text()}, {"bumps.png", bumps_png()}};
+  Case no_slopes = row("SlopesThatAreText", {"{}/slopes.exr", "--method", "lean"}, {"slopes.exr", "is no EXR"});
+  no_slopes.files = {{"slopes.exr", "text"}};
   return {
       other_things,
       a_file,
@@ -40,6 +56,14 @@ std::vector<Case> wrong_bakes() {
       row("BakeWhatIsBuiltEachFrame", {"v_grooves", "--method", "xu_vmf"}, {"xu_vmf", "anew for each frame"}),
       nothing,
       row("BakeAMissingScene", {"{}/missing.gltf", "--method", "toksvig"}, {"missing.gltf"}),
+      row("CopyOfNoGltf", {"v_grooves", "--method", "roughness_bake", "--gltf"},
+          {"--gltf", "v_grooves", "no glTF file"}),
+      row("LevelWithoutACopy", {"v_grooves", "--method", "roughness_bake", "--gltf-level", "2"}, {"--gltf"}),
+      row("LevelOfTheCopyOutOfRange", {"a.gltf", "--method", "roughness_bake", "--gltf", "--gltf-level", "-1"},
+          {"--gltf-level"}),
+      no_maps,
+      row("MissingSlopes", {"{}/missing.exr", "--method", "lean"}, {"missing.exr", "no such file"}),
+      no_slopes,
       {.name = "BakeWithoutOutput",
        .arguments = {"bake", "v_grooves", "--method", "toksvig"},
        .exit_code = 2,
@@ -62,6 +86,7 @@ std::vector<Case> wrong_bakes() {
 }
 
 INSTANTIATE_TEST_SUITE_P(GoodBake, CommandLine, ::testing::ValuesIn(good_bakes), case_name);
+INSTANTIATE_TEST_SUITE_P(BakeForEngines, CommandLine, ::testing::ValuesIn(bakes_for_engines), case_name);
 INSTANTIATE_TEST_SUITE_P(WrongBake, CommandLine, ::testing::ValuesIn(wrong_bakes()), case_name);
 
 }  // namespace

@@ -1,0 +1,136 @@
+// Channel by channel from one layout to the other.
+#include "renderer/baked_files/bumpslopes.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <stdexcept>
+
+#include "renderer/core/error.hpp"
+#include "renderer/image/mipmap.hpp"
+
+namespace footprint {
+namespace {
+
+enum Channel : std::size_t { height, along_u, along_v, square_u, square_v, product, channel_count };
+
+constexpr float of_a_normal_map = -1.0F;  // what OpenImageIO writes as the height where there is none
+
+const PrefilteredTexture* find_texture(const Prefiltered& prefiltered, const char* name, int channels) {
+  const auto found = std::ranges::find(prefiltered.textures, name, &PrefilteredTexture::name);
+  return found != prefiltered.textures.end() && found->channels == channels ? &*found : nullptr;
+}
+
+bool is_of_heights(const Image& finest) {
+  for (std::size_t i = 0; i < finest.texel_count(); ++i) {
+    if (finest.texels[channel_count * i + height] != of_a_normal_map) return true;
+  }
+  return false;
+}
+
+void require_layout(const ExrChain& chain, const std::string& file) {
+  if (chain.channels != bumpslopes_channels()) {
+    throw Error(ErrorKind::usage, file,
+                fmt::format("has the channels {}, which are no slopes", fmt::join(chain.channels, ", ")),
+                "make it by `maketx --bumpslopes`");
+  }
+  const Image& finest = chain.levels.front();
+  if (static_cast<int>(chain.levels.size()) != mip_level_count(finest.width, finest.height)) {
+    throw Error(
+        ErrorKind::usage, file,
+        fmt::format("has {} of {} mip levels", chain.levels.size(), mip_level_count(finest.width, finest.height)),
+        "make it by `maketx --bumpslopes`");
+  }
+  for (const Image& level : chain.levels) {
+    if (std::ranges::all_of(level.texels, [](float v) { return std::isfinite(v); })) continue;
+    throw Error(ErrorKind::usage, file,
+                fmt::format("level {}x{} holds what is no finite number", level.width, level.height),
+                "mend the map that it was made from");
+  }
+}
+
+// The chain with v up the rows, whichever way it came.
+std::vector<Image> upward(const ExrChain& chain) {
+  std::vector<Image> levels = chain.levels;
+  if (!is_of_heights(levels.front())) return levels;
+  for (Image& level : levels) {
+    for (std::size_t i = 0; i < level.texel_count(); ++i) {
+      level.texels[channel_count * i + along_v] *= -1.0F;
+      level.texels[channel_count * i + product] *= -1.0F;
+    }
+  }
+  return levels;
+}
+
+std::vector<Image> picked(const std::vector<Image>& levels, const std::vector<std::size_t>& channels) {
+  std::vector<Image> out;
+  for (const Image& level : levels) {
+    Image& to = out.emplace_back(level.width, level.height, static_cast<int>(channels.size()));
+    for (std::size_t i = 0; i < level.texel_count(); ++i) {
+      for (std::size_t c = 0; c < channels.size(); ++c)
+        to.texels[channels.size() * i + c] = level.texels[channel_count * i + channels[c]];
+    }
+  }
+  return out;
+}
+
+void replace(Prefiltered& prefiltered, const char* name, const std::vector<Image>& chain) {
+  const auto found = std::ranges::find(prefiltered.textures, name, &PrefilteredTexture::name);
+  if (found == prefiltered.textures.end() || found->levels.size() != chain.size() ||
+      found->levels.front().width != chain.front().width || found->channels != chain.front().channels)
+    throw std::logic_error(fmt::format("the bake has no texture {} of that size", name));
+  *found = make_texture(found->name, chain, found->storage, found->coordinates);
+}
+
+}  // namespace
+
+const std::vector<std::string>& bumpslopes_channels() {
+  static const std::vector<std::string> channels{"b0_h", "b1_dhds", "b2_dhdt", "b3_dhds2", "b4_dhdt2", "b5_dh2dsdt"};
+  return channels;
+}
+
+bool holds_slope_moments(const Prefiltered& prefiltered) {
+  return find_texture(prefiltered, "slope_moments", 4) != nullptr &&
+         find_texture(prefiltered, "slope_cross", 1) != nullptr;
+}
+
+std::optional<ExrChain> bumpslopes_of(const Prefiltered& prefiltered) {
+  if (!holds_slope_moments(prefiltered)) return {};
+  const PrefilteredTexture& moments = *find_texture(prefiltered, "slope_moments", 4);
+  const PrefilteredTexture& cross = *find_texture(prefiltered, "slope_cross", 1);
+  ExrChain chain{.levels = {}, .channels = bumpslopes_channels()};
+  for (std::size_t level = 0; level < moments.levels.size(); ++level) {
+    const Image four = decode_level(moments, level), one = decode_level(cross, level);
+    Image& to = chain.levels.emplace_back(four.width, four.height, static_cast<int>(channel_count));
+    for (std::size_t i = 0; i < four.texel_count(); ++i) {
+      float* const texel = &to.texels[channel_count * i];
+      texel[height] = of_a_normal_map;
+      std::copy_n(&four.texels[4 * i], 4, texel + along_u);
+      texel[product] = one.texels[i];
+    }
+  }
+  return chain;
+}
+
+Image normals_of_bumpslopes(const ExrChain& chain, const std::string& file) {
+  require_layout(chain, file);
+  const Image finest = upward(chain).front();
+  Image normals(finest.width, finest.height, 4, 1.0F);
+  for (std::size_t i = 0; i < finest.texel_count(); ++i) {
+    const float* const texel = &finest.texels[channel_count * i];
+    const glm::dvec3 n = glm::normalize(glm::dvec3(-texel[along_u], -texel[along_v], 1.0));
+    for (int c = 0; c < 3; ++c) normals.texels[4 * i + static_cast<std::size_t>(c)] = static_cast<float>(n[c]);
+  }
+  return normals;
+}
+
+void replace_moments(const ExrChain& chain, Prefiltered& prefiltered) {
+  const std::vector<Image> levels = upward(chain);
+  replace(prefiltered, "slope_moments", picked(levels, {along_u, along_v, square_u, square_v}));
+  replace(prefiltered, "slope_cross", picked(levels, {product}));
+}
+
+}  // namespace footprint

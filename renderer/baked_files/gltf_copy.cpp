@@ -1,0 +1,132 @@
+// The document as JSON, in which a few members change; bytes come from the checked reader.
+#include "renderer/baked_files/gltf_copy.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "renderer/core/error.hpp"
+#include "renderer/core/file_bytes.hpp"
+#include "renderer/core/file_names.hpp"
+#include "renderer/core/files.hpp"
+#include "renderer/image/image_io.hpp"
+#include "renderer/scene/gltf/document.hpp"
+
+namespace footprint {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The JSON of a file that read_gltf has checked.
+Json json_of(const std::filesystem::path& source) {
+  const auto bytes = read_file_bytes(source, std::numeric_limits<std::int32_t>::max());
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (!text.starts_with("glTF")) return Json::parse(text);
+  constexpr std::size_t length_at = 12, json_at = 20;
+  std::uint32_t length = 0;
+  std::memcpy(&length, bytes.data() + length_at, sizeof(length));
+  return Json::parse(text.substr(json_at, length));
+}
+
+// Gives what lies in a file of its own, or in the GLB's binary chunk, a new file beside the copy.
+void move_beside(Json& object, const std::string& name, std::span<const std::uint8_t> bytes,
+                 const std::filesystem::path& folder) {
+  const bool is_within = object.contains("bufferView") || object.value("uri", "").starts_with("data:");
+  if (is_within) return;
+  write_file_atomically(folder / name, bytes);
+  object["uri"] = name;
+}
+
+std::string image_extension(std::span<const std::uint8_t> bytes) {
+  const bool is_jpeg = bytes.size() > 2 && bytes[0] == 0xFF && bytes[1] == 0xD8;
+  return is_jpeg ? "jpg" : "png";
+}
+
+void move_resources(Json& document, const tinygltf::Model& model, const std::filesystem::path& folder) {
+  for (std::size_t i = 0; i < model.buffers.size(); ++i)
+    move_beside(document["buffers"][i], fmt::format("buffer{}.bin", i), model.buffers[i].data, folder);
+  for (std::size_t i = 0; i < model.images.size(); ++i) {
+    const auto& bytes = model.images[i].image;
+    if (!bytes.empty())
+      move_beside(document["images"][i], fmt::format("image{}.{}", i, image_extension(bytes)), bytes, folder);
+  }
+}
+
+std::string loader_name(const Json& material, std::size_t index) {
+  const std::string name = material.value("name", "");
+  return name.empty() ? fmt::format("material {}", index) : name;
+}
+
+Json& material_called(Json& document, const std::string& name, const std::string& source) {
+  Json* found = nullptr;
+  for (std::size_t i = 0; document.contains("materials") && i < document["materials"].size(); ++i) {
+    if (loader_name(document["materials"][i], i) != name) continue;
+    if (found != nullptr) {
+      throw Error(ErrorKind::usage, source, fmt::format("two materials are called `{}`", name),
+                  "give them names of their own");
+    }
+    found = &document["materials"][i];
+  }
+  if (found == nullptr)
+    throw Error(ErrorKind::usage, source, fmt::format("no material is called `{}`", name),
+                "name one that the file has");
+  return *found;
+}
+
+// Adds an image and a texture of it; returns the texture's index.
+std::size_t add_texture(Json& document, const std::string& file, const Json& sampler, const Json& extras) {
+  document["images"].push_back({{"uri", file}});
+  Json texture{{"source", document["images"].size() - 1}};
+  if (!sampler.is_null()) texture["sampler"] = sampler;
+  if (!extras.is_null()) texture["extras"] = extras;
+  document["textures"].push_back(std::move(texture));
+  return document["textures"].size() - 1;
+}
+
+// As the normal texture is looked up, but with another picture.
+Json looked_up_as(const Json& normal, std::size_t texture) {
+  Json info{{"index", texture}};
+  for (const char* member : {"texCoord", "extensions"}) {
+    if (normal.contains(member)) info[member] = normal[member];
+  }
+  return info;
+}
+
+void replace(Json& document, const ReplacedMaps& maps, const std::string& stem, const std::string& source,
+             const std::filesystem::path& folder) {
+  const std::string normal_file = stem + ".normal.png", rough_file = stem + ".metallic_roughness.png";
+  write_png(folder / normal_file, maps.normal);
+  write_png(folder / rough_file, maps.rough_metallic);
+  const Json normal = material_called(document, maps.material, source).at("normalTexture");
+  const Json& old_texture = document["textures"][normal["index"].get<std::size_t>()];
+  const Json sampler = old_texture.contains("sampler") ? old_texture["sampler"] : Json();
+  const std::size_t normal_texture = add_texture(document, normal_file, sampler, nullptr);
+  const std::size_t rough_texture =
+      add_texture(document, rough_file, sampler, Json{{"footprint_mips", maps.roughness_mips}});
+  Json& material = material_called(document, maps.material, source);
+  material["normalTexture"] = looked_up_as(normal, normal_texture);
+  Json& surface = material["pbrMetallicRoughness"];
+  surface["metallicRoughnessTexture"] = looked_up_as(normal, rough_texture);
+  surface["roughnessFactor"] = 1.0;
+  if (maps.metallic_in_map) surface["metallicFactor"] = 1.0;
+}
+
+}  // namespace
+
+std::string write_gltf_copy(const std::filesystem::path& source, std::span<const ReplacedMaps> maps,
+                            const std::filesystem::path& folder) {
+  const GltfDocument document = read_gltf(source);
+  Json json = json_of(source);
+  move_resources(json, document.model, folder);
+  std::vector<std::string> names;
+  for (const ReplacedMaps& each : maps) names.push_back(each.material);
+  const std::vector<std::string> stems = distinct_stems(names);
+  for (std::size_t i = 0; i < maps.size(); ++i) replace(json, maps[i], stems[i], source.string(), folder);
+  const std::string name = file_stem(source.stem().string()) + ".gltf";
+  write_file_atomically(folder / name, json.dump(2) + "\n");
+  return name;
+}
+
+}  // namespace footprint

@@ -1,0 +1,30 @@
+// A copy of a glTF file with some of its materials' maps replaced: what was baked, written back into the model.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "renderer/image/image.hpp"
+
+namespace footprint {
+
+/// The maps of one material that are replaced.
+struct ReplacedMaps {
+  std::string material;  ///< as the loader calls it: its name, or "material N"
+  Image normal;          ///< 3 channels, (n + 1) / 2
+  Image rough_metallic;  ///< 3 channels as glTF has them: 1, perceptual roughness, metallic; looked up as the normal
+                         ///< map is
+  bool metallic_in_map = false;  ///< else the metallic factor stays
+  std::vector<std::string>
+      roughness_mips;  ///< files of the whole chain, from the copy's folder: in the texture's extras
+};
+
+/// Writes `source` (.gltf or .glb) with these maps as FOLDER/NAME.gltf, its buffers and images as files beside it,
+/// where no path of the source leads. Returns the file's name. Errors (usage): the source cannot be read, two of its
+/// materials have one of these names, or none has; (machine): a file cannot be written.
+std::string write_gltf_copy(const std::filesystem::path& source, std::span<const ReplacedMaps> maps,
+                            const std::filesystem::path& folder);
+
+}  // namespace footprint

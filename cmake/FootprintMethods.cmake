@@ -1,15 +1,16 @@
 # How methods get into a program; works in Footprint's tree and, after find_package(Footprint), out of it.
 
-# footprint_add_method(NAME [SOURCES extra.cpp ...] [STUDY figures.cpp ...] [LIBRARIES ...] [BAKE_TESTS extra ...]): a
-# prefiltering method in the folder NAME, or in the current folder where that holds NAME.cpp, with NAME.cpp (which defines
-# `const Method& NAME_method()`), its *.glsl (whose texts are footprint::embedded::NAME_glsl) and a test program of its
-# *_test.cpp. Its library links footprint_bake; a method with GL code of its own names footprint_pipeline. STUDY names
-# sources in its folder study/, a library of their own that no picture needs; they define
-# `std::span<const Quantity> NAME_quantities()` (methods/quantities.hpp). BAKE_TESTS names tests of the precompute and of
-# the study alone, extra_test.cpp: a program that links no GL. Nothing else has to change: the registry is written from
-# these lines.
+# footprint_add_method(NAME [SOURCES extra.cpp ...] [TEXTS other/text.glsl ...] [STUDY figures.cpp ...]
+#                      [LIBRARIES ...] [BAKE_TESTS extra ...]):
+# a prefiltering method in the folder NAME, or in the current folder where that holds NAME.cpp, with NAME.cpp (which
+# defines `const Method& NAME_method()`), its *.glsl (whose texts are footprint::embedded::NAME_glsl) and a test program
+# of its *_test.cpp. Its library links footprint_bake; a method with GL code of its own names footprint_pipeline. TEXTS
+# names texts of other methods' folders that the module includes too, from the current folder on. STUDY names sources in
+# its folder study/, a library of their own that no picture needs; they define `std::span<const Quantity>
+# NAME_quantities()` (methods/quantities.hpp). BAKE_TESTS names tests of the precompute and of the study alone,
+# extra_test.cpp: a program that links no GL. Nothing else has to change: the registry is written from these lines.
 function(footprint_add_method name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;STUDY;LIBRARIES;BAKE_TESTS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;TEXTS;STUDY;LIBRARIES;BAKE_TESTS" ${ARGN})
   set(folder "${CMAKE_CURRENT_SOURCE_DIR}/${name}")
   if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/${name}.cpp")
     set(folder "${CMAKE_CURRENT_SOURCE_DIR}")
@@ -17,7 +18,8 @@ function(footprint_add_method name)
   list(TRANSFORM ARG_SOURCES PREPEND "${folder}/")
   footprint_add_library(footprint_method_${name} SOURCES "${folder}/${name}.cpp" ${ARG_SOURCES}
                         LIBRARIES footprint_bake ${ARG_LIBRARIES})
-  footprint_embed(footprint_method_${name} ${name}_glsl "${folder}/*.glsl")
+  list(TRANSFORM ARG_TEXTS PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
+  footprint_embed(footprint_method_${name} ${name}_glsl "${folder}/*.glsl" ${ARG_TEXTS})
   set_property(GLOBAL APPEND PROPERTY FOOTPRINT_METHODS ${name})
   set(libraries footprint_method_${name})
   if(ARG_STUDY)

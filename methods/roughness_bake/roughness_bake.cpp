@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "methods/roughness_bake/baked_maps.hpp"
 #include "methods/roughness_bake/presets.hpp"
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
@@ -23,8 +24,6 @@ using namespace roughness_bake;
 
 constexpr double free_constant = 2.0, free_cap = 1.0;  // the options' defaults
 
-std::vector<std::string> preset_words() { return {preset_names.begin(), preset_names.end()}; }
-
 // Another preset with a constant of its own would be that preset in name alone.
 Preset checked_preset(const Options& options) {
   const Preset preset = preset_of(options.word("preset"));
@@ -35,20 +34,6 @@ Preset checked_preset(const Options& options) {
                 "give preset=free for others, or leave `constant` and `cap` out");
   }
   return preset;
-}
-
-// The spread of every texel of every level, from the finest level's normals.
-std::vector<Image> spread_chain(const Image& normals, Preset preset) {
-  std::vector<Image> chain;
-  for (const Image& level : mean_normal_chain(normals)) {
-    Image& out = chain.emplace_back(level.width, level.height, 1);
-    for (std::size_t i = 0; i < level.texel_count(); ++i) {
-      const float* const n = &level.texels[3 * i];
-      const double length = std::hypot(double{n[0]}, double{n[1]}, double{n[2]});
-      out.texels[i] = static_cast<float>(stored_spread(preset, 1.0 - length));
-    }
-  }
-  return chain;
 }
 
 // A texel of the coarse one for each of the fine one's.
@@ -115,19 +100,7 @@ class RoughnessBake final : public Method {
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                                        const Progress& /*progress*/) const override {
     const Preset preset = checked_preset(options);
-    const Storage storage = parse_storage(options.word("storage"));
-    const Storage wide = storage == Storage::unorm8 ? Storage::fp16 : storage;  // bytes hold no sum of variances
-    Prefiltered out = bake_mean_normal(material, storage, effects);
-    if (has(effects, Effect::normal_variation))
-      out.textures.push_back(make_texture("normal_spread", spread_chain(normal_map_of(material), preset), wide,
-                                          normal_coordinates(material)));
-    if (has(effects, Effect::normal_layers))
-      out.textures.push_back(make_texture("layer_spread", spread_chain(layer_map_of(material), preset), wide,
-                                          layer_coordinates(material)));
-    if (has(effects, Effect::roughness_variation))
-      out.textures.push_back(make_texture("baked_roughness", mip_chain(roughness_map_of(material)), storage,
-                                          roughness_coordinates(material)));
-    return out;
+    return bake_roughness(material, preset, parse_storage(options.word("storage")), effects);
   }
 
   [[nodiscard]] std::optional<std::vector<Image>> roughness_mips(const Material& material,
@@ -153,12 +126,17 @@ class RoughnessBake final : public Method {
       .name = "roughness_bake",
       .summary = "The mean normal under a lobe widened as engines widen roughness mips when they import a normal map.",
       .paper = "Engines' importers (README); our own constant by default",
-      .options = {word_option("preset", preset_words(),
-                              "Whose formula: engines', or `fit`, the constant that is closest to the true "
-                              "distribution of normals by roughness and distribution, or `free`."),
-                  number_option("constant", free_constant, 0.0, 8.0,
-                                "Of preset=free: alpha^2 + min(constant / kappa, cap)."),
-                  number_option("cap", free_cap, 0.0, 1.0, "Of preset=free: the most that is added to alpha^2."),
+      .options = {named_in_shaders(
+                      word_option("preset", {preset_names.begin(), preset_names.end()},
+                                  "Whose formula: engines', or `fit`, the constant that is closest to the true "
+                                  "distribution of normals by roughness and distribution, or `free`."),
+                      "bake"),
+                  named_in_shaders(number_option("constant", free_constant, 0.0, 8.0,
+                                                 "Of preset=free: alpha^2 + min(constant / kappa, cap)."),
+                                   "bake_constant"),
+                  named_in_shaders(
+                      number_option("cap", free_cap, 0.0, 1.0, "Of preset=free: the most that is added to alpha^2."),
+                      "bake_cap"),
                   storage_option()},
       .honours = map_effects_but({})};
 };

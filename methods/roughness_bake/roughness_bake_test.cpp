@@ -31,8 +31,9 @@ std::vector<glm::vec4> widened_in_glsl(std::string_view preset, NormalDistributi
   const Options options(roughness_bake_method().info().options, {{"preset", std::string(preset)}}, "roughness_bake");
   ShaderVariant variant;
   variant.brdf.distribution = distribution;
-  const std::string text = "const float option_constant = 2.0;\nconst float option_cap = 1.0;\nvec4 lobe_cutoff;\n" +
-                           shared_functions(shader_flags(variant, options), roughness_bake_method().shader());
+  const std::string text =
+      "const float option_bake_constant = 2.0;\nconst float option_bake_cap = 1.0;\nvec4 lobe_cutoff;\n" +
+      shared_functions(shader_flags(variant, options), roughness_bake_method().shader());
   return evaluate_glsl(text, "return vec4(widened(a.x, b.x));", inputs);
 }
 

@@ -10,7 +10,7 @@
 namespace footprint {
 
 /// The shortest rotation that takes z to the unit vector `normal`, of `axis`; normal = -z turns about y. The twin of
-/// turnedWithNormal in facet_lobes.glsl.
+/// turnedWithNormal in facet_frame.glsl.
 [[nodiscard]] glm::dvec3 turned_with_normal(const glm::dvec3& axis, const glm::dvec3& normal);
 
 /// Slope variance per axis of a material's lobes about their own axes, by weight; of the one lobe about the normal

@@ -24,7 +24,10 @@ struct MethodInfo {
   std::string summary;  ///< one sentence
   std::string paper;    ///< author, year, title
   std::vector<OptionSpec> options;
-  EffectSet honours;              ///< effects that it can simulate; others are left out, and the table says so
+  EffectSet honours;  ///< effects that it can simulate; others are left out, and the table says so
+  /// The module is told how frame and half vector change to the next pixels (renderer/shaders/README.md). Others pay
+  /// nothing for it.
+  bool screen_derivatives = false;
   bool draws_directions = false;  ///< the module integrates an environment itself where many samples are taken
   bool slow_precompute = false;   ///< seconds, not milliseconds: kept on disk between runs (bake_cache.hpp)
   /// Seconds a frame, not milliseconds: a bound to hold others against. `all` methods are all but these.

@@ -90,6 +90,11 @@ OptionSpec word_option(std::string name, const std::vector<std::string>& choices
           .integer = false};
 }
 
+OptionSpec named_in_shaders(OptionSpec option, std::string name) {
+  option.name_in_shaders = std::move(name);
+  return option;
+}
+
 Options::Options(const std::vector<OptionSpec>& specs, const std::map<std::string, std::string>& given,
                  std::string_view owner)
     : specs_(specs) {

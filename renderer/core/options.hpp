@@ -17,7 +17,14 @@ struct OptionSpec {
   std::vector<std::string> choices{};   ///< words only
   std::string meaning;                  ///< one sentence, with units
   bool integer = false;                 ///< numbers only: whole numbers
+  /// Its name in shaders, where that is another: two methods that share a text may each name an option as they like.
+  std::string name_in_shaders{};
+
+  [[nodiscard]] const std::string& shader_name() const { return name_in_shaders.empty() ? name : name_in_shaders; }
 };
+
+/// The option under another name in shaders.
+[[nodiscard]] OptionSpec named_in_shaders(OptionSpec option, std::string name);
 
 /// An option with numbers of a range for values, both ends inclusive.
 [[nodiscard]] OptionSpec number_option(std::string name, double value, double minimum, double maximum,

@@ -81,6 +81,7 @@ constexpr auto rows = std::to_array<FlagRow>({
     {"orthographic", [](const Variant& v) { return v.orthographic; }},
     {"shared_coordinates", [](const Variant& v) { return v.shared_coordinates; }},
     {"surface_coordinates", [](const Variant& v) { return v.surface_coordinates; }},
+    {"screen_derivatives", [](const Variant& v) { return v.screen_derivatives; }},
     {"environment_sampled", samples_environment},
     {"environment_dense", [](const Variant& v) { return v.environment == EnvironmentUse::dense; }},
     {"environment_diffuse", reflects_diffusely},
@@ -101,7 +102,7 @@ ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options, c
                                                      [](const auto& t) { return t.filter == TextureFilter::nearest; }));
   for (const OptionSpec& option : options.specs()) {
     for (const std::string& choice : option.choices)
-      flags.emplace(option.name + "_" + choice, options.word(option.name) == choice);
+      flags.emplace(option.shader_name() + "_" + choice, options.word(option.name) == choice);
   }
   return flags;
 }

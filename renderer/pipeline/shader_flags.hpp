@@ -30,6 +30,7 @@ struct ShaderVariant {
   bool orthographic = false;
   bool shared_coordinates = false;   ///< every map of the scene is looked up at one uv
   bool surface_coordinates = false;  ///< the method has coordinates of its own (Prefiltered::surface_coordinates)
+  bool screen_derivatives = false;   ///< a frame whose module asks how the next pixels lie (MethodInfo)
   EnvironmentUse environment = EnvironmentUse::prefiltered;  ///< sampled: of a module with `draws_directions`
   std::size_t facet_lobes = most_facet_lobes;  ///< room for so many a material: what has less compiles faster
   std::size_t point_lights = 0, spot_lights = 0, directional_lights = 0;

@@ -32,9 +32,9 @@ std::string light_capacities(const ShaderVariant& v) {
 
 std::string number_options(const Options& options) {
   std::string text;
-  for (const auto& [name, value] : options.all()) {
-    if (const auto* number = std::get_if<double>(&value))
-      text += fmt::format("const float option_{} = {:e};\n", name, *number);
+  for (const OptionSpec& option : options.specs()) {
+    if (option.choices.empty())
+      text += fmt::format("const float option_{} = {:e};\n", option.shader_name(), options.number(option.name));
   }
   return text;
 }

@@ -42,6 +42,7 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
           .orthographic = settings.orthographic,
           .shared_coordinates = scene.shared_coordinates(),
           .surface_coordinates = baked.materials.front().surface_coordinates.has_value(),
+          .screen_derivatives = baked.method->info().screen_derivatives && settings.sampling == Sampling::frame,
           .environment = environment_of(*baked.method, settings),
           .facet_lobes = scene.facet_lobes(),
           .point_lights = scene.light_counts().point,

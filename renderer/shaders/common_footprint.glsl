@@ -24,7 +24,20 @@ struct Footprints {
 //? if material_index
   Footprint share;
 //? end
+//? if screen_derivatives
+  mat3 frame_dx;  // what the tangent frame's axes change by to the pixel on the right, in those axes
+  mat3 frame_dy;  // and to the one above
+//? end
 };
+
+//? if screen_derivatives
+// What the unit half vector of one light changes by to the pixels on the right and above, each in its own tangent
+// frame.
+struct HalfSteps {
+  vec3 dx;
+  vec3 dy;
+};
+//? end
 
 //? if filter_shaded
 // Part `i` of n x n: a footprint of its own.
@@ -58,11 +71,15 @@ Footprints partOf(Footprints f, int i) {
 //? if material_index
   part.share = partOf(f.share, i);
 //? end
+//? if screen_derivatives
+  part.frame_dx = f.frame_dx / float(footprint_parts);
+  part.frame_dy = f.frame_dy / float(footprint_parts);
+//? end
   return part;
 }
 //? end
 
-//? if surface_coordinates
+//? if surface_coordinates or screen_derivatives
 // From the tangent frame of the point that is shaded to the camera's axes: x right, y up, z towards the viewer.
 mat3 tangent_to_camera;
 //? end

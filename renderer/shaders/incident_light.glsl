@@ -2,7 +2,18 @@
 struct Incident {
   vec3 wi;  // tangent frame; a light below the surface's own horizon does not reach it
   vec3 irradiance_at_normal;
+//? if screen_derivatives
+  vec4 source;  // world space: a point (w 1) or a direction (w 0)
+//? end
 };
+
+Incident incident(vec3 wi, vec3 irradiance_at_normal, vec4 source) {
+//? if screen_derivatives
+  return Incident(wi, irradiance_at_normal, source);
+//? else
+  return Incident(wi, irradiance_at_normal);
+//? end
+}
 
 //? if point_light
 Incident incidentPoint(int i, mat3 frame) {
@@ -12,7 +23,8 @@ Incident incidentPoint(int i, mat3 frame) {
 //? if cast_shadow
   attenuation *= clearOfShadow(point_lights[i].intensity.w, world_position, seen_facet, -d);
 //? end
-  return Incident((d * inversesqrt(max(d2, 1e-24))) * frame, point_lights[i].intensity.rgb * attenuation);
+  return incident((d * inversesqrt(max(d2, 1e-24))) * frame, point_lights[i].intensity.rgb * attenuation,
+                  vec4(point_lights[i].position_range.xyz, 1.0));
 }
 //? end
 
@@ -27,7 +39,8 @@ Incident incidentSpot(int i, mat3 frame) {
 //? if cast_shadow
   attenuation *= clearOfShadow(spot_lights[i].intensity.w, world_position, seen_facet, -d);
 //? end
-  return Incident(to_light * frame, spot_lights[i].intensity.rgb * attenuation);
+  return incident(to_light * frame, spot_lights[i].intensity.rgb * attenuation,
+                  vec4(spot_lights[i].position_range.xyz, 1.0));
 }
 //? end
 
@@ -37,6 +50,7 @@ Incident incidentDirectional(int i, mat3 frame) {
 //? if cast_shadow
   irradiance *= clearOfShadow(directional_lights[i].illuminance.w, world_position, seen_facet, vec3(0.0));
 //? end
-  return Incident(directional_lights[i].to_light.xyz * frame, irradiance);
+  return incident(directional_lights[i].to_light.xyz * frame, irradiance,
+                  vec4(directional_lights[i].to_light.xyz, 0.0));
 }
 //? end

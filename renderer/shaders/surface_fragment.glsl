@@ -12,7 +12,7 @@ in vec2 surface_uv;
 layout(location = 0) out vec4 radiance_coverage;
 
 uniform vec3 camera_position;
-//? if surface_coordinates
+//? if surface_coordinates or screen_derivatives
 uniform mat3 world_to_camera;
 //? end
 //? if orthographic
@@ -69,6 +69,10 @@ vec3 seen_facet;  // of the pixel
 //? end
 //? include incident_light.glsl
 
+//? if screen_derivatives
+//? include neighbour_pixels.glsl
+
+//? end
 // What is seen through a pixel, or a part of it.
 struct SurfacePoint {
   Effective effective;
@@ -77,9 +81,7 @@ struct SurfacePoint {
   vec3 wo;  // tangent frame
 };
 
-// f * cos of both terms together.
-vec3 reflectance(Effective e, Surface s, vec3 wi, vec3 wo) {
-  Reflected r = shade(e, s, wi, wo);
+vec3 bothTerms(Reflected r) {
 //? if diffuse
   return r.specular + r.diffuse;
 //? else
@@ -87,10 +89,20 @@ vec3 reflectance(Effective e, Surface s, vec3 wi, vec3 wo) {
 //? end
 }
 
+// f * cos of both terms together.
+vec3 reflectance(Effective e, Surface s, vec3 wi, vec3 wo) {
+  return bothTerms(shade(e, s, wi, wo));
+}
+
 // One light's share.
 vec3 reflected(SurfacePoint p, Incident light) {
   if (light.wi.z <= 0.0) return vec3(0.0);
-  return reflectance(p.effective, p.surface, light.wi, p.wo) * light.irradiance_at_normal;
+//? if screen_derivatives
+  Reflected r = shade(p.effective, p.surface, light.wi, p.wo, halfSteps(light, p.wo));
+//? else
+  Reflected r = shade(p.effective, p.surface, light.wi, p.wo);
+//? end
+  return bothTerms(r) * light.irradiance_at_normal;
 }
 
 //? if environment_sampled
@@ -230,18 +242,21 @@ void main() {
   vec3 along_x = dFdx(world_position);  // before any pixel is discarded
   vec3 along_y = dFdy(world_position);
 //? end
+//? if double_sided
+  mat3 frame = tangentFrame(gl_FrontFacing ? world_normal : -world_normal, world_tangent);
+//? else
+  mat3 frame = tangentFrame(world_normal, world_tangent);
+//? end
+//? if screen_derivatives
+  lookBeside(frame, f);
+//? end
 //? if random_draws
   drawPoint();
 //? end
 //? if alpha_mask
   if (meanAlpha(f) < lobe_cutoff.y) discard;
 //? end
-//? if double_sided
-  mat3 frame = tangentFrame(gl_FrontFacing ? world_normal : -world_normal, world_tangent);
-//? else
-  mat3 frame = tangentFrame(world_normal, world_tangent);
-//? end
-//? if surface_coordinates
+//? if surface_coordinates or screen_derivatives
   tangent_to_camera = world_to_camera * frame;
 //? end
 //? if orthographic

@@ -14,7 +14,8 @@
 namespace footprint::testing {
 namespace {
 
-constexpr std::array<const char*, 5> honouring{"naive_mip", "toksvig", "roughness_bake", "lean", "leadr"};
+constexpr std::array<const char*, 6> honouring{"naive_mip",   "toksvig", "roughness_bake",
+                                               "specular_aa", "lean",    "leadr"};
 
 TextureMap tiled(const Image& normals, float tiles) {
   TextureMap map{"layer", std::make_shared<const Image>(normals), {}};

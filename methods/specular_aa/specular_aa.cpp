@@ -1,0 +1,88 @@
+// `specular_aa`: the mean normal under a lobe that is widened where normals change over the screen, by an engine's
+// formula; over roughness mips as engines bake them, where that is asked for.
+#include "methods/roughness_bake/baked_maps.hpp"
+#include "methods/specular_aa/screen_presets.hpp"
+#include "renderer/bake/method.hpp"
+#include "renderer/bake/normal_chain.hpp"
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+
+namespace embedded {
+extern const EmbeddedTexts specular_aa_glsl;
+}
+
+namespace {
+
+using namespace specular_aa;
+
+constexpr Formula defaults{};
+
+// Another preset with a constant of its own would be that preset in name alone.
+void check(const Options& options) {
+  const bool has_own = options.number("constant") != defaults.constant || options.number("cap") != defaults.cap;
+  if (preset_of(options.word("preset")) != Preset::free && has_own) {
+    throw Error(ErrorKind::usage, "specular_aa", "preset=" + options.word("preset") + " has its own constant and cap",
+                "give preset=free for others, or leave `constant` and `cap` out");
+  }
+}
+
+// `none`, and every preset of roughness_bake but the one that takes numbers besides.
+std::vector<std::string> bakes() {
+  std::vector<std::string> words{"none"};
+  for (const std::string_view name : roughness_bake::preset_names)
+    if (name != "free") words.emplace_back(name);
+  return words;
+}
+
+class SpecularAa final : public Method {
+ public:
+  [[nodiscard]] const MethodInfo& info() const override { return info_; }
+
+  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                                       const Progress& /*progress*/) const override {
+    check(options);
+    const Storage storage = parse_storage(options.word("storage"));
+    const std::string& bake = options.word("bake");
+    if (bake != "none")
+      return roughness_bake::bake_roughness(material, roughness_bake::preset_of(bake), storage, effects);
+    Prefiltered out = bake_mean_normal(material, storage, effects);
+    for (PrefilteredTexture& texture : roughness_bake::bake_mean_roughness(material, storage, effects).textures)
+      out.textures.push_back(std::move(texture));
+    return out;
+  }
+
+  [[nodiscard]] ShaderModule shader() const override {
+    return module_of(embedded::specular_aa_glsl, "specular_aa.glsl");
+  }
+
+ private:
+  MethodInfo info_{
+      .name = "specular_aa",
+      .summary = "The mean normal under a lobe widened by how normals change over the screen, as engines do it.",
+      .paper = "Tokuyoshi and Kaplanyan 2019, 2021, and engines' forms of it (README)",
+      .options = {word_option("preset", {preset_names.begin(), preset_names.end()},
+                              "Whose formula: an engine's, a paper's, or `free`."),
+                  number_option("constant", defaults.constant, 0.0, 4.0,
+                                "Of preset=free: alpha^2 + min(constant S, cap), S the sum of the normal's squared "
+                                "derivatives."),
+                  number_option("cap", defaults.cap, 0.0, 1.0, "Of preset=free: the most that is added to alpha^2."),
+                  word_option("normal", {"own", "geometric", "shading"},
+                              "Which normal's derivatives: as the preset has it (`free`: geometric), the mesh's, or "
+                              "the one with the normal map's mean."),
+                  word_option("bake", bakes(),
+                              "What the roughness mips hold already: nothing, or what roughness_bake with this preset "
+                              "bakes."),
+                  storage_option()},
+      .honours = map_effects_but({}),
+      .screen_derivatives = true};
+};
+
+}  // namespace
+
+const Method& specular_aa_method() {
+  static const SpecularAa method;
+  return method;
+}
+
+}  // namespace footprint

@@ -1,0 +1,37 @@
+// The pixels on the right and above, as the differences within four pixels tell them: for modules that ask how normal
+// and half vector change over the screen.
+struct Neighbour {
+  vec3 position;
+  mat3 frame;
+};
+Neighbour beside[2];  // of the pixel
+
+// Before any pixel is discarded. A frame's axes are unit and orthogonal, its inverse is its transpose.
+void lookBeside(mat3 frame, inout Footprints f) {
+  mat3 right = mat3(dFdx(frame[0]), dFdx(frame[1]), dFdx(frame[2]));
+  mat3 up = mat3(dFdy(frame[0]), dFdy(frame[1]), dFdy(frame[2]));
+  f.frame_dx = transpose(frame) * right;
+  f.frame_dy = transpose(frame) * up;
+  beside[0] = Neighbour(world_position + dFdx(world_position), frame + right);
+  beside[1] = Neighbour(world_position + dFdy(world_position), frame + up);
+}
+
+// A neighbour's half vector, in its own frame.
+vec3 halfVectorAt(Neighbour n, vec4 source) {
+//? if orthographic
+  vec3 to_viewer = to_camera;
+//? else
+  vec3 to_viewer = normalize(camera_position - n.position);
+//? end
+  return halfVector(normalize(source.xyz - source.w * n.position), to_viewer) * n.frame;
+}
+
+HalfSteps halfSteps(Incident light, vec3 wo) {
+  vec3 h = halfVector(light.wi, wo);
+  HalfSteps steps = HalfSteps(halfVectorAt(beside[0], light.source) - h, halfVectorAt(beside[1], light.source) - h);
+//? if filter_shaded
+  steps.dx /= float(footprint_parts);
+  steps.dy /= float(footprint_parts);
+//? end
+  return steps;
+}

@@ -124,6 +124,11 @@ BakeListing list_bake(const BakeToFiles& bake) {
 }
 
 void require_files(const BakeToFiles& bake) {
+  if (bake.baked.method->info().screen_derivatives) {
+    throw Error(ErrorKind::usage, fmt::format("method {}", bake.baked.spec.text),
+                "filters by the next pixels, which no file tells a module of",
+                "bake roughness_bake, which has the maps that it may stand on");
+  }
   std::size_t count = 0;
   for (const Prefiltered& prefiltered : bake.baked.materials) {
     count += prefiltered.textures.size();

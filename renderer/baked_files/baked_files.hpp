@@ -48,8 +48,8 @@ struct BakeListing {
 /// The names of the files that `bake` gets.
 [[nodiscard]] BakeListing list_bake(const BakeToFiles& bake);
 
-/// Refuses, before anything is written, what would leave no files. Errors (usage): the method rebuilds its textures
-/// each frame, or has none for this scene.
+/// Refuses, before anything is written, what would leave no files that another program could draw by. Errors (usage):
+/// the method rebuilds its textures each frame, asks for screen derivatives, or has no texture for this scene.
 void require_files(const BakeToFiles& bake);
 
 /// Writes all of them and manifest.json into `folder`, which exists. Equal bakes give equal bytes. Errors: those of

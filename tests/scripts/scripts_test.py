@@ -1,6 +1,7 @@
 """What the checks of scripts/ and packaging/ refuse: a changed picture, an archive that is too large, missing output."""
 import importlib.machinery
 import importlib.util
+import json
 import os
 import pathlib
 import subprocess
@@ -117,6 +118,81 @@ class ExpectedOutput(InFolder):
             self.assertNotEqual(done.returncode, 0, name)
             self.assertIn(f"prog left no {name}", done.stderr + done.stdout)
             (self.folder / name).write_text("x", encoding="utf-8")
+
+
+class EngineConstants(InFolder):
+    """The page is what results say: the least error wins, and what is missing is named."""
+
+    def setUp(self):
+        super().setUp()
+        self.script = module(SOURCE / "scripts/engine_constants")
+        errors = {method: 0.5 for method in {**self.script.CONSTANTS, **self.script.BESIDE}.values()}
+        errors.update({self.script.CONSTANTS["1"]: 0.25, self.script.CONSTANTS["2"]: 0.125})
+        for name in self.script.SURFACES:
+            self.write(name, f"Constants, surface {name}", errors, name in self.script.SPREADS)
+        screen = {"direct": 0.75, "specular_aa:preset=unity": 0.375, "specular_aa:preset=o3de": 0.3125}
+        screen.update({method: float(constant) for method, constant in self.script.ROUND.items()})
+        self.write(self.script.SCREEN, "Constants, a model", screen, False)
+
+    def write(self, name, title, errors, with_spreads):
+        record = {"shading_floor": 0.01, "energy_bias": 0.0}
+        records = [{"method": method, "pixels": {"interior": 3, "object": 4},
+                    "error": {**record, "shading": error + step, "normalized_color": error + step},
+                    "flicker": {"mean": error} if step else None}
+                   for method, error in errors.items() for step in (0.0, 0.0625)]
+        quantities = []
+        if with_spreads:
+            for method, error in errors.items():
+                quantities += [{"method": method, "name": "ndf_a15_s20", "value": error},
+                               {"method": method, "name": "best_a15_s20", "value": 2.25}]
+        results = {"tool": {"version": "1"}, "backend": {"renderer": "r"}, "reference": {"spp": 4}, "footprint": "f",
+                   "experiment": {"title": title}, "records": records, "quantities": quantities}
+        folder = self.folder / f"engine_constants_{name}"
+        folder.mkdir(exist_ok=True)
+        (folder / "results.json").write_text(json.dumps(results), encoding="utf-8")
+
+    def run_script(self):
+        return subprocess.run([SOURCE / "scripts/engine_constants", self.folder], capture_output=True, text=True,
+                              check=False)
+
+    def test_the_least_error_wins_and_is_cited(self):
+        done = self.run_script()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertLessEqual(max(len(line) for line in done.stdout.split("\n") if line[:1] != "|"), 120)
+        page = " ".join(done.stdout.split())
+        self.assertIn("| 2 | 2 of 2 | 7 of 7 | 7 of 7 |", done.stdout)
+        self.assertIn("2 has the least picture error of the argued constants, 0.156, against 0.281 of 1", page)
+        self.assertIn("(`engine_constants_ggx_satin`, quantities `ndf_a15_s20`, `best_a15_s20`)", page)
+        self.assertIn("0.0833 errs least, 0.115, and 0.318 most", page)
+        self.assertIn("`specular_aa:preset=o3de` errs least, 0.344", page)
+        self.assertIn("3 of 4 pixels", page)
+
+    def test_another_result_is_another_page(self):
+        errors = {method: 0.5 for method in {**self.script.CONSTANTS, **self.script.BESIDE}.values()}
+        errors[self.script.CONSTANTS["0.5"]] = 0.125
+        self.write("ggx_rough", "Constants, surface rough", errors, False)
+        self.assertIn("| 0.5 | 0 of 2 | 1 of 7 | 1 of 7 |", self.run_script().stdout)
+
+    def test_what_is_missing_is_named(self):
+        (self.folder / "engine_constants_ggx_rough/results.json").unlink()
+        done = self.run_script()
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("engine_constants_ggx_rough", done.stderr)
+
+    def test_a_method_that_is_missing_is_named(self):
+        self.write("ggx_rough", "Constants, surface rough", {"direct": 0.5}, False)
+        done = self.run_script()
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("engine_constants_ggx_rough has no record of roughness_bake", done.stderr)
+
+    def test_every_method_of_the_page_is_one_of_the_experiments(self):
+        for name in self.script.SURFACES:
+            text = (SOURCE / f"experiments/engine_constants_{name}.toml").read_text(encoding="utf-8")
+            for method in {**self.script.CONSTANTS, **self.script.BESIDE}.values():
+                self.assertIn(f'"{method}"', text, name)
+        group = (SOURCE / "experiments/engine_constants.toml").read_text(encoding="utf-8")
+        for name in self.script.SURFACES + [self.script.SCREEN]:
+            self.assertIn(f'"engine_constants_{name}"', group)
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@
 
 // Halving 2^28 texels down to 16, an odd side's longer part each time, takes 26 steps.
 const int most_pending = 28;
+const int most_cut = 16;
 const uint leaf_size = 16u;
 
 // How far the outermost texels go on beyond the map that does not repeat: lower and upper edges.
@@ -30,30 +31,27 @@ struct Node {
   ivec2 upper;
 };
 
+uvec4 packedNode(Node node) {
+  return uvec4(node.at, node.end, node.lower.x | node.lower.y << 16, node.upper.x | node.upper.y << 16);
+}
+Node unpackedNode(uvec4 code) { return Node(code.x, code.y, unpacked(code.z), unpacked(code.w)); }
+
 // Makes a node its lower half; the upper half comes back.
 Node upperHalfOf(inout Node node) {
   ivec2 sides = node.upper - node.lower;
-  ivec2 middle = sides.x >= sides.y ? ivec2(node.lower.x + sides.x / 2, 0) : ivec2(0, node.lower.y + sides.y / 2);
-  Node half_node = Node(wordAt(bins_forest, node.at + 1u), node.end, max(node.lower, middle), node.upper);
+  bvec2 across = bvec2(sides.x >= sides.y, sides.x < sides.y);
+  ivec2 middle = node.lower + (sides >> 1);
+  Node half_node = Node(wordAt(bins_forest, node.at + 1u), node.end, mix(node.lower, middle, across), node.upper);
   node.end = wordAt(bins_forest, node.at);
   node.at += 2u;
-  node.upper = sides.x >= sides.y ? ivec2(middle.x, node.upper.y) : ivec2(node.upper.x, middle.y);
+  node.upper = mix(node.upper, middle, across);
   return half_node;
 }
 
-// What a list has under a region.
-struct Covered {
-  uint whole;    // texels that are covered whole
-  float partly;  // the area of those that are not
-};
-
-// Texel i of a list.
-void addTexel(inout Covered sum, Region r, vec4 beyond, uint i) {
+// Texel i of a list, as a node that has no tree.
+Node texelNode(uint i) {
   ivec2 texel = unpacked(wordAt(bins_texels, i));
-  vec4 box = boxOf(texel, texel + 1, beyond);
-  int side = sideOf(r, box.xy, box.zw);
-  if (side == inside) ++sum.whole;
-  if (side == cut) sum.partly += areaWithin(r, box.xy, box.zw);
+  return Node(0u, i + 1u, texel, texel + 1);
 }
 
 //? if border_nodes
@@ -64,60 +62,64 @@ float evenSide(Region r) { return 0.25 * sqrt(areaOf(r)); }
 //? else
 float evenSide(Region r) { return 0.5 * sqrt(areaOf(r)); }
 //? end
-
-void addNode(inout Covered sum, Region r, vec4 box, uint texels) {
-  vec2 sides = box.zw - box.xy;
-  sum.partly += float(texels) * areaWithin(r, box.xy, box.zw) / (sides.x * sides.y);
-}
+//? else
+float evenSide(Region r) { return 0.0; }
 //? end
 
 // Over one copy of the map. One loop looks at nodes and at the texels of leaves alike: pixels that are drawn together
-// wait for each other at the end of every loop. `finished` becomes false where the driver has ended it before its end
-// (notWhole).
+// wait for each other at the end of every loop, and llvmpipe takes every branch. So what the border cuts, a few of many,
+// is put aside for a loop of its own. `finished` becomes false where the driver has ended one before its end (notWhole).
 float areaInCopy(Region r, TexelList list, inout bool finished) {
   vec4 beyond = beyondMap(r);
-//? if border_nodes
   float even_side = evenSide(r);
-//? end
   Node node = Node(list.root, list.end, ivec2(0), textureSize(bins_map, 0));
-  uvec4 pending[most_pending];
-  int count = 0;
+  uvec4 kept[most_pending + most_cut];  // nodes that are left to be looked at, then what is cut
+  int pending = 0;
+  int cut_count = 0;
   uint begin = list.first;
   bool in_leaf = false;
-  Covered sum = Covered(0u, 0.0);
+  uint whole = 0u;     // texels that are covered whole
+  float partly = 0.0;  // the area of the others
   while (begin < list.end) {
-    if (in_leaf) {
-      addTexel(sum, r, beyond, begin);
-      ++begin;
-    } else {
-      vec4 box = boxOf(node.lower, node.upper, beyond);
+    while (begin < list.end && cut_count < most_cut) {
+      Node seen = node;
+      if (in_leaf) seen = texelNode(begin);
+      uint texels = seen.end - begin;
+      vec4 box = boxOf(seen.lower, seen.upper, beyond);
+      vec2 sides = box.zw - box.xy;
+      // Texels that go on beyond the map are larger than others: none stands for another.
+      bool goes_on = any(greaterThan(sides, vec2(seen.upper - seen.lower)));
       int side = sideOf(r, box.xy, box.zw);
-//? if border_nodes
-      if (side == cut && all(lessThan(box.zw - box.xy, vec2(even_side)))) {
-        addNode(sum, r, box, node.end - begin);
-        side = outside;
+      if (goes_on && side == inside) side = cut;
+      bool counts = side == cut && (in_leaf || !goes_on && all(lessThan(sides, vec2(even_side))));
+      bool splits = side == cut && !counts && texels > leaf_size;
+      int slot = counts ? most_pending + cut_count : pending;
+      if (splits) {
+        seen = upperHalfOf(node);
+        ++pending;
+      } else if (counts) {
+        seen.end = texels;
+        ++cut_count;
       }
-//? end
-      in_leaf = side == cut && node.end - begin <= leaf_size;
-      if (side == cut && !in_leaf) {
-        Node later = upperHalfOf(node);
-        pending[count] = uvec4(later.at, later.end, later.lower.x | later.lower.y << 16,
-                               later.upper.x | later.upper.y << 16);
-        ++count;
-      } else if (!in_leaf) {
-        if (side == inside) sum.whole += node.end - begin;
-        begin = node.end;
+      if (splits || counts) kept[slot] = packedNode(seen);
+      if (side == inside) whole += texels;
+      in_leaf = in_leaf || side == cut && !counts && !splits;
+      if (side != cut || counts) begin += texels;
+      if (begin == node.end && pending > 0) {
+        --pending;
+        node = unpackedNode(kept[pending]);
+        in_leaf = false;
       }
     }
-    if (begin == node.end && count > 0) {
-      --count;
-      uvec4 next = pending[count];
-      node = Node(next.x, next.y, unpacked(next.z), unpacked(next.w));
-      in_leaf = false;
+    for (; cut_count > 0; --cut_count) {
+      Node seen = unpackedNode(kept[most_pending + cut_count - 1]);
+      vec4 box = boxOf(seen.lower, seen.upper, beyond);
+      vec2 sides = vec2(seen.upper - seen.lower);
+      partly += float(seen.end) / (sides.x * sides.y) * areaWithin(r, box.xy, box.zw);
     }
   }
-  finished = finished && begin == list.end;
-  return float(sum.whole) + sum.partly;
+  finished = finished && begin == list.end && cut_count == 0;
+  return float(whole) + partly;
 }
 
 // Copies of the map along an axis: first and last; one where it does not repeat.

@@ -117,8 +117,11 @@ class AtanasovBins final : public Method {
                "by one, exactly."),
            word_option("surface", {"facets", "microfacets"},
                        "What the density is of: texels that each reflect about their own normal, as the reference has "
-                       "them; microfacets of a surface about its own normal, as published, D over the cosine.")},
-      .honours = map_effects_but({Effect::normal_layers, Effect::multi_lobe, Effect::environment_light}),
+                       "them; microfacets of a surface about its own normal, as published, D over the cosine."),
+           whole_option("draws", 16, 1, 1024,
+                        "Under an environment: so many normals are drawn from under a pixel (section 2.1), each a lobe "
+                        "of its own; of fewer texels all are taken.")},
+      .honours = map_effects_but({Effect::normal_layers, Effect::multi_lobe}),
       .slow_precompute = true,
       .slow_frame = true};
 };

@@ -6,6 +6,9 @@
 //? include lobe_variance.glsl
 //? end
 //? include atanasov_bins_reflectance.glsl
+//? if environment_light
+//? include atanasov_bins_sampling.glsl
+//? end
 //? if sampling_frame and normal_variation
 //? include atanasov_bins_footprint.glsl
 //? else
@@ -21,9 +24,13 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   }
 //? if diffuse
   // The mean normal's dot product is the mean of the facets' own while all of them face the light.
-  r.diffuse = diffuse(meanOfNormals(e), s, wi, wo);
+  r.diffuse = diffuse(meanNormal(e), s, wi, wo);
 //? end
   return r;
 }
 
 float ndf(Effective e, vec3 h) { return meanValue(e, queryFor(false, h, h, h)); }
+
+//? if environment_light
+//? include atanasov_bins_environment.glsl
+//? end

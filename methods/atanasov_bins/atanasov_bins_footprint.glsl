@@ -8,6 +8,9 @@ struct Effective {
 //? if diffuse
   vec3 mean;       // of the normals
 //? end
+//? if environment_light
+  float drawn;     // the share of what is drawn that has a normal
+//? end
 };
 
 struct TexelBox {
@@ -197,11 +200,10 @@ float meanValue(Effective e, Query q) {
     sum.area += weight * part.area;
   }
   if (sum.area == 0.0) {
-    vec3 up = vec3(0.0, 0.0, 1.0);
 //? if roughness_bin
-    sum = Sum(q.bin == binIn(cellOf(up)) ? 1.0 / binSolidAngle() : 0.0, 1.0);
+    sum = Sum(q.bin == binOfPacked(up_code) ? 1.0 / binSolidAngle() : 0.0, 1.0);
 //? else
-    sum = Sum(valueAbout(e.variance, up, 0.0, q), 1.0);
+    sum = Sum(valueAbout(e.variance, vec3(0.0, 0.0, 1.0), 0.0, q), 1.0);
 //? end
   }
   return finishedValue(e.variance, sum.value / sum.area, q);
@@ -235,7 +237,11 @@ vec3 meanUnder(Footprint f) {
   return sum.w > 0.0 ? sum.xyz / sum.w : vec3(0.0, 0.0, 1.0);
 }
 
-vec3 meanOfNormals(Effective e) { return e.mean; }
+vec3 meanNormal(Effective e) { return e.mean; }
+//? end
+
+//? if environment_light
+//? include atanasov_bins_draws.glsl
 //? end
 
 Effective effective(Footprints f) {
@@ -244,6 +250,9 @@ Effective effective(Footprints f) {
   e.variance = baseVariance(f);
 //? if diffuse
   e.mean = meanUnder(f.normal);
+//? end
+//? if environment_light
+  e.drawn = drawnShare(f.normal);
 //? end
   return e;
 }

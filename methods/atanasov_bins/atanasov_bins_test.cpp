@@ -10,14 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "methods/atanasov_bins/bins_twin.hpp"
+#include "methods/atanasov_bins/bins_probe.hpp"
 #include "renderer/image/metrics.hpp"
-#include "tests/support/method_probe.hpp"
 #include "tests/support/rendering.hpp"
-#include "tests/support/test_scenes.hpp"
 
 namespace footprint {
-const Method& atanasov_bins_method();
 const Method& exact_method();
 }  // namespace footprint
 
@@ -28,88 +25,9 @@ using atanasov_bins::bin_of;
 using atanasov_bins::bin_solid_angle;
 using std::numbers::pi;
 
-constexpr BaseBrdf blinn_phong{NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, false};
-constexpr double exponent = 200.0;
-
-// Random normals, a quarter of them alike, some invalid; none at the border of a bin.
-Image test_normals(int width, int height, float tilt, int m) {
-  Image image = random_normals(width, height, tilt, 21);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const std::span<float> n = image.at(x, y);
-      const bool same = x >= width / 2 && y >= height / 2;
-      const glm::dvec3 normal = same ? glm::dvec3(0.1, -0.05, 0.99) : glm::dvec3(n[0], n[1], n[2]);
-      const std::uint32_t bin = bin_of(glm::normalize(normal), m);
-      const auto across = static_cast<std::uint32_t>(m);
-      // 0.3 and 0.6 of the bin's edges: packed normals and those of 32 bits are in it all the same.
-      const glm::vec3 inner(square_to_hemisphere((glm::dvec2(bin % across, bin / across) + glm::dvec2(0.3, 0.6)) /
-                                                 static_cast<double>(m)));
-      std::copy_n(&inner.x, 3, n.begin());
-      n[3] = x % 5 == 2 && y % 3 == 1 ? 0.0F : 1.0F;
-    }
-  }
-  return image;
-}
-
-Material material_of(Image normals, Wrap wrap) {
-  Material material = square_scene(normals, {.brdf = blinn_phong}).materials[0];
-  material.lobe_parameter = static_cast<float>(exponent);
-  material.normal_map->coordinates.wrap = {wrap, wrap};
-  return material;
-}
-
-// Parallelograms in texels of a map: aligned, sheared, mirrored, over its borders, aligned over one, within a texel, of
-// all of it.
-std::vector<Parallelogram> footprints_on(const glm::dvec2& size) {
-  return {{{0.3 * size.x, 0.4 * size.y}, {{0.2 * size.x, 0.0}, {0.0, 0.3 * size.y}}},
-          {{0.5 * size.x, 0.5 * size.y}, {{0.3 * size.x, 0.1 * size.y}, {-0.05 * size.x, 0.2 * size.y}}},
-          {{0.4 * size.x, 0.6 * size.y}, {{0.0, 0.5 * size.y}, {0.3 * size.x, 0.0}}},
-          {{0.95 * size.x, 0.02 * size.y}, {{0.4 * size.x, -0.1 * size.y}, {0.1 * size.x, 0.3 * size.y}}},
-          {{-0.7 * size.x, 1.6 * size.y}, {{1.4 * size.x, 0.3 * size.y}, {-0.4 * size.x, 1.1 * size.y}}},
-          {{0.9 * size.x, 0.5 * size.y}, {{0.4 * size.x, 0.0}, {0.0, 0.3 * size.y}}},
-          {{0.31 * size.x, 0.44 * size.y}, {{1.2, 0.1}, {-0.1, 1.4}}},
-          {0.5 * size, {{size.x, 0.0}, {0.0, size.y}}}};
-}
-
-// A probe's input: the footprint in uv, a direction.
-std::array<glm::vec4, 3> input_of(const Parallelogram& p, const glm::dvec2& size, const glm::dvec3& h) {
-  return {glm::vec4(glm::vec2(p.centre / size), 0.0F, 0.0F),
-          glm::vec4(glm::vec2(p.edges[0] / size), glm::vec2(p.edges[1] / size)), glm::vec4(glm::vec3(h), 0.0F)};
-}
-
 std::vector<glm::vec4> probe_footprints(const Material& material, const std::map<std::string, std::string>& options,
                                         const std::string& value, std::span<const std::array<glm::vec4, 3>> inputs) {
-  ProbedMethod probed{&atanasov_bins_method(), &material, options};
-  return probe_method(
-      probed, "Footprint f = Footprint(a.xy, b.xy, b.zw);\ne = effective(Footprints(f, f, f));\nreturn " + value + ";",
-      inputs);
-}
-
-// The mean over a footprint's texels that have a normal of what `value` says of it.
-template <class Value>
-double plain_mean(const Image& normals, const Parallelogram& p, Wrap wrap, const Value& value) {
-  double sum = 0.0, area = 0.0;
-  for_each_texel(p, {normals.width, normals.height}, wrap, [&](int x, int y, double covered) {
-    const std::span<const float> n = normals.at(x, y);
-    if (n[3] < 0.5F) return;
-    sum += covered * value(glm::dvec3(n[0], n[1], n[2]));
-    area += covered;
-  });
-  return sum / area;
-}
-
-// The share of a footprint's texels that each of m x m bins has, of those with a normal.
-std::vector<double> shares_of_bins(const Image& normals, const Parallelogram& p, Wrap wrap, int m) {
-  std::vector<double> shares(static_cast<std::size_t>(m) * static_cast<std::size_t>(m), 0.0);
-  double area = 0.0;
-  for_each_texel(p, {normals.width, normals.height}, wrap, [&](int x, int y, double covered) {
-    const std::span<const float> n = normals.at(x, y);
-    if (n[3] < 0.5F) return;
-    shares[bin_of(glm::normalize(glm::dvec3(n[0], n[1], n[2])), m)] += covered;
-    area += covered;
-  });
-  for (double& share : shares) share /= area;
-  return shares;
+  return probe_footprints(ProbedMethod{&atanasov_bins_method(), &material, options}, "return " + value + ";", inputs);
 }
 
 class OverBorders : public ::testing::TestWithParam<Wrap> {};
@@ -186,7 +104,7 @@ TEST(AtanasovBins, PackedNormalsAndBinsAreTheTwins) {
 }
 
 double phong_density(const glm::dvec3& n, const glm::dvec3& h) {
-  return (exponent + 1.0) / (2.0 * pi) * std::pow(std::max(glm::dot(n, h), 0.0), exponent);
+  return (phong_exponent + 1.0) / (2.0 * pi) * std::pow(std::max(glm::dot(n, h), 0.0), phong_exponent);
 }
 
 double beckmann_density(double alpha, const glm::dvec3& n, const glm::dvec3& h) {

@@ -5,7 +5,7 @@
 
 // Halving 2^28 texels down to 16, an odd side's longer part each time, takes 26 steps.
 const int most_pending = 28;
-const int most_cut = 16;
+const int most_cut = 16;  // that are put aside before their areas are taken
 const uint leaf_size = 16u;
 
 // How far the outermost texels go on beyond the map that does not repeat: lower and upper edges.
@@ -67,8 +67,9 @@ float evenSide(Region r) { return 0.0; }
 //? end
 
 // Over one copy of the map. One loop looks at nodes and at the texels of leaves alike: pixels that are drawn together
-// wait for each other at the end of every loop, and llvmpipe takes every branch. So what the border cuts, a few of many,
-// is put aside for a loop of its own. `finished` becomes false where the driver has ended one before its end (notWhole).
+// wait for each other at the end of every loop, and llvmpipe takes every branch. So what the border cuts, a few of
+// many, is put aside for a loop of its own. `finished` becomes false where the driver has ended one before its end
+// (notWhole).
 float areaInCopy(Region r, TexelList list, inout bool finished) {
   vec4 beyond = beyondMap(r);
   float even_side = evenSide(r);

@@ -17,6 +17,7 @@ ivec2 unpacked(uint code) { return ivec2(code & 0xFFFFu, code >> 16); }
 
 // A texel's normal as its point of the square, 16 bits an axis.
 const uint no_normal = 0xFFFFFFFFu;
+const uint up_code = 0x80008000u;  // (0, 0, 1)
 
 uint binOfPacked(uint code) {
   uint across = uint(bins_across);

@@ -1,10 +1,12 @@
 // For tests: the density of normals under a parallelogram in double precision, once by the inverse bin map and its
-// trees, as the shader walks them, and once as a plain sum over all texels that shares nothing with it.
+// trees, as the shader walks them, and once as a plain sum over all texels that shares nothing with it; and normals
+// drawn by it.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "methods/atanasov_bins/bins.hpp"
@@ -67,6 +69,20 @@ void for_each_texel(const Parallelogram& p, const glm::ivec2& size, Wrap wrap, c
       if (area > 0.0) function(wrapped(x, size.x, wrap), wrapped(y, size.y, wrap), area);
     }
   }
+}
+
+/// Section 2.1: the normal drawn from under a parallelogram by four numbers of [0, 1), the first two a point of it, the
+/// others a place in the bin of that point's texel; none where that has no normal.
+[[nodiscard]] inline std::optional<glm::dvec3> drawn_normal(const atanasov_bins::BinMap& map, const Parallelogram& p,
+                                                            Wrap wrap, const glm::dvec4& u) {
+  const glm::ivec2 at(glm::floor(p.centre + p.edges * (glm::dvec2(u) - 0.5)));
+  const int x = wrapped(at.x, map.width, wrap), y = wrapped(at.y, map.height, wrap);
+  const std::uint32_t packed = map.normals[static_cast<std::size_t>(y * map.width + x)];
+  if (packed == atanasov_bins::no_normal) return std::nullopt;
+  const auto across = static_cast<std::uint32_t>(map.across);
+  const std::uint32_t bin = atanasov_bins::bin_of_packed(packed, map.across);
+  const glm::dvec2 cell(bin % across, bin / across);
+  return square_to_hemisphere((cell + glm::dvec2(u.z, u.w)) / static_cast<double>(across));
 }
 
 /// The inverse map's walk: the area of list `list` under a parallelogram within one copy of the map.

@@ -205,10 +205,8 @@ TEST(InverseMap, DensityIsThatOfSampling) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   constexpr int samples = 400'000;
   for (int i = 0; i < samples; ++i) {
-    const glm::dvec2 at = p.centre + p.edges * (glm::dvec2(unit(random), unit(random)) - 0.5);
-    const std::uint32_t bin = maps.bin_at(static_cast<int>(at.x), static_cast<int>(at.y));
-    const glm::dvec2 cell(bin % m, bin / m);
-    counts[bin_of(square_to_hemisphere((cell + glm::dvec2(unit(random), unit(random))) / double{m}), m)] += 1.0;
+    const glm::dvec4 u(unit(random), unit(random), unit(random), unit(random));
+    counts[bin_of(testing::drawn_normal(maps.bins, p, Wrap::repeat, u).value(), m)] += 1.0;
   }
   testing::WalkTwin walk(maps.inverse, p);
   double chi2 = 0.0, freedom = -1.0;

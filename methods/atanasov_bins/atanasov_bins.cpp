@@ -1,6 +1,9 @@
 // `atanasov_bins`: a bin map of the normals and its inverse; the density of normals under a pixel is a count of texels.
 // Atanasov, Křivánek, Koylazov and Wilkie 2020, "Efficient Multiscale Rendering of Specular Microstructure".
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "methods/atanasov_bins/bin_textures.hpp"
@@ -24,10 +27,19 @@ using namespace atanasov_bins;
 // Where texels reflect by lobes, a bin is as wide as this share of a lobe's standard deviation, or wider.
 constexpr double bin_width = 1.5;
 
-// Where the roughness varies, that of the mean slope variance.
-double base_variance(const Material& material) {
-  if (width_map(material) == nullptr) return mean_lobe_variance(material);
-  return lobe_variance_chain(material).back().texels.front();
+// Of the narrowest lobe or, where the roughness varies, of one that nine tenths of the map are wider than.
+double narrow_variance(const Material& material) {
+  if (width_map(material) != nullptr) {
+    std::vector<float> variances = lobe_variance_map(material).texels;
+    const auto tenth = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 10);
+    std::ranges::nth_element(variances, tenth);
+    return *tenth;
+  }
+  if (material.lobes.empty()) return mean_lobe_variance(material);
+  double narrowest = 1.0;
+  for (const FacetLobe& lobe : material.lobes)
+    narrowest = std::min<double>(narrowest, lobe_variance({material.brdf.distribution, lobe.parameter}));
+  return narrowest;
 }
 
 int bins_across(const Material& material, const Options& options) {
@@ -35,7 +47,7 @@ int bins_across(const Material& material, const Options& options) {
   const std::string roughness = options.word("roughness");
   const double alpha = options.number("alpha");
   if (roughness == "flakes") return bins_across_for(0.5 * alpha * alpha, bin_width, most_bins_across);
-  return roughness == "lobe" ? bins_across_for(base_variance(material), bin_width, m) : m;
+  return roughness == "lobe" ? bins_across_for(narrow_variance(material), bin_width, m) : m;
 }
 
 // Flakes have a lobe of their own, and mirrors that face h need none.
@@ -56,6 +68,24 @@ PrefilteredTexture mean_normal_texture(const Material& material) {
   return make_texture("bins_mean_normal", chain, Storage::fp16, normal_coordinates(material));
 }
 
+// Whether every texel of the normal map has a width of its own: the maps that tell are looked up alike.
+bool knows_widths(const Material& material) {
+  return width_map(material) != nullptr && roughness_coordinates(material) == normal_coordinates(material);
+}
+
+// The slope variance of the lobe at every texel of a map of so many: the twin of varianceAt in GLSL.
+Image widths_of_texels(const Material& material, const glm::ivec2& size) {
+  const std::vector<Image> chain = lobe_variance_chain(material);
+  const double finer = std::max(std::log2(static_cast<double>(chain.front().width) / size.x), 0.0);
+  const Image& level = chain[std::min(static_cast<std::size_t>(finer + 0.5), chain.size() - 1)];
+  Image widths(size.x, size.y, 1);
+  tbb::parallel_for(0, size.y, [&](int y) {
+    for (int x = 0; x < size.x; ++x)
+      widths.at(x, y)[0] = level.at(x * level.width / size.x, y * level.height / size.y)[0];
+  });
+  return widths;
+}
+
 class AtanasovBins final : public Method {
  public:
   [[nodiscard]] const MethodInfo& info() const override { return info_; }
@@ -71,7 +101,10 @@ class AtanasovBins final : public Method {
     }
     if (!has(effects, Effect::normal_variation)) return out;
     if (has(effects, Effect::diffuse)) out.textures.push_back(mean_normal_texture(material));
-    add_maps(material, across, options.word("roughness") != "bin", progress, out);
+    const std::string roughness = options.word("roughness");
+    const bool by_width = roughness == "lobe" && has(effects, Effect::roughness_variation);
+    if (by_width) out.scalars["bins_own_roughness"] = knows_widths(material) ? 1.0F : 0.0F;
+    add_maps(material, across, roughness != "bin", by_width && knows_widths(material), progress, out);
     return out;
   }
 
@@ -80,7 +113,8 @@ class AtanasovBins final : public Method {
   }
 
  private:
-  static void add_maps(const Material& material, int across, bool lobes, const Progress& progress, Prefiltered& out) {
+  static void add_maps(const Material& material, int across, bool lobes, bool by_width, const Progress& progress,
+                       Prefiltered& out) {
     const TextureCoordinates coordinates = normal_coordinates(material);
     const Image flat = material.normal_map ? Image() : normal_map_of(material);
     const Image& normals = material.normal_map ? *material.normal_map->image : flat;
@@ -88,7 +122,10 @@ class AtanasovBins final : public Method {
     out.textures.push_back(bin_map_texture(bins, coordinates));
     const InverseMap inverse = inverse_of(bins, progress);
     add_inverse_map(inverse, out);
-    if (lobes) add_list_normals(list_normals(inverse, normals), out);
+    if (lobes) {
+      const Image widths = by_width ? widths_of_texels(material, {normals.width, normals.height}) : Image();
+      add_list_normals(list_normals(inverse, normals, by_width ? &widths : nullptr), out);
+    }
     out.scalars["bins_wrap_u"] = wrap_number(coordinates.wrap[0]);
     out.scalars["bins_wrap_v"] = wrap_number(coordinates.wrap[1]);
   }
@@ -121,7 +158,7 @@ class AtanasovBins final : public Method {
            whole_option("draws", 16, 1, 1024,
                         "Under an environment: so many normals are drawn from under a pixel (section 2.1), each a lobe "
                         "of its own; of fewer texels all are taken.")},
-      .honours = map_effects_but({Effect::normal_layers, Effect::multi_lobe}),
+      .honours = map_effects_but({Effect::normal_layers}),
       .slow_precompute = true,
       .slow_frame = true};
 };

@@ -6,10 +6,10 @@ ivec2 texelAt(Region r, vec2 point) { return ivec2(floor(r.centre + r.edges * (p
 // All regions share the draws.
 int drawsEach(Footprint f) { return max(int(option_draws) / regionCount(f), 1); }
 
-DrawnTexel drawnUnder(Footprint f, int i) {
-  int each = drawsEach(f);
+DrawnTexel drawnUnder(Effective e, int i) {
+  int each = drawsEach(e.footprint);
   int own = i % each;
-  Region r = regionAt(f, i / each);
+  Region r = regionAt(e.footprint, i / each);
   TexelBox box = texelsAbout(r);
   ivec2 texel = texelAt(r, evenPoint(i).xy);
   float share = 1.0 / float(each);
@@ -18,23 +18,24 @@ DrawnTexel drawnUnder(Footprint f, int i) {
     share = own < box.count ? areaOfTexel(r, texel) / areaOf(r) : 0.0;
   }
   uint code = packedAt(texel);
-  return DrawnTexel(code, code == no_normal ? 0.0 : r.weight * share);
+  return DrawnTexel(code, varianceAt(e, texel), code == no_normal ? 0.0 : r.weight * share);
 }
 
 int drawCount(Effective e) { return regionCount(e.footprint) * drawsEach(e.footprint); }
 
 // Of all draws those that have a normal.
-float drawnShare(Footprint f) {
+float drawnShare(Effective e) {
   if (bins_invalid_list < 0.0) return 1.0;
   float share = 0.0;
-  int count = regionCount(f) * drawsEach(f);
-  for (int i = 0; i < count; ++i) share += drawnUnder(f, i).share;
+  int count = drawCount(e);
+  for (int i = 0; i < count; ++i) share += drawnUnder(e, i).share;
   return share;
 }
 
 // Where none has, the surface's own.
 DrawnTexel drawnTexel(Effective e, int i) {
-  if (e.drawn <= 0.0) return DrawnTexel(up_code, 1.0 / float(drawCount(e)));
-  DrawnTexel texel = drawnUnder(e.footprint, i);
-  return DrawnTexel(texel.code, texel.share / e.drawn);
+  if (e.drawn <= 0.0) return DrawnTexel(up_code, e.variance, 1.0 / float(drawCount(e)));
+  DrawnTexel texel = drawnUnder(e, i);
+  texel.share /= e.drawn;
+  return texel;
 }

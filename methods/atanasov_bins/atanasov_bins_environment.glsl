@@ -25,7 +25,7 @@ NormalLobe normalLobe(Effective e, int i) {
   int number = i / lobesOfTexel();
   DrawnTexel texel = drawnTexel(e, number);
   vec3 normal = normalOf(texel.code, evenPoint(number).zw);
-  NormalLobe lobe = lobeOfTexel(e.variance, normal, i - number * lobesOfTexel(), texel.share);
+  NormalLobe lobe = lobeOfTexel(texel.variance, normal, i - number * lobesOfTexel(), texel.share);
 //? if surface_microfacets
   // Walter 2007: D over the cosine, masked about the surface's own normal.
   lobe.weight /= max(lobe.axis.z, 1e-3);

@@ -56,11 +56,28 @@ Sum notWhole() {
   return Sum(no_number, no_number);
 }
 
-float texelValue(float variance, uint code, Query q) {
+//? if roughness_lobe and roughness_variation
+// The roughness map's texels that a texel of the normal map lies on; the footprint's mean where the two maps are not
+// looked up alike.
+float varianceAt(Effective e, ivec2 texel) {
+  if (bins_own_roughness == 0.0) return e.variance;
+  countLookups(1);
+  float level = max(log2(float(textureSize(lobe_variance, 0).x) / mapSize().x), 0.0);
+  return textureLod(lobe_variance, (vec2(texel) + 0.5) / mapSize(), level).r * stored_lobe_variance;
+}
+
+// What the spread of a list (listNormal) has not in it.
+float varianceOfLists(Effective e) { return bins_own_roughness == 0.0 ? e.variance : 0.0; }
+//? else
+float varianceAt(Effective e, ivec2 texel) { return e.variance; }
+float varianceOfLists(Effective e) { return e.variance; }
+//? end
+
+float texelValue(Effective e, ivec2 texel, uint code, Query q) {
 //? if roughness_bin
   return binOfPacked(code) == q.bin ? 1.0 / binSolidAngle() : 0.0;
 //? else
-  return valueAbout(variance, unpackedNormal(code), 0.0, q);
+  return valueAbout(varianceAt(e, texel), unpackedNormal(code), 0.0, q);
 //? end
 }
 
@@ -75,7 +92,7 @@ Sum sumOfTexels(Effective e, Region r, Query q) {
     if (area <= 0.0) continue;
     uint code = packedAt(texel);
     if (code == no_normal) continue;
-    sum.value += area * texelValue(e.variance, code, q);
+    sum.value += area * texelValue(e, texel, code, q);
     sum.area += area;
   }
   return seen < box.count ? notWhole() : sum;
@@ -119,9 +136,22 @@ float cellsOfCap(vec3 h, float angle) {
   return bins_across * angle * 0.8096 / (sqrt(2.0) * cos(0.5 * rim));
 }
 
+// The angle to the normal beyond which none of the lobes reaches: those of a material's own have axes of their own.
+float farthestReach(float variance) {
+//? if multi_lobe and roughness_lobe
+  float reach = 0.0;
+  for (int k = 0; k < facet_lobe_count; ++k) {
+    float tilt = acos(clamp(facet_lobes[k].axis.z, -1.0, 1.0));
+    reach = max(reach, tilt + lobeReach(facet_lobes[k].variance + bins_spread));
+  }
+  if (facet_lobe_count > 0) return reach;
+//? end
+  return lobeReach(variance + bins_spread);
+}
+
 // Those whose lobes reach h: of the cells about it or, where these are more than there are lists, all.
 Lists listsFor(Effective e, Query q) {
-  float reach = lobeReach(e.variance + bins_spread);
+  float reach = farthestReach(varianceOfLists(e));
   vec2 middle = hemisphereToSquare(q.h) * bins_across;
   float cells = cellsOfCap(q.h, reach + 1.8 / bins_across);  // and half of a bin's own diagonal
   ivec2 lower = ivec2(max(floor(middle - cells), 0.0));
@@ -148,7 +178,7 @@ int listIn(Lists lists, int i, Effective e, Query q, out float value) {
   if (list < 0) return list;
   vec4 normal = listNormal(list);
   if (oneMinusDot(normal.xyz, q.h) > lists.farthest) return -1;
-  value = valueAbout(e.variance, normal.xyz, normal.w, q);
+  value = valueAbout(varianceOfLists(e), normal.xyz, normal.w, q);
   return list;
 }
 //? end
@@ -252,7 +282,7 @@ Effective effective(Footprints f) {
   e.mean = meanUnder(f.normal);
 //? end
 //? if environment_light
-  e.drawn = drawnShare(f.normal);
+  e.drawn = drawnShare(e);
 //? end
   return e;
 }

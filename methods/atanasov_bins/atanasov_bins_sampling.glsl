@@ -3,6 +3,7 @@
 // A texel that is drawn, and the share of the footprint that it stands for: 0 where there is none, or no normal.
 struct DrawnTexel {
   uint code;
+  float variance;  // of the lobe about it
   float share;
 };
 

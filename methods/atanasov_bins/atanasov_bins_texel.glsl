@@ -44,5 +44,5 @@ int drawCount(Effective e) {
 //? end
 }
 
-DrawnTexel drawnTexel(Effective e, int i) { return DrawnTexel(e.code, 1.0 / float(drawCount(e))); }
+DrawnTexel drawnTexel(Effective e, int i) { return DrawnTexel(e.code, e.variance, 1.0 / float(drawCount(e))); }
 //? end

@@ -187,19 +187,24 @@ std::vector<std::uint32_t> hashed_lists(const InverseMap& map) {
   return table;
 }
 
-std::vector<ListNormal> list_normals(const InverseMap& map, const Image& normals) {
+std::vector<ListNormal> list_normals(const InverseMap& map, const Image& normals, const Image* widths) {
   std::vector<ListNormal> out(map.lists.size());
   tbb::parallel_for(std::size_t{0}, map.lists.size(), [&](std::size_t i) {
     glm::dvec3 sum(0.0);
+    double width = 0.0;
     for (const std::uint32_t texel : std::span(map.texels).subspan(map.lists[i].first, map.count_of(i))) {
-      const auto n = normals.at(static_cast<int>(texel & 0xFFFFU), static_cast<int>(texel >> 16U));
+      const auto x = static_cast<int>(texel & 0xFFFFU), y = static_cast<int>(texel >> 16U);
+      const auto n = normals.at(x, y);
       const glm::dvec3 normal(n[0], n[1], n[2]);
       sum += normal / std::max(glm::length(normal), 1e-30);
+      if (widths != nullptr) width += widths->at(x, y)[0];
     }
+    out[i].spread = width / map.count_of(i);
     const double size = glm::length(sum);
     if (size <= 0.0) return;
     const double r = std::min(size / map.count_of(i), 1.0);
-    out[i] = {.mean = sum / size, .spread = (1.0 - r) / r};
+    out[i].mean = sum / size;
+    out[i].spread += (1.0 - r) / r;
   });
   return out;
 }

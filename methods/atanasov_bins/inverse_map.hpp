@@ -78,11 +78,13 @@ inline constexpr std::uint32_t no_bin = 0xFFFFFFFFU;
 [[nodiscard]] std::uint32_t hash_slot(std::uint32_t bin, std::uint32_t slots);
 
 /// The normals of a list as one: their mean direction, unit, and the slope variance per axis about it, from the length
-/// r of their mean: (1 - r) / r.
+/// r of their mean: (1 - r) / r; with `widths`, the slope variance of every texel's own lobe (one channel, as large as
+/// the map), the mean of those added to it.
 struct ListNormal {
   glm::dvec3 mean{0.0, 0.0, 1.0};
   double spread = 0.0;
 };
-[[nodiscard]] std::vector<ListNormal> list_normals(const InverseMap& map, const Image& normals);
+[[nodiscard]] std::vector<ListNormal> list_normals(const InverseMap& map, const Image& normals,
+                                                   const Image* widths = nullptr);
 
 }  // namespace footprint::atanasov_bins

@@ -32,8 +32,8 @@ std::optional<StagedMethod> stage_bound(const Stage& stage, BoundUse use, std::v
 
 BoundPicture draw_bound(const Stage& stage, const StagedMethod& bound, BoundUse use, const View& view,
                         const PixelParts& parts, const Image& texels) {
-  const double lights = static_cast<double>(std::max<std::size_t>(stage.scene().lights.size(), 1));
-  const PixelCost facets = [&](int x, int y) { return lights * facets_of_bound(texels.at(x, y)[0]); };
+  const BoundLights lights{.lights = stage.scene().lights.size(), .environment = stage.scene().environment.has_value()};
+  const PixelCost facets = [&](int x, int y) { return work_of_bound(texels.at(x, y)[0], lights); };
   const std::vector<Tile> whole{{.origin = {0, 0}, .size = view.size}};
   const bool all = use == BoundUse::on || cost_of(whole.front(), parts, facets) <= cheap_facets;
   const std::vector<Tile> tiles = all ? whole : cheap_parts(parts, bound_tile, facets, cheap_facets);

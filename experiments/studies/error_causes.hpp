@@ -53,9 +53,16 @@ struct CausePictures {
 /// an environment, pixels.
 inline constexpr int bound_tile = 32, light_tile = 8;
 
-/// The facets that `exact` shades for a pixel whose footprint's longer edge spans so many texels: those under the four
-/// texels of each of two levels, as a trilinear filter blends them, up to 128 x 128 a level.
-[[nodiscard]] double facets_of_bound(double texels);
+/// What lights a scene: facets are shaded for each.
+struct BoundLights {
+  std::size_t lights = 0;
+  bool environment = false;
+};
+
+/// What `exact` costs a pixel whose footprint's longer edge spans so many texels, in facets shaded for one light: those
+/// under the four texels of each of two levels, as a trilinear filter blends them, up to 128 x 128 a level. Of facets
+/// that an environment lights there are less (methods/exact), and each costs what 50 do.
+[[nodiscard]] double work_of_bound(double texels, const BoundLights& lights);
 
 /// What a pixel costs; column, row.
 using PixelCost = std::function<double(int, int)>;

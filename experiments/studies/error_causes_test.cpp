@@ -129,11 +129,13 @@ TEST(ErrorNoise, IsTheSpreadOverReferences) {
   EXPECT_FALSE(error_noise(picture, {truth, truth}, 1.0F, Image(edge, edge, 1)).has_value());
 }
 
-TEST(FacetsOfBound, AreThoseUnderTheTexelsThatAFilterBlends) {
-  EXPECT_EQ(facets_of_bound(0.0), 4 + 16);
-  EXPECT_EQ(facets_of_bound(1.0), 4 + 16);
-  EXPECT_EQ(facets_of_bound(5.0), 64 + 256);
-  EXPECT_EQ(facets_of_bound(1e6), 2 * 128 * 128);
+TEST(WorkOfBound, IsThatOfTheFacetsUnderTheTexelsThatAFilterBlends) {
+  EXPECT_EQ(work_of_bound(0.0, {.lights = 1}), 4 + 16);
+  EXPECT_EQ(work_of_bound(1.0, {.lights = 1}), 4 + 16);
+  EXPECT_EQ(work_of_bound(5.0, {.lights = 3}), 3 * (64 + 256));
+  EXPECT_EQ(work_of_bound(1e6, {.lights = 1}), 2 * 128 * 128);
+  EXPECT_EQ(work_of_bound(5.0, {.lights = 1, .environment = true}), 51 * (64 + 256));
+  EXPECT_EQ(work_of_bound(1e6, {.environment = true}), 50 * 2 * 1428);
 }
 
 TEST(LeaveOutInfinite, TakesOnlyThosePixels) {
@@ -148,7 +150,7 @@ TEST(LeaveOutInfinite, TakesOnlyThosePixels) {
 TEST(CheapParts, SpreadOverThePictureUpToWhatTheyMayCost) {
   constexpr int edge = 256;
   const PixelParts parts = pixel_parts(noise(edge, 1), stripes(edge));
-  const PixelCost facets = [](int, int) { return facets_of_bound(5.0); };
+  const PixelCost facets = [](int, int) { return work_of_bound(5.0, {.lights = 1}); };
   const double a_tile = 320.0 * bound_tile * bound_tile;
   EXPECT_TRUE(cheap_parts(parts, bound_tile, facets, 0.5 * a_tile).empty());
   EXPECT_EQ(cheap_parts(parts, bound_tile, facets, 1e12).size(), 64U);

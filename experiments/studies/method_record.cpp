@@ -99,7 +99,8 @@ Record MethodMeasurer::described(const StagedMethod& method, const Truth& truth)
 // The lookup of an environment by the method's lobes against all of its light shaded by the method.
 void MethodMeasurer::set_light_error(Record& record, const Truth& truth, const Image& picture,
                                      const StagedMethod& method, float exposure) {
-  const bool is_lit = has(method.baked().method->info().honours, Effect::environment_light);
+  const MethodInfo& info = method.baked().method->info();
+  const bool is_lit = has(info.honours, Effect::environment_light) && !info.slow_frame;  // thousands of lights
   if (!record.error || truth.light.tiles.empty() || !is_lit) return;
   if (!dense_frames_.contains(&method)) dense_frames_.emplace(&method, stage_.dense_frames(method));
   const Image lit = dense_frames_.at(&method).render(truth.view, truth.light.tiles);

@@ -46,7 +46,8 @@ class Exact final : public Method {
                   whole_option("texels", 128, 8, 512,
                                "The side of the largest square of texels under a pixel that is summed texel by texel; "
                                "of a larger one about as many are drawn, one from each cell.")},
-      .honours = map_effects_but({Effect::environment_light}),
+      .honours = map_effects_but({}),
+      .sums_environment = true,
       .slow_frame = true};
 };
 

@@ -2,6 +2,12 @@
 // reference has it, and a material without maps that vary is one facet everywhere.
 //? if not sampling_frame or not normal_variation and not normal_layers and not roughness_variation
 //? include base_surface.glsl
+//? if environment_summed
+
+vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame);  // environment_stack.glsl
+
+vec3 environmentSum(Effective e, Surface s, vec3 wo, mat3 frame) { return environmentLit(e, s, wo, frame); }
+//? end
 //? else
 //? include exact_facets.glsl
 //? if kernel_filter
@@ -11,8 +17,7 @@
 //? end
 
 Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
-  Query q = Query(true, halfVectorIsDefined(wi, wo), halfVector(wi, wo), wi, wo);
-  Sum sum = sumOver(e, q);
+  Sum sum = sumOver(e, reflectanceQuery(wi, wo));
   Reflected r;
   r.specular = fresnelTerm(s.f0, wi, wo) * sum.specular;
 //? if diffuse
@@ -21,5 +26,15 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   return r;
 }
 
-float ndf(Effective e, vec3 h) { return sumOver(e, Query(false, true, h, h, h)).specular; }
+float ndf(Effective e, vec3 h) { return sumOver(e, densityQuery(h)).specular; }
+//? if environment_summed
+
+vec3 environmentSum(Effective e, Surface s, vec3 wo, mat3 frame) {
+  Query q = reflectanceQuery(wo, wo);
+  q.surrounded = true;
+  q.surface = s;
+  q.frame = frame;
+  return sumOver(e, q).radiance;
+}
+//? end
 //? end

@@ -14,6 +14,9 @@ struct Mapped {
 struct Effective {
   Footprint footprint;  // on the grid's map
   vec2 size;            // of the whole map, in places
+//? if environment_summed
+  Facets facets;  // those that the environment lights just now
+//? end
 //? if normal_variation and normal_layers
   Mapped layer;
 //? end
@@ -68,29 +71,73 @@ Effective effective(Footprints f) {
   return e;
 }
 
-// What is asked of each facet: its reflectance but for the Fresnel term, or its density of normals at h.
+// What is asked of each facet: its reflectance but for the Fresnel term, its density of normals at h, or what it
+// reflects of the environment.
 struct Query {
   bool reflects;
   bool has_half_vector;
   vec3 h;
   vec3 wi;
   vec3 wo;
+//? if environment_summed
+  bool surrounded;  // the environment is asked for, and nothing else
+  Surface surface;
+  mat3 frame;
+//? end
 };
+
+Query reflectanceQuery(vec3 wi, vec3 wo) {
+  Query q;
+  q.reflects = true;
+  q.has_half_vector = halfVectorIsDefined(wi, wo);
+  q.h = halfVector(wi, wo);
+  q.wi = wi;
+  q.wo = wo;
+//? if environment_summed
+  q.surrounded = false;
+//? end
+  return q;
+}
+
+Query densityQuery(vec3 h) {
+  Query q = reflectanceQuery(h, h);
+  q.reflects = false;
+  q.has_half_vector = true;
+  q.h = h;
+  return q;
+}
 
 struct Sum {
   float specular;  // densities, times geometry factors where it reflects
   float facing;    // cosines to wi of facets that face it
   float weight;
+//? if environment_summed
+  vec3 radiance;
+//? end
 };
 
 // Facets are added up in groups: of many thousand terms added to one sum in 32 bits each would be off by a part in a
 // hundred.
-Sum zeroSum() { return Sum(0.0, 0.0, 0.0); }
+Sum evenSum(float value) {
+  Sum sum;
+  sum.specular = value;
+  sum.facing = value;
+  sum.weight = value;
+//? if environment_summed
+  sum.radiance = vec3(value);
+//? end
+  return sum;
+}
+
+Sum zeroSum() { return evenSum(0.0); }
 
 void addSum(inout Sum sum, Sum part, float weight) {
   sum.specular += weight * part.specular;
   sum.facing += weight * part.facing;
   sum.weight += weight * part.weight;
+//? if environment_summed
+  sum.radiance += weight * part.radiance;
+//? end
 }
 
 vec4 normalAt(Effective e, vec2 uv) {
@@ -120,8 +167,23 @@ Facets facetsAbout(Effective e, vec3 normal, vec2 uv) {
 //? end
 }
 
-void addFacets(inout Sum sum, Facets facets, float weight, Query q) {
+//? if environment_summed
+//? include facet_normal_lobes.glsl
+
+vec3 meanNormal(Effective e) { return e.facets.normal; }
+
+vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame);  // of e's facets: environment_stack.glsl
+
+//? end
+void addFacets(inout Sum sum, Effective e, Facets facets, float weight, Query q) {
   sum.weight += weight;
+//? if environment_summed
+  if (q.surrounded) {
+    e.facets = facets;
+    sum.radiance += weight * environmentLit(e, q.surface, q.wo, q.frame);
+    return;
+  }
+//? end
 //? if diffuse
   sum.facing += weight * max(dot(facets.normal, q.wi), 0.0);
 //? end
@@ -134,23 +196,22 @@ void addPlace(inout Sum sum, Effective e, vec2 place, float weight, Query q) {
   vec2 uv = place / e.size;
   vec4 normal = normalAt(e, uv);
   if (normal.w < 0.5 || weight <= 0.0) return;
-  addFacets(sum, facetsAbout(e, normal.xyz, uv), weight, q);
+  addFacets(sum, e, facetsAbout(e, normal.xyz, uv), weight, q);
 }
 
 // Of loops that the driver has ended early. llvmpipe does after 65535 rounds of all loops of a pixel together, over all
 // lights: no picture may pass for whole then. (Four places a round make that enough for seven lights and more.)
-Sum notWhole() {
-  float no_number = uintBitsToFloat(0x7fc00000u);
-  return Sum(no_number, no_number, no_number);
-}
+Sum notWhole() { return evenSum(uintBitsToFloat(0x7fc00000u)); }
 
 // A mean; over nothing but texels without a normal that of an even facet, as methods have it that blend normals.
 Sum meanOf(Sum sum, Effective e, Query q) {
   if (sum.weight <= 0.0) {
     sum = zeroSum();
-    addFacets(sum, facetsAbout(e, vec3(0.0, 0.0, 1.0), e.footprint.uv), 1.0, q);
+    addFacets(sum, e, facetsAbout(e, vec3(0.0, 0.0, 1.0), e.footprint.uv), 1.0, q);
   }
-  return Sum(sum.specular / sum.weight, sum.facing / sum.weight, 1.0);
+  Sum mean = zeroSum();
+  addSum(mean, sum, 1.0 / sum.weight);
+  return mean;
 }
 
 //? include random_numbers.glsl
@@ -163,11 +224,28 @@ vec2 placeIn(ivec2 cell, float edge) {
   return (vec2(cell) + (vec2(bits.xy >> 8u) + 0.5) * (1.0 / 16777216.0)) * edge;
 }
 
-// How many texels may be looked at one by one: all parts of a pixel share them.
-float mostTexels() {
-//? if filter_shaded
-  return option_texels * option_texels / float(footprint_parts * footprint_parts);
+//? if environment_summed
+// Of texels that the environment lights: 1 round of loops each, 14 for a lobe with a tail, of a pixel's 65535 (notWhole).
+// What a lobe sees of an environment differs less between texels than what a light makes of it.
+float mostSurroundedTexels() {
+//? if distribution_ggx
+  const float rounds = 14.0;
 //? else
-  return option_texels * option_texels;
+  const float rounds = 1.0;
+//? end
+  return 20000.0 / (rounds * float(facetLobeCount()));
+}
+
+//? end
+// How many texels may be looked at one by one: all parts of a pixel share them.
+float mostTexels(Query q) {
+  float most = option_texels * option_texels;
+//? if environment_summed
+  if (q.surrounded) most = min(most, mostSurroundedTexels());
+//? end
+//? if filter_shaded
+  return most / float(footprint_parts * footprint_parts);
+//? else
+  return most;
 //? end
 }

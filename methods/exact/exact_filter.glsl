@@ -35,8 +35,9 @@ Sum boxMean(Effective e, vec2 lower, vec2 upper, float most, Query q) {
   float edge = max(ceil(sqrt(sides.x * sides.y / most) - 1e-3), 1.0);
   Cells cells = cellsOf(lower / edge, upper / edge);
   Sum box = zeroSum();
-  int i = 0;
-  for (; i < cells.count; i += 4) {
+  int seen = 0;  // of the loop's own counter the compiler knows what it is behind the loop
+  for (int i = 0; i < cells.count; i += 4) {
+    ++seen;
     Sum four = zeroSum();
     addCell(four, e, cells, i, edge, q);
     addCell(four, e, cells, i + 1, edge, q);
@@ -44,7 +45,7 @@ Sum boxMean(Effective e, vec2 lower, vec2 upper, float most, Query q) {
     addCell(four, e, cells, i + 3, edge, q);
     addSum(box, four, 1.0);
   }
-  if (i < cells.count) return notWhole();
+  if (4 * seen < cells.count) return notWhole();
   Sum mean = zeroSum();
   addSum(mean, box, edge * edge / (sides.x * sides.y));
   return mean;
@@ -55,9 +56,10 @@ Sum sumOver(Effective e, Query q) {
   Sum sum = zeroSum();
   int count = footprintTexelCount(finest, e.footprint);
   // Of eight texels four lie on the coarser level, a square of theirs being what all of them cover.
-  float most = 2.0 * mostTexels() / float(count);
-  int i = 0;
-  for (; i < count; ++i) {
+  float most = 2.0 * mostTexels(q) / float(count);
+  int seen = 0;
+  for (int i = 0; i < count; ++i) {
+    ++seen;
     FootprintTexel texel = footprintTexel(finest, e.footprint, i);
     if (texel.weight <= 0.0) continue;
     vec2 texels = levelSize(finest, int(texel.level));
@@ -68,6 +70,6 @@ Sum sumOver(Effective e, Query q) {
     vec2 reach = 0.5 * e.size / texels;
     addSum(sum, boxMean(e, middle - reach, middle + reach, most, q), texel.weight);
   }
-  if (i < count) return notWhole();
+  if (seen < count) return notWhole();
   return meanOf(sum, e, q);
 }

@@ -8,13 +8,12 @@ struct Pixel {
   mat2 edges;   // columns, in cells
 };
 
-// As many cells as area and circumference call for, at most mostTexels(): with area A and lengths of
+// As many cells as area and circumference call for, at most `most`: with area A and lengths of
 // both edges B in places, A / edge^2 + 4 B / edge of them; those that the border cuts are dear.
-Pixel pixelOn(Footprint f, vec2 size) {
+Pixel pixelOn(Footprint f, vec2 size, float most) {
   mat2 edges = mat2(f.dx * size, f.dy * size);
   float area = abs(determinant(edges));
   float border = 4.0 * (length(edges[0]) + length(edges[1]));
-  float most = mostTexels();
   float edge = 0.5 * (border + sqrt(border * border + 4.0 * area * most)) / most;
   edge = max(ceil(edge - 1e-3), 1.0);
   return Pixel(edge, f.uv * size / edge, widened(edges * (1.0 / edge), narrowest_pixel));
@@ -74,8 +73,9 @@ bool addRow(inout Sum sum, Effective e, Pixel p, mat2 to_pixel, int y, Query q) 
   vec2 upper = chordAt(to_pixel, height + weight_reach);
   ivec2 whole = cellsIn(vec2(max(lower.x, upper.x), min(lower.y, upper.y)) - reach, p.centre.x);
   if (whole.x > whole.y) whole = ivec2(all.y + 1, all.y);
-  int x = whole.x;
-  for (; x <= whole.y; x += 4) {
+  int seen = 0;  // of a loop's own counter the compiler knows what it is behind the loop
+  for (int x = whole.x; x <= whole.y; x += 4) {
+    seen += 4;
     Sum four = zeroSum();
     addCell(four, e, p, x, y, 1.0, q);
     addCell(four, e, p, x + 1, y, x + 1 <= whole.y ? 1.0 : 0.0, q);
@@ -84,28 +84,32 @@ bool addRow(inout Sum sum, Effective e, Pixel p, mat2 to_pixel, int y, Query q) 
     addSum(sum, four, 1.0);
   }
   // Cells that the border cuts, to either side of those: their shares cost more than their facets.
-  int cut = all.x;
-  for (; cut <= all.y; ++cut) {
-    if (cut == whole.x) cut = whole.y + 1;
-    if (cut > all.y) break;
+  int inside = max(min(whole.y, all.y) - max(whole.x, all.x) + 1, 0);
+  int border = all.y - all.x + 1 - inside;
+  int seen_border = 0;
+  for (int i = 0; i < border; ++i) {
+    ++seen_border;
+    int cut = all.x + i;
+    if (cut >= whole.x) cut += inside;
     addCell(sum, e, p, cut, y, texelShare(p.centre - vec2(cut, y) - 0.5, p.edges), q);
   }
-  return x > whole.y && cut > all.y;
+  return seen > whole.y - whole.x && seen_border >= border;
 }
 
 Sum sumOver(Effective e, Query q) {
-  Pixel p = pixelOn(e.footprint, e.size);
+  Pixel p = pixelOn(e.footprint, e.size, mostTexels(q));
   mat2 to_pixel = inverse(p.edges);
   float half_height = 0.5 * (abs(p.edges[0].y) + abs(p.edges[1].y)) + weight_reach;
   ivec2 rows = cellsIn(vec2(-half_height, half_height), p.centre.y);
   Sum sum = zeroSum();
   bool done = true;
-  int y = rows.x;
-  for (; y <= rows.y; ++y) {
+  int seen = 0;
+  for (int y = rows.x; y <= rows.y; ++y) {
+    ++seen;
     Sum row = zeroSum();
     done = addRow(row, e, p, to_pixel, y, q) && done;
     addSum(sum, row, 1.0);
   }
-  if (y <= rows.y || !done) return notWhole();
+  if (seen <= rows.y - rows.x || !done) return notWhole();
   return meanOf(sum, e, q);
 }

@@ -29,6 +29,7 @@ struct MethodInfo {
   /// nothing for it.
   bool screen_derivatives = false;
   bool draws_directions = false;  ///< the module integrates an environment itself where many samples are taken
+  bool sums_environment = false;  ///< a frame's environment light is summed by the module (`environmentSum`)
   bool slow_precompute = false;   ///< seconds, not milliseconds: kept on disk between runs (bake_cache.hpp)
   /// Seconds a frame, not milliseconds: a bound to hold others against. `all` methods are all but these.
   bool slow_frame = false;

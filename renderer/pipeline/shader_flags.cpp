@@ -84,6 +84,10 @@ constexpr auto rows = std::to_array<FlagRow>({
     {"screen_derivatives", [](const Variant& v) { return v.screen_derivatives; }},
     {"environment_sampled", samples_environment},
     {"environment_dense", [](const Variant& v) { return v.environment == EnvironmentUse::dense; }},
+    {"environment_summed",
+     [](const Variant& v) {
+       return v.sums_environment && has(v.effects, Effect::environment_light) && !samples_environment(v);
+     }},
     {"environment_diffuse", reflects_diffusely},
     {"environment_visibility",
      [](const Variant& v) { return has(v.effects, Effect::environment_light) && has(v.effects, Effect::cast_shadow); }},

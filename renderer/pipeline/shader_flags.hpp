@@ -32,6 +32,7 @@ struct ShaderVariant {
   bool surface_coordinates = false;  ///< the method has coordinates of its own (Prefiltered::surface_coordinates)
   bool screen_derivatives = false;   ///< a frame whose module asks how the next pixels lie (MethodInfo)
   EnvironmentUse environment = EnvironmentUse::prefiltered;  ///< sampled: of a module with `draws_directions`
+  bool sums_environment = false;                             ///< the method's (MethodInfo)
   std::size_t facet_lobes = most_facet_lobes;  ///< room for so many a material: what has less compiles faster
   std::size_t point_lights = 0, spot_lights = 0, directional_lights = 0;
   std::size_t shadow_maps = 0;

@@ -148,7 +148,9 @@ vec3 lit(SurfacePoint p) {
   for (int i = 0; i < directional_light_count; ++i) radiance += reflected(p, incidentDirectional(i, p.frame));
 //? end
 //? end
-//? if environment_light
+//? if environment_summed
+  radiance += environmentSum(p.effective, p.surface, p.wo, p.frame);
+//? elif environment_light
   radiance += environmentLit(p.effective, p.surface, p.wo, p.frame);
 //? end
   return radiance;

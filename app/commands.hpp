@@ -18,6 +18,7 @@ void add_bake_command(CLI::App& app);
 void add_explain_command(CLI::App& app);
 void add_list_command(CLI::App& app);
 void add_ndf_command(CLI::App& app);
+void add_score_command(CLI::App& app);
 void add_surface_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_completions_command(CLI::App& app);

@@ -24,6 +24,7 @@ constexpr const char* examples =
     "  footprint render model.gltf --method toksvig -o out.exr\n"
     "  footprint check quick -o out                 an experiment with its claims held\n"
     "  footprint bake model.gltf --method lean -o maps\n"
+    "  footprint score engine.exr --reference reference.exr    another renderer's picture\n"
     "  footprint list methods                       the methods and their options\n"
     "\n"
     "Exit codes: 0 fine, 1 a check fell short, 2 the command line or an input is wrong, 3 the machine cannot,\n"
@@ -43,6 +44,7 @@ void run(int argc, const char* const* argv) {
   footprint::add_bake_command(app);
   footprint::add_explain_command(app);
   footprint::add_ndf_command(app);
+  footprint::add_score_command(app);
   footprint::add_list_command(app);
   footprint::add_surface_command(app);
   footprint::add_info_command(app);

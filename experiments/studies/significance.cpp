@@ -7,6 +7,7 @@
 #include "experiments/studies/significance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -40,21 +41,45 @@ float verdict(std::span<const float> a, std::span<const float> b, std::span<cons
   return side > 0 ? 1.0F : -1.0F;
 }
 
+// Okabe and Ito's colours, which every kind of colour vision tells apart.
+using Color = std::array<float, 3>;  // display values; results/report/page.css has them too
+
+constexpr Color first_closer{0.0F, 0.447F, 0.698F}, second_closer{0.835F, 0.369F, 0.0F}, undecided{0.8F, 0.8F, 0.8F};
+constexpr Color outside{1.0F, 1.0F, 1.0F};
+
+Color color_of(float verdict, bool on_object) {
+  if (!on_object) return outside;
+  return verdict > 0.0F ? first_closer : verdict < 0.0F ? second_closer : undecided;
+}
+
 }  // namespace
 
-std::optional<Image> closer_beyond_noise(const Image& a, const Image& b, const Supersampled& reference,
-                                         float exposure) {
-  if (!reference.halves) return std::nullopt;
-  const Image object = object_pixels(reference.mean);
+Image verdict_picture(const Image& verdicts, const Image& object) {
+  Image picture(verdicts.width, verdicts.height, 3);
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x)
+      std::ranges::copy(color_of(verdicts.at(x, y)[0], object.at(x, y)[0] > 0.0F), picture.at(x, y).begin());
+  }
+  return picture;
+}
+
+Image closer_beyond_noise(const Image& a, const Image& b, const Image& mean, const Image& standard_error,
+                          float exposure) {
+  const Image object = object_pixels(mean);
   Image verdicts(object.width, object.height, 1);
   for (int y = 0; y < object.height; ++y) {
     for (int x = 0; x < object.width; ++x) {
       if (object.at(x, y)[0] > 0.0F)
-        verdicts.at(x, y)[0] =
-            verdict(a.at(x, y), b.at(x, y), reference.mean.at(x, y), reference.standard_error.at(x, y), exposure);
+        verdicts.at(x, y)[0] = verdict(a.at(x, y), b.at(x, y), mean.at(x, y), standard_error.at(x, y), exposure);
     }
   }
   return verdicts;
+}
+
+std::optional<Image> closer_beyond_noise(const Image& a, const Image& b, const Supersampled& reference,
+                                         float exposure) {
+  if (!reference.halves) return std::nullopt;
+  return closer_beyond_noise(a, b, reference.mean, reference.standard_error, exposure);
 }
 
 std::optional<CloserShares> closer_shares(const Image& verdicts, const Image& mask) {

@@ -14,6 +14,14 @@ namespace footprint {
 [[nodiscard]] std::optional<Image> closer_beyond_noise(const Image& a, const Image& b, const Supersampled& reference,
                                                        float exposure);
 
+/// The same with the reference's mean and standard error (RGB) in pictures of their own.
+[[nodiscard]] Image closer_beyond_noise(const Image& a, const Image& b, const Image& mean, const Image& standard_error,
+                                        float exposure);
+
+/// Verdicts in display values: blue where `a` is closer, vermilion where `b` is, grey where neither, white outside of
+/// `object` (one channel, above 0).
+[[nodiscard]] Image verdict_picture(const Image& verdicts, const Image& object);
+
 /// Shares of the mask's pixels (one channel, above 0) by what they say.
 struct CloserShares {
   double a = 0, b = 0;

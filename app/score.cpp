@@ -1,0 +1,187 @@
+// `footprint score`: pictures of any origin against a reference.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "app/output.hpp"
+#include "app/standard_output.hpp"
+#include "experiments/studies/exposure.hpp"
+#include "experiments/studies/picture_score.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/core/files.hpp"
+#include "renderer/image/false_color.hpp"
+#include "renderer/image/image_io.hpp"
+#include "results/report/markdown_table.hpp"
+#include "results/report/results_document.hpp"
+
+namespace footprint {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* score_examples =
+    "PICTURE is an EXR or a Radiance HDR of linear radiance, or a PNG, JPEG, TIFF, BMP or WebP of displayed colours\n"
+    "(sRGB), for which measures of radiance are left out. Of two pictures each is scored, and which of them is closer\n"
+    "is told pixel by pixel.\n"
+    "\n"
+    "Examples:\n"
+    "  footprint render model.gltf --method reference --spp 256 -o reference.exr\n"
+    "  footprint score engine.exr --reference reference.exr\n"
+    "  footprint score before.png after.png --reference reference.exr --exposure 0.5 -o score\n"
+    "  footprint score a.exr b.exr --reference out/images/d1_reference.exr\n"
+    "      --standard-error out/images/d1_reference_standard_error.exr --mask object.png -o score";
+
+struct ScoreArguments {
+  std::vector<std::string> pictures;
+  std::string reference, standard_error, mask, output;
+  std::optional<float> exposure;
+  double pixels_per_degree = flip_pixels_per_degree;
+};
+
+struct Scores {
+  std::vector<PictureScore> pictures;
+  std::optional<PairScore> pair;
+  float exposure = 1.0F;
+  std::size_t pixels = 0;
+};
+
+Scores take_scores(const ScoreArguments& arguments) {
+  Image reference = read_reference(arguments.reference);
+  Scores out;
+  out.exposure = arguments.exposure.value_or(automatic_exposure(reference));
+  if (!arguments.mask.empty())
+    reference = masked(std::move(reference), read_image(arguments.mask, Transfer::linear), arguments.mask);
+  const Image noise =
+      arguments.standard_error.empty() ? Image() : read_image(arguments.standard_error, Transfer::linear);
+  if (!noise.empty() && noise.channels < 3) {
+    throw Error(ErrorKind::usage, arguments.standard_error, fmt::format("it has {} channels", noise.channels),
+                "give the RGB standard error that `footprint compare` writes beside its reference");
+  }
+  std::vector<ScoredPicture> pictures;
+  for (const std::string& file : arguments.pictures) pictures.push_back(read_scored(file, out.exposure));
+  for (const ScoredPicture& picture : pictures)
+    out.pictures.push_back(score_picture(picture, reference, out.exposure, arguments.pixels_per_degree));
+  if (pictures.size() == 2) out.pair = score_pair(pictures[0], pictures[1], reference, noise, out.exposure);
+  out.pixels = object_pixel_count(reference);
+  return out;
+}
+
+std::optional<double> of_radiance(const PictureScore& score, double value) {
+  return score.displayed ? std::nullopt : std::optional(value);
+}
+
+Json score_json(const PictureScore& score) {
+  const ErrorFigures& e = score.error;
+  return {{"picture", score.name},
+          {"displayed", score.displayed},
+          {"normalized_color", json_number(e.normalized_color)},
+          {"relative_rmse", json_number(of_radiance(score, e.relative_rmse))},
+          {"relmse", json_number(of_radiance(score, e.relmse))},
+          {"psnr", json_number(std::isfinite(e.psnr) ? std::optional(e.psnr) : std::nullopt)},
+          {"energy_bias", json_number(of_radiance(score, e.energy_bias))},
+          {"luminance_distance", json_number(e.luminance_distance)},
+          {"ldr_flip", json_number(score.ldr_flip)},
+          {"hdr_flip", json_number(score.hdr_flip)}};
+}
+
+std::string scores_json(const ScoreArguments& arguments, const Scores& scores) {
+  Json pictures = Json::array();
+  for (const PictureScore& score : scores.pictures) pictures.push_back(score_json(score));
+  Json json{{"schema", "footprint-score/1"},
+            {"tool", {{"name", "footprint"}, {"version", FOOTPRINT_VERSION}}},
+            {"reference", arguments.reference},
+            {"mask", arguments.mask.empty() ? Json(nullptr) : Json(arguments.mask)},
+            {"exposure", json_number(scores.exposure)},
+            {"pixels_per_degree", json_number(arguments.pixels_per_degree)},
+            {"pixels", scores.pixels},
+            {"pictures", std::move(pictures)}};
+  if (scores.pair) {
+    json["closer"] = {{"shares", {json_number(scores.pair->shares.a), json_number(scores.pair->shares.b)}},
+                      {"beyond_noise", scores.pair->beyond_noise}};
+  }
+  return json_text(json, 2);
+}
+
+std::string cell(const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "n/a"; }
+
+std::string scores_table(const Scores& scores) {
+  std::vector<std::vector<std::string>> rows;
+  for (const PictureScore& s : scores.pictures) {
+    rows.push_back({s.name, cell(s.error.normalized_color), cell(of_radiance(s, s.error.relative_rmse)),
+                    cell(of_radiance(s, s.error.relmse)), cell(s.error.psnr), cell(of_radiance(s, s.error.energy_bias)),
+                    cell(s.error.luminance_distance), cell(s.ldr_flip), cell(s.hdr_flip)});
+  }
+  std::string text = markdown_table({{"Picture", false},
+                                     {"Error"},
+                                     {"Rel. RMSE"},
+                                     {"relMSE"},
+                                     {"PSNR dB"},
+                                     {"Energy"},
+                                     {"Lum. dist."},
+                                     {"LDR-FLIP"},
+                                     {"HDR-FLIP"}},
+                                    rows);
+  if (!scores.pair) return text;
+  return text + fmt::format("\nthe first is closer in {:.1f}% of the pixels, the second in {:.1f}%{}\n",
+                            100 * scores.pair->shares.a, 100 * scores.pair->shares.b,
+                            scores.pair->beyond_noise ? ", beyond three standard errors of the reference"
+                                                      : " (the reference's noise is not known: --standard-error)");
+}
+
+void write_pictures(const std::filesystem::path& folder, const Scores& scores) {
+  for (std::size_t i = 0; i < scores.pictures.size(); ++i) {
+    const PictureScore& score = scores.pictures[i];
+    write_png(folder / fmt::format("ldr_flip_{}.png", i + 1), false_color(score.ldr_map, 1.0F));
+    if (!score.hdr_map.empty())
+      write_png(folder / fmt::format("hdr_flip_{}.png", i + 1), false_color(score.hdr_map, 1.0F));
+  }
+  if (scores.pair) write_png(folder / "closer.png", verdict_picture(scores.pair->verdicts, scores.pair->object));
+}
+
+void run_score(const ScoreArguments& arguments) {
+  const Scores scores = take_scores(arguments);
+  std::string text =
+      fmt::format("{} pixels, exposure {:.4g}\n\n{}", scores.pixels, scores.exposure, scores_table(scores));
+  if (!arguments.output.empty()) {
+    const auto [made, folder] = write_whole(arguments.output, [&](OutputFolder& out) {
+      write_file_atomically(out.path() / "score.json", scores_json(arguments, scores));
+      write_pictures(out.path(), scores);
+      out.commit();
+      return true;
+    });
+    text += fmt::format("\nscore: {}\n", (folder / "score.json").string());
+  }
+  write_output(text);
+}
+
+}  // namespace
+
+void add_score_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("score", "Score pictures of any origin against a reference");
+  const auto arguments = std::make_shared<ScoreArguments>();
+  command->add_option("pictures", arguments->pictures, "PICTURE, or two")->required()->expected(1, 2);
+  command->add_option("--reference", arguments->reference, "EXR of linear radiance; coverage in alpha, if it has one")
+      ->required();
+  command->add_option("--standard-error", arguments->standard_error,
+                      "EXR of the reference's own standard error, RGB; if not given noise is not told from error");
+  command->add_option("--mask", arguments->mask, "Picture in which the pixels that count are not black");
+  command
+      ->add_option("--exposure", arguments->exposure, "Factor on radiance for display; if not given from the reference")
+      ->check(CLI::Range(1e-12F, 1e12F));
+  command->add_option("--pixels-per-degree", arguments->pixels_per_degree, "Of the observer's sight, for FLIP")
+      ->check(CLI::Range(5.0, 1000.0))
+      ->capture_default_str();
+  command->add_option("-o,--output", arguments->output, "Folder for score.json and pictures; if not given none");
+  command->footer(score_examples);
+  command->callback([arguments] { run_score(*arguments); });
+}
+
+}  // namespace footprint

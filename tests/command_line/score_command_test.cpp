@@ -1,0 +1,101 @@
+// Pictures of any origin against a reference, through the program.
+#include <string>
+
+#include "tests/command_line/bumpy_quad.hpp"
+#include "tests/command_line/program_case.hpp"
+
+namespace footprint::test {
+namespace {
+
+// Radiance HDR of 2 x `height` grey pixels of `mantissa` / 128: short rows are stored as they are.
+std::string grey_hdr(int height, char mantissa) {
+  std::string text = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) + " +X 2\n";
+  for (int i = 0; i < 2 * height; ++i) text += std::string{mantissa, mantissa, mantissa, '\x81'};
+  return text;
+}
+
+std::string grey_png(char value) {
+  const std::string row = std::string(1, '\0') + std::string(6, value);
+  return png_text(2, 2, row + row);
+}
+
+Case row(const std::string& name, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "score");
+  return {.name = name,
+          .arguments = std::move(arguments),
+          .files = {{"reference.hdr", grey_hdr(2, 0x40)},
+                    {"darker.hdr", grey_hdr(2, 0x30)},
+                    {"darkest.hdr", grey_hdr(2, 0x10)},
+                    {"tall.hdr", grey_hdr(3, 0x40)},
+                    {"white.png", grey_png('\xff')},
+                    {"black.png", grey_png('\0')},
+                    {"text.png", "text"}}};
+}
+
+Case good(const std::string& name, std::vector<std::string> arguments, std::vector<std::string> output,
+          std::set<std::string> leaves = {}) {
+  Case made = row(name, std::move(arguments));
+  made.output_has = std::move(output);
+  made.leaves = std::move(leaves);
+  return made;
+}
+
+Case wrong(const std::string& name, std::vector<std::string> arguments, std::vector<std::string> errors) {
+  Case made = row(name, std::move(arguments));
+  made.exit_code = 2;
+  made.errors_have = std::move(errors);
+  return made;
+}
+
+// The reference is 0.5 everywhere, the pictures 0.375 and 0.125: errors of 0.125 and 0.375 at exposure 1.
+std::vector<Case> good_scores() {
+  return {
+      {.name = "HelpOfScore",
+       .arguments = {"score", "--help"},
+       .output_has = {"Examples:", "footprint score", "--reference", "--mask", "--standard-error", "HDR"}},
+      good("ScoreOne", {"{}/darker.hdr", "--reference", "{}/reference.hdr", "--exposure", "1"},
+           {"4 pixels, exposure 1", "LDR-FLIP", "HDR-FLIP", "| 0.125 |", "-0.25"}),
+      good("ScoreTheReferenceItself", {"{}/reference.hdr", "--reference", "{}/reference.hdr"}, {"|     0 |", "inf"}),
+      good("ScoreTwo", {"{}/darkest.hdr", "{}/darker.hdr", "--reference", "{}/reference.hdr", "-o", "{}/score"},
+           {"the first is closer in 0.0% of the pixels, the second in 100.0%", "noise is not known", "score.json"},
+           {"score/score.json", "score/ldr_flip_1.png", "score/hdr_flip_1.png", "score/ldr_flip_2.png",
+            "score/hdr_flip_2.png", "score/closer.png"}),
+      good("ScoreBeyondNoise",
+           {"{}/darkest.hdr", "{}/darker.hdr", "--reference", "{}/reference.hdr", "--standard-error",
+            "{}/reference.hdr", "--exposure", "1"},
+           {"the first is closer in 0.0% of the pixels, the second in 0.0%", "three standard errors"}),
+      good("ScoreDisplayedColours", {"{}/white.png", "--reference", "{}/reference.hdr", "--exposure", "2"},
+           {"|     0 |", "n/a"}),
+      good("ScoreUnderAMask", {"{}/darker.hdr", "--reference", "{}/reference.hdr", "--mask", "{}/white.png"},
+           {"4 pixels"}),
+  };
+}
+
+std::vector<Case> wrong_scores() {
+  return {
+      wrong("ScoreOfAnotherSize", {"{}/tall.hdr", "--reference", "{}/reference.hdr"},
+            {"tall.hdr", "2 x 3", "2 x 2", "one size"}),
+      wrong("ScoreWithNoiseOfAnotherSize",
+            {"{}/darker.hdr", "{}/darkest.hdr", "--reference", "{}/reference.hdr", "--standard-error", "{}/tall.hdr"},
+            {"2 x 3", "2 x 2"}),
+      wrong("ScoreOfText", {"{}/text.png", "--reference", "{}/reference.hdr"}, {"text.png"}),
+      wrong("ScoreOfNothing", {"{}/missing.exr", "--reference", "{}/reference.hdr"}, {"missing.exr", "no such file"}),
+      wrong("ScoreAgainstDisplayedColours", {"{}/darker.hdr", "--reference", "{}/white.png"},
+            {"white.png", "displayed colours", "--method reference"}),
+      wrong("ScoreWithoutReference", {"{}/darker.hdr"}, {"--reference"}),
+      wrong("ScoreOfThree", {"{}/darker.hdr", "{}/darkest.hdr", "{}/darker.hdr", "--reference", "{}/reference.hdr"},
+            {"pictures", "At Most 2"}),
+      wrong("ScoreUnderAMaskOfAnotherSize",
+            {"{}/darker.hdr", "--reference", "{}/reference.hdr", "--mask", "{}/tall.hdr"}, {"tall.hdr", "2 x 3"}),
+      wrong("ScoreUnderABlackMask", {"{}/darker.hdr", "--reference", "{}/reference.hdr", "--mask", "{}/black.png"},
+            {"black.png", "leaves no pixel"}),
+      wrong("ScoreAtNoExposure", {"{}/darker.hdr", "--reference", "{}/reference.hdr", "--exposure", "0"},
+            {"--exposure"}),
+  };
+}
+
+INSTANTIATE_TEST_SUITE_P(GoodScore, CommandLine, ::testing::ValuesIn(good_scores()), case_name);
+INSTANTIATE_TEST_SUITE_P(WrongScore, CommandLine, ::testing::ValuesIn(wrong_scores()), case_name);
+
+}  // namespace
+}  // namespace footprint::test

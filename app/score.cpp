@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -11,14 +14,19 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/messages.hpp"
 #include "app/output.hpp"
+#include "app/progress_display.hpp"
+#include "app/run_options.hpp"
 #include "app/standard_output.hpp"
 #include "experiments/studies/exposure.hpp"
 #include "experiments/studies/picture_score.hpp"
+#include "experiments/studies/stage.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
 #include "renderer/image/false_color.hpp"
 #include "renderer/image/image_io.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
 #include "results/report/markdown_table.hpp"
 #include "results/report/results_document.hpp"
 
@@ -33,18 +41,77 @@ constexpr const char* score_examples =
     "is told pixel by pixel.\n"
     "\n"
     "Examples:\n"
-    "  footprint render model.gltf --method reference --spp 256 -o reference.exr\n"
+    "  footprint score engine.exr --reference model.gltf --spp 256\n"
     "  footprint score engine.exr --reference reference.exr\n"
     "  footprint score before.png after.png --reference reference.exr --exposure 0.5 -o score\n"
     "  footprint score a.exr b.exr --reference out/images/d1_reference.exr\n"
     "      --standard-error out/images/d1_reference_standard_error.exr --mask object.png -o score";
 
+constexpr int reference_pictures = 6;  // mean, squares, two halves, error, and one to spare
+
 struct ScoreArguments {
+  explicit ScoreArguments(CLI::App& command) : run(command) {}
+
+  RunOptions run;
   std::vector<std::string> pictures;
   std::string reference, standard_error, mask, output;
-  std::optional<float> exposure;
   double pixels_per_degree = flip_pixels_per_degree;
+  bool quiet = false;
 };
+
+// What pictures are held against.
+struct Reference {
+  Image picture;
+  Image standard_error;  // empty: not known
+  float exposure = 1.0F;
+};
+
+// By its name: a scene is a folder's, or a file of these kinds.
+bool names_a_scene(const std::string& reference) {
+  std::string extension = std::filesystem::path(reference).extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  constexpr std::array<std::string_view, 4> scenes{".toml", ".gltf", ".glb", ".obj"};
+  return extension.empty() || std::ranges::find(scenes, extension) != scenes.end();
+}
+
+// The scene's own, as large as the first picture.
+Reference drawn_reference(const ScoreArguments& arguments) {
+  if (!arguments.standard_error.empty())
+    throw Error(ErrorKind::usage, "--standard-error", "a scene's reference knows its own", "leave it out");
+  RunSettings run = arguments.run.settings();
+  run.scene = arguments.reference;
+  const Image first = read_image(arguments.pictures.front(), Transfer::linear);
+  run.view.size = {first.width, first.height};
+  ProgressDisplay display(progress_style(arguments.quiet));
+  ProgressParts parts(display.callback(), 3);
+  const Stage stage(load_scene(run.scene, run.scene_library), run, parts.next(1, ""), reference_pictures);
+  Supersampled drawn = stage.reference().render(stage.view(run.view.distances.front()), run.reference.spp,
+                                                run.reference.seed, parts.next(2, ""));
+  stage.context().check("rendering the reference");
+  display.finish();
+  write_scene_notes(stage.scene(), arguments.quiet);
+  const float exposure = choose_exposure(run.view.exposure, stage.scene(), drawn.mean).factor;
+  return {std::move(drawn.mean), drawn.halves ? std::move(drawn.standard_error) : Image(), exposure};
+}
+
+Reference given_reference(const ScoreArguments& arguments) {
+  for (const std::string& option : arguments.run.given_of("reference")) {
+    throw Error(ErrorKind::usage, option, fmt::format("{} is a picture, and drawn already", arguments.reference),
+                "give it with a scene for the reference");
+  }
+  if (arguments.run.settings().view.distances.front() != 1.0) {
+    throw Error(ErrorKind::usage, "--distance", fmt::format("{} is a picture, and has its view", arguments.reference),
+                "give it with a scene for the reference");
+  }
+  Reference out{read_reference(arguments.reference), {}, 1.0F};
+  out.exposure = choose_exposure(arguments.run.settings().view.exposure, Scene{}, out.picture).factor;
+  if (arguments.standard_error.empty()) return out;
+  out.standard_error = read_image(arguments.standard_error, Transfer::linear);
+  if (out.standard_error.channels >= 3) return out;
+  throw Error(ErrorKind::usage, arguments.standard_error,
+              fmt::format("it has {} channels", out.standard_error.channels),
+              "give the RGB standard error that `footprint compare` writes beside its reference");
+}
 
 struct Scores {
   std::vector<PictureScore> pictures;
@@ -54,23 +121,21 @@ struct Scores {
 };
 
 Scores take_scores(const ScoreArguments& arguments) {
-  Image reference = read_reference(arguments.reference);
+  Reference reference = names_a_scene(arguments.reference) ? drawn_reference(arguments) : given_reference(arguments);
   Scores out;
-  out.exposure = arguments.exposure.value_or(automatic_exposure(reference));
-  if (!arguments.mask.empty())
-    reference = masked(std::move(reference), read_image(arguments.mask, Transfer::linear), arguments.mask);
-  const Image noise =
-      arguments.standard_error.empty() ? Image() : read_image(arguments.standard_error, Transfer::linear);
-  if (!noise.empty() && noise.channels < 3) {
-    throw Error(ErrorKind::usage, arguments.standard_error, fmt::format("it has {} channels", noise.channels),
-                "give the RGB standard error that `footprint compare` writes beside its reference");
+  out.exposure = reference.exposure;
+  if (!arguments.mask.empty()) {
+    reference.picture =
+        masked(std::move(reference.picture), read_image(arguments.mask, Transfer::linear), arguments.mask);
   }
   std::vector<ScoredPicture> pictures;
   for (const std::string& file : arguments.pictures) pictures.push_back(read_scored(file, out.exposure));
   for (const ScoredPicture& picture : pictures)
-    out.pictures.push_back(score_picture(picture, reference, out.exposure, arguments.pixels_per_degree));
-  if (pictures.size() == 2) out.pair = score_pair(pictures[0], pictures[1], reference, noise, out.exposure);
-  out.pixels = object_pixel_count(reference);
+    out.pictures.push_back(score_picture(picture, reference.picture, out.exposure, arguments.pixels_per_degree));
+  if (pictures.size() == 2) {
+    out.pair = score_pair(pictures[0], pictures[1], reference.picture, reference.standard_error, out.exposure);
+  }
+  out.pixels = object_pixel_count(reference.picture);
   return out;
 }
 
@@ -166,20 +231,20 @@ void run_score(const ScoreArguments& arguments) {
 
 void add_score_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("score", "Score pictures of any origin against a reference");
-  const auto arguments = std::make_shared<ScoreArguments>();
+  const auto arguments = std::make_shared<ScoreArguments>(*command);
   command->add_option("pictures", arguments->pictures, "PICTURE, or two")->required()->expected(1, 2);
-  command->add_option("--reference", arguments->reference, "EXR of linear radiance; coverage in alpha, if it has one")
+  command
+      ->add_option("--reference", arguments->reference,
+                   "SCENE, or an EXR of linear radiance; coverage in alpha, if it has one")
       ->required();
   command->add_option("--standard-error", arguments->standard_error,
                       "EXR of the reference's own standard error, RGB; if not given noise is not told from error");
   command->add_option("--mask", arguments->mask, "Picture in which the pixels that count are not black");
-  command
-      ->add_option("--exposure", arguments->exposure, "Factor on radiance for display; if not given from the reference")
-      ->check(CLI::Range(1e-12F, 1e12F));
   command->add_option("--pixels-per-degree", arguments->pixels_per_degree, "Of the observer's sight, for FLIP")
       ->check(CLI::Range(5.0, 1000.0))
       ->capture_default_str();
   command->add_option("-o,--output", arguments->output, "Folder for score.json and pictures; if not given none");
+  add_quiet_flag(*command, arguments->quiet);
   command->footer(score_examples);
   command->callback([arguments] { run_score(*arguments); });
 }

@@ -14,9 +14,9 @@ using Commands = std::vector<std::string_view>;
 // Subcommands by what they have in common.
 const Commands of_a_scene{"compare", "render", "animate", "edit", "bake", "explain"};
 const Commands of_a_picture{"compare", "render", "animate", "edit", "explain"};
-const Commands with_a_reference{"compare", "render", "animate"};
+const Commands with_a_reference{"compare", "render", "animate", "score"};
 const Commands with_a_footprint{"compare", "render", "animate", "edit", "bake", "explain", "ndf"};
-const Commands that_draw{"compare", "render", "animate", "edit", "explain", "ndf", "run", "check"};
+const Commands that_draw{"compare", "render", "animate", "edit", "explain", "ndf", "run", "check", "score"};
 const Commands that_may_cache{"compare", "render", "animate", "bake", "explain", "ndf", "run", "check"};
 
 constexpr int any_count = std::numeric_limits<int>::max();
@@ -106,7 +106,7 @@ std::vector<Setting> what_is_seen() {
        .help = "factors on the camera's distance to the centre of the bounds",
        .otherwise = "the scene's zoom path"},
       {.option = "--distance",
-       .commands = {"render"},
+       .commands = {"render", "score"},
        .type = distances(distances_of, 1),
        .help = "factor on the camera's distance to the centre of the bounds",
        .start = "1"},
@@ -142,7 +142,7 @@ std::vector<Setting> what_is_seen() {
        .help = "frames of a zoom, at equal ratios of distance",
        .otherwise = "no zoom"},
       {.option = "--exposure",
-       .commands = {"compare", "animate"},
+       .commands = {"compare", "animate", "score"},
        .table = "experiment",
        .key = "exposure",
        .type = exposure(exposure_of),

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <vector>
 
 #include "bench/bench_scene.hpp"
 #include "bench/side_by_side.hpp"
+#include "renderer/core/error.hpp"
 #include "renderer/pipeline/pixel_work.hpp"
 #include "renderer/scene/camera.hpp"
 #include "scenes/surfaces/registry.hpp"
@@ -67,31 +69,41 @@ Row row_at(const Stage& stage, const View& view, int repeats) {
   return row;
 }
 
+// The greatest of some figures over their median.
+double over_median(const std::vector<double>& figures) {
+  return *std::ranges::max_element(figures) / quantile(figures, 0.5);
+}
+
 }  // namespace
 
-std::string footprint_size_table(const std::string& methods, int resolution, int repeats) {
+void print_footprint_sizes(const std::string& methods, int resolution, int repeats, double most_ratio) {
   const RunSettings settings = bench_settings(methods);
   const Stage stage(repeated_map(resolution, frame_pixels.x + 1), settings, no_progress);
-  std::string text = fmt::format("{:<10}", "texels");
-  for (const StagedMethod& method : stage.methods()) text += fmt::format(" {:>44}", method.baked().spec.text);
-  text += '\n';
-  std::vector<std::vector<double>> ms(stage.methods().size());
+  fmt::print("{:<10}", "texels");
+  for (const StagedMethod& method : stage.methods()) fmt::print(" {:>44}", method.baked().spec.text);
+  std::vector<std::vector<double>> ms(stage.methods().size()), lookups(stage.methods().size());
   for (int texels = 1; texels <= resolution; texels *= 2) {
     View view = stage.view(1.0);
     view.camera.ymag = 0.5F * static_cast<float>(view.size.y * texels) / static_cast<float>(resolution);
     const Row row = row_at(stage, view, repeats);
-    text += fmt::format("{:<10}", fmt::format("{}^2", texels));
+    fmt::print("\n{:<10}", fmt::format("{}^2", texels));
     for (std::size_t i = 0; i < row.ms.size(); ++i) {
-      text += fmt::format(" {:>44}", fmt::format("{:.1f} ms, {:.1f} lookups", row.ms[i], row.lookups[i]));
+      fmt::print(" {:>44}", fmt::format("{:.1f} ms, {:.1f} lookups", row.ms[i], row.lookups[i]));
       ms[i].push_back(row.ms[i]);
+      lookups[i].push_back(row.lookups[i]);
     }
-    text += '\n';
+    (void)std::fflush(stdout);
   }
-  text += fmt::format("{:<10}", "greatest");
-  for (const std::vector<double>& times : ms)
-    text += fmt::format(" {:>44}",
-                        fmt::format("{:.2f} of the median", *std::ranges::max_element(times) / quantile(times, 0.5)));
-  return text + '\n';
+  fmt::print("\n{:<10}", "greatest");
+  for (std::size_t i = 0; i < ms.size(); ++i)
+    fmt::print(" {:>44}", fmt::format("{:.2f}, {:.2f} of the median", over_median(ms[i]), over_median(lookups[i])));
+  fmt::print("\n");
+  for (std::size_t i = 0; i < ms.size(); ++i) {
+    if (most_ratio <= 0.0 || over_median(ms[i]) <= most_ratio) continue;
+    throw Error(ErrorKind::check, stage.methods()[i].baked().spec.text,
+                fmt::format("its dearest footprint takes {:.3g} times the median, {:.3g} are allowed",
+                            over_median(ms[i]), most_ratio));
+  }
 }
 
 }  // namespace footprint::bench

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "bench/bake_limits.hpp"
 #include "bench/footprint_sizes.hpp"
 #include "bench/frame_benchmarks.hpp"
 #include "bench/frame_builds.hpp"
@@ -22,8 +23,10 @@ namespace {
 
 // What the command line asks for.
 struct Request {
-  int ratio_rounds = 0, build_rounds = 0, footprint_rounds = 0;  // 0: not asked for
-  int resolution = 4096;                                         // of the map under the footprints
+  int ratio_rounds = 0, build_rounds = 0, footprint_rounds = 0, bake_rounds = 0;  // 0: not asked for
+  footprint::bench::BakeLimits bake_limits;
+  int resolution = 4096;  // of the map under the footprints
+  double most_ratio = 0.0;
   std::string scene, methods, over = "direct";
 };
 
@@ -34,6 +37,7 @@ Examples:
   footprint_bench --ratios 31
   footprint_bench --ratios 15 --scene carved_disk --methods toksvig,tan_gmm --over tan_gmm
   footprint_bench --footprints 5 --methods atanasov_bins:roughness=bin,tan_gmm --resolution 1024
+  footprint_bench --bakes 3 --scene scratched_metal --methods atanasov_bins:m=63:roughness=bin --most-seconds 10
   footprint_bench --builds 5 --methods xu_vmf:rebuild=changed,xu_vmf:rebuild=changed:conversion=table
 )";
 
@@ -48,6 +52,20 @@ void declare_options(CLI::App& app, Request& request) {
   app.add_option("--footprints", request.footprint_rounds,
                  "Print what frames of --methods cost by the size of a pixel's footprint, over this many rounds")
       ->check(rounds);
+  app.add_option("--most-ratio", request.most_ratio,
+                 "With --footprints: what the dearest footprint of a method may take over the median of all, else the "
+                 "exit code is 1")
+      ->check(CLI::PositiveNumber);
+  app.add_option(
+         "--bakes", request.bake_rounds,
+         "Print what baking --methods takes on --scene, the quickest of this many rounds; exit code 1 where it is "
+         "more than one of the next two options")
+      ->check(rounds);
+  app.add_option("--most-seconds", request.bake_limits.seconds, "With --bakes: wall clock that a bake may take")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--most-gigabytes", request.bake_limits.gigabytes,
+                 "With --bakes: 1e9 bytes of memory that the process may hold")
+      ->check(CLI::PositiveNumber);
   app.add_option("--resolution", request.resolution, "With --footprints: texels a side of the map")
       ->check(CLI::Range(1, 16384))
       ->capture_default_str();
@@ -88,12 +106,16 @@ void run(int argc, char** argv) {
   }
   if (request.footprint_rounds > 0) {
     if (request.methods.empty()) request.methods = "atanasov_bins:roughness=bin";
-    const std::string table =
-        footprint::bench::footprint_size_table(request.methods, request.resolution, request.footprint_rounds);
-    (void)std::fputs(table.c_str(), stdout);
+    footprint::bench::print_footprint_sizes(request.methods, request.resolution, request.footprint_rounds,
+                                            request.most_ratio);
     return;
   }
   std::optional<footprint::Scene> scene = footprint::bench::load_bench_scene(request.scene);
+  if (request.bake_rounds > 0) {
+    if (request.methods.empty()) request.methods = "atanasov_bins:roughness=bin";
+    if (scene) footprint::bench::print_bake_table(*scene, request.methods, request.bake_rounds, request.bake_limits);
+    return;
+  }
   std::optional<footprint::bench::BenchScene> subject;
   if (scene) subject.emplace(std::move(*scene), footprint::bench::bench_settings(request.methods));
   if (request.ratio_rounds > 0) {

@@ -1,0 +1,21 @@
+// What bakes take, and whether that is more than they may.
+#pragma once
+
+#include <string>
+
+#include "bench/bench_scene.hpp"
+
+namespace footprint::bench {
+
+/// What every bake may take at most; 0: as much as it does.
+struct BakeLimits {
+  double seconds = 0.0;    ///< wall clock of the quickest of all rounds: other load on the machine only adds to it
+  double gigabytes = 0.0;  ///< 1e9 bytes: the process' peak, the scene that is baked included
+};
+
+/// A table of the bakes of a scene by methods of a list, `rounds` times each: wall clock and CPU time of the quickest
+/// round, bytes, and the most memory that the process has held by then. Errors (check): a bake takes more than it may,
+/// with the table before it on stdout.
+void print_bake_table(const Scene& scene, const std::string& methods, int rounds, const BakeLimits& limits);
+
+}  // namespace footprint::bench

@@ -9,6 +9,7 @@ namespace footprint {
 
 // Each adds its subcommand to `app`; the work is done when the whole command line has been parsed. Errors are thrown.
 void add_compare_command(CLI::App& app);
+void add_recommend_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_run_command(CLI::App& app);
 void add_check_command(CLI::App& app);

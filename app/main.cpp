@@ -23,6 +23,7 @@ constexpr const char* examples =
     "  footprint compare model.gltf -o out          the error and fps table, pictures and a page\n"
     "  footprint render model.gltf --method toksvig -o out.exr\n"
     "  footprint check quick -o out                 an experiment with its claims held\n"
+    "  footprint recommend model.gltf -o advice     which method to take for each material\n"
     "  footprint bake model.gltf --method lean -o maps\n"
     "  footprint score engine.exr --reference reference.exr    another renderer's picture\n"
     "  footprint list methods                       the methods and their options\n"
@@ -36,6 +37,7 @@ void run(int argc, const char* const* argv) {
   app.set_version_flag("--version", "footprint " FOOTPRINT_VERSION);
   app.require_subcommand(1);
   footprint::add_compare_command(app);
+  footprint::add_recommend_command(app);
   footprint::add_render_command(app);
   footprint::add_animate_command(app);
   footprint::add_edit_command(app);

@@ -47,7 +47,7 @@ constexpr const char* score_examples =
     "  footprint score a.exr b.exr --reference out/images/d1_reference.exr\n"
     "      --standard-error out/images/d1_reference_standard_error.exr --mask object.png -o score";
 
-constexpr int reference_pictures = 6;  // mean, squares, two halves, error, and one to spare
+constexpr int scoring_pictures = 6;  // mean, squares, two halves, error, and one to spare
 
 struct ScoreArguments {
   explicit ScoreArguments(CLI::App& command) : run(command) {}
@@ -84,7 +84,7 @@ Reference drawn_reference(const ScoreArguments& arguments) {
   run.view.size = {first.width, first.height};
   ProgressDisplay display(progress_style(arguments.quiet));
   ProgressParts parts(display.callback(), 3);
-  const Stage stage(load_scene(run.scene, run.scene_library), run, parts.next(1, ""), reference_pictures);
+  const Stage stage(load_scene(run.scene, run.scene_library), run, parts.next(1, ""), scoring_pictures);
   Supersampled drawn = stage.reference().render(stage.view(run.view.distances.front()), run.reference.spp,
                                                 run.reference.seed, parts.next(2, ""));
   stage.context().check("rendering the reference");

@@ -84,6 +84,9 @@ struct ReferenceSettings {
   ReferenceFilter filter = ReferenceFilter::after_shading;
   EnvironmentUse environment = EnvironmentUse::sampled;  ///< how it integrates one
   BoundUse bound = BoundUse::automatic;
+  /// Whether each method's finest level is supersampled as well; not so, the frame stands for it, in runs of which nobody
+  /// sees the errors of representation and filtering.
+  bool finest_levels = true;
 };
 
 /// How frame times are taken.
@@ -104,7 +107,8 @@ struct RunSettings {
   std::string scene;           ///< as load_scene takes it
   SceneLibrary scene_library;  ///< what it may name
   std::vector<MethodSpec> methods;
-  EffectSet without;  ///< effects that every method and the reference leave out
+  bool by_material = false;  ///< errors are told by material too
+  EffectSet without;         ///< effects that every method and the reference leave out
   ViewSettings view;
   std::optional<FootprintFilter> footprint;  ///< none: the scene's own, else default_footprint_filter
   ReferenceSettings reference;

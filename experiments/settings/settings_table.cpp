@@ -12,12 +12,14 @@ using Run = RunSettings;
 using Commands = std::vector<std::string_view>;
 
 // Subcommands by what they have in common.
-const Commands of_a_scene{"compare", "render", "animate", "edit", "bake", "explain"};
-const Commands of_a_picture{"compare", "render", "animate", "edit", "explain"};
-const Commands with_a_reference{"compare", "render", "animate", "score"};
+const Commands of_a_scene{"compare", "recommend", "render", "animate", "edit", "bake", "explain"};
+const Commands of_a_picture{"compare", "recommend", "render", "animate", "edit", "explain"};
+const Commands that_compare{"compare", "recommend"};
+const Commands with_a_reference{"compare", "recommend", "render", "animate", "score"};
 const Commands with_a_footprint{"compare", "render", "animate", "edit", "bake", "explain", "ndf"};
-const Commands that_draw{"compare", "render", "animate", "edit", "explain", "ndf", "run", "check", "score"};
-const Commands that_may_cache{"compare", "render", "animate", "bake", "explain", "ndf", "run", "check"};
+const Commands that_draw{"compare", "recommend", "render", "animate", "edit",
+                         "explain", "ndf",       "run",    "check",   "score"};
+const Commands that_may_cache{"compare", "recommend", "render", "animate", "bake", "explain", "ndf", "run", "check"};
 
 constexpr int any_count = std::numeric_limits<int>::max();
 constexpr std::uint64_t any_seed = std::numeric_limits<std::uint64_t>::max();
@@ -48,6 +50,11 @@ std::vector<Setting> what_is_drawn() {
        .type = methods(all_of),
        .help = "the methods",
        .start = "direct,naive_mip,toksvig"},
+      {.option = "--methods",
+       .commands = {"recommend"},
+       .type = methods(all_of),
+       .help = "the candidates",
+       .start = "direct,naive_mip,toksvig,roughness_bake,lean,leadr,tan_gmm"},
       {.option = "--method,--methods",
        .commands = {"animate"},
        .type = methods(all_of),
@@ -99,7 +106,7 @@ std::vector<Setting> what_is_seen() {
        .help = "frame size, pixels",
        .otherwise = "the scene's, else 512 wide in the camera's aspect"},
       {.option = "--distance",
-       .commands = {"compare"},
+       .commands = that_compare,
        .table = "zoom",
        .key = "distances",
        .type = distances(distances_of, any_count),
@@ -142,7 +149,7 @@ std::vector<Setting> what_is_seen() {
        .help = "frames of a zoom, at equal ratios of distance",
        .otherwise = "no zoom"},
       {.option = "--exposure",
-       .commands = {"compare", "animate", "score"},
+       .commands = {"compare", "recommend", "animate", "score"},
        .table = "experiment",
        .key = "exposure",
        .type = exposure(exposure_of),
@@ -178,7 +185,7 @@ std::vector<Setting> what_errors_are_measured_against() {
        .type = fixed_samples([](Run& run) -> ReferenceSettings& { return run.reference; }, 1, 4096),
        .help = "samples a pixel of the reference, whatever its noise; without it, those to begin with"},
       {.option = "--noise",
-       .commands = {"compare"},
+       .commands = that_compare,
        .type = noise([](Run& run) -> ReferenceSettings& { return run.reference; }),
        .help =
            "where `--spp` is not given, the reference goes on, tile by tile, until this is its noise floor; auto: a "
@@ -190,7 +197,7 @@ std::vector<Setting> what_errors_are_measured_against() {
        .help = "where `spp` is not given, the noise floor to be reached, as `--noise`",
        .otherwise = "the samples are fixed"},
       {.option = "--spp-max",
-       .commands = {"compare"},
+       .commands = that_compare,
        .table = "reference",
        .key = "spp_max",
        .type = whole_number([](Run& run) -> int& { return run.reference.spp_max; }, 64, 4096),
@@ -235,7 +242,7 @@ std::vector<Setting> what_errors_are_measured_against() {
 std::vector<Setting> how_it_runs() {
   return {
       {.option = "--repeats",
-       .commands = {"compare"},
+       .commands = that_compare,
        .table = "experiment",
        .key = "repeats",
        .type = whole_number(repeats, 1, 10000),

@@ -99,7 +99,8 @@ class Comparison {
     const StagedMethod& staged = method(index);
     const std::string& text = settings_.methods[index].text;
     const std::string prefix = fmt::format("distance {:g}: {}, ", truth.distance, text);
-    MethodPictures pictures{.frame = staged.frames().render(truth.view), .finest = finest_level(truth, staged, prefix)};
+    MethodPictures pictures{.frame = staged.frames().render(truth.view), .finest = {}};
+    pictures.finest = settings_.reference.finest_levels ? finest_level(truth, staged, prefix) : pictures.frame;
     stage_.context().check("rendering " + text);
     Draft draft{.record = measurer_.measure(staged, pictures, truth, exposure_.factor),
                 .exhibit = {},

@@ -17,6 +17,15 @@ std::string write_verdicts(const std::filesystem::path& folder, const std::strin
   return file;
 }
 
+std::vector<std::array<double, 2>> shares_by_material(const Image& verdicts, const Truth& truth) {
+  std::vector<std::array<double, 2>> shares;
+  for (const Image& mask : truth.materials) {
+    const CloserShares own = closer_shares(verdicts, mask).value_or(CloserShares{});
+    shares.push_back({own.a, own.b});
+  }
+  return shares;
+}
+
 }  // namespace
 
 std::vector<MethodPair> compare_pairs(const std::filesystem::path& folder, std::span<const Draft> drafts,
@@ -33,6 +42,7 @@ std::vector<MethodPair> compare_pairs(const std::filesystem::path& folder, std::
       pairs.push_back({.distance = truth.distance,
                        .methods = {drafts[i].record.method, drafts[j].record.method},
                        .closer = {shares->a, shares->b},
+                       .materials = shares_by_material(*verdicts, truth),
                        .picture = write_verdicts(folder, stem, *verdicts, object)});
     }
   }

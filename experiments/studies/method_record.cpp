@@ -65,6 +65,7 @@ Record MethodMeasurer::measure(const StagedMethod& method, const MethodPictures&
   try {
     set_error(record, truth, pictures, exposure);
     set_light_error(record, truth, pictures.frame, method, exposure);
+    set_material_errors(record, truth, pictures.frame, method, exposure);
   } catch (const Error& error) {
     throw error.within("method " + method.baked().spec.text);
   }
@@ -72,6 +73,20 @@ Record MethodMeasurer::measure(const StagedMethod& method, const MethodPictures&
   record.images.standard_error = truth.files.standard_error;
   record.images.interior = truth.files.interior;
   return record;
+}
+
+void MethodMeasurer::set_material_errors(Record& record, const Truth& truth, const Image& picture,
+                                         const StagedMethod& method, float exposure) const {
+  for (std::size_t i = 0; i < truth.materials.size(); ++i) {
+    const Image& mask = truth.materials[i];
+    const Image& reference = truth.reference.mean;
+    MaterialError& error = record.materials.emplace_back();
+    error.material = stage_.scene().materials[i].name;
+    error.pixels = count_pixels(mask);
+    error.bytes = byte_count(method.baked().materials[i]);
+    error.shading = error_between(picture, reference, reference, exposure, mask);
+    if (truth.reference.halves) error.noise = error_noise(picture, *truth.reference.halves, exposure, mask);
+  }
 }
 
 Record MethodMeasurer::described(const StagedMethod& method, const Truth& truth) const {

@@ -34,6 +34,9 @@ class MethodMeasurer {
   void set_light_error(Record& record, const Truth& truth, const Image& picture, const StagedMethod& method,
                        float exposure);
 
+  void set_material_errors(Record& record, const Truth& truth, const Image& picture, const StagedMethod& method,
+                           float exposure) const;
+
   const Stage& stage_;
   std::map<const StagedMethod*, FrameRenderer> dense_frames_;  // of a scene with an environment
   std::map<const StagedMethod*, FrameRenderer> counting_;

@@ -53,7 +53,10 @@ TruthFinder::TruthFinder(const RunSettings& settings, const Stage& stage, std::f
       choose_exposure_(std::move(exposure)),
       progress_(progress),
       interior_finder_(stage.interior_finder()),
-      bound_(stage_bound(stage, settings.reference.bound, warnings_)) {}
+      bound_(stage_bound(stage, settings.reference.bound, warnings_)) {
+  if (settings.by_material)
+    material_finder_.emplace(stage.context().info(), stage.scene(), stage.view(1.0).size, settings.backend.tile);
+}
 
 double TruthFinder::weight(const RunSettings& settings) {
   const ReferenceSettings& reference = settings.reference;
@@ -153,6 +156,7 @@ void TruthFinder::find_parts(Truth& truth, const std::string& prefix) {
   const std::size_t left_out = truth.parts.counts.unresolved;
   truth.parts = pixel_parts(truth.reference.mean, interior);
   truth.parts.counts.unresolved = left_out;
+  if (material_finder_) truth.materials = material_finder_->masks(truth.view, truth.parts.interior);
   truth.shading_floor = noise_floor_over(truth.reference, exposure_, truth.parts.interior);
   truth.files.interior = write_mask(folder_, distance_stem(truth.distance, "interior"), truth.parts.interior);
   if (has(stage_.effects(), Effect::environment_light)) {

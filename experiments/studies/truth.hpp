@@ -10,6 +10,7 @@
 
 #include "experiments/studies/bound.hpp"
 #include "experiments/studies/error_causes.hpp"
+#include "experiments/studies/material_pixels.hpp"
 #include "experiments/studies/stage.hpp"
 
 namespace footprint {
@@ -45,6 +46,7 @@ struct Truth {
   double seconds = 0;      ///< that the reference took
   std::optional<double> noise_floor, shading_floor;
   PixelParts parts;
+  std::vector<Image> materials;  ///< masks of the interior pixels of each material; empty where they are not told apart
   std::optional<BoundPicture> bound;
   LightPart light;  ///< empty without an environment
   TruthFiles files;
@@ -84,6 +86,7 @@ class TruthFinder {
   ProgressParts& progress_;
   float exposure_ = 1.0F;
   InteriorFinder interior_finder_;
+  std::optional<MaterialFinder> material_finder_;  // where materials are told apart
   std::vector<std::string> warnings_;
   std::optional<StagedMethod> bound_;
 };

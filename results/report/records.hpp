@@ -114,6 +114,15 @@ struct RecordImages {
   std::string standard_error;  ///< EXR, the reference's own in each pixel and channel
 };
 
+/// The error of one picture over the interior pixels that show one material.
+struct MaterialError {
+  std::string material;
+  std::size_t pixels = 0;
+  std::optional<double> shading;  ///< as ErrorCauses has it; none: no such pixel
+  std::optional<double> noise;    ///< its standard error, of the reference's noise
+  std::uint64_t bytes = 0;        ///< that the method baked of the material
+};
+
 /// One method at one distance.
 struct Record {
   std::string scene;
@@ -132,6 +141,7 @@ struct Record {
   double fps = 0;                             ///< 1000 / frame_ms.median
   TimeRatio ratio_to_direct;
   std::optional<RecordWork> work;  ///< none: not counted
+  std::vector<MaterialError> materials;  ///< in the order of the scene; empty where the run does not tell them apart
   double precompute_seconds = 0;
   std::uint64_t precompute_bytes = 0;
   std::optional<double> precompute_bytes_per_texel;  ///< over the finest level's texels; none: no texture
@@ -147,6 +157,8 @@ struct MethodPair {
   std::array<std::string, 2> methods;  ///< as written
   std::array<double, 2> closer{};  ///< share of interior pixels in which that one is closer to the reference by more
                                    ///< than the reference's noise explains; in the rest noise decides
+  /// The same over the interior pixels of each material; empty where the run does not tell them apart.
+  std::vector<std::array<double, 2>> materials{};
   std::string picture;             ///< of that over the object, PNG: blue the first, orange the second, grey neither
 };
 

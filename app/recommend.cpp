@@ -1,0 +1,114 @@
+// `footprint recommend`: which method to take for each material, within a limit of error, cost or size, and why.
+#include "experiments/studies/recommend.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "app/commands.hpp"
+#include "app/output.hpp"
+#include "app/progress_display.hpp"
+#include "app/run_options.hpp"
+#include "app/standard_output.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/core/files.hpp"
+#include "results/report/report.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr const char* recommend_examples =
+    "Every method is tried under every footprint filter: coarsely, then in full those that could be chosen. Costs are\n"
+    "frame times over `direct`'s under trilinear lookups, measured in turn. Without a limit: the least error.\n"
+    "\n"
+    "Examples:\n"
+    "  footprint recommend model.gltf -o advice\n"
+    "  footprint recommend model.gltf --max-error 0.05 --distance 1,2,4,8 -o advice\n"
+    "  footprint recommend model.gltf --max-cost 2 --footprints trilinear,anisotropic:8 -o advice\n"
+    "  footprint recommend model.gltf --max-bytes 4000000 --methods direct,toksvig:storage=unorm8,lean:storage=fp16";
+
+struct RecommendArguments {
+  explicit RecommendArguments(CLI::App& command) : run(command) {}
+
+  RunOptions run;
+  std::string filters = "trilinear,anisotropic:8,shaded:2";
+  Limits limits;
+  bool exhaustive = false;
+  std::string output = "out";
+  bool quiet = false;
+};
+
+// Plain `direct`, which all are held against, is under the trilinear one.
+std::vector<FootprintFilter> parse_filters(const std::string& text) {
+  std::vector<FootprintFilter> filters{{FootprintFilterKind::trilinear, 1}};
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) {
+    const FootprintFilter filter = parse_footprint_filter(word, "--footprints");
+    if (std::ranges::find(filters, filter) == filters.end()) filters.push_back(filter);
+  }
+  return filters;
+}
+
+void require_positive(const char* option, const std::optional<double>& value) {
+  if (!value || (*value > 0.0 && std::isfinite(*value))) return;
+  throw Error(ErrorKind::usage, option, fmt::format("{} is no limit", *value), "give a number above 0");
+}
+
+void run_recommend_command(const RecommendArguments& arguments) {
+  require_positive("--max-error", arguments.limits.max_error);
+  require_positive("--max-cost", arguments.limits.max_cost);
+  const RecommendSettings settings{.run = arguments.run.settings(),
+                                   .filters = parse_filters(arguments.filters),
+                                   .limits = arguments.limits,
+                                   .exhaustive = arguments.exhaustive};
+  ProgressDisplay display(progress_style(arguments.quiet));
+  const auto sign_and_write = [](Results& results, const std::filesystem::path& folder) {
+    sign(results.tool, results.backend);
+    write_report(results, folder);
+  };
+  const auto [result, path] = write_whole(arguments.output, [&](OutputFolder& folder) {
+    Recommendation made = run_recommend(settings, folder.path(), sign_and_write, display.callback());
+    write_file_atomically(folder.path() / "recommend.json", recommendation_json(made));
+    write_file_atomically(folder.path() / "index.html", recommendation_page(made));
+    keep(folder);
+    return made;
+  });
+  display.finish();
+  write_output(fmt::format("{}\npage: {}\n", recommendation_text(result), (path / "index.html").string()));
+}
+
+}  // namespace
+
+void add_recommend_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("recommend", "Name the method to take for each material, within a limit");
+  const auto arguments = std::make_shared<RecommendArguments>(*command);
+  auto* error = command->add_option("--max-error", arguments->limits.max_error,
+                                    "The cheapest whose normalised colour error is at most this at every distance");
+  auto* cost = command->add_option("--max-cost", arguments->limits.max_cost,
+                                   "The best whose frames take at most so many times direct's");
+  auto* bytes = command
+                    ->add_option("--max-bytes", arguments->limits.max_bytes,
+                                 "The best whose maps of a material take at most so many bytes")
+                    ->check(CLI::NonNegativeNumber);
+  error->excludes(cost)->excludes(bytes);
+  cost->excludes(bytes);
+  command
+      ->add_option(
+          "--footprints", arguments->filters,
+          "Footprint filters to try, commas between (as --footprint of compare takes them); trilinear always is")
+      ->capture_default_str();
+  command->add_flag("--exhaustive", arguments->exhaustive, "Measure every candidate in full");
+  command->add_option("-o,--output", arguments->output, "Folder for index.html, recommend.json and the full runs")
+      ->capture_default_str();
+  add_quiet_flag(*command, arguments->quiet);
+  command->footer(recommend_examples);
+  command->callback([arguments] { run_recommend_command(*arguments); });
+}
+
+}  // namespace footprint

@@ -1,0 +1,318 @@
+// One comparison a footprint filter, coarse and then full; records become candidates, material by material.
+#include "experiments/studies/recommend.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "experiments/studies/compare.hpp"
+#include "methods/registry.hpp"
+#include "renderer/core/file_names.hpp"
+#include "results/report/figures.hpp"
+#include "results/report/ranking.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr int coarse_samples = 32, coarse_repeats = 3;  // two passes, which is what tells the noise
+constexpr FootprintFilter plain_filter{FootprintFilterKind::trilinear, 1};
+
+// The comparison under one footprint filter.
+struct FilterRun {
+  FootprintFilter filter;
+  Results results;
+  std::string folder;  ///< from the output folder
+};
+
+// What a method under a filter showed at each distance.
+using Records = std::vector<const Record*>;
+
+Records records_of(const FilterRun& run, const std::string& method) {
+  Records records;
+  for (const Record& record : run.results.records) {
+    if (record.method == method) records.push_back(&record);
+  }
+  return records;
+}
+
+bool has_pixels(const Record& record, std::size_t material) {
+  return record.materials.size() > material && record.materials[material].pixels >= too_few_pixels &&
+         record.materials[material].shading.has_value();
+}
+
+// The distances at which a material shows enough pixels in every run, as indices.
+std::vector<std::size_t> telling_distances(const std::vector<FilterRun>& runs, std::size_t material) {
+  std::vector<std::size_t> telling;
+  const std::size_t count = distances_of(runs.front().results).size();
+  for (std::size_t d = 0; d < count; ++d) {
+    const double distance = distances_of(runs.front().results)[d];
+    const bool tells = std::ranges::all_of(runs, [&](const FilterRun& run) {
+      const DistanceRecords records = records_at(run.results, distance);
+      return std::ranges::all_of(records, [&](const Record& r) { return has_pixels(r, material); });
+    });
+    if (tells) telling.push_back(d);
+  }
+  return telling;
+}
+
+double mean_of(const Records& records, const std::vector<std::size_t>& at, const auto& value) {
+  double sum = 0;
+  for (const std::size_t d : at) sum += value(*records[d]);
+  return sum / static_cast<double>(at.size());
+}
+
+// The standard error of the mean over the distances: each has a reference of its own.
+std::optional<double> noise_of(const Records& records, const std::vector<std::size_t>& at, std::size_t material) {
+  double squares = 0;
+  for (const std::size_t d : at) {
+    const std::optional<double>& noise = records[d]->materials[material].noise;
+    if (!noise) return {};
+    squares += *noise * *noise;
+  }
+  return std::sqrt(squares) / static_cast<double>(at.size());
+}
+
+Candidate candidate_of(const FilterRun& run, const std::string& method, const std::vector<std::size_t>& at,
+                       std::size_t material) {
+  const Records records = records_of(run, method);
+  Candidate candidate;
+  candidate.method = method;
+  candidate.footprint = footprint_filter_text(run.filter);
+  for (const std::size_t d : at) candidate.errors.push_back(*records[d]->materials[material].shading);
+  candidate.error = mean_of(records, at, [&](const Record& r) { return *r.materials[material].shading; });
+  candidate.worst = std::ranges::max(candidate.errors);
+  candidate.noise = noise_of(records, at, material);
+  candidate.cost = {.median = mean_of(records, at, [](const Record& r) { return r.ratio_to_direct.median; }),
+                    .minimum = mean_of(records, at, [](const Record& r) { return r.ratio_to_direct.minimum; }),
+                    .maximum = mean_of(records, at, [](const Record& r) { return r.ratio_to_direct.maximum; })};
+  candidate.bytes = records.front()->materials[material].bytes;
+  candidate.bake_seconds = records.front()->precompute_seconds;
+  return candidate;
+}
+
+std::vector<std::string> methods_of(const Results& results) {
+  std::vector<std::string> methods;
+  for (const Record& record : results.records) {
+    if (std::ranges::find(methods, record.method) == methods.end()) methods.push_back(record.method);
+  }
+  return methods;
+}
+
+std::vector<Candidate> candidates_of(const std::vector<FilterRun>& runs, const std::vector<std::size_t>& at,
+                                     std::size_t material) {
+  std::vector<Candidate> candidates;
+  if (at.empty()) return candidates;
+  for (const FilterRun& run : runs) {
+    for (const std::string& method : methods_of(run.results))
+      candidates.push_back(candidate_of(run, method, at, material));
+  }
+  std::ranges::stable_sort(candidates, {}, [](const Candidate& c) { return c.cost.median; });
+  return candidates;
+}
+
+// The run of a filter with some of the methods.
+RunSettings settings_of(const RecommendSettings& settings, const FootprintFilter& filter,
+                        std::vector<MethodSpec> methods, bool coarse) {
+  RunSettings run = settings.run;
+  run.methods = std::move(methods);
+  run.footprint = filter;
+  run.by_material = true;
+  run.reference.bound = BoundUse::off;
+  run.reference.supersampling = {1};
+  if (!coarse) return run;
+  run.reference.by_noise = false;
+  run.reference.spp = std::min(run.reference.spp, coarse_samples);
+  run.reference.finest_levels = false;
+  run.timing.repeats = std::min(run.timing.repeats, coarse_repeats);
+  return run;
+}
+
+// Plain `direct` is what everything is held against.
+std::vector<MethodSpec> with_plain(std::vector<MethodSpec> methods, const FootprintFilter& filter) {
+  if (filter == plain_filter && std::ranges::find(methods, "direct", &MethodSpec::text) == methods.end())
+    methods.insert(methods.begin(), {.text = "direct", .name = "direct", .options = {}});
+  return methods;
+}
+
+std::size_t material_count(const std::vector<FilterRun>& runs) {
+  const std::vector<Record>& records = runs.front().results.records;
+  return records.empty() ? 0 : records.front().materials.size();
+}
+
+std::optional<std::array<double, 2>> closer_than_plain(const std::vector<FilterRun>& runs, const Candidate& chosen,
+                                                       const std::vector<double>& distances, std::size_t material) {
+  std::array<double, 2> sum{};
+  std::size_t count = 0;
+  for (const FilterRun& run : runs) {
+    if (footprint_filter_text(run.filter) != chosen.footprint) continue;
+    for (const MethodPair& pair : run.results.pairs) {
+      const bool first = pair.methods[0] == "direct" && pair.methods[1] == chosen.method;
+      const bool second = pair.methods[1] == "direct" && pair.methods[0] == chosen.method;
+      if (!(first || second) || std::ranges::find(distances, pair.distance) == distances.end()) continue;
+      const auto& closer = pair.materials.at(material);
+      sum[0] += closer.at(first ? 1 : 0);
+      sum[1] += closer.at(first ? 0 : 1);
+      ++count;
+    }
+  }
+  if (count == 0) return {};
+  return std::array<double, 2>{sum[0] / static_cast<double>(count), sum[1] / static_cast<double>(count)};
+}
+
+// What writes the chosen one's maps; empty where it has none to write.
+std::string command_of(const RecommendSettings& settings, const MaterialAdvice& advice) {
+  if (!advice.choice.chosen) return {};
+  const Candidate& chosen = advice.candidates[*advice.choice.chosen];
+  if (is_plain(chosen) || chosen.bytes == 0) return {};
+  return fmt::format("footprint bake {} --method {} --footprint {} -o maps", settings.run.scene, chosen.method,
+                     chosen.footprint);
+}
+
+MaterialAdvice advice_of(const RecommendSettings& settings, const std::vector<FilterRun>& runs, std::size_t material) {
+  const std::vector<std::size_t> at = telling_distances(runs, material);
+  const std::vector<double> distances = distances_of(runs.front().results);
+  const Records direct = records_of(runs.front(), methods_of(runs.front().results).front());
+  MaterialAdvice advice;
+  advice.material = direct.front()->materials[material].material;
+  for (const std::size_t d : at) {
+    advice.distances.push_back(distances[d]);
+    advice.pixels.push_back(direct[d]->materials[material].pixels);
+  }
+  advice.candidates = candidates_of(runs, at, material);
+  advice.choice = choose(advice.candidates, settings.limits);
+  advice.command = command_of(settings, advice);
+  if (advice.choice.chosen && !is_plain(advice.candidates[*advice.choice.chosen]))
+    advice.closer_than_plain =
+        closer_than_plain(runs, advice.candidates[*advice.choice.chosen], advice.distances, material);
+  return advice;
+}
+
+class Advisor {
+ public:
+  Advisor(const RecommendSettings& settings, std::filesystem::path folder,
+          const std::function<void(Results&, const std::filesystem::path&)>& keep_results, const Progress& progress)
+      : settings_(settings),
+        folder_(std::move(folder)),
+        keep_results_(keep_results),
+        parts_(progress, (settings.exhaustive ? 0.0 : 1.0) + 3.0) {}
+
+  Recommendation run() {
+    std::vector<std::vector<MethodSpec>> methods;
+    for (const FootprintFilter& filter : settings_.filters)
+      methods.push_back(with_plain(settings_.run.methods, filter));
+    std::size_t tried = 0;
+    for (const auto& own : methods) tried += own.size();
+    if (!settings_.exhaustive) methods = still_in_question(run_all(methods, true), methods);
+    std::size_t measured = 0;
+    for (const auto& own : methods) measured += own.size();
+    const std::vector<FilterRun> runs = run_all(methods, false);
+    Recommendation result = described(runs);
+    result.tried = tried;
+    result.measured = measured;
+    return result;
+  }
+
+ private:
+  std::vector<FilterRun> run_all(const std::vector<std::vector<MethodSpec>>& methods, bool coarse) {
+    std::vector<FilterRun> runs;
+    ProgressParts parts(parts_.next(coarse ? 1.0 : 3.0, coarse ? "coarse, " : ""), static_cast<double>(methods.size()));
+    for (std::size_t f = 0; f < methods.size(); ++f) {
+      const FootprintFilter& filter = settings_.filters[f];
+      const Progress part = parts.next(1.0, footprint_filter_text(filter) + ", ");
+      if (methods[f].empty()) continue;
+      FilterRun run{.filter = filter, .results = {}, .folder = file_stem(footprint_filter_text(filter))};
+      const std::filesystem::path own = folder_ / (coarse ? "coarse" : run.folder);
+      const RunSettings run_settings = settings_of(settings_, filter, methods[f], coarse);
+      std::filesystem::create_directories(own);
+      run.results = run_compare(run_settings, own, {}, part);
+      if (coarse) std::filesystem::remove_all(own);
+      if (!coarse) keep_results_(run.results, own);
+      runs.push_back(std::move(run));
+    }
+    return runs;
+  }
+
+  // Of each filter the methods that some material may yet take.
+  [[nodiscard]] std::vector<std::vector<MethodSpec>> still_in_question(
+      const std::vector<FilterRun>& runs, const std::vector<std::vector<MethodSpec>>& methods) const {
+    std::vector<std::vector<MethodSpec>> kept(methods.size());
+    for (std::size_t f = 0; f < methods.size(); ++f) {
+      const std::string filter = footprint_filter_text(settings_.filters[f]);
+      std::ranges::copy_if(methods[f], std::back_inserter(kept[f]),
+                           [&](const MethodSpec& method) { return is_wanted(runs, method.text, filter); });
+    }
+    return kept;
+  }
+
+  [[nodiscard]] bool is_wanted(const std::vector<FilterRun>& runs, const std::string& method,
+                               const std::string& filter) const {
+    if (method == "direct" && filter == footprint_filter_text(plain_filter)) return true;
+    for (std::size_t material = 0; material < material_count(runs); ++material) {
+      const auto candidates = candidates_of(runs, telling_distances(runs, material), material);
+      for (const std::size_t i : contenders(candidates, settings_.limits, coarse_error_share, coarse_cost_share)) {
+        if (candidates[i].method == method && candidates[i].footprint == filter) return true;
+      }
+    }
+    return false;
+  }
+
+  [[nodiscard]] Recommendation described(const std::vector<FilterRun>& runs) const {
+    const Results& first = runs.front().results;
+    Recommendation result;
+    result.tool = first.tool;
+    result.backend = first.backend;
+    result.scene = first.scene;
+    result.reference = first.reference;
+    result.width = first.records.front().width;
+    result.height = first.records.front().height;
+    result.distances = distances_of(first);
+    result.limits = settings_.limits;
+    result.exhaustive = settings_.exhaustive;
+    for (std::size_t material = 0; material < material_count(runs); ++material)
+      result.materials.push_back(advice_of(settings_, runs, material));
+    for (const FilterRun& run : runs) result.reports.push_back(run.folder + "/index.html");
+    add_pictures(runs, result);
+    return result;
+  }
+
+  // Of what is chosen for any material, at every distance, and of plain `direct`.
+  static void add_pictures(const std::vector<FilterRun>& runs, Recommendation& result) {
+    for (const FilterRun& run : runs) {
+      const std::string filter = footprint_filter_text(run.filter);
+      for (const Record& record : run.results.records) {
+        const bool is_chosen = std::ranges::any_of(result.materials, [&](const MaterialAdvice& advice) {
+          if (!advice.choice.chosen) return false;
+          const Candidate& chosen = advice.candidates[*advice.choice.chosen];
+          return chosen.method == record.method && chosen.footprint == filter;
+        });
+        const bool is_direct = record.method == "direct" && run.filter == plain_filter;
+        if (!is_chosen && !is_direct) continue;
+        const auto in_folder = [&](const std::string& file) { return run.folder + "/" + file; };
+        result.pictures.push_back({.distance = record.distance,
+                                   .method = record.method,
+                                   .footprint = filter,
+                                   .picture = in_folder(record.images.color),
+                                   .reference = in_folder(record.images.reference),
+                                   .error = in_folder(record.images.error)});
+      }
+    }
+  }
+
+  const RecommendSettings& settings_;
+  std::filesystem::path folder_;
+  const std::function<void(Results&, const std::filesystem::path&)>& keep_results_;
+  ProgressParts parts_;
+};
+
+}  // namespace
+
+Recommendation run_recommend(
+    const RecommendSettings& settings, const std::filesystem::path& folder,
+    const std::function<void(Results& results, const std::filesystem::path& folder)>& keep_results,
+    const Progress& progress) {
+  return Advisor(settings, folder, keep_results, progress).run();
+}
+
+}  // namespace footprint

@@ -1,0 +1,33 @@
+// Which method to take for each material of a scene: candidates compared coarsely, then those in full that could be
+// chosen.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "experiments/settings/run_settings.hpp"
+#include "renderer/core/progress.hpp"
+#include "results/report/recommendation.hpp"
+
+namespace footprint {
+
+/// What is asked for.
+struct RecommendSettings {
+  RunSettings run;                       ///< its methods are the candidates; its own footprint filter has no say
+  std::vector<FootprintFilter> filters;  ///< under each of which every method is a candidate
+  Limits limits;
+  bool exhaustive = false;  ///< measure every candidate in full
+};
+
+/// How far the coarse run's errors and costs are trusted: what is behind another by more than that in both is dropped.
+inline constexpr double coarse_error_share = 0.15, coarse_cost_share = 0.25;
+
+/// Compares them. The full runs' pictures and reports go to FOLDER/FILTER, one for each footprint filter that is still
+/// in question; `keep_results` writes a report there. Errors: those of run_compare.
+[[nodiscard]] Recommendation run_recommend(
+    const RecommendSettings& settings, const std::filesystem::path& folder,
+    const std::function<void(Results& results, const std::filesystem::path& folder)>& keep_results,
+    const Progress& progress);
+
+}  // namespace footprint

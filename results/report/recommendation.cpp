@@ -1,0 +1,210 @@
+// The choice among candidates: limits first, then errors and costs, each with its noise.
+#include "results/report/recommendation.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "renderer/core/memory.hpp"
+#include "results/report/figures.hpp"
+#include "results/report/ranking.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr double sure_standard_errors = 3;  // beyond which a difference is none of chance
+
+using Candidates = std::vector<Candidate>;
+using Indices = std::vector<std::size_t>;
+
+bool keeps(const Candidate& candidate, const Limits& limits) {
+  return candidate.worst <= limits.max_error.value_or(std::numeric_limits<double>::infinity()) &&
+         candidate.cost.median <= limits.max_cost.value_or(std::numeric_limits<double>::infinity()) &&
+         candidate.bytes <= limits.max_bytes.value_or(std::numeric_limits<std::uint64_t>::max());
+}
+
+// By how much a limit is missed, as a factor.
+double excess(const Candidate& candidate, const Limits& limits) {
+  if (limits.max_error) return candidate.worst / *limits.max_error;
+  if (limits.max_cost) return candidate.cost.median / *limits.max_cost;
+  return limits.max_bytes ? static_cast<double>(candidate.bytes) / std::max(static_cast<double>(*limits.max_bytes), 1.0)
+                          : 1.0;
+}
+
+template <typename Value>
+std::size_t least(const Candidates& candidates, const Indices& among, Value value) {
+  return *std::ranges::min_element(among, {}, [&](std::size_t i) { return value(candidates[i]); });
+}
+
+// Those that noise does not part from one of them, by the limit's own measure first.
+Indices alike(const Candidates& candidates, const Indices& among, std::size_t best, bool by_cost) {
+  Indices found;
+  std::ranges::copy_if(among, std::back_inserter(found), [&](std::size_t i) {
+    if (by_cost) return i == best || cost_as_much(candidates[i], candidates[best]);
+    return !is_closer(candidates[best], candidates[i]);
+  });
+  return found;
+}
+
+std::string named(const Candidate& candidate) {
+  return fmt::format("{} under {}", candidate.method, candidate.footprint);
+}
+
+std::string cost_text(const Candidate& candidate) {
+  if (is_plain(candidate)) return "what direct costs";
+  const TimeRatio& cost = candidate.cost;
+  return is_about_one(cost) ? fmt::format("about what direct costs ({}-{} times)", three_figures(cost.minimum),
+                                          three_figures(cost.maximum))
+                            : fmt::format("{} times direct", ratio_text(cost));
+}
+
+std::string figures_of(const Candidate& candidate) {
+  const std::string worst =
+      candidate.errors.size() > 1 ? fmt::format(" (at most {})", error_text(candidate.worst)) : std::string();
+  return fmt::format("error {}{}, {}, {}", error_text(candidate.error), worst, cost_text(candidate),
+                     readable_bytes(candidate.bytes));
+}
+
+std::string what_is_chosen(const MaterialAdvice& advice, const Limits& limits) {
+  const Candidates& all = advice.candidates;
+  if (!advice.choice.chosen) {
+    if (!advice.choice.nearest) return "Nothing can be said: no distance shows 20 interior pixels of it.";
+    return fmt::format("None of {} candidates keeps to {}; {} comes closest: {}.", all.size(), limits_text(limits),
+                       named(all[*advice.choice.nearest]), figures_of(all[*advice.choice.nearest]));
+  }
+  const Candidate& chosen = all[*advice.choice.chosen];
+  if (advice.choice.filter_nothing)
+    return fmt::format("Filter nothing: no candidate gains more than the noise over plain direct, {}.",
+                       figures_of(chosen));
+  return fmt::format("Take {}: {}.", named(chosen), figures_of(chosen));
+}
+
+std::string what_is_tied(const MaterialAdvice& advice) {
+  if (advice.choice.tied.empty() || advice.choice.filter_nothing) return {};
+  std::vector<std::string> names;
+  for (const std::size_t i : advice.choice.tied)
+    names.push_back(fmt::format("{} ({})", named(advice.candidates[i]), figures_of(advice.candidates[i])));
+  return fmt::format("Tied with it within noise: {}.", fmt::join(names, "; "));
+}
+
+std::string how_sure(const MaterialAdvice& advice) {
+  if (!advice.choice.chosen) return {};
+  const Candidate& chosen = advice.candidates[*advice.choice.chosen];
+  const std::string noise = chosen.noise ? error_text(*chosen.noise) : "unknown";
+  return fmt::format("Over {} interior pixels at distance {:g}; the standard error of its error is {}.",
+                     fmt::join(advice.pixels, ", "), fmt::join(advice.distances, ", "), noise);
+}
+
+std::string against_plain(const MaterialAdvice& advice) {
+  const auto plain = std::ranges::find_if(advice.candidates, is_plain);
+  if (!advice.choice.chosen || plain == advice.candidates.end() || is_plain(advice.candidates[*advice.choice.chosen]))
+    return {};
+  std::string text = fmt::format("Without filtering the error is {}", error_text(plain->error));
+  if (advice.closer_than_plain)
+    text += fmt::format("; pixel by pixel it is closer than direct in {:.0f}% and farther in {:.0f}%, beyond noise",
+                        100.0 * (*advice.closer_than_plain)[0], 100.0 * (*advice.closer_than_plain)[1]);
+  return text + ".";
+}
+
+std::string what_better_costs(const MaterialAdvice& advice) {
+  if (!advice.choice.chosen) return {};
+  if (!advice.choice.better) return "Nothing that was tried is closer to the reference beyond noise.";
+  const Candidate& better = advice.candidates[*advice.choice.better];
+  return fmt::format("The cheapest that is closer beyond noise is {}: {}.", named(better), figures_of(better));
+}
+
+}  // namespace
+
+bool is_plain(const Candidate& candidate) { return candidate.method == "direct" && candidate.footprint == "trilinear"; }
+
+bool is_closer(const Candidate& a, const Candidate& b) {
+  return a.noise && b.noise && b.error - a.error > sure_standard_errors * std::hypot(*a.noise, *b.noise);
+}
+
+bool cost_as_much(const Candidate& a, const Candidate& b) {
+  const auto within = [](double value, const TimeRatio& range) {
+    return value >= range.minimum && value <= range.maximum;
+  };
+  return within(a.cost.median, b.cost) || within(b.cost.median, a.cost);
+}
+
+Choice choose(const std::vector<Candidate>& candidates, const Limits& limits) {
+  Choice choice;
+  Indices all, kept;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    all.push_back(i);
+    if (keeps(candidates[i], limits)) kept.push_back(i);
+  }
+  if (all.empty()) return choice;
+  const auto error = [](const Candidate& c) { return c.error; };
+  const auto cost = [](const Candidate& c) { return c.cost.median; };
+  if (kept.empty()) {
+    choice.nearest = least(candidates, all, [&](const Candidate& c) { return excess(c, limits); });
+    return choice;
+  }
+  const bool by_cost = limits.max_error.has_value();
+  const std::size_t first = by_cost ? least(candidates, kept, cost) : least(candidates, kept, error);
+  const Indices group = alike(candidates, kept, first, by_cost);
+  std::size_t chosen = by_cost ? least(candidates, group, error) : least(candidates, group, cost);
+  const auto plain = std::ranges::find_if(kept, [&](std::size_t i) { return is_plain(candidates[i]); });
+  if (plain != kept.end() && !is_closer(candidates[chosen], candidates[*plain])) chosen = *plain;
+  choice.chosen = chosen;
+  // In its place could stand what parts from it neither by the group's measure nor by the other one.
+  std::ranges::copy_if(kept, std::back_inserter(choice.tied), [&](std::size_t i) {
+    return i != chosen && cost_as_much(candidates[i], candidates[chosen]) &&
+           !is_closer(candidates[i], candidates[chosen]) && !is_closer(candidates[chosen], candidates[i]);
+  });
+  Indices closer;
+  std::ranges::copy_if(all, std::back_inserter(closer),
+                       [&](std::size_t i) { return is_closer(candidates[i], candidates[chosen]); });
+  if (!closer.empty()) choice.better = least(candidates, closer, cost);
+  choice.filter_nothing = is_plain(candidates[chosen]) && closer.empty();
+  return choice;
+}
+
+std::vector<std::size_t> contenders(const std::vector<Candidate>& candidates, const Limits& limits, double error_share,
+                                    double cost_share) {
+  const auto beats = [&](const Candidate& a, const Candidate& b) {
+    const double noise = sure_standard_errors * std::hypot(a.noise.value_or(a.error), b.noise.value_or(b.error));
+    return a.error * (1.0 + error_share) + noise < b.error && a.worst * (1.0 + error_share) + noise < b.worst &&
+           a.cost.median * (1.0 + cost_share) < b.cost.median && (!limits.max_bytes || a.bytes <= b.bytes);
+  };
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const Candidate& candidate = candidates[i];
+    const bool beaten = std::ranges::any_of(candidates, [&](const Candidate& c) { return beats(c, candidate); });
+    if (!beaten || is_plain(candidate)) kept.push_back(i);
+  }
+  return kept;
+}
+
+std::string limits_text(const Limits& limits) {
+  if (limits.max_error) return fmt::format("an error of at most {:g} at every distance", *limits.max_error);
+  if (limits.max_cost) return fmt::format("at most {:g} times the cost of direct", *limits.max_cost);
+  if (limits.max_bytes) return fmt::format("at most {}", readable_bytes(*limits.max_bytes));
+  return "the least error";
+}
+
+std::vector<std::string> advice_sentences(const MaterialAdvice& advice, const Limits& limits) {
+  std::vector<std::string> sentences{what_is_chosen(advice, limits), what_is_tied(advice), how_sure(advice),
+                                     against_plain(advice), what_better_costs(advice)};
+  if (!advice.command.empty()) sentences.push_back("Bake it: " + advice.command);
+  std::erase(sentences, std::string());
+  return sentences;
+}
+
+std::string recommendation_text(const Recommendation& recommendation) {
+  std::string text = fmt::format("{}, {}: {} of {} candidates measured in full\n", recommendation.scene.name,
+                                 limits_text(recommendation.limits), recommendation.measured, recommendation.tried);
+  for (const MaterialAdvice& advice : recommendation.materials) {
+    text += fmt::format("\n{}\n", advice.material);
+    for (const std::string& sentence : advice_sentences(advice, recommendation.limits))
+      text += fmt::format("  {}\n", sentence);
+  }
+  return text;
+}
+
+}  // namespace footprint

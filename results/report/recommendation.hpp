@@ -1,0 +1,111 @@
+// Which method to take for a material: what was measured of each candidate, and what follows within a limit.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "results/report/records.hpp"
+
+namespace footprint {
+
+/// A method under a footprint filter, for one material, over the distances tried.
+struct Candidate {
+  std::string method, footprint;  ///< as written
+  std::vector<double> errors;     ///< shading error at each distance that counts
+  double error = 0;               ///< their mean, which candidates are ranked by
+  double worst = 0;               ///< the largest, which a limit is held against
+  std::optional<double> noise;    ///< standard error of `error`, of the reference's noise; none: it is not known
+  TimeRatio cost;                 ///< whole frames over those of `direct` under trilinear lookups, means over distances
+  std::uint64_t bytes = 0;        ///< that are baked of the material
+  double bake_seconds = 0;        ///< for the whole scene
+};
+
+/// What is asked for: at most one.
+struct Limits {
+  std::optional<double> max_error;         ///< at every distance: the cheapest within it
+  std::optional<double> max_cost;          ///< times `direct`: the best within it
+  std::optional<std::uint64_t> max_bytes;  ///< of the material: the best within it
+};
+
+/// What candidates come to. Indices are into the candidates.
+struct Choice {
+  std::optional<std::size_t> chosen;  ///< none: none keeps the limit, or nothing was measured
+  std::vector<std::size_t> tied;      ///< that could stand in its place: what parts them is within noise
+  std::optional<std::size_t> better;  ///< the cheapest that is closer to the reference than the chosen one beyond noise
+  std::optional<std::size_t> nearest;  ///< where none is chosen: the one that comes closest to the limit
+  bool filter_nothing = false;  ///< the chosen one is plain `direct`, and no candidate gains more than noise over it
+};
+
+/// Whether a's error is less than b's by more than three standard errors of the difference. Never where noise is
+/// unknown.
+[[nodiscard]] bool is_closer(const Candidate& a, const Candidate& b);
+
+/// Whether the spreads of their costs overlap: each one's median lies within the other's range, or the ranges touch it.
+[[nodiscard]] bool cost_as_much(const Candidate& a, const Candidate& b);
+
+/// `direct` under the trilinear filter: no filtering at all.
+[[nodiscard]] bool is_plain(const Candidate& candidate);
+
+/// Which to take. Of candidates that keep the limit: with max_error the cheapest, of those that cost as much the best;
+/// else the best, of those that noise does not part the cheapest. Where that is no closer than plain `direct` beyond
+/// noise, and `direct` keeps the limit, it is `direct`.
+[[nodiscard]] Choice choose(const std::vector<Candidate>& candidates, const Limits& limits);
+
+/// The candidates that could be chosen, whatever the limit, where errors are off by `error_share` of themselves and
+/// costs by `cost_share`: those to which no other is better and cheaper (and, where bytes are limited, smaller) by more
+/// than that. Plain `direct` always is.
+[[nodiscard]] std::vector<std::size_t> contenders(const std::vector<Candidate>& candidates, const Limits& limits,
+                                                  double error_share, double cost_share);
+
+/// A material's advice, with all that a reader is told of it.
+struct MaterialAdvice {
+  std::string material;
+  std::vector<std::size_t> pixels;  ///< interior ones that show it, at each distance that counts
+  std::vector<double> distances;    ///< those: with pixels enough
+  std::vector<Candidate> candidates;
+  Choice choice;
+  /// The chosen one against plain `direct`, pixel by pixel, mean over the distances: shares of pixels in which each is
+  /// closer to the reference beyond noise. None where it is that, or is under another filter.
+  std::optional<std::array<double, 2>> closer_than_plain;
+  std::string command;  ///< that bakes it; empty where there is nothing to bake
+};
+
+/// A picture pair of the page: reference and method at a distance, as paths from the output folder.
+struct AdvicePicture {
+  double distance = 1;
+  std::string method, footprint;
+  std::string picture, reference, error;
+};
+
+/// A whole recommendation.
+struct Recommendation {
+  ToolInfo tool;
+  BackendInfo backend;
+  SceneInfo scene;
+  ReferenceInfo reference;
+  int width = 0, height = 0;
+  std::vector<double> distances;  ///< all that were tried
+  Limits limits;
+  bool exhaustive = false;   ///< every candidate was measured in full
+  std::size_t tried = 0;     ///< candidates, before any was dropped
+  std::size_t measured = 0;  ///< in full
+  std::vector<MaterialAdvice> materials;
+  std::vector<AdvicePicture> pictures;
+  std::vector<std::string> reports;  ///< pages of the full runs, as paths from the output folder
+};
+
+/// "at most 0.01 of error at every distance", "the least error".
+[[nodiscard]] std::string limits_text(const Limits& limits);
+
+/// What was found of a material, in sentences.
+[[nodiscard]] std::vector<std::string> advice_sentences(const MaterialAdvice& advice, const Limits& limits);
+
+/// The text that the program prints, recommend.json (docs/recommend.schema.json, "schema": "footprint-recommend/1") and
+/// index.html.
+[[nodiscard]] std::string recommendation_text(const Recommendation& recommendation);
+[[nodiscard]] std::string recommendation_json(const Recommendation& recommendation);
+[[nodiscard]] std::string recommendation_page(const Recommendation& recommendation);
+
+}  // namespace footprint

@@ -1,0 +1,61 @@
+// Recommendations through the program: what is refused before anything is measured.
+#include "tests/command_line/program_case.hpp"
+
+namespace footprint::test {
+namespace {
+
+const std::vector<Case> help_of_recommend{
+    {.name = "HelpOfRecommend",
+     .arguments = {"recommend", "--help"},
+     .output_has = {"Examples:", "footprint recommend", "--max-error", "--max-cost", "--max-bytes", "--footprints",
+                    "--methods", "--exhaustive", "recommend.json"}},
+};
+
+std::vector<Case> wrong_recommendations() {
+  const auto row = [](const std::string& name, std::vector<std::string> arguments, std::vector<std::string> errors) {
+    arguments.insert(arguments.begin(), "recommend");
+    arguments.insert(arguments.end(), {"--size", "16x16", "-o", "{}/out"});
+    return Case{.name = name, .arguments = std::move(arguments), .exit_code = 2, .errors_have = std::move(errors)};
+  };
+  return {
+      row("RecommendNothing", {}, {"scene"}),
+      row("RecommendForAMissingScene", {"{}/missing.gltf"}, {"missing.gltf"}),
+      row("RecommendWithinTwoLimits", {"v_grooves", "--max-error", "0.1", "--max-cost", "2"}, {"--max-"}),
+      row("RecommendWithinTwoOtherLimits", {"v_grooves", "--max-bytes", "10", "--max-cost", "2"}, {"--max-"}),
+      row("RecommendWithinNoError", {"v_grooves", "--max-error", "0"}, {"--max-error", "above 0"}),
+      row("RecommendWithinANegativeCost", {"v_grooves", "--max-cost", "-1"}, {"--max-cost", "above 0"}),
+      row("RecommendWithinNoNumber", {"v_grooves", "--max-cost", "nan"}, {"--max-cost", "above 0"}),
+      row("RecommendWithinWords", {"v_grooves", "--max-error", "little"}, {"--max-error"}),
+      row("RecommendWithinNegativeBytes", {"v_grooves", "--max-bytes", "-5"}, {"--max-bytes"}),
+      row("RecommendUnderAWrongFilter", {"v_grooves", "--footprints", "trilinear,anistropic:8"},
+          {"--footprints", "did you mean `anisotropic`?"}),
+      row("RecommendUnderAFilterWithoutItsNumber", {"v_grooves", "--footprints", "shaded"}, {"--footprints", "shaded"}),
+      row("RecommendAWrongMethod", {"v_grooves", "--methods", "direct,toxvig"}, {"did you mean `toksvig`?"}),
+  };
+}
+
+const std::vector<Case> recommendations{
+    {.name = "Recommend",
+     .arguments = {"recommend", "v_grooves", "--methods", "direct,toksvig", "--footprints", "trilinear", "--size",
+                   "48x48", "--distance", "4", "--spp", "16", "--repeats", "1", "-o", "{}/out"},
+     .output_has = {"v_grooves, the least error", "Take ", "interior pixels at distance 4", "work/out/index.html"},
+     .leaves = {"out/index.html", "out/recommend.json", "out/trilinear/index.html", "out/trilinear/results.json"}},
+    {.name = "RecommendInterrupted",
+     .arguments = {"recommend", "v_grooves", "--size", "256x256", "--spp", "4096", "-o", "{}/out"},
+     .exit_code = 130,
+     .errors_have = {"interrupted"},
+     .interrupt_at = "reference"},
+    {.name = "RecommendOnAFullDisk",
+     .arguments = {"recommend", "v_grooves", "--methods", "direct,toksvig", "--footprints", "trilinear", "--size",
+                   "48x48", "--distance", "4", "--spp", "16", "--repeats", "1", "-o", "{}/out"},
+     .exit_code = 3,
+     .errors_have = {"work/out"},
+     .file_size_limit = 20000},
+};
+
+INSTANTIATE_TEST_SUITE_P(HelpOfRecommend, CommandLine, ::testing::ValuesIn(help_of_recommend), case_name);
+INSTANTIATE_TEST_SUITE_P(WrongRecommendation, CommandLine, ::testing::ValuesIn(wrong_recommendations()), case_name);
+INSTANTIATE_TEST_SUITE_P(Recommendation, CommandLine, ::testing::ValuesIn(recommendations), case_name);
+
+}  // namespace
+}  // namespace footprint::test

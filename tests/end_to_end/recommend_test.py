@@ -1,0 +1,88 @@
+"""`footprint recommend` as a whole: the document against its schema, and the choice against an exhaustive run."""
+
+import copy
+import json
+import sys
+import unittest
+
+from recommendations import disagreement, disagreements
+from whole_runs import SOURCE, WholeRunTest, run
+
+sys.path.insert(0, str(SOURCE / "results" / "report"))
+from schema_test import described, jsonschema  # exit code 77 without the package python3-jsonschema
+
+SMALL = ["--size", "64x64", "--spp", "32", "--repeats", "3", "--footprints", "trilinear,anisotropic:8", "--quiet"]
+METHODS = "direct,toksvig,lean"
+
+
+def document_of(folder):
+    return json.loads((folder / "recommend.json").read_text(encoding="utf-8"))
+
+
+class RecommendTest(WholeRunTest):
+    @classmethod
+    def recommend(cls, name, scene, *arguments):
+        folder = cls.folder / name
+        output = run("recommend", scene, "--methods", METHODS, *SMALL, *arguments, "-o", folder)
+        return folder, output
+
+    def test_document_holds_to_its_schema(self):
+        folder, _ = self.recommend("schema", "bi_scale_spheres", "--distance", "1")
+        document = document_of(folder)
+        schema = json.loads((SOURCE / "docs" / "recommend.schema.json").read_text(encoding="utf-8"))
+        jsonschema.Draft7Validator.check_schema(schema)
+        described(schema, "")
+        validator = jsonschema.Draft7Validator(schema)
+        validator.validate(document)
+        self.assertEqual(len(document["materials"]), 3)
+        for change in (
+            lambda d: d.update(extra=1),
+            lambda d: d.update(schema="footprint-recommend/0"),
+            lambda d: d["limits"].update(max_error=-1),
+            lambda d: d["materials"][0].update(chosen=-1),
+            lambda d: d["materials"][0]["candidates"][0].update(error="1"),
+            lambda d: d["materials"][0]["candidates"][0].pop("cost"),
+            lambda d: d.update(materials={}),
+        ):
+            wrong = copy.deepcopy(document)
+            change(wrong)
+            self.assertFalse(validator.is_valid(wrong))
+
+    def test_page_shows_what_the_text_says(self):
+        folder, output = self.recommend("page", "v_grooves", "--distance", "4")
+        page = (folder / "index.html").read_text(encoding="utf-8")
+        for words in document_of(folder)["materials"][0]["words"]:
+            self.assertIn(words, output)
+        self.assertIn("<svg", page)
+        self.assertNotIn("{{", page)
+        for report in document_of(folder)["reports"]:
+            self.assertTrue((folder / report).is_file(), report)
+        for source in page.split('<img src="')[1:]:
+            self.assertTrue((folder / source.split('"', 1)[0]).is_file(), source)
+
+    def test_agrees_with_an_exhaustive_run(self):
+        for scene, limit in (("v_grooves", ["--max-error", "0.3"]), ("worn_disk", [])):
+            arguments = ["--distance", "4", *limit]
+            quick, _ = self.recommend(f"{scene}_quick", scene, *arguments)
+            whole, _ = self.recommend(f"{scene}_whole", scene, *arguments, "--exhaustive")
+            self.assertEqual(disagreements(quick, whole), [], scene)
+            whole_document = document_of(whole)
+            self.assertEqual(whole_document["measured"], whole_document["tried"])
+
+    def test_a_disagreement_is_found(self):
+        def candidate(method, error, cost):
+            spread = {"median": cost, "min": 0.95 * cost, "max": 1.05 * cost}
+            return {"method": method, "footprint": "trilinear", "error": error, "worst": error, "noise": 0.001, "cost": spread}
+
+        both = [candidate("direct", 0.2, 1.0), candidate("lean", 0.05, 2.0)]
+        whole = {"chosen": 1, "nearest": None, "candidates": both}
+        quick = {"chosen": 0, "nearest": None, "candidates": both}
+        self.assertIn("exhaustively lean", disagreement(quick, whole))
+        self.assertIn("exhaustively lean", disagreement(quick, whole, max_error=0.1))
+        self.assertIsNone(disagreement(whole, whole))
+        none = {"chosen": None, "nearest": None, "candidates": []}
+        self.assertIsNotNone(disagreement(none, whole))
+
+
+if __name__ == "__main__":
+    unittest.main()

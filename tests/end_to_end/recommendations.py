@@ -1,0 +1,65 @@
+"""Whether `footprint recommend` agrees with an exhaustive run: the same choice, or one within noise of it."""
+
+import json
+
+
+def same_candidate(a, b):
+    return a["method"] == b["method"] and a["footprint"] == b["footprint"]
+
+
+def find(candidates, wanted):
+    return next((c for c in candidates if same_candidate(c, wanted)), None)
+
+
+def cost_as_much(a, b):
+    """Whether one's median lies within the other's spread."""
+    return (
+        b["cost"]["min"] <= a["cost"]["median"] <= b["cost"]["max"]
+        or a["cost"]["min"] <= b["cost"]["median"] <= a["cost"]["max"]
+    )
+
+
+def told_apart(a, b):
+    """Whether the errors differ by more than three standard errors of the difference."""
+    if a["noise"] is None or b["noise"] is None:
+        return False
+    return abs(a["error"] - b["error"]) > 3 * (a["noise"] ** 2 + b["noise"] ** 2) ** 0.5
+
+
+def chosen_of(advice):
+    index = advice["chosen"] if advice["chosen"] is not None else advice["nearest"]
+    return None if index is None else advice["candidates"][index]
+
+
+def disagreement(quick, whole, max_error=None):
+    """None where the advice for a material is the same, or parted by no more than noise, in the exhaustive run's own
+    figures; else what differs, in words. Within an error the cheapest is asked for: costs alone decide."""
+    a, b = chosen_of(quick), chosen_of(whole)
+    if a is None or b is None:
+        return None if a is b else f"{a} and {b}"
+    if same_candidate(a, b):
+        return None
+    measured = find(whole["candidates"], a)
+    if measured is None:
+        return f"{a['method']} under {a['footprint']} was no candidate of the exhaustive run"
+    as_good = measured["worst"] <= max_error if max_error is not None else not told_apart(measured, b)
+    if cost_as_much(measured, b) and as_good:
+        return None
+    return (
+        f"{a['method']} under {a['footprint']} (error {measured['error']:.4g}, cost {measured['cost']['median']:.3g}), "
+        f"exhaustively {b['method']} under {b['footprint']} (error {b['error']:.4g}, cost {b['cost']['median']:.3g})"
+    )
+
+
+def disagreements(quick_folder, whole_folder):
+    """Those of all materials of two output folders."""
+    quick, whole = (
+        json.loads((folder / "recommend.json").read_text(encoding="utf-8")) for folder in (quick_folder, whole_folder)
+    )
+    assert [m["material"] for m in quick["materials"]] == [m["material"] for m in whole["materials"]]
+    found = []
+    for one, other in zip(quick["materials"], whole["materials"]):
+        words = disagreement(one, other, whole["limits"]["max_error"])
+        if words:
+            found.append(f"{one['material']}: {words}")
+    return found

@@ -11,6 +11,10 @@
 #include "renderer/scene/environment.hpp"
 #include "tests/support/rendering.hpp"
 
+namespace footprint {
+const Method& exact_method();
+}  // namespace footprint
+
 namespace footprint::testing {
 namespace {
 
@@ -179,6 +183,10 @@ TEST(AtanasovSampling, EnvironmentIsTheReferences) {
   const double noise = noise_of(reference);
   EXPECT_LT(noise, 0.03);
   EXPECT_LT(error("512"), 1.25 * noise);
+  // The same lobes, found and summed by another method.
+  const Image all = renderer.frame(atanasov_bins_method(), "atanasov_bins:draws=512");
+  const Image exact = renderer.frame(exact_method(), "exact:kernel=areas");
+  EXPECT_LT(compare_images(all, exact, 1.0F).value().relative_rmse, 1e-3);
   const double drawn = error("16");
   EXPECT_LT(drawn, 0.15);
   EXPECT_GT(drawn, 2.0 * noise) << "nothing was drawn";

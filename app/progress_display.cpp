@@ -53,9 +53,8 @@ ProgressDisplay::ProgressDisplay(ProgressStyle style, Sink sink, Clock clock, st
       sink_(std::move(sink)),
       clock_(std::move(clock)),
       columns_(columns),
-      started_(clock_()),
-      last_shown_(started_),
-      stage_started_(started_) {}
+      last_shown_(clock_()),
+      stage_started_(last_shown_) {}
 
 ProgressDisplay::~ProgressDisplay() {
   // Work that failed leaves its stage unfinished: the bar goes, and no line claims an end.
@@ -67,7 +66,7 @@ ProgressDisplay::~ProgressDisplay() {
 void ProgressDisplay::report(std::string_view what, double fraction) {
   throw_if_interrupted();
   if (style_ == ProgressStyle::quiet) return;
-  if (stage_.empty()) started_ = clock_();
+  if (stage_ != what) rate_since_ = {clock_(), clamped(fraction)};
   if (style_ == ProgressStyle::bar) draw_bar(what, clamped(fraction));
   if (style_ == ProgressStyle::lines) write_lines(what, clamped(fraction));
 }
@@ -112,11 +111,12 @@ void ProgressDisplay::write_lines(std::string_view what, double fraction) {
   stage_fraction_ = fraction;
 }
 
-// The rate so far, carried on; nothing before it means anything.
+// The stage's own rate, carried on: that of a faster one before it would leave an estimate that counts up.
 std::string ProgressDisplay::time_left(double fraction) const {
-  const double elapsed = std::chrono::duration<double>(clock_() - started_).count();
-  if (elapsed < 1.0 || fraction < 0.01) return {};
-  const double seconds = std::ceil(elapsed * (1.0 - fraction) / fraction);
+  const double elapsed = std::chrono::duration<double>(clock_() - rate_since_.time).count();
+  const double done = fraction - rate_since_.fraction;
+  if (elapsed < 1.0 || done < 0.01) return {};
+  const double seconds = std::ceil(elapsed * (1.0 - fraction) / done);
   if (seconds < 60.0) return fmt::format(", {:.0f} s left", seconds);
   const double minutes = std::floor(seconds / 60.0);
   if (minutes < 60.0) return fmt::format(", {:.0f} min {:02.0f} s left", minutes, seconds - 60.0 * minutes);

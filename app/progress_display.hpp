@@ -53,7 +53,11 @@ class ProgressDisplay {
   Sink sink_;
   Clock clock_;
   std::size_t columns_;
-  std::chrono::steady_clock::time_point started_, last_shown_, stage_started_;
+  std::chrono::steady_clock::time_point last_shown_, stage_started_;
+  struct {
+    std::chrono::steady_clock::time_point time;
+    double fraction = 0;
+  } rate_since_;               // where the stage began
   std::string stage_;          // what the last report was about; empty before the first
   double stage_fraction_ = 0;  // and how far it was
 };

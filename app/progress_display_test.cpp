@@ -72,6 +72,36 @@ TEST_F(ProgressDisplayTest, BarIsRedrawnTenTimesASecondAndCleared) {
   EXPECT_EQ(written_.back(), "\r\x1b[K");
 }
 
+// A stage that is slower than those before it: its own rate tells the time left, which counts down.
+TEST_F(ProgressDisplayTest, TheTimeLeftNeverCountsUpWithinAStage) {
+  auto shown = display(ProgressStyle::lines);
+  shown.report("quick", 0.0);
+  now_ += 2s;
+  shown.report("quick", 0.5);
+  double before = 1e9;
+  int estimates = 0;
+  for (int i = 0; i <= 100; ++i) {
+    written_.clear();
+    shown.report("slow", 0.5 + 0.001 * i);
+    now_ += 2s;
+    const auto at = written_.empty() ? std::string::npos : written_.back().find("slow, ");
+    if (at == std::string::npos) continue;
+    const std::string left = written_.back().substr(at + 6);
+    double minutes = 0, seconds = 0;
+    if (left.find("min") != std::string::npos) {
+      minutes = std::stod(left);
+      seconds = std::stod(left.substr(left.find("min") + 3));
+    } else {
+      seconds = std::stod(left);
+    }
+    EXPECT_LE(60 * minutes + seconds, before) << written_.back();
+    before = 60 * minutes + seconds;
+    ++estimates;
+  }
+  EXPECT_GT(estimates, 80);
+  EXPECT_NEAR(before, 800, 10);
+}
+
 TEST_F(ProgressDisplayTest, BarFitsTheTerminal) {
   auto shown = display(ProgressStyle::bar, 20);
   shown.report("a stage with quite a long name", 0.0);

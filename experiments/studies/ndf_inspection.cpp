@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "experiments/settings/known_methods.hpp"
 #include "experiments/studies/ndf_pictures.hpp"
@@ -96,6 +97,15 @@ std::vector<MethodSpec> methods_of(const NdfSettings& settings) {
   return every_method();
 }
 
+// Of the whole time, next to a method that bakes in milliseconds: for progress.
+double weight_of(const MethodSpec& spec) { return find_method(spec.name).info().slow_precompute ? 30.0 : 1.0; }
+
+double weight_of(std::span<const MethodSpec> methods) {
+  double sum = 0;
+  for (const MethodSpec& spec : methods) sum += weight_of(spec);
+  return sum;
+}
+
 // One material on the GPU, by whichever method.
 class Bench {
  public:
@@ -146,15 +156,16 @@ NdfResults inspect_ndf(const NdfSource& source, const NdfSettings& settings, con
                        const Progress& progress) {
   check_footprint(settings.footprint, "--region");
   const std::vector<MethodSpec> methods = methods_of(settings);
-  ProgressParts parts(progress, static_cast<double>(methods.size() + 2));
+  constexpr double weight_of_truth = 10.0;
+  ProgressParts parts(progress, weight_of_truth + weight_of(methods));
   const FootprintTexels texels = texels_under(source.material, settings.footprint);
   NdfResults results = described(source, settings, texels);
   Bench bench(settings, source.material);
-  const Grid grid = take_truth(source.material, settings, texels, results, parts.next(2, ""));
+  const Grid grid = take_truth(source.material, settings, texels, results, parts.next(weight_of_truth, ""));
   std::vector<NdfPicture> pictures;
   for (const MethodSpec& spec : methods) {
     try {
-      pictures.push_back(bench.inspect(spec, grid, results, parts.next(1, "")));
+      pictures.push_back(bench.inspect(spec, grid, results, parts.next(weight_of(spec), "")));
     } catch (const Error& error) {
       if (!settings.run.methods.empty() || error.kind() != ErrorKind::usage) throw;
       results.notes.push_back(fmt::format("{} is left out: {}", spec.text, error.what()));

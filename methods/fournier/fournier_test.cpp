@@ -397,5 +397,22 @@ TEST(Fournier, AnisotropicProbesGain) {
   EXPECT_LT(error_with("anisotropic:4"), error_with("trilinear"));
 }
 
+// By fits, nearly all of which are of the finest level that has any: an estimate of the time left does not count up.
+TEST(Fournier, TellsItsProgressByFits) {
+  std::map<std::string, double> begun;
+  double before = 0;
+  const Progress progress = [&](std::string_view what, double fraction) {
+    EXPECT_GE(fraction, before) << what;
+    EXPECT_LE(fraction, 1.0) << what;
+    before = fraction;
+    begun.emplace(what, fraction);
+  };
+  (void)Baked(random_normals(32, 32, 0.5F, 4), 64.0F, {}, progress);
+  const double whole = 0.01 * 256 + 64 + 16 + 4 + 1;
+  EXPECT_NEAR(begun.at("fitting peaks of 8x8 texels"), 2.56 / whole, 1e-9);
+  EXPECT_NEAR(begun.at("fitting peaks of 4x4 texels"), 66.56 / whole, 1e-9);
+  EXPECT_NEAR(begun.at("fitting peaks of 1x1 texels"), 86.56 / whole, 1e-9);
+}
+
 }  // namespace
 }  // namespace footprint::testing

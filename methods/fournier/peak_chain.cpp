@@ -19,6 +19,7 @@ namespace {
 constexpr int channels = 4;
 constexpr float shortest_normal = 1e-3F;
 constexpr std::size_t texels_per_report = 256;
+constexpr double without_fit = 0.01;  // of a fit's time: a texel whose normals are its peaks
 
 void store(const Peak& peak, std::span<float> texel) {
   const Eigen::Vector2d on_disc = disc_from_direction(peak.axis);
@@ -64,7 +65,16 @@ class ChainBuilder {
       const bool is_valid = normals.texels[i + 3] > 0.0F && normal.norm() >= shortest_normal;
       if (is_valid) store({1.0, normal.normalized(), 0.0}, std::span(level.texels).subspan(i, channels));
     }
-    levels_ = mip_level_count(normals.width, normals.height);
+    const auto levels = static_cast<std::size_t>(mip_level_count(normals.width, normals.height));
+    for (std::size_t i = 1; i < levels; ++i) whole_work_ += work_of(i);
+  }
+
+  // Of a level, in fits: where a texel holds no more normals than it may have peaks, there is nothing to fit.
+  [[nodiscard]] double work_of(std::size_t level) const {
+    const Image& finest = chain_.first.front();
+    const double texels = std::max(finest.width >> level, 1) * static_cast<double>(std::max(finest.height >> level, 1));
+    const bool fits = static_cast<double>(finest.texel_count()) > static_cast<double>(count_) * texels;
+    return texels * (fits ? 1.0 : without_fit);
   }
 
   void add_level() {
@@ -76,11 +86,12 @@ class ChainBuilder {
     const std::string what = fmt::format("fitting peaks of {}x{} texels", coarse.width, coarse.height);
     for (std::size_t begin = 0; begin < bins.size(); begin += texels_per_report) {
       const double part = static_cast<double>(begin) / static_cast<double>(bins.size());
-      (*progress_)(what, (static_cast<double>(chain_.first.size() - 1) + part) / levels_);
+      (*progress_)(what, (work_done_ + part * work_of(chain_.first.size())) / whole_work_);
       const std::size_t end = std::min(begin + texels_per_report, bins.size());
       tbb::parallel_for(begin, end, [&](std::size_t i) { outcomes[i] = make_texel(i, coarse, bins[i]); });
     }
     count_outcomes(outcomes);
+    work_done_ += work_of(chain_.first.size());
     chain_.first.push_back(std::move(coarse));
     bins_ = std::move(bins);
   }
@@ -166,7 +177,7 @@ class ChainBuilder {
   std::size_t count_;
   Start start_;
   const Progress* progress_;
-  int levels_ = 1;
+  double work_done_ = 0.0, whole_work_ = 0.0;  // in fits
   PeakChain chain_;
   std::vector<NormalBins> bins_;  // of the level that is done last; empty for the finest
   double fitted_area_ = 0.0;

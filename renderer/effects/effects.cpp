@@ -22,6 +22,7 @@ constexpr std::array<std::string_view, effect_count> names{"diffuse",
                                                            "roughness_variation",
                                                            "multi_lobe",
                                                            "base_color_variation",
+                                                           "vertex_color",
                                                            "metallic_variation",
                                                            "specular_variation",
                                                            "material_index",
@@ -96,6 +97,17 @@ EffectDecision normal_layers(const Scene& scene) {
                 layered.holding == 0 ? "no detail layer" : "every detail layer is flat");
 }
 
+// Looks at the meshes: colours are the vertices', not the material's.
+EffectDecision vertex_color(const Scene& scene) {
+  const auto colored = [](const Vertex& vertex) { return vertex.color != glm::vec4(1.0F); };
+  const auto n = std::ranges::count_if(scene.meshes,
+                                       [&](const Mesh& mesh) { return std::ranges::any_of(mesh.vertices, colored); });
+  return {Effect::vertex_color, n > 0,
+          n > 0 ? fmt::format("{} of {} mesh{}: vertices with colours", n, scene.meshes.size(),
+                              scene.meshes.size() == 1 ? "" : "es")
+                : "no vertex has a colour of its own"};
+}
+
 template <class Kind>
 EffectDecision lights(Effect effect, const Scene& scene, std::string_view word) {
   const auto n = std::ranges::count_if(scene.lights, [](const Light& l) { return std::holds_alternative<Kind>(l); });
@@ -163,6 +175,7 @@ std::vector<EffectDecision> map_effects(const Scene& scene) {
           decide(Effect::multi_lobe, scene, has_lobes, "facets with lobes about axes of their own",
                  "every facet has one lobe, about its normal"),
           decide(Effect::base_color_variation, scene, colored, "a base-colour map", "no base-colour map"),
+          vertex_color(scene),
           decide(Effect::metallic_variation, scene, metallic_varies, "a metallic map that varies",
                  "metalness is constant over each material"),
           decide(Effect::specular_variation, scene, specular_varies, "a specular map that varies",

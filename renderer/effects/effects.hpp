@@ -23,6 +23,7 @@ enum class Effect : std::size_t {
   roughness_variation,   ///< a map of roughness or of lobe parameters that is not constant
   multi_lobe,            ///< facets with several lobes, or one whose axis is not their normal
   base_color_variation,  ///< a base-colour map
+  vertex_color,          ///< colours at the vertices, that multiply the base colour
   metallic_variation,    ///< a metallic map that is not constant
   specular_variation,    ///< a map of reflectance at normal incidence that is not constant
   material_index,        ///< several materials on one surface, chosen by a map of indices

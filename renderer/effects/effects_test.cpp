@@ -116,6 +116,14 @@ TEST(Effects, SpecularMapsCountWhereTheyVaryInAnyChannel) {
   EXPECT_TRUE(on(scene, Effect::specular_variation));
 }
 
+TEST(Effects, VertexColoursCountWhereOneIsNotWhite) {
+  Scene scene = plain_scene();
+  scene.meshes = {make_plane({2, 2}, {1, 1}), make_plane({1, 1}, {1, 1})};
+  EXPECT_FALSE(on(scene, Effect::vertex_color));
+  scene.meshes[1].vertices[3].color.a = 0.5F;
+  EXPECT_EQ(decision(scene, Effect::vertex_color).reason, "1 of 2 meshes: vertices with colours");
+}
+
 TEST(Effects, OneMaterialOfManyIsEnoughAndIsCounted) {
   Scene scene = plain_scene();
   scene.materials.push_back(scene.materials[0]);

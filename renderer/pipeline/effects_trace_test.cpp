@@ -79,6 +79,11 @@ const auto cases = std::to_array<EffectCase>({
        s.materials[0].metallic = 1.0F;
        s.materials[0].base_color_map = map_of(halves(4, 1.0F, 0.5F));
      }},
+    {Effect::vertex_color, "vertex_color",
+     [](Scene& s) {
+       s.materials[0].metallic = 1.0F;
+       for (Vertex& vertex : s.meshes[0].vertices) vertex.color = {0.2F, 0.4F, 0.6F, 1.0F};
+     }},
     {Effect::metallic_variation, "metallic_map",
      [](Scene& s) {
        s.materials[0].base_color = {1.0F, 0.0F, 0.0F, 1.0F};

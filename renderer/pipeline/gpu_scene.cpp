@@ -174,6 +174,7 @@ gl::VertexArray vertex_array(const gl::Buffer& vertices, const gl::Buffer& indic
   add_attribute(name, 2, 4, offsetof(Vertex, tangent));
   add_attribute(name, 3, 2, offsetof(Vertex, uv0));
   add_attribute(name, 4, 2, offsetof(Vertex, uv1));
+  add_attribute(name, 11, 4, offsetof(Vertex, color));
   if (surface != nullptr) {
     gl::api().VertexArrayVertexBuffer(name, 1, surface->name(), 0, sizeof(glm::vec2));
     add_attribute(name, 5, 2, 0, 1);

@@ -97,9 +97,9 @@ InteriorFinder::InteriorFinder(GpuScene& scene, const Scene& values, int tile_ed
 InteriorFinder::Look InteriorFinder::look(bool shadows) const {
   Look look{
       .shadows = shadows, .draw = {}, .compare = {}, .units = units_of(*scene_, shadows), .first = {}, .other = {}};
-  look.draw =
-      gl::Program(shadows ? "shadow edges" : "interior pixels", interior_vertex_shader(),
-                  interior_fragment_shader(variant_of(*scene_, orthographic_, shadows), look.units.declarations()));
+  const ShaderVariant variant = variant_of(*scene_, orthographic_, shadows);
+  look.draw = gl::Program(shadows ? "shadow edges" : "interior pixels", interior_vertex_shader(variant),
+                          interior_fragment_shader(variant, look.units.declarations()));
   look.compare = gl::Program("comparison of samples", screen_vertex_shader(), interior_compare_shader(shadows));
   return look;
 }

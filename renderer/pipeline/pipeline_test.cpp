@@ -7,7 +7,9 @@
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/base_surface.hpp"
+#include "renderer/visibility/occluders.hpp"
 #include "tests/support/rendering.hpp"
+#include "tests/support/shadow_scenes.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint::testing {
@@ -113,6 +115,55 @@ TEST(Reference, NothingButInvalidNormalsShowsNothing) {
 TEST(Frame, DoesNotDependOnTheTiles) {
   TestRenderer renderer(bumpy_square(), {50, 34});
   EXPECT_LT(largest_difference(renderer.frame(base_surface()), renderer.frame(base_surface(), {}, {}, 16)), 1e-3);
+}
+
+// White Lambert under vertex colours that run linearly from left to right: each pixel is the white one's times the
+// colour at its centre, for the methods and for the reference's mean over the pixel alike.
+TEST(VertexColor, MultipliesTheBaseColourLinearly) {
+  const SquareMaterial matte{.brdf = {NormalDistribution::ggx, GeometryTerm::none, FresnelTerm::none, true},
+                             .base_color = {1.0F, 1.0F, 1.0F},
+                             .specular = glm::vec3(0.0F)};
+  Scene scene = square_scene({}, matte);
+  scene.lights = {DirectionalLight{.direction = {0, 0, -1}, .illuminance = glm::vec3(1.0F)}};
+  const Image white = TestRenderer(scene, {16, 16}).frame(base_surface());
+  for (Vertex& vertex : scene.meshes[0].vertices) {
+    vertex.color = vertex.position.x < 0 ? glm::vec4(0.2F, 0.0F, 1.0F, 1.0F) : glm::vec4(0.8F, 1.0F, 0.5F, 1.0F);
+  }
+  TestRenderer colored(scene, {16, 16});
+  const Image frame = colored.frame(base_surface()), mean = colored.reference(16).mean;
+  for (int x = 0; x < 16; ++x) {
+    const double share = (x + 0.5) / 16.0;
+    const std::array<double, 3> color{0.2 + 0.6 * share, share, 1.0 - 0.5 * share};
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_NEAR(frame.at(x, 7)[c], color.at(c) * white.at(x, 7)[c], 2e-4) << x;
+      EXPECT_NEAR(mean.at(x, 7)[c], color.at(c) * white.at(x, 7)[c], 2e-3) << x;
+    }
+  }
+}
+
+// Alpha from 0 to 1 across the square, cut at a half: in the picture, in its shadow and before the rays alike.
+TEST(VertexColor, AlphaCutsOut) {
+  Scene scene = white_floor();
+  scene.materials.push_back(scene.materials[0]);
+  scene.materials[1].alpha_cutoff = 0.5F;
+  Mesh sheet = scene.meshes[0];
+  sheet.material = 1;
+  for (Vertex& vertex : sheet.vertices) {
+    vertex.color.a = vertex.position.x > 0 ? 1.0F : 0.0F;
+    vertex.position.z = 0.5F;
+  }
+  scene.meshes.push_back(sheet);
+  fit_bounds(scene);
+  const float slope = std::numbers::sqrt2_v<float> / 2.0F;
+  scene.lights = {DirectionalLight{.direction = {-slope, 0, -slope}, .illuminance = glm::vec3(1.0F)}};
+  const Occluders occluders(scene);
+  EXPECT_FALSE(occluders.blocked({-0.1F, 0.3F, 0.1F}, {0, 0, 1}));
+  EXPECT_TRUE(occluders.blocked({0.1F, 0.3F, 0.1F}, {0, 0, 1}));
+  scene.materials[1].base_color = {0, 0, 0, 1};  // the sheet is black where it is there
+  const Image picture = TestRenderer(scene, {32, 32}).frame(base_surface());
+  EXPECT_NEAR(picture.at(4, 16)[0], slope / std::numbers::pi, 0.02);  // the floor at -0.7, lit through the hole
+  EXPECT_EQ(picture.at(12, 16)[0], 0.0F);                             // at -0.2, in the shadow of what is there
+  EXPECT_LT(picture.at(24, 16)[0], 0.02F);                            // the sheet
 }
 
 // One facet under one light, by hand: Lambert alone at the foot of the perpendicular.

@@ -185,8 +185,8 @@ std::string shadow_fragment_shader(const EffectSet& effects) {
   return text.text();
 }
 
-std::string interior_vertex_shader() {
-  ShaderText text({});
+std::string interior_vertex_shader(const ShaderVariant& variant) {
+  ShaderText text(shader_flags(variant, no_options()));
   text.add(version_line);
   text.include("interior_vertex.glsl");
   return text.text();

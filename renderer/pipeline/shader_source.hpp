@@ -47,7 +47,7 @@ namespace footprint {
 
 /// The stages that draw the samples of the mask of interior pixels: pieces of surface, or where `variant` has
 /// cast_shadow the shares of lights. `textures` declares what they read.
-[[nodiscard]] std::string interior_vertex_shader();
+[[nodiscard]] std::string interior_vertex_shader(const ShaderVariant& variant);
 [[nodiscard]] std::string interior_fragment_shader(const ShaderVariant& variant, std::string_view textures);
 /// The stage that compares the samples of a pixel.
 [[nodiscard]] std::string interior_compare_shader(bool shadows);

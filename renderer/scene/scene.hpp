@@ -21,6 +21,7 @@ struct Vertex {
   glm::vec4 tangent{1.0F, 0.0F, 0.0F, 1.0F};
   glm::vec2 uv0{0.0F};
   glm::vec2 uv1{0.0F};
+  glm::vec4 color{1.0F};  ///< linear RGB and alpha, 0 to 1: times the material's base colour (glTF 2.0, COLOR_0)
 };
 
 /// Triangles of one material: three indices each, into `vertices`, counter-clockwise seen from outside.

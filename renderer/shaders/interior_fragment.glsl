@@ -5,6 +5,9 @@ in vec3 world_normal;
 in vec2 uv0;
 in vec2 uv1;
 flat in vec2 piece;  // numbers of chart and material
+//? if alpha_mask and vertex_color
+in float vertex_alpha;
+//? end
 
 //? if cast_shadow
 layout(location = 0) out vec4 light_shares;
@@ -70,6 +73,9 @@ void main() {
 //? if base_color_variation
   vec2 uv = uv_offset_set[2].z < 0.5 ? uv0 : uv1;
   alpha *= textureLod(base_color_map, mat2(uv_linear[2].xy, uv_linear[2].zw) * uv + uv_offset_set[2].xy, 0.0).a;
+//? end
+//? if vertex_color
+  alpha *= vertex_alpha;
 //? end
   if (alpha < lobe_cutoff.y) discard;
 //? end

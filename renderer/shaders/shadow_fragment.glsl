@@ -3,6 +3,9 @@ in float depth;
 //? if alpha_mask
 in vec2 uv0;
 in vec2 uv1;
+//? if vertex_color
+in float vertex_alpha;
+//? end
 //? end
 
 void main() {
@@ -11,6 +14,9 @@ void main() {
 //? if base_color_variation
   vec2 uv = uv_offset_set[2].z < 0.5 ? uv0 : uv1;
   alpha *= textureLod(base_color_map, mat2(uv_linear[2].xy, uv_linear[2].zw) * uv + uv_offset_set[2].xy, 0.0).a;
+//? end
+//? if vertex_color
+  alpha *= vertex_alpha;
 //? end
   if (alpha < lobe_cutoff.y) discard;
 //? end

@@ -6,6 +6,10 @@ layout(location = 3) in vec2 in_uv0;
 layout(location = 4) in vec2 in_uv1;
 out vec2 uv0;
 out vec2 uv1;
+//? if vertex_color
+layout(location = 11) in vec4 in_color;
+out float vertex_alpha;
+//? end
 //? end
 
 uniform mat4 world_to_map;
@@ -17,6 +21,9 @@ void main() {
 //? if alpha_mask
   uv0 = in_uv0;
   uv1 = in_uv1;
+//? if vertex_color
+  vertex_alpha = in_color.a;
+//? end
 //? end
   depth = on_map.z;
   gl_Position = vec4(2.0 * on_map.xy - on_map.w, 0.0, on_map.w);

@@ -8,6 +8,9 @@ in vec2 uv1;
 //? if surface_coordinates
 in vec2 surface_uv;
 //? end
+//? if vertex_color
+in vec4 vertex_color;
+//? end
 
 layout(location = 0) out vec4 radiance_coverage;
 
@@ -156,12 +159,17 @@ vec3 lit(SurfacePoint p) {
   return radiance;
 }
 
+// Factor, map and vertex colour multiply (glTF 2.0, sections 3.9.2 and 3.7.2.1). Between vertices the colour is linear,
+// so that its value at the pixel's centre is its mean over the pixel.
 vec4 baseColor(Footprints f) {
+  vec4 color = base_color_factor;
 //? if base_color_variation
-  return base_color_factor * fetch(base_color_map, f.base_color);
-//? else
-  return base_color_factor;
+  color *= fetch(base_color_map, f.base_color);
 //? end
+//? if vertex_color
+  color *= vertex_color;
+//? end
+  return color;
 }
 
 Surface surfaceUnder(Footprints f, vec3 base_color) {

@@ -11,6 +11,9 @@ layout(location = 5) in vec2 in_surface;
 layout(location = 6) in vec4 in_visibility_weights[4];
 layout(location = 10) in vec3 in_visible_diffuse;
 //? end
+//? if vertex_color
+layout(location = 11) in vec4 in_color;
+//? end
 
 uniform mat4 world_to_clip;
 
@@ -26,6 +29,9 @@ out vec2 surface_uv;
 out vec4 visibility_weights[4];
 out vec3 visible_diffuse;
 //? end
+//? if vertex_color
+out vec4 vertex_color;
+//? end
 
 void main() {
   world_position = in_position;
@@ -39,6 +45,9 @@ void main() {
 //? if environment_visibility
   visibility_weights = in_visibility_weights;
   visible_diffuse = in_visible_diffuse;
+//? end
+//? if vertex_color
+  vertex_color = in_color;
 //? end
   gl_Position = world_to_clip * vec4(in_position, 1.0);
 }

@@ -33,8 +33,13 @@ void add_mesh(ContentHash& hash, const Mesh& mesh, const Material& material) {
   hash.add(material.alpha_cutoff ? "cut out" : "whole");
   if (!material.alpha_cutoff) return;
   std::vector<glm::vec2> coordinates;
-  for (const Vertex& vertex : mesh.vertices) coordinates.insert(coordinates.end(), {vertex.uv0, vertex.uv1});
+  std::vector<float> alphas;
+  for (const Vertex& vertex : mesh.vertices) {
+    coordinates.insert(coordinates.end(), {vertex.uv0, vertex.uv1});
+    alphas.push_back(vertex.color.a);
+  }
   add_values(hash, coordinates);
+  add_values(hash, alphas);
   add_content(hash, material);
 }
 

@@ -45,10 +45,12 @@ std::array<const Vertex*, 3> corners_of(const Mesh& mesh, std::size_t triangle) 
 
 bool is_there(const Mesh& mesh, const Material& material, const SurfacePoint& point) {
   if (!material.alpha_cutoff) return true;
-  float alpha = material.base_color.a;
+  const auto corners = corners_of(mesh, point.triangle);
+  const float vertex_alpha =
+      (1.0F - point.u - point.v) * corners[0]->color.a + point.u * corners[1]->color.a + point.v * corners[2]->color.a;
+  float alpha = material.base_color.a * vertex_alpha;
   if (material.base_color_map) {
     const TextureCoordinates& coordinates = material.base_color_map->coordinates;
-    const auto corners = corners_of(mesh, point.triangle);
     const auto uv_of = [&](const Vertex& vertex) { return coordinates.set == 0 ? vertex.uv0 : vertex.uv1; };
     const glm::vec2 uv =
         (1.0F - point.u - point.v) * uv_of(*corners[0]) + point.u * uv_of(*corners[1]) + point.v * uv_of(*corners[2]);

@@ -107,6 +107,7 @@ Mesh merged(std::vector<Mesh> meshes) {
   Mesh all = std::move(meshes.front());
   for (std::size_t i = 1; i < meshes.size(); ++i) append(all, meshes[i]);
   all.material = 0;
+  for (Vertex& vertex : all.vertices) vertex.color = glm::vec4(1.0F);  // of the materials that are replaced
   return all;
 }
 
@@ -151,6 +152,13 @@ void replace_base_color(const glm::vec3& color, Material& material) {
     material.base_color_map->image = std::make_shared<const Image>(std::move(alpha_only));
   } else {
     material.base_color_map.reset();
+  }
+}
+
+// Vertex colours multiply a base colour that is no longer there; their alpha still cuts out.
+void whiten_vertices(Model& model) {
+  for (Mesh& mesh : model.meshes) {
+    for (Vertex& vertex : mesh.vertices) vertex.color = {1.0F, 1.0F, 1.0F, vertex.color.a};
   }
 }
 
@@ -370,6 +378,7 @@ Model load_part(const PartSettings& settings) {
     lay(maps, settings.brdf, material);
     add_name(settings.name, material.name);
   }
+  if (settings.brdf.base_color || maps.diffuse) whiten_vertices(model);
   for (Mesh& mesh : model.meshes) add_name(settings.name, mesh.name);
   place(settings.placement, model);
   return model;

@@ -74,6 +74,70 @@ TEST(Gltf, MatrixAndTrsAgreeOnTheSameTransform) {
   }
 }
 
+// Four colours that all of glTF's forms can hold, as the bytes of an accessor.
+struct ColorForm {
+  int component_type;
+  int components;
+  std::vector<std::uint8_t> bytes;
+};
+
+template <class Component>
+ColorForm color_form(int component_type, int components, const std::vector<Component>& values) {
+  std::vector<std::uint8_t> bytes(values.size() * sizeof(Component));
+  std::memcpy(bytes.data(), values.data(), bytes.size());
+  return {component_type, components, bytes};
+}
+
+GltfBuilder colored_quad(const ColorForm& form, bool normalized) {
+  GltfBuilder quad = make_quad();
+  const int colors = quad.add_accessor(form.bytes, form.component_type, 4, form.components == 3 ? "VEC3" : "VEC4");
+  quad.json["bufferViews"].back()["byteStride"] = form.bytes.size() / 4;
+  quad.json["accessors"].back()["normalized"] = normalized;
+  quad.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = colors;
+  return quad;
+}
+
+TEST(Gltf, VertexColoursComeInEveryForm) {
+  const auto forms = std::to_array<ColorForm>({
+      color_form<float>(5126, 4, {1, 0, 0.2F, 1, 0, 1, 0.2F, 0.6F, 1, 1, 1, 0, 0, 0, 0.4F, 1}),
+      color_form<float>(5126, 3, {1, 0, 0.2F, 0, 1, 0.2F, 1, 1, 1, 0, 0, 0.4F}),
+      color_form<std::uint8_t>(5121, 4, {255, 0, 51, 255, 0, 255, 51, 153, 255, 255, 255, 0, 0, 0, 102, 255}),
+      color_form<std::uint8_t>(5121, 3, {255, 0, 51, 0, 255, 51, 255, 255, 255, 0, 0, 102}),
+      color_form<std::uint16_t>(
+          5123, 4, {65535, 0, 13107, 65535, 0, 65535, 13107, 39321, 65535, 65535, 65535, 0, 0, 0, 26214, 65535}),
+      color_form<std::uint16_t>(5123, 3, {65535, 0, 13107, 0, 65535, 13107, 65535, 65535, 65535, 0, 0, 26214}),
+  });
+  const std::array<glm::vec4, 4> expected{{{1, 0, 0.2F, 1}, {0, 1, 0.2F, 0.6F}, {1, 1, 1, 0}, {0, 0, 0.4F, 1}}};
+  for (const ColorForm& form : forms) {
+    const Model model = load_gltf(colored_quad(form, form.component_type != 5126).write());
+    ASSERT_EQ(model.meshes.at(0).vertices.size(), 4U);
+    for (const Vertex& vertex : model.meshes[0].vertices) {
+      // Vertices of the quad, in the file's order: upper left, upper right, lower right, lower left.
+      const std::size_t i = vertex.position.y > 0 ? (vertex.position.x < 0 ? 0 : 1) : (vertex.position.x > 0 ? 2 : 3);
+      expect_near(glm::vec3(vertex.color), glm::vec3(expected.at(i)));
+      EXPECT_NEAR(vertex.color.a, form.components == 4 ? expected.at(i).a : 1.0F, 1e-6F);
+    }
+    EXPECT_TRUE(model.warnings.empty());
+  }
+}
+
+TEST(Gltf, VertexColoursOutOfRangeAreClampedAndBrokenOnesWhite) {
+  const float broken = std::numeric_limits<float>::quiet_NaN();
+  const Model model =
+      load_gltf(colored_quad(color_form<float>(5126, 3, {2, -1, 0.5F, 0, broken, 0, 0, 0, 0, 0, 0, 0}), false).write());
+  expect_near(glm::vec3(model.meshes.at(0).vertices[0].color), {1, 0, 0.5F});
+  EXPECT_TRUE(mentions(model.warnings, "1 vertex colours that are not finite"));
+  const auto white = [](const Vertex& vertex) { return vertex.color == glm::vec4(1.0F); };
+  EXPECT_EQ(std::ranges::count_if(model.meshes[0].vertices, white), 1);
+}
+
+TEST(Gltf, IntegerVertexColoursMustBeNormalised) {
+  const GltfBuilder quad = colored_quad(color_form<std::uint8_t>(5121, 3, std::vector<std::uint8_t>(12, 9)), false);
+  const std::string message = test::usage_error([&] { return load_gltf(quad.write()); });
+  EXPECT_NE(message.find("COLOR_0"), std::string::npos);
+  EXPECT_NE(message.find("not normalised"), std::string::npos);
+}
+
 TEST(Gltf, NormalsGoByTheInverseTranspose) {
   GltfBuilder quad = make_quad();
   const float r = std::numbers::sqrt2_v<float> / 2.0F;

@@ -87,6 +87,35 @@ bool read_texture_coordinates(Builder& builder, const std::string& name, glm::ve
   return !values.empty();
 }
 
+/// The components of COLOR_0; glTF 2.0 has RGB and RGBA, floats or normalised integers.
+int color_components(const Builder& builder, int index) {
+  const auto& accessor = builder.model.accessors[static_cast<std::size_t>(index)];
+  if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !accessor.normalized) {
+    fail("COLOR_0", "its integers are not normalised, so that nothing tells what they stand for");
+  }
+  return accessor.type == TINYGLTF_TYPE_VEC3 ? 3 : 4;
+}
+
+/// Clamps each component to 0 to 1 (glTF 2.0, section 3.7.2.1). A colour that is not finite becomes white.
+void read_colors(Builder& builder) {
+  const auto found = builder.primitive.attributes.find("COLOR_0");
+  if (found == builder.primitive.attributes.end()) return;
+  const int components = color_components(builder, found->second);
+  const auto values = read_attribute(builder, "COLOR_0", components);
+  std::size_t replaced = 0;
+  for (std::size_t i = 0; i < builder.vertices.size(); ++i) {
+    glm::vec4 color(1.0F);
+    bool finite = true;
+    for (int c = 0; c < components; ++c) {
+      color[c] = values[i * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)];
+      finite = finite && std::isfinite(color[c]);
+    }
+    replaced += finite ? 0 : 1;
+    builder.vertices[i].color = finite ? glm::clamp(color, 0.0F, 1.0F) : glm::vec4(1.0F);
+  }
+  builder.warn(replaced, "vertex colours that are not finite were set to white");
+}
+
 void check_map_coordinates(const Builder& builder, const Material& material, bool has_set0, bool has_set1) {
   for (const auto* map : {&material.base_color_map, &material.metallic_roughness_map, &material.normal_map}) {
     if (!map->has_value()) continue;
@@ -187,6 +216,10 @@ std::optional<Mesh> convert(Builder& builder, const glm::dmat4& world, const Mat
   const bool has_set0 = read_texture_coordinates(builder, "TEXCOORD_0", &Vertex::uv0);
   const bool has_set1 = read_texture_coordinates(builder, "TEXCOORD_1", &Vertex::uv1);
   check_map_coordinates(builder, material, has_set0, has_set1);
+  read_colors(builder);
+  if (builder.primitive.attributes.contains("COLOR_1")) {
+    add_once(builder.warnings, "vertex colours beyond the first set are left out");
+  }
   if (!builder.primitive.targets.empty()) add_once(builder.warnings, "morph targets are left out");
   read_triangles(builder);
   if (builder.indices.empty()) return std::nullopt;

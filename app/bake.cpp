@@ -160,7 +160,8 @@ void run_bake(const BakeArguments& arguments) {
   const auto [text, path] = write_whole(arguments.output, [&](OutputFolder& folder) {
     const std::optional<ExrChain> slopes =
         extension_of(run.scene) == ".exr" ? std::optional(read_exr_chain(run.scene)) : std::nullopt;
-    const Scene scene = slopes ? scene_of_slopes(run.scene, *slopes) : load_scene(run.scene, run.scene_library);
+    const Scene scene =
+        slopes ? scene_of_slopes(run.scene, *slopes) : load_scene(run.scene, run.scene_library, run.overrides);
     const EffectSet effects = effects_on(derive_effects(scene));
     BakedMethod baked = bake_settings(run, scene, effects, display.callback());
     if (slopes) take_slopes(*slopes, baked);

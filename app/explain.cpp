@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/commands.hpp"
@@ -15,6 +16,7 @@
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
 #include "app/standard_output.hpp"
+#include "experiments/studies/memory_estimate.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
@@ -61,7 +63,10 @@ struct VisibilityPass {
 
 // Everything that `explain` has to say.
 struct Explanation {
+  std::vector<ModelChoice> choices;
+  std::vector<std::string> warnings, supplied;
   std::vector<EffectDecision> effects;
+  MemoryEstimate memory;
   std::string method;
   std::vector<std::string> left_out;  // effects that the scene calls for and the method cannot honour
   std::size_t draws = 0;              // of the forward pass: one a material
@@ -88,11 +93,15 @@ std::vector<TextureUse> texture_uses(const BakedMethod& baked) {
 Explanation explain(const ExplainArguments& arguments, const Progress& progress) {
   const RunSettings run = arguments.run.settings();
   ProgressParts parts(progress, arguments.cost ? 3 : 1);
-  const Stage stage(load_scene(run.scene, run.scene_library), run, parts.next(1, ""));
+  const Stage stage(load_scene(run.scene, run.scene_library, run.overrides), run, parts.next(1, ""));
   const StagedMethod& method = stage.methods().front();
 
   Explanation out;
+  out.choices = stage.scene().choices;
+  out.warnings = stage.scene().warnings;
+  out.supplied = stage.scene().defaults;
   out.effects = stage.decisions();
+  out.memory = estimate_memory(stage.scene(), stage.effects());
   out.method = run.methods.front().text;
   out.left_out = effect_names(stage.effects() & ~method.baked().method->info().honours);
   out.draws = stage.gpu_scene().batches().size();
@@ -125,8 +134,33 @@ std::string text_of(const VisibilityPass& pass) {
                      readable_bytes(pass.bytes));
 }
 
+// A star before what is taken.
+std::string text_of(const ModelChoice& choice) {
+  std::string text;
+  for (std::size_t i = 0; i < choice.names.size(); ++i) {
+    text += fmt::format("{}{}{} `{}`", i == 0 ? "" : ", ", choice.taken == i ? "*" : "", i, choice.names[i]);
+  }
+  return text;
+}
+
+std::string lines_of(std::string_view heading, const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += fmt::format("  {}\n", line);
+  return text.empty() ? text : fmt::format("{}\n{}\n", heading, text);
+}
+
+// What the model file offers, what it lacks, and what of it is left out.
+std::string text_of_input(const Explanation& explanation) {
+  std::vector<std::string> choices;
+  for (const ModelChoice& choice : explanation.choices) {
+    choices.push_back(fmt::format("{:<24} {}", choice.kind, text_of(choice)));
+  }
+  return lines_of("to choose from (* is taken)", choices) + lines_of("supplied", explanation.supplied) +
+         lines_of("warnings", explanation.warnings);
+}
+
 std::string text_of(const Explanation& explanation) {
-  std::string text = "effects\n";
+  std::string text = text_of_input(explanation) + "effects\n";
   for (const EffectDecision& decision : explanation.effects) {
     text +=
         fmt::format("  {:<24} {:<4} {}\n", effect_name(decision.effect), decision.on ? "on" : "off", decision.reason);
@@ -143,6 +177,10 @@ std::string text_of(const Explanation& explanation) {
   if (!explanation.left_out.empty()) {
     text += fmt::format("  {:<24} {}\n", "left out", fmt::join(explanation.left_out, ", "));
   }
+  text += fmt::format("\nmemory for maps, estimated\n  {:<24} {}\n  {:<24} {}\n  {:<24} {}\n", "decoded",
+                      readable_bytes(explanation.memory.maps), "peak with this method",
+                      readable_bytes(explanation.memory.peak(1)), "each further method",
+                      readable_bytes(explanation.memory.a_method));
   if (explanation.costs.empty()) return text;
   text += fmt::format("\n{:<23} {:>10} {:>12} {:>10}\n", "cost, ms a frame", "with", "without", "adds");
   for (const EffectCost& cost : explanation.costs) {
@@ -154,6 +192,14 @@ std::string text_of(const Explanation& explanation) {
 
 std::string json_of(const Explanation& explanation) {
   Json json;
+  json["choices"] = Json::array();
+  for (const ModelChoice& choice : explanation.choices) {
+    Json taken;
+    if (choice.taken) taken = *choice.taken;
+    json["choices"].push_back({{"kind", choice.kind}, {"names", choice.names}, {"taken", taken}});
+  }
+  json["supplied"] = explanation.supplied;
+  json["warnings"] = explanation.warnings;
   for (const EffectDecision& decision : explanation.effects) {
     json["effects"].push_back(
         {{"effect", effect_name(decision.effect)}, {"on", decision.on}, {"reason", decision.reason}});
@@ -177,6 +223,9 @@ std::string json_of(const Explanation& explanation) {
   }
   json["passes"].push_back(
       {{"name", "forward"}, {"draws", explanation.draws}, {"shader_lines", explanation.shader_lines}});
+  json["memory"] = {{"decoded_maps", explanation.memory.maps},
+                    {"estimated_peak", explanation.memory.peak(1)},
+                    {"each_further_method", explanation.memory.a_method}};
   json["shared_bytes"] = explanation.shared_bytes;
   json["method_bytes"] = explanation.method_bytes;
   json["textures"] = Json::array();

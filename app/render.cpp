@@ -91,7 +91,7 @@ RunSettings staged(const RunOptions& options) {
 void run_render(const RenderArguments& arguments) {
   const std::filesystem::path path = picture_path(arguments.output);
   const RunSettings run = staged(arguments.run);
-  Scene scene = load_scene(run.scene, run.scene_library);
+  Scene scene = load_scene(run.scene, run.scene_library, run.overrides);
   const double distance = distance_factor(run.view.distances.front(), arguments.zoom_frame, scene);
 
   ProgressDisplay display(progress_style(arguments.quiet));

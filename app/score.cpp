@@ -84,7 +84,7 @@ Reference drawn_reference(const ScoreArguments& arguments) {
   run.view.size = {first.width, first.height};
   ProgressDisplay display(progress_style(arguments.quiet));
   ProgressParts parts(display.callback(), 3);
-  const Stage stage(load_scene(run.scene, run.scene_library), run, parts.next(1, ""), scoring_pictures);
+  const Stage stage(load_scene(run.scene, run.scene_library, run.overrides), run, parts.next(1, ""), scoring_pictures);
   Supersampled drawn = stage.reference().render(stage.view(run.view.distances.front()), run.reference.spp,
                                                 run.reference.seed, parts.next(2, ""));
   stage.context().check("rendering the reference");

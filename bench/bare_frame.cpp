@@ -42,7 +42,7 @@ void BareFrame::draw(const View& view) const {
   gl::api().UniformMatrix4fv(program_.uniform("world_to_clip"), 1, GL_FALSE, glm::value_ptr(world_to_clip));
   gl::api().Uniform3fv(program_.uniform("camera_position"), 1, glm::value_ptr(camera));
   gl::api().Enable(GL_DEPTH_TEST);
-  gl::api().DepthFunc(GL_LESS);
+  gl::api().DepthFunc(GL_GREATER);
   gl::api().BindSampler(0, sampler_.name());
   for (std::size_t i = 0; i < normal_maps_.size(); ++i) {
     const GpuBatch& batch = gpu_scene_->batches()[i];

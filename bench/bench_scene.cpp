@@ -14,11 +14,18 @@
 
 namespace footprint::bench {
 
+Scene load_bench_model() {
+  Scene scene = load_scene(FOOTPRINT_BENCH_MODEL, scene_library());
+  scene.environment.reset();
+  scene.horizon = Horizon::cut;
+  return scene;
+}
+
 std::optional<Scene> load_bench_scene(const std::string& name) {
   const SceneLibrary library = scene_library();
   if (!name.empty()) return load_scene(name, library);
   if (std::filesystem::exists(FOOTPRINT_BENCH_MODEL)) {
-    Scene scene = load_scene(FOOTPRINT_BENCH_MODEL, library);
+    Scene scene = load_bench_model();
     scene.shadows.cast = false;  // the bare shader has none: what they cost is told apart (docs/performance.md)
     return scene;
   }

@@ -8,7 +8,6 @@
 #include "renderer/gl/frame_timer.hpp"
 #include "renderer/gl/functions.hpp"
 #include "renderer/pipeline/timing.hpp"
-#include "renderer/scene/assembly/load_scene.hpp"
 
 namespace footprint::bench {
 namespace {
@@ -46,7 +45,7 @@ void start_up() {
   RunSettings settings;
   settings.methods = parse_methods("direct");
   settings.view.size = frame_pixels;
-  const Stage stage(load_scene(FOOTPRINT_BENCH_MODEL, {}), settings, no_progress);
+  const Stage stage(load_bench_model(), settings, no_progress);
   stage.methods().front().frames().draw(stage.view(1.0));
   gl::api().Finish();
 }
@@ -84,7 +83,7 @@ void register_start_up_benchmarks(const BenchScene& scene) {
     };
   };
   add_work("start_up/context", then_back([] { const gl::Context context(gl::ContextRequest{}); }));
-  add_work("start_up/load_scene", [] { benchmark::DoNotOptimize(load_scene(FOOTPRINT_BENCH_MODEL, {})); });
+  add_work("start_up/load_scene", [] { benchmark::DoNotOptimize(load_bench_model()); });
   add_work("start_up/to_first_frame", then_back(start_up));
 }
 

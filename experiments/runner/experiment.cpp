@@ -327,7 +327,7 @@ Experiment read_experiment(const fs::path& file) {
   }
   read_head(*head, experiment);
   if (const auto zoom = root.table("zoom", setting_keys("zoom"))) read_zoom(*zoom, experiment.run);
-  if (const auto camera = root.table("camera", camera_keys())) experiment.run.view.camera = read_camera(*camera);
+  if (const auto camera = root.table("camera", camera_keys())) experiment.run.overrides.camera = read_camera(*camera);
   if (const auto reference = root.table("reference", setting_keys("reference")))
     read_settings(*reference, "reference", experiment.run);
   read_footprints(root, experiment);

@@ -71,7 +71,7 @@ TEST_F(ExperimentFile, DefaultsAreThoseOfACompare) {
   EXPECT_TRUE(experiment.run.view.distances.empty());
   EXPECT_EQ(experiment.run.view.zoom.frames, 0);
   EXPECT_EQ(experiment.run.reference.spp, 64);
-  EXPECT_TRUE(std::holds_alternative<std::monostate>(experiment.run.view.camera));
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(experiment.run.overrides.camera));
 }
 
 constexpr const char* every_key = R"toml(
@@ -94,7 +94,7 @@ other_spp = [16, 36]
 supersampling = [1, 4]
 seed = 7
 filter = "nearest"
-environment = "dense"
+integrator = "dense"
 [published]
 file = "paper.toml"
 figures = ["Figure 1"]
@@ -127,7 +127,7 @@ TEST_F(ExperimentFile, EveryKeyIsRead) {
   EXPECT_EQ(experiment.run.timing.repeats, 3);
   EXPECT_EQ(experiment.run.reference.spp, 256);
   EXPECT_EQ(experiment.run.reference.seed, 7U);
-  EXPECT_TRUE(std::holds_alternative<Camera>(experiment.run.view.camera));
+  EXPECT_TRUE(std::holds_alternative<Camera>(experiment.run.overrides.camera));
   EXPECT_EQ(experiment.run.reference.other_spp, (std::vector<int>{16, 36}));
   EXPECT_EQ(experiment.run.reference.supersampling, (std::vector<int>{1, 4}));
   EXPECT_EQ(experiment.run.without.count(), 2U);

@@ -68,7 +68,7 @@ Results run_experiment(const Experiment& experiment, std::span<const FrameTimes>
   Results results = run_compare(experiment.run, folder, further_times, parts.next(4, ""));
   inspect_footprints(experiment, folder, results, parts.next(1, ""));
   if (!experiment.quantities.empty()) {
-    const Scene scene = load_scene(experiment.run.scene, experiment.run.scene_library);
+    const Scene scene = load_scene(experiment.run.scene, experiment.run.scene_library, experiment.run.overrides);
     results.quantities = measure_quantities(experiment, scene, parts.next(1, ""));
   }
   results.experiment = judge(experiment, results);

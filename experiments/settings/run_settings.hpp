@@ -15,7 +15,7 @@
 #include "renderer/gl/context.hpp"
 #include "renderer/pipeline/environment_use.hpp"
 #include "renderer/pipeline/reference_filter.hpp"
-#include "renderer/scene/camera.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
 #include "renderer/scene/footprint_filter.hpp"
 #include "renderer/scene/surface.hpp"
 
@@ -50,7 +50,6 @@ struct ViewSettings {
   std::optional<glm::ivec2> size;    ///< pixels; none: the scene's own, or 512 wide in the camera's aspect
   std::vector<double> distances;     ///< factors on the camera's distance; empty: the scene's zoom path
   ZoomSettings zoom;                 ///< in place of `distances`; consecutive frames, between which flicker is measured
-  CameraSettings camera;             ///< monostate: the scene's own
   std::optional<Exposure> exposure;  ///< none: the scene's own, else automatic
   /// The error at the top of every error picture, for pictures of several runs on one scale; none: what the run calls
   /// for.
@@ -106,6 +105,7 @@ struct BackendSettings {
 struct RunSettings {
   std::string scene;           ///< as load_scene takes it
   SceneLibrary scene_library;  ///< what it may name
+  SceneOverrides overrides;    ///< of the scene's own words
   std::vector<MethodSpec> methods;
   bool by_material = false;  ///< errors are told by material too
   EffectSet without;         ///< effects that every method and the reference leave out

@@ -179,6 +179,32 @@ SettingType any_text(Field<std::string> field, const char* word) {
           .text = [=](RunSettings run) { return field(run); }};
 }
 
+SettingType any_name(Field<std::optional<std::string>> field, const char* word) {
+  return {.word = word,
+          .option_takes = {},
+          .file_takes = {},
+          .read_text =
+              [=](RunSettings& run, std::string_view option, const std::string& text) {
+                if (text.empty()) throw does_not_fit(option, text, "is empty", "give a name, or a number from 0");
+                field(run) = text;
+              },
+          .read_file = nullptr,
+          .text = [=](RunSettings run) { return field(run).value_or(""); }};
+}
+
+SettingType file_path(Field<std::optional<std::filesystem::path>> field) {
+  return {.word = "FILE",
+          .option_takes = {},
+          .file_takes = {},
+          .read_text =
+              [=](RunSettings& run, std::string_view option, const std::string& text) {
+                if (text.empty()) throw does_not_fit(option, text, "is empty", "name a file");
+                field(run) = text;
+              },
+          .read_file = nullptr,
+          .text = [=](RunSettings run) { return field(run) ? field(run)->string() : std::string(); }};
+}
+
 SettingType whole_number(Field<int> field, int low, int high) { return whole_number_of(field, low, high); }
 
 SettingType whole_number(Field<std::uint64_t> field, std::uint64_t low, std::uint64_t high) {

@@ -26,6 +26,12 @@ using Field = Value& (*)(RunSettings& run);
 /// Any text.
 [[nodiscard]] SettingType any_text(Field<std::string> field, const char* word);
 
+/// Any text but an empty one, where it is given.
+[[nodiscard]] SettingType any_name(Field<std::optional<std::string>> field, const char* word);
+
+/// A file's path.
+[[nodiscard]] SettingType file_path(Field<std::optional<std::filesystem::path>> field);
+
 /// A whole number, both ends inclusive; a `high` that is the type's own counts as none.
 [[nodiscard]] SettingType whole_number(Field<int> field, int low, int high);
 [[nodiscard]] SettingType whole_number(Field<std::uint64_t> field, std::uint64_t low, std::uint64_t high);

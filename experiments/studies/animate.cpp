@@ -34,7 +34,7 @@ class Animator {
       : settings_(settings),
         folder_(std::move(folder)),
         whole_(progress, 4),
-        stage_(load_scene(settings.scene, settings.scene_library, settings.view.camera), settings, whole_.next(1, "")),
+        stage_(load_scene(settings.scene, settings.scene_library, settings.overrides), settings, whole_.next(1, "")),
         distances_(run_distances(settings.view, stage_.scene())),
         parts_(whole_.next(3, ""),
                static_cast<double>(distances_.size()) * (settings.reference.spp + methods_weight())) {

@@ -54,7 +54,7 @@ class Comparison {
       : settings_(settings),
         folder_(std::move(folder)),
         whole_(progress, 4),
-        stage_(load_scene(settings.scene, settings.scene_library, settings.view.camera), with_direct(settings),
+        stage_(load_scene(settings.scene, settings.scene_library, settings.overrides), with_direct(settings),
                whole_.next(1, ""), pictures_of_a_frame, filter_of_the_unit),
         distances_(run_distances(settings.view, stage_.scene())),
         parts_(whole_.next(3, ""),

@@ -32,7 +32,7 @@ double seconds_of(const Work& work) {
 
 // The parts whose patch the sweeps change; the others stay as they are.
 SceneSource editable_source(const EditSettings& settings) {
-  SceneSource source = read_scene(settings.run.scene, settings.run.scene_library);
+  SceneSource source = read_scene(settings.run.scene, settings.run.scene_library, settings.run.overrides);
   const PatchKind* kind = nullptr;
   for (const PartSettings& part : source.settings.parts) {
     for (const MicrogeometrySettings& patch : part.microgeometry) {

@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 
 #include "experiments/studies/ndf_inspection.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/suggest.hpp"
-#include "renderer/image/image_io.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "renderer/scene/assembly/surface_maps.hpp"
 
@@ -38,13 +36,7 @@ bool names_a_map(const std::string& path) {
 }
 
 NdfSource load_map(const std::string& path) {
-  const Image stored = read_image(path, Transfer::linear);
-  NormalMap map;
-  try {
-    map = is_exr(path) ? decode_unit_normals(stored) : decode_normal_map(stored, 1.0);
-  } catch (const Error& error) {
-    throw error.within(path);
-  }
+  NormalMap map = read_normal_map(path, 1.0);
   NdfSource source{path, true, {}, describe_faults(map, fs::path(path).filename().string())};
   source.material.name = fs::path(path).stem().string();
   source.material.brdf = {NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, false};
@@ -67,13 +59,7 @@ std::size_t material_index(const Scene& scene, const std::string& wanted) {
     throw Error(ErrorKind::usage, scene.source, fmt::format("it has {} materials", names.size()),
                 fmt::format("name one with --material: {}, or a number from 0", fmt::join(names, ", ")));
   }
-  if (const auto named = std::ranges::find(names, wanted); named != names.end()) {
-    return static_cast<std::size_t>(named - names.begin());
-  }
-  std::size_t index = 0;
-  const char* const end = wanted.data() + wanted.size();
-  const auto [stop, status] = std::from_chars(wanted.data(), end, index);
-  if (status == std::errc{} && stop == end && index < names.size()) return index;
+  if (const auto found = find_entry(wanted, names)) return *found;
   throw Error(ErrorKind::usage, "--material", fmt::format("{} has no material `{}`", scene.source, wanted),
               suggestion(wanted, names));
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "experiments/studies/memory_estimate.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
@@ -28,6 +29,18 @@ BakedMethod bake_method(const Scene& scene, const EffectSet& effects, const Meth
   if (!files) return bake(find_method(spec.name), spec, scene, effects, progress);
   const BakeCache cache(*files);
   return bake(find_method(spec.name), spec, scene, effects, progress, &cache);
+}
+
+// The scene's own maps are there already, and available memory knows it.
+void require_maps(const MemoryEstimate& estimate, std::size_t methods) {
+  require_memory(estimate.peak(methods) - estimate.maps, fmt::format("what {} methods make of the maps", methods),
+                 "compare fewer methods at once, use smaller textures, or free memory");
+}
+
+// A frame build may read what was baked; of every other method the GPU has all that a frame needs.
+void free_what_is_uploaded(const GpuMethod& gpu, BakedMethod& baked) {
+  if (gpu.has_frame_build()) return;
+  for (Prefiltered& material : baked.materials) free_texels(material);
 }
 
 }  // namespace
@@ -68,7 +81,9 @@ StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& scene, cons
       frames_(std::make_unique<FrameRenderer>(
           context, scene, *gpu_, size,
           ProgramSettings{.sampling = Sampling::frame, .footprint = filter, .orthographic = values.camera.orthographic},
-          settings.backend.tile)) {}
+          settings.backend.tile)) {
+  free_what_is_uploaded(*gpu_, *baked_);
+}
 
 Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress, int pictures,
              const std::optional<FootprintFilter>& first_filter)
@@ -79,6 +94,7 @@ Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress,
       decisions_(derive_effects(scene_)),
       effects_(effects_on(decisions_) & ~settings.without) {
   require_pictures(size_, pictures);
+  require_maps(estimate_memory(scene_, effects_), settings.methods.size());
   scene_ = refined_for_visibility(std::move(scene_), effects_);
   const std::optional<DiskCache> cache = cache_of(settings);
   const auto bakes = static_cast<double>(settings.methods.size() + 1);
@@ -93,6 +109,7 @@ Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress,
   }
   base_ = std::make_unique<BakedMethod>(bake_base(scene_, effects_, parts.next(1, "bake ")));
   gpu_base_ = std::make_unique<GpuMethod>(*gpu_scene_, *base_);
+  free_what_is_uploaded(*gpu_base_, *base_);
   reference_ =
       std::make_unique<Supersampler>(context_.info(), *gpu_scene_, *gpu_base_, settings.reference.filter,
                                      scene_.camera.orthographic, settings.backend.tile, settings.reference.environment);

@@ -101,7 +101,7 @@ float smoothFactor(vec4 lobe, vec3 h, vec3 wi, vec3 wo) {
   return max(wi.z, 0.0);  // the table has the facets' cosine over this one
 //? elif cosines_published
   return max(dot(lobe.xyz, wi), 0.0);
-//? elif masking_shadowing
+//? elif masking_shadowing or horizon_open
   vec3 sum = lobe.w * lobe.xyz + h / lobeVariance(lobe_cutoff.x);
   vec3 n = sum / max(length(sum), 1e-6);
   return geometryFactor(lobe_cutoff.x, n, h, wi, wo);

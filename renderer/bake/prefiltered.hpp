@@ -31,7 +31,7 @@ enum class TextureFilter { trilinear, nearest, linear };
 struct TextureLevel {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> bytes;
+  std::vector<std::uint8_t> bytes;  ///< none once they were freed: sizes stay
 
   friend bool operator==(const TextureLevel&, const TextureLevel&) = default;
 };
@@ -67,6 +67,9 @@ struct Prefiltered {
 
 /// Bytes of all textures and scalars as stored on the GPU.
 [[nodiscard]] std::size_t byte_count(const Prefiltered& prefiltered);
+
+/// Gives the texels back, for what lies on the GPU by now; names, sizes, scalars and notes stay.
+void free_texels(Prefiltered& prefiltered);
 
 /// Texels of the finest level of its largest texture: what a figure per texel refers to. 0 without textures.
 [[nodiscard]] std::size_t finest_texels(const Prefiltered& prefiltered);

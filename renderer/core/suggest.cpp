@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -57,6 +58,17 @@ std::string suggestion(std::string_view wrong, std::span<const std::string> cand
   if (candidates.size() > most_listed) known += " and " + std::to_string(candidates.size() - most_listed) + " more";
   const std::string nearest = nearest_name(wrong, candidates);
   return (nearest.empty() ? std::string{} : "did you mean `" + nearest + "`? ") + "known: " + known;
+}
+
+std::optional<std::size_t> find_entry(std::string_view wanted, std::span<const std::string> names) {
+  if (const auto named = std::ranges::find(names, wanted); named != names.end()) {
+    return static_cast<std::size_t>(named - names.begin());
+  }
+  std::size_t index = 0;
+  const char* const end = wanted.data() + wanted.size();
+  const auto [stop, status] = std::from_chars(wanted.data(), end, index);
+  if (status != std::errc{} || stop != end || index >= names.size()) return {};
+  return index;
 }
 
 }  // namespace footprint

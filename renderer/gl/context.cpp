@@ -165,6 +165,7 @@ struct Context::Impl {
                   "use a newer driver or another backend");
     }
     log.listen();
+    functions.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);  // for reversed depth, which -1 to 1 would round away
     info = describe(backend);
   }
 

@@ -175,9 +175,9 @@ TEST_F(Objects, TheDepthBufferHidesWhatIsBehind) {
   api().Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   api().Enable(GL_DEPTH_TEST);
   api().UseProgram(program.name());
-  // The second is behind the first by less than a 24-bit buffer tells apart.
+  // The second is behind the first by less than a 24-bit buffer tells apart; depth runs from 0 to 1 in clip space too.
   for (const float step : {0.0f, 1.0f}) {
-    api().Uniform1f(program.uniform("depth"), -1.0f + step * 0x1p-24f);
+    api().Uniform1f(program.uniform("depth"), step * 0x1p-25f);
     api().Uniform4f(program.uniform("wanted"), 1.0f + step, 0.0f, 0.0f, 1.0f);
     api().DrawArrays(GL_TRIANGLES, 0, 3);
   }

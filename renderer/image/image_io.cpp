@@ -16,11 +16,14 @@
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
 #include "renderer/core/memory.hpp"
+#include "renderer/image/image_header.hpp"
 
 namespace footprint {
 namespace {
 
 using IOProxy = OIIO::Filesystem::IOProxy;
+
+constexpr int default_max_side = 16384;  // of read_image
 
 struct Signature {
   std::size_t offset;
@@ -65,6 +68,7 @@ std::string format_of(IOProxy& source, const std::string& name) {
       return signature.format;
     }
   }
+  if (start.starts_with("\xabKTX 20")) throw unreadable(name, "is a KTX2 image, which is not read");
   throw unreadable(name, "is not an image of a known kind");
 }
 
@@ -144,6 +148,16 @@ Image decode(IOProxy& source, const std::string& name, Transfer transfer, int ma
   return image;
 }
 
+std::uint64_t texels_of_header(IOProxy& source) {
+  try {
+    const std::unique_ptr<OIIO::ImageInput> input = open_image(source, "");
+    check_header(input->spec(), "", default_max_side);
+    return static_cast<std::uint64_t>(input->spec().width) * static_cast<std::uint64_t>(input->spec().height);
+  } catch (const Error&) {
+    return 0;  // whoever reads it is told why
+  }
+}
+
 // Encoded in memory, so that there is one way of writing files and of finding a full disk.
 std::vector<unsigned char> encode(const std::string& name, const char* format, const OIIO::ImageSpec& spec,
                                   const OIIO::TypeDesc& type, const void* texels) {
@@ -182,6 +196,18 @@ Image read_image(const std::filesystem::path& file, Transfer transfer, int max_s
   OIIO::Filesystem::IOFile source(name, IOProxy::Read);
   if (!source.opened()) throw Error(ErrorKind::usage, name, "cannot be opened", "check its permissions");
   return decode(source, name, transfer, max_side);
+}
+
+std::uint64_t texels_in_header(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return 0;
+  OIIO::Filesystem::IOFile source(file.string(), IOProxy::Read);
+  return source.opened() ? texels_of_header(source) : 0;
+}
+
+std::uint64_t texels_in_header(std::span<const std::uint8_t> bytes) {
+  OIIO::Filesystem::IOMemReader source(bytes.data(), bytes.size());
+  return texels_of_header(source);
 }
 
 bool is_exr(const std::filesystem::path& file) {

@@ -67,7 +67,7 @@ void read_tile(const gl::RenderTarget& target, std::size_t attachment, const Til
 
 void clear_target() {
   constexpr std::array<float, 4> nothing{};
-  constexpr float far_plane = 1.0F;
+  constexpr float far_plane = 0.0F;  // reversed depth: tile_matrix
   gl::api().ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   gl::api().DepthMask(GL_TRUE);
   gl::api().ClearBufferfv(GL_COLOR, 0, nothing.data());

@@ -218,6 +218,7 @@ GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const Eff
     : context_(&context),
       effects_(effects),
       brdf_(scene.materials.front().brdf),
+      horizon_(scene.horizon),
       facet_lobes_(most_lobes_of(scene.materials)) {
   for (const Material& material : scene.materials) {
     if (material.brdf != brdf_) {

@@ -113,6 +113,7 @@ class GpuScene {
   [[nodiscard]] const gl::ContextInfo& context() const { return *context_; }
   [[nodiscard]] const EffectSet& effects() const { return effects_; }
   [[nodiscard]] const BaseBrdf& brdf() const { return brdf_; }
+  [[nodiscard]] Horizon horizon() const { return horizon_; }
   /// Every map of every material is looked up at the same uv.
   [[nodiscard]] bool shared_coordinates() const { return shared_coordinates_; }
   /// None where the effect is off, or without lights but an environment.
@@ -143,6 +144,7 @@ class GpuScene {
   const gl::ContextInfo* context_;
   EffectSet effects_;
   BaseBrdf brdf_;
+  Horizon horizon_;
   bool shared_coordinates_ = true;
   std::size_t shared_bytes_ = 0;
   std::vector<GpuBatch> batches_;

@@ -36,6 +36,7 @@ ShaderVariant variant_of(const GpuScene& scene, bool orthographic, bool shadows)
   return {.effects = effects,
           .brdf = scene.brdf(),
           .orthographic = orthographic,
+          .horizon_open = scene.horizon() == Horizon::open,
           .facet_lobes = scene.facet_lobes(),
           .point_lights = scene.light_counts().point,
           .spot_lights = scene.light_counts().spot,
@@ -145,7 +146,7 @@ void InteriorFinder::draw(const Look& look, const gl::RenderTarget& target, cons
   gl::api().Uniform1f(uniform("grid"), static_cast<float>(samples.grid));
   if (look.shadows) scene_->bind_lights(look.draw, look.units);
   gl::api().Enable(GL_DEPTH_TEST);
-  gl::api().DepthFunc(GL_LESS);
+  gl::api().DepthFunc(GL_GREATER);
   gl::api().Disable(GL_BLEND);
   for (const Part& part : parts_) {
     part.batch->double_sided ? gl::api().Disable(GL_CULL_FACE) : gl::api().Enable(GL_CULL_FACE);

@@ -166,6 +166,54 @@ TEST(VertexColor, AlphaCutsOut) {
   EXPECT_LT(picture.at(24, 16)[0], 0.02F);                            // the sheet
 }
 
+// Lambert facets that lean by asin 0.8 under a light from below the plane, by hand; for the reference too.
+TEST(Horizon, OpenLetsLightFromBelowToFacetsThatFaceIt) {
+  const SquareMaterial matte{.brdf = {NormalDistribution::ggx, GeometryTerm::none, FresnelTerm::none, true},
+                             .base_color = glm::vec3(0.5F),
+                             .specular = glm::vec3(0.0F)};
+  Scene scene = square_scene(constant_normals(4, 4, {0.8F, 0, 0.6F}), matte);
+  const glm::vec3 to_light = glm::normalize(glm::vec3(0.9F, 0.1F, -0.2F));
+  scene.lights = {DirectionalLight{.direction = -to_light, .illuminance = glm::vec3(2.0F)}};
+  TestRenderer cut(scene, {8, 8});
+  EXPECT_EQ(covered_mean(cut.frame(base_surface())), 0.0);
+  EXPECT_EQ(covered_mean(cut.reference(4).mean), 0.0);
+  scene.horizon = Horizon::open;
+  TestRenderer open(scene, {8, 8});
+  const double expected = 0.5 / std::numbers::pi * 2.0 * glm::dot(glm::vec3(0.8F, 0, 0.6F), to_light);
+  EXPECT_NEAR(covered_mean(open.frame(base_surface())), expected, 1e-4);
+  EXPECT_NEAR(covered_mean(open.reference(4).mean), expected, 1e-4);
+}
+
+// A near plane of next to nothing leaves the picture as it is, and the order of what lies behind one another.
+TEST(Frame, NearPlaneMayLieAnywhereBeforeTheScene) {
+  Scene scene = box_over_floor();
+  scene.lights = {DirectionalLight{.direction = {0.3F, 0.2F, -0.93F}, .illuminance = glm::vec3(3.0F)}};
+  const Image picture = TestRenderer(scene, {48, 48}).frame(base_surface());
+  EXPECT_GT(covered_mean(picture), 0.1);
+  for (const float znear : {1e-7F, 1e-12F, 1e-18F}) {
+    for (const std::optional<float> zfar : {std::optional<float>(), std::optional(10.0F), std::optional(1e15F)}) {
+      scene.camera.znear = znear;
+      scene.camera.zfar = zfar;
+      EXPECT_LT(largest_difference(TestRenderer(scene, {48, 48}).frame(base_surface()), picture), 1e-6) << znear;
+    }
+  }
+}
+
+TEST(Frame, PlanesCutWhatLiesBeyondThem) {
+  Scene scene = white_floor();  // 3 m before the camera
+  for (const bool orthographic : {false, true}) {
+    scene.camera.orthographic = orthographic;
+    const auto covered = [&](float znear, std::optional<float> zfar) {
+      scene.camera.znear = znear;
+      scene.camera.zfar = zfar;
+      return object_pixel_count(TestRenderer(scene, {8, 8}).frame(base_surface())) == 64U;
+    };
+    EXPECT_TRUE(covered(2.99F, 3.01F));
+    EXPECT_FALSE(covered(0.1F, 2.99F));
+    EXPECT_FALSE(covered(3.01F, 9.0F));
+  }
+}
+
 // One facet under one light, by hand: Lambert alone at the foot of the perpendicular.
 TEST(Frame, LambertMeetsTheHandComputedValue) {
   const SquareMaterial matte{.brdf = {NormalDistribution::ggx, GeometryTerm::none, FresnelTerm::none, true},

@@ -79,6 +79,7 @@ constexpr auto rows = std::to_array<FlagRow>({
     {"several_probes", averages_probes},
     {"counting", [](const Variant& v) { return v.counting; }},
     {"orthographic", [](const Variant& v) { return v.orthographic; }},
+    {"horizon_open", [](const Variant& v) { return v.horizon_open; }},
     {"shared_coordinates", [](const Variant& v) { return v.shared_coordinates; }},
     {"surface_coordinates", [](const Variant& v) { return v.surface_coordinates; }},
     {"screen_derivatives", [](const Variant& v) { return v.screen_derivatives; }},

@@ -28,6 +28,7 @@ struct ShaderVariant {
   FootprintFilter footprint{};  ///< of a frame
   bool counting = false;        ///< writes what a pixel looks up and evaluates, in place of its radiance
   bool orthographic = false;
+  bool horizon_open = false;         ///< light from below the vertices' plane arrives (Horizon::open)
   bool shared_coordinates = false;   ///< every map of the scene is looked up at one uv
   bool surface_coordinates = false;  ///< the method has coordinates of its own (Prefiltered::surface_coordinates)
   bool screen_derivatives = false;   ///< a frame whose module asks how the next pixels lie (MethodInfo)

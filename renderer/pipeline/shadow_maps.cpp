@@ -40,6 +40,20 @@ gl::Texture make_maps(const gl::ContextInfo& context, const ShadowViews& views, 
           static_cast<int>(std::max<std::size_t>(views.views.size(), 1))};
 }
 
+// Which way round the front of a triangle is on a map. `world_to_map` takes points to (u w, v w, z, w); a triangle that
+// faces the light is seen counter-clockwise where the three rows of u w, v w and w make a left-handed frame, w growing
+// along the map's axis.
+GLenum front_face(const ShadowView& view) {
+  const glm::mat4 rows = glm::transpose(view.world_to_map);
+  const float handed = glm::dot(glm::cross(glm::vec3(rows[0]), glm::vec3(rows[1])), glm::vec3(view.axis_texel));
+  return handed < 0.0F ? GL_CCW : GL_CW;
+}
+
+// Light from behind passes a triangle that is drawn from its front alone.
+void cull_backs(const GpuBatch& batch, bool both_sides) {
+  batch.double_sided || both_sides ? gl::api().Disable(GL_CULL_FACE) : gl::api().Enable(GL_CULL_FACE);
+}
+
 void draw_batch(const GpuBatch& batch, const EffectSet& effects, SamplerCache& samplers) {
   // The base colour comes first among the shared textures; its alpha decides what is there.
   if (has(effects, Effect::alpha_mask) && has(effects, Effect::base_color_variation)) {
@@ -63,6 +77,7 @@ ShadowMaps::ShadowMaps(const gl::ContextInfo& context, const Scene& scene, const
                        std::span<const GpuBatch> batches, SamplerCache& samplers)
     : views_(shadow_views(scene)),
       resolution_(scene.shadows.resolution),
+      both_sides_(scene.shadows.both_sides),
       maps_(make_maps(context, views_, scene)),
       sampler_(gl::comparing_sampler()),
       view_block_(std::as_bytes(std::span(views_.views))) {
@@ -81,15 +96,20 @@ void ShadowMaps::draw(const EffectSet& effects, std::span<const GpuBatch> batche
   gl::api().DepthMask(GL_TRUE);
   gl::api().Enable(GL_DEPTH_TEST);
   gl::api().DepthFunc(GL_LESS);
-  gl::api().Disable(GL_CULL_FACE);
   for (std::size_t i = 0; i < views_.views.size(); ++i) {
     gl::api().NamedFramebufferTextureLayer(name, GL_DEPTH_ATTACHMENT, maps_.name(), 0, static_cast<GLint>(i));
     gl::api().BindFramebuffer(GL_FRAMEBUFFER, name);
     gl::api().ClearBufferfv(GL_DEPTH, 0, &far_plane);
     gl::api().UniformMatrix4fv(program.uniform("world_to_map"), 1, GL_FALSE,
                                glm::value_ptr(views_.views[i].world_to_map));
-    for (const GpuBatch& batch : batches) draw_batch(batch, effects, samplers);
+    gl::api().FrontFace(front_face(views_.views[i]));
+    for (const GpuBatch& batch : batches) {
+      cull_backs(batch, both_sides_);
+      draw_batch(batch, effects, samplers);
+    }
   }
+  gl::api().FrontFace(GL_CCW);
+  gl::api().Disable(GL_CULL_FACE);
   draws_ = views_.views.size() * batches.size();
   gl::api().BindFramebuffer(GL_FRAMEBUFFER, 0);
 }

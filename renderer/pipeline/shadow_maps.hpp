@@ -40,6 +40,7 @@ class ShadowMaps {
 
   ShadowViews views_;
   int resolution_;
+  bool both_sides_;
   std::size_t draws_ = 0;
   gl::Texture maps_;
   gl::Sampler sampler_;

@@ -217,6 +217,33 @@ TEST(ShadowMaps, HolesLetLightThrough) {
 }
 
 // A frame's pixels and the reference's samples look the same way: away from edges both are one or the other.
+// A sheet that faces down hovers over the floor: drawn from below alone, it keeps no light from above, whatever the
+// kind of light and whichever way round its map is.
+TEST_P(ShadowOf, LeavesTheBacksOfOneSidedTrianglesOut) {
+  Scene scene = white_floor();
+  scene.lights = {GetParam().light};
+  Mesh sheet = scene.meshes[0];
+  for (Vertex& vertex : sheet.vertices) {
+    vertex.position = 0.25F * vertex.position + glm::vec3(0, 0, 0.3F);
+    vertex.normal = {0, 0, -1};
+  }
+  for (std::size_t i = 0; i < sheet.indices.size(); i += 3) std::swap(sheet.indices[i], sheet.indices[i + 1]);
+  scene.meshes.push_back(sheet);
+  fit_bounds(scene);
+  const auto shadowed = [&] {
+    EffectSet effects = effects_on(derive_effects(scene));
+    effects.set(static_cast<std::size_t>(Effect::cast_shadow));
+    const Image with = TestRenderer(scene, {64, 64}, effects).frame(base_surface());
+    const Image without = TestRenderer(scene, {64, 64}, without_shadows(scene)).frame(base_surface());
+    int count = 0;
+    for (std::size_t i = 0; i < with.texels.size(); i += 4) count += with.texels[i] < 0.5F * without.texels[i] ? 1 : 0;
+    return count;
+  };
+  EXPECT_EQ(shadowed(), 0);
+  scene.shadows.both_sides = true;
+  EXPECT_GT(shadowed(), 60);
+}
+
 TEST(ShadowMaps, ReferenceHasThemToo) {
   Scene scene = box_over_floor();
   scene.lights = {DirectionalLight{.direction = glm::normalize(glm::vec3(1, 0, -1)), .illuminance = glm::vec3(3)}};

@@ -41,6 +41,7 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
           .footprint = settings.footprint,
           .counting = settings.counting,
           .orthographic = settings.orthographic,
+          .horizon_open = scene.horizon() == Horizon::open,
           .shared_coordinates = scene.shared_coordinates(),
           .surface_coordinates = baked.materials.front().surface_coordinates.has_value(),
           .screen_derivatives = baked.method->info().screen_derivatives && settings.sampling == Sampling::frame,
@@ -123,7 +124,7 @@ void set_state(const GpuBatch& batch) {
   set(GL_CULL_FACE, !batch.double_sided);
   set(GL_BLEND, batch.adds);
   gl::api().BlendFunc(GL_ONE, GL_ONE);
-  gl::api().DepthFunc(batch.adds ? GL_EQUAL : GL_LESS);
+  gl::api().DepthFunc(batch.adds ? GL_EQUAL : GL_GREATER);
 }
 
 }  // namespace

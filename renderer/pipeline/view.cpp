@@ -7,20 +7,29 @@
 namespace footprint {
 namespace {
 
+// Depth runs from 1 at the near plane to 0 at the far one or at infinity: what a 32-bit float keeps of 1 / distance
+// then is as fine at any distance as close by, however near the near plane lies.
+glm::dmat4 reversed_depth(glm::dmat4 projection, double scale, double offset) {
+  projection[2][2] = scale;
+  projection[3][2] = offset;
+  return projection;
+}
+
 glm::dmat4 projection(const View& view) {
   const double aspect = static_cast<double>(view.size.x) / static_cast<double>(view.size.y);
   const Camera& camera = view.camera;
+  const double near = camera.znear;
   if (camera.orthographic) {
     const double half_height = camera.ymag;
     const double half_width = half_height * aspect;
-    return glm::ortho(-half_width, half_width, -half_height, half_height, static_cast<double>(camera.znear),
-                      static_cast<double>(camera.zfar.value_or(1e4F)));
+    const double far = camera.zfar.value_or(1e4F);
+    return reversed_depth(glm::ortho(-half_width, half_width, -half_height, half_height, near, far), 1.0 / (far - near),
+                          far / (far - near));
   }
-  if (!camera.zfar) {
-    return glm::infinitePerspective(static_cast<double>(camera.yfov), aspect, static_cast<double>(camera.znear));
-  }
-  return glm::perspective(static_cast<double>(camera.yfov), aspect, static_cast<double>(camera.znear),
-                          static_cast<double>(*camera.zfar));
+  const glm::dmat4 infinite = glm::infinitePerspective(static_cast<double>(camera.yfov), aspect, near);
+  if (!camera.zfar) return reversed_depth(infinite, 0.0, near);
+  const double far = *camera.zfar;
+  return reversed_depth(infinite, near / (far - near), near * far / (far - near));
 }
 
 // Scales and moves clip space so that the tile, whose samples lie `offset` off the pixel centres, fills it.

@@ -23,7 +23,8 @@ struct Tile {
 /// The picture in tiles of at most `edge` pixels a side, from the bottom left.
 [[nodiscard]] std::vector<Tile> tiles_of(const glm::ivec2& size, int edge);
 
-/// World to clip space for a tile, its samples moved by `offset` pixels (0, 0: pixel centres). Worked out in double:
+/// World to clip space for a tile, its samples moved by `offset` pixels (0, 0: pixel centres). Depth is reversed, 1 at
+/// the near plane and 0 at the far one: what is nearer is GL_GREATER (contexts have clip depths of 0 to 1). In double:
 /// the parts of a large picture differ in the last digits of the whole picture's matrix.
 [[nodiscard]] glm::mat4 tile_matrix(const View& view, const Tile& tile, const glm::dvec2& offset);
 

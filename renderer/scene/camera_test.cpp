@@ -109,6 +109,30 @@ TEST(Camera, DistanceMustBePositive) {
   }
 }
 
+// What the header says of white Lambert, by a plain sum over the sphere; and that it is neutral and nowhere black.
+TEST(LightRig, SuppliedEnvironmentIsAsBrightAsItSays) {
+  const Environment studio = supplied_environment();
+  const Image& map = *studio.radiance;
+  const std::vector<double> solid_angles = row_solid_angles(map.width, map.height);
+  for (const glm::dvec3& normal : {glm::dvec3(0, 1, 0), {0, -1, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 0, 0}, {0, 0, -1}}) {
+    double radiance = 0;
+    for (int y = 0; y < map.height; ++y) {
+      for (int x = 0; x < map.width; ++x) {
+        const glm::dvec3 direction = environment_direction(studio, (x + 0.5) / map.width, (y + 0.5) / map.height);
+        radiance += std::max(glm::dot(direction, normal), 0.0) * solid_angles[static_cast<std::size_t>(y)] *
+                    map.at(x, y)[1] / std::numbers::pi;
+      }
+    }
+    EXPECT_GT(radiance, 0.1);
+    EXPECT_LT(radiance, 0.5);
+  }
+  for (std::size_t i = 0; i < map.texels.size(); i += 3) {
+    ASSERT_GE(map.texels[i], 0.05F);
+    ASSERT_LE(map.texels[i], 1.5F);
+    ASSERT_EQ(map.texels[i], map.texels[i + 2]);
+  }
+}
+
 TEST(LightRig, WhiteSurfaceFacingTheCameraHasItsRadiance) {
   const Bounds bounds{{-1.0F, -2.0F, 3.0F}, {5.0F, 2.0F, 4.0F}};
   const Camera camera = frame_bounds(bounds, {{0.3, 0.9, -0.5}, 0.6, 1.1, 1.0});

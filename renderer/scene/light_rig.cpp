@@ -2,6 +2,8 @@
 #include "renderer/scene/light_rig.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 #include <numbers>
 
 namespace footprint {
@@ -10,7 +12,33 @@ namespace {
 /// Illuminance for a given radiance of white Lambert: radiance = illuminance * cosine / pi.
 float illuminance_for(float radiance, float cosine) { return radiance * std::numbers::pi_v<float> / cosine; }
 
+// Radiance of the supplied environment: floor, ceiling and the middle of each light.
+constexpr double floor_radiance = 0.08, ceiling_radiance = 0.35, lamp_radiance = 1.0, lamp_sharpness = 12.0;
+
+double studio_radiance(const glm::dvec3& direction) {
+  static const glm::dvec3 left = glm::normalize(glm::dvec3(-1.0, 0.8, 0.6));
+  static const glm::dvec3 right = glm::normalize(glm::dvec3(1.0, 0.6, 0.3));
+  const double height = 0.5 + 0.5 * direction.y;
+  const double walls = glm::mix(floor_radiance, ceiling_radiance, height * height * (3.0 - 2.0 * height));
+  const auto lamp = [&](const glm::dvec3& to) { return std::exp(lamp_sharpness * (glm::dot(direction, to) - 1.0)); };
+  return walls + lamp_radiance * (lamp(left) + 0.5 * lamp(right));
+}
+
 }  // namespace
+
+Environment supplied_environment() {
+  Environment studio{.name = "studio", .radiance = nullptr};
+  Image map(256, 128, 3);
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      const double radiance =
+          studio_radiance(environment_direction(studio, (x + 0.5) / map.width, (y + 0.5) / map.height));
+      std::ranges::fill(map.at(x, y), static_cast<float>(radiance));
+    }
+  }
+  studio.radiance = std::make_shared<const Image>(std::move(map));
+  return studio;
+}
 
 std::vector<Light> supplied_lights(const Camera& camera, const Bounds& bounds) {
   const glm::mat3 axes{camera.world};

@@ -6,16 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "renderer/scene/model_selection.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace footprint {
 
-/// Meshes, materials, lights and the first camera of a model; the fields mean what they mean in Scene.
+/// Meshes, materials, lights and the camera of a model; the fields mean what they mean in Scene.
 struct Model {
   std::vector<Mesh> meshes;
   std::vector<Material> materials;
   std::vector<Light> lights;
   std::optional<Camera> camera;
+  std::vector<ModelChoice> choices;
   std::vector<std::string> warnings;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "renderer/core/error.hpp"
 #include "renderer/scene/gltf/model.hpp"
 #include "renderer/scene/obj_model.hpp"
 
@@ -21,8 +22,13 @@ bool names_model(const std::filesystem::path& path) {
   return extension == ".gltf" || extension == ".glb" || extension == ".obj";
 }
 
-Model load_model(const std::filesystem::path& file) {
-  return lower_extension(file) == ".obj" ? load_obj(file) : load_gltf(file);
+Model load_model(const std::filesystem::path& file, const ModelSelection& selection) {
+  if (lower_extension(file) != ".obj") return load_gltf(file, selection);
+  if (!selection.empty()) {
+    throw Error(ErrorKind::usage, file.string(), "an OBJ file has no scenes, cameras or variants to choose from",
+                "leave the choice out, or give a glTF file");
+  }
+  return load_obj(file);
 }
 
 }  // namespace footprint

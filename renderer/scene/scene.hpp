@@ -11,6 +11,7 @@
 #include "renderer/scene/environment.hpp"
 #include "renderer/scene/footprint_filter.hpp"
 #include "renderer/scene/material.hpp"
+#include "renderer/scene/model_selection.hpp"
 
 namespace footprint {
 
@@ -82,7 +83,14 @@ inline constexpr int smallest_shadow_map = 16, largest_shadow_map = 16384;
 /// What a scene says about large-scale visibility (docs/shadows.md).
 struct ShadowSettings {
   std::optional<bool> cast;  ///< none: where something stands between a surface and a light
+  bool both_sides = false;   ///< a one-sided triangle keeps light from behind too, from where it is not drawn
   int resolution = 2048;     ///< texels a side of each shadow map
+};
+
+/// What becomes of light from below the plane of a vertex normal, where a facet of the normal map still faces it.
+enum class Horizon {
+  cut,   ///< none arrives: the surface's own large shape hides it
+  open,  ///< it arrives: each facet knows its own horizon alone, as in engines and glTF viewers
 };
 
 /// The factors on the camera's distance that a zoom may take.
@@ -96,6 +104,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Light> lights;
   ShadowSettings shadows;
+  Horizon horizon = Horizon::cut;
   std::optional<Environment> environment;
   Camera camera;
   Bounds bounds;
@@ -104,6 +113,7 @@ struct Scene {
   std::vector<double> distances{
       1.0};  ///< the default zoom path: factors on the camera's distance to the bounds' centre
   std::optional<glm::ivec2> frame_size;  ///< where scene.toml gives one
+  std::vector<ModelChoice> choices;      ///< scenes, cameras and variants of its model files, where there are any
   std::vector<std::string> defaults;     ///< what was supplied because the input has none, one line each
   std::vector<std::string> warnings;     ///< what the input has and Footprint leaves out, one line each
 };

@@ -49,7 +49,7 @@ vec3 lambertDirection(vec3 n, vec2 u) {
 }
 
 // A direction to the light: the mirror image of wo about a normal drawn from the facets, or, one time in two where
-// there is a diffuse term, one of Lambert's. Below the horizon: none.
+// there is a diffuse term, one of Lambert's. Zero: none.
 vec3 drawDirection(Effective e, vec3 wo, vec3 u) {
 //? if microgeometry_visibility
   if (base_has_patch > 0.5) return lambertDirection(vec3(0.0, 0.0, 1.0), u.xy);  // facets point everywhere
@@ -60,7 +60,7 @@ vec3 drawDirection(Effective e, vec3 wo, vec3 u) {
 //? end
   vec3 h = drawnFacet(e.facets, u);
   float cosine = dot(h, wo);
-  return cosine > 0.0 ? 2.0 * cosine * h - wo : vec3(0.0, 0.0, -1.0);
+  return cosine > 0.0 ? 2.0 * cosine * h - wo : vec3(0.0);
 }
 
 // Its density over solid angle.

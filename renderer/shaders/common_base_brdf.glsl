@@ -38,7 +38,8 @@ vec3 fresnelTerm(vec3 f0, vec3 wi, vec3 wo) { return f0; }
 vec3 transmitted(vec3 f0, vec3 wi, vec3 wo) { return vec3(1.0); }
 //? end
 
-// The geometry factor of f * cos = F * D * factor, for facets about n with a lobe.
+// The geometry factor of f * cos = F * D * factor, for facets about n with a lobe. Where the surface's horizon cuts no
+// light off, the facets' own does, also under terms that know none.
 //? if masking_shadowing and geometry_smith and distribution_ggx
 // G2 / (4 n.v) with the height-correlated Smith term of GGX (Heitz 2014, equation 99; glTF 2.0, appendix B).
 float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
@@ -68,12 +69,20 @@ float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
 // 1 / (n.v) as Tan 2005, section 3 prints it, under the bound 2 (n.h) / (v.h) of a V-cavity's masking: as printed it
 // grows without limit at grazing views.
 float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
+//? if horizon_open
+  if (dot(n, wi) <= 0.0) return 0.0;
+//? end
   float bound = 2.0 * max(dot(n, h), 0.0) / max(dot(wo, h), 1e-6);
   return min(1.0 / max(dot(n, wo), 1e-3), bound);
 }
 //? else
 // f * cos = F D, as Xu 2017 and Iwasaki 2012 use it.
-float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) { return 1.0; }
+float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
+//? if horizon_open
+  if (dot(n, wi) <= 0.0) return 0.0;
+//? end
+  return 1.0;
+}
 //? end
 
 // Facets whose normals are spread about one, and what they reflect with.

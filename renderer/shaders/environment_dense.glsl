@@ -7,7 +7,7 @@ vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame) {
   for (; i < count; ++i) {
     vec3 direction = texelFetch(environment_directions, ivec2(i, 0), 0).xyz;
     vec3 wi = direction * frame;
-    if (wi.z <= 0.0 || !arrives(direction)) continue;
+    if (!reachesFacets(wi) || !arrives(direction)) continue;
     radiance += reflectance(e, s, wi, wo) * texelFetch(environment_lights, ivec2(i, 0), 0).rgb;
   }
   // llvmpipe ends loops after 65535 rounds a pixel, those within `reflectance` among them: part of a sum is no figure.

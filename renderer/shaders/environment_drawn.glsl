@@ -67,12 +67,12 @@ vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame) {
     uvec4 digits = sample_directions[i];
     DrawnDirection light = drawFromEnvironment(scrambledPair(digits.xy, seed.xy));
     vec3 wi = light.direction * frame;
-    if (wi.z > 0.0 && light.density > 0.0 && arrives(light.direction)) {
+    if (reachesFacets(wi) && light.density > 0.0 && arrives(light.direction)) {
       radiance += reflectance(e, s, wi, wo) * light.radiance / (light.density + directionDensity(e, wi, wo));
     }
     float choice = unitInterval(scrambled(sample_choices[i], seed.z));
     wi = drawDirection(e, wo, vec3(scrambledPair(digits.zw, lobe_seed.xy), choice));
-    float density = wi.z > 0.0 ? directionDensity(e, wi, wo) : 0.0;
+    float density = reachesFacets(wi) ? directionDensity(e, wi, wo) : 0.0;
     if (density > 0.0 && arrives(frame * wi)) {
       vec4 held = environmentTexel(frame * wi);
       radiance += reflectance(e, s, wi, wo) * held.rgb / (held.a + density);

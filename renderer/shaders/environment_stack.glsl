@@ -64,6 +64,16 @@ VisibleLobe visibleLobe(NormalLobe lobe, vec3 wo) {
 float visibleElevation(vec3 direction, float elevation) { return elevation; }
 //? end
 
+// The normal of the plane below which no light counts for a lobe: the surface's own, or with an open horizon that of the
+// lobe's facets.
+vec3 horizonNormal(NormalLobe lobe) {
+//? if horizon_open
+  return lobe.normal;
+//? else
+  return vec3(0.0, 0.0, 1.0);
+//? end
+}
+
 // The directions that a lobe reflects to: mean and sharpness.
 struct ReflectedLobe {
   vec3 axis;
@@ -73,13 +83,14 @@ struct ReflectedLobe {
 // A hemisphere of light from all sides, seen as a vMF lobe: mean cosine 1/2.
 const float hemisphere_sharpness = 1.83;
 
-// What of a lobe is above the surface's horizon, as a lobe of its own, so that no light from below gets in. Across the
+// What of a lobe is above the plane of n, as a lobe of its own, so that no light from below gets in. Across the
 // plane that touches the sphere at the axis it is a Gaussian cut off along a line, whose mean moves away from the line
 // and whose variance shrinks; a wide lobe becomes a hemisphere.
-ReflectedLobe aboveHorizon(ReflectedLobe lobe, float share) {
-  float a = max(lobe.axis.z * sqrt(lobe.sharpness), -5.0);
+ReflectedLobe aboveHorizon(ReflectedLobe lobe, vec3 n, float share) {
+  float t = dot(n, lobe.axis);
+  float a = max(t * sqrt(lobe.sharpness), -5.0);
   float shift = inverse_root_two_pi * exp(-0.5 * a * a) / max(normalCdf(a), 1e-7);
-  vec3 across = vec3(0.0, 0.0, 1.0) - lobe.axis.z * lobe.axis;
+  vec3 across = n - t * lobe.axis;
   float sine2 = dot(across, across);
   vec3 moved = lobe.axis;
   if (sine2 > 1e-8) moved += across * (shift * inversesqrt(lobe.sharpness * sine2));
@@ -107,14 +118,16 @@ Beside besideDensity(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 h, vec3 
 
 // What a lobe reflects towards wo: integral of F D G' L over wi. With dwi = 4 (h.wo) dh the lobe's energy is 4 times
 // what is visible of it; about the mirror image of the visible normals' mean it is 4 (axis.wo) times wider (Wang 2009).
-// F and G' are taken there, and of what lies below the surface's horizon nothing arrives.
+// F and G' are taken there, and of what lies below the horizon nothing arrives.
 vec3 lobeRadiance(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wo, mat3 frame) {
   VisibleLobe visible = visibleLobe(lobe, wo);
   float cosine = max(dot(visible.axis, wo), 0.01);
   vec3 mirrored = 2.0 * cosine * visible.axis - wo;
   ReflectedLobe whole = ReflectedLobe(mirrored / max(length(mirrored), 1e-6), lobe.sharpness / (4.0 * cosine));
-  ReflectedLobe above = aboveHorizon(whole, shareAbove(whole.axis.z, whole.sharpness));
-  float share = shareAbove(visibleElevation(frame * whole.axis, whole.axis.z), whole.sharpness);
+  vec3 n = horizonNormal(lobe);
+  float elevation = dot(n, whole.axis);
+  ReflectedLobe above = aboveHorizon(whole, n, shareAbove(elevation, whole.sharpness));
+  float share = shareAbove(visibleElevation(frame * whole.axis, elevation), whole.sharpness);
   Beside beside = besideDensity(e, i, lobe, f0, visible.axis, whole.axis, wo, whole.sharpness);
   float reflected = 4.0 * lobe.weight * visible.area * share * beside.weight;
   return beside.color * reflected * stackRadiance(frame * above.axis, above.sharpness);
@@ -164,7 +177,7 @@ void addNode(inout NodeSum sum, Effective e, int i, NormalLobe lobe, vec2 ring, 
   vec3 wi = 2.0 * dot(h, wo) * h - wo;
   float sharpness = ggx_node_sharpness * lobe.sharpness;
   Beside beside = besideDensity(e, i, lobe, f0, h, wi, wo, sharpness);
-  float reflected = ring.y / around * shareAbove(wi.z, sharpness);
+  float reflected = ring.y / around * shareAbove(dot(horizonNormal(lobe), wi), sharpness);
   reflected *= 4.0 * lobe.weight * ggxVisibleArea(seen.z, alpha * alpha) * beside.weight;
   sum.energy += reflected * beside.color;
   sum.direction += reflected * wi;
@@ -172,13 +185,14 @@ void addNode(inout NodeSum sum, Effective e, int i, NormalLobe lobe, vec2 ring, 
 }
 
 // The environment's mean over the vMF lobe whose mean direction is that of the nodes.
-vec3 nodesRadiance(NodeSum sum, float spread, mat3 frame) {
+vec3 nodesRadiance(NodeSum sum, float spread, vec3 n, mat3 frame) {
   float size = length(sum.direction);
   if (size < 1e-6) return vec3(0.0);
   float r = min(size / sum.weight, 0.9999);
   float sharpness = max(r * (3.0 - r * r) / (spread * (1.0 - r * r)), hemisphere_sharpness);
   vec3 axis = sum.direction / size;
-  float share = shareAbove(visibleElevation(frame * axis, axis.z), sharpness) / shareAbove(axis.z, sharpness);
+  float elevation = dot(n, axis);
+  float share = shareAbove(visibleElevation(frame * axis, elevation), sharpness) / shareAbove(elevation, sharpness);
   return sum.energy * share * stackRadiance(frame * axis, sharpness);
 }
 
@@ -189,7 +203,8 @@ vec3 tailedRadiance(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wo, mat3 
   int around = int(environment_stack_range.z);  // no constant: unrolled, the loop takes compilers seconds
   for (int k = 0; k < around; ++k) addNode(core, e, i, lobe, ggx_rings[0], k, f0, wo, axes);
   for (int k = 0; k < 2 * around; ++k) addNode(tail, e, i, lobe, ggx_rings[1 + k / around], k % around, f0, wo, axes);
-  return nodesRadiance(core, ggx_spread.x, frame) + nodesRadiance(tail, ggx_spread.y, frame);
+  vec3 n = horizonNormal(lobe);
+  return nodesRadiance(core, ggx_spread.x, n, frame) + nodesRadiance(tail, ggx_spread.y, n, frame);
 }
 //? end
 
@@ -229,13 +244,17 @@ DiffuseFacets diffuseFacets(Effective e, vec3 wo) {
   return visibleFacets(e, wo);
 //? else
   vec3 m = meanNormal(e);
+//? if horizon_open
+  return DiffuseFacets(m, vec3(1.0), false);
+//? else
   return DiffuseFacets(m, vec3(clamp(0.5 + 0.5 * m.z, 0.0, 1.0)), false);
+//? end
 //? end
 }
 
 // Lambert's term over all directions. Irradiance is close to linear in the normal, so that normals with the mean m get
-// the mean over all directions and |m| of the difference to it. A facet that leans loses what its surface hides: of a
-// constant environment (1 - n_z) / 2.
+// the mean over all directions and |m| of the difference to it. Where the horizon cuts, a facet that leans loses what its
+// surface hides: of a constant environment (1 - n_z) / 2.
 vec3 environmentDiffuse(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) {
   DiffuseFacets facets = diffuseFacets(e, wo);
   float size = length(facets.mean_normal);

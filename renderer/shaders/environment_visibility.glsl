@@ -13,8 +13,7 @@ float signedDistance(vec3 direction) {
   return distance;
 }
 
-// The sine of a direction's elevation over the nearest edge, the surface's own horizon being one: `elevation` is that
-// over the horizon. Nothing is known of the back of a surface that is seen from both sides.
+// The sine of a direction's elevation over the nearest edge, the horizon being one: `elevation` is that over it. Nothing is known of the back of a surface that is seen from both sides.
 float visibleElevation(vec3 direction, float elevation) {
 //? if double_sided
   if (!gl_FrontFacing) return elevation;

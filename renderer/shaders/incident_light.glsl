@@ -1,6 +1,6 @@
 // Light of one source as it arrives at a pixel: what of it is the same for all that is shaded there.
 struct Incident {
-  vec3 wi;  // tangent frame; a light below the surface's own horizon does not reach it
+  vec3 wi;  // tangent frame
   vec3 irradiance_at_normal;
 //? if screen_derivatives
   vec4 source;  // world space: a point (w 1) or a direction (w 0)
@@ -12,6 +12,16 @@ Incident incident(vec3 wi, vec3 irradiance_at_normal, vec4 source) {
   return Incident(wi, irradiance_at_normal, source);
 //? else
   return Incident(wi, irradiance_at_normal);
+//? end
+}
+
+// Whether light from a direction of the tangent frame reaches the surface's facets, the scene's rule (docs/base-brdf.md,
+// Horizon). No direction at all is the zero vector.
+bool reachesFacets(vec3 wi) {
+//? if horizon_open
+  return dot(wi, wi) > 0.0;
+//? else
+  return wi.z > 0.0;
 //? end
 }
 

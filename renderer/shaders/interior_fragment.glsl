@@ -29,9 +29,11 @@ uniform vec3 camera_position;
 //? include facet_normal.glsl
 
 //? if cast_shadow
-// A light below the horizon does not reach the surface (docs/base-brdf.md), whatever its map says.
+// Where the horizon cuts, a light below it does not reach the surface (docs/base-brdf.md), whatever its map says.
 float shareOf(float first_view, vec3 facet, vec3 normal, vec3 to_light) {
+//? if not horizon_open
   if (dot(normal, to_light) <= 0.0) return 0.0;
+//? end
   return clearOfShadow(first_view, world_position, facet, -to_light);
 }
 

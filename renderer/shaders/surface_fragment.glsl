@@ -99,7 +99,7 @@ vec3 reflectance(Effective e, Surface s, vec3 wi, vec3 wo) {
 
 // One light's share.
 vec3 reflected(SurfacePoint p, Incident light) {
-  if (light.wi.z <= 0.0) return vec3(0.0);
+  if (!reachesFacets(light.wi)) return vec3(0.0);
 //? if screen_derivatives
   Reflected r = shade(p.effective, p.surface, light.wi, p.wo, halfSteps(light, p.wo));
 //? else
@@ -120,7 +120,7 @@ Incident arriving[max(light_capacity, 1)];
 int arriving_count = 0;
 
 void add(Incident light) {
-  if (light.wi.z > 0.0) arriving[arriving_count++] = light;
+  if (reachesFacets(light.wi)) arriving[arriving_count++] = light;
 }
 
 void findLight(mat3 frame) {

@@ -98,6 +98,7 @@ class Search {
     const glm::vec3 start =
         position + std::copysign(occluders_->offset(), side) * occluders_->normal(point.mesh, point.triangle);
     if (lit(point, side) && occluders_->blocked(start, ray->direction, ray->distance)) return true;
+    if (side <= 0.0F && occluders_->open_from_behind(point.mesh)) return false;
     const auto next = occluders_->nearest(position, -ray->direction, 2.0F * occluders_->offset());
     return next && lit(*next, facing(*next, ray->direction)) && ray_to_light(*light_, occluders_->position(*next));
   }

@@ -45,7 +45,18 @@ TEST(CastShadows, ConvexBodiesCastNoneOnThemselves) {
 TEST(CastShadows, BoxOverFloorCastsOne) {
   EXPECT_TRUE(casts(box_over_floor(), from_above));
   EXPECT_TRUE(casts(box_over_floor(), PointLight{.position = {0, 0, 3}, .intensity = glm::vec3(1), .range = {}}));
-  EXPECT_TRUE(casts(box_over_floor(), DirectionalLight{.direction = {0, 0, 1}, .illuminance = glm::vec3(1)}));
+}
+
+// From below light comes to the back of the floor, which is not drawn from there.
+TEST(CastShadows, WhatIsNotDrawnFromTheLightCastsNone) {
+  const DirectionalLight from_below{.direction = {0, 0, 1}, .illuminance = glm::vec3(1)};
+  Scene scene = box_over_floor();
+  EXPECT_FALSE(casts(scene, from_below));
+  scene.shadows.both_sides = true;
+  EXPECT_TRUE(casts(scene, from_below));
+  scene.shadows.both_sides = false;
+  scene.materials[0].double_sided = true;
+  EXPECT_TRUE(casts(scene, from_below));
 }
 
 TEST(CastShadows, LightBetweenBoxAndFloorIsKeptFromNeither) {

@@ -21,7 +21,7 @@ void add_values(ContentHash& hash, const std::vector<Value>& values) {
   hash.add(std::as_bytes(std::span(values)));
 }
 
-void add_mesh(ContentHash& hash, const Mesh& mesh, const Material& material) {
+void add_mesh(ContentHash& hash, const Mesh& mesh, const Material& material, bool both_sides) {
   std::vector<glm::vec3> points, normals;
   for (const Vertex& vertex : mesh.vertices) {
     points.push_back(vertex.position);
@@ -30,6 +30,7 @@ void add_mesh(ContentHash& hash, const Mesh& mesh, const Material& material) {
   add_values(hash, points);
   add_values(hash, normals);
   add_values(hash, mesh.indices);
+  hash.add(material.double_sided || both_sides ? "both sides" : "front");
   hash.add(material.alpha_cutoff ? "cut out" : "whole");
   if (!material.alpha_cutoff) return;
   std::vector<glm::vec2> coordinates;
@@ -62,7 +63,10 @@ std::string visibility_key(const Scene& scene, const Environment& environment) {
   ContentHash hash;
   add_program(hash);
   hash.add(std::as_bytes(std::span(&scene.bounds, 1)));  // rays start off the surface by a share of it
-  for (const Mesh& mesh : scene.meshes) add_mesh(hash, mesh, scene.materials[static_cast<std::size_t>(mesh.material)]);
+  for (const Mesh& mesh : scene.meshes) {
+    add_mesh(hash, mesh, scene.materials[static_cast<std::size_t>(mesh.material)], scene.shadows.both_sides);
+  }
+  hash.add(scene.horizon == Horizon::open ? "open" : "cut");
   add_values(hash, visibility_light(environment));
   return fmt::format("visibility-{}", hash.hex());
 }

@@ -112,6 +112,10 @@ TEST(KeptVisibility, TheKeyFollowsAllThatTheFieldDependsOn) {
   EXPECT_NE(changed([](Scene& s) { s.meshes.pop_back(); }), key);
   EXPECT_NE(changed([](Scene& s) { s.bounds.upper.x += 1.0F; }), key);
   EXPECT_NE(changed([](Scene& s) { s.materials[0].alpha_cutoff = 0.5F; }), key);
+  EXPECT_NE(changed([](Scene& s) { s.materials[0].double_sided = true; }), key);
+  EXPECT_NE(changed([](Scene& s) { s.shadows.both_sides = true; }), key);
+  EXPECT_NE(changed([](Scene& s) { s.horizon = Horizon::open; }), key);
+  EXPECT_EQ(changed([](Scene& s) { s.meshes[0].vertices[0].color.a = 0.3F; }), key) << "nothing is cut out";
   EXPECT_EQ(changed([](Scene& s) { s.materials[0].roughness = 0.9F; }), key) << "nothing is cut out";
   EXPECT_EQ(changed([](Scene& s) { s.meshes[0].vertices[0].uv0 = {7.0F, 7.0F}; }), key);
   EXPECT_EQ(changed([](Scene& s) { s.lights.clear(); }), key);
@@ -122,6 +126,12 @@ TEST(KeptVisibility, TheKeyFollowsAllThatTheFieldDependsOn) {
     });
   };
   EXPECT_NE(cut_out(0.25F), cut_out(0.75F));
+  const std::string faint = changed([&](Scene& s) {
+    s.materials[0].alpha_cutoff = 0.5F;
+    s.materials[0].base_color.a = 0.75F;
+    s.meshes[0].vertices[0].color.a = 0.5F;
+  });
+  EXPECT_NE(faint, cut_out(0.75F));
 }
 
 }  // namespace

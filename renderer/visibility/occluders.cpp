@@ -1,4 +1,5 @@
-// An Embree scene whose hits let rays through the holes that alpha cuts out.
+// An Embree scene whose filters let rays through the holes that alpha cuts out, and through one-sided triangles from
+// behind.
 #include "renderer/visibility/occluders.hpp"
 
 #include <algorithm>
@@ -86,38 +87,51 @@ Occluders::Occluders(const Scene& scene)
   if (!rays_) throw_out_of_memory(scene);
   rtcSetSceneFlags(rays_.get(), RTC_SCENE_FLAG_ROBUST);
   for (const Mesh& mesh : scene.meshes) {
-    cut_outs_.push_back({&mesh, &scene.materials[static_cast<std::size_t>(mesh.material)]});
+    const Material& material = scene.materials[static_cast<std::size_t>(mesh.material)];
+    sieves_.push_back({&mesh, &material, !material.double_sided && !scene.shadows.both_sides});
   }
-  for (CutOut& cut_out : cut_outs_) add(*cut_out.mesh, cut_out);
+  for (Sieve& sieve : sieves_) add(*sieve.mesh, sieve);
   rtcCommitScene(rays_.get());
   if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) throw_out_of_memory(scene);
 }
 
-void Occluders::add(const Mesh& mesh, CutOut& cut_out) {
+void Occluders::add(const Mesh& mesh, Sieve& sieve) {
   RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.vertices.data(),
                              offsetof(Vertex, position), sizeof(Vertex), mesh.vertices.size());
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,
                              3 * sizeof(std::uint32_t), mesh.indices.size() / 3);
-  if (cut_out.material->alpha_cutoff) {
-    rtcSetGeometryUserData(geometry, &cut_out);
-    rtcSetGeometryOccludedFilterFunction(geometry, let_holes_through);
-    rtcSetGeometryIntersectFilterFunction(geometry, let_holes_through);
+  if (sieve.material->alpha_cutoff || sieve.open_from_behind) {
+    rtcSetGeometryUserData(geometry, &sieve);
+    rtcSetGeometryOccludedFilterFunction(geometry, towards_light);
+    rtcSetGeometryIntersectFilterFunction(geometry, away_from_light);
   }
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(rays_.get(), geometry);
   rtcReleaseGeometry(geometry);
 }
 
-void Occluders::let_holes_through(const RTCFilterFunctionNArguments* hit) {
-  const auto& [mesh, material] = *static_cast<const CutOut*>(hit->geometryUserPtr);
-  for (unsigned i = 0; i < hit->N; ++i) {
-    if (hit->valid[i] == 0) continue;
-    const SurfacePoint point{0, RTCHitN_primID(hit->hit, hit->N, i), RTCHitN_u(hit->hit, hit->N, i),
-                             RTCHitN_v(hit->hit, hit->N, i)};
-    if (!is_there(*mesh, *material, point)) hit->valid[i] = 0;
+// `towards_front` is the sign of a ray's direction along the outward normal of a triangle whose front it concerns.
+void Occluders::drop_hits(const RTCFilterFunctionNArguments* hits, float towards_front) {
+  const auto& [mesh, material, open] = *static_cast<const Sieve*>(hits->geometryUserPtr);
+  const unsigned n = hits->N;
+  for (unsigned i = 0; i < n; ++i) {
+    if (hits->valid[i] == 0) continue;
+    const glm::vec3 normal(RTCHitN_Ng_x(hits->hit, n, i), RTCHitN_Ng_y(hits->hit, n, i), RTCHitN_Ng_z(hits->hit, n, i));
+    const glm::vec3 along(RTCRayN_dir_x(hits->ray, n, i), RTCRayN_dir_y(hits->ray, n, i),
+                          RTCRayN_dir_z(hits->ray, n, i));
+    const bool from_behind = open && towards_front * glm::dot(normal, along) < 0.0F;
+    const SurfacePoint point{0, RTCHitN_primID(hits->hit, n, i), RTCHitN_u(hits->hit, n, i),
+                             RTCHitN_v(hits->hit, n, i)};
+    if (from_behind || !is_there(*mesh, *material, point)) hits->valid[i] = 0;
   }
 }
+
+void Occluders::towards_light(const RTCFilterFunctionNArguments* hits) { drop_hits(hits, 1.0F); }
+
+void Occluders::away_from_light(const RTCFilterFunctionNArguments* hits) { drop_hits(hits, -1.0F); }
+
+bool Occluders::open_from_behind(std::size_t mesh) const { return sieves_[mesh].open_from_behind; }
 
 bool Occluders::blocked(const glm::vec3& origin, const glm::vec3& direction, float distance) const {
   RTCIntersectContext context{};

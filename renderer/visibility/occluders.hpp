@@ -21,8 +21,9 @@ struct SurfacePoint {
   float u = 0, v = 0;
 };
 
-/// A scene's triangles, ready for rays (Embree). A triangle stands in the way from both sides, whether or not it is
-/// drawn from both; what an alpha mask cuts out does not, by the texel nearest to the point. Refers to the scene, which
+/// A scene's triangles, ready for rays (Embree). A one-sided triangle stands in the way of light that comes to its
+/// front, from behind only where ShadowSettings::both_sides says so; what an alpha mask cuts out does not, by the texel
+/// nearest to the point. Refers to the scene, which
 /// must outlive it and keep its meshes and materials as they are. Questions may be asked by many threads at once.
 class Occluders {
  public:
@@ -31,15 +32,19 @@ class Occluders {
   /// Errors (machine): memory is out.
   explicit Occluders(const Scene& scene);
 
-  /// Whether anything lies on the ray, from `origin` along the unit vector `direction`, nearer than `distance`.
+  /// Whether anything keeps light from `origin` that comes against the unit vector `direction`, from nearer than
+  /// `distance`.
   [[nodiscard]] bool blocked(const glm::vec3& origin, const glm::vec3& direction, float distance = unlimited) const;
 
   /// The same for many rays without an end from one point; a value a direction.
   [[nodiscard]] std::vector<bool> blocked(const glm::vec3& origin, std::span<const glm::vec3> directions) const;
 
-  /// The first point on the ray at `least` or further, if there is one.
+  /// The first point that keeps light which goes along the ray from going on, at `least` or further.
   [[nodiscard]] std::optional<SurfacePoint> nearest(const glm::vec3& origin, const glm::vec3& direction,
                                                     float least = 0.0F) const;
+
+  /// Whether light that comes to a mesh's triangle from behind passes.
+  [[nodiscard]] bool open_from_behind(std::size_t mesh) const;
 
   /// Whether a point is there: no alpha mask cuts it out.
   [[nodiscard]] bool present(const SurfacePoint& point) const;
@@ -60,18 +65,22 @@ class Occluders {
     void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
     void operator()(RTCScene rays) const { rtcReleaseScene(rays); }
   };
-  // What the filter of a cut-out mesh needs to know of it.
-  struct CutOut {
+  // What the filter of a mesh with holes, or of one that lets light from behind through, needs to know of it.
+  struct Sieve {
     const Mesh* mesh;
     const Material* material;
+    bool open_from_behind;
   };
 
-  static void let_holes_through(const RTCFilterFunctionNArguments* hit);
-  void add(const Mesh& mesh, CutOut& cut_out);
+  // Drops the hits of rays towards a light, and of rays that light takes.
+  static void towards_light(const RTCFilterFunctionNArguments* hits);
+  static void away_from_light(const RTCFilterFunctionNArguments* hits);
+  static void drop_hits(const RTCFilterFunctionNArguments* hits, float towards_front);
+  void add(const Mesh& mesh, Sieve& sieve);
 
   const Scene* scene_;
   float offset_;
-  std::vector<CutOut> cut_outs_;
+  std::vector<Sieve> sieves_;
   std::unique_ptr<RTCDeviceTy, Release> device_;
   std::unique_ptr<RTCSceneTy, Release> rays_;
 };

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <utility>
@@ -51,7 +52,7 @@ TEST(Occluders, LetHolesThrough) {
   Material& material = scene.materials[0];
   material.alpha_cutoff = 0.5F;
   material.base_color_map = TextureMap{"mask", std::make_shared<const Image>(mask), {}};
-  const auto open = [&](float x, float y) { return !Occluders(scene).blocked({x, y, 1.0F}, {0, 0, -1}); };
+  const auto open = [&](float x, float y) { return !Occluders(scene).blocked({x, y, -1.0F}, {0, 0, 1}); };
   EXPECT_TRUE(open(-0.5F, 0.5F));
   EXPECT_FALSE(open(0.5F, 0.5F));
   EXPECT_FALSE(open(-0.5F, -0.5F));
@@ -76,12 +77,28 @@ TEST(Occluders, AlphaOfTheCutoffBlocks) {
   scene.materials[0].alpha_cutoff = 0.5F;
   for (const auto& [alpha, blocks] : {std::pair(0.5F, true), std::pair(0.499F, false)}) {
     scene.materials[0].base_color.a = alpha;
-    EXPECT_EQ(Occluders(scene).blocked({0.1F, 0.2F, 1.0F}, {0, 0, -1}), blocks);
+    EXPECT_EQ(Occluders(scene).blocked({0.1F, 0.2F, -1.0F}, {0, 0, 1}), blocks);
   }
 }
 
-TEST(Occluders, BothSidesBlock) {
+// The floor faces +z: from below light passes it, as if the floor were not there, and so it does on rays along light.
+TEST(Occluders, OneSidedTrianglesBlockLightToTheirFrontAlone) {
   const Scene scene = white_floor();
+  const Occluders occluders(scene);
+  EXPECT_TRUE(occluders.open_from_behind(0));
+  EXPECT_TRUE(occluders.blocked({0.3F, 0.2F, -1.0F}, {0, 0, 1}));
+  EXPECT_FALSE(occluders.blocked({0.3F, 0.2F, 1.0F}, {0, 0, -1}));
+  EXPECT_EQ(occluders.blocked({0.3F, 0.2F, 1.0F}, std::array{glm::vec3{0, 0, -1}, glm::vec3{0, 0, 1}}),
+            (std::vector<bool>{false, false}));
+  EXPECT_TRUE(occluders.nearest({0.3F, 0.2F, 1.0F}, {0, 0, -1}));
+  EXPECT_FALSE(occluders.nearest({0.3F, 0.2F, -1.0F}, {0, 0, 1}));
+}
+
+TEST(Occluders, BothSidesBlockWhereTheyAreDrawnOrTheSceneSaysSo) {
+  Scene scene = white_floor(), double_sided = scene;
+  scene.shadows.both_sides = true;
+  double_sided.materials[0].double_sided = true;
+  EXPECT_TRUE(Occluders(double_sided).blocked({0.3F, 0.2F, 1.0F}, {0, 0, -1}));
   const Occluders occluders(scene);
   EXPECT_TRUE(occluders.blocked({0.3F, 0.2F, 1.0F}, {0, 0, -1}));
   EXPECT_TRUE(occluders.blocked({0.3F, 0.2F, -1.0F}, {0, 0, 1}));

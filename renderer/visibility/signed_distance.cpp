@@ -60,7 +60,8 @@ const std::vector<glm::vec3>& visibility_directions() {
   return directions;
 }
 
-SphereVisibility visibility_at(const Occluders& occluders, const glm::vec3& point, const glm::vec3& normal) {
+SphereVisibility visibility_at(const Occluders& occluders, const glm::vec3& point, const glm::vec3& normal,
+                               Horizon horizon) {
   const std::vector<glm::vec3>& directions = visibility_directions();
   const glm::vec3 start = point + occluders.offset() * normal;
   std::vector<glm::vec3> above;
@@ -72,6 +73,7 @@ SphereVisibility visibility_at(const Occluders& occluders, const glm::vec3& poin
   }
   const std::vector<bool> blocked = occluders.blocked(start, above);
   SphereVisibility visible;
+  if (horizon == Horizon::open) visible.set();
   for (std::size_t i = 0; i < cells.size(); ++i) visible[cells[i]] = !blocked[i];
   return visible;
 }

@@ -22,10 +22,10 @@ using SphereVisibility = std::bitset<std::size_t{visibility_edge} * visibility_e
 /// The cell that a direction (of any length but 0) lies in.
 [[nodiscard]] std::size_t visibility_cell(const glm::dvec3& direction);
 
-/// What a surface point sees: nothing below the plane of its `normal` (unit), and of what is above it what no triangle
-/// hides. Rays start before the surface by the occluders' offset.
+/// What a surface point sees: of what is above the plane of its `normal` (unit) what no triangle hides; below it
+/// nothing, or with an open horizon all. Rays start before the surface by the occluders' offset.
 [[nodiscard]] SphereVisibility visibility_at(const Occluders& occluders, const glm::vec3& point,
-                                             const glm::vec3& normal);
+                                             const glm::vec3& normal, Horizon horizon = Horizon::cut);
 
 /// The angle from each of `directions` (unit) to the nearest edge between visible and hidden, in radians, -pi to pi:
 /// above 0 where the direction is visible, below where it is hidden. An edge lies halfway between two neighbours of

@@ -17,7 +17,8 @@ Vertex middle(const Vertex& a, const Vertex& b) {
           .normal = 0.5F * (a.normal + b.normal),
           .tangent = 0.5F * (a.tangent + b.tangent),
           .uv0 = 0.5F * (a.uv0 + b.uv0),
-          .uv1 = 0.5F * (a.uv1 + b.uv1)};
+          .uv1 = 0.5F * (a.uv1 + b.uv1),
+          .color = 0.5F * (a.color + b.color)};
 }
 
 class Splitter {

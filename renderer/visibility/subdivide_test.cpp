@@ -55,10 +55,12 @@ TEST(Subdivided, TrianglesStillMeet) {
 TEST(Subdivided, MiddlesInterpolate) {
   Mesh mesh = white_floor().meshes[0];
   mesh.vertices[0].normal = {0.6F, 0.0F, 0.8F};
+  for (Vertex& vertex : mesh.vertices) vertex.color = {vertex.uv0, 0.25F, vertex.uv0.x};
   const Mesh fine = subdivided(mesh, 1.9F);
   for (const Vertex& vertex : fine.vertices) {
     EXPECT_NEAR(vertex.uv0.x, 0.5F + 0.5F * vertex.position.x, 1e-6F);
     EXPECT_NEAR(vertex.uv0.y, 0.5F - 0.5F * vertex.position.y, 1e-6F);
+    EXPECT_EQ(vertex.color, glm::vec4(vertex.uv0, 0.25F, vertex.uv0.x));
   }
 }
 

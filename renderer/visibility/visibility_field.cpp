@@ -77,7 +77,7 @@ void require_room(std::size_t vertices, const std::string& source) {
   require_memory(vertices * (map_texels * sizeof(float) + sizeof(VertexVisibility)), what, hint);
 }
 
-Measured measure(const std::vector<const Vertex*>& vertices, const Occluders& occluders,
+Measured measure(const std::vector<const Vertex*>& vertices, const Occluders& occluders, Horizon horizon,
                  std::span<const glm::dvec3> light, const Progress& progress) {
   Measured measured{Distances(static_cast<Eigen::Index>(vertices.size()), map_texels),
                     std::vector<glm::vec3>(vertices.size())};
@@ -89,7 +89,7 @@ Measured measure(const std::vector<const Vertex*>& vertices, const Occluders& oc
       for (std::size_t i = range.begin(); i < range.end(); ++i) {
         const glm::vec3& given = vertices[i]->normal;
         const glm::vec3 normal = given / std::max(glm::length(given), 1e-20F);
-        const SphereVisibility visible = visibility_at(occluders, vertices[i]->position, normal);
+        const SphereVisibility visible = visibility_at(occluders, vertices[i]->position, normal, horizon);
         const std::vector<float> distances = signed_distances(visible, directions);
         std::ranges::copy(distances, measured.distances.row(static_cast<Eigen::Index>(i)).data());
         measured.diffuse_shares[i] = diffuse_share(visible, normal, light);
@@ -137,7 +137,7 @@ VisibilityField visibility_field(const Scene& scene, const Occluders& occluders,
                                  const Progress& progress) {
   const std::vector<const Vertex*> vertices = all_vertices(scene);
   require_room(vertices.size(), scene.source);
-  Measured measured = measure(vertices, occluders, visibility_light(environment), progress);
+  Measured measured = measure(vertices, occluders, scene.horizon, visibility_light(environment), progress);
   const Eigen::RowVectorXf mean = measured.distances.colwise().mean();
   measured.distances.rowwise() -= mean;
   const Eigen::MatrixXf components = principal_components(measured.distances);

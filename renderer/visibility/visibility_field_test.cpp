@@ -62,6 +62,19 @@ TEST(SignedDistances, OfABallAreAnglesToItsEdge) {
   }
 }
 
+// With an open horizon the surface hides nothing by itself, and a ball as much as before.
+TEST(SignedDistances, OfAnOpenHorizonKnowBodiesAlone) {
+  const glm::vec3 up(0, 0, 1);
+  EXPECT_TRUE(visibility_at(Occluders(white_floor()), glm::vec3(0), up, Horizon::open).all());
+  const Scene scene = ball_above(30.0 * degree);
+  const SphereVisibility open = visibility_at(Occluders(scene), glm::vec3(0), up, Horizon::open);
+  const SphereVisibility cut = visibility_at(Occluders(scene), glm::vec3(0), up);
+  EXPECT_EQ((open & cut), cut);
+  const auto behind = std::ranges::count_if(
+      visibility_directions(), [](const glm::vec3& direction) { return direction.z > std::cos(30.0 * degree); });
+  EXPECT_NEAR(static_cast<double>(open.size() - open.count()), static_cast<double>(behind), 4.0);
+}
+
 TEST(SignedDistances, WithoutAnEdge) {
   const auto directions = spread_directions(10);
   for (const float d : signed_distances(SphereVisibility{}, directions)) EXPECT_FLOAT_EQ(d, -std::numbers::pi_v<float>);

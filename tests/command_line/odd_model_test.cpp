@@ -76,6 +76,47 @@ const std::vector<Case> frames{
      .leaves = {"out/results.json"}},
 };
 
+// Two scenes, of which the second has two cameras and a coat that is left out.
+Case of_two_scenes(const std::string& name, std::vector<std::string> arguments) {
+  GltfBuilder quad = make_bumpy_quad();
+  quad.json["scenes"] = {{{"name", "bare"}, {"nodes", {0}}}, {{"name", "seen"}, {"nodes", {1, 2, 3}}}};
+  quad.json["nodes"] = {{{"mesh", 0}},
+                        {{"mesh", 0}},
+                        {{"camera", 0}, {"translation", {0, 0, 3}}},
+                        {{"camera", 0}, {"name", "near"}, {"translation", {0, 0, 2}}}};
+  quad.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.6}, {"znear", 1e-9}}}}};
+  quad.json["extensionsUsed"] = {"KHR_materials_clearcoat"};
+  quad.json["extensionsRequired"] = {"KHR_materials_clearcoat"};
+  arguments.insert(arguments.begin() + 1, "{}/quad.gltf");
+  return {.name = name,
+          .arguments = std::move(arguments),
+          .files = {{"quad.gltf", quad.text()}, {"bumps.png", bumps_png()}}};
+}
+
+std::vector<Case> choices() {
+  Case listed = of_two_scenes("Listed", {"explain", "--model-scene", "seen", "--size", "16x16"});
+  listed.output_has = {"to choose from",
+                       "0 `bare`, *1 `seen`",
+                       "*0 `camera 0`, 1 `near`",
+                       "the first of 2 cameras is used",
+                       "KHR_materials_clearcoat is left out: the clear coat",
+                       "memory for maps, estimated"};
+  Case json = of_two_scenes("ListedInJson", {"explain", "--camera", "near", "--model-scene", "1", "--json"});
+  json.output_has = {"\"taken\": 1", "\"warnings\"", "\"estimated_peak\""};
+  Case taken = of_two_scenes("Taken", {"render", "--method", "direct", "--model-scene", "1", "--camera", "near",
+                                       "--size", "8x8", "-o", "{}/a.exr"});
+  taken.leaves = {"a.exr"};
+  Case wrong = of_two_scenes("Unknown", {"render", "--method", "direct", "--model-scene", "seem", "-o", "{}/a.exr"});
+  wrong.exit_code = 2;
+  wrong.errors_have = {"quad.gltf", "none that is called `seem`", "did you mean `seen`"};
+  Case environment = of_two_scenes(
+      "NoSuchEnvironment", {"render", "--method", "direct", "--environment", "{}/missing.exr", "-o", "{}/a.exr"});
+  environment.exit_code = 2;
+  environment.errors_have = {"missing.exr"};
+  return {listed, json, taken, wrong, environment};
+}
+
+INSTANTIATE_TEST_SUITE_P(Choice, CommandLine, ::testing::ValuesIn(choices()), case_name);
 INSTANTIATE_TEST_SUITE_P(OddModel, CommandLine, ::testing::ValuesIn(of_compare_and_render(models())), case_name);
 INSTANTIATE_TEST_SUITE_P(OddFrame, CommandLine, ::testing::ValuesIn(frames), case_name);
 

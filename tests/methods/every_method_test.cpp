@@ -45,6 +45,24 @@ TEST_P(EveryMethod, EqualsDirectOnAConstantMapAtAnyDistance) {
   }
 }
 
+// Facets that lean 53 degrees under a light 10 degrees below the surface's plane: with an open horizon every method
+// shows what `direct` shows there, and with a cut one nothing.
+TEST_P(EveryMethod, KnowsLightFromBelowTheHorizonByTheScenesRule) {
+  for (const BaseBrdf& brdf : brdfs) {
+    Image normals = constant_normals(64, 64, {0.8F, 0, 0.6F});
+    normals.at(0, 0)[0] += 2e-5F;  // as above
+    Scene scene = square_scene(normals, {.brdf = brdf});
+    scene.lights = {DirectionalLight{.direction = {-0.985F, 0.0F, 0.174F}, .illuminance = glm::vec3(3.0F)}};
+    EXPECT_EQ(covered_mean(TestRenderer(scene).frame(*GetParam())), 0.0);
+    scene.horizon = Horizon::open;
+    EXPECT_GT(covered_mean(TestRenderer(scene).frame(find_method("direct"))), 0.05);
+    for (const double distance : {0.05, 1.0, 4.0}) {
+      EXPECT_LT(difference_from_direct(scene, distance), 1e-3)
+          << "distribution " << static_cast<int>(brdf.distribution) << ", distance " << distance;
+    }
+  }
+}
+
 // Near a map that is flat where the camera looks.
 TEST_P(EveryMethod, EqualsDirectAtMagnificationWhereTheMapIsFlat) {
   if (!GetParam()->info().resolves_texels) GTEST_SKIP() << "has one BRDF for the whole map";

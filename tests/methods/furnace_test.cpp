@@ -76,6 +76,38 @@ TEST_P(InAWhiteFurnace, KeepsItsEnergyWithinTheBoundOfItsReadme) {
 INSTANTIATE_TEST_SUITE_P(Registry, InAWhiteFurnace, ::testing::ValuesIn(all_methods().begin(), all_methods().end()),
                          [](const auto& test) { return test.param->info().name; });
 
+// Where the horizon is open every facet has a hemisphere of its own: white Lambert facets reflect all of the furnace,
+// however they lean. Where it cuts they lose (1 - n_z) / 2.
+TEST(AnOpenHorizon, LosesNothingInAWhiteFurnace) {
+  Scene scene = furnace(white_materials().front());
+  const double cut = covered_mean(TestRenderer(scene, {32, 32}).reference(36).mean);
+  scene.horizon = Horizon::open;
+  TestRenderer renderer(scene, {32, 32});
+  const Image& normals = *scene.materials[0].normal_map->image;
+  double seen = 0.0;
+  for (std::size_t i = 2; i < normals.texels.size(); i += 4) seen += 0.5 + 0.5 * normals.texels[i];
+  EXPECT_NEAR(cut, seen / static_cast<double>(normals.texel_count()), 3e-3);
+  EXPECT_LT(cut, 0.99);
+  EXPECT_NEAR(covered_mean(renderer.reference(36).mean), 1.0, 2e-3);
+  for (const char* const method : {"direct", "toksvig", "lean"}) {
+    EXPECT_NEAR(covered_mean(renderer.frame(find_method(method))), 1.0, 0.02) << method;
+  }
+  EXPECT_NEAR(covered_mean(renderer.supersampled(find_method("direct"), 36).mean), 1.0, 1e-3);
+}
+
+// A level map has one horizon, whoever asks.
+TEST(AnOpenHorizon, IsThatOfALevelSurface) {
+  for (const SquareMaterial& material : white_materials()) {
+    Scene scene = furnace(material);
+    scene.materials[0].normal_map.reset();
+    TestRenderer cut(scene, {32, 32});
+    scene.horizon = Horizon::open;
+    TestRenderer open(scene, {32, 32});
+    EXPECT_LT(largest_difference(cut.frame(find_method("direct")), open.frame(find_method("direct"))), 1e-5);
+    EXPECT_NEAR(covered_mean(cut.reference(36).mean) / covered_mean(open.reference(36).mean), 1.0, 2e-3);
+  }
+}
+
 // The gate closes: on a picture that is as much too bright as the widest bound allows and some more, on one with a
 // single bright pixel, and on one that is not finite.
 TEST(InAWhiteFurnaceGate, RefusesWhatGainsOrLosesEnergy) {

@@ -21,6 +21,7 @@ void add(Model& model, Model part) {
   std::ranges::move(part.materials, std::back_inserter(model.materials));
   std::ranges::move(part.lights, std::back_inserter(model.lights));
   if (!model.camera) model.camera = part.camera;
+  std::ranges::move(part.choices, std::back_inserter(model.choices));
   for (std::string& warning : part.warnings) add_once(model.warnings, std::move(warning));
 }
 
@@ -33,6 +34,17 @@ Bounds bounds_of(const std::vector<Mesh>& meshes) {
     }
   }
   return bounds;
+}
+
+/// Facets of a patch shadow one another as if the surface were level, so that below its plane there is no light.
+Horizon horizon_of(const SceneSettings& settings, const std::string& source) {
+  const Horizon horizon = settings.horizon.value_or(Horizon::open);
+  const auto patched = [](const PartSettings& part) { return !part.microgeometry.empty(); };
+  if (horizon == Horizon::open && std::ranges::any_of(settings.parts, patched)) {
+    throw Error(ErrorKind::usage, source, "its small-scale geometry knows no light from below the surface's horizon",
+                "leave `horizon` out, or set it to \"cut\"");
+  }
+  return horizon;
 }
 
 void set_camera(const SceneSettings& settings, const std::optional<Camera>& own, Scene& scene) {
@@ -62,6 +74,10 @@ void set_lights(const SceneSettings& settings, std::vector<Light> own, Scene& sc
   if (!scene.lights.empty() || scene.environment) return;
   scene.lights = supplied_lights(scene.camera, scene.bounds);
   scene.defaults.emplace_back("lights: a key and a fill directional light and a point light, white at radiance 0.8");
+  if (settings.supply_environment) {
+    scene.environment = supplied_environment();
+    scene.defaults.emplace_back("environment: a studio of soft light, so that metal has something to mirror");
+  }
   if (!settings.exposure && !settings.automatic_exposure) {
     scene.exposure = 1.0F;
     scene.defaults.emplace_back("exposure: 1, which suits the supplied lights");
@@ -81,11 +97,13 @@ Scene assemble_scene(const SceneSettings& settings, const std::string& name, con
   scene.source = source;
   scene.meshes = std::move(model.meshes);
   scene.materials = std::move(model.materials);
+  scene.choices = std::move(model.choices);
   scene.warnings = std::move(model.warnings);
   scene.bounds = bounds_of(scene.meshes);
   scene.frame_size = settings.frame_size;
   scene.distances = settings.distances;
   scene.shadows = settings.shadows;
+  scene.horizon = horizon_of(settings, source);
   set_camera(settings, model.camera, scene);
   set_lights(settings, std::move(model.lights), scene);
   return scene;

@@ -25,7 +25,7 @@ Model load_content(const ModelSettings& settings) {
     std::error_code error;
     if (settings.candidates.size() > 1 && !std::filesystem::exists(candidate, error)) continue;
     try {
-      Model model = load_model(candidate);
+      Model model = load_model(candidate, settings.selection);
       if (settings.unwrap) std::ranges::for_each(model.meshes, unwrap);
       return model;
     } catch (const Error& failed) {
@@ -53,7 +53,7 @@ Model load_content(const PlaneSettings& settings) {
   material.metallic = settings.metallic;
   if (settings.normal_map) {
     const auto& file = *settings.normal_map;
-    NormalMap map = decode_normal_map(read_image(file, Transfer::linear), settings.normal_scale);
+    NormalMap map = read_normal_map(file, settings.normal_scale, settings.normal_channels);
     model.warnings = describe_faults(map, file.filename().string());
     material.normal_map = make_map(file, std::move(map.image));
   }
@@ -122,8 +122,8 @@ Model load_content(const DressedModel& content) {
 }
 
 TextureMap load_layer(const LayerFile& file, double strength, std::vector<std::string>& warnings) {
-  const Image stored = read_image(file.path, Transfer::linear);
-  NormalMap map = file.heights ? normals_of_heights(stored, strength) : decode_normal_map(stored, strength);
+  NormalMap map = file.heights ? normals_of_heights(read_image(file.path, Transfer::linear), strength)
+                               : read_normal_map(file.path, strength);
   std::ranges::move(describe_faults(map, file.path.filename().string()), std::back_inserter(warnings));
   return make_map(file.path, std::move(map.image));
 }

@@ -21,48 +21,82 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
-// `camera` in place of the settings' own, where it says anything.
-void replace_camera(SceneSettings& settings, const CameraSettings& camera) {
-  if (!std::holds_alternative<std::monostate>(camera)) settings.camera = camera;
+ModelSettings* model_of(PartSettings& part) {
+  if (auto* dressed = std::get_if<DressedModel>(&part.content)) return &dressed->model;
+  return std::get_if<ModelSettings>(&part.content);
 }
 
-SceneSource settings_source(const fs::path& file, const std::string& source, std::span<const Surface> surfaces,
-                            const CameraSettings& camera) {
+// What is asked for of the only model file.
+void select(const ModelSelection& wanted, const std::string& source, SceneSettings& settings) {
+  if (wanted.empty()) return;
+  std::vector<ModelSettings*> models;
+  for (PartSettings& part : settings.parts) {
+    if (ModelSettings* model = model_of(part)) models.push_back(model);
+  }
+  if (models.size() != 1) {
+    throw Error(
+        ErrorKind::usage, source,
+        models.empty() ? "it has no model file whose scene, camera or variant could be chosen"
+                       : "it has several model files, so that it is not clear whose is chosen",
+        models.empty() ? "leave the choice out" : "write `scene`, `camera`, `variant` into their [model] tables");
+  }
+  ModelSelection& own = models.front()->selection;
+  if (wanted.scene) own.scene = wanted.scene;
+  if (wanted.variant) own.variant = wanted.variant;
+  if (wanted.camera) {
+    own.camera = wanted.camera;
+    settings.camera = {};
+  }
+}
+
+void apply(const SceneOverrides& overrides, SceneSource& source) {
+  select(overrides.model, source.source, source.settings);
+  if (!std::holds_alternative<std::monostate>(overrides.camera)) source.settings.camera = overrides.camera;
+  if (overrides.environment) {
+    source.settings.environment.emplace().candidates = {*overrides.environment};
+  }
+}
+
+SceneSource settings_source(const fs::path& file, const std::string& source, std::span<const Surface> surfaces) {
   const std::string folder = fs::absolute(file).lexically_normal().parent_path().filename().string();
   const std::string stem = file.filename() == settings_name ? folder : file.stem().string();
-  SceneSource out{read_scene_settings(file, surfaces), stem, source, file};
-  replace_camera(out.settings, camera);
-  return out;
+  return {read_scene_settings(file, surfaces), stem, source, file};
 }
 
-SceneSource bare_source(const fs::path& file, const std::string& source, const CameraSettings& camera) {
+SceneSource bare_source(const fs::path& file, const std::string& source) {
   SceneSource out{{}, file.stem().string(), source, {}};
-  replace_camera(out.settings, camera);
-  out.settings.parts.emplace_back().content = ModelSettings{{file}, {}, false};
+  out.settings.parts.emplace_back().content = ModelSettings{{file}, {}, false, {}};
+  out.settings.supply_environment = true;
   return out;
 }
 
-}  // namespace
-
-SceneSource read_scene(const std::string& scene, const SceneLibrary& library, const CameraSettings& camera) {
+SceneSource source_of(const std::string& scene, const SceneLibrary& library) {
   if (scene.empty()) throw Error(ErrorKind::usage, "scene", "the name is empty", "name a scene or a glTF file");
   const fs::path path = scene;
   const bool plain_name = path == path.filename() && !path.has_extension();
   if (plain_name && is_file(library.folder / path / settings_name)) {
-    return settings_source(library.folder / path / settings_name, scene, library.surfaces, camera);
+    return settings_source(library.folder / path / settings_name, scene, library.surfaces);
   }
   std::error_code error;
   if (fs::is_directory(path, error)) {
-    if (is_file(path / settings_name)) return settings_source(path / settings_name, scene, library.surfaces, camera);
+    if (is_file(path / settings_name)) return settings_source(path / settings_name, scene, library.surfaces);
     throw Error(ErrorKind::usage, scene, "the folder has no scene.toml", "name a folder with one, or a glTF file");
   }
-  if (lower_extension(path) == ".toml") return settings_source(path, scene, library.surfaces, camera);
-  if (names_model(path)) return bare_source(path, scene, camera);
+  if (lower_extension(path) == ".toml") return settings_source(path, scene, library.surfaces);
+  if (names_model(path)) return bare_source(path, scene);
   if (fs::exists(path, error)) {
     throw Error(ErrorKind::usage, scene, "is neither a scene.toml nor a .gltf, .glb or .obj file",
                 "export the model as glTF 2.0");
   }
   throw Error(ErrorKind::usage, scene, "no such scene or file", suggestion(scene, list_scenes(library.folder)));
+}
+
+}  // namespace
+
+SceneSource read_scene(const std::string& scene, const SceneLibrary& library, const SceneOverrides& overrides) {
+  SceneSource source = source_of(scene, library);
+  apply(overrides, source);
+  return source;
 }
 
 Scene assemble(const SceneSource& source) {
@@ -74,8 +108,8 @@ Scene assemble(const SceneSource& source) {
   }
 }
 
-Scene load_scene(const std::string& scene, const SceneLibrary& library, const CameraSettings& camera) {
-  return assemble(read_scene(scene, library, camera));
+Scene load_scene(const std::string& scene, const SceneLibrary& library, const SceneOverrides& overrides) {
+  return assemble(read_scene(scene, library, overrides));
 }
 
 std::vector<std::string> list_scenes(const fs::path& scenes_folder) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,19 +20,26 @@ struct SceneSource {
   std::filesystem::path file;  ///< the settings' own; empty for a bare model
 };
 
+/// What stands in for a scene's own words.
+struct SceneOverrides {
+  CameraSettings camera;  ///< where it says anything
+  ModelSelection model;   ///< of the scene's only model file; a camera of it goes before the scene's own
+  std::optional<std::filesystem::path> environment;  ///< picture in place of the scene's own environment
+};
+
 /// What SCENE names, read but not assembled. Errors (usage) as of load_scene, but for those of assembling.
 [[nodiscard]] SceneSource read_scene(const std::string& scene, const SceneLibrary& library,
-                                     const CameraSettings& camera = {});
+                                     const SceneOverrides& overrides = {});
 
 /// The scene of a source. Errors (usage) of assemble_scene, naming the file.
 [[nodiscard]] Scene assemble(const SceneSource& source);
 
 /// Loads SCENE as the command line takes it: a folder of `library.folder`, a folder with a scene.toml, a path to a
 /// scene.toml, or a .gltf / .glb file (camera framed on its bounds and a light rig supplied where the file has none).
-/// `camera` stands in for the scene's own, where it says anything. Errors (usage) name file, place and hint; an unknown
-/// key in scene.toml names its line and the nearest right key, and so does a surface that is not in the library.
+/// Errors (usage) name file, place and hint; an unknown key in scene.toml names its line and the nearest right key, and
+/// so does a surface that is not in the library; a selection of a scene without a model file, or with several.
 [[nodiscard]] Scene load_scene(const std::string& scene, const SceneLibrary& library,
-                               const CameraSettings& camera = {});
+                               const SceneOverrides& overrides = {});
 
 /// The names of the folders in `scenes_folder` that hold a scene.toml, sorted.
 [[nodiscard]] std::vector<std::string> list_scenes(const std::filesystem::path& scenes_folder);

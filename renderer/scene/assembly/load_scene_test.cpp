@@ -66,11 +66,13 @@ TEST(LoadScene, WrongNamesAreNamed) {
   EXPECT_NE(error_of(test::write_file("model.stl", "solid").string()).find("neither"), std::string::npos);
 }
 
-TEST(LoadScene, BareGltfGetsCameraLightsAndExposure) {
+TEST(LoadScene, BareGltfGetsCameraLightsEnvironmentAndExposure) {
   const Scene scene = load_scene(test::make_quad().write().string(), {});
   EXPECT_EQ(scene.name, "made");
-  EXPECT_EQ(scene.defaults.size(), 3U);
+  EXPECT_EQ(scene.defaults.size(), 4U);
   EXPECT_EQ(scene.lights.size(), 3U);
+  ASSERT_TRUE(scene.environment);
+  EXPECT_EQ(scene.environment->name, "studio");
   EXPECT_EQ(scene.exposure, 1.0F);
   EXPECT_EQ(scene.distances, std::vector<double>{1.0});
   EXPECT_EQ(scene.bounds.lower, glm::vec3(-1, -1, 0));
@@ -85,6 +87,7 @@ TEST(LoadScene, OwnLightsLeaveTheExposureAutomatic) {
   const auto file = quad.write();
   const Scene bare = load_scene(file.string(), {});
   EXPECT_EQ(bare.lights.size(), 1U);
+  EXPECT_FALSE(bare.environment);
   EXPECT_FALSE(bare.exposure);
   EXPECT_EQ(bare.defaults.size(), 1U);
 
@@ -93,6 +96,41 @@ TEST(LoadScene, OwnLightsLeaveTheExposureAutomatic) {
   EXPECT_EQ(load_made(model + light).lights.size(), 2U);
   EXPECT_EQ(load_made(model + light + "[lights]\nkeep = false\n").lights.size(), 1U);
   EXPECT_EQ(load_made(model + "[lights]\nkeep = false\n").lights.size(), 3U);  // the supplied rig
+}
+
+TEST(LoadScene, AnEnvironmentFromOutsideGoesBeforeTheScenesOwn) {
+  Image radiance(2, 1, 3, 0.5F);
+  write_exr(test::test_folder() / "around.exr", radiance);
+  SceneOverrides overrides;
+  overrides.environment = test::test_folder() / "around.exr";
+  const Scene bare = load_scene(test::make_quad().write().string(), {}, overrides);
+  EXPECT_EQ(bare.environment->name, "around.exr");
+  EXPECT_TRUE(bare.lights.empty());
+  const auto file = test::write_file("lit.toml", "[plane]\n[environment]\nkind = \"sky\"\nintensity = 9.0\n");
+  EXPECT_EQ(load_scene(file.string(), {}, overrides).environment->name, "around.exr");
+  EXPECT_EQ(load_scene(file.string(), {}, overrides).environment->radiance->texels.front(), 0.5F);
+  overrides.environment = "missing.exr";
+  EXPECT_NE(test::usage_error([&] { return load_scene(file.string(), {}, overrides); }).find("missing.exr"),
+            std::string::npos);
+}
+
+// Model files alone have an open horizon; what papers have computed or traced has a cut one; a scene may say either.
+TEST(LoadScene, TheHorizonFollowsWhatIsDrawn) {
+  const std::string model = "[model]\nfile = \"../made.gltf\"\n";
+  EXPECT_EQ(load_scene(test::make_quad().write().string(), {}).horizon, Horizon::open);
+  EXPECT_FALSE(load_scene(test::make_quad().write().string(), {}).shadows.both_sides);
+  EXPECT_EQ(load_made(model).horizon, Horizon::open);
+  EXPECT_FALSE(load_made(model).shadows.both_sides);
+  EXPECT_TRUE(load_made(model + "[shadows]\nsides = \"both\"\n").shadows.both_sides);
+  EXPECT_TRUE(load_made("[plane]\n").shadows.both_sides);
+  EXPECT_FALSE(load_made("[plane]\n[shadows]\nsides = \"drawn\"\n").shadows.both_sides);
+  EXPECT_EQ(load_made("[scene]\nhorizon = \"cut\"\n" + model).horizon, Horizon::cut);
+  EXPECT_EQ(load_made("[plane]\n").horizon, Horizon::cut);
+  EXPECT_EQ(load_made("[scene]\nhorizon = \"open\"\n[plane]\n").horizon, Horizon::open);
+  const std::string patch = "[microgeometry]\nkind = \"grooves\"\nresolution = 8\n";
+  EXPECT_EQ(load_made(model + patch).horizon, Horizon::cut);
+  const auto refused = [&] { return load_made("[scene]\nhorizon = \"open\"\n[plane]\n" + patch); };
+  EXPECT_NE(test::usage_error(refused).find("knows no light from below"), std::string::npos);
 }
 
 TEST(LoadScene, SettingsOverrideEveryMaterial) {

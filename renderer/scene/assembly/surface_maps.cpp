@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "renderer/core/error.hpp"
+#include "renderer/image/image_io.hpp"
 
 namespace footprint {
 namespace {
@@ -16,21 +17,28 @@ namespace {
 /// NaN comes out as the lower end, which std::clamp would let through.
 float unit_range(float value) { return value > 0.0F ? std::min(value, 1.0F) : 0.0F; }
 
-void require_three_channels(const Image& stored) {
-  if (stored.channels >= 3) return;
-  throw Error(ErrorKind::usage, {}, "a normal map needs three channels, this image has fewer",
-              "store the normal's x, y, z in red, green, blue");
+void require_two_channels(const Image& stored) {
+  if (stored.channels >= 2) return;
+  throw Error(ErrorKind::usage, {}, "a normal map needs two channels or three, this image has one",
+              "store the normal's x, y, z in red, green, blue, or x and y in two channels");
 }
 
+bool holds_xy(const Image& stored, NormalChannels channels) {
+  return stored.channels == 2 || channels == NormalChannels::xy;
+}
+
+// z of a unit vector over x and y; 0 where they leave nothing for it.
+glm::dvec3 with_z(const glm::dvec2& xy) { return {xy, std::sqrt(std::max(1.0 - glm::dot(xy, xy), 0.0))}; }
+
 template <class Decode>
-NormalMap to_normal_map(const Image& stored, Decode decode, double scale) {
+NormalMap to_normal_map(const Image& stored, Decode decode, bool xy, double scale) {
   constexpr double smallest_z = 1e-6;
   NormalMap map{Image(stored.width, stored.height, 4), 0, 0};
   for (int y = 0; y < stored.height; ++y) {
     for (int x = 0; x < stored.width; ++x) {
       const auto in = stored.at(x, y);
       const auto out = map.image.at(x, y);
-      glm::dvec3 normal = decode(glm::dvec3{in[0], in[1], in[2]});
+      glm::dvec3 normal = xy ? with_z(decode(glm::dvec2{in[0], in[1]})) : decode(glm::dvec3{in[0], in[1], in[2]});
       const double length = glm::length(normal);
       if (!std::isfinite(length) || length < 1e-3) {
         ++map.invalid;
@@ -73,16 +81,8 @@ UnitCounts count_unit_vectors(const Image& stored) {
   return counts;
 }
 
-}  // namespace
-
-NormalMap decode_normal_map(const Image& stored, double scale) {
-  require_three_channels(stored);
-  return to_normal_map(
-      stored, [&](const glm::dvec3& v) { return 2.0 * v - 1.0; }, scale);
-}
-
-NormalMap decode_unit_normals(const Image& stored) {
-  require_three_channels(stored);
+// Most texels must hold a unit vector as they are.
+void require_unit_vectors(const Image& stored) {
   const UnitCounts counts = count_unit_vectors(stored);
   if (2 * counts.as_stored < counts.texels && 2 * counts.as_encoded >= counts.texels) {
     throw Error(ErrorKind::usage, {}, "its values are normals encoded as 0 to 1, but an EXR holds x, y, z of -1 to 1",
@@ -93,8 +93,31 @@ NormalMap decode_unit_normals(const Image& stored) {
                 fmt::format("{} of {} texels hold no unit vector", counts.texels - counts.as_stored, counts.texels),
                 "store unit normals, x, y, z of -1 to 1 in the first three channels");
   }
+}
+
+}  // namespace
+
+NormalMap decode_normal_map(const Image& stored, double scale, NormalChannels channels) {
+  require_two_channels(stored);
   return to_normal_map(
-      stored, [](const glm::dvec3& v) { return v; }, 1.0);
+      stored, [](const auto& v) { return 2.0 * v - 1.0; }, holds_xy(stored, channels), scale);
+}
+
+NormalMap decode_unit_normals(const Image& stored, double scale, NormalChannels channels) {
+  require_two_channels(stored);
+  const bool xy = holds_xy(stored, channels);
+  if (!xy) require_unit_vectors(stored);
+  return to_normal_map(
+      stored, [](const auto& v) { return v; }, xy, scale);
+}
+
+NormalMap read_normal_map(const std::filesystem::path& file, double scale, NormalChannels channels) {
+  const Image stored = read_image(file, Transfer::linear);
+  try {
+    return is_exr(file) ? decode_unit_normals(stored, scale, channels) : decode_normal_map(stored, scale, channels);
+  } catch (const Error& error) {
+    throw error.within(file.string());
+  }
 }
 
 void scale_slopes(Image& normals, double strength) {

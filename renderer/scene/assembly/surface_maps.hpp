@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "renderer/image/image.hpp"
+#include "renderer/scene/normal_channels.hpp"
 
 namespace footprint {
 
@@ -16,15 +18,21 @@ struct NormalMap {
   std::size_t inverted = 0;  ///< texels that point into the surface, laid flat onto it
 };
 
-/// Decodes stored normals, 2 c - 1 per channel for every file format; x and y are multiplied by `scale`, then the
-/// vector is renormalised (glTF 2.0, normalTexture). A texel shorter than 1e-3 or not finite becomes (0, 0, 1) with
-/// weight 0; z <= 0 becomes a tiny positive z. Errors (usage): fewer than three channels.
-[[nodiscard]] NormalMap decode_normal_map(const Image& stored, double scale);
+/// Decodes stored normals, 2 c - 1 per channel; x and y are multiplied by `scale`, then the vector is renormalised
+/// (glTF 2.0, normalTexture). A texel shorter than 1e-3 or not finite becomes (0, 0, 1) with weight 0; z <= 0 becomes a
+/// tiny positive z, and so do x and y that leave nothing for z. Errors (usage): one channel.
+[[nodiscard]] NormalMap decode_normal_map(const Image& stored, double scale,
+                                          NormalChannels channels = NormalChannels::xyz);
 
-/// Takes unit normals as they are, x, y, z of -1 to 1, and renormalises them; texels without a direction and inverted
-/// ones as above. Errors (usage): fewer than three channels; most texels hold no unit vector, with a word on values
-/// that are encoded as 0 to 1.
-[[nodiscard]] NormalMap decode_unit_normals(const Image& stored);
+/// Takes unit normals as they are, x, y, z of -1 to 1; the rest as above. Errors (usage): one channel; most texels hold
+/// no unit vector, with a word on values that are encoded as 0 to 1.
+[[nodiscard]] NormalMap decode_unit_normals(const Image& stored, double scale = 1.0,
+                                            NormalChannels channels = NormalChannels::xyz);
+
+/// The one rule for files of normals: an EXR holds unit normals as they are, every other format encodes them as
+/// (n + 1) / 2. Errors (usage), which name the file: as above, and of read_image.
+[[nodiscard]] NormalMap read_normal_map(const std::filesystem::path& file, double scale,
+                                        NormalChannels channels = NormalChannels::xyz);
 
 /// Multiplies the slopes of a normal map by `strength`.
 void scale_slopes(Image& normals, double strength);

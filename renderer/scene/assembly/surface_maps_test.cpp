@@ -3,11 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "renderer/core/error.hpp"
+#include "renderer/image/image_io.hpp"
+#include "tests/support/fresh_folder.hpp"
+#include "tests/support/says.hpp"
 
 namespace footprint {
 namespace {
@@ -107,12 +111,49 @@ TEST(SurfaceMaps, UnitNormalsThatAreNoneAreRefused) {
   };
   EXPECT_NE(refusal(one_texel({0.8F, 0.5F, 0.9F})).find("encoded as 0 to 1"), std::string::npos);
   EXPECT_NE(refusal(one_texel({3.0F, 4.0F, 0.0F})).find("no unit vector"), std::string::npos);
-  EXPECT_NE(refusal(one_texel({0.0F, 1.0F})).find("three channels"), std::string::npos);
+  EXPECT_NE(refusal(one_texel({1.0F})).find("two channels or three"), std::string::npos);
   EXPECT_EQ(refusal(one_texel({0.0F, 0.0F, 0.0F})), "none");  // tells nothing: no weight
 }
 
-TEST(SurfaceMaps, NormalMapsNeedThreeChannels) {
+TEST(SurfaceMaps, NormalMapsNeedTwoChannelsAtLeast) {
   EXPECT_THROW((void)decode_normal_map(Image(2, 2, 1, 0.5F), 1.0), Error);
+}
+
+// x and y alone: z makes the normal a unit vector, whatever stands in its channel; scaled as ever.
+TEST(SurfaceMaps, TwoChannelsLeaveZToTheReader) {
+  const auto expect_normal = [](const NormalMap& map, const glm::vec3& normal) {
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(map.image.texels[c], normal[static_cast<int>(c)], 1e-6F);
+    EXPECT_EQ(map.image.texels[3], 1.0F);
+  };
+  expect_normal(decode_normal_map(one_texel({0.8F, 0.5F}), 1.0), {0.6F, 0.0F, 0.8F});
+  expect_normal(decode_normal_map(one_texel({0.8F, 0.5F, 0.0F}), 1.0, NormalChannels::xy), {0.6F, 0.0F, 0.8F});
+  expect_normal(decode_unit_normals(one_texel({0.0F, -0.6F})), {0.0F, -0.6F, 0.8F});
+  expect_normal(decode_unit_normals(one_texel({0.0F, -0.6F, 7.0F}), 1.0, NormalChannels::xy), {0.0F, -0.6F, 0.8F});
+  const float scaled = 1.2F / std::hypot(1.2F, 0.8F);
+  expect_normal(decode_normal_map(one_texel({0.8F, 0.5F}), 2.0), {scaled, 0.0F, 0.8F / std::hypot(1.2F, 0.8F)});
+  const NormalMap beyond = decode_normal_map(one_texel({1.0F, 1.0F}), 1.0);  // (1, 1): longer than a unit vector
+  EXPECT_EQ(beyond.inverted, 1U);
+  EXPECT_GT(beyond.image.texels[2], 0.0F);
+}
+
+// One rule for a plane, a layer and `ndf`: an EXR as it is, a PNG encoded.
+TEST(SurfaceMaps, FilesOfNormalsAreReadByTheirFormat) {
+  const auto folder = test::fresh_folder();
+  Image unit(2, 1, 3), encoded(2, 1, 3);
+  unit.texels = {0.6F, 0.0F, 0.8F, 0.0F, 0.0F, 1.0F};
+  std::ranges::transform(unit.texels, encoded.texels.begin(), [](float value) { return 0.5F * value + 0.5F; });
+  write_exr(folder / "unit.exr", unit);
+  write_exr(folder / "encoded.exr", encoded);
+  write_png(folder / "encoded.png", encoded);
+  EXPECT_FLOAT_EQ(read_normal_map(folder / "unit.exr", 1.0).image.texels[0], 0.6F);
+  EXPECT_NEAR(read_normal_map(folder / "encoded.png", 1.0).image.texels[0], 0.6F, 4e-3F);
+  try {
+    (void)read_normal_map(folder / "encoded.exr", 1.0);
+    ADD_FAILURE() << "was taken";
+  } catch (const Error& error) {
+    EXPECT_TRUE(test::says(error.what(), "encoded.exr"));
+    EXPECT_TRUE(test::says(error.what(), "encoded as 0 to 1"));
+  }
 }
 
 TEST(SurfaceMaps, RoughnessIsGreenAndMetallicBlue) {

@@ -5,6 +5,9 @@
 #include <functional>
 #include <limits>
 
+#include "renderer/core/error.hpp"
+#include "renderer/core/memory.hpp"
+#include "renderer/image/test_png.hpp"
 #include "renderer/scene/gltf/model.hpp"
 #include "renderer/scene/gltf/test_builder.hpp"
 
@@ -47,7 +50,7 @@ TEST(GltfBadInput, FilesThatAreNoGltf) {
 
 TEST(GltfBadInput, VersionAndExtensions) {
   expect_error("glTF 1.0 is not supported", [](GltfBuilder& quad) { quad.json["asset"]["version"] = "1.0"; });
-  expect_error("KHR_draco_mesh_compression, EXT_other", [](GltfBuilder& quad) {
+  expect_error("KHR_draco_mesh_compression (geometry compressed by Draco), EXT_other", [](GltfBuilder& quad) {
     quad.json["extensionsRequired"] = {"KHR_texture_transform", "KHR_draco_mesh_compression", "EXT_other"};
   });
 }
@@ -238,6 +241,28 @@ TEST(GltfBadInput, GlbContainers) {
     EXPECT_FALSE(error_of(test::write_file("cut.glb", whole.substr(0, size))).empty()) << size;
   }
   EXPECT_NE(error_of(test::write_file("long.glb", whole + "more")).find("GLB container"), std::string::npos);
+}
+
+// By their headers alone the maps are more than memory holds: told before any of them is decoded.
+TEST(GltfBadInput, MapsThatMemoryDoesNotHoldAreRefusedBeforeTheWork) {
+  constexpr std::uint32_t side = 16384;
+  const std::uint64_t map_bytes = std::uint64_t{side} * side * 16;
+  test::GltfBuilder quad = test::make_quad();
+  const std::vector<std::uint8_t> png = test::png_file(side, side, 8, test::PngColor::rgb, {});
+  quad.json["meshes"][0]["primitives"][0]["material"] = 0;
+  for (std::uint64_t i = 0; i < available_memory() / map_bytes + 2; ++i) {
+    const int view = quad.add_view(png);
+    quad.json["images"].push_back({{"bufferView", view}, {"mimeType", "image/png"}});
+    quad.json["textures"].push_back({{"source", i}});
+    quad.json["materials"].push_back({{"normalTexture", {{"index", i}}}});
+  }
+  try {
+    (void)load_gltf(quad.write());
+    ADD_FAILURE() << "was loaded";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::machine) << error.what();
+    EXPECT_NE(std::string(error.what()).find("decoding the model's maps needs"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ struct Rule {
 };
 
 constexpr std::string_view lights = "extensions.KHR_lights_punctual.lights";
+constexpr std::string_view variants = "extensions.KHR_materials_variants.variants";
 
 constexpr auto rules = std::to_array<Rule>({
     {"extensionsUsed[]", Kind::string},
@@ -70,6 +71,15 @@ constexpr auto rules = std::to_array<Rule>({
     {"meshes[].primitives[].indices", Kind::index, Need::optional, "accessors"},
     {"meshes[].primitives[].material", Kind::index, Need::optional, "materials"},
     {"meshes[].primitives[].mode", Kind::size},
+    {"meshes[].primitives[].extensions", Kind::object},
+    {"meshes[].primitives[].extensions.KHR_materials_variants", Kind::object},
+    {"meshes[].primitives[].extensions.KHR_materials_variants.mappings", Kind::array, Need::required},
+    {"meshes[].primitives[].extensions.KHR_materials_variants.mappings[]", Kind::object},
+    {"meshes[].primitives[].extensions.KHR_materials_variants.mappings[].material", Kind::index, Need::required,
+     "materials"},
+    {"meshes[].primitives[].extensions.KHR_materials_variants.mappings[].variants", Kind::array, Need::required},
+    {"meshes[].primitives[].extensions.KHR_materials_variants.mappings[].variants[]", Kind::index, Need::optional,
+     variants},
     {"accessors[]", Kind::object},
     {"accessors[].bufferView", Kind::index, Need::optional, "bufferViews"},
     {"accessors[].byteOffset", Kind::size},
@@ -133,6 +143,12 @@ constexpr auto rules = std::to_array<Rule>({
     {"extensions.KHR_lights_punctual.lights[].range", Kind::number},
     {"extensions.KHR_lights_punctual.lights[].spot", Kind::object},
     {"extensions.KHR_lights_punctual.lights[].spot.*", Kind::number},
+    {"extensions.KHR_materials_variants", Kind::object},
+    {"extensions.KHR_materials_variants.variants", Kind::array, Need::required},
+    {"extensions.KHR_materials_variants.variants[]", Kind::object},
+    {"extensions.KHR_materials_variants.variants[].name", Kind::string},
+    {"scenes[].name", Kind::string},
+    {"cameras[].name", Kind::string},
     {"animations[]", Kind::object},
     {"animations[].channels[]", Kind::object},
     {"animations[].samplers[]", Kind::object},
@@ -160,8 +176,42 @@ constexpr auto texture_rules = std::to_array<Rule>({
     {".extensions.KHR_texture_transform.texCoord", Kind::size},
 });
 
-constexpr auto supported = std::to_array<std::string_view>(
-    {"KHR_lights_punctual", "KHR_materials_ior", "KHR_mesh_quantization", "KHR_texture_transform"});
+constexpr auto supported =
+    std::to_array<std::string_view>({"KHR_lights_punctual", "KHR_materials_ior", "KHR_materials_variants",
+                                     "KHR_mesh_quantization", "KHR_texture_transform"});
+
+/// An extension, and what it is in words.
+struct ExtensionWord {
+  std::string_view name, meaning;
+};
+
+/// Those that add something to a surface which is whole without it.
+constexpr auto layers = std::to_array<ExtensionWord>({
+    {"KHR_materials_anisotropy", "anisotropy"},
+    {"KHR_materials_clearcoat", "the clear coat"},
+    {"KHR_materials_diffuse_transmission", "diffuse transmission"},
+    {"KHR_materials_dispersion", "dispersion"},
+    {"KHR_materials_emissive_strength", "the strength of emissive light"},
+    {"KHR_materials_iridescence", "iridescence"},
+    {"KHR_materials_sheen", "sheen"},
+    {"KHR_materials_specular", "the strength and colour of the specular term"},
+    {"KHR_materials_transmission", "transmission"},
+    {"KHR_materials_volume", "the volume under the surface"},
+});
+
+/// Ways to store a file that are not read.
+constexpr auto encodings = std::to_array<ExtensionWord>({
+    {"EXT_meshopt_compression", "geometry compressed by meshoptimizer"},
+    {"EXT_texture_webp", "WebP textures"},
+    {"KHR_draco_mesh_compression", "geometry compressed by Draco"},
+    {"KHR_texture_basisu", "KTX2 textures (Basis Universal)"},
+});
+
+template <std::size_t count>
+std::string_view meaning_of(std::string_view name, const std::array<ExtensionWord, count>& words) {
+  const auto found = std::ranges::find(words, name, &ExtensionWord::name);
+  return found == words.end() ? std::string_view{} : found->meaning;
+}
 
 [[noreturn]] void fail(const std::string& place, const std::string& message,
                        const std::string& hint = "repair the file or export it again") {
@@ -278,7 +328,10 @@ void check_required_extensions(const json& document) {
   std::string missing;
   for (const json& extension : document.value("extensionsRequired", json::array())) {
     const auto name = extension.get<std::string>();
-    if (std::ranges::find(supported, name) == supported.end()) missing += (missing.empty() ? "" : ", ") + name;
+    if (reads_gltf_extension(name) || !gltf_layer(name).empty()) continue;
+    const std::string_view encoding = meaning_of(name, encodings);
+    missing += (missing.empty() ? "" : ", ") + name;
+    if (!encoding.empty()) missing += fmt::format(" ({})", encoding);
   }
   if (!missing.empty()) {
     fail("extensionsRequired", "requires what Footprint does not support: " + missing.substr(0, 400),
@@ -367,6 +420,8 @@ void check_gltf_json(const json& document) {
   check_embedded_buffers(document);
 }
 
-std::span<const std::string_view> supported_gltf_extensions() { return supported; }
+bool reads_gltf_extension(std::string_view name) { return std::ranges::find(supported, name) != supported.end(); }
+
+std::string_view gltf_layer(std::string_view name) { return meaning_of(name, layers); }
 
 }  // namespace footprint

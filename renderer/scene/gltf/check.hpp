@@ -2,7 +2,6 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,7 +16,11 @@ namespace footprint {
 /// Errors (usage) name the place as "meshes[0].primitives[1].indices".
 void check_gltf_json(const nlohmann::json& document);
 
-/// The extensions that Footprint honours.
-[[nodiscard]] std::span<const std::string_view> supported_gltf_extensions();
+/// Whether an extension is honoured.
+[[nodiscard]] bool reads_gltf_extension(std::string_view name);
+
+/// What an extension that is left out adds to a surface, in words: "sheen". Empty where it is none that only adds
+/// something, so that a file which requires it cannot be shown without.
+[[nodiscard]] std::string_view gltf_layer(std::string_view name);
 
 }  // namespace footprint

@@ -91,7 +91,6 @@ ColorForm color_form(int component_type, int components, const std::vector<Compo
 GltfBuilder colored_quad(const ColorForm& form, bool normalized) {
   GltfBuilder quad = make_quad();
   const int colors = quad.add_accessor(form.bytes, form.component_type, 4, form.components == 3 ? "VEC3" : "VEC4");
-  quad.json["bufferViews"].back()["byteStride"] = form.bytes.size() / 4;
   quad.json["accessors"].back()["normalized"] = normalized;
   quad.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = colors;
   return quad;

@@ -12,6 +12,7 @@ namespace footprint {
 namespace {
 
 constexpr double largest = 1e15;
+constexpr double smallest_znear = 1e-18;  // over `largest` it still is a 32-bit float's normal number
 
 void require(bool condition, const std::string& place, const std::string& message) {
   if (!condition) throw Error(ErrorKind::usage, place, message, "repair the file or export it again");
@@ -44,7 +45,8 @@ glm::mat4 rigid_part(const glm::dmat4& world, const std::string& place) {
 
 Camera convert_perspective(const tinygltf::PerspectiveCamera& source, const std::string& place) {
   require(source.yfov > 0.0 && source.yfov < std::numbers::pi, place, "yfov must lie between 0 and pi");
-  require(source.znear > 0.0 && source.znear < largest, place, "znear must be above 0");
+  require(source.znear >= smallest_znear && source.znear < largest, place,
+          fmt::format("znear must be at least {:g} m", smallest_znear));
   require(source.zfar == 0.0 || (source.zfar > source.znear && source.zfar < largest), place,
           "zfar must be beyond znear");
   require(source.aspectRatio == 0.0 || (source.aspectRatio > 1e-4 && source.aspectRatio < 1e4), place,

@@ -6,8 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <set>
+#include <span>
+#include <utility>
 
 #include "renderer/core/error.hpp"
+#include "renderer/image/image_header.hpp"
 #include "renderer/scene/assembly/surface_maps.hpp"
 #include "renderer/scene/model.hpp"
 
@@ -66,7 +70,29 @@ std::string image_name(const tinygltf::Image& image, int index) {
   return image.name.empty() ? fmt::format("images[{}]", index) : image.name;
 }
 
+enum class MapUse { color, rough, normal };
+
 }  // namespace
+
+std::uint64_t decoded_map_bytes(const GltfDocument& document) {
+  constexpr std::uint64_t float_bytes = 4;
+  std::set<std::pair<int, MapUse>> counted;  // images, and what they are used for
+  std::uint64_t bytes = 0;
+  const auto count = [&](int texture, MapUse use, std::uint64_t channels) {
+    const int source = texture < 0 ? -1 : document.model.textures[static_cast<std::size_t>(texture)].source;
+    if (source < 0 || !counted.emplace(source, use).second) return;
+    const auto& image = document.model.images[static_cast<std::size_t>(source)];
+    const std::uint64_t texels = image.image.empty() ? texels_in_header(document.file.parent_path() / image.uri)
+                                                     : texels_in_header(std::span<const std::uint8_t>{image.image});
+    bytes += texels * channels * float_bytes;
+  };
+  for (const auto& material : document.model.materials) {
+    count(material.pbrMetallicRoughness.baseColorTexture.index, MapUse::color, 4);
+    count(material.pbrMetallicRoughness.metallicRoughnessTexture.index, MapUse::rough, 2);
+    count(material.normalTexture.index, MapUse::normal, 4);
+  }
+  return bytes;
+}
 
 int GltfMaterials::use(int gltf_index) {
   if (const auto known = indices_.find(gltf_index); known != indices_.end()) return known->second;
@@ -153,7 +179,9 @@ std::optional<TextureMap> GltfMaterials::find_map(int texture_index, int set,
   const auto& texture = document_.model.textures[static_cast<std::size_t>(texture_index)];
   const std::string place = fmt::format("textures[{}]", texture_index);
   if (texture.source < 0) {
-    add_once(warnings_, place + " has no PNG or JPEG image and is left out");
+    const bool basis = texture.extensions.contains("KHR_texture_basisu");
+    add_once(warnings_, place + (basis ? " is a KTX2 image (KHR_texture_basisu), which is not read: it is left out"
+                                       : " has no PNG or JPEG image and is left out"));
     return std::nullopt;
   }
   TextureMap map;
@@ -175,15 +203,12 @@ std::optional<TextureMap> GltfMaterials::find_map(int texture_index, int set,
   return map;
 }
 
-const Image& GltfMaterials::stored(int index, Transfer transfer) {
-  const auto key = std::pair{index, transfer};
-  if (const auto known = stored_.find(key); known != stored_.end()) return known->second;
+Image GltfMaterials::stored(int index, Transfer transfer) const {
   const auto& image = document_.model.images[static_cast<std::size_t>(index)];
   // No bytes: tinygltf could not read the file. Reading it again says why.
-  Image decoded = image.image.empty()
-                      ? read_image(document_.file.parent_path() / image.uri, transfer)
-                      : read_image(std::span<const std::uint8_t>{image.image}, image_name(image, index), transfer);
-  return stored_.emplace(key, std::move(decoded)).first->second;
+  return image.image.empty()
+             ? read_image(document_.file.parent_path() / image.uri, transfer)
+             : read_image(std::span<const std::uint8_t>{image.image}, image_name(image, index), transfer);
 }
 
 GltfMaterials::MapPointer GltfMaterials::base_color(int image) {

@@ -1,10 +1,10 @@
 // glTF materials and their textures, converted when first used.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "renderer/image/image_io.hpp"
@@ -12,6 +12,9 @@
 #include "renderer/scene/material.hpp"
 
 namespace footprint {
+
+/// Bytes that the maps of all materials of a document take once decoded, by the headers of their images.
+[[nodiscard]] std::uint64_t decoded_map_bytes(const GltfDocument& document);
 
 /// Converts the materials that meshes ask for; textures that several use are decoded once and shared.
 class GltfMaterials {
@@ -35,7 +38,7 @@ class GltfMaterials {
   void convert_alpha(const tinygltf::Material& source, Material& material);
   void warn_left_out(const tinygltf::Material& source);
   [[nodiscard]] std::optional<TextureMap> find_map(int texture, int set, const tinygltf::ExtensionMap& extensions);
-  [[nodiscard]] const Image& stored(int index, Transfer transfer);
+  [[nodiscard]] Image stored(int index, Transfer transfer) const;
   [[nodiscard]] MapPointer base_color(int image);
   [[nodiscard]] MapPointer metallic_roughness(int image, const Material& material);
   [[nodiscard]] MapPointer normals(int image, double scale);
@@ -44,8 +47,7 @@ class GltfMaterials {
   std::vector<std::string>& warnings_;
   std::vector<Material> materials_;
   std::map<int, int> indices_;
-  std::map<std::pair<int, Transfer>, Image> stored_;  ///< as in the files, for this conversion only
-  std::map<std::string, MapPointer> maps_;            ///< decoded, by image, use and factors
+  std::map<std::string, MapPointer> maps_;  ///< decoded, by image, use and factors
 };
 
 }  // namespace footprint

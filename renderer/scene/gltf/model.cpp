@@ -10,12 +10,14 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/interrupt.hpp"
+#include "renderer/core/memory.hpp"
 #include "renderer/scene/gltf/accessor.hpp"
 #include "renderer/scene/gltf/check.hpp"
 #include "renderer/scene/gltf/document.hpp"
 #include "renderer/scene/gltf/lights_cameras.hpp"
 #include "renderer/scene/gltf/material.hpp"
 #include "renderer/scene/gltf/mesh.hpp"
+#include "renderer/scene/gltf/selection.hpp"
 
 namespace footprint {
 namespace {
@@ -51,10 +53,8 @@ glm::dmat4 local_transform(const tinygltf::Node& node, const std::string& place)
   return local;
 }
 
-std::vector<int> root_nodes(const tinygltf::Model& model) {
-  if (!model.scenes.empty()) {
-    return model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))].nodes;
-  }
+std::vector<int> root_nodes(const tinygltf::Model& model, const std::optional<std::size_t>& scene) {
+  if (scene) return model.scenes[*scene].nodes;
   std::vector<bool> is_child(model.nodes.size(), false);
   for (const auto& node : model.nodes) {
     for (const int child : node.children) is_child[static_cast<std::size_t>(child)] = true;
@@ -66,19 +66,25 @@ std::vector<int> root_nodes(const tinygltf::Model& model) {
   return roots;
 }
 
+/// A camera's node, and where it stands.
+struct PlacedCamera {
+  int camera;
+  glm::dmat4 world;
+};
+
 /// Walks the hierarchy and gathers what the nodes hold.
 class Gatherer {
  public:
-  Gatherer(const GltfDocument& document, Model& result)
-      : document_(document), result_(result), materials_(document, result.warnings) {}
+  Gatherer(const GltfDocument& document, const std::optional<std::size_t>& variant, Model& result)
+      : document_(document), variant_(variant), result_(result), materials_(document, result.warnings) {}
 
-  void gather() {
+  void gather(const std::vector<int>& roots) {
     std::vector<Pending> stack;
     std::vector<bool> seen(document_.model.nodes.size(), false);
     const auto push = [&](const std::vector<int>& nodes, const glm::dmat4& parent, int depth) {
       std::for_each(nodes.rbegin(), nodes.rend(), [&](int node) { stack.push_back({node, parent, depth}); });
     };
-    push(root_nodes(document_.model), glm::dmat4{1.0}, 1);
+    push(roots, glm::dmat4{1.0}, 1);
     while (!stack.empty()) {
       throw_if_interrupted();
       const auto [index, parent, depth] = stack.back();
@@ -98,6 +104,10 @@ class Gatherer {
     for (auto& [material, mesh] : meshes_) result_.meshes.push_back(std::move(mesh));
   }
 
+  /// In the order of the nodes, and what they are called.
+  [[nodiscard]] const std::vector<PlacedCamera>& cameras() const { return cameras_; }
+  [[nodiscard]] const std::vector<std::string>& camera_names() const { return camera_names_; }
+
  private:
   struct Pending {
     int node;
@@ -106,7 +116,12 @@ class Gatherer {
   };
 
   void gather_node(const tinygltf::Node& node, const glm::dmat4& world) {
-    if (node.camera >= 0 && !result_.camera) result_.camera = convert_camera(document_.model, node.camera, world);
+    if (node.camera >= 0) {
+      const std::string& own = document_.model.cameras[static_cast<std::size_t>(node.camera)].name;
+      const std::string numbered = fmt::format("camera {}", cameras_.size());
+      camera_names_.push_back(!own.empty() ? own : !node.name.empty() ? node.name : numbered);
+      cameras_.push_back({node.camera, world});
+    }
     if (const auto light = node.extensions.find("KHR_lights_punctual"); light != node.extensions.end()) {
       result_.lights.push_back(convert_light(document_.model, light->second.Get("light").GetNumberAsInt(), world));
     }
@@ -114,7 +129,7 @@ class Gatherer {
     if (node.mesh < 0) return;
     const auto& mesh = document_.model.meshes[static_cast<std::size_t>(node.mesh)];
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
-      const int material = materials_.use(mesh.primitives[i].material);
+      const int material = materials_.use(material_in_variant(mesh.primitives[i], variant_));
       auto part = convert_primitive(document_.model, node.mesh, static_cast<int>(i), world,
                                     materials_.materials()[static_cast<std::size_t>(material)], result_.warnings);
       if (part) merge(std::move(*part), material);
@@ -136,32 +151,59 @@ class Gatherer {
   }
 
   const GltfDocument& document_;
+  std::optional<std::size_t> variant_;
   Model& result_;
+  std::vector<PlacedCamera> cameras_;
+  std::vector<std::string> camera_names_;
   GltfMaterials materials_;
   std::map<int, Mesh> meshes_;
   std::uint64_t index_count_ = 0;
 };
 
 void warn_left_out(const tinygltf::Model& source, Model& result) {
-  const auto supported = supported_gltf_extensions();
   for (const std::string& name : source.extensionsUsed) {
-    if (std::ranges::find(supported, name) == supported.end()) {
-      add_once(result.warnings, fmt::format("extension {:.80} is left out", name));
+    if (!reads_gltf_extension(name)) {
+      const std::string_view layer = gltf_layer(name);
+      add_once(result.warnings,
+               fmt::format("extension {:.80} is left out{}{}", name, layer.empty() ? "" : ": ", layer));
     }
   }
   if (!source.animations.empty()) add_once(result.warnings, "animations are left out");
-  const auto cameras = std::ranges::count_if(source.nodes, [](const auto& node) { return node.camera >= 0; });
-  if (cameras > 1) add_once(result.warnings, fmt::format("the first of {} cameras is used", cameras));
+}
+
+/// Takes the camera that is asked for, else the first.
+void take_camera(const tinygltf::Model& source, const Gatherer& gathered, const std::optional<std::string>& wanted,
+                 Model& result) {
+  const std::vector<PlacedCamera>& cameras = gathered.cameras();
+  ModelChoice& choice = result.choices.emplace_back(ModelChoice{"camera", gathered.camera_names(), {}});
+  if (wanted) {
+    choice.taken = find_choice(choice, *wanted);
+  } else if (!cameras.empty()) {
+    choice.taken = 0;
+    if (cameras.size() > 1) add_once(result.warnings, fmt::format("the first of {} cameras is used", cameras.size()));
+  }
+  if (choice.taken) {
+    const PlacedCamera& taken = cameras[*choice.taken];
+    result.camera = convert_camera(source, taken.camera, taken.world);
+  }
 }
 
 }  // namespace
 
-Model load_gltf(const std::filesystem::path& file) {
+Model load_gltf(const std::filesystem::path& file, const ModelSelection& selection) {
   const GltfDocument document = read_gltf(file);
   Model result;
   warn_left_out(document.model, result);
   try {
-    Gatherer(document, result).gather();
+    const ModelChoice& scene = result.choices.emplace_back(scene_choice(document.model, selection.scene));
+    const std::vector<int> roots = root_nodes(document.model, scene.taken);
+    const ModelChoice variant = variant_choice(document.model, selection.variant);
+    require_memory(decoded_map_bytes(document), "decoding the model's maps", "scale its textures down, or free memory");
+    Gatherer gathered(document, variant.taken, result);
+    gathered.gather(roots);
+    take_camera(document.model, gathered, selection.camera, result);
+    result.choices.push_back(variant);
+    std::erase_if(result.choices, [](const ModelChoice& choice) { return choice.names.empty(); });
   } catch (const Error& error) {
     throw error.within(file.string());
   }

@@ -7,9 +7,10 @@
 
 namespace footprint {
 
-/// Loads the file's default scene (else its first scene, else all root nodes): meshes in world space merged into one
-/// per material, the materials in use, all lights, the first camera. May hold no triangle.
+/// Loads a scene of the file: that of `selection`, else its default scene, its first one, or all root nodes. Meshes in
+/// world space merged into one per material, the materials in use (of the variant that is asked for), all lights, one
+/// camera: that of `selection`, else the first. May hold no triangle.
 /// Errors (usage) name file and place; docs/scenes.md lists what is read.
-[[nodiscard]] Model load_gltf(const std::filesystem::path& file);
+[[nodiscard]] Model load_gltf(const std::filesystem::path& file, const ModelSelection& selection = {});
 
 }  // namespace footprint

@@ -72,7 +72,7 @@ TEST(GltfPackage, ClearCoatTestLoadsWhole) {
   EXPECT_TRUE(std::ranges::any_of(scene.warnings, [](const std::string& warning) {
     return warning.find("KHR_materials_clearcoat") != std::string::npos;
   }));
-  EXPECT_EQ(scene.defaults.size(), 3U);
+  EXPECT_EQ(scene.defaults.size(), 4U);
 }
 
 }  // namespace

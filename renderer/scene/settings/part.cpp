@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <limits>
 #include <map>
 
+#include "renderer/core/words.hpp"
 #include "renderer/scene/settings/toml_values.hpp"
 
 namespace footprint {
@@ -18,6 +20,9 @@ constexpr double lowest_axis = 1e-3;  // a lobe on the horizon would lie below i
 
 const std::vector<std::string> surface_keys{"name", "resolution", "seed", "parameters"};
 
+constexpr std::array<Word<NormalChannels>, 2> normal_channels{
+    {{NormalChannels::xyz, "xyz"}, {NormalChannels::xy, "xy"}}};
+
 ModelSettings read_model(const TomlTable& table, const std::filesystem::path& folder) {
   if (table.has("file") == table.has("files")) {
     throw table.error_at("file", "or `files` must be given, and only one of them", "name the model file to draw");
@@ -27,6 +32,7 @@ ModelSettings read_model(const TomlTable& table, const std::filesystem::path& fo
   for (const std::string& name : files) model.candidates.push_back(folder / name);
   model.package = table.word("package").value_or("");
   model.unwrap = table.boolean("unwrap").value_or(false);
+  model.selection = {table.word("scene"), table.word("camera"), table.word("variant")};
   return model;
 }
 
@@ -40,6 +46,9 @@ PlaneSettings read_plane(const TomlTable& table, const std::filesystem::path& fo
   plane.normal_map = file("normal_map");
   plane.base_color_map = file("base_color_map");
   plane.metallic_roughness_map = file("metallic_roughness_map");
+  if (const auto channels = table.choice("normal_channels", word_names(normal_channels))) {
+    plane.normal_channels = normal_channels.at(*channels).value;
+  }
   plane.normal_scale = table.number("normal_scale", {-100.0, 100.0}).value_or(plane.normal_scale);
   plane.roughness = static_cast<float>(table.number("roughness", unit_range).value_or(plane.roughness));
   plane.metallic = static_cast<float>(table.number("metallic", unit_range).value_or(plane.metallic));
@@ -285,8 +294,8 @@ Placement read_placement(const TomlTable& table) {
 
 decltype(PartSettings::content) read_content(const TomlTable& table, const std::filesystem::path& folder,
                                              std::span<const Surface> surfaces) {
-  const auto model = table.table("model", {"file", "files", "package", "unwrap"});
-  const auto plane = table.table("plane", {"size", "normal_map", "normal_scale", "base_color_map",
+  const auto model = table.table("model", {"file", "files", "package", "unwrap", "scene", "camera", "variant"});
+  const auto plane = table.table("plane", {"size", "normal_map", "normal_channels", "normal_scale", "base_color_map",
                                            "metallic_roughness_map", "roughness", "metallic"});
   const auto surface = table.table("surface", surface_keys);
   if (!model && !plane && !surface) {

@@ -14,6 +14,8 @@
 #include "renderer/core/toml_table.hpp"
 #include "renderer/microgeometry/patch_kinds.hpp"
 #include "renderer/scene/material.hpp"
+#include "renderer/scene/model_selection.hpp"
+#include "renderer/scene/normal_channels.hpp"
 #include "renderer/scene/surface.hpp"
 
 namespace footprint {
@@ -23,12 +25,14 @@ struct ModelSettings {
   std::vector<std::filesystem::path> candidates;
   std::string package;  ///< Debian package that brings it, for the error text; may be empty
   bool unwrap = false;  ///< new texture coordinates in place of the file's (unwrap.hpp)
+  ModelSelection selection;
 };
 
 /// A rectangle in the xy plane with maps of its own.
 struct PlaneSettings {
   glm::vec2 size{1.0F};
   std::optional<std::filesystem::path> normal_map, base_color_map, metallic_roughness_map;
+  NormalChannels normal_channels = NormalChannels::xyz;
   double normal_scale = 1.0;
   float roughness = 0.5F, metallic = 0.0F;
 };

@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "renderer/core/toml_table.hpp"
+#include "renderer/core/words.hpp"
 #include "renderer/scene/settings/toml_values.hpp"
 
 namespace footprint {
@@ -17,6 +19,11 @@ namespace {
 constexpr NumberRange intensity{0.0, 1e12};       // candela or lux
 constexpr NumberRange field_of_view{0.1, 170.0};  // degrees
 constexpr NumberRange shadow_resolution{smallest_shadow_map, largest_shadow_map};
+
+// Whether a one-sided triangle keeps light that comes to the side from which it is not drawn.
+constexpr std::array<Word<bool>, 2> shadow_sides{{{false, "drawn"}, {true, "both"}}};
+
+constexpr std::array<Word<Horizon>, 2> horizons{{{Horizon::cut, "cut"}, {Horizon::open, "open"}}};
 
 const std::vector<std::string> light_types{"point", "spot", "directional"};
 
@@ -110,8 +117,11 @@ void read_lights(const TomlTable& root, const std::filesystem::path& folder, Sce
   if (const auto environment = root.table("environment", environment_keys())) {
     settings.environment = read_environment(*environment, folder);
   }
-  if (const auto shadows = root.table("shadows", {"cast", "resolution"})) {
+  if (const auto shadows = root.table("shadows", {"cast", "resolution", "sides"})) {
     settings.shadows.cast = shadows->boolean("cast");
+    if (const auto sides = shadows->choice("sides", word_names(shadow_sides))) {
+      settings.shadows.both_sides = shadow_sides.at(*sides).value;
+    }
     if (const auto texels = shadows->whole_number("resolution", shadow_resolution)) {
       settings.shadows.resolution = static_cast<int>(*texels);
     }
@@ -125,6 +135,15 @@ void read_view(const TomlTable& root, SceneSettings& settings) {
     if (auto distances = zoom->numbers("distances", 0, {smallest_distance, largest_distance}))
       settings.distances = std::move(*distances);
   }
+}
+
+// Where model files alone are drawn, viewers' rules hold; what is computed or traced has those of the papers.
+void set_rules(SceneSettings& settings) {
+  const bool models = std::ranges::all_of(settings.parts, [](const PartSettings& part) {
+    return std::holds_alternative<ModelSettings>(part.content) && part.microgeometry.empty();
+  });
+  settings.horizon = models ? Horizon::open : Horizon::cut;
+  settings.shadows.both_sides = !models;
 }
 
 }  // namespace
@@ -153,11 +172,15 @@ SceneSettings read_scene_settings(const std::filesystem::path& file, std::span<c
   known.insert(known.end(), part_root_keys().begin(), part_root_keys().end());
   const TomlTable root(file, known);
   SceneSettings settings;
-  if (const auto scene = root.table("scene", {"name", "description"})) {
+  settings.parts = read_parts(root, file.parent_path(), surfaces);
+  set_rules(settings);
+  if (const auto scene = root.table("scene", {"name", "description", "horizon"})) {
+    if (const auto horizon = scene->choice("horizon", word_names(horizons))) {
+      settings.horizon = horizons.at(*horizon).value;
+    }
     settings.name = scene->word("name");
     settings.description = scene->word("description").value_or("");
   }
-  settings.parts = read_parts(root, file.parent_path(), surfaces);
   read_lights(root, file.parent_path(), settings);
   read_view(root, settings);
   return settings;

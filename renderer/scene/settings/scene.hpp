@@ -25,7 +25,9 @@ struct SceneSettings {
   bool automatic_exposure = false;  ///< asked for by name, also with the supplied lights
   std::vector<Light> lights;
   bool keep_model_lights = true;
+  bool supply_environment = false;  ///< beside the supplied lights, where there is no light at all
   ShadowSettings shadows;
+  std::optional<Horizon> horizon;  ///< none: open
   std::optional<EnvironmentSettings> environment;
   CameraSettings camera;
   std::vector<double> distances{1.0};

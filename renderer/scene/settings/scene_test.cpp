@@ -26,9 +26,11 @@ TEST(SceneSettings, EverythingIsRead) {
 [scene]
 name = "n"
 description = "d"
+horizon = "open"
 [plane]
 size = [3, 2.5]
 normal_map = "bumps.png"
+normal_channels = "xy"
 normal_scale = 0.5
 roughness = 0.25
 metallic = 1
@@ -62,6 +64,7 @@ type = "directional"
 direction = [0, -3, 0]
 [shadows]
 cast = false
+sides = "both"
 resolution = 512
 [camera]
 frame_bounds = { direction = [0, 0, 2], fov_degrees = 90, margin = 2 }
@@ -75,7 +78,10 @@ uv = [2, 3]
   EXPECT_EQ(plane.size, glm::vec2(3.0F, 2.5F));
   EXPECT_EQ(plane.normal_map->filename(), "bumps.png");
   EXPECT_TRUE(plane.normal_map->is_absolute());
+  EXPECT_EQ(plane.normal_channels, NormalChannels::xy);
   EXPECT_EQ(plane.normal_scale, 0.5);
+  EXPECT_EQ(settings.horizon, Horizon::open);
+  EXPECT_TRUE(settings.shadows.both_sides);
   EXPECT_EQ(plane.roughness, 0.25F);
   EXPECT_EQ(plane.metallic, 1.0F);
   EXPECT_EQ(settings.parts.at(0).brdf.distribution, NormalDistribution::beckmann);

@@ -26,6 +26,14 @@ function(footprint_unite)
   set_target_properties(${ARGN} PROPERTIES UNITY_BUILD "${FOOTPRINT_UNITY}" UNITY_BUILD_BATCH_SIZE 4)
 endfunction()
 
+# footprint_compile_fast(TARGET ...): of sources that read and write text and do no more: CLI11's, toml++'s and nlohmann's
+# inline code, of which each object holds its own, takes the compiler half as long again at -O3.
+function(footprint_compile_fast)
+  foreach(target IN LISTS ARGN)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endforeach()
+endfunction()
+
 # footprint_add_library(NAME SOURCES ... LIBRARIES ...): a static library with the project's settings.
 function(footprint_add_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})

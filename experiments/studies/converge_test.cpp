@@ -81,7 +81,7 @@ TEST_F(Converge, StopsAtItsNoiseAndAtItsWork) {
 
 TEST_F(Converge, IsDeterministic) {
   Supersampled one = picture(64), other = picture(64);
-  const Convergence wanted{.noise = 1e-4, .spp_max = 1024, .most_work = 20.0};
+  const Convergence wanted{.noise = 1e-4, .spp_max = 256, .most_work = 20.0};
   EXPECT_EQ(converge(sampler_, one, view_, seed, wanted, no_progress),
             converge(sampler_, other, view_, seed, wanted, no_progress));
   EXPECT_EQ(one.mean, other.mean);

@@ -181,7 +181,7 @@ TEST(ReferenceUnderAnEnvironment, DenseLightsComeToTheSame) {
 // Filtering after shading and the Lambert term are the same for both ways.
 TEST(ReferenceUnderAnEnvironment, DenseLightsComeToTheSamePicture) {
   TestRenderer renderer(
-      lit_square(random_normals(8, 8, 0.4F, 5), {.brdf = {}, .roughness = 0.7F}, uneven_environment()), {16, 16});
+      lit_square(random_normals(8, 8, 0.4F, 5), {.brdf = {}, .roughness = 0.7F}, uneven_environment()), {8, 8});
   const Image drawn = renderer.reference(1024).mean;
   const Image dense = renderer.reference(64, 1, ReferenceFilter::after_shading, 0, EnvironmentUse::dense).mean;
   EXPECT_LT(compare_images(dense, drawn, 1.0F).value().relative_rmse, 0.02);

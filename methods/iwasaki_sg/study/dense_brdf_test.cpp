@@ -101,7 +101,7 @@ TEST(BrdfFigures, LobesAgainstTheSumOverFacetsByTheirNumber) {
     const Material material = patch_material(patch, blinn_phong, 512.0F);
     constexpr std::array counts{"1", "4", "8"};
     for (std::size_t i = 0; i < counts.size(); ++i) {
-      EXPECT_LT(figure("brdf_error", material, {{"facets", "8192"}, {"j", counts[i]}}), bounds[i])
+      EXPECT_LT(figure("brdf_error", material, {{"facets", "4096"}, {"j", counts[i]}}), bounds[i])
           << patch.name << ", " << counts[i] << " lobes";
     }
   }

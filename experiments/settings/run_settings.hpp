@@ -83,8 +83,8 @@ struct ReferenceSettings {
   ReferenceFilter filter = ReferenceFilter::after_shading;
   EnvironmentUse environment = EnvironmentUse::sampled;  ///< how it integrates one
   BoundUse bound = BoundUse::automatic;
-  /// Whether each method's finest level is supersampled as well; not so, the frame stands for it, in runs of which nobody
-  /// sees the errors of representation and filtering.
+  /// Whether each method's finest level is supersampled as well; not so, the frame stands for it, in runs of which
+  /// nobody sees the errors of representation and filtering.
   bool finest_levels = true;
 };
 

@@ -140,7 +140,7 @@ struct Record {
   std::optional<FrameBuildTime> frame_build;  ///< none: the method rebuilds nothing
   double fps = 0;                             ///< 1000 / frame_ms.median
   TimeRatio ratio_to_direct;
-  std::optional<RecordWork> work;  ///< none: not counted
+  std::optional<RecordWork> work;        ///< none: not counted
   std::vector<MaterialError> materials;  ///< in the order of the scene; empty where the run does not tell them apart
   double precompute_seconds = 0;
   std::uint64_t precompute_bytes = 0;
@@ -159,7 +159,7 @@ struct MethodPair {
                                    ///< than the reference's noise explains; in the rest noise decides
   /// The same over the interior pixels of each material; empty where the run does not tell them apart.
   std::vector<std::array<double, 2>> materials{};
-  std::string picture;             ///< of that over the object, PNG: blue the first, orange the second, grey neither
+  std::string picture;  ///< of that over the object, PNG: blue the first, orange the second, grey neither
 };
 
 /// The mean of so many frames of `direct`, at one distance; that of one is the frame at pixel centres.

@@ -169,7 +169,8 @@ class SurfaceNdfs : public ::testing::TestWithParam<std::tuple<std::string, doub
 TEST_P(SurfaceNdfs, KeepTheTruthsEnergy) {
   Inspection inspected = inspection(), small = inspection(48);
   for (const Method* method : all_methods()) {
-    const NdfFigures figures = (method->info().slow_frame || method->info().slow_precompute ? small : inspected).figures(method->info().name);
+    const NdfFigures figures =
+        (method->info().slow_frame || method->info().slow_precompute ? small : inspected).figures(method->info().name);
     EXPECT_NEAR(figures.energy, 1.0, 0.01) << method->info().name << ", L2 " << figures.l2;
   }
 }

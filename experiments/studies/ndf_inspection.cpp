@@ -14,6 +14,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/core/file_names.hpp"
 #include "renderer/core/memory.hpp"
+#include "renderer/ndf/footprint_part.hpp"
 #include "renderer/ndf/method_ndf.hpp"
 #include "renderer/ndf/ndf_figures.hpp"
 #include "renderer/ndf/true_ndf.hpp"
@@ -97,43 +98,63 @@ std::vector<MethodSpec> methods_of(const NdfSettings& settings) {
   return every_method();
 }
 
-// Of the whole time, next to a method that bakes in milliseconds: for progress.
-double weight_of(const MethodSpec& spec) { return find_method(spec.name).info().slow_precompute ? 30.0 : 1.0; }
-
-double weight_of(std::span<const MethodSpec> methods) {
-  double sum = 0;
-  for (const MethodSpec& spec : methods) sum += weight_of(spec);
-  return sum;
+// Of the texels of the normal map those that a method bakes, where a part of it is enough.
+double share_baked(const Material& material, const std::optional<FootprintPart>& part) {
+  if (!part) return 1.0;
+  return static_cast<double>(part->material.normal_map->image->texel_count()) /
+         static_cast<double>(material.normal_map->image->texel_count());
 }
 
-// One material on the GPU, by whichever method.
+// What a method bakes and draws from.
+struct Stand {
+  Scene scene;
+  FootprintRect footprint;
+  GpuScene gpu;
+
+  Stand(const gl::Context& context, const Material& material, const FootprintRect& rect, const EffectSet& effects,
+        const DiskCache* cache)
+      : scene(scene_of_facets(material)), footprint(rect), gpu(context.info(), scene, effects, no_progress, cache) {}
+};
+
+// One material on the GPU, by whichever method: the whole of it, or what the footprint needs where a method can bake
+// that for itself.
 class Bench {
  public:
   Bench(const NdfSettings& settings, const Material& material)
       : settings_(settings),
-        scene_(scene_of_facets(material)),
+        part_(part_under(material, settings.footprint, filter_of(settings.run))),
+        share_(share_baked(material, part_)),
         context_(settings.run.backend.context),
-        effects_(effects_on(derive_effects(scene_))),
+        effects_(effects_on(derive_effects(scene_of_facets(material)))),
         cache_(cache_of(settings.run)),
-        gpu_scene_(context_.info(), scene_, effects_, no_progress, cache_ ? &*cache_ : nullptr) {
+        whole_(context_, material, settings.footprint, effects_, cache_ ? &*cache_ : nullptr) {
     if (cache_) bakes_.emplace(*cache_);
+  }
+
+  // Of the whole time, next to a method that bakes in milliseconds: for progress.
+  [[nodiscard]] double weight_of(const MethodSpec& spec) const {
+    const MethodInfo& info = find_method(spec.name).info();
+    if (!info.slow_precompute) return 1.0;
+    constexpr double slow = 30.0;
+    return info.bakes_by_texel ? std::max(slow * share_, 1.0) : slow;
   }
 
   // Adds the figures of a method to `results` and gives its picture.
   NdfPicture inspect(const MethodSpec& spec, const Grid& grid, NdfResults& results, const Progress& progress) {
     const Method& method = find_method(spec.name);
-    const BakedMethod baked = bake(method, spec, scene_, effects_, progress, bakes_ ? &*bakes_ : nullptr);
-    const MethodNdf ndf(context_.info(), gpu_scene_, baked, scene_.materials.front(), filter_of(settings_.run),
+    Stand& stand = stand_of(method);
+    const BakedMethod baked = bake(method, spec, stand.scene, effects_, progress, bakes_ ? &*bakes_ : nullptr);
+    const MethodNdf ndf(context_.info(), stand.gpu, baked, stand.scene.materials.front(), filter_of(settings_.run),
                         settings_.run.backend.tile);
     for (const std::string& note : baked.materials.front().notes)
       results.notes.push_back(fmt::format("{}: {}", spec.text, note));
-    const std::vector<float> densities = ndf.densities(settings_.footprint, grid.hemisphere.directions);
+    const std::vector<float> densities = ndf.densities(stand.footprint, grid.hemisphere.directions);
     const NdfFigures figures = compare_ndfs(grid.hemisphere, densities, grid.truth);
     NdfRecord record{spec.text, {}, figures.l2, figures.energy, figures.peak, method.lobe_count(baked.options), {}};
     for (const auto& [name, value] : baked.options.all()) record.options[name] = value;
     results.records.push_back(std::move(record));
     NdfPicture picture{file_stem(spec.text), fmt::format("{}  L2 {:.3g}", spec.text, figures.l2),
-                       ndf.densities(settings_.footprint, grid.disc)};
+                       ndf.densities(stand.footprint, grid.disc)};
     context_.check("evaluating the NDF of " + spec.text);
     const double peak = largest_density(picture.densities);
     results.records.back().peak = std::isfinite(peak) ? figures.peak + std::max(peak - figures.peak, 0.0) : peak;
@@ -141,12 +162,20 @@ class Bench {
   }
 
  private:
+  Stand& stand_of(const Method& method) {
+    if (!part_ || !method.info().bakes_by_texel) return whole_;
+    if (!partial_) partial_.emplace(context_, part_->material, part_->rect, effects_, cache_ ? &*cache_ : nullptr);
+    return *partial_;
+  }
+
   const NdfSettings& settings_;
-  Scene scene_;
+  std::optional<FootprintPart> part_;
+  double share_;
   gl::Context context_;
-  EffectSet effects_;
+  EffectSet effects_;  // those of the whole map, whatever the part of it shows
   std::optional<DiskCache> cache_;
-  GpuScene gpu_scene_;
+  Stand whole_;
+  std::optional<Stand> partial_;
   std::optional<BakeCache> bakes_;
 };
 
@@ -156,16 +185,18 @@ NdfResults inspect_ndf(const NdfSource& source, const NdfSettings& settings, con
                        const Progress& progress) {
   check_footprint(settings.footprint, "--region");
   const std::vector<MethodSpec> methods = methods_of(settings);
-  constexpr double weight_of_truth = 10.0;
-  ProgressParts parts(progress, weight_of_truth + weight_of(methods));
   const FootprintTexels texels = texels_under(source.material, settings.footprint);
   NdfResults results = described(source, settings, texels);
   Bench bench(settings, source.material);
+  constexpr double weight_of_truth = 10.0;
+  double weight = weight_of_truth;
+  for (const MethodSpec& spec : methods) weight += bench.weight_of(spec);
+  ProgressParts parts(progress, weight);
   const Grid grid = take_truth(source.material, settings, texels, results, parts.next(weight_of_truth, ""));
   std::vector<NdfPicture> pictures;
   for (const MethodSpec& spec : methods) {
     try {
-      pictures.push_back(bench.inspect(spec, grid, results, parts.next(weight_of(spec), "")));
+      pictures.push_back(bench.inspect(spec, grid, results, parts.next(bench.weight_of(spec), "")));
     } catch (const Error& error) {
       if (!settings.run.methods.empty() || error.kind() != ErrorKind::usage) throw;
       results.notes.push_back(fmt::format("{} is left out: {}", spec.text, error.what()));

@@ -94,7 +94,8 @@ class Fournier final : public Method {
                               "heaviest of its own normals, each with those nearest to it."),
                   peak_storage_option()},
       .honours = map_effects_but({Effect::normal_layers}),
-      .slow_precompute = true};
+      .slow_precompute = true,
+      .bakes_by_texel = true};
 };
 
 }  // namespace

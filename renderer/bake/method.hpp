@@ -31,6 +31,9 @@ struct MethodInfo {
   bool draws_directions = false;  ///< the module integrates an environment itself where many samples are taken
   bool sums_environment = false;  ///< a frame's environment light is summed by the module (`environmentSum`)
   bool slow_precompute = false;   ///< seconds, not milliseconds: kept on disk between runs (bake_cache.hpp)
+  /// What is baked into a texel of a level depends, of the normal map, on the texels under it alone: of a map of which
+  /// one part is looked at, that part may be baked for itself (renderer/ndf/footprint_part.hpp).
+  bool bakes_by_texel = false;
   /// Seconds a frame, not milliseconds: a bound to hold others against. `all` methods are all but these.
   bool slow_frame = false;
   /// Whether it shows a map's texels where they are large on screen. Not so: one effective BRDF for the whole material,

@@ -2,13 +2,16 @@
 // limits, and in the order that is known of them over grooves.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
 
 #include "methods/registry.hpp"
+#include "renderer/ndf/footprint_part.hpp"
 #include "renderer/ndf/method_ndf.hpp"
 #include "renderer/ndf/ndf_figures.hpp"
 #include "renderer/ndf/true_ndf.hpp"
@@ -150,6 +153,71 @@ TEST_P(EveryMethodsNdf, IsFiniteAndNotNegativeAtTheLimits) {
 TEST_P(EveryMethodsNdf, TakesAnisotropicProbes) {
   Inspection inspection(material_of(random_normals(32, 32, 0.5F, 6), {blinn_phong, 64}), {{0, 0.4}, {1, 0.6}});
   EXPECT_TRUE(std::isfinite(inspection.figures(name(), default_footprint_filter).l2));
+}
+
+// Footprints in the middle, within whole texels of a level, about a corner and an edge of the map, in a copy of it, and
+// beyond it.
+constexpr std::array<FootprintRect, 6> parts_of_map{{{{0.40, 0.55}, {0.49, 0.60}},
+                                                     {{0.25, 0.5}, {0.375, 0.625}},
+                                                     {{-0.05, -0.06}, {0.06, 0.04}},
+                                                     {{0.96, 0.3}, {1.04, 0.36}},
+                                                     {{2.10, -0.8}, {2.20, -0.7}},
+                                                     {{-1.3, 0.97}, {-1.25, 1.05}}}};
+
+// The greatest difference of a method's density between the whole map's bake and that of the part which `rect` needs,
+// of the greatest density.
+double difference_by_part(const Material& material, const std::string& method, const FootprintRect& rect,
+                          const FootprintPart& part, const FootprintFilter& filter) {
+  constexpr int rings = 24;
+  Inspection whole(material, rect, rings), cropped(part.material, part.rect, rings);
+  const std::vector<float> expected = whole.densities(method, filter), found = cropped.densities(method, filter);
+  double most = 0.0;
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    most = std::max(most, std::abs(static_cast<double>(found[i]) - expected[i]));
+  return most / *std::ranges::max_element(expected);
+}
+
+// Methods of which a part of a map may be baked for itself have the same density from it, whatever the map does at its
+// border. The density of the part next to it differs: the comparison sees which texels are taken.
+TEST_P(EveryMethodsNdf, IsTheSameFromThePartThatIsLookedAt) {
+  if (!GetParam()->info().bakes_by_texel) GTEST_SKIP();
+  using enum FootprintFilterKind;
+  constexpr std::array<FootprintFilter, 4> filters{{{trilinear, 1}, {anisotropic, 8}, {box, 2}, {ewa, 4}}};
+  Material material = material_of(random_normals(32, 32, 0.5F, 6), {blinn_phong, 64});
+  std::size_t number = 0;
+  for (const Wrap wrap : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge}) {
+    material.normal_map->coordinates.wrap = {wrap, wrap};
+    for (const FootprintRect& rect : parts_of_map) {
+      const FootprintFilter& filter = filters.at(number++ % filters.size());
+      SCOPED_TRACE(footprint_filter_text(filter) + ", footprint " + std::to_string(rect.lower.x) + ", wrap " +
+                   std::to_string(static_cast<int>(wrap)));
+      std::optional<FootprintPart> part = part_under(material, rect, filter);
+      if (!part && wrap == Wrap::mirrored_repeat && rect.lower.x > 1.5) continue;  // the third copy: baked whole
+      ASSERT_TRUE(part);
+      EXPECT_LE(part->material.normal_map->image->texel_count(), std::size_t{32} * 32 / 2);
+      EXPECT_LT(difference_by_part(material, name(), rect, *part, filter), 1e-5);
+      const glm::dvec2 step = part->rect.size();
+      part->rect = {part->rect.lower + step, part->rect.upper + step};
+      if (number == 1) {
+        EXPECT_GT(difference_by_part(material, name(), rect, *part, filter), 1e-3);
+      }
+    }
+  }
+}
+
+// What is baked is what is looked at: of a large map some texels about a corner, of the whole map all of it.
+TEST(FootprintParts, AreAsSmallAsTheirFootprints) {
+  const Material material = material_of(constant_normals(2048, 1024, {0.0F, 0.0F, 1.0F}), {blinn_phong, 64});
+  const auto texels = [&](const FootprintRect& rect) {
+    const std::optional<FootprintPart> part = part_under(material, rect, default_footprint_filter);
+    return part ? part->material.normal_map->image->texel_count() : material.normal_map->image->texel_count();
+  };
+  EXPECT_EQ(texels({{0.0, 0.0}, {0.125, 0.25}}), std::size_t{256} * 256);      // one texel of a level
+  EXPECT_LE(texels({{0.1, 0.1}, {0.225, 0.35}}), std::size_t{9} * 256 * 256);  // wherever it lies
+  EXPECT_EQ(texels(whole_map), std::size_t{2048} * 1024);
+  EXPECT_FALSE(part_under(material, {{0.0, 0.0}, {0.125, 0.25}}, {FootprintFilterKind::hardware, 8}));
+  const Material odd = material_of(constant_normals(1001, 1001, {0.0F, 0.0F, 1.0F}), {blinn_phong, 64});
+  EXPECT_FALSE(part_under(odd, {{0.0, 0.0}, {0.125, 0.125}}, default_footprint_filter));
 }
 
 // The four plain surfaces at a size that is quick to precompute, under one exponent.

@@ -1,6 +1,6 @@
 // Dupuy et al. 2013 (LEADR): the footprint's slopes as one off-centre lobe, and the masking, shadowing and diffuse
 // reflection of a surface that has those slopes.
-//? include common_slopes.glsl
+//? include footprint_slopes.glsl
 
 // Masking is Smith's own here, for slopes with a mean. What is displaced has it by its texels' slopes in any case.
 //? if masking_shadowing and geometry_smith or weighting_displacement

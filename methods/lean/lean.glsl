@@ -1,6 +1,6 @@
 // Olano and Baker 2010: mean and covariance of slope under the footprint, recovered from filtered moments, and one lobe
 // over them. The scalar variant, CLEAN, keeps the trace of the covariance alone.
-//? include common_slopes.glsl
+//? include footprint_slopes.glsl
 
 struct Effective {
   SlopeLobe lobe;

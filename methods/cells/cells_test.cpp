@@ -1,0 +1,390 @@
+// The lobes of the parts through the method's own shader: LEAN with one part, their C++ twin, sums over texels, and the
+// numerically hard maps.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "methods/cells/partition.hpp"
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/image/metrics.hpp"
+#include "tests/support/method_probe.hpp"
+#include "tests/support/rendering.hpp"
+#include "tests/support/slope_twin.hpp"
+#include "tests/support/test_scenes.hpp"
+
+namespace footprint {
+const Method& cells_method();
+const Method& lean_method();
+}  // namespace footprint
+
+namespace footprint::testing {
+namespace {
+
+using enum NormalDistribution;
+using Words = std::map<std::string, std::string>;
+constexpr double pi = std::numbers::pi;
+const std::array<std::pair<NormalDistribution, float>, 4> lobes{
+    {{blinn_phong, 64.0F}, {vmf, 30.0F}, {beckmann, 0.2F}, {ggx, 0.1F}}};
+
+Material material_of(const Image& normals, NormalDistribution distribution, float lobe) {
+  const BaseBrdf brdf{distribution, GeometryTerm::none, FresnelTerm::none, true};
+  Material material = square_scene(normals, {.brdf = brdf}).materials[0];
+  material.lobe_parameter = lobe;
+  return material;
+}
+
+ProbedMethod parted_method(const Material& material, const Words& options = {}) {
+  return {.method = &cells_method(), .material = &material, .options = options};
+}
+
+glm::dvec3 normal_at(const Image& normals, std::size_t i) {
+  return glm::normalize(glm::dvec3(normals.texels[4 * i], normals.texels[4 * i + 1], normals.texels[4 * i + 2]));
+}
+
+// The sum that the method stands for: the mean of the base lobes about all valid texels.
+double sum_over_texels(const Material& material, const glm::dvec3& h) {
+  const Image& normals = *material.normal_map->image;
+  double sum = 0;
+  double weight = 0;
+  for (std::size_t i = 0; i < normals.texel_count(); ++i) {
+    if (normals.texels[4 * i + 3] <= 0.0F) continue;
+    sum += base_density(material.brdf.distribution, *material.lobe_parameter, normal_at(normals, i), h);
+    weight += 1.0;
+  }
+  return sum / weight;
+}
+
+double relative_l2(const std::vector<double>& density, const std::vector<double>& truth) {
+  double sum = 0;
+  double norm = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    sum += (density[i] - truth[i]) * (density[i] - truth[i]);
+    norm += truth[i] * truth[i];
+  }
+  return std::sqrt(sum / norm);
+}
+
+std::vector<double> truth_of(const Material& material, const std::vector<glm::dvec3>& directions) {
+  std::vector<double> truth;
+  truth.reserve(directions.size());
+  for (const glm::dvec3& h : directions) truth.push_back(sum_over_texels(material, h));
+  return truth;
+}
+
+// Grooves along y of walls of two slopes, each wall with a waviness of its own.
+Image two_walls(int size) {
+  Image image = random_normals(size, size, 0.1F, 11);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      float* const n = image.at(x, y).data();
+      const float lean = (x / 4) % 2 == 0 ? 0.5F : -0.4F;
+      const glm::vec3 turned = glm::normalize(glm::vec3(n[0] + lean, 2.0F * n[1], n[2]));
+      std::copy_n(&turned.x, 3, n);
+    }
+  }
+  return image;
+}
+
+// The stretched lobe of one part by another road: normals and directions through the projection's inverse, the inverse
+// root by eigenvectors, the base lobe from vectors.
+struct PartTwin {
+  double share = 0.0;
+  glm::dvec2 mean{0.0};
+  glm::dmat2 spread{0.0};
+
+  static glm::dvec3 unprojected(const glm::dvec2& p) {
+    const double q = glm::dot(p, p);
+    return glm::dvec3(2.0 * p, 1.0 - q) / (1.0 + q);
+  }
+  static glm::dmat2 inverse_root(const glm::dmat2& m) {
+    const double angle = 0.5 * std::atan2(2.0 * m[0][1], m[0][0] - m[1][1]);
+    const glm::dmat2 turn(std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle));
+    const glm::dmat2 diagonal = glm::transpose(turn) * m * turn;
+    return turn * glm::dmat2(1.0 / std::sqrt(diagonal[0][0]), 0, 0, 1.0 / std::sqrt(diagonal[1][1])) *
+           glm::transpose(turn);
+  }
+
+  // The energy of a GGX lobe over that which is left within the angle that the stretch takes to the horizon, by the
+  // midpoint rule.
+  static double given_back(double alpha, double s) {
+    constexpr int steps = 20000;
+    double all = 0.0;
+    double within = 0.0;
+    for (int i = 0; i < steps; ++i) {
+      const double c = (i + 0.5) / steps;
+      const double d = 1.0 - (1.0 - alpha * alpha) * c * c;
+      const double mass = 2.0 * alpha * alpha / (d * d) / steps;
+      all += mass;
+      if (c > (s - 1.0) / (s + 1.0)) within += mass;
+    }
+    return all / within;
+  }
+
+  [[nodiscard]] double density(NormalDistribution distribution, double lobe, const glm::dvec3& h) const {
+    const glm::dvec3 axis = unprojected(mean);
+    const double v = lobe_variance({distribution, static_cast<float>(lobe)});
+    const double shrunk = 1.0 / (1.0 + axis.z);  // of a tangent at the axis, projected
+    const glm::dmat2 a = inverse_root(glm::dmat2(1.0) + spread / (v * shrunk * shrunk));
+    const glm::dvec2 at = glm::dvec2(h) / (1.0 + h.z);
+    const glm::dvec3 base = unprojected(mean + a * (at - mean));
+    const double areas = std::pow((1.0 + base.z) / (1.0 + h.z), 2.0);
+    return share * base_density(distribution, lobe, axis, base) * glm::determinant(a) * areas *
+           (distribution == ggx ? given_back(lobe, 1.0 / glm::determinant(a)) : 1.0);
+  }
+};
+
+std::vector<PartTwin> twins_of(const Material& material, std::size_t parts) {
+  const Image normals = normal_map_of(material);
+  const auto points = cells::plane_points(normals, cells::Coordinates::stereographic, 3.0);
+  const double variance = lobe_variance({material.brdf.distribution, *material.lobe_parameter});
+  const std::vector<float> shares = cells::partition(
+      points, normals.width, normals.height, {.parts = static_cast<int>(parts), .variance = variance}, no_progress);
+  std::vector<PartTwin> twins;
+  for (std::size_t k = 0; k < parts; ++k) {
+    PartTwin twin;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      twin.share += shares[i * parts + k];
+      twin.mean += static_cast<double>(shares[i * parts + k]) * points[i].at;
+    }
+    twin.mean /= twin.share;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const glm::dvec2 d = points[i].at - twin.mean;
+      twin.spread += static_cast<double>(shares[i * parts + k]) / twin.share * glm::outerProduct(d, d);
+    }
+    twin.share /= static_cast<double>(points.size());
+    twins.push_back(twin);
+  }
+  return twins;
+}
+
+// One part over slopes is LEAN mapping: its density to rounding, and its picture.
+TEST(Cells, OnePartOverSlopesIsLean) {
+  const std::vector<glm::dvec3> directions = hemisphere_grid(12, 24);
+  const Words one{{"k", "1"}, {"coordinates", "slopes"}, {"density", "exact"}};
+  for (const auto& [distribution, lobe] : lobes) {
+    for (const float tilt : {0.1F, 0.6F, 0.95F}) {
+      const Material material = material_of(random_normals(16, 16, tilt, 3), distribution, lobe);
+      const std::vector<double> lean = probe_ndf({.method = &lean_method(), .material = &material}, directions);
+      const std::vector<double> own = probe_ndf(parted_method(material, one), directions);
+      const double peak = std::ranges::max(lean);
+      for (std::size_t i = 0; i < lean.size(); ++i) EXPECT_NEAR(own[i], lean[i], 1e-5 * peak) << tilt << " " << i;
+    }
+  }
+  const BaseBrdf brdf{blinn_phong, GeometryTerm::none, FresnelTerm::none, true};
+  TestRenderer renderer(square_scene(random_normals(64, 64, 0.5F, 4), {.brdf = brdf}));
+  for (const char* const filter : {"trilinear", "box:2"}) {
+    const FootprintFilter parsed = parse_footprint_filter(filter, "");
+    const Image lean = renderer.frame(lean_method(), {}, parsed);
+    const Image own = renderer.frame(cells_method(), "cells:k=1:coordinates=slopes:density=exact", parsed);
+    EXPECT_LT(compare_images(own, lean, 1.0F).value().relative_rmse, 1e-4) << filter;
+  }
+}
+
+TEST(Cells, GlslMeetsItsTwin) {
+  const std::vector<glm::dvec3> directions = hemisphere_grid(10, 16);
+  for (const auto& [distribution, lobe] : lobes) {
+    for (const float tilt : {0.1F, 0.6F}) {
+      const Material material = material_of(random_normals(16, 16, tilt, 3), distribution, lobe);
+      const std::vector<PartTwin> twins = twins_of(material, 3);
+      std::vector<double> expected;
+      for (const glm::dvec3& h : directions) {
+        double sum = 0.0;
+        for (const PartTwin& twin : twins) sum += twin.density(distribution, lobe, h);
+        expected.push_back(sum);
+      }
+      const std::vector<double> density = probe_ndf(parted_method(material, {{"k", "3"}}), directions);
+      const double peak = std::ranges::max(expected);
+      for (std::size_t i = 0; i < directions.size(); ++i)
+        EXPECT_NEAR(density[i], expected[i], 2e-4 * peak) << lobe << " " << tilt << " " << i;
+    }
+  }
+}
+
+// Over solid angle, against the sum over texels, whatever the level (maps of one texel, of a few, of odd sizes) and
+// what is averaged over it, since every filter's moments are those of some set of texels.
+TEST(Cells, KeepsTheEnergyOfTheSumOverTexels) {
+  const std::vector<glm::dvec3> directions = hemisphere_grid(160, 160);
+  const auto energy = [&](const std::vector<double>& density) {
+    double sum = 0;
+    for (const double d : density) sum += d;
+    return sum;
+  };
+  for (const auto& [distribution, lobe] : lobes) {
+    for (const Image& normals : {random_normals(5, 3, 0.4F, 6), two_walls(8)}) {
+      const Material material = material_of(normals, distribution, lobe);
+      const double truth = energy(truth_of(material, directions));
+      for (const Words& words : {Words{}, {{"k", "2"}, {"storage", "fp16"}}, {{"coordinates", "slopes"}}}) {
+        EXPECT_NEAR(energy(probe_ndf(parted_method(material, words), directions)) / truth, 1.0, 0.01)
+            << lobe << " " << normals.width << " " << words.size() << (words.contains("k") ? " k" : "");
+      }
+    }
+  }
+}
+
+// What a frame's filters average is linear: the mean of a picture of evenly spread light is the same at any distance.
+TEST(Cells, EveryFilterKeepsTheEnergy) {
+  const BaseBrdf brdf{blinn_phong, GeometryTerm::none, FresnelTerm::none, true};
+  Scene scene = square_scene(two_walls(64), {.brdf = brdf, .base_color = glm::vec3(0.0F), .specular = glm::vec3(0.5F)});
+  scene.materials[0].lobe_parameter = 8.0F;
+  TestRenderer renderer(scene, {32, 32});
+  const double truth = covered_mean(renderer.reference(256).mean);
+  for (const char* const filter : {"trilinear", "anisotropic:8", "box:3", "ewa:8", "shaded:2"}) {
+    for (const char* const text : {"cells", "cells:k=2:storage=fp16"})
+      EXPECT_NEAR(covered_mean(renderer.frame(cells_method(), text, parse_footprint_filter(filter, ""))) / truth, 1.0,
+                  0.01)
+          << filter << " " << text;
+  }
+}
+
+TEST(Cells, HalfFloatsAreCloseToFloats) {
+  const std::vector<glm::dvec3> directions = hemisphere_grid(40, 40);
+  const Material material = material_of(two_walls(32), blinn_phong, 64.0F);
+  const std::vector<double> floats = probe_ndf(parted_method(material), directions);
+  EXPECT_LT(relative_l2(probe_ndf(parted_method(material, {{"storage", "fp16"}}), directions), floats), 0.01);
+}
+
+// Two walls in two parts, where one lobe stands over the ridge between them.
+TEST(Cells, TellsTheWallsOfGroovesApart) {
+  const std::vector<glm::dvec3> directions = hemisphere_grid(60, 120);
+  const Material material = material_of(two_walls(32), blinn_phong, 64.0F);
+  const std::vector<double> truth = truth_of(material, directions);
+  EXPECT_LT(relative_l2(probe_ndf(parted_method(material, {{"k", "2"}}), directions), truth), 0.1);
+  EXPECT_GT(relative_l2(probe_ndf(parted_method(material, {{"k", "1"}}), directions), truth), 0.4) << "the gate";
+}
+
+// Hard case 13: equal normals under exponent 1e5. In 32 bits it is the base lobe, whose peak is (s + 1) / 2 pi.
+TEST(Cells, FlatTiltedMapsAreTheBaseLobe) {
+  for (const float slope : {0.0F, 0.5F, 3.0F}) {
+    const glm::vec3 n = glm::normalize(glm::vec3(-slope, 0.0F, 1.0F));
+    const Material material = material_of(constant_normals(8, 8, n), blinn_phong, 1e5F);
+    const std::array<std::array<glm::vec4, 3>, 1> input{{{glm::vec4(n, 0), {}, {}}}};
+    for (const char* const storage : {"fp32", "fp16"}) {
+      for (const char* const coordinates : {"stereographic", "slopes"}) {
+        const float peak = probe_method(parted_method(material, {{"storage", storage}, {"coordinates", coordinates}}),
+                                        "return vec4(ndf(e, a.xyz));", input)[0]
+                               .x;
+        EXPECT_TRUE(std::isfinite(peak) && peak > 0.0F);
+        if (std::string(storage) == "fp16") continue;
+        EXPECT_NEAR(peak * 2.0 * pi / 1e5, 1.0, 0.05) << slope << coordinates;
+      }
+    }
+  }
+}
+
+// Hard cases 11, 15 and 28: more parts than normals, normals at the horizon, below it, and no valid normal at all.
+TEST(Cells, EmptyPartsAndNormalsAtTheHorizonStayFinite) {
+  Image horizon = random_normals(4, 4, 0.9F, 6);
+  const glm::vec3 sideways(1, 0, 0);
+  const glm::vec3 below = glm::normalize(glm::vec3(0.3F, 0.2F, -0.9F));
+  std::copy_n(&sideways.x, 3, horizon.at(2, 1).begin());
+  std::copy_n(&below.x, 3, horizon.at(0, 3).begin());
+  Image invalid = random_normals(4, 4, 0.5F, 7);
+  for (std::size_t i = 3; i < invalid.texels.size(); i += 4) invalid.texels[i] = 0.0F;
+  for (const Image& map : {horizon, constant_normals(4, 4, sideways), random_normals(2, 1, 0.5F, 8), invalid}) {
+    for (const float lobe : {1.0F, 1e5F}) {
+      const Material material = material_of(map, blinn_phong, lobe);
+      for (const char* const coordinates : {"stereographic", "slopes"}) {
+        for (const double d :
+             probe_ndf(parted_method(material, {{"k", "8"}, {"coordinates", coordinates}}), hemisphere_grid(20, 20)))
+          EXPECT_TRUE(std::isfinite(d) && d >= 0.0) << lobe << " " << coordinates;
+      }
+    }
+  }
+}
+
+// One of 16384 texels at the horizon: stereographic coordinates have no pole there, so that nothing has to be bounded.
+TEST(Cells, OneSteepTexelDoesNotOutweighThousands) {
+  const auto peak = [](bool spoilt, const Words& words) {
+    Image normals = random_normals(128, 128, 0.1F, 4);
+    const glm::vec3 steep(0.9999F, 0.0F, 0.0141F);
+    if (spoilt) std::copy_n(&steep.x, 3, normals.at(40, 50).begin());
+    const Material material = material_of(normals, blinn_phong, 64.0F);
+    return std::ranges::max(probe_ndf(parted_method(material, words), hemisphere_grid(40, 40)));
+  };
+  const double whole = peak(false, {{"k", "1"}});
+  EXPECT_NEAR(peak(true, {{"k", "1"}}) / whole, 1.0, 0.03);
+  EXPECT_LT(peak(true, {{"k", "1"}, {"coordinates", "slopes"}, {"steepest", "50"}}) / whole, 0.7)
+      << "the gate: unbounded slopes do";
+}
+
+// The base lobe by two instructions, within 2e-4 of its peak for every exponent.
+TEST(Cells, TheFastDensityIsWithinItsBound) {
+  for (const float lobe : {1.0F, 64.0F, 999.0F, 1001.0F, 1e4F, 1e6F}) {
+    const Material material = material_of(constant_normals(2, 2, {0, 0, 1}), blinn_phong, lobe);
+    std::vector<glm::dvec3> directions;
+    for (int i = 0; i <= 200; ++i) {
+      const double sine = std::min(0.03 * i / std::sqrt(static_cast<double>(lobe)), 1.0);
+      directions.emplace_back(sine, 0.0, std::sqrt(1.0 - sine * sine));
+    }
+    const std::vector<double> fast = probe_ndf(parted_method(material, {{"density", "fast"}}), directions);
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      const glm::dvec3 h{glm::vec3(directions[i])};
+      EXPECT_NEAR(fast[i] * 2.0 * pi / (lobe + 1.0),
+                  base_density(blinn_phong, lobe, {0, 0, 1}, h) * 2.0 * pi / (lobe + 1.0), 2e-4)
+          << lobe << " " << i;
+    }
+  }
+}
+
+// Rough walls and smooth ones: a part has the roughness of its own texels.
+TEST(Cells, RoughnessGoesWithTheNormals) {
+  const Image normals = two_walls(32);
+  Material material = material_of(normals, ggx, 0.0F);
+  material.lobe_parameter.reset();
+  Image roughness(32, 32, 2);
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 32; ++x) {
+      roughness.at(x, y)[0] = (x / 4) % 2 == 0 ? 0.55F : 0.3F;
+      roughness.at(x, y)[1] = 1.0F;
+    }
+  }
+  material.metallic_roughness_map =
+      TextureMap{"roughness", std::make_shared<const Image>(roughness), material.normal_map->coordinates};
+  const std::vector<glm::dvec3> directions = hemisphere_grid(60, 120);
+  std::vector<double> truth;
+  for (const glm::dvec3& h : directions) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < normals.texel_count(); ++i) {
+      const double perceptual = (i % 32 / 4) % 2 == 0 ? 0.55 : 0.3;
+      sum += base_density(ggx, perceptual * perceptual, normal_at(normals, i), h);
+    }
+    truth.push_back(sum / static_cast<double>(normals.texel_count()));
+  }
+  ProbedMethod probed = parted_method(material, {{"k", "2"}});
+  probed.effects.set(static_cast<std::size_t>(Effect::roughness_variation));
+  const double joint = relative_l2(probe_ndf(probed, directions), truth);
+  probed.options["roughness"] = "separate";
+  const double separate = relative_l2(probe_ndf(probed, directions), truth);
+  EXPECT_LT(joint, 0.2);
+  EXPECT_LT(joint, 0.5 * separate);
+  // On other coordinates nothing is joint: one variance, as when told so.
+  material.metallic_roughness_map->coordinates.set = 1;
+  probed.options["roughness"] = "joint";
+  EXPECT_NEAR(relative_l2(probe_ndf(probed, directions), truth), separate, 1e-3);
+}
+
+// What an effect does not need is not stored.
+TEST(Cells, StoresWhatIsCalledFor) {
+  const Material material = material_of(random_normals(4, 4, 0.5F, 8), ggx, 0.3F);
+  const auto layers = [&](const Words& words, std::initializer_list<Effect> effects) {
+    EffectSet set;
+    for (const Effect effect : effects) set.set(static_cast<std::size_t>(effect));
+    const Options options(cells_method().info().options, words, "cells");
+    int count = 0;
+    for (const PrefilteredTexture& texture : cells_method().precompute(material, options, set, no_progress).textures)
+      count += std::max(texture.layers, 1);
+    return count;
+  };
+  EXPECT_EQ(layers({}, {}), 0);
+  EXPECT_EQ(layers({}, {Effect::normal_variation}), 6);
+  EXPECT_EQ(layers({{"k", "1"}}, {Effect::normal_variation}), 2);
+  EXPECT_EQ(layers({{"k", "3"}}, {Effect::normal_variation, Effect::diffuse}), 6);
+  EXPECT_EQ(layers({}, {Effect::normal_variation, Effect::roughness_variation}), 8);
+}
+
+}  // namespace
+}  // namespace footprint::testing

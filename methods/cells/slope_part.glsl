@@ -1,0 +1,27 @@
+// A part whose moments are of slopes: LEAN's lobe, with a share.
+//? include common_slopes.glsl
+
+struct Part {
+  SlopeLobe slopes;
+  vec3 axis;
+  float share;    // of the footprint; 0: the part is not there
+  float lobe;     // parameter of a facet's lobe
+  float breadth;  // slope variance per axis about `axis`, a facet's lobe included
+};
+
+struct Direction {
+  vec3 h;
+};
+
+Direction directionOf(vec3 h) { return Direction(h); }
+
+Part absentPart() {
+  return Part(slopeLobe(vec2(0.0), mat2(0.0), 1.0), vec3(0.0, 0.0, 1.0), 0.0, lobe_cutoff.x, 1.0);
+}
+
+Part stretchedPart(float share, vec2 mean, vec3 spread, float lobe, float variance) {
+  SlopeLobe slopes = slopeLobe(mean, mat2(spread.x, spread.y, spread.y, spread.z), variance);
+  return Part(slopes, slopes.axis, share, lobe, slopes.breadth);
+}
+
+float partDensity(Part p, Direction at) { return p.share <= 0.0 ? 0.0 : p.share * slopeDensity(p.slopes, at.h); }

@@ -1,0 +1,105 @@
+// A part whose moments are of stereographic coordinates, p = h_xy / (1 + h_z). They are conformal: a facet's lobe of
+// slope variance v about the normal over p has the covariance v ((1 + |p|^2) / 2)^2 I there, whatever the tilt, the
+// square of a chord is 4 |p - p'|^2 / ((1 + |p|^2) (1 + |p'|^2)), and a solid angle 4 dp / (1 + |p|^2)^2.
+
+struct Part {
+  vec2 mean;
+  vec3 shrink;    // xx, xy, yy of A: distances from the mean to those of the base lobe
+  float metric;   // 1 + |mean|^2
+  float scale;    // share times det A, and what goes below the horizon; 0: the part is not there
+  vec3 axis;
+  float share;    // of the footprint
+  float lobe;     // parameter of a facet's lobe
+  float breadth;  // slope variance per axis about `axis`, a facet's lobe included
+};
+
+struct Direction {
+  vec2 p;
+  float metric;  // 1 + |p|^2
+};
+
+Direction directionOf(vec3 h) {
+  vec2 p = h.xy / max(1.0 + h.z, 1e-3);
+  return Direction(p, 1.0 + dot(p, p));
+}
+
+Part absentPart() {
+  return Part(vec2(0.0), vec3(0.0), 1.0, 0.0, vec3(0.0, 0.0, 1.0), 0.0, lobe_cutoff.x, 1.0);
+}
+
+//? if distribution_ggx
+// Of the base lobe, which ends 90 degrees from its axis, the stretch carries what lies beyond the cosine
+// (s - 1) / (s + 1), s = 1 / det A, below the horizon (of a round spread about the surface's normal). GGX's tails are
+// long enough that it has to be given back: int_0^c 2 a^2 dx / (1 - t^2 x^2)^2, t^2 = 1 - a^2, of the lobe's energy.
+float tailsGivenBack(float alpha, float s) {
+  float a2 = alpha * alpha;
+  float t = sqrt(max(1.0 - a2, 1e-4));
+  float c = (s - 1.0) / (s + 1.0);
+  float beyond = a2 * (c / (1.0 - t * t * c * c) + 0.5 * log((1.0 + t * c) / (1.0 - t * c)) / t);
+  float energy = lobeEnergy(alpha);
+  return energy / max(energy - beyond, 0.5 * energy);
+}
+//? else
+float tailsGivenBack(float lobe, float s) { return 1.0; }
+//? end
+
+// A = X^(-1/2) with X = I + spread / w, w the base lobe's variance here. The root of a 2 x 2 matrix is
+// X^(1/2) = (X + s I) / t, s^2 = det X, t^2 = tr X + 2 s; det X = 1 + tr + det of the rest is a sum that cannot cancel.
+Part stretchedPart(float share, vec2 mean, vec3 spread, float lobe, float variance) {
+  float metric = 1.0 + dot(mean, mean);
+  vec3 ratio = spread / (0.25 * variance * metric * metric);
+  float trace = ratio.x + ratio.z;
+  float s = sqrt(1.0 + trace + max(ratio.x * ratio.z - ratio.y * ratio.y, 0.0));
+  float t = sqrt(2.0 + trace + 2.0 * s);
+  vec3 shrink = vec3(1.0 + ratio.z + s, -ratio.y, 1.0 + ratio.x + s) / (s * t);
+  vec3 axis = vec3(2.0 * mean, 2.0 - metric) / metric;
+  return Part(mean, shrink, metric, share / s * tailsGivenBack(lobe, s), axis, share, lobe, variance * (1.0 + 0.5 * trace));
+}
+
+//? if distribution_blinn_phong
+// The base lobe at 1 - cosine = u, below 2.
+//? if density_fast
+// (1 - u)^s: log2 of 1 - u, which has lost u's last bits, is good to 2^-24 s; where s is larger the series, which is
+// good to 17 u^3 / 4 for what the lobe has not yet made nothing, u < 17 / s.
+float lobeAt(float s, float u) {
+  float series = -1.4426950 * u * (1.0 + u * (0.5 + u * (1.0 / 3.0)));
+  float exponent = s > 1000.0 ? series : log2(max(1.0 - u, 1e-30));
+  return (s + 1.0) / (2.0 * pi) * exp2(s * exponent);
+}
+//? else
+float lobeAt(float s, float u) { return u >= 1.0 ? 0.0 : (s + 1.0) / (2.0 * pi) * exp(s * log1m(u)); }
+//? end
+//? elif distribution_vmf
+//? include vmf.glsl
+float lobeAt(float kappa, float u) {
+  float safe = max(kappa, 1e-4);
+  return safe / (2.0 * pi * oneMinusExp2(safe)) * exp(-safe * u);
+}
+//? elif distribution_beckmann
+float lobeAt(float alpha, float u) {
+  float c = 1.0 - u;
+  if (c <= 1e-3) return 0.0;
+  float c2 = c * c;
+  float a2 = alpha * alpha;
+  return exp(-u * (2.0 - u) / (c2 * a2)) / (pi * a2 * c2 * c2);
+}
+//? else
+float lobeAt(float alpha, float u) {
+  float c = 1.0 - u;
+  if (c <= 0.0) return 0.0;
+  float a2 = alpha * alpha;
+  float d = a2 * c * c + u * (2.0 - u);
+  return a2 / (pi * d * d);
+}
+//? end
+
+// D(h) dh = D_base(h') dh' with p(h') = mean + A (p(h) - mean), so that the energy stays the base lobe's own.
+float partDensity(Part part, Direction at) {
+  countLobes(1);
+  vec2 d = at.p - part.mean;
+  d = vec2(dot(part.shrink.xy, d), dot(part.shrink.yz, d));
+  vec2 p = part.mean + d;
+  float metric = 1.0 + dot(p, p);
+  float ratio = at.metric / metric;
+  return part.scale * ratio * ratio * lobeAt(part.lobe, 2.0 * dot(d, d) / (metric * part.metric));
+}

@@ -26,7 +26,7 @@ BareFrame::BareFrame(const Scene& scene, const GpuScene& gpu_scene, const glm::i
   for (const GpuBatch& batch : gpu_scene.batches()) {
     const Material& material = scene.materials.at(batch.material);
     normal_maps_.push_back(
-        upload(make_texture("normal_map", {normal_map_of(material)}, Storage::fp32, normal_coordinates(material))));
+        upload(make_level_texture("normal_map", normal_map_of(material), Storage::fp32, normal_coordinates(material))));
   }
   const glm::vec3 to_light = glm::normalize(glm::vec3(0.3F, 0.5F, 1.0F));
   gl::api().ProgramUniform3fv(program_.name(), program_.uniform("to_light"), 1, glm::value_ptr(to_light));

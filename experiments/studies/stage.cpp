@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "experiments/studies/memory_estimate.hpp"
@@ -20,27 +21,34 @@ constexpr int default_width = 512;
 constexpr float highest_default = 1 << 20;  // of a camera narrower than a hair
 constexpr std::uint64_t pixel_bytes = 16;   // RGBA, 32-bit floats
 
-BakedMethod bake_base(const Scene& scene, const EffectSet& effects, const Progress& progress) {
-  return bake(base_surface(), {.text = "reference", .name = "reference", .options = {}}, scene, effects, progress);
+// A method on the GPU, baked and uploaded one material after the other, so that what is baked lies in memory twice for
+// one material at most. A frame build may read what was baked; of every other method the GPU has all that a frame
+// needs.
+using Uploaded = std::pair<std::unique_ptr<BakedMethod>, std::unique_ptr<GpuMethod>>;
+
+Uploaded bake_and_upload(const GpuScene& gpu_scene, const Scene& scene, const EffectSet& effects, const Method& method,
+                         const MethodSpec& spec, const BakeCache* cache, const Progress& progress) {
+  auto baked = std::make_unique<BakedMethod>(unbaked(method, spec));
+  auto gpu = std::make_unique<GpuMethod>(gpu_scene, *baked);
+  bake_materials(*baked, scene, effects, progress, cache, [&](std::size_t material) {
+    gpu->upload_material(material);
+    if (!gpu->has_frame_build()) free_texels(baked->materials[material]);
+  });
+  return {std::move(baked), std::move(gpu)};
 }
 
-BakedMethod bake_method(const Scene& scene, const EffectSet& effects, const MethodSpec& spec,
-                        const std::optional<DiskCache>& files, const Progress& progress) {
-  if (!files) return bake(find_method(spec.name), spec, scene, effects, progress);
+Uploaded bake_and_upload(const GpuScene& gpu_scene, const Scene& scene, const EffectSet& effects,
+                         const MethodSpec& spec, const std::optional<DiskCache>& files, const Progress& progress) {
+  const Method& method = find_method(spec.name);
+  if (!files) return bake_and_upload(gpu_scene, scene, effects, method, spec, nullptr, progress);
   const BakeCache cache(*files);
-  return bake(find_method(spec.name), spec, scene, effects, progress, &cache);
+  return bake_and_upload(gpu_scene, scene, effects, method, spec, &cache, progress);
 }
 
 // The scene's own maps are there already, and available memory knows it.
 void require_maps(const MemoryEstimate& estimate, std::size_t methods) {
   require_memory(estimate.peak(methods) - estimate.maps, fmt::format("what {} methods make of the maps", methods),
                  "compare fewer methods at once, use smaller textures, or free memory");
-}
-
-// A frame build may read what was baked; of every other method the GPU has all that a frame needs.
-void free_what_is_uploaded(const GpuMethod& gpu, BakedMethod& baked) {
-  if (gpu.has_frame_build()) return;
-  for (Prefiltered& material : baked.materials) free_texels(material);
 }
 
 }  // namespace
@@ -75,14 +83,12 @@ void require_pictures(const glm::ivec2& size, int count) {
 
 StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& scene, const Scene& values,
                            const EffectSet& effects, const MethodSpec& spec, const FootprintFilter& filter,
-                           const glm::ivec2& size, const RunSettings& settings, const Progress& progress)
-    : baked_(std::make_unique<BakedMethod>(bake_method(values, effects, spec, cache_of(settings), progress))),
-      gpu_(std::make_unique<GpuMethod>(scene, *baked_)),
-      frames_(std::make_unique<FrameRenderer>(
-          context, scene, *gpu_, size,
-          ProgramSettings{.sampling = Sampling::frame, .footprint = filter, .orthographic = values.camera.orthographic},
-          settings.backend.tile)) {
-  free_what_is_uploaded(*gpu_, *baked_);
+                           const glm::ivec2& size, const RunSettings& settings, const Progress& progress) {
+  std::tie(baked_, gpu_) = bake_and_upload(scene, values, effects, spec, cache_of(settings), progress);
+  frames_ = std::make_unique<FrameRenderer>(
+      context, scene, *gpu_, size,
+      ProgramSettings{.sampling = Sampling::frame, .footprint = filter, .orthographic = values.camera.orthographic},
+      settings.backend.tile);
 }
 
 Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress, int pictures,
@@ -107,9 +113,9 @@ Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress,
     methods_.emplace_back(context_.info(), *gpu_scene_, scene_, effects_, spec,
                           methods_.empty() ? first_filter.value_or(all) : all, size_, settings, parts.next(1, "bake "));
   }
-  base_ = std::make_unique<BakedMethod>(bake_base(scene_, effects_, parts.next(1, "bake ")));
-  gpu_base_ = std::make_unique<GpuMethod>(*gpu_scene_, *base_);
-  free_what_is_uploaded(*gpu_base_, *base_);
+  std::tie(base_, gpu_base_) =
+      bake_and_upload(*gpu_scene_, scene_, effects_, base_surface(),
+                      {.text = "reference", .name = "reference", .options = {}}, nullptr, parts.next(1, "bake "));
   reference_ =
       std::make_unique<Supersampler>(context_.info(), *gpu_scene_, *gpu_base_, settings.reference.filter,
                                      scene_.camera.orthographic, settings.backend.tile, settings.reference.environment);

@@ -23,7 +23,7 @@ class FixedBrdf final : public Method {
     if (has(effects, Effect::roughness_variation)) {
       // The finest level alone: reflectance is what this method does not filter.
       out.textures.push_back(
-          make_texture("fixed_roughness", {roughness_map_of(material)}, storage, roughness_coordinates(material)));
+          make_level_texture("fixed_roughness", roughness_map_of(material), storage, roughness_coordinates(material)));
     }
     return out;
   }

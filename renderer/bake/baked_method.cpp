@@ -31,35 +31,47 @@ Outcome prefilter(const Method& method, const Scene& scene, std::size_t index, c
 
 }  // namespace
 
-BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scene, const EffectSet& effects,
-                 const Progress& progress, const BakeCache* cache) {
-  const auto start = std::chrono::steady_clock::now();
-  const EffectSet honoured = effects & method.info().honours;
-  BakedMethod baked{.method = &method,
-                    .spec = spec,
-                    .options = Options(method.info().options, spec.options, "method " + spec.name),
-                    .materials = {},
-                    .seconds = 0,
-                    .bytes = 0,
-                    .texels = 0,
-                    .cached = cache != nullptr && method.info().slow_precompute};
+BakedMethod unbaked(const Method& method, const MethodSpec& spec) {
+  return {.method = &method,
+          .spec = spec,
+          .options = Options(method.info().options, spec.options, "method " + spec.name),
+          .materials = {},
+          .seconds = 0,
+          .bytes = 0,
+          .texels = 0,
+          .cached = false};
+}
+
+void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& effects, const Progress& progress,
+                    const BakeCache* cache, const MaterialBaked& when_baked) {
+  const Method& method = *baked.method;
+  baked.cached = cache != nullptr && method.info().slow_precompute;
   const auto count = static_cast<double>(scene.materials.size());
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const auto start = std::chrono::steady_clock::now();
     const Material& material = scene.materials[i];
     const auto done = static_cast<double>(i);
     const Progress part = [&](std::string_view what, double fraction) { progress(what, (done + fraction) / count); };
-    part(fmt::format("{}: {}", spec.text, material.name), 0.0);
+    part(fmt::format("{}: {}", baked.spec.text, material.name), 0.0);
     try {
-      auto [prefiltered, from_disk] = prefilter(method, scene, i, baked.options, honoured, part, cache);
+      auto [prefiltered, from_disk] =
+          prefilter(method, scene, i, baked.options, effects & method.info().honours, part, cache);
       baked.materials.push_back(std::move(prefiltered));
       baked.cached = baked.cached && from_disk;
     } catch (const Error& error) {
-      throw error.within(fmt::format("{}, material {}, method {}", scene.source, material.name, spec.text));
+      throw error.within(fmt::format("{}, material {}, method {}", scene.source, material.name, baked.spec.text));
     }
     baked.bytes += byte_count(baked.materials.back());
     baked.texels += finest_texels(baked.materials.back());
+    baked.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    when_baked(i);
   }
-  baked.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scene, const EffectSet& effects,
+                 const Progress& progress, const BakeCache* cache) {
+  BakedMethod baked = unbaked(method, spec);
+  bake_materials(baked, scene, effects, progress, cache, [](std::size_t) {});
   return baked;
 }
 

@@ -1,6 +1,7 @@
 // A method's precompute over a whole scene, from the disk where it is kept there.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "renderer/bake/bake_cache.hpp"
@@ -19,6 +20,17 @@ struct BakedMethod {
   std::size_t texels = 0;  ///< of the finest levels, over all materials (`finest_texels`)
   bool cached = false;     ///< every material came from the disk: `seconds` is what reading took
 };
+
+/// Called when a material is baked, with its number; it may free the texels.
+using MaterialBaked = std::function<void(std::size_t)>;
+
+/// A method with its options, and nothing baked yet. Errors (usage): an option that it has not.
+[[nodiscard]] BakedMethod unbaked(const Method& method, const MethodSpec& spec);
+
+/// Runs the precompute of `baked` for one material after the other, as `bake` does. Seconds are those of the precompute
+/// alone.
+void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& effects, const Progress& progress,
+                    const BakeCache* cache, const MaterialBaked& when_baked);
 
 /// Runs the precompute of `spec` for every material, or reads it from `cache` where that is given and has it.
 /// `effects` are the scene's; the method gets those that it honours.

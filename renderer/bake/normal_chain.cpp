@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/image/mipmap.hpp"
@@ -20,7 +21,7 @@ void renormalise(Image& normals) {
   }
 }
 
-Image without_weight(const Image& weighted) {
+Image without_weight(Image weighted) {
   Image out(weighted.width, weighted.height, 3);
   for (std::size_t i = 0; i < out.texel_count(); ++i) std::copy_n(&weighted.texels[4 * i], 3, &out.texels[3 * i]);
   return out;
@@ -32,8 +33,8 @@ std::vector<Image> mean_normal_chain(const Material& material) { return mean_nor
 
 std::vector<Image> mean_normal_chain(Image normals) {
   renormalise(normals);
-  std::vector<Image> chain;
-  for (const Image& level : weighted_mip_chain(std::move(normals))) chain.push_back(without_weight(level));
+  std::vector<Image> chain = weighted_mip_chain(std::move(normals));
+  for (Image& level : chain) level = without_weight(std::move(level));
   return chain;
 }
 
@@ -72,7 +73,8 @@ Prefiltered bake_lobe_variance(const Material& material, Storage storage, const 
   std::vector<Image> chain = lobe_variance_chain(material);
   for (Image& level : chain)
     std::ranges::transform(level.texels, level.texels.begin(), [](float v) { return v / stored_lobe_variance; });
-  out.textures.push_back(make_texture("lobe_variance", chain, storage == Storage::unorm8 ? Storage::fp16 : storage,
+  out.textures.push_back(make_texture("lobe_variance", std::move(chain),
+                                      storage == Storage::unorm8 ? Storage::fp16 : storage,
                                       roughness_coordinates(material)));
   return out;
 }

@@ -72,9 +72,16 @@ void require_finite(const std::string& name, const Image& level) {
               "mend the map that it was baked from");
 }
 
+TextureLevel encode_level(const std::string& name, const Image& image, Storage storage, bool signed_range) {
+  require_finite(name, image);
+  TextureLevel level{.width = image.width, .height = image.height, .bytes = {}};
+  encode(image, storage, signed_range, level.bytes);
+  return level;
+}
+
 // All levels of all layers, finest first.
 std::vector<TextureLevel> encode_levels(const std::string& name, std::span<const std::vector<Image>> layers,
-                                        Storage storage, bool signed_range) {
+                                        Storage storage) {
   std::vector<TextureLevel> levels;
   for (std::size_t i = 0; i < layers.front().size(); ++i) {
     const Image& first = layers.front()[i];
@@ -85,7 +92,7 @@ std::vector<TextureLevel> encode_levels(const std::string& name, std::span<const
       if (image.width != first.width || image.height != first.height || image.channels != first.channels)
         throw std::logic_error("the layers of texture " + name + " differ in size");
       require_finite(name, image);
-      encode(image, storage, signed_range, level.bytes);
+      encode(image, storage, false, level.bytes);
     }
     levels.push_back(std::move(level));
   }
@@ -129,21 +136,33 @@ std::size_t finest_texels(const Prefiltered& prefiltered) {
   return most;
 }
 
-PrefilteredTexture make_texture(std::string name, const std::vector<Image>& chain, Storage storage,
+PrefilteredTexture make_texture(std::string name, std::vector<Image> chain, Storage storage,
                                 const TextureCoordinates& coordinates, bool signed_range) {
-  std::vector<TextureLevel> levels = encode_levels(name, std::span(&chain, 1), storage, signed_range);
+  const int channels = chain.front().channels;
+  std::vector<TextureLevel> levels;
+  for (Image& level : chain) {
+    levels.push_back(encode_level(name, level, storage, signed_range));
+    level = {};
+  }
   return {.name = std::move(name),
           .storage = storage,
-          .channels = chain.front().channels,
+          .channels = channels,
           .layers = 0,
           .filter = TextureFilter::trilinear,
           .coordinates = coordinates,
           .levels = std::move(levels)};
 }
 
+PrefilteredTexture make_level_texture(std::string name, Image level, Storage storage,
+                                      const TextureCoordinates& coordinates) {
+  std::vector<Image> chain;  // a list in braces would copy it
+  chain.push_back(std::move(level));
+  return make_texture(std::move(name), std::move(chain), storage, coordinates);
+}
+
 PrefilteredTexture make_array_texture(std::string name, std::span<const std::vector<Image>> layers, Storage storage,
                                       const TextureCoordinates& coordinates, TextureFilter filter) {
-  std::vector<TextureLevel> levels = encode_levels(name, layers, storage, false);
+  std::vector<TextureLevel> levels = encode_levels(name, layers, storage);
   return {.name = std::move(name),
           .storage = storage,
           .channels = layers.front().front().channels,

@@ -75,9 +75,14 @@ void free_texels(Prefiltered& prefiltered);
 [[nodiscard]] std::size_t finest_texels(const Prefiltered& prefiltered);
 
 /// Encodes a mip chain: fp16 and unorm8 round to nearest; unorm8 maps [-1,1] to 0..255 where `signed_range` (a
-/// normal), else [0,1]. fp16 clamps to +-65504. Values must be finite.
-[[nodiscard]] PrefilteredTexture make_texture(std::string name, const std::vector<Image>& chain, Storage storage,
+/// normal), else [0,1]. fp16 clamps to +-65504. Values must be finite. Each level is given back once it is encoded:
+/// move a chain in that is needed no more.
+[[nodiscard]] PrefilteredTexture make_texture(std::string name, std::vector<Image> chain, Storage storage,
                                               const TextureCoordinates& coordinates, bool signed_range = false);
+
+/// A texture of one level alone, likewise.
+[[nodiscard]] PrefilteredTexture make_level_texture(std::string name, Image level, Storage storage,
+                                                    const TextureCoordinates& coordinates);
 
 /// Encodes an array texture from one mip chain a layer, all of the same sizes and channels; otherwise as make_texture.
 [[nodiscard]] PrefilteredTexture make_array_texture(std::string name, std::span<const std::vector<Image>> layers,

@@ -25,15 +25,15 @@ class BaseSurface final : public Method {
     Prefiltered out;
     if (has(effects, Effect::normal_variation)) {
       out.textures.push_back(
-          make_texture("base_normal", {normal_map_of(material)}, Storage::fp32, normal_coordinates(material)));
+          make_level_texture("base_normal", normal_map_of(material), Storage::fp32, normal_coordinates(material)));
     }
     if (has(effects, Effect::normal_layers)) {
       out.textures.push_back(
-          make_texture("base_layer", {layer_map_of(material)}, Storage::fp32, layer_coordinates(material)));
+          make_level_texture("base_layer", layer_map_of(material), Storage::fp32, layer_coordinates(material)));
     }
     if (has(effects, Effect::roughness_variation)) {
-      out.textures.push_back(
-          make_texture("base_roughness", {roughness_map_of(material)}, Storage::fp32, roughness_coordinates(material)));
+      out.textures.push_back(make_level_texture("base_roughness", roughness_map_of(material), Storage::fp32,
+                                                roughness_coordinates(material)));
     }
     if (has(effects, Effect::microgeometry_visibility)) {
       std::ranges::move(patch_facet_textures(material, progress), std::back_inserter(out.textures));

@@ -140,14 +140,17 @@ GpuBatch batch_of(const Scene& scene, std::size_t material, const EffectSet& eff
   return batch;
 }
 
-std::vector<PrefilteredTexture> shared_textures(const Material& material, const EffectSet& effects) {
-  std::vector<PrefilteredTexture> textures;
+// Uploads the maps that every method reads one after the other, and gives their bytes.
+std::size_t add_shared_textures(const Material& material, const EffectSet& effects, GpuBatch& batch) {
+  std::size_t bytes = 0;
   for (const SharedMap& map : shared_maps()) {
     if (!has(effects, map.effect)) continue;
-    textures.push_back(
-        make_texture(std::string(map.name), mip_chain(map.image(material)), Storage::fp32, map.coordinates(material)));
+    const PrefilteredTexture texture =
+        make_texture(std::string(map.name), mip_chain(map.image(material)), Storage::fp32, map.coordinates(material));
+    bytes += byte_count(texture);
+    batch.shared_textures.push_back(upload(texture));
   }
-  return textures;
+  return bytes;
 }
 
 void require_capacity(const gl::ContextInfo& context, std::size_t vectors, const std::string& source) {
@@ -231,10 +234,7 @@ GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const Eff
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     GpuBatch batch = batch_of(scene, i, effects, content_);
     if (batch.index_count == 0) continue;
-    for (const PrefilteredTexture& texture : shared_textures(scene.materials[i], effects)) {
-      shared_bytes_ += byte_count({.textures = {texture}, .scalars = {}});
-      batch.shared_textures.push_back(upload(texture));
-    }
+    shared_bytes_ += add_shared_textures(scene.materials[i], effects, batch);
     batches_.push_back(std::move(batch));
   }
   make_lights(context, scene);

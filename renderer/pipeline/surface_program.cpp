@@ -147,9 +147,15 @@ GpuMethod::GpuMethod(const GpuScene& scene, const BakedMethod& baked)
       build_(baked.method->frame_build(
           {.effects = effects_of(scene, *baked.method), .brdf = scene.brdf(), .facet_lobes = scene.facet_lobes()},
           baked.options)) {
-  for (const GpuBatch& batch : scene.batches()) {
-    const Prefiltered& prefiltered = baked.materials.at(batch.material);
-    PerBatch part;
+  batches_.resize(scene.batches().size());
+  for (std::size_t i = 0; i < baked.materials.size(); ++i) upload_material(i);
+}
+
+void GpuMethod::upload_material(std::size_t material) {
+  const Prefiltered& prefiltered = baked_->materials.at(material);
+  for (const GpuBatch& batch : scene_->batches()) {
+    if (batch.material != material) continue;
+    PerBatch& part = batches_.at(static_cast<std::size_t>(&batch - scene_->batches().data()));
     for (const PrefilteredTexture& texture : prefiltered.textures) part.textures.push_back(upload(texture));
     const std::vector<float> scalars = scalar_block(prefiltered);
     if (!scalars.empty()) part.scalars = gl::Buffer(std::as_bytes(std::span(scalars)));
@@ -158,7 +164,6 @@ GpuMethod::GpuMethod(const GpuScene& scene, const BakedMethod& baked)
       part.vertex_array = footprint::vertex_array(batch.vertices, batch.indices, &part.surface_coordinates);
       if (batch.visibility.name() != 0) add_visibility(part.vertex_array, batch.visibility);
     }
-    batches_.push_back(std::move(part));
   }
 }
 

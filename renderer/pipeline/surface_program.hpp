@@ -18,8 +18,10 @@ namespace footprint {
 /// A baked method's textures and scalars on the GPU, shared by its programs.
 class GpuMethod {
  public:
-  /// Uploads what was baked. What a frame build fills is empty until the first one.
+  /// Uploads what was baked by now. What a frame build fills is empty until the first one.
   GpuMethod(const GpuScene& scene, const BakedMethod& baked);
+  /// Uploads what was baked for one material since.
+  void upload_material(std::size_t material);
   /// Whether the method has a frame build, and whether a frame in which nothing moved keeps what was built before.
   [[nodiscard]] bool has_frame_build() const { return build_ != nullptr; }
   [[nodiscard]] bool keeps_builds() const { return build_ && build_->kept_until_change_of(); }

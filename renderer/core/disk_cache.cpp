@@ -29,6 +29,23 @@ std::vector<std::uint8_t> content_of(const fs::path& file) {
   }
 }
 
+// Behind the bytes a file has its own key: one that was renamed, or copied over another, is none of this name.
+std::vector<std::uint8_t> with_key(std::span<const std::uint8_t> bytes, const std::string& key) {
+  std::vector<std::uint8_t> out;
+  out.reserve(bytes.size() + key.size());
+  out.assign(bytes.begin(), bytes.end());
+  out.insert(out.end(), key.begin(), key.end());
+  return out;
+}
+
+// The bytes before the key; none where the file ends in another.
+std::vector<std::uint8_t> without_key(std::vector<std::uint8_t> bytes, const std::string& key) {
+  const auto last = bytes.size() < key.size() ? bytes.begin() : bytes.end() - static_cast<std::ptrdiff_t>(key.size());
+  if (!std::ranges::equal(last, bytes.end(), key.begin(), key.end())) return {};
+  bytes.erase(last, bytes.end());
+  return bytes;
+}
+
 struct KeptFile {
   fs::path path;
   std::uintmax_t bytes;
@@ -51,7 +68,7 @@ std::vector<KeptFile> kept_files(const fs::path& folder) {
 DiskCache::DiskCache(fs::path folder, std::uint64_t most_bytes) : folder_(std::move(folder)), most_bytes_(most_bytes) {}
 
 std::vector<std::uint8_t> DiskCache::find(const std::string& key) const {
-  std::vector<std::uint8_t> bytes = content_of(file(key));
+  std::vector<std::uint8_t> bytes = without_key(content_of(file(key)), key);
   std::error_code ignored;  // a folder that cannot be written loses only the order of use
   if (!bytes.empty()) fs::last_write_time(file(key), fs::file_time_type::clock::now(), ignored);
   return bytes;
@@ -64,7 +81,7 @@ void DiskCache::keep(const std::string& key, std::span<const std::uint8_t> bytes
   if (failed) return;
   make_room(bytes.size());
   try {
-    write_file_atomically(file(key), bytes);
+    write_file_atomically(file(key), with_key(bytes, key));
   } catch (const Error&) {
     return;  // a full disk or a closed folder: what was made is at hand all the same
   }
@@ -99,8 +116,10 @@ std::optional<fs::path> default_cache_folder() {
     return fs::path(value);
   };
   if (auto own = variable("FOOTPRINT_CACHE")) return own;
-  if (const auto shared = variable("XDG_CACHE_HOME")) return *shared / "footprint";
-  if (const auto home = variable("HOME")) return *home / ".cache" / "footprint";
+  // Relative ones would make a cache of every folder that the program runs in (XDG Base Directory Specification: they
+  // are to be ignored).
+  if (const auto shared = variable("XDG_CACHE_HOME"); shared && shared->is_absolute()) return *shared / "footprint";
+  if (const auto home = variable("HOME"); home && home->is_absolute()) return *home / ".cache" / "footprint";
   return {};
 }
 

@@ -18,7 +18,8 @@ class DiskCache {
  public:
   explicit DiskCache(std::filesystem::path folder, std::uint64_t most_bytes = std::uint64_t{8} << 30U);
 
-  /// The bytes kept under `key` (letters, digits, `-` and `_`), now the most recently used; empty where there are none.
+  /// The bytes kept under `key` (letters, digits, `-` and `_`), now the most recently used; empty where there are none,
+  /// or those in the file were kept under another.
   [[nodiscard]] std::vector<std::uint8_t> find(const std::string& key) const;
   void keep(const std::string& key, std::span<const std::uint8_t> bytes) const;
 
@@ -37,6 +38,7 @@ class DiskCache {
 void add_program(ContentHash& hash);
 
 /// $FOOTPRINT_CACHE, else $XDG_CACHE_HOME/footprint, else $HOME/.cache/footprint; none where none of them is set.
+/// The latter two count where they are absolute.
 [[nodiscard]] std::optional<std::filesystem::path> default_cache_folder();
 
 }  // namespace footprint

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
+#include <optional>
 
 #include "renderer/core/sealed_bytes.hpp"
 
@@ -13,6 +15,22 @@ namespace footprint {
 namespace {
 
 namespace fs = std::filesystem;
+
+// An environment variable for the time of a test.
+class Variable {
+ public:
+  Variable(const char* name, const char* value) : name_(name) {
+    if (const char* const before = std::getenv(name)) before_ = before;
+    ::setenv(name, value, 1);
+  }
+  ~Variable() { before_ ? ::setenv(name_, before_->c_str(), 1) : ::unsetenv(name_); }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
 
 fs::path fresh_folder(const std::string& name) {
   fs::path folder = fs::path(::testing::TempDir()) / ("footprint_disk_cache_" + name);
@@ -30,6 +48,24 @@ TEST(DiskCache, FindsWhatItKeptAndNothingElse) {
   EXPECT_TRUE(cache.find("b").empty());
 }
 
+TEST(DiskCache, AFileUnderAnothersNameIsNone) {
+  const DiskCache cache(fresh_folder("foreign"));
+  cache.keep("one", some_bytes);
+  cache.keep("two", std::vector<std::uint8_t>{9});
+  fs::copy_file(cache.folder() / "one.bake", cache.folder() / "two.bake", fs::copy_options::overwrite_existing);
+  fs::copy_file(cache.folder() / "one.bake", cache.folder() / "three.bake");
+  EXPECT_TRUE(cache.find("two").empty());
+  EXPECT_TRUE(cache.find("three").empty());
+  EXPECT_EQ(cache.find("one"), some_bytes);
+}
+
+TEST(DiskCache, RelativeHomesAreNone) {
+  const Variable own("FOOTPRINT_CACHE", ""), shared("XDG_CACHE_HOME", "cache"), home("HOME", "home");
+  EXPECT_FALSE(default_cache_folder());
+  const Variable absolute("HOME", "/home/someone");
+  EXPECT_EQ(default_cache_folder(), fs::path("/home/someone/.cache/footprint"));
+}
+
 TEST(DiskCache, FolderThatIsAFileCostsNoError) {
   const fs::path file = fresh_folder("closed");
   std::ofstream(file) << "a file";
@@ -39,7 +75,7 @@ TEST(DiskCache, FolderThatIsAFileCostsNoError) {
 }
 
 TEST(DiskCache, TheLeastRecentlyUsedGoes) {
-  const DiskCache cache(fresh_folder("room"), 2 * some_bytes.size());
+  const DiskCache cache(fresh_folder("room"), 2 * some_bytes.size() + std::string("newold").size());
   cache.keep("old", some_bytes);
   cache.keep("new", some_bytes);
   const auto earlier = fs::file_time_type::clock::now() - std::chrono::hours(1);

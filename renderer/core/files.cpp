@@ -6,12 +6,16 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "renderer/core/error.hpp"
+#include "renderer/core/hash.hpp"
 
 namespace footprint {
 namespace {
@@ -26,16 +30,58 @@ Error machine_error(const fs::path& path, std::string_view what, const std::erro
 
 std::error_code last_error() { return {errno, std::generic_category()}; }
 
-// The hidden name under which FOLDER/NAME grows; the attempt tells apart those of one process.
+// Where process ids count: the host's name and the namespace of ids. Others share the folder over a network.
+const std::string& id_space() {
+  static const std::string space = [] {
+    std::array<char, 256> host{};
+    if (::gethostname(host.data(), host.size() - 1) != 0) host[0] = '?';
+    std::error_code unknown;
+    ContentHash hash;
+    hash.add(std::string(host.data()));
+    hash.add(fs::read_symlink("/proc/self/ns/pid", unknown).string());
+    return hash.hex().substr(0, 8);
+  }();
+  return space;
+}
+
+// What every hidden name of FOLDER/NAME begins with.
+std::string partial_prefix(const fs::path& name) { return fmt::format(".{}.partial-", name.string()); }
+
+// The hidden name under which FOLDER/NAME grows: process, where its id counts, and an attempt, which tells apart those
+// of one process.
 fs::path partial_path(const fs::path& folder, const fs::path& name, int attempt) {
   const std::string suffix = attempt == 0 ? std::string{} : fmt::format("-{}", attempt);
-  return folder / fmt::format(".{}.partial-{}{}", name.string(), ::getpid(), suffix);
+  return folder / fmt::format("{}{}-{}{}", partial_prefix(name), ::getpid(), id_space(), suffix);
+}
+
+// Whether what follows the prefix names a process of this machine that is no more.
+bool is_of_a_dead_process(std::string_view rest) {
+  pid_t process = 0;
+  const auto [end, status] = std::from_chars(rest.data(), rest.data() + rest.size(), process);
+  if (status != std::errc{} || process <= 0) return false;
+  const std::string_view space = rest.substr(static_cast<std::size_t>(end - rest.data()));
+  if (!space.starts_with("-" + id_space())) return false;
+  return ::kill(process, 0) != 0 && errno == ESRCH;
+}
+
+// Removes what killed processes have left of FOLDER/NAME. What cannot be removed costs nothing but its room.
+void remove_dead_partials(const fs::path& folder, const fs::path& name) {
+  const std::string prefix = partial_prefix(name);
+  std::error_code ignored;
+  std::vector<fs::path> dead;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, ignored)) {
+    const std::string found = entry.path().filename().string();
+    if (found.starts_with(prefix) && is_of_a_dead_process(std::string_view(found).substr(prefix.size())))
+      dead.push_back(entry.path());
+  }
+  for (const fs::path& path : dead) fs::remove_all(path, ignored);
 }
 
 // A new file beside `target`, closed and removed again unless it was renamed to it.
 class TemporaryNeighbour {
  public:
   explicit TemporaryNeighbour(fs::path target) : target_(std::move(target)) {
+    remove_dead_partials(target_.parent_path(), target_.filename());
     for (int attempt = 0; descriptor_ < 0; ++attempt) {
       path_ = partial_path(target_.parent_path(), target_.filename(), attempt);
       descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -97,6 +143,7 @@ void remove_empty_folders(const std::vector<fs::path>& folders) {
 }
 
 fs::path create_staging(const fs::path& folder, const fs::path& final_path) {
+  remove_dead_partials(folder, final_path.filename());
   for (int attempt = 0;; ++attempt) {
     fs::path staging = partial_path(folder, final_path.filename(), attempt);
     std::error_code status;
@@ -114,15 +161,29 @@ std::vector<fs::path> relative_entries(const fs::path& folder) {
   return entries;
 }
 
-// Moves all files of `staging` into the existing `target`.
-void merge_folder(const fs::path& staging, const fs::path& target) {
-  const std::vector<fs::path> entries = relative_entries(staging);
+// What lies on top of a folder tells what is below it, a page or a list of pictures.
+bool lies_on_top(const fs::path& entry) { return !entry.has_parent_path(); }
+
+// Moves all files of `staging` into the existing `target`, so that no moment has a list of one run over files of
+// another: old files on top go first, new ones come last. `stale` goes between them.
+void merge_folder(const fs::path& staging, const fs::path& target, const std::vector<fs::path>& stale) {
+  const std::vector<fs::path> sorted = relative_entries(staging);
+  std::vector<fs::path> entries = sorted;
+  std::ranges::stable_partition(
+      entries, [&](const fs::path& entry) { return fs::is_directory(staging / entry) || !lies_on_top(entry); });
   for (const fs::path& entry : entries) {
     if (!fs::exists(target / entry) || fs::is_directory(target / entry) == fs::is_directory(staging / entry)) continue;
     throw Error(
         ErrorKind::machine, (target / entry).string(),
         fs::is_directory(target / entry) ? "is a folder where a file belongs" : "is a file where a folder belongs",
         "move it away, or choose another output folder");
+  }
+  std::error_code ignored;
+  for (const fs::path& entry : entries) {
+    if (lies_on_top(entry) && !fs::is_directory(target / entry)) fs::remove(target / entry, ignored);
+  }
+  for (const fs::path& file : stale) {
+    if (!std::ranges::binary_search(sorted, file)) fs::remove(target / file, ignored);
   }
   for (const fs::path& entry : entries) {
     std::error_code status;
@@ -178,12 +239,21 @@ OutputFolder::~OutputFolder() {
   remove_empty_folders(created_parents_);
 }
 
+void OutputFolder::replaces(const std::vector<fs::path>& files) {
+  for (const fs::path& file : files) {
+    const fs::path path = file.lexically_normal();
+    const bool inside = path.is_relative() && path.has_filename() && *path.begin() != "..";
+    std::error_code ignored;
+    if (inside && fs::is_regular_file(fs::symlink_status(final_ / path, ignored))) stale_.push_back(path);
+  }
+}
+
 void OutputFolder::commit() {
   try {
     std::error_code status;
     if (!fs::exists(final_)) fs::rename(staging_, final_, status);
     if (status) throw machine_error(final_, "cannot be put in place", status);
-    if (fs::exists(staging_)) merge_folder(staging_, final_);
+    if (fs::exists(staging_)) merge_folder(staging_, final_, stale_);
   } catch (const fs::filesystem_error& failure) {
     throw machine_error(final_, "cannot be put in place", failure.code());
   }

@@ -5,14 +5,17 @@
 #include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <string>
+#include <thread>
 
 #include "renderer/core/error.hpp"
 #include "tests/support/fresh_folder.hpp"
@@ -190,6 +193,97 @@ TEST(OutputFolder, KeepsWhatItDidNotWrite) {
             (Names{"extra", "images", "images/a.png", "images/mine", "images/mine/b.png", "index.html", "notes.txt"}));
   EXPECT_EQ(text_of(folder / "index.html"), "new");
   EXPECT_EQ(text_of(folder / "notes.txt"), "mine");
+}
+
+// What an earlier run of the same kind wrote, and this one did not.
+TEST(OutputFolder, RemovesWhatItReplacesAndNothingElse) {
+  const fs::path folder = fresh_folder();
+  const fs::path out = folder / "out";
+  fs::create_directories(out / "images" / "kept");
+  for (const char* name : {"images/old.png", "images/new.png", "images/mine.png", "results.json", "../outside"})
+    std::ofstream(out / name) << "before";
+  {
+    OutputFolder output(out);
+    fs::create_directory(output.path() / "images");
+    write_file_atomically(output.path() / "images" / "new.png", "now");
+    output.replaces({"images/old.png", "images/new.png", "images/kept", "images/absent", "../outside",
+                     folder / "outside", "images/../../outside"});
+    EXPECT_TRUE(fs::exists(out / "images" / "old.png"));
+    output.commit();
+  }
+  EXPECT_EQ(names_in(folder), (Names{"out", "out/images", "out/images/kept", "out/images/mine.png",
+                                     "out/images/new.png", "out/results.json", "outside"}));
+  EXPECT_EQ(text_of(out / "images" / "new.png"), "now");
+}
+
+// A child that is killed in the midst of what `work` does.
+template <class Work>
+void kill_within(Work work, std::chrono::microseconds after) {
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    work();
+    ::pause();
+  }
+  std::this_thread::sleep_for(after);
+  ::kill(child, SIGKILL);
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status));
+}
+
+TEST(OutputFolder, WhatAKilledProcessLeftIsRemovedByTheNext) {
+  const fs::path folder = fresh_folder();
+  fs::create_directory(folder / "there");
+  const auto begin = [&] {
+    static const OutputFolder absent(folder / "new"), there(folder / "there");
+    std::ofstream(absent.path() / "a") << "a";
+  };
+  kill_within(begin, std::chrono::milliseconds(100));
+  EXPECT_EQ(names_in(folder).size(), 4U);                  // two hidden folders, one with a file in it
+  const std::string stranger = ".new.partial-1-00000000";  // of another machine
+  fs::create_directory(folder / stranger);
+  fs::create_directory(folder / (".other.partial-" + std::to_string(::getpid())));
+  OutputFolder(folder / "new").commit();
+  OutputFolder(folder / "there").commit();
+  EXPECT_EQ(names_in(folder), (Names{stranger, ".other.partial-" + std::to_string(::getpid()), "new", "there"}));
+}
+
+// Twenty points of the move: the list on top is of the run whose files lie below it, or there is none.
+TEST(OutputFolder, AKillInTheMoveMixesNoRuns) {
+  const fs::path folder = fresh_folder();
+  constexpr int files = 150;
+  const auto write_run = [&](const std::string& word, const auto& before_commit) {
+    OutputFolder output(folder / "out");
+    fs::create_directory(output.path() / "images");
+    for (int i = 0; i < files; ++i) std::ofstream(output.path() / "images" / std::to_string(i)) << word;
+    std::ofstream(output.path() / "results.json") << word;
+    before_commit();
+    output.commit();
+  };
+  int mixed = 0;
+  for (int round = 0; round < 20; ++round) {
+    write_run("old", [] {});
+    std::ofstream(folder / "go") << "";
+    const auto work = [&] {
+      write_run("new", [&] { fs::remove(folder / "go"); });
+      ::_exit(0);
+    };
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) work();
+    while (fs::exists(folder / "go")) {
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(200 * round));
+    ::kill(child, SIGKILL);
+    ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+    int renewed = 0;
+    for (int i = 0; i < files; ++i) renewed += text_of(folder / "out" / "images" / std::to_string(i)) == "new" ? 1 : 0;
+    mixed += renewed > 0 && renewed < files ? 1 : 0;
+    if (!fs::exists(folder / "out" / "results.json")) continue;
+    EXPECT_EQ(renewed, text_of(folder / "out" / "results.json") == "new" ? files : 0) << round;
+  }
+  EXPECT_GT(mixed, 0) << "no kill met the move: wait in other steps";
 }
 
 // A second run may end first.

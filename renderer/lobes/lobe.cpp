@@ -22,7 +22,7 @@ using enum NormalDistribution;
 using std::numbers::pi;
 
 // Twins of the constants in common_lobes.glsl.
-constexpr float smallest_alpha = 1e-3F;
+constexpr float narrowest_alpha = static_cast<float>(smallest_alpha);
 constexpr float smallest_concentration = 1e-6F;
 constexpr float largest_exponent = 2e6F;
 constexpr float smallest_variance = 1e-12F;
@@ -53,7 +53,7 @@ double u_of_sine_squared(double s2) { return s2 >= 1.0 ? 1.0 : s2 / (1.0 + std::
 }  // namespace
 
 Lobe lobe_from_alpha(NormalDistribution distribution, float alpha) {
-  const float bounded = std::max(alpha, smallest_alpha);
+  const float bounded = std::max(alpha, narrowest_alpha);
   switch (distribution) {
     case blinn_phong:
       return {distribution, 2.0F / (bounded * bounded) - 2.0F};
@@ -67,7 +67,7 @@ Lobe lobe_from_alpha(NormalDistribution distribution, float alpha) {
 }
 
 Lobe lobe_from_variance(NormalDistribution distribution, float variance) {
-  const float alpha = std::max(std::sqrt(2.0F * variance), smallest_alpha);
+  const float alpha = std::max(std::sqrt(2.0F * variance), narrowest_alpha);
   switch (distribution) {
     case blinn_phong:
     case vmf:
@@ -133,7 +133,7 @@ Lobe parse_lobe(std::string_view option, const std::string& text) {
   const char* const end = digits.data() + digits.size();
   const auto [stop, status] = std::from_chars(digits.data(), end, lobe.parameter);
   if (status != std::errc{} || stop != end) throw refuse("has a parameter that is no number", std::string(lobe_hint));
-  const double least = is_alpha(lobe.distribution) ? 1e-4 : 1e-3;
+  const double least = is_alpha(lobe.distribution) ? smallest_alpha : 1e-3;
   const double most = is_alpha(lobe.distribution) ? 1.0 : 1e6;
   if (!(lobe.parameter >= least && lobe.parameter <= most)) {
     throw refuse(fmt::format("is not within {} to {}", least, most), std::string(lobe_hint));

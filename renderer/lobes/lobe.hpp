@@ -17,8 +17,11 @@ struct Lobe {
   friend bool operator==(const Lobe&, const Lobe&) = default;
 };
 
-/// The lobe of a width alpha (at least 1e-3) or of a slope variance per axis, and these of a lobe: the C++ twins of
-/// common_lobes.glsl, in 32 bits as it has them.
+/// The narrowest lobe there is, for the base BRDF and every method alike: a mirror whose peak stays finite in 32 bits.
+inline constexpr double smallest_alpha = 1e-3;
+
+/// The lobe of a width alpha (at least `smallest_alpha`) or of a slope variance per axis, and these of a lobe: the C++
+/// twins of common_lobes.glsl, in 32 bits as it has them.
 [[nodiscard]] Lobe lobe_from_alpha(NormalDistribution distribution, float alpha);
 [[nodiscard]] Lobe lobe_from_variance(NormalDistribution distribution, float variance);
 [[nodiscard]] float lobe_alpha(const Lobe& lobe);
@@ -30,7 +33,7 @@ struct Lobe {
 
 /// Reads `blinn_phong:64`, `beckmann:0.2`, `ggx:0.2` or `vmf:64`. Errors (usage), which name `option`: no such
 /// distribution (with the nearest right name), no parameter, one out of range (exponent and kappa 0.001 to 1e6, alpha
-/// 1e-4 to 1).
+/// `smallest_alpha` to 1).
 [[nodiscard]] Lobe parse_lobe(std::string_view option, const std::string& text);
 
 /// As parse_lobe reads it.

@@ -174,11 +174,13 @@ Image decode_metallic_roughness(const Image& stored, float roughness_factor, flo
 }
 
 Image decode_lobe_parameter(const Image& stored, double least, double most) {
+  // As a map of 32-bit floats holds the bounds: 0.001 is below the double of that name.
+  const auto lowest = static_cast<float>(least), highest = static_cast<float>(most);
   Image map(stored.width, stored.height, 1);
   for (int y = 0; y < stored.height; ++y) {
     for (int x = 0; x < stored.width; ++x) {
       const float value = stored.at(x, y)[0];
-      if (!(value >= least && value <= most)) {
+      if (!(value >= lowest && value <= highest)) {
         throw Error(ErrorKind::usage, fmt::format("texel ({}, {})", x, y),
                     fmt::format("holds {}, not within {} to {}", value, least, most),
                     "store the lobe parameter itself, as 32-bit floats");

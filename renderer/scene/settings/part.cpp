@@ -365,7 +365,7 @@ PartSettings read_only_part(const TomlTable& root, const std::filesystem::path& 
 }  // namespace
 
 NumberRange lobe_range(NormalDistribution distribution) {
-  return lobe_key(distribution) == "alpha" ? NumberRange{1e-4, 1.0} : NumberRange{1e-3, 1e6};
+  return lobe_key(distribution) == "alpha" ? NumberRange{smallest_alpha, 1.0} : NumberRange{1e-3, 1e6};
 }
 
 const std::vector<std::string>& part_root_keys() {

@@ -11,10 +11,11 @@ struct Effective {
 
 //? if microgeometry_visibility or normal_variation
 int tableLobes() { return textureSize(iwasaki_lobes, 0).x; }
-// Axis and sharpness.
+// Axis and sharpness, of the facets' normals themselves.
 vec4 lobeOf(int j) {
   countLookups(1);
-  return texelFetch(iwasaki_lobes, ivec2(j, 0), 0);
+  vec4 lobe = texelFetch(iwasaki_lobes, ivec2(j, 0), 0);
+  return vec4(lobe.xyz, ownSharpness(lobe.w));
 }
 
 float shareOf(int j) {
@@ -22,9 +23,8 @@ float shareOf(int j) {
   return texelFetch(iwasaki_lobes, ivec2(j, 1), 0).x;
 }
 //? else
-const float flat_sharpness = 1e6;  // `sharpest` of ndf_fit.hpp
 int tableLobes() { return 1; }
-vec4 lobeOf(int j) { return vec4(0.0, 0.0, 1.0, flat_sharpness); }
+vec4 lobeOf(int j) { return vec4(0.0, 0.0, 1.0, ownSharpness(sharpest)); }
 float shareOf(int j) { return 1.0; }
 //? end
 

@@ -2,6 +2,11 @@
 
 //? include vmf.glsl
 
+// A discretised normal stands for a lobe of this sharpness in the fit (ndf_fit.hpp), a width that no facet has: without
+// it normals that agree leave the base lobe as it is, however narrow.
+const float sharpest = 1e6;
+float ownSharpness(float eta) { return 1.0 / max(1.0 / eta - 1.0 / sharpest, 1e-9); }
+
 // Iwasaki 2012, equation 9.
 float sgIntegral(float eta) { return eta > 0.0 ? 2.0 * pi * oneMinusExp2(eta) / eta : 4.0 * pi; }
 

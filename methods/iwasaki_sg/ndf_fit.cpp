@@ -146,6 +146,8 @@ void merge(Mixture& mixture) {
 
 }  // namespace
 
+double own_sharpness(double sharpness) { return 1.0 / std::max(1.0 / sharpness - 1.0 / sharpest, 1e-9); }
+
 double correlation(const SphericalGaussian& a, const SphericalGaussian& b) {
   return convolution(a, b) / std::sqrt(convolution(a, a) * convolution(b, b));
 }

@@ -14,6 +14,10 @@ namespace footprint::iwasaki_sg {
 /// is a delta function, of which a projection in the least-squares sense has no meaning.
 inline constexpr double sharpest = 1e6;
 
+/// The sharpness of the normals themselves that a lobe of the fit stands for, without the width of `sharpest`: the twin
+/// of ownSharpness in iwasaki_sg_lobes.glsl.
+[[nodiscard]] double own_sharpness(double sharpness);
+
 inline constexpr int most_lobes = 16;
 
 /// The NDF as a mixture: lobe j with the share of the area that it stands for.

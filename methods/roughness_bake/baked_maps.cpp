@@ -16,7 +16,7 @@ std::vector<Image> spread_chain(const Image& normals, Preset preset) {
     for (std::size_t i = 0; i < level.texel_count(); ++i) {
       const float* const n = &level.texels[3 * i];
       const double length = std::hypot(double{n[0]}, double{n[1]}, double{n[2]});
-      out.texels[i] = static_cast<float>(stored_spread(preset, 1.0 - length));
+      out.texels[i] = static_cast<float>(stored_spread(preset, shortfall_of_length(length)));
     }
   }
   return chain;

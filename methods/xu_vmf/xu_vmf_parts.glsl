@@ -3,11 +3,16 @@
 // A part that covers less of the footprint is left out, and no division is by nothing.
 const float least_share = 1e-4;
 
-// Half floats round |r| by as much; where the lobes spread less than that, nothing is known of how much.
+// Floats round |r| by as much; where the lobes spread less than that, nothing is known of how much. Half floats lose
+// that much of every spread; 32 bits lose nothing of a larger one.
 //? if storage_fp16
-const float dead_zone = 1.0 / 2048.0;
+float shortfallOfMean(float size, float least) { return max(1.0 - size - 1.0 / 2048.0, least); }
 //? else
-const float dead_zone = 0.0;
+float shortfallOfMean(float size, float least) {
+  const float rounding = 1.8e-7;
+  float beyond = 1.0 - size - least;
+  return beyond <= rounding ? least : least + beyond - rounding * (rounding / beyond);
+}
 //? end
 
 // A part of the footprint: (w r, w), and w times the mean of 1 - |r| of its texels, below which 1 - |r| of the mean
@@ -44,7 +49,7 @@ bool hasLobe(Part part, float weight) { return part.r.w >= least_share && weight
 KeptLobe lobeOfPart(FacetsLobe own, Part part, float weight) {
   vec3 r = part.r.xyz / part.r.w;
   float size = length(r);
-  float q = max(1.0 - size - dead_zone, part.least / part.r.w);
+  float q = shortfallOfMean(size, part.least / part.r.w);
   vec3 mean = size < 1e-6 ? vec3(0.0, 0.0, 1.0) : axisOf(r / size);
   return keptLobe(own, mean, clamp(q, 1.0 / largest_exponent, 1.0), weight * part.r.w, weight);
 }

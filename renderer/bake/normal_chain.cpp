@@ -38,6 +38,12 @@ std::vector<Image> mean_normal_chain(Image normals) {
   return chain;
 }
 
+double shortfall_of_length(double length) {
+  constexpr double rounding = 1.8e-7;
+  const double shortfall = 1.0 - length;
+  return shortfall <= rounding ? 0.0 : shortfall - rounding * (rounding / shortfall);
+}
+
 Prefiltered bake_mean_normal(const Material& material, Storage storage, const EffectSet& effects) {
   Prefiltered out;
   if (has(effects, Effect::normal_variation)) {
@@ -60,12 +66,7 @@ Image lobe_variance_map(const Material& material) {
   return variance;
 }
 
-std::vector<Image> lobe_variance_chain(const Material& material) {
-  std::vector<Image> chain = mip_chain(lobe_variance_map(material));
-  for (Image& level : chain)
-    std::ranges::transform(level.texels, level.texels.begin(), [](float v) { return std::min(v, 1.0F); });
-  return chain;
-}
+std::vector<Image> lobe_variance_chain(const Material& material) { return mip_chain(lobe_variance_map(material)); }
 
 Prefiltered bake_lobe_variance(const Material& material, Storage storage, const EffectSet& effects) {
   Prefiltered out;

@@ -70,6 +70,15 @@ TEST(LobeVariance, KeepsMirrorsInEveryStorage) {
     EXPECT_NEAR(variance_at(material, storage, 0.25F) * 1e6, 1.0, 2e-3) << storage_name(storage);
 }
 
+// The widest lobes that a map may hold: a bound on variances would make an exponent of 1 of all below it.
+TEST(LobeVariance, KeepsNearlyEvenLobesInEveryStorage) {
+  const Material material = two_lobe_material(1e-3F, 0.125F);
+  for (const Storage storage : {Storage::fp32, Storage::fp16, Storage::unorm8}) {
+    EXPECT_NEAR(variance_at(material, storage, 0.25F) * 1e-3, 1.0, 2e-3) << storage_name(storage);
+    EXPECT_NEAR(variance_at(material, storage, 0.75F) * 0.125, 1.0, 2e-3) << storage_name(storage);
+  }
+}
+
 TEST(LobeVariance, IsNotStoredWhereTheRoughnessIsConstant) {
   EXPECT_TRUE(bake_lobe_variance(two_lobe_material(10.0F, 20.0F), Storage::fp32, EffectSet{}).textures.empty());
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "methods/iwasaki_sg/ndf_fit.hpp"
 #include "methods/iwasaki_sg/settings.hpp"
 #include "methods/iwasaki_sg/spherical_gaussian.hpp"
 #include "renderer/lobes/vmf.hpp"
@@ -49,7 +50,8 @@ glm::dvec3 EffectiveBrdf::operator()(const glm::dvec3& wi, const glm::dvec3& wo)
   return with_cosine_ ? sum * wi.z : sum;
 }
 
-glm::dvec3 EffectiveBrdf::convolved(const SphericalGaussian& lobe, const glm::dvec3& h, const glm::dvec3& wi) const {
+glm::dvec3 EffectiveBrdf::convolved(const SphericalGaussian& fitted, const glm::dvec3& h, const glm::dvec3& wi) const {
+  const SphericalGaussian lobe{fitted.axis, own_sharpness(fitted.sharpness)};
   if (const auto* const base = std::get_if<Lobe>(&reflection_)) return glm::dvec3(widened(*base, lobe, h));
   if (const auto* const table = std::get_if<TabulatedLobes>(&reflection_)) {
     glm::dvec3 sum(0.0);

@@ -4,6 +4,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "renderer/core/interrupt.hpp"
+
 namespace footprint {
 namespace {
 
@@ -13,6 +15,7 @@ Image fill(glm::ivec2 size, int channels, const ValueAtUv& value_at) {
   Image image(size.x, size.y, channels, 1.0F);
   tbb::parallel_for(tbb::blocked_range<int>(0, size.y), [&](const tbb::blocked_range<int>& rows) {
     for (int y = rows.begin(); y < rows.end(); ++y) {
+      throw_if_interrupted();
       for (int x = 0; x < size.x; ++x) {
         const glm::vec<Count, double> value{value_at(glm::dvec2{(x + 0.5) / size.x, 1.0 - (y + 0.5) / size.y})};
         const auto texel = image.at(x, y);

@@ -199,7 +199,7 @@ std::vector<Chart> charts_of(std::span<const Triangle> triangles, std::span<cons
 }
 
 // Shelves: charts by height, the highest first, from left to right. Gives the size of the whole; none if that is over
-// `largest_atlas`.
+// `largest_atlas` or `longest_side`.
 std::optional<glm::ivec2> pack(std::vector<Chart>& charts) {
   double area = 0;
   int widest = 1;
@@ -218,6 +218,7 @@ std::optional<glm::ivec2> pack(std::vector<Chart>& charts) {
   Shelves<int> shelves(width);
   for (Chart* chart : order) chart->corner = shelves.place(chart->box.size() + chart_gap) + chart_gap / 2;
   const glm::ivec2 size(width, rounded(shelves.height()));
+  if (std::max(size.x, size.y) > longest_side) return {};
   if (static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) > largest_atlas) return {};
   return size;
 }
@@ -271,7 +272,10 @@ SurfaceLayout lay_out(const TriangleSoup& soup, const TextureCoordinates& coordi
   }
   std::vector<Chart> charts = charts_of(triangles, positions);
   const std::optional<glm::ivec2> size = pack(charts);
-  if (!size) return none(fmt::format("an atlas of its own would have more than {} texels", largest_atlas));
+  if (!size) {
+    return none(fmt::format("an atlas of its own would have more than {} texels, or {} along a side", largest_atlas,
+                            longest_side));
+  }
   double lost = 0;
   for (const Chart& chart : charts) {
     const Drawing drawing = draw(chart.triangles, positions, chart.box, soup.vertices);

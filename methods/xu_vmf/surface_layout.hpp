@@ -13,6 +13,10 @@ namespace footprint::xu_vmf {
 
 /// Texels that an atlas has at most: 0.5 GiB of `xu_vmf:j=adaptive` in 32-bit floats.
 inline constexpr std::size_t largest_atlas = std::size_t{1} << 23U;
+
+/// Nor longer: OpenGL 4.5 promises no larger textures than drivers have, all of which take this.
+inline constexpr int longest_side = 16384;
+
 /// Texels between two charts of an atlas, so that no level up to 3 blends one with another.
 inline constexpr int chart_gap = 16;
 
@@ -27,8 +31,8 @@ struct SurfaceLayout {
 /// Lays triangles out in texels as large as those of a map of `map_size` at `coordinates`: as the map has them where
 /// they stay inside and do not overlap, else in an atlas, chart by chart (triangles that share vertices), each moved by
 /// whole texels, so that a texel of the atlas shows exactly one of the map. None where coordinates are not finite, a
-/// chart overlaps itself, the atlas is over `largest_atlas`, or more than 1/1000 of the surface's area would have no
-/// texel: coordinates that are not there or lie on a line, charts smaller than a texel.
+/// chart overlaps itself, the atlas is over `largest_atlas` or `longest_side`, or more than 1/1000 of the surface's
+/// area would have no texel: coordinates that are not there or lie on a line, charts smaller than a texel.
 [[nodiscard]] SurfaceLayout lay_out(const TriangleSoup& soup, const TextureCoordinates& coordinates,
                                     const glm::ivec2& map_size);
 

@@ -86,6 +86,14 @@ TEST(SurfaceLayout, SaysWhereThereIsNone) {
   }
 }
 
+// Few texels in all, but more in a row than a texture may have.
+TEST(SurfaceLayout, SaysWhereATextureWouldBeTooLong) {
+  EXPECT_TRUE(lay_out(plane({200, 1}), {}, {64, 64}).unique);
+  const SurfaceLayout layout = lay_out(plane({300, 1}), {}, {64, 64});
+  EXPECT_FALSE(layout.unique);
+  EXPECT_NE(layout.note.find("16384 along a side"), std::string::npos) << layout.note;
+}
+
 // Nothing would be drawn of what lies on a line or a point of the map, as where a model has no coordinates.
 TEST(SurfaceLayout, SaysWhereTheSurfaceHasNoTexels) {
   TriangleSoup point = plane({1, 1});

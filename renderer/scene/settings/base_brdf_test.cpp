@@ -1,6 +1,8 @@
 // [[brdf.lobe]] and [maps]: what a scene.toml says of lobes and of maps of the base BRDF, and what comes of it.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "renderer/scene/gltf/test_builder.hpp"
@@ -101,6 +103,18 @@ TEST(MapSettings, MapsHaveTheirOwnSizeAndTiling) {
   EXPECT_EQ(made.base_color_map->image->height, 4);
   EXPECT_EQ(made.dielectric_specular, glm::vec3(0.5F, 1.0F, 1.0F));
   EXPECT_EQ(made.metallic, 0.0F);
+}
+
+// The bounds as 32 bits hold them: 0.001 is below the double of that name.
+TEST(MapSettings, MapsMayHoldTheBoundsOfTheirLobe) {
+  Image alphas(2, 1, 1, 0.001F);
+  alphas.at(1, 0)[0] = 1.0F;
+  const std::string plane = "[plane]\n[brdf]\ndistribution = \"ggx\"\n[maps.alpha]\nfile = \"";
+  const Material made = material(plane + exr("alpha.exr", alphas) + "\"\n");
+  ASSERT_TRUE(made.lobe_parameter_map);
+  EXPECT_EQ(*made.lobe_parameter_map->image, alphas);
+  alphas.at(0, 0)[0] = std::nextafter(0.001F, 0.0F);
+  expect_brdf_error(plane + exr("low.exr", alphas) + "\"\n", {"low.exr", "texel (0, 0)"});
 }
 
 TEST(MapSettings, RoughnessTakesThePlaceOfEveryOtherWidth) {

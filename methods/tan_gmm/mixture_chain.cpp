@@ -10,6 +10,7 @@
 #include <array>
 #include <utility>
 
+#include "methods/tan_gmm/full_covariance.hpp"
 #include "renderer/image/mipmap.hpp"
 
 namespace footprint::tan_gmm {
@@ -127,8 +128,31 @@ class LevelFit {
     merge_repeats(samples);
     workspace.cells.pool(samples);
     const std::span<Gaussian> mixture = level_->at(x, y);
-    fit_texel(samples, prior(x, y), parent(x, y), *settings_, mixture);
+    const Prior known = prior(x, y);
+    fit_texel(samples, known, parent(x, y), *settings_, mixture);
+    if (settings_->full_covariance) {
+      fit_whole(samples, known, coverage, mixture, x, y);
+      return;
+    }
     for (std::size_t i = 0; i < mixture.size(); ++i) store(mixture[i], coverage, stored_[i].at(x, y));
+  }
+
+  // Whole covariances from the isotropic mixture on, which becomes what neighbours see of them.
+  void fit_whole(const Samples& samples, const Prior& known, double coverage, std::span<Gaussian> mixture, int x,
+                 int y) const {
+    std::array<FullGaussian, most_components> storage{};
+    const std::span<FullGaussian> full(storage.data(), mixture.size());
+    fit_full(samples, known, *settings_, mixture, full);
+    for (std::size_t i = 0; i < full.size(); ++i) {
+      mixture[i] = rounded(full[i]);
+      const FullGaussian& g = full[i];
+      const double alpha = g.alpha * coverage;
+      const std::array<double, 6> moments{1.0, g.x, g.y, g.xx + g.x * g.x, g.xy + g.x * g.y, g.yy + g.y * g.y};
+      for (std::size_t c = 0; c < moments.size(); ++c) {
+        const std::size_t channel = moments.size() * i + c;
+        stored_[channel / 4].at(x, y)[channel % 4] = static_cast<float>(alpha * moments[c]);
+      }
+    }
   }
 
   // In double: the shader takes |mu|^2 away again.
@@ -157,7 +181,7 @@ class LevelFit {
 MixtureChain mixture_chain(const NormalField& normals, const FitSettings& settings, Moment moment,
                            const Progress& progress) {
   const int levels = mip_level_count(normals.width(), normals.height());
-  MixtureChain chain(settings.components, std::vector<Image>(static_cast<std::size_t>(levels)));
+  MixtureChain chain(layers_of(settings), std::vector<Image>(static_cast<std::size_t>(levels)));
   const PooledTiles tiles(normals);
   tbb::enumerable_thread_specific<Workspace> workspaces;
   Level coarser(0, 0, settings.components);
@@ -166,7 +190,7 @@ MixtureChain mixture_chain(const NormalField& normals, const FitSettings& settin
     const int height = std::max(normals.height() >> index, 1);
     Level level(width, height, settings.components);
     std::vector<Image> stored;  // each made in its place: copies of an empty one took a tenth of an easy map's fit
-    for (std::size_t i = 0; i < settings.components; ++i) stored.emplace_back(width, height, 4);
+    for (std::size_t i = 0; i < chain.size(); ++i) stored.emplace_back(width, height, 4);
     const LevelFit fit(normals, tiles, settings, moment, index == levels - 1 ? nullptr : &coarser, level, stored,
                        workspaces);
     const std::string what = fmt::format("fitting mixtures, {} x {}", width, height);

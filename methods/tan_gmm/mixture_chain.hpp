@@ -19,6 +19,12 @@ enum class Moment { corrected, published };
 /// second moment, each times the part of the texel that valid normals cover (Tan 2005, section 4.2).
 using MixtureChain = std::vector<std::vector<Image>>;
 
+/// With a whole covariance six channels a component, alpha, alpha mu_x, alpha mu_y, alpha times the second moments xx,
+/// xy, yy, packed one component after the other into images of four channels.
+[[nodiscard]] constexpr std::size_t layers_of(const FitSettings& settings) {
+  return settings.full_covariance ? (6 * settings.components + 3) / 4 : settings.components;
+}
+
 /// Fits all levels. The result does not depend on the number of threads. Reports progress from the calling thread.
 [[nodiscard]] MixtureChain mixture_chain(const NormalField& normals, const FitSettings& settings, Moment moment,
                                          const Progress& progress);

@@ -8,6 +8,7 @@
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
+#include "renderer/core/error.hpp"
 
 namespace footprint {
 
@@ -42,6 +43,9 @@ std::vector<OptionSpec> option_table() {
       word_option("foreshorten", {"on", "off"},
                   "lobe=gaussian: whether the base lobe's variance over the disc shrinks with the cosine of the "
                   "component's tilt."),
+      word_option("covariance", {"isotropic", "full"},
+                  "One variance for each component, as in the paper, or a whole covariance, by EM from there on; the "
+                  "base lobe is then stretched, and `lobe`, `moment` and `m_step` are as by default."),
       word_option("rim", {"normalized", "cut"},
                   "lobe=gaussian: what becomes of a Gaussian that reaches beyond the disc: scaled so that no energy is "
                   "lost, or cut off there, as in the paper.")};
@@ -55,6 +59,7 @@ tan_gmm::FitSettings fit_settings(const Options& options) {
   if (options.word("init") == "dense_seed") settings.start = tan_gmm::Start::dense_seed;
   if (options.word("init") == "kmeans") settings.start = tan_gmm::Start::clusters;
   settings.prior_weight = options.number("c");
+  settings.full_covariance = options.word("covariance") == "full";
   return settings;
 }
 
@@ -65,13 +70,18 @@ class TanGmm final : public Method {
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                                        const Progress& progress) const override {
     const Storage storage = parse_storage(options.word("storage"));
+    if (options.word("covariance") == "full" && has(effects, Effect::multi_lobe)) {
+      throw Error(ErrorKind::usage, "tan_gmm:covariance=full", "the scene's facets have several lobes each",
+                  "use covariance=isotropic");
+    }
     Prefiltered out;
     if (has(effects, Effect::normal_variation)) {
       const auto moment =
           options.word("moment") == "corrected" ? tan_gmm::Moment::corrected : tan_gmm::Moment::published;
       const tan_gmm::MixtureChain chain = tan_gmm::mixture_chain(tan_gmm::NormalField(normal_map_of(material)),
                                                                  fit_settings(options), moment, progress);
-      out.textures.push_back(make_array_texture("tan_gmm_mixture", chain, storage, normal_coordinates(material)));
+      const char* const name = options.word("covariance") == "full" ? "tan_gmm_moments" : "tan_gmm_mixture";
+      out.textures.push_back(make_array_texture(name, chain, storage, normal_coordinates(material)));
     }
     std::ranges::move(bake_lobe_variance(material, storage, effects).textures, std::back_inserter(out.textures));
     return out;
@@ -79,7 +89,9 @@ class TanGmm final : public Method {
 
   [[nodiscard]] int lobe_count(const Options& options) const override { return static_cast<int>(options.number("n")); }
 
-  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::tan_gmm_glsl, "tan_gmm.glsl"); }
+  [[nodiscard]] ShaderModule shader() const override {
+    return module_of(embedded::tan_gmm_glsl, "tan_gmm.glsl", {{"density_fast", true}});
+  }
 
  private:
   MethodInfo info_{

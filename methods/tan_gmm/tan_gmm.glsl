@@ -1,6 +1,9 @@
 // Tan et al. 2005, "Multiresolution Reflectance Filtering": the normals under a footprint are a mixture of isotropic
 // Gaussians over the unit disc of (n_x, n_y). A component's weight, mean and second moment are linear in its samples,
 // so that the texture filter blends them; mean and variance are recovered behind the filter (section 4.2).
+//? if covariance_full
+//? include full_mixture.glsl
+//? else
 //? include lobe_variance.glsl
 
 //? if normal_variation
@@ -295,4 +298,5 @@ vec3 meanNormal(Effective e) {
   for (int i = 0; i < components; ++i) sum += e.share[i] * e.mean[i];
   return sum;
 }
+//? end
 //? end

@@ -17,10 +17,11 @@ struct FitSettings {
   bool align = true;           ///< neighbours draw the means; else each texel on its own
   MStep m_step = MStep::exact;
   Start start = Start::inherit;
-  double prior_weight = 1.0;  ///< c of the prior
-  int most_iterations = 40;   ///< EM steps from the best start
-  int trial_iterations = 4;   ///< EM steps that each start is judged by
-  double tolerance = 1e-4;    ///< gain of the log posterior, a unit of sample weight, that ends EM
+  bool full_covariance = false;  ///< a whole covariance each, by EM from the isotropic mixture on
+  double prior_weight = 1.0;     ///< c of the prior
+  int most_iterations = 40;      ///< EM steps from the best start
+  int trial_iterations = 4;      ///< EM steps that each start is judged by
+  double tolerance = 1e-4;       ///< gain of the log posterior, a unit of sample weight, that ends EM
 };
 
 /// Fits `mixture` to the samples. `parent`: the coarser texel's mixture, or empty. Without samples: every alpha is 0.

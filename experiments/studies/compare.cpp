@@ -115,11 +115,10 @@ class Comparison {
   }
 
   Image finest_level(const Truth& truth, const StagedMethod& staged, const std::string& prefix) {
-    Supersampled finest =
-        stage_.finest_level(staged).render(truth.view, settings_.reference.spp, settings_.reference.seed,
-                                           parts_.next(settings_.reference.spp, prefix + "finest level, "));
-    leave_out(finest, truth.unresolved);
-    return std::move(finest.mean);
+    const int spp = finest_samples(settings_.reference);
+    const Supersampled finest = stage_.finest_level(staged).render(truth.view, spp, settings_.reference.seed,
+                                                                   parts_.next(spp, prefix + "finest level, "));
+    return as_converged(finest.mean, truth.first, truth.reference.mean);
   }
 
   // Against the frame before: the picture of the same method, one round of drafts earlier.

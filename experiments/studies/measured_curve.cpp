@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "experiments/studies/plain_supersampling.hpp"
 #include "renderer/image/metrics.hpp"
@@ -14,51 +16,83 @@ namespace {
 
 constexpr std::uint64_t curve_seed = 0x9e3779b97f4a7c15;  // keeps the curve's samples apart from the reference's
 
-// Of so many frames those that are timed: more of them take as many times longer.
-int timed_frames(int spp) { return std::min(spp, 8); }
+constexpr int most_timed = 4;  // frames at once; more of them take as many times longer
+
+int timed_frames(int spp) { return std::min(spp, most_timed); }
 
 // How often they are timed: few of them, which a passing disturbance would spoil, more often.
 int curve_repeats(int spp) { return std::clamp(16 / spp, 2, 5); }
 
-// Median milliseconds of all `offsets`' frames.
-double measured_ms(const Stage& stage, const View& view, std::span<const glm::dvec2> offsets,
-                   const Progress& progress) {
-  const int spp = static_cast<int>(offsets.size());
+// The counts that are timed, each once however many points of the curve it stands for.
+std::set<int> timed_counts(std::span<const int> counts) {
+  std::set<int> timed;
+  for (const int spp : counts) timed.insert(timed_frames(spp));
+  return timed;
+}
+
+double timing_weight(std::span<const int> counts) {
+  double frames = 0.0;
+  for (const int spp : timed_counts(counts)) frames += spp * curve_repeats(spp);
+  return frames;
+}
+
+// Median milliseconds by the count of frames.
+std::map<int, double> measured_ms(const Stage& stage, const View& view, std::span<const int> counts,
+                                  std::span<const glm::dvec2> offsets, const Progress& progress) {
   const FrameRenderer& direct = stage.methods().front().frames();
-  const DrawFrame draw = [&] {
-    for (const glm::dvec2& offset : offsets.first(static_cast<std::size_t>(timed_frames(spp))))
-      direct.draw(view, offset);
-  };
-  const std::vector<double> times = repeated_times(stage.context().info(), draw, curve_repeats(spp), progress);
-  return quantile(times, 0.5) * spp / timed_frames(spp);
+  std::map<int, double> ms;
+  for (const int spp : timed_counts(counts)) {
+    const DrawFrame draw = [&] {
+      for (const glm::dvec2& offset : offsets.first(static_cast<std::size_t>(spp))) direct.draw(view, offset);
+    };
+    ms[spp] = quantile(repeated_times(stage.context().info(), draw, curve_repeats(spp), progress), 0.5);
+  }
+  return ms;
+}
+
+int most_frames(std::span<const int> counts) { return counts.empty() ? 0 : std::ranges::max(counts); }
+
+// The means of the first so many frames, for each count: one pass over the longest.
+std::map<int, Image> pictures_of(const Stage& stage, const View& view, std::span<const int> counts,
+                                 std::span<const glm::dvec2> offsets, const Progress& progress) {
+  const FrameRenderer& direct = stage.methods().front().frames();
+  std::map<int, Image> pictures;
+  FrameMean mean(view.size);
+  for (const glm::dvec2& offset : offsets) {
+    progress(fmt::format("{} frames", offsets.size()), mean.count() / static_cast<double>(offsets.size()));
+    mean.add(direct.render(view, offset));
+    if (std::ranges::find(counts, mean.count()) != counts.end()) pictures.emplace(mean.count(), mean.mean());
+  }
+  pictures[1] = direct.render(view);  // at pixel centres, as a program without any method has it
+  return pictures;
 }
 
 }  // namespace
 
 std::vector<SupersamplingPoint> measured_curve(const Stage& stage, const ReferenceSettings& settings, double distance,
                                                const ErrorTarget& target, ProgressParts& progress) {
+  if (settings.supersampling.empty()) return {};
   const View view = stage.view(distance);
   const std::string prefix = fmt::format("distance {:g}: ", distance);
+  const std::span<const int> counts = settings.supersampling;
+  const std::vector<glm::dvec2> offsets = frame_offsets(most_frames(counts), settings.seed ^ curve_seed);
+  const std::map<int, Image> pictures =
+      pictures_of(stage, view, counts, offsets, progress.next(most_frames(counts), prefix + "supersampling, "));
+  const std::map<int, double> ms =
+      measured_ms(stage, view, counts, offsets, progress.next(timing_weight(counts), prefix));
   std::vector<SupersamplingPoint> curve;
-  for (const int spp : settings.supersampling) {
-    const std::uint64_t seed = settings.seed ^ (curve_seed * static_cast<std::uint64_t>(spp));
-    const std::vector<glm::dvec2> offsets = frame_offsets(spp, seed);
-    const Image picture =
-        mean_of_frames(stage.methods().front().frames(), view, offsets, progress.next(spp, prefix + "supersampling, "));
-    curve.push_back(
-        {.distance = distance,
-         .spp = spp,
-         .normalized_color = normalized_color(picture, target.reference, target.exposure),
-         .shading = normalized_color_over(picture, target.reference, target.exposure, target.interior),
-         .ms = measured_ms(stage, view, offsets, progress.next(timed_frames(spp) * curve_repeats(spp), prefix))});
+  for (const int spp : counts) {
+    const Image& picture = pictures.at(spp);
+    const int timed = timed_frames(spp);
+    curve.push_back({.distance = distance,
+                     .spp = spp,
+                     .normalized_color = normalized_color(picture, target.reference, target.exposure),
+                     .shading = normalized_color_over(picture, target.reference, target.exposure, target.interior),
+                     .ms = ms.at(timed) * spp / timed});
   }
   return curve;
 }
 
-double curve_weight(std::span<const int> counts) {
-  double samples = 0.0;
-  for (const int spp : counts) samples += spp + timed_frames(spp) * curve_repeats(spp);
-  return samples;
-}
+double curve_weight(std::span<const int> counts) { return most_frames(counts) + timing_weight(counts); }
 
 }  // namespace footprint

@@ -41,18 +41,17 @@ std::vector<OtherReference> errors_against_others(const Truth& truth, const Imag
 void set_error(Record& record, const Truth& truth, const MethodPictures& pictures, float exposure) {
   const std::optional<ErrorFigures> figures = compare_images(pictures.frame, truth.reference.mean, exposure);
   if (!figures) return;
-  // The finest level is supersampled with the reference's own samples: where one covers a pixel whole, so does the
-  // other.
-  record.error = RecordError{.normalized_color = figures->normalized_color,
-                             .relative_rmse = figures->relative_rmse,
-                             .relmse = figures->relmse,
-                             .psnr = figures->psnr,
-                             .energy_bias = figures->energy_bias,
-                             .luminance_distance = figures->luminance_distance,
-                             .noise_floor = truth.noise_floor,
-                             .representation = normalized_color(pictures.finest, truth.first, exposure).value(),
-                             .filtering = normalized_color(pictures.frame, pictures.finest, exposure).value(),
-                             .causes = causes_of(truth, pictures.frame, exposure)};
+  record.error =
+      RecordError{.normalized_color = figures->normalized_color,
+                  .relative_rmse = figures->relative_rmse,
+                  .relmse = figures->relmse,
+                  .psnr = figures->psnr,
+                  .energy_bias = figures->energy_bias,
+                  .luminance_distance = figures->luminance_distance,
+                  .noise_floor = truth.noise_floor,
+                  .representation = normalized_color(pictures.finest, truth.reference.mean, exposure).value(),
+                  .filtering = normalized_color(pictures.frame, pictures.finest, exposure).value(),
+                  .causes = causes_of(truth, pictures.frame, exposure)};
   record.equivalent = equivalent(truth, *record.error);
   record.other_references = errors_against_others(truth, pictures.frame, exposure);
 }

@@ -12,7 +12,7 @@ namespace footprint {
 /// What is drawn of a method to be measured.
 struct MethodPictures {
   Image frame;   ///< one frame
-  Image finest;  ///< the method's finest level, supersampled with the reference's first samples
+  Image finest;  ///< the method's finest level, supersampled, as converged as the reference
 };
 
 /// Fills records. Keeps what a method needs to be drawn otherwise from distance to distance.

@@ -4,20 +4,34 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
-#include <span>
 #include <vector>
 
-#include "renderer/core/progress.hpp"
-#include "renderer/pipeline/frame.hpp"
+#include "renderer/image/image.hpp"
 
 namespace footprint {
 
-/// Where in the pixel the samples lie, from its centre, in pixels, -0.5 to 0.5: of one sample the centre, of more the
-/// points of Hammersley, no two of which share a row or column, moved by the seed around the pixel. `spp` is 1 or more.
-[[nodiscard]] std::vector<glm::dvec2> frame_offsets(int spp, std::uint64_t seed);
+/// Where in the pixel the samples lie, from its centre, in pixels, -0.5 to 0.5: the first `count` points of a (0, 2)-
+/// sequence (Sobol's, scrambled by the seed), so that more samples begin with those of fewer, and every power of two of
+/// them lies one to a cell of each grid of so many cells. One frame alone is drawn at pixel centres, not at the first.
+[[nodiscard]] std::vector<glm::dvec2> frame_offsets(int count, std::uint64_t seed);
 
-/// The mean of a frame at each offset: RGBA, mean radiance over the frames that cover the pixel, and their share.
-[[nodiscard]] Image mean_of_frames(const FrameRenderer& frames, const View& view, std::span<const glm::dvec2> offsets,
-                                   const Progress& progress);
+/// The mean of frames, which grows one by one.
+class FrameMean {
+ public:
+  explicit FrameMean(const glm::ivec2& size);
+
+  /// RGBA of that size.
+  void add(const Image& frame);
+
+  [[nodiscard]] int count() const { return count_; }
+
+  /// RGBA: mean radiance over the frames that cover the pixel, and their share. At least one was added.
+  [[nodiscard]] Image mean() const;
+
+ private:
+  glm::ivec2 size_;
+  int count_ = 0;
+  std::vector<double> sums_;
+};
 
 }  // namespace footprint

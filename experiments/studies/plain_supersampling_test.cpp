@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 
 #include "methods/registry.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
@@ -23,11 +25,13 @@ Image mean_at(int texels, int edge, std::span<const glm::dvec2> offsets) {
   const BakedMethod baked = bake(find_method("direct"), parse_methods("direct").front(), scene, effects, no_progress);
   const GpuMethod gpu(gpu_scene, baked);
   const FrameRenderer frames(shared_context().info(), gpu_scene, gpu, {edge, edge}, {});
-  return mean_of_frames(frames, {.size = {edge, edge}, .camera = scene.camera}, offsets, no_progress);
+  FrameMean mean({edge, edge});
+  for (const glm::dvec2& offset : offsets)
+    mean.add(frames.render({.size = {edge, edge}, .camera = scene.camera}, offset));
+  return mean.mean();
 }
 
 TEST(FrameOffsets, LieInThePixelAboutItsCentre) {
-  EXPECT_EQ(frame_offsets(1, 7), std::vector<glm::dvec2>{glm::dvec2(0.0)});
   for (const int spp : {2, 8, 64}) {
     glm::dvec2 mean(0.0);
     const std::vector<glm::dvec2> offsets = frame_offsets(spp, 3);
@@ -39,17 +43,32 @@ TEST(FrameOffsets, LieInThePixelAboutItsCentre) {
     EXPECT_LT(glm::length(mean), 1.0 / spp);
     std::set<int> columns, rows;  // as many as samples, one in each
     for (const glm::dvec2& offset : offsets) {
-      columns.insert(static_cast<int>(std::floor((offset.x - offsets[0].x) * spp + 0.5 + spp)) % spp);
-      rows.insert(static_cast<int>(std::floor((offset.y - offsets[0].y) * spp + 0.5 + spp)) % spp);
+      columns.insert(static_cast<int>(std::floor((offset.x + 0.5) * spp)));
+      rows.insert(static_cast<int>(std::floor((offset.y + 0.5) * spp)));
     }
     EXPECT_EQ(columns.size(), offsets.size());
     EXPECT_EQ(rows.size(), offsets.size());
   }
 }
 
+TEST(FrameOffsets, OfMoreBeginWithThoseOfFewer) {
+  const std::vector<glm::dvec2> many = frame_offsets(64, 3), few = frame_offsets(4, 3), other = frame_offsets(4, 4);
+  EXPECT_TRUE(std::ranges::equal(few, std::span(many).first(4)));
+  EXPECT_NE(few, other);
+}
+
+TEST(FrameOffsets, FillEverySquareOfAGridAlike) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    std::set<int> cells;
+    for (const glm::dvec2& offset : frame_offsets(16, seed))
+      cells.insert(static_cast<int>((offset.x + 0.5) * 4) * 4 + static_cast<int>((offset.y + 0.5) * 4));
+    EXPECT_EQ(cells.size(), 16U);
+  }
+}
+
 TEST(MeanOfFrames, OfOneIsTheFrame) {
   TestRenderer renderer(square_scene(random_normals(64, 64, 0.5F, 1), {}), {24, 24});
-  EXPECT_EQ(mean_at(64, 24, frame_offsets(1, 1)), renderer.frame(find_method("direct")));
+  EXPECT_EQ(mean_at(64, 24, std::vector{glm::dvec2(0.0)}), renderer.frame(find_method("direct")));
 }
 
 // Texels as large as pixels: a frame moved by a pixel shows what stood one pixel further on.

@@ -1,6 +1,8 @@
 // Noise from the two halves of a reference, which differ by nothing else.
 #include "experiments/studies/reference_noise.hpp"
 
+#include <algorithm>
+
 #include "renderer/image/metrics.hpp"
 
 namespace footprint {
@@ -33,6 +35,16 @@ std::optional<Flicker> flicker_between(const Image& before, const Image& picture
     flicker.noise_floor = noise->mean / halves_over_whole;
   }
   return flicker;
+}
+
+Image as_converged(const Image& picture, const Image& same, const Image& converged) {
+  Image out = converged;
+  for (std::size_t t = 0; t < out.texels.size(); t += 4) {
+    if (picture.texels[t + 3] <= 0.0F || same.texels[t + 3] <= 0.0F) continue;
+    for (std::size_t c = t; c < t + 3; ++c)
+      out.texels[c] = std::max(converged.texels[c] + (picture.texels[c] - same.texels[c]), 0.0F);
+  }
+  return out;
 }
 
 }  // namespace footprint

@@ -26,6 +26,7 @@ constexpr double automatic_samples = 16e6;   // likewise, of all pixels: a secon
 constexpr double unbounded_work = 1e9;
 constexpr double pixels_lit_by_all = 512;  // by each of some 6000 directional lights: about a second a method
 constexpr double interior_weight = 16;     // of progress, in samples of the reference
+constexpr int samples_of_finest = 16;
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -37,6 +38,21 @@ double most_work(int spp, const glm::ivec2& size) {
   return std::max(automatic_work, automatic_samples / first);
 }
 
+// The least rectangle that holds the object.
+Tile object_part(const Image& reference) {
+  const Image pixels = object_pixels(reference);
+  glm::ivec2 lower(pixels.width, pixels.height), upper(0);
+  for (int y = 0; y < pixels.height; ++y) {
+    for (int x = 0; x < pixels.width; ++x) {
+      if (pixels.at(x, y)[0] <= 0.0F) continue;
+      const glm::ivec2 pixel(x, pixels.height - 1 - y);  // tiles count rows from the bottom
+      lower = glm::min(lower, pixel);
+      upper = glm::max(upper, pixel + 1);
+    }
+  }
+  return upper.x == 0 ? Tile{} : Tile{.origin = lower, .size = upper - lower};
+}
+
 LightPart light_part(const PixelParts& parts) {
   const std::vector<Tile> tiles = cheap_parts(
       parts, light_tile, [](int, int) { return 1.0; }, pixels_lit_by_all);
@@ -44,6 +60,10 @@ LightPart light_part(const PixelParts& parts) {
 }
 
 }  // namespace
+
+int finest_samples(const ReferenceSettings& settings) {
+  return settings.by_noise && !settings.fixed_spp ? std::min(settings.spp, samples_of_finest) : settings.spp;
+}
 
 TruthFinder::TruthFinder(const RunSettings& settings, const Stage& stage, std::filesystem::path folder,
                          std::function<float(const Image& first_reference)> exposure, ProgressParts& progress)
@@ -61,8 +81,8 @@ TruthFinder::TruthFinder(const RunSettings& settings, const Stage& stage, std::f
 double TruthFinder::weight(const RunSettings& settings) {
   const ReferenceSettings& reference = settings.reference;
   const double others = std::accumulate(reference.other_spp.begin(), reference.other_spp.end(), 0.0);
-  return (1.0 + automatic_work) * reference.spp + others + curve_weight(reference.supersampling) +
-         2.0 * interior_weight;
+  return (1.0 + automatic_work) * reference.spp + finest_samples(reference) + others +
+         curve_weight(reference.supersampling) + 2.0 * interior_weight;
 }
 
 Truth TruthFinder::find(std::size_t frame, double distance) {
@@ -89,9 +109,17 @@ void TruthFinder::render_reference(Truth& truth, const std::string& prefix) {
   truth.reference =
       stage_.reference().render(truth.view, asked.spp, asked.seed, progress_.next(asked.spp, prefix + "reference, "));
   if (truth.frame == 0) exposure_ = choose_exposure_(truth.reference.mean);
-  truth.first = truth.reference.mean;
+  truth.first = first_samples(truth, prefix);
   truth.samples = asked.by_noise && !asked.fixed_spp ? refine_reference(truth, prefix) : asked.spp;
   truth.seconds = seconds_since(begin);
+}
+
+// The reference over the samples of finest levels, where those are drawn.
+Image TruthFinder::first_samples(const Truth& truth, const std::string& prefix) {
+  const ReferenceSettings& asked = settings_.reference;
+  const int spp = finest_samples(asked);
+  if (spp == asked.spp || !asked.finest_levels) return truth.reference.mean;
+  return stage_.reference().render(truth.view, spp, asked.seed, progress_.next(spp, prefix + "reference, ")).mean;
 }
 
 // Goes on with the reference until its noise is what was asked for; returns its mean samples a pixel.
@@ -150,8 +178,9 @@ void TruthFinder::leave_out_unresolved(Truth& truth) const {
 
 // The pixels that are interior, and the bound over them.
 void TruthFinder::find_parts(Truth& truth, const std::string& prefix) {
-  const Interior interior = interior_finder_.render(truth.view, settings_.reference.spp, settings_.reference.seed,
-                                                    progress_.next(interior_weight, prefix));
+  const Interior interior =
+      interior_finder_.render(truth.view, object_part(truth.reference.mean), settings_.reference.spp,
+                              settings_.reference.seed, progress_.next(interior_weight, prefix));
   stage_.context().check("finding interior pixels");
   const std::size_t left_out = truth.parts.counts.unresolved;
   truth.parts = pixel_parts(truth.reference.mean, interior);

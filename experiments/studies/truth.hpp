@@ -33,6 +33,10 @@ struct TruthFiles {
   std::string reference, standard_error, interior;
 };
 
+/// The samples a pixel of methods' finest levels: few suffice, since the reference is drawn with the same ones and what
+/// they have in common drops out (docs/metrics.md); all that were asked for, where they were.
+[[nodiscard]] int finest_samples(const ReferenceSettings& settings);
+
 /// What is known of one distance.
 struct Truth {
   std::size_t frame = 0;
@@ -40,7 +44,7 @@ struct Truth {
   View view;
   Supersampled reference;  ///< its unresolved pixels uncovered
   Image whole;             ///< its mean with them
-  Image first;             ///< its mean over the samples that every pixel has, without them
+  Image first;             ///< its mean over the samples that finest levels are drawn with, without them
   Image unresolved;        ///< a mask of them
   double samples = 0;      ///< a pixel, mean over the picture
   double seconds = 0;      ///< that the reference took
@@ -72,6 +76,7 @@ class TruthFinder {
 
  private:
   void render_reference(Truth& truth, const std::string& prefix);
+  [[nodiscard]] Image first_samples(const Truth& truth, const std::string& prefix);
   [[nodiscard]] double refine_reference(Truth& truth, const std::string& prefix);
   [[nodiscard]] double noise_that_tells_apart(const Truth& truth) const;
   void write_reference(Truth& truth) const;

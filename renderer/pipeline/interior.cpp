@@ -196,9 +196,12 @@ void InteriorFinder::look_at(const Look& look, const View& view, const Tile& til
   }
 }
 
-Interior InteriorFinder::render(const View& view, int spp, std::uint64_t seed, const Progress& progress) const {
+Interior InteriorFinder::render(const View& view, const Tile& part, int spp, std::uint64_t seed,
+                                const Progress& progress) const {
+  Interior out{.mask = Image(view.size.x, view.size.y, 1), .texels = Image(view.size.x, view.size.y, 1)};
   const SampleGrid samples = samples_of_reference(spp, seed);
-  const std::vector<Tile> tiles = tiles_of(view.size, tile_edge_);
+  const std::vector<Tile> tiles = tiles_in(part, tile_edge_);
+  if (tiles.empty()) return out;
   const glm::ivec2 largest = tiles.front().size;
   const GpuScene::LightCounts& counts = scene_->light_counts();
   const std::size_t lights = shadows_ ? counts.point + counts.spot + counts.directional : 0;
@@ -206,7 +209,6 @@ Interior InteriorFinder::render(const View& view, int spp, std::uint64_t seed, c
   if (shadows_) fit(*shadows_, largest * samples.grid);
   if (result_.width() != largest.x || result_.height() != largest.y)
     result_ = gl::RenderTarget(largest.x, largest.y, one_format, false);
-  Interior out{.mask = Image(view.size.x, view.size.y, 1), .texels = Image(view.size.x, view.size.y, 1)};
   Image read(view.size.x, view.size.y, 4);
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     progress("interior pixels", static_cast<double>(i) / static_cast<double>(tiles.size()));

@@ -49,8 +49,10 @@ class InteriorFinder {
   InteriorFinder(GpuScene& scene, const Scene& values, int tile_edge = 0, const InteriorCriteria& criteria = {});
 
   /// Draws the samples of a reference of so many samples a pixel and that seed, the first 256 of them where there are
-  /// more: an edge that hides in less than 1/256 of a pixel is no error to speak of. Errors as Supersampler::render.
-  [[nodiscard]] Interior render(const View& view, int spp, std::uint64_t seed, const Progress& progress) const;
+  /// more: an edge that hides in less than 1/256 of a pixel is no error to speak of. Only `part` of the picture is
+  /// looked at, no pixel beside it is interior. Errors as Supersampler::render.
+  [[nodiscard]] Interior render(const View& view, const Tile& part, int spp, std::uint64_t seed,
+                                const Progress& progress) const;
 
  private:
   // The triangles of a batch with the numbers of their charts.

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "renderer/image/metrics.hpp"
 #include "renderer/scene/camera.hpp"
@@ -18,11 +19,14 @@ namespace {
 
 constexpr int sample_count = 64;
 
-Interior interior_of(const Scene& scene, int edge, const InteriorCriteria& criteria = {}, int tile = 0) {
+Interior interior_of(const Scene& scene, int edge, const InteriorCriteria& criteria = {}, int tile = 0,
+                     std::optional<Tile> part = {}) {
   (void)shared_context();
   GpuScene gpu(shared_context().info(), scene, effects_on(derive_effects(scene)));
   const InteriorFinder finder(gpu, scene, tile, criteria);
-  Interior found = finder.render({.size = {edge, edge}, .camera = scene.camera}, sample_count, 1, no_progress);
+  Interior found =
+      finder.render({.size = {edge, edge}, .camera = scene.camera},
+                    part.value_or(Tile{.origin = {0, 0}, .size = {edge, edge}}), sample_count, 1, no_progress);
   shared_context().check("finding interior pixels");
   return found;
 }
@@ -274,6 +278,20 @@ TEST(Interior, DoesNotDependOnTheTiles) {
   for (const Scene& scene : {sphere_scene(64), shadowed_floor(512)}) {
     EXPECT_EQ(interior_of(scene, 50).mask, interior_of(scene, 50, {}, 16).mask);
   }
+}
+
+TEST(Interior, OfAPartIsThatOfTheWholeAndNothingBesideIt) {
+  const Tile part{.origin = {7, 20}, .size = {30, 19}};
+  const Interior whole = interior_of(sphere_scene(64), 50), found = interior_of(sphere_scene(64), 50, {}, 16, part);
+  for (int y = 0; y < 50; ++y) {
+    for (int x = 0; x < 50; ++x) {
+      const glm::ivec2 inside(x - part.origin.x, 49 - y - part.origin.y);
+      const bool in_part =
+          glm::all(glm::greaterThanEqual(inside, glm::ivec2(0))) && glm::all(glm::lessThan(inside, part.size));
+      EXPECT_EQ(found.mask.at(x, y)[0], in_part ? whole.mask.at(x, y)[0] : 0.0F) << x << ", " << y;
+    }
+  }
+  EXPECT_EQ(count(interior_of(sphere_scene(64), 50, {}, 0, Tile{}).mask), 0.0);
 }
 
 TEST(Interior, KnowsTheFootprintInTexels) {

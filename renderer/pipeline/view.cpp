@@ -49,10 +49,15 @@ glm::dmat4 tile_in_clip(const View& view, const Tile& tile, const glm::dvec2& of
 }  // namespace
 
 std::vector<Tile> tiles_of(const glm::ivec2& size, int edge) {
+  return tiles_in(Tile{.origin = {0, 0}, .size = size}, edge);
+}
+
+std::vector<Tile> tiles_in(const Tile& part, int edge) {
   std::vector<Tile> tiles;
-  for (int y = 0; y < size.y; y += edge) {
-    for (int x = 0; x < size.x; x += edge) {
-      tiles.push_back({{x, y}, {std::min(edge, size.x - x), std::min(edge, size.y - y)}});
+  for (int y = 0; y < part.size.y; y += edge) {
+    for (int x = 0; x < part.size.x; x += edge) {
+      tiles.push_back(
+          {part.origin + glm::ivec2(x, y), {std::min(edge, part.size.x - x), std::min(edge, part.size.y - y)}});
     }
   }
   return tiles;

@@ -23,6 +23,9 @@ struct Tile {
 /// The picture in tiles of at most `edge` pixels a side, from the bottom left.
 [[nodiscard]] std::vector<Tile> tiles_of(const glm::ivec2& size, int edge);
 
+/// The same of a part of it.
+[[nodiscard]] std::vector<Tile> tiles_in(const Tile& part, int edge);
+
 /// World to clip space for a tile, its samples moved by `offset` pixels (0, 0: pixel centres). Depth is reversed, 1 at
 /// the near plane and 0 at the far one: what is nearer is GL_GREATER (contexts have clip depths of 0 to 1). In double:
 /// the parts of a large picture differ in the last digits of the whole picture's matrix.

@@ -4,6 +4,7 @@ import importlib.util
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -193,6 +194,90 @@ class EngineConstants(InFolder):
         group = (SOURCE / "experiments/engine_constants.toml").read_text(encoding="utf-8")
         for name in self.script.SURFACES + [self.script.SCREEN]:
             self.assertIn(f'"engine_constants_{name}"', group)
+
+
+class AccuracyVsTime(InFolder):
+    """The page is what parts say: fronts, prices and findings; parts that are there are not run again."""
+
+    METHODS = {"direct": (1.0, 0.4), "toksvig": (2.0, 0.2), "tan_gmm": (4.0, 0.1), "cells": (4.0, 0.05)}
+
+    def setUp(self):
+        super().setUp()
+        self.script = module(SOURCE / "scripts/accuracy_vs_time")
+        for name in self.script.FILTERS:
+            for member in ("cost", "bumps"):
+                self.write(name, member)
+
+    def write(self, name, member, factor=1.0, by_filter=0.02):
+        records = []
+        for method, (time, error) in self.METHODS.items():
+            records.append({"method": method, "distance": 3.0, "pixels": {"object": 256},
+                            "error": {"shading": factor * error, "shading_floor": 0.001, "filter": by_filter,
+                                      "method": 0.5 * error},
+                            "precompute": {"bytes": 65536 * 16, "bytes_per_texel": 16.0},
+                            "time": {"frame_ms": {"median": 2.0 * time}, "fetches": 1.0, "lobes": 1.0,
+                                     "ratio_to_direct": {"median": time, "min": time, "max": time}}})
+        results = {"tool": {"version": "1"}, "backend": {"renderer": "r"}, "scene": {"materials": 1},
+                   "supersampling": [{"spp": 64, "distance": 3.0, "ms": 64.0, "shading": 0.3, "normalized_color": 0.3}],
+                   "records": records}
+        folder = self.script.part_folder(self.folder, name, "accuracy_vs_time_" + member)
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "results.json").write_text(json.dumps(results), encoding="utf-8")
+
+    def run_script(self, *options):
+        return subprocess.run([SOURCE / "scripts/accuracy_vs_time", self.folder, *options], capture_output=True,
+                              text=True, check=False)
+
+    def test_fronts_prices_and_findings(self):
+        done = self.run_script("--svg", self.folder / "fronts.svg")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = done.stdout
+        self.assertIn("| cells * | trilinear | 4 | 0.05 ×/÷ 1.00 |", page)
+        self.assertNotIn("| tan_gmm | trilinear | 4 |", page, "cells costs the same and errs less")
+        self.assertIn("| `cells` | `trilinear` | 0.5 ×/÷ 1.00 | 1 |", page)
+        self.assertIn("refuted: not for `tan_gmm`", page)
+        self.assertIn("`tan_gmm` under `trilinear` is ahead of `toksvig` under `shaded:2` at every width", page)
+        self.assertIn("| 16 to 32 | 1 |", page, "256 texels along 16 pixels")
+        self.assertIn("`toksvig` under `shaded:2` costs 2 frames of `direct`", " ".join(page.split()))
+        self.assertIn("Not run: `v_grooves` under any, `scales` under any", " ".join(page.split()))
+        self.assertIn("</svg>", (self.folder / "fronts.svg").read_text(encoding="utf-8"))
+
+    def test_other_results_are_another_page(self):
+        for name in self.script.FILTERS:
+            self.write(name, "bumps", by_filter=0.2)
+        self.write("shaded:2", "bumps", factor=0.25)
+        page = self.run_script().stdout
+        self.assertIn("LEAN is confirmed", " ".join(page.split()))
+        self.assertIn("`tan_gmm` under `trilinear` is ahead of `toksvig` under `shaded:2` at no width",
+                      " ".join(page.split()))
+
+    def test_a_scene_without_all_filters_is_in_no_mean(self):
+        self.write("trilinear", "scales", factor=0.1)
+        page = self.run_script().stdout
+        self.assertIn("| cells * | trilinear | 4 | 0.05 ×/÷ 1.00 |", page)
+        self.assertIn("| `scales` | 3 |", page)
+
+    def test_without_parts_there_is_no_page(self):
+        shutil.rmtree(self.folder / "trilinear")
+        for name in self.script.FILTERS[1:]:
+            shutil.rmtree(self.folder / name.replace(":", "-"))
+        done = self.run_script()
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("make them with --run", done.stderr)
+
+    def test_a_part_that_fails_is_named_and_leaves_nothing(self):
+        folder = self.script.part_folder(self.folder, "trilinear", "accuracy_vs_time_bumps")
+        shutil.rmtree(folder)
+        done = self.run_script("--run", "--footprint", "false")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("accuracy_vs_time_bumps under trilinear could not be run", done.stderr)
+        self.assertFalse(folder.exists())
+
+    def test_every_member_is_there(self):
+        for member in self.script.members(False) + self.script.members(True):
+            text = (SOURCE / f"experiments/{member}.toml").read_text(encoding="utf-8")
+            self.assertIn("[experiment]\n", text)
+            self.assertNotIn("footprint =", text, "the script puts it there")
 
 
 if __name__ == "__main__":

@@ -131,9 +131,9 @@ std::vector<Case> contents() {
       {.name = "UnknownRequiredExtension",
        .arguments = {model},
        .exit_code = 2,
-       .errors_have = {"quad.gltf", "extensionsRequired", "KHR_draco_mesh_compression"},
+       .errors_have = {"quad.gltf", "extensionsRequired", "KHR_texture_basisu"},
        .files = {{"quad.gltf", quad_with([](GltfBuilder& quad) {
-                    quad.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+                    quad.json["extensionsRequired"] = {"KHR_texture_basisu"};
                   })}}},
       {.name = "NotJson",
        .arguments = {model},

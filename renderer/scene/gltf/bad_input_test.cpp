@@ -50,8 +50,8 @@ TEST(GltfBadInput, FilesThatAreNoGltf) {
 
 TEST(GltfBadInput, VersionAndExtensions) {
   expect_error("glTF 1.0 is not supported", [](GltfBuilder& quad) { quad.json["asset"]["version"] = "1.0"; });
-  expect_error("KHR_draco_mesh_compression (geometry compressed by Draco), EXT_other", [](GltfBuilder& quad) {
-    quad.json["extensionsRequired"] = {"KHR_texture_transform", "KHR_draco_mesh_compression", "EXT_other"};
+  expect_error("KHR_texture_basisu (KTX2 textures (Basis Universal)), EXT_other", [](GltfBuilder& quad) {
+    quad.json["extensionsRequired"] = {"KHR_texture_transform", "KHR_texture_basisu", "EXT_other"};
   });
 }
 

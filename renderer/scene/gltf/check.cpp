@@ -80,6 +80,11 @@ constexpr auto rules = std::to_array<Rule>({
     {"meshes[].primitives[].extensions.KHR_materials_variants.mappings[].variants", Kind::array, Need::required},
     {"meshes[].primitives[].extensions.KHR_materials_variants.mappings[].variants[]", Kind::index, Need::optional,
      variants},
+    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression", Kind::object},
+    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression.bufferView", Kind::index, Need::required,
+     "bufferViews"},
+    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression.attributes", Kind::object, Need::required},
+    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression.attributes.*", Kind::size},
     {"accessors[]", Kind::object},
     {"accessors[].bufferView", Kind::index, Need::optional, "bufferViews"},
     {"accessors[].byteOffset", Kind::size},
@@ -101,6 +106,15 @@ constexpr auto rules = std::to_array<Rule>({
     {"bufferViews[].byteOffset", Kind::size},
     {"bufferViews[].byteLength", Kind::size, Need::required},
     {"bufferViews[].byteStride", Kind::size},
+    {"bufferViews[].extensions", Kind::object},
+    {"bufferViews[].extensions.EXT_meshopt_compression", Kind::object},
+    {"bufferViews[].extensions.EXT_meshopt_compression.buffer", Kind::index, Need::required, "buffers"},
+    {"bufferViews[].extensions.EXT_meshopt_compression.byteOffset", Kind::size},
+    {"bufferViews[].extensions.EXT_meshopt_compression.byteLength", Kind::size, Need::required},
+    {"bufferViews[].extensions.EXT_meshopt_compression.byteStride", Kind::size, Need::required},
+    {"bufferViews[].extensions.EXT_meshopt_compression.count", Kind::size, Need::required},
+    {"bufferViews[].extensions.EXT_meshopt_compression.mode", Kind::string, Need::required},
+    {"bufferViews[].extensions.EXT_meshopt_compression.filter", Kind::string},
     {"buffers[]", Kind::object},
     {"buffers[].byteLength", Kind::size, Need::required},
     {"buffers[].uri", Kind::string},
@@ -176,9 +190,9 @@ constexpr auto texture_rules = std::to_array<Rule>({
     {".extensions.KHR_texture_transform.texCoord", Kind::size},
 });
 
-constexpr auto supported =
-    std::to_array<std::string_view>({"KHR_lights_punctual", "KHR_materials_ior", "KHR_materials_variants",
-                                     "KHR_mesh_quantization", "KHR_texture_transform"});
+constexpr auto supported = std::to_array<std::string_view>(
+    {"EXT_meshopt_compression", "KHR_draco_mesh_compression", "KHR_lights_punctual", "KHR_materials_ior",
+     "KHR_materials_variants", "KHR_mesh_quantization", "KHR_texture_transform"});
 
 /// An extension, and what it is in words.
 struct ExtensionWord {
@@ -201,9 +215,7 @@ constexpr auto layers = std::to_array<ExtensionWord>({
 
 /// Ways to store a file that are not read.
 constexpr auto encodings = std::to_array<ExtensionWord>({
-    {"EXT_meshopt_compression", "geometry compressed by meshoptimizer"},
     {"EXT_texture_webp", "WebP textures"},
-    {"KHR_draco_mesh_compression", "geometry compressed by Draco"},
     {"KHR_texture_basisu", "KTX2 textures (Basis Universal)"},
 });
 

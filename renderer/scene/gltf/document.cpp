@@ -16,6 +16,8 @@
 #include "renderer/core/error.hpp"
 #include "renderer/core/file_bytes.hpp"
 #include "renderer/scene/gltf/check.hpp"
+#include "renderer/scene/gltf/draco.hpp"
+#include "renderer/scene/gltf/meshopt.hpp"
 
 namespace footprint {
 namespace {
@@ -120,6 +122,33 @@ tinygltf::Model parse(std::span<const std::uint8_t> bytes, bool binary, std::str
   return model;
 }
 
+// The container with another JSON chunk; what follows it stays.
+std::vector<std::uint8_t> with_json(std::span<const std::uint8_t> glb, std::string text) {
+  constexpr std::size_t header = 12, chunk_header = 8;
+  const std::size_t rest = header + chunk_header + word_at(glb, header);
+  while (text.size() % 4 != 0) text += ' ';
+  std::vector<std::uint8_t> out(glb.begin(), glb.begin() + header + chunk_header);
+  out.insert(out.end(), text.begin(), text.end());
+  out.insert(out.end(), glb.begin() + static_cast<std::ptrdiff_t>(rest), glb.end());
+  const auto write_word = [&](std::size_t at, std::size_t word) {
+    for (std::size_t i = 0; i < 4; ++i) out[at + i] = static_cast<std::uint8_t>(word >> 8 * i);
+  };
+  write_word(8, out.size());
+  write_word(header, text.size());
+  return out;
+}
+
+tinygltf::Model parse_checked(std::span<const std::uint8_t> bytes, bool binary, const std::string& folder) {
+  nlohmann::json document = parse_gltf_json(
+      binary ? glb_json(bytes) : std::string_view{reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  check_gltf_json(document);
+  const bool has_fallbacks = fill_fallback_buffers(document), has_draco = fill_draco_indices(document);
+  if (!has_fallbacks && !has_draco) return parse(bytes, binary, folder);
+  const std::string text = document.dump();
+  if (binary) return parse(with_json(bytes, text), binary, folder);
+  return parse({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, binary, folder);
+}
+
 }  // namespace
 
 GltfDocument read_gltf(const std::filesystem::path& file) {
@@ -130,9 +159,10 @@ GltfDocument read_gltf(const std::filesystem::path& file) {
     if (!binary && std::ranges::find(bytes, 0) != bytes.end()) {
       throw Error(ErrorKind::usage, {}, "is neither JSON text nor a GLB container", damaged_hint);
     }
-    check_gltf_json(parse_gltf_json(
-        binary ? glb_json(bytes) : std::string_view{reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
-    return {parse(bytes, binary, std::filesystem::absolute(file).parent_path().string()), file};
+    GltfDocument document{parse_checked(bytes, binary, std::filesystem::absolute(file).parent_path().string()), file};
+    decode_meshopt(document.model);
+    decode_draco(document.model);
+    return document;
   } catch (const Error& error) {
     throw error.within(file.string());
   }

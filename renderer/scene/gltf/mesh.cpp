@@ -203,10 +203,6 @@ std::optional<Mesh> convert(Builder& builder, const glm::dmat4& world, const Mat
     add_once(builder.warnings, "points and lines are left out");
     return std::nullopt;
   }
-  if (builder.primitive.extensions.contains("KHR_draco_mesh_compression") &&
-      !builder.primitive.attributes.contains("POSITION")) {
-    fail("KHR_draco_mesh_compression", "compressed geometry is not supported");
-  }
   read_positions(builder);
   if (builder.vertices.empty()) {
     add_once(builder.warnings, builder.place + " has no POSITION and is left out");

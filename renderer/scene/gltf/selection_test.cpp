@@ -162,10 +162,9 @@ TEST(GltfExtensions, LayersAreLeftOutWithAWarningEvenWhereRequired) {
 
 TEST(GltfExtensions, EncodingsAreNamedAsSuch) {
   GltfBuilder file = make_quad();
-  file.json["extensionsRequired"] = {"KHR_texture_basisu", "KHR_draco_mesh_compression", "EXT_meshopt_compression"};
+  file.json["extensionsRequired"] = {"KHR_texture_basisu", "EXT_texture_webp"};
   const std::string message = usage_error([&] { return load(file); });
-  for (const char* words :
-       {"KHR_texture_basisu (KTX2 textures", "compressed by Draco", "compressed by meshoptimizer"}) {
+  for (const char* words : {"KHR_texture_basisu (KTX2 textures", "EXT_texture_webp (WebP textures)"}) {
     EXPECT_TRUE(says(message, words));
   }
 }

@@ -1,0 +1,188 @@
+// Draco is trusted with the bytes and with nothing else: every count and index that it gives is checked before use.
+#include "renderer/scene/gltf/draco.hpp"
+
+#include <draco/compression/decode.h>
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr const char* extension_name = "KHR_draco_mesh_compression";
+
+using Bytes = std::vector<unsigned char>;
+
+[[noreturn]] void fail(const std::string& message) {
+  throw Error(ErrorKind::usage, extension_name, message, "repair the file or export it again");
+}
+
+std::unique_ptr<draco::Mesh> decoded(const tinygltf::Model& model, int view_index) {
+  const auto& view = model.bufferViews[static_cast<std::size_t>(view_index)];
+  const auto& bytes = model.buffers[static_cast<std::size_t>(view.buffer)].data;
+  if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset)
+    fail("its data does not lie within its buffer");
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(bytes.data()) + view.byteOffset, view.byteLength);
+  draco::Decoder decoder;
+  try {
+    auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
+    if (!mesh.ok()) fail(fmt::format("its data cannot be decoded: {:.200}", mesh.status().error_msg()));
+    return std::move(mesh).value();
+  } catch (const std::bad_alloc&) {
+    fail("its data cannot be decoded: it asks for more memory than there is");
+  } catch (const std::length_error&) {
+    fail("its data cannot be decoded: it asks for more memory than there is");
+  }
+}
+
+// Appends a buffer with one view of all of it; gives the view's index.
+int add_view(tinygltf::Model& model, Bytes bytes) {
+  tinygltf::BufferView view;
+  view.buffer = static_cast<int>(model.buffers.size());
+  view.byteLength = bytes.size();
+  model.buffers.emplace_back().data = std::move(bytes);
+  model.bufferViews.push_back(std::move(view));
+  return static_cast<int>(model.bufferViews.size()) - 1;
+}
+
+void point_at(tinygltf::Accessor& accessor, int view) {
+  accessor.bufferView = view;
+  accessor.byteOffset = 0;
+}
+
+// Whether the values of every point lie within the attribute's buffer.
+bool is_whole(const draco::PointAttribute& attribute, std::uint32_t points) {
+  const auto stride = static_cast<std::uint64_t>(attribute.byte_stride());
+  const auto offset = static_cast<std::uint64_t>(attribute.byte_offset());
+  if (attribute.buffer() == nullptr || stride == 0) return false;
+  if (offset + attribute.size() * stride > attribute.buffer()->data_size()) return false;
+  if (!attribute.is_mapping_identity() && attribute.indices_map_size() < points) return false;
+  for (std::uint32_t i = 0; i < points; ++i)
+    if (attribute.mapped_index(draco::PointIndex(i)).value() >= attribute.size()) return false;
+  return true;
+}
+
+template <typename T>
+Bytes values_of(const draco::PointAttribute& attribute, std::uint32_t points) {
+  const auto components = static_cast<std::size_t>(attribute.num_components());
+  Bytes bytes(points * components * sizeof(T));
+  std::vector<T> values(components);
+  for (std::uint32_t i = 0; i < points; ++i) {
+    if (!attribute.ConvertValue<T>(attribute.mapped_index(draco::PointIndex(i)), static_cast<std::int8_t>(components),
+                                   values.data()))
+      fail("an attribute holds values of another type than its accessor");
+    std::memcpy(&bytes[i * components * sizeof(T)], values.data(), components * sizeof(T));
+  }
+  return bytes;
+}
+
+Bytes values_of(const draco::PointAttribute& attribute, std::uint32_t points, int component_type) {
+  switch (component_type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return values_of<std::int8_t>(attribute, points);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return values_of<std::uint8_t>(attribute, points);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return values_of<std::int16_t>(attribute, points);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return values_of<std::uint16_t>(attribute, points);
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+      return values_of<float>(attribute, points);
+    default:
+      fail(fmt::format("{} is no component type of an attribute", component_type));
+  }
+}
+
+void take_attribute(tinygltf::Model& model, const draco::Mesh& mesh, const std::string& name, int id, int accessor) {
+  auto& target = model.accessors[static_cast<std::size_t>(accessor)];
+  const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
+  if (attribute == nullptr) fail(fmt::format("{}: its data has no attribute {}", name, id));
+  if (target.count != mesh.num_points())
+    fail(fmt::format("{}: {} elements are decoded, accessors[{}] has {}", name, mesh.num_points(), accessor,
+                     target.count));
+  const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(target.type));
+  if (attribute->num_components() != components)
+    fail(fmt::format("{}: {} components are decoded, accessors[{}] has {}", name, attribute->num_components(), accessor,
+                     components));
+  if (!is_whole(*attribute, mesh.num_points())) fail(fmt::format("{}: its data is damaged", name));
+  Bytes bytes = values_of(*attribute, mesh.num_points(), target.componentType);
+  point_at(target, add_view(model, std::move(bytes)));
+}
+
+void take_indices(tinygltf::Model& model, const draco::Mesh& mesh, int accessor) {
+  auto& target = model.accessors[static_cast<std::size_t>(accessor)];
+  const std::uint64_t count = std::uint64_t{3} * mesh.num_faces();
+  if (target.count != count)
+    fail(fmt::format("indices: {} are decoded, accessors[{}] has {}", count, accessor, target.count));
+  Bytes bytes(count * sizeof(std::uint32_t));
+  for (std::uint32_t i = 0; i < mesh.num_faces(); ++i) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::uint32_t index = mesh.face(draco::FaceIndex(i))[corner].value();
+      std::memcpy(&bytes[(3 * std::size_t{i} + corner) * sizeof index], &index, sizeof index);
+    }
+  }
+  target.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+  point_at(target, add_view(model, std::move(bytes)));
+}
+
+void decode_primitive(tinygltf::Model& model, const tinygltf::Primitive& primitive, const tinygltf::Value& extension) {
+  const auto position = primitive.attributes.find("POSITION");
+  if (position == primitive.attributes.end() || primitive.indices < 0)
+    fail("a compressed primitive needs accessors for POSITION and indices");
+  if (model.accessors[static_cast<std::size_t>(position->second)].bufferView >= 0) return;
+  if (primitive.mode != TINYGLTF_MODE_TRIANGLES) fail("only triangles are read, no strips");
+  const std::unique_ptr<draco::Mesh> mesh = decoded(model, extension.Get("bufferView").GetNumberAsInt());
+  const tinygltf::Value& ids = extension.Get("attributes");
+  for (const std::string& name : ids.Keys()) {
+    const auto accessor = primitive.attributes.find(name);
+    if (accessor != primitive.attributes.end())
+      take_attribute(model, *mesh, name, ids.Get(name).GetNumberAsInt(), accessor->second);
+  }
+  take_indices(model, *mesh, primitive.indices);
+}
+
+}  // namespace
+
+bool fill_draco_indices(nlohmann::json& document) {
+  bool filled = false;
+  for (const auto& mesh : document.value("meshes", nlohmann::json::array())) {
+    for (const auto& primitive : mesh["primitives"]) {
+      const auto extensions = primitive.find("extensions");
+      if (extensions == primitive.end() || !extensions->contains(extension_name) || !primitive.contains("indices"))
+        continue;
+      nlohmann::json& accessor = document["accessors"][primitive["indices"].get<std::size_t>()];
+      if (accessor.contains("bufferView")) continue;
+      accessor["bufferView"] = (*extensions)[extension_name]["bufferView"];
+      filled = true;
+    }
+  }
+  return filled;
+}
+
+void decode_draco(tinygltf::Model& model) {
+  for (std::size_t m = 0; m < model.meshes.size(); ++m) {
+    for (std::size_t p = 0; p < model.meshes[m].primitives.size(); ++p) {
+      const tinygltf::Primitive& primitive = model.meshes[m].primitives[p];
+      const auto extension = primitive.extensions.find(extension_name);
+      if (extension == primitive.extensions.end()) continue;
+      try {
+        decode_primitive(model, primitive, extension->second);
+      } catch (const Error& error) {
+        throw error.within(fmt::format("mesh {} `{:.80}`, primitive {}", m, model.meshes[m].name, p));
+      }
+    }
+  }
+}
+
+}  // namespace footprint

@@ -217,7 +217,7 @@ class AccuracyVsTime(InFolder):
                             "precompute": {"bytes": 65536 * 16, "bytes_per_texel": 16.0},
                             "time": {"frame_ms": {"median": 2.0 * time}, "fetches": 1.0, "lobes": 1.0,
                                      "ratio_to_direct": {"median": time, "min": time, "max": time}}})
-        results = {"tool": {"version": "1"}, "backend": {"renderer": "r"}, "scene": {"materials": 1},
+        results = {"tool": {"version": "1"}, "backend": {"renderer": "r"}, "scene": {"materials": 1}, "reference": {"spp": 4},
                    "supersampling": [{"spp": 64, "distance": 3.0, "ms": 64.0, "shading": 0.3, "normalized_color": 0.3}],
                    "records": records}
         folder = self.script.part_folder(self.folder, name, "accuracy_vs_time_" + member)
@@ -229,7 +229,7 @@ class AccuracyVsTime(InFolder):
                               text=True, check=False)
 
     def test_fronts_prices_and_findings(self):
-        done = self.run_script("--svg", self.folder / "fronts.svg")
+        done = self.run_script("--svg", self.folder / "fronts.svg", "--note", "It was busy.")
         self.assertEqual(done.returncode, 0, done.stderr)
         page = done.stdout
         self.assertIn("| cells * | trilinear | 4 | 0.05 ×/÷ 1.00 |", page)
@@ -240,6 +240,7 @@ class AccuracyVsTime(InFolder):
         self.assertIn("| 16 to 32 | 1 |", page, "256 texels along 16 pixels")
         self.assertIn("`toksvig` under `shaded:2` costs 2 frames of `direct`", " ".join(page.split()))
         self.assertIn("Not run: `v_grooves` under any, `scales` under any", " ".join(page.split()))
+        self.assertIn("take turns. It was busy. Means", " ".join(page.split()))
         self.assertIn("</svg>", (self.folder / "fronts.svg").read_text(encoding="utf-8"))
 
     def test_other_results_are_another_page(self):

@@ -9,6 +9,7 @@
 
 #include "app/commands.hpp"
 #include "app/folders.hpp"
+#include "app/hard_cases.hpp"
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
@@ -40,6 +41,7 @@ constexpr const char* check_examples =
     "\n"
     "Examples:\n"
     "  footprint check quick -o out                 every method, in seconds\n"
+    "  footprint check hard_cases -o out            every method where numbers are hard (docs/stability.md)\n"
     "  footprint check experiments/tan2005_fig4.toml -o out";
 
 struct ExperimentArguments {
@@ -49,6 +51,7 @@ struct ExperimentArguments {
   std::string experiment;
   std::string output = "out";
   bool quick = false;
+  bool wide = false;          // hard_cases: every storage in every case
   std::string timing_file;    // not empty: this is a process that only takes times
   std::string timing_member;  // and of this experiment alone
   bool quiet = false;
@@ -128,6 +131,12 @@ std::vector<std::string> run_and_print(const ExperimentArguments& arguments) {
 }
 
 void check(const ExperimentArguments& arguments) {
+  if (arguments.experiment == hard_cases_name) {
+    return check_hard_cases({.run = arguments.run.settings(),
+                             .wide = arguments.wide,
+                             .output = arguments.output,
+                             .quiet = arguments.quiet});
+  }
   if (!arguments.timing_file.empty()) return take_times(arguments);
   const std::vector<std::string> shortfalls = run_and_print(arguments);
   if (shortfalls.empty()) return;
@@ -158,6 +167,7 @@ void add_check_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("check", "Run an experiment and hold its claims and thresholds");
   const auto arguments = std::make_shared<ExperimentArguments>(*command);
   add_options(*command, *arguments);
+  command->add_flag("--wide", arguments->wide, "hard_cases: every storage in every case, not over single lobes alone");
   command->footer(std::string(experiment_words) + check_examples);
   command->callback([arguments] { check(*arguments); });
 }

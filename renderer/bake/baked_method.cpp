@@ -6,6 +6,7 @@
 #include <chrono>
 #include <utility>
 
+#include "renderer/bake/storage_range.hpp"
 #include "renderer/core/error.hpp"
 
 namespace footprint {
@@ -56,6 +57,8 @@ void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& eff
     try {
       auto [prefiltered, from_disk] =
           prefilter(method, scene, i, baked.options, effects & method.info().honours, part, cache);
+      if (auto note = storage_range_note(material, baked.options, effects & method.info().honours))
+        prefiltered.notes.push_back(*std::move(note));
       baked.materials.push_back(std::move(prefiltered));
       baked.cached = baked.cached && from_disk;
     } catch (const Error& error) {

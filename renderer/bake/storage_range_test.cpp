@@ -1,0 +1,36 @@
+// The note stands where a lobe is too narrow for what a method stores, and nowhere else.
+#include "renderer/bake/storage_range.hpp"
+
+#include <gtest/gtest.h>
+
+#include "renderer/bake/normal_chain.hpp"
+
+namespace footprint {
+namespace {
+
+bool noted(const std::string& storage, float exponent, bool bumpy = true) {
+  Material material;
+  material.brdf.distribution = NormalDistribution::blinn_phong;
+  material.lobe_parameter = exponent;
+  EffectSet effects;
+  effects.set(static_cast<std::size_t>(Effect::normal_variation), bumpy);
+  return storage_range_note(material, Options({storage_option()}, {{"storage", storage}}, "test"), effects).has_value();
+}
+
+TEST(StorageRange, IsNotedWhereALobeIsTooNarrow) {
+  EXPECT_TRUE(noted("unorm8", 100.0F));
+  EXPECT_FALSE(noted("unorm8", 40.0F));
+  EXPECT_TRUE(noted("fp16", 1e4F));
+  EXPECT_FALSE(noted("fp16", 1e3F));
+  EXPECT_FALSE(noted("fp32", 1e6F));
+  EXPECT_FALSE(noted("unorm8", 1e6F, false));
+}
+
+TEST(StorageRange, IsNotedOfNoMethodWithoutStorages) {
+  EffectSet effects;
+  effects.set(static_cast<std::size_t>(Effect::normal_variation));
+  EXPECT_FALSE(storage_range_note(Material{}, Options({}, {}, "test"), effects));
+}
+
+}  // namespace
+}  // namespace footprint

@@ -1,0 +1,135 @@
+// Counts by method and group; figures to two digits, which is what they are the same to between kinds of processors.
+#include "stability/hard_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "stability/hard_case.hpp"
+
+namespace footprint::stability {
+namespace {
+
+constexpr std::string_view verdict_words[] = {"held", "guarded", "out of range", "fell"};
+
+std::string_view word_of(Verdict verdict) { return verdict_words[static_cast<std::size_t>(verdict)]; }
+
+// In the order in which they first stand in the rows.
+std::vector<std::string> distinct(const std::vector<HardRow>& rows, std::string HardRow::*member) {
+  std::vector<std::string> out;
+  for (const HardRow& row : rows) {
+    if (std::ranges::find(out, row.*member) == out.end()) out.push_back(row.*member);
+  }
+  return out;
+}
+
+// "held", or how many cases are what else; "not tested" where no row is.
+std::string cell(const std::vector<HardRow>& rows, const std::string& method, const std::string& group) {
+  std::map<Verdict, std::set<std::string>> cases;
+  for (const HardRow& row : rows) {
+    if (row.method == method && row.group == group) cases[row.verdict].insert(row.hard_case);
+  }
+  if (cases.empty()) return "not tested";
+  std::string out;
+  for (const Verdict verdict : {Verdict::guarded, Verdict::out_of_range, Verdict::fell}) {
+    if (!cases.contains(verdict)) continue;
+    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", cases[verdict].size(), word_of(verdict));
+  }
+  return out.empty() ? "held" : out;
+}
+
+std::string verdict_table(const std::vector<HardRow>& rows) {
+  const std::vector<std::string> groups = distinct(rows, &HardRow::group);
+  std::string out = "| method |", rule = "|---|";
+  for (const std::string& group : groups) {
+    out += fmt::format(" {} |", group);
+    rule += "---|";
+  }
+  out += "\n" + rule + "\n";
+  for (const std::string& method : distinct(rows, &HardRow::method)) {
+    out += fmt::format("| `{}` |", method);
+    for (const std::string& group : groups) out += fmt::format(" {} |", cell(rows, method, group));
+    out += "\n";
+  }
+  return out;
+}
+
+std::string rows_of(const std::vector<HardRow>& rows, Verdict verdict) {
+  std::string out;
+  for (const HardRow& row : rows) {
+    if (row.verdict != verdict) continue;
+    out += fmt::format("| `{}` | `{}` | {} | {:.2g} | {:.2g} | {} |\n", row.method, row.hard_case, row.figure,
+                       row.value, row.bound, row.why);
+  }
+  if (out.empty()) return "None.\n";
+  return "| method | case | figure | measured | bound | why |\n|---|---|---|---:|---:|---|\n" + out;
+}
+
+std::string case_table(const std::vector<HardRow>& rows) {
+  std::string out = "| case | group | what it is |\n|---|---|---|\n";
+  std::set<std::string> seen;
+  for (const HardRow& row : rows) {
+    if (seen.insert(row.hard_case).second)
+      out += fmt::format("| `{}` | {} | {} |\n", row.hard_case, row.group, row.what);
+  }
+  return out;
+}
+
+constexpr const char* page_head = R"(# Where methods stay stable
+
+Written by `scripts/stability` from a run of `footprint check hard_cases`: every method of the registry through every
+hard case, and what of it held. A method is never said to hold what was not measured in that run. Cases are small values
+in the tables of [`stability/`](../stability); a new one is one entry, and a new method meets all of them without any.
+
+| figure | what it is | bound |
+|---|---|---|
+| finite | numbers that are not finite or below 0, before any clamp | 0, for everyone |
+| energy | difference of the integral over the hemisphere from that of the sum over texels, relative | the case's |
+| limit | largest difference from the sum, where the method must meet it, relative to the sum's peak | the case's |
+| direct | relative error of the picture against `direct`, where there is nothing to filter | 0.001 |
+| step | largest change of the distribution from one step of a parameter to the next, of the whole | four times the sum's own, or the case's |
+| backends | numbers that differ between EGL and OSMesa | 0 |
+
+The sum over texels is in double precision and shares no code with the shaders (`renderer/ndf/true_ndf.hpp`). *Guarded*:
+a guard bites there, and the figure is its cost. *Out of range*: known not to hold, the method's README gives the range;
+each figure has a bound of its own, and a run fails where it is passed, or where the case holds after all.
+
+)";
+
+}  // namespace
+
+std::string stability_page(const std::vector<HardRow>& rows) {
+  return page_head + verdict_table(rows) + "\n## Guarded\n\n" + rows_of(rows, Verdict::guarded) +
+         "\n## Out of range\n\n" + rows_of(rows, Verdict::out_of_range) + "\n## Fell\n\n" +
+         rows_of(rows, Verdict::fell) + "\n## Cases\n\n" + case_table(rows);
+}
+
+std::string hard_cases_json(const std::vector<HardRow>& rows) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const HardRow& row : rows) {
+    list.push_back({{"method", row.method},
+                    {"case", row.hard_case},
+                    {"group", row.group},
+                    {"figure", row.figure},
+                    {"value", row.value},
+                    {"bound", row.bound},
+                    {"verdict", word_of(row.verdict)},
+                    {"why", row.why},
+                    {"picture", row.picture}});
+  }
+  return nlohmann::json{{"schema", "footprint-hard-cases/1"}, {"rows", std::move(list)}}.dump(1) + "\n";
+}
+
+std::vector<std::string> what_fell(const std::vector<HardRow>& rows) {
+  std::vector<std::string> out;
+  for (const HardRow& row : rows) {
+    if (row.verdict == Verdict::fell)
+      out.push_back(fmt::format("{}, {}, {}: {}", row.method, row.hard_case, row.figure, row.why));
+  }
+  return out;
+}
+
+}  // namespace footprint::stability

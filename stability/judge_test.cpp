@@ -1,0 +1,62 @@
+// Verdicts: a bound that is met, one that is not, what is known of a method, and what the page makes of them.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "stability/hard_report.hpp"
+
+namespace footprint::stability {
+namespace {
+
+constexpr KnownLimit limits[] = {
+    {.method = "wide", .hard_case = "groove", .figure = "energy", .most = 0.5, .why = "one lobe"},
+    {.method = "thin:storage=fp16",
+     .hard_case = "groove",
+     .figure = "energy",
+     .most = 0.3,
+     .guarded = true,
+     .why = "clamp"}};
+
+HardRow judged(const std::string& method, double value, const std::string& figure = "energy") {
+  HardRow row{method, "groove", "bumps", "a groove", figure, value, 0.1};
+  judge(row, limits);
+  return row;
+}
+
+TEST(Judge, HoldsABound) {
+  EXPECT_EQ(judged("other", 0.1).verdict, Verdict::held);
+  EXPECT_EQ(judged("other", 0.11).verdict, Verdict::fell);
+  EXPECT_EQ(judged("other", std::numeric_limits<double>::quiet_NaN()).verdict, Verdict::fell);
+  EXPECT_EQ(judged("other", std::numeric_limits<double>::infinity()).verdict, Verdict::fell);
+}
+
+TEST(Judge, KnowsHowFarALimitReaches) {
+  EXPECT_EQ(judged("wide", 0.4).verdict, Verdict::out_of_range);
+  EXPECT_EQ(judged("wide:storage=fp16", 0.4).verdict, Verdict::out_of_range);
+  EXPECT_EQ(judged("wide", 0.6).verdict, Verdict::fell);
+  EXPECT_EQ(judged("wide", std::numeric_limits<double>::quiet_NaN()).verdict, Verdict::fell);
+  EXPECT_EQ(judged("wide", 0.4, "limit").verdict, Verdict::fell) << "of another figure";
+  EXPECT_EQ(judged("widest", 0.4).verdict, Verdict::fell) << "another method";
+  EXPECT_EQ(judged("thin:storage=fp16", 0.2).verdict, Verdict::guarded);
+  EXPECT_EQ(judged("thin", 0.2).verdict, Verdict::fell) << "of one storage alone";
+}
+
+TEST(Judge, ALimitThatHoldsAfterAllFalls) {
+  EXPECT_EQ(judged("wide", 0.05).verdict, Verdict::fell);
+  EXPECT_EQ(judged("wide:storage=fp16", 0.05).verdict, Verdict::held) << "the method's own is still out of range";
+}
+
+TEST(StabilityPage, SaysOfNothingThatItHeldUntested) {
+  std::vector<HardRow> rows{judged("other", 0.05), judged("wide", 0.4), judged("worse", 0.9)};
+  rows.push_back({"other", "smooth", "sizes", "a map", "finite", 0.0, 0.0});
+  const std::string page = stability_page(rows);
+  EXPECT_NE(page.find("| `other` | held | held |"), std::string::npos) << page;
+  EXPECT_NE(page.find("| `wide` | 1 out of range | not tested |"), std::string::npos) << page;
+  EXPECT_NE(page.find("| `worse` | 1 fell | not tested |"), std::string::npos) << page;
+  EXPECT_NE(page.find("| `wide` | `groove` | energy | 0.4 | 0.1 | one lobe |"), std::string::npos) << page;
+  ASSERT_EQ(what_fell(rows).size(), 1U);
+  EXPECT_EQ(what_fell(rows).front(), "worse, groove, energy: 0.9 is over 0.1");
+}
+
+}  // namespace
+}  // namespace footprint::stability

@@ -42,6 +42,13 @@ class LimitsTest(unittest.TestCase):
         self.assertEqual(refused.returncode, 1, refused.stdout)
         self.assertIn("times the median, 1 are allowed", refused.stderr)
 
+    def test_a_zoom_has_a_row_a_distance(self):
+        result = bench("--zoom", "1", "--scene", "scratched_metal_1k", "--distance", "1,16")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rows = re.findall(r"^([0-9]+) +[0-9.]+ ms, 1.00 x direct +[0-9.]+ ms, ([0-9.]+) x direct$", result.stdout, re.M)
+        self.assertEqual([distance for distance, _ in rows], ["1", "16"], result.stdout)
+        self.assertTrue(all(float(ratio) > 1.0 for _, ratio in rows), result.stdout)
+
 
 if __name__ == "__main__":
     unittest.main()

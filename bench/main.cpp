@@ -8,6 +8,7 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bench/bake_limits.hpp"
 #include "bench/footprint_sizes.hpp"
@@ -17,16 +18,18 @@
 #include "bench/mip_benchmarks.hpp"
 #include "bench/ratios.hpp"
 #include "bench/tan_gmm_benchmarks.hpp"
+#include "bench/zoom_frames.hpp"
 #include "renderer/core/error.hpp"
 
 namespace {
 
 // What the command line asks for.
 struct Request {
-  int ratio_rounds = 0, build_rounds = 0, footprint_rounds = 0, bake_rounds = 0;  // 0: not asked for
+  int ratio_rounds = 0, build_rounds = 0, footprint_rounds = 0, bake_rounds = 0, zoom_rounds = 0;  // 0: not asked for
   footprint::bench::BakeLimits bake_limits;
   int resolution = 4096;  // of the map under the footprints
   double most_ratio = 0.0;
+  std::vector<double> distances{1, 2, 4, 8, 16};
   std::string scene, methods, over = "direct";
 };
 
@@ -38,6 +41,7 @@ Examples:
   footprint_bench --ratios 15 --scene carved_disk --methods toksvig,tan_gmm --over tan_gmm
   footprint_bench --footprints 5 --methods atanasov_bins:roughness=bin,tan_gmm --resolution 1024
   footprint_bench --bakes 3 --scene scratched_metal --methods atanasov_bins:m=63:roughness=bin --most-seconds 10
+  footprint_bench --zoom 5 --scene car_paint --methods atanasov_bins:m=63:roughness=bin --distance 1,4,16
   footprint_bench --builds 5 --methods xu_vmf:rebuild=changed,xu_vmf:rebuild=changed:conversion=table
 )";
 
@@ -66,6 +70,13 @@ void declare_options(CLI::App& app, Request& request) {
   app.add_option("--most-gigabytes", request.bake_limits.gigabytes,
                  "With --bakes: 1e9 bytes of memory that the process may hold")
       ->check(CLI::PositiveNumber);
+  app.add_option("--zoom", request.zoom_rounds,
+                 "Print what frames of --methods cost on --scene at every --distance, over this many rounds")
+      ->check(rounds);
+  app.add_option("--distance", request.distances, "With --zoom: factors on the camera's distance, commas between")
+      ->check(CLI::Range(1e-3, 1e6))
+      ->delimiter(',')
+      ->capture_default_str();
   app.add_option("--resolution", request.resolution, "With --footprints: texels a side of the map")
       ->check(CLI::Range(1, 16384))
       ->capture_default_str();
@@ -114,6 +125,15 @@ void run(int argc, char** argv) {
   if (request.bake_rounds > 0) {
     if (request.methods.empty()) request.methods = "atanasov_bins:roughness=bin";
     if (scene) footprint::bench::print_bake_table(*scene, request.methods, request.bake_rounds, request.bake_limits);
+    return;
+  }
+  if (request.zoom_rounds > 0) {
+    if (request.methods.empty()) request.methods = "atanasov_bins:roughness=bin";
+    if (scene)
+      (void)std::fputs(
+          footprint::bench::zoom_table(std::move(*scene), request.methods, request.distances, request.zoom_rounds)
+              .c_str(),
+          stdout);
     return;
   }
   std::optional<footprint::bench::BenchScene> subject;

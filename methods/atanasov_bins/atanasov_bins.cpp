@@ -62,10 +62,10 @@ float wrap_number(Wrap wrap) {
 }
 
 // Means of 4 x 4 texels and coarser: of fewer the shader takes the texels' own.
-PrefilteredTexture mean_normal_texture(const Material& material) {
+PrefilteredTexture mean_normal_texture(const Material& material, Storage storage) {
   std::vector<Image> chain = mean_normal_chain(material);
   chain.erase(chain.begin(), chain.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(chain.size() - 1, 2)));
-  return make_texture("bins_mean_normal", chain, Storage::fp16, normal_coordinates(material));
+  return make_texture("bins_mean_normal", chain, storage, normal_coordinates(material));
 }
 
 // Whether every texel of the normal map has a width of its own: the maps that tell are looked up alike.
@@ -100,7 +100,8 @@ class AtanasovBins final : public Method {
                         std::back_inserter(out.textures));
     }
     if (!has(effects, Effect::normal_variation)) return out;
-    if (has(effects, Effect::diffuse)) out.textures.push_back(mean_normal_texture(material));
+    if (has(effects, Effect::diffuse))
+      out.textures.push_back(mean_normal_texture(material, parse_storage(options.word("storage"))));
     const std::string roughness = options.word("roughness");
     const bool by_width = roughness == "lobe" && has(effects, Effect::roughness_variation);
     if (by_width) out.scalars["bins_own_roughness"] = knows_widths(material) ? 1.0F : 0.0F;
@@ -157,7 +158,10 @@ class AtanasovBins final : public Method {
                        "them; microfacets of a surface about its own normal, as published, D over the cosine."),
            whole_option("draws", 16, 1, 1024,
                         "Under an environment: so many normals are drawn from under a pixel (section 2.1), each a lobe "
-                        "of its own; of fewer texels all are taken.")},
+                        "of its own; of fewer texels all are taken."),
+           word_option("storage", {"fp16", "fp32"},
+                       "What the means of normals of 4 x 4 texels and more are kept in, the only numbers that are no "
+                       "integers, or are one to a bin: what diffuse light is reflected about over wide footprints.")},
       .honours = map_effects_but({Effect::normal_layers}),
       .slow_precompute = true,
       .slow_frame = true};

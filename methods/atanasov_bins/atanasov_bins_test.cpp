@@ -248,6 +248,19 @@ TEST(AtanasovBins, PicturesAreThoseOfTheSameTexels) {
   }
 }
 
+// Means of normals are for diffuse light and for footprints of more than 256 texels alone: here 455, and 7 of a map
+// that is 8 times smaller.
+TEST(AtanasovBins, StorageRoundsWhatDiffuseLightIsReflectedAboutAndNothingElse) {
+  for (const int texels : {512, 64}) {
+    TestRenderer renderer(square_scene(random_normals(texels, texels, 0.5F, 5), {.brdf = {}, .roughness = 0.4F}),
+                          {24, 24});
+    const Image half = renderer.frame(atanasov_bins_method(), "atanasov_bins:storage=fp16");
+    const Image whole = renderer.frame(atanasov_bins_method(), "atanasov_bins:storage=fp32");
+    EXPECT_EQ(half == whole, texels == 64) << "whether the means are read";
+    EXPECT_LT(compare_images(half, whole, 1.0F).value().relative_rmse, 5e-4);
+  }
+}
+
 // llvmpipe ends loops after 65535 rounds. A pixel of which that leaves texels out must not pass for the sum of all.
 TEST(AtanasovBins, IsNeverAPartOfTheSum) {
   const Scene scene = square_scene(random_normals(1024, 1024, 0.5F, 13), {.brdf = {}, .roughness = 0.2F});

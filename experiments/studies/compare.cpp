@@ -63,10 +63,10 @@ class Comparison {
     require_pictures(stage_.view(1.0).size, pictures_held(settings.methods.size(), distances_.size()));
   }
 
-  Results run(std::span<const FrameTimes> further_times) {
+  Results run(std::span<const FrameTimes> further_times, SharedTruth* shared) {
     std::filesystem::create_directories(folder_ / "images");
     TruthFinder finder(
-        settings_, stage_, folder_, [this](const Image& first) { return choose(first); }, parts_);
+        settings_, stage_, folder_, [this](const Image& first) { return choose(first); }, parts_, shared);
     results_.scene.warnings = finder.warnings();
     for (std::size_t i = 0; i < distances_.size(); ++i) {
       Truth truth = finder.find(i, distances_[i]);
@@ -233,8 +233,8 @@ FrameTimes time_frames(const RunSettings& settings, const Progress& progress) {
 }
 
 Results run_compare(const RunSettings& settings, const std::filesystem::path& folder,
-                    std::span<const FrameTimes> further_times, const Progress& progress) {
-  return Comparison(settings, folder, progress).run(further_times);
+                    std::span<const FrameTimes> further_times, const Progress& progress, SharedTruth* shared) {
+  return Comparison(settings, folder, progress).run(further_times, shared);
 }
 
 }  // namespace footprint

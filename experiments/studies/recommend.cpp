@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "experiments/studies/compare.hpp"
+#include "experiments/studies/truth.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/file_names.hpp"
 #include "results/report/figures.hpp"
@@ -217,6 +218,7 @@ class Advisor {
  private:
   std::vector<FilterRun> run_all(const std::vector<std::vector<MethodSpec>>& methods, bool coarse) {
     std::vector<FilterRun> runs;
+    SharedTruth truth;  // under every filter the same
     ProgressParts parts(parts_.next(coarse ? 1.0 : 3.0, coarse ? "coarse, " : ""), static_cast<double>(methods.size()));
     for (std::size_t f = 0; f < methods.size(); ++f) {
       const FootprintFilter& filter = settings_.filters[f];
@@ -226,7 +228,7 @@ class Advisor {
       const std::filesystem::path own = folder_ / (coarse ? "coarse" : run.folder);
       const RunSettings run_settings = settings_of(settings_, filter, methods[f], coarse);
       std::filesystem::create_directories(own);
-      run.results = run_compare(run_settings, own, {}, part);
+      run.results = run_compare(run_settings, own, {}, part, &truth);
       if (coarse) std::filesystem::remove_all(own);
       if (!coarse) keep_results_(run.results, own);
       runs.push_back(std::move(run));

@@ -66,14 +66,16 @@ int finest_samples(const ReferenceSettings& settings) {
 }
 
 TruthFinder::TruthFinder(const RunSettings& settings, const Stage& stage, std::filesystem::path folder,
-                         std::function<float(const Image& first_reference)> exposure, ProgressParts& progress)
+                         std::function<float(const Image& first_reference)> exposure, ProgressParts& progress,
+                         SharedTruth* shared)
     : settings_(settings),
       stage_(stage),
       folder_(std::move(folder)),
       choose_exposure_(std::move(exposure)),
       progress_(progress),
       interior_finder_(stage.interior_finder()),
-      bound_(stage_bound(stage, settings.reference.bound, warnings_)) {
+      bound_(stage_bound(stage, settings.reference.bound, warnings_)),
+      shared_(shared) {
   if (settings.by_material)
     material_finder_.emplace(stage.context().info(), stage.scene(), stage.view(1.0).size, settings.backend.tile);
 }
@@ -105,21 +107,39 @@ Truth TruthFinder::find(std::size_t frame, double distance) {
 
 void TruthFinder::render_reference(Truth& truth, const std::string& prefix) {
   const ReferenceSettings& asked = settings_.reference;
+  SharedTruth::AtDistance first = first_samples(truth, prefix);
+  truth.reference = std::move(first.reference);
+  truth.first = std::move(first.first);
   const auto begin = std::chrono::steady_clock::now();
-  truth.reference =
-      stage_.reference().render(truth.view, asked.spp, asked.seed, progress_.next(asked.spp, prefix + "reference, "));
   if (truth.frame == 0) exposure_ = choose_exposure_(truth.reference.mean);
-  truth.first = first_samples(truth, prefix);
   truth.samples = asked.by_noise && !asked.fixed_spp ? refine_reference(truth, prefix) : asked.spp;
-  truth.seconds = seconds_since(begin);
+  truth.seconds = first.seconds + seconds_since(begin);
+}
+
+// What does not depend on the methods: rendered, or taken from what is shared.
+SharedTruth::AtDistance TruthFinder::first_samples(const Truth& truth, const std::string& prefix) {
+  const ReferenceSettings& asked = settings_.reference;
+  const Progress reference = progress_.next(asked.spp, prefix + "reference, ");
+  const Progress finest = progress_.next(finest_samples(asked), prefix + "reference, ");
+  if (shared_ != nullptr) {
+    const auto known = std::ranges::find(shared_->distances, truth.distance, &SharedTruth::AtDistance::distance);
+    if (known != shared_->distances.end()) return *known;
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  SharedTruth::AtDistance first{.distance = truth.distance, .reference = {}, .first = {}, .seconds = 0};
+  first.reference = stage_.reference().render(truth.view, asked.spp, asked.seed, reference);
+  first.first = samples_of_finest_levels(truth, first.reference.mean, finest);
+  first.seconds = seconds_since(begin);
+  if (shared_ != nullptr) shared_->distances.push_back(first);
+  return first;
 }
 
 // The reference over the samples of finest levels, where those are drawn.
-Image TruthFinder::first_samples(const Truth& truth, const std::string& prefix) {
+Image TruthFinder::samples_of_finest_levels(const Truth& truth, const Image& whole, const Progress& progress) {
   const ReferenceSettings& asked = settings_.reference;
   const int spp = finest_samples(asked);
-  if (spp == asked.spp || !asked.finest_levels) return truth.reference.mean;
-  return stage_.reference().render(truth.view, spp, asked.seed, progress_.next(spp, prefix + "reference, ")).mean;
+  if (spp == asked.spp || !asked.finest_levels) return whole;
+  return stage_.reference().render(truth.view, spp, asked.seed, progress).mean;
 }
 
 // Goes on with the reference until its noise is what was asked for; returns its mean samples a pixel.

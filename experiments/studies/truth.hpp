@@ -59,12 +59,26 @@ struct Truth {
   std::vector<std::string> warnings;
 };
 
+/// What several comparisons of one scene have in common, distance by distance: the reference's first samples, which
+/// depend neither on methods nor on the footprint filter.
+struct SharedTruth {
+  struct AtDistance {
+    double distance = 1;
+    Supersampled reference;
+    Image first;         ///< its mean over the samples of finest levels
+    double seconds = 0;  ///< that both took
+  };
+  std::vector<AtDistance> distances;
+};
+
 /// Finds it distance by distance. Keeps the addresses of what it is given.
 class TruthFinder {
  public:
-  /// `exposure` is asked for the factor once the first reference is there. Pictures go to FOLDER/images.
+  /// `exposure` is asked for the factor once the first reference is there. Pictures go to FOLDER/images. What `shared`
+  /// has is taken from there, and what it lacks is added: for comparisons of the same scene, view and reference.
   TruthFinder(const RunSettings& settings, const Stage& stage, std::filesystem::path folder,
-              std::function<float(const Image& first_reference)> exposure, ProgressParts& progress);
+              std::function<float(const Image& first_reference)> exposure, ProgressParts& progress,
+              SharedTruth* shared = nullptr);
 
   /// What it weighs in progress, a distance.
   [[nodiscard]] static double weight(const RunSettings& settings);
@@ -76,7 +90,8 @@ class TruthFinder {
 
  private:
   void render_reference(Truth& truth, const std::string& prefix);
-  [[nodiscard]] Image first_samples(const Truth& truth, const std::string& prefix);
+  [[nodiscard]] SharedTruth::AtDistance first_samples(const Truth& truth, const std::string& prefix);
+  [[nodiscard]] Image samples_of_finest_levels(const Truth& truth, const Image& whole, const Progress& progress);
   [[nodiscard]] double refine_reference(Truth& truth, const std::string& prefix);
   [[nodiscard]] double noise_that_tells_apart(const Truth& truth) const;
   void write_reference(Truth& truth) const;
@@ -94,6 +109,7 @@ class TruthFinder {
   std::optional<MaterialFinder> material_finder_;  // where materials are told apart
   std::vector<std::string> warnings_;
   std::optional<StagedMethod> bound_;
+  SharedTruth* shared_;
 };
 
 }  // namespace footprint

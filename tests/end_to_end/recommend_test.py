@@ -6,7 +6,7 @@ import sys
 import unittest
 
 from recommendations import disagreement, disagreements
-from whole_runs import SOURCE, WholeRunTest, run
+from whole_runs import SOURCE, WholeRunTest, results_of, run
 
 sys.path.insert(0, str(SOURCE / "results" / "report"))
 from schema_test import described, jsonschema  # exit code 77 without the package python3-jsonschema
@@ -17,6 +17,10 @@ METHODS = "direct,toksvig,lean"
 
 def document_of(folder):
     return json.loads((folder / "recommend.json").read_text(encoding="utf-8"))
+
+
+def file_of(footprint):
+    return footprint.replace(":", "_")
 
 
 class RecommendTest(WholeRunTest):
@@ -68,6 +72,18 @@ class RecommendTest(WholeRunTest):
             self.assertEqual(disagreements(quick, whole), [], scene)
             whole_document = document_of(whole)
             self.assertEqual(whole_document["measured"], whole_document["tried"])
+
+    def test_filters_share_their_reference_and_nothing_changes(self):
+        """Measured behind another footprint filter, whose reference it takes over, and alone."""
+        shots = ["v_grooves", "--methods", METHODS, "--distance", "1,4", "--size", "48x48", "--repeats", "1", "--quiet"]
+        figures = {}
+        for filters in ("box:2,anisotropic:8", "anisotropic:8", "box:2"):
+            folder = self.folder / f"shared_{len(figures)}"
+            run("recommend", *shots, "--exhaustive", "--footprints", filters, "-o", folder)
+            records = results_of(folder / file_of(filters.split(",")[-1]))["records"]
+            figures[filters] = [(r["method"], r["distance"], r["error"]) for r in records]
+        self.assertEqual(figures["box:2,anisotropic:8"], figures["anisotropic:8"])
+        self.assertNotEqual(figures["box:2"], figures["anisotropic:8"])
 
     def test_a_disagreement_is_found(self):
         def candidate(method, error, cost):

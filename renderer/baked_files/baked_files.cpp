@@ -81,6 +81,7 @@ ShaderVariant variant_of(const BakeToFiles& bake) {
   return {.effects = bake.effects & bake.baked.method->info().honours,
           .brdf = bake.scene.materials.front().brdf,
           .footprint = bake.footprint,
+          .horizon_open = bake.scene.horizon == Horizon::open,
           .facet_lobes = most_lobes};
 }
 

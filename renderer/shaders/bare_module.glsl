@@ -23,10 +23,11 @@ Footprints footprintsAt(vec2 uv) {
   return all;
 }
 
-// f * cos of both terms; times the light's irradiance on a plane that faces it, that light's share. Nothing where the
-// light is below the surface.
+// f * cos of both terms; times the light's irradiance on a plane that faces it, that light's share.
 vec3 reflectedTowards(Effective e, Surface s, vec3 wi, vec3 wo) {
-  if (wi.z <= 0.0) return vec3(0.0);
+//? if not horizon_open
+  if (wi.z <= 0.0) return vec3(0.0);  // the scene's horizon cuts: nothing of a light below the surface's plane
+//? end
   Reflected r = shade(e, s, wi, wo);
 //? if diffuse
   return r.specular + r.diffuse;

@@ -59,6 +59,11 @@ std::string bytes_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+Scene dark(Scene scene) {
+  std::get<PointLight>(scene.lights.front()).intensity = {};
+  return scene;
+}
+
 // The largest difference over the larger of 1 and the picture's largest value.
 double difference_from_the_pipeline(const std::string& text, MapFiles maps) {
   const bool is_slow = find_method(parse_methods(text).front().name).info().slow_precompute;
@@ -92,7 +97,24 @@ TEST(BakedFilesOf, SmallerStoragesDrawFootprintsPicture) {
   EXPECT_LT(difference_from_the_pipeline("lean:storage=fp16", MapFiles::exr), 1e-3);
 }
 
-// The test above can fail: it does where one map holds something else.
+// Light that grazes the plane from below lights the bumps where the horizon is open, and nothing where it cuts.
+TEST(BakedFilesOf, ModulesHaveTheScenesHorizon) {
+  for (const Horizon horizon : {Horizon::open, Horizon::cut}) {
+    Scene scene = rough_square();
+    scene.horizon = horizon;
+    std::get<PointLight>(scene.lights.front()).position = {0.0F, 4.0F, -0.5F};
+    const Bake bake(scene, "toksvig");
+    const fs::path folder = test::fresh_folder();
+    write_bake(bake.files(), folder);
+    const Image own = TestRenderer(bake.scene, frame).frame(find_method("toksvig"), {}, filter);
+    const double brightest =
+        largest_difference(own, TestRenderer(dark(scene), frame).frame(find_method("toksvig"), {}, filter));
+    EXPECT_EQ(brightest > 1e-3F, horizon == Horizon::open) << brightest;
+    EXPECT_LT(largest_difference(render_from_files(folder, bake.scene, frame, MapFiles::exr), own), 1e-3);
+  }
+}
+
+// The tests above can fail: they do where one map holds something else.
 TEST(BakedFilesOf, AnotherRoughnessDrawsAnotherPicture) {
   const Bake bake(rough_square(), "toksvig");
   const fs::path folder = test::fresh_folder();

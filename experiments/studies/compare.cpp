@@ -115,10 +115,9 @@ class Comparison {
   }
 
   Image finest_level(const Truth& truth, const StagedMethod& staged, const std::string& prefix) {
-    const int spp = finest_samples(settings_.reference);
-    const Supersampled finest = stage_.finest_level(staged).render(truth.view, spp, settings_.reference.seed,
-                                                                   parts_.next(spp, prefix + "finest level, "));
-    return as_converged(finest.mean, truth.first, truth.reference.mean);
+    const Image finest = finest_mean(stage_.finest_level(staged), truth.view, settings_.reference,
+                                     parts_.next(finest_samples(settings_.reference), prefix + "finest level, "));
+    return as_converged(finest, truth.first, truth.reference.mean);
   }
 
   // Against the frame before: the picture of the same method, one round of drafts earlier.

@@ -65,6 +65,13 @@ int finest_samples(const ReferenceSettings& settings) {
   return settings.by_noise && !settings.fixed_spp ? std::min(settings.spp, samples_of_finest) : settings.spp;
 }
 
+Image finest_mean(const Supersampler& sampler, const View& view, const ReferenceSettings& settings,
+                  const Progress& progress) {
+  const int spp = finest_samples(settings);
+  if (spp == settings.spp) return sampler.render(view, spp, settings.seed, progress).mean;
+  return sampler.render_mean(view, spp, settings.seed, progress);
+}
+
 TruthFinder::TruthFinder(const RunSettings& settings, const Stage& stage, std::filesystem::path folder,
                          std::function<float(const Image& first_reference)> exposure, ProgressParts& progress,
                          SharedTruth* shared)
@@ -139,7 +146,7 @@ Image TruthFinder::samples_of_finest_levels(const Truth& truth, const Image& who
   const ReferenceSettings& asked = settings_.reference;
   const int spp = finest_samples(asked);
   if (spp == asked.spp || !asked.finest_levels) return whole;
-  return stage_.reference().render(truth.view, spp, asked.seed, progress).mean;
+  return finest_mean(stage_.reference(), truth.view, asked, progress);
 }
 
 // Goes on with the reference until its noise is what was asked for; returns its mean samples a pixel.

@@ -37,6 +37,10 @@ struct TruthFiles {
 /// they have in common drops out (docs/metrics.md); all that were asked for, where they were.
 [[nodiscard]] int finest_samples(const ReferenceSettings& settings);
 
+/// The mean over `finest_samples`: of the reference, or of a method's finest level, by the same samples.
+[[nodiscard]] Image finest_mean(const Supersampler& sampler, const View& view, const ReferenceSettings& settings,
+                                const Progress& progress);
+
 /// What is known of one distance.
 struct Truth {
   std::size_t frame = 0;

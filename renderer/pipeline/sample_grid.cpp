@@ -9,12 +9,11 @@
 namespace footprint {
 namespace {
 
-constexpr int largest_grid = 4;   // a pass then takes 16 times a picture's memory
-constexpr int fewest_passes = 4;  // two sequences of two blocks
+constexpr int largest_grid = 4;  // a pass then takes 16 times a picture's memory
 constexpr double fixed_point = 0x1.0p-32;
 
 // The largest grid that divides the samples into enough passes.
-int grid_of(int spp) {
+int grid_of(int spp, int fewest_passes) {
   for (int grid = largest_grid; grid > 1; --grid) {
     const int cells = grid * grid;
     if (spp % cells == 0 && spp / cells >= fewest_passes) return grid;
@@ -36,12 +35,12 @@ std::uint32_t digits_of(int grid, int place) {
 
 }  // namespace
 
-SampleGrid sample_grid(int spp, std::uint64_t seed) {
+SampleGrid sample_grid(int spp, std::uint64_t seed, int fewest_passes) {
   if (spp < 1 || spp > most_samples) {
     throw Error(ErrorKind::usage, "--spp", fmt::format("{} samples a pixel", spp),
                 fmt::format("give 1 to {}", most_samples));
   }
-  SampleGrid out{.grid = grid_of(spp), .passes = {}};
+  SampleGrid out{.grid = grid_of(spp, fewest_passes), .passes = {}};
   const int all = spp / (out.grid * out.grid);
   for (const int half : {0, 1}) {
     const int passes = half == 0 ? (all + 1) / 2 : all / 2;

@@ -25,9 +25,11 @@ struct SampleGrid {
   std::vector<SamplePass> passes;
 };
 
-/// 1 <= spp <= most_samples. Deterministic for a seed; more samples of the same grid begin with the same ones. Errors
-/// (usage): spp out of range.
-[[nodiscard]] SampleGrid sample_grid(int spp, std::uint64_t seed);
+inline constexpr int passes_of_halves = 4;  ///< two sequences of two blocks each: what tells a picture's noise
+
+/// 1 <= spp <= most_samples. Deterministic for a seed; more samples of the same grid begin with the same ones. The grid
+/// is the largest that leaves `fewest_passes`, where there are so many samples. Errors (usage): spp out of range.
+[[nodiscard]] SampleGrid sample_grid(int spp, std::uint64_t seed, int fewest_passes = passes_of_halves);
 
 /// What seeds everything that sequence `half` draws for a picture.
 [[nodiscard]] std::uint32_t half_seed(std::uint64_t seed, int half);

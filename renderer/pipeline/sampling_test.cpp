@@ -83,6 +83,16 @@ TEST(SampleGrid, BlocksCutEachSequenceInTwo) {
   }
 }
 
+// For a mean alone one draw will do; its samples are the first of a sequence, as evenly spread as any.
+TEST(SampleGrid, TakesAsFewPassesAsAreAskedFor) {
+  const SampleGrid one = sample_grid(16, 1, 1);
+  EXPECT_EQ(one.grid, 4);
+  EXPECT_EQ(one.passes.size(), 1U);
+  EXPECT_EQ(all_samples(one), all_samples(sample_grid(16, 1, 1), 0));
+  EXPECT_EQ(sample_grid(16, 1).passes.size(), 4U);
+  EXPECT_EQ(sample_grid(7, 1, 1).passes.size(), 7U) << "no grid divides it";
+}
+
 TEST(SampleGrid, CellsAreNumberedOnce) {
   for (const int grid : {1, 2, 3, 4}) {
     std::set<std::uint32_t> numbers;

@@ -150,9 +150,8 @@ void Supersampler::draw(const View& view, int spp, std::uint64_t seed) const {
   }
 }
 
-Supersampled Supersampler::render_tiles(const Sampling& sampling, std::span<const Tile> tiles, int spp,
-                                        const Progress& progress) const {
-  const SampleGrid samples = sample_grid(spp, sampling.seed);
+Supersampled Supersampler::render_tiles(const Sampling& sampling, const SampleGrid& samples,
+                                        std::span<const Tile> tiles, int spp, const Progress& progress) const {
   method_->build_frame(*sampling.view);
   const auto steps = static_cast<double>(tiles.size() * samples.passes.size());
   glm::ivec2 largest(1);
@@ -178,16 +177,23 @@ Supersampled Supersampler::render_tiles(const Sampling& sampling, std::span<cons
 
 Supersampled Supersampler::render(const View& view, int spp, std::uint64_t seed, const Progress& progress,
                                   TexelUse texels) const {
-  const int grid = sample_grid(spp, seed).grid;
-  return render_tiles({.view = &view, .grid = grid, .seed = seed, .texels = texels}, tiles_of(view.size, tile_edge_),
-                      spp, progress);
+  const SampleGrid samples = sample_grid(spp, seed);
+  return render_tiles({.view = &view, .grid = samples.grid, .seed = seed, .texels = texels}, samples,
+                      tiles_of(view.size, tile_edge_), spp, progress);
+}
+
+Image Supersampler::render_mean(const View& view, int spp, std::uint64_t seed, const Progress& progress) const {
+  const SampleGrid samples = sample_grid(spp, seed, 1);
+  return render_tiles({.view = &view, .grid = samples.grid, .seed = seed, .texels = TexelUse::filtered}, samples,
+                      tiles_of(view.size, tile_edge_), spp, progress)
+      .mean;
 }
 
 void Supersampler::refine(Supersampled& picture, const View& view, std::span<const Tile> tiles, int spp,
                           std::uint64_t seed, const Progress& progress) const {
-  const int grid = sample_grid(spp, seed).grid;
-  const Supersampled finer =
-      render_tiles({.view = &view, .grid = grid, .seed = seed, .texels = TexelUse::filtered}, tiles, spp, progress);
+  const SampleGrid samples = sample_grid(spp, seed);
+  const Supersampled finer = render_tiles(
+      {.view = &view, .grid = samples.grid, .seed = seed, .texels = TexelUse::filtered}, samples, tiles, spp, progress);
   for (const Tile& tile : tiles) {
     copy_tile(finer.mean, tile, picture.mean);
     copy_tile(finer.standard_error, tile, picture.standard_error);

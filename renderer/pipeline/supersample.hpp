@@ -41,6 +41,10 @@ class Supersampler {
   [[nodiscard]] Supersampled render(const View& view, int spp, std::uint64_t seed, const Progress& progress,
                                     TexelUse texels = TexelUse::filtered) const;
 
+  /// The mean alone, which nothing tells the noise of: samples of one sequence in as few draws as they fit in, quicker
+  /// than `render`, and not the samples that it takes. Errors: likewise.
+  [[nodiscard]] Image render_mean(const View& view, int spp, std::uint64_t seed, const Progress& progress) const;
+
   /// Takes `tiles` of a picture of the same view and seed anew, with `spp` samples a pixel.
   void refine(Supersampled& picture, const View& view, std::span<const Tile> tiles, int spp, std::uint64_t seed,
               const Progress& progress) const;
@@ -54,8 +58,8 @@ class Supersampler {
   struct Sampling;
   /// The sums of a tile, cleared; made anew where the size changes.
   Accumulator& accumulator(const glm::ivec2& tile, int grid) const;
-  [[nodiscard]] Supersampled render_tiles(const Sampling& sampling, std::span<const Tile> tiles, int spp,
-                                          const Progress& progress) const;
+  [[nodiscard]] Supersampled render_tiles(const Sampling& sampling, const SampleGrid& samples,
+                                          std::span<const Tile> tiles, int spp, const Progress& progress) const;
   void accumulate(Accumulator& sums, const Sampling& sampling, const Tile& tile, const SamplePass& pass) const;
 
   GpuScene* scene_;

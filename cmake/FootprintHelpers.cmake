@@ -58,6 +58,15 @@ function(footprint_add_test name)
   set_tests_properties(${name} PROPERTIES TIMEOUT 300)
 endfunction()
 
+# footprint_compile_shaders_fast(TEST): of a test that draws hundreds of programs once each. llvmpipe's compiler leaves
+# its optimisation passes out, which takes a third off where no program is kept from an earlier run; other drivers do not
+# know the word.
+function(footprint_compile_shaders_fast test)
+  if(FOOTPRINT_TESTS)
+    set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT GALLIVM_PERF=nopt)
+  endif()
+endfunction()
+
 # footprint_embed(TARGET SYMBOL PATTERN ...): the texts of the files that match as `extern const EmbeddedTexts SYMBOL` in
 # namespace footprint::embedded (renderer/core/embedded_texts.hpp), so that the program needs no file of its own at run
 # time. A file that is added is in the table without another line; where none matches there is no table.

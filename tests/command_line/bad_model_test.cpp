@@ -132,9 +132,8 @@ std::vector<Case> contents() {
        .arguments = {model},
        .exit_code = 2,
        .errors_have = {"quad.gltf", "extensionsRequired", "KHR_texture_basisu"},
-       .files = {{"quad.gltf", quad_with([](GltfBuilder& quad) {
-                    quad.json["extensionsRequired"] = {"KHR_texture_basisu"};
-                  })}}},
+       .files = {{"quad.gltf",
+                  quad_with([](GltfBuilder& quad) { quad.json["extensionsRequired"] = {"KHR_texture_basisu"}; })}}},
       {.name = "NotJson",
        .arguments = {model},
        .exit_code = 2,

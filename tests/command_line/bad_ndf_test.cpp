@@ -35,7 +35,7 @@ std::vector<Case> words() {
       row("LobeThatIsNone", {"--lobe", "phong:64"}, {"--lobe", "unknown distribution `phong`", "blinn_phong"}),
       row("LobeMisspelt", {"--lobe", "bekmann:0.1"}, {"did you mean `beckmann`?"}),
       row("LobeWithoutParameter", {"--lobe", "ggx"}, {"--lobe", "`ggx` has no parameter", "ggx:0.2"}),
-      row("LobeOutOfRange", {"--lobe", "ggx:2"}, {"--lobe", "0.0001 to 1"}),
+      row("LobeOutOfRange", {"--lobe", "ggx:2"}, {"--lobe", "0.001 to 1"}),
       row("LobeThatIsNoNumber", {"--lobe", "vmf:nan"}, {"--lobe", "`vmf:nan`"}),
       row("NdfOfWrongMethod", {"--methods", "toxvig"}, {"toxvig", "did you mean `toksvig`?"}),
       row("NdfOfWrongMethodOption", {"--methods", "toksvig:spred=2"}, {"did you mean `spread`?"}),

@@ -29,6 +29,7 @@ struct Request {
   footprint::bench::BakeLimits bake_limits;
   int resolution = 4096;  // of the map under the footprints
   double most_ratio = 0.0;
+  std::optional<int> truth_samples;
   std::vector<double> distances{1, 2, 4, 8, 16};
   std::string scene, methods, over = "direct";
 };
@@ -42,6 +43,7 @@ Examples:
   footprint_bench --footprints 5 --methods atanasov_bins:roughness=bin,tan_gmm --resolution 1024
   footprint_bench --bakes 3 --scene scratched_metal --methods atanasov_bins:m=63:roughness=bin --most-seconds 10
   footprint_bench --zoom 5 --scene car_paint --methods atanasov_bins:m=63:roughness=bin --distance 1,4,16
+  footprint_bench --zoom 5 --scene car_paint_flakes --methods atanasov_bins:m=127:roughness=bin --samples 256
   footprint_bench --builds 5 --methods xu_vmf:rebuild=changed,xu_vmf:rebuild=changed:conversion=table
 )";
 
@@ -77,6 +79,11 @@ void declare_options(CLI::App& app, Request& request) {
       ->check(CLI::Range(1e-3, 1e6))
       ->delimiter(',')
       ->capture_default_str();
+  app.add_option(
+         "--samples", request.truth_samples,
+         "With --zoom: also the error of every frame against a reference of so many samples a pixel, the fewest "
+         "samples of the reference that come as close, and what the frame takes of their time")
+      ->check(CLI::Range(4, 4096));
   app.add_option("--resolution", request.resolution, "With --footprints: texels a side of the map")
       ->check(CLI::Range(1, 16384))
       ->capture_default_str();
@@ -130,10 +137,10 @@ void run(int argc, char** argv) {
   if (request.zoom_rounds > 0) {
     if (request.methods.empty()) request.methods = "atanasov_bins:roughness=bin";
     if (scene)
-      (void)std::fputs(
-          footprint::bench::zoom_table(std::move(*scene), request.methods, request.distances, request.zoom_rounds)
-              .c_str(),
-          stdout);
+      (void)std::fputs(footprint::bench::zoom_table(std::move(*scene), request.methods, request.distances,
+                                                    request.zoom_rounds, request.truth_samples)
+                           .c_str(),
+                       stdout);
     return;
   }
   std::optional<footprint::bench::BenchScene> subject;

@@ -7,6 +7,7 @@
 const int most_pending = 28;
 const int most_cut = 16;  // that are put aside before their areas are taken
 const uint leaf_size = 16u;
+const uint wide_node = 32768u;  // nodes of fewer texels are one integer
 
 // How far the outermost texels go on beyond the map that does not repeat: lower and upper edges.
 vec4 beyondMap(Region r) {
@@ -36,14 +37,22 @@ uvec4 packedNode(Node node) {
 }
 Node unpackedNode(uvec4 code) { return Node(code.x, code.y, unpacked(code.z), unpacked(code.w)); }
 
-// Makes a node its lower half; the upper half comes back.
-Node upperHalfOf(inout Node node) {
+// Makes a node, whose texels begin at `begin`, its lower half; the upper half comes back.
+Node upperHalfOf(inout Node node, uint begin) {
   ivec2 sides = node.upper - node.lower;
   bvec2 across = bvec2(sides.x >= sides.y, sides.x < sides.y);
   ivec2 middle = node.lower + (sides >> 1);
-  Node half_node = Node(wordAt(bins_forest, node.at + 1u), node.end, mix(node.lower, middle, across), node.upper);
-  node.end = wordAt(bins_forest, node.at);
-  node.at += 2u;
+  uint texels = wordAt(bins_forest, node.at);
+  ++node.at;
+  uint tree = texels >> 16;
+  if (node.end - begin < wide_node) {
+    texels &= 0xFFFFu;
+  } else {
+    tree = wordAt(bins_forest, node.at);
+    ++node.at;
+  }
+  Node half_node = Node(node.at + tree, node.end, mix(node.lower, middle, across), node.upper);
+  node.end = begin + texels;
   node.upper = mix(node.upper, middle, across);
   return half_node;
 }
@@ -96,7 +105,7 @@ float areaInCopy(Region r, TexelList list, inout bool finished) {
       bool splits = side == cut && !counts && texels > leaf_size;
       int slot = counts ? most_pending + cut_count : pending;
       if (splits) {
-        seen = upperHalfOf(node);
+        seen = upperHalfOf(node, begin);
         ++pending;
       } else if (counts) {
         seen.end = texels;

@@ -117,8 +117,9 @@ class WalkTwin {
     atanasov_bins::TexelRect lower = rect, upper = rect;
     (halves.along_x ? lower.upper.x : lower.upper.y) = halves.middle;
     (halves.along_x ? upper.lower.x : upper.lower.y) = halves.middle;
-    const std::uint32_t middle = map_->forest[at];
-    return node(at + 2, first, middle, lower) + node(map_->forest[at + 1], middle, end, upper);
+    const atanasov_bins::Branches branches = atanasov_bins::branches_of(map_->forest, at, first, end);
+    return node(branches.lower, first, branches.upper_first, lower) +
+           node(branches.upper, branches.upper_first, end, upper);
   }
 
   const atanasov_bins::InverseMap* map_;

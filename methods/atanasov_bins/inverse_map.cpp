@@ -60,15 +60,26 @@ void sort_by_bin(const BinMap& map, InverseMap& out) {
   });
 }
 
-// Behind a tree, another whose links are from its own beginning.
-void append(std::vector<std::uint32_t>& forest, const std::vector<std::uint32_t>& tree) {
-  const auto shift = static_cast<std::uint32_t>(forest.size());
-  for (std::size_t i = 0; i < tree.size(); ++i) forest.push_back(tree[i] + (i % 2 == 1 ? shift : 0));
+// Room for a node at the end of the forest; where it is.
+std::size_t add_node(std::vector<std::uint32_t>& forest, std::size_t texels) {
+  forest.resize(forest.size() + (texels < wide_node ? 1 : 2));
+  return forest.size() - (texels < wide_node ? 1 : 2);
 }
 
-// Arranges texels, the first of which is the map's `first`, and appends their tree, links from the forest's beginning.
-void plant(std::span<std::uint32_t> texels, std::uint32_t first, const TexelRect& rect,
-           std::vector<std::uint32_t>& forest) {
+// Called when the tree of the lower half stands behind the node, and nothing else.
+void set_node(std::vector<std::uint32_t>& forest, std::size_t node, std::size_t texels, std::size_t lower_count) {
+  const std::size_t own = texels < wide_node ? 1 : 2;
+  const auto lower_size = static_cast<std::uint32_t>(forest.size() - node - own);
+  forest[node] = static_cast<std::uint32_t>(lower_count);
+  if (own == 1) {
+    forest[node] |= lower_size << 16U;
+  } else {
+    forest[node + 1] = lower_size;
+  }
+}
+
+// Arranges texels and appends their tree.
+void plant(std::span<std::uint32_t> texels, const TexelRect& rect, std::vector<std::uint32_t>& forest) {
   if (texels.size() <= leaf_size) return;
   const Halves halves = halves_of(rect);
   const auto middle = static_cast<std::uint32_t>(halves.middle);
@@ -79,21 +90,18 @@ void plant(std::span<std::uint32_t> texels, std::uint32_t first, const TexelRect
   TexelRect lower_rect = rect, upper_rect = rect;
   (halves.along_x ? lower_rect.upper.x : lower_rect.upper.y) = halves.middle;
   (halves.along_x ? upper_rect.lower.x : upper_rect.lower.y) = halves.middle;
-  const std::size_t node = forest.size();
-  const std::uint32_t upper_first = first + static_cast<std::uint32_t>(lower_count);
-  forest.push_back(upper_first);
-  forest.push_back(0);
+  const std::size_t node = add_node(forest, texels.size());
   if (texels.size() < texels_a_task) {
-    plant(texels.first(lower_count), first, lower_rect, forest);
-    forest[node + 1] = static_cast<std::uint32_t>(forest.size());
-    plant(texels.subspan(lower_count), upper_first, upper_rect, forest);
+    plant(texels.first(lower_count), lower_rect, forest);
+    set_node(forest, node, texels.size(), lower_count);
+    plant(texels.subspan(lower_count), upper_rect, forest);
     return;
   }
   std::vector<std::uint32_t> upper_tree;
-  tbb::parallel_invoke([&] { plant(texels.first(lower_count), first, lower_rect, forest); },
-                       [&] { plant(texels.subspan(lower_count), upper_first, upper_rect, upper_tree); });
-  forest[node + 1] = static_cast<std::uint32_t>(forest.size());
-  append(forest, upper_tree);
+  tbb::parallel_invoke([&] { plant(texels.first(lower_count), lower_rect, forest); },
+                       [&] { plant(texels.subspan(lower_count), upper_rect, upper_tree); });
+  set_node(forest, node, texels.size(), lower_count);
+  forest.insert(forest.end(), upper_tree.begin(), upper_tree.end());
 }
 
 // Runs of lists that together have some texels_a_task: first list of each, and the end.
@@ -119,15 +127,14 @@ void plant_forest(InverseMap& out, const Progress& progress) {
     tbb::parallel_for(start, std::min(start + batch, trees.size()), [&](std::size_t task) {
       for (std::size_t i = begins[task]; i < begins[task + 1]; ++i) {
         out.lists[i].root = static_cast<std::uint32_t>(trees[task].size());
-        plant(std::span(out.texels).subspan(out.lists[i].first, out.count_of(i)), out.lists[i].first, whole,
-              trees[task]);
+        plant(std::span(out.texels).subspan(out.lists[i].first, out.count_of(i)), whole, trees[task]);
       }
     });
   }
   for (std::size_t task = 0; task < trees.size(); ++task) {
     const auto shift = static_cast<std::uint32_t>(out.forest.size());
     for (std::size_t i = begins[task]; i < begins[task + 1]; ++i) out.lists[i].root += shift;
-    append(out.forest, trees[task]);
+    out.forest.insert(out.forest.end(), trees[task].begin(), trees[task].end());
   }
 }
 
@@ -137,6 +144,13 @@ Halves halves_of(const TexelRect& rect) {
   const glm::ivec2 sides = rect.upper - rect.lower;
   if (sides.x >= sides.y) return {.along_x = true, .middle = rect.lower.x + sides.x / 2};
   return {.along_x = false, .middle = rect.lower.y + sides.y / 2};
+}
+
+Branches branches_of(std::span<const std::uint32_t> forest, std::uint32_t at, std::uint32_t first, std::uint32_t end) {
+  if (end - first < wide_node) {
+    return {.lower = at + 1, .upper = at + 1 + (forest[at] >> 16U), .upper_first = first + (forest[at] & 0xFFFFU)};
+  }
+  return {.lower = at + 2, .upper = at + 2 + forest[at + 1], .upper_first = first + forest[at]};
 }
 
 BinMap bin_map(const Image& normals, int across, const Progress& progress) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "renderer/core/progress.hpp"
@@ -45,9 +46,15 @@ struct Halves {
 };
 [[nodiscard]] Halves halves_of(const TexelRect& rect);
 
-/// B^-1. A node of more than leaf_size texels is two integers of `forest`: where in `texels` those of its upper half
-/// begin, and where in `forest` its upper half's node is; its lower half's comes right behind it. The rectangle of a
-/// node is that of the map, halved on the way down; its texels follow one another.
+/// Nodes of at least so many texels are two integers, smaller ones are one. No level of a tree has more than T / 17
+/// nodes of the more than leaf_size texels that have an integer, T the texels of the tree, and no tree more than 26
+/// levels (most_pending in atanasov_bins_walk.glsl): below 2^15 texels these are fewer than 2^16 integers.
+inline constexpr std::uint32_t wide_node = 1U << 15U;
+
+/// B^-1. A node of more than leaf_size texels stands in `forest` as the number of the texels of its lower half and the
+/// number of the integers of that half's tree, which comes right behind it and has the upper half's tree behind it: two
+/// integers, or one with the texels in its lower 16 bits (wide_node). The rectangle of a node is that of the map,
+/// halved on the way down; its texels follow one another.
 struct InverseMap {
   int width = 0;
   int height = 0;
@@ -67,6 +74,16 @@ struct InverseMap {
            lists.back().bin == static_cast<std::uint32_t>(across) * static_cast<std::uint32_t>(across);
   }
 };
+
+/// Where the halves of a node are: their trees in `forest`, and the first texel of the upper half.
+struct Branches {
+  std::uint32_t lower = 0;
+  std::uint32_t upper = 0;
+  std::uint32_t upper_first = 0;
+};
+/// Of the node at `at` that has the more than leaf_size texels [first, end).
+[[nodiscard]] Branches branches_of(std::span<const std::uint32_t> forest, std::uint32_t at, std::uint32_t first,
+                                   std::uint32_t end);
 
 /// Equal maps give equal values at any number of threads.
 [[nodiscard]] InverseMap inverse_of(const BinMap& map, const Progress& progress);

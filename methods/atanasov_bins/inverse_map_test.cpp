@@ -55,15 +55,15 @@ void expect_tree(const InverseMap& map, std::uint32_t at, std::uint32_t first, s
     ASSERT_TRUE(glm::all(glm::greaterThanEqual(texel, rect.lower)) && glm::all(glm::lessThan(texel, rect.upper)));
   }
   if (end - first <= leaf_size) return;
-  ASSERT_LT(at + 1, map.forest.size());
-  const std::uint32_t middle = map.forest[at];
-  ASSERT_TRUE(first <= middle && middle <= end);
+  ASSERT_LT(at, map.forest.size());
+  const Branches branches = branches_of(map.forest, at, first, end);
+  ASSERT_TRUE(first <= branches.upper_first && branches.upper_first <= end);
   const Halves halves = halves_of(rect);
   TexelRect lower = rect, upper = rect;
   (halves.along_x ? lower.upper.x : lower.upper.y) = halves.middle;
   (halves.along_x ? upper.lower.x : upper.lower.y) = halves.middle;
-  expect_tree(map, at + 2, first, middle, lower);
-  expect_tree(map, map.forest[at + 1], middle, end, upper);
+  expect_tree(map, branches.lower, first, branches.upper_first, lower);
+  expect_tree(map, branches.upper, branches.upper_first, end, upper);
 }
 
 TEST(InverseMap, HasEveryTexelOnceInItsBinAndItsNode) {
@@ -83,6 +83,20 @@ TEST(InverseMap, HasEveryTexelOnceInItsBinAndItsNode) {
         expect_tree(map, map.lists[i].root, map.lists[i].first, map.lists[i].first + map.count_of(i), {{0, 0}, size});
       }
     }
+  }
+}
+
+// One list each, of texels around the number from which nodes are two integers.
+TEST(InverseMap, NodesAreOneIntegerOrTwoByTheirTexels) {
+  for (const glm::ivec2& size : {glm::ivec2(217, 151), {256, 128}, {10923, 3}}) {  // 2^15 texels, one less, one more
+    const Maps maps(some_normals(size.x, size.y, 0.9, false), 1);
+    const InverseMap& map = maps.inverse;
+    ASSERT_EQ(map.lists.size(), 1U);
+    const auto texels = static_cast<std::uint32_t>(map.texels.size());
+    expect_tree(map, 0, 0, texels, {{0, 0}, size});
+    const Branches branches = branches_of(map.forest, 0, 0, texels);
+    EXPECT_EQ(branches.lower, texels < wide_node ? 1U : 2U);
+    EXPECT_LT(branches.upper, map.forest.size());
   }
 }
 

@@ -14,8 +14,8 @@ function(footprint_install_program target)
   install(DIRECTORY experiments DESTINATION "${data}" COMPONENT runtime
           FILES_MATCHING PATTERN "*.toml" PATTERN "README.md")
   install(DIRECTORY results/published DESTINATION "${data}/results" COMPONENT runtime FILES_MATCHING PATTERN "*.toml")
-  install(DIRECTORY docs/ DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
-  install(FILES README.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
+  install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)  # where the front page looks for them
+  install(FILES README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
   install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright COMPONENT runtime)
 
   set(written "${CMAKE_CURRENT_BINARY_DIR}/self_description")

@@ -48,6 +48,7 @@ look_at_texts() {
   expect "$prefix/share/zsh/vendor-completions/_footprint" '--methods'
   expect "$prefix/share/fish/vendor_completions.d/footprint.fish" '-l methods'
   [ -s "$prefix/share/doc/footprint/README.md" ] || fail "no README.md"
+  [ -s "$prefix/share/doc/footprint/docs/metrics.md" ] || fail "no documents where README.md looks for them"
   [ -s "$prefix/share/doc/footprint/copyright" ] || fail "no licence"
 }
 

@@ -1,0 +1,63 @@
+"""scripts/check_documents: the project's own documents hold together, and each kind of fault is told with its place."""
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(os.environ["FOOTPRINT_SOURCE_DIR"])
+
+WHOLE = {
+    "CMakeLists.txt": "cmake_minimum_required(VERSION 3.25)\nproject(Footprint VERSION 1.2.3)\n",
+    "CITATION.cff": "cff-version: 1.2.0\nversion: 1.2.3\n",
+    "CHANGELOG.md": "# Changes\n\n## 1.2.3\n",
+    "README.md": "See [the map](docs/README.md), [a page](docs/page.md#the-second-part-of-it), [elsewhere](https://a.b/c).\n",
+    "docs/README.md": "[page.md](page.md)\n\n```\n[in code](nothing.md)\n```\n",
+    "docs/page.md": "# Page\n\n## The second `part`, of [it](page.md)\n\n[up](#page)\n",
+}
+
+
+def check(folder):
+    return subprocess.run([SOURCE / "scripts/check_documents", folder], capture_output=True, text=True, check=False)
+
+
+class Documents(unittest.TestCase):
+    def told(self, **changed):
+        """The lines printed of the whole documents with some of them changed."""
+        with tempfile.TemporaryDirectory() as name:
+            for path, text in {**WHOLE, **changed}.items():
+                file = pathlib.Path(name) / path
+                file.parent.mkdir(parents=True, exist_ok=True)
+                file.write_text(text, encoding="utf-8")
+            done = check(name)
+        self.assertEqual(done.stderr, "")
+        return done.returncode, done.stdout.splitlines()
+
+    def test_the_projects_own_hold_together(self):
+        done = check(SOURCE)
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+    def test_whole_documents_pass(self):
+        self.assertEqual(self.told(), (0, ["4 documents hold together"]))
+
+    def test_a_link_to_nothing_is_told(self):
+        lines = self.told(**{"README.md": "\n[gone](docs/gone.md)\n"})
+        self.assertEqual(lines, (1, ["README.md:2: docs/gone.md leads nowhere"]))
+
+    def test_a_heading_that_is_not_there_is_told(self):
+        lines = self.told(**{"README.md": "[a page](docs/page.md#the-third-part)\n"})
+        self.assertEqual(lines, (1, ["README.md:1: docs/page.md has no heading #the-third-part"]))
+
+    def test_a_page_that_the_map_lacks_is_told(self):
+        lines = self.told(**{"docs/new.md": "# New\n"})
+        self.assertEqual(lines, (1, ["docs/README.md:1: new.md is not in the map"]))
+
+    def test_versions_that_differ_are_told(self):
+        code, lines = self.told(**{"CITATION.cff": "version: 1.2.2\n", "CHANGELOG.md": "# Changes\n"})
+        self.assertEqual(code, 1)
+        self.assertEqual(lines, ["CITATION.cff:1: version 1.2.2, where CMakeLists.txt has 1.2.3",
+                                 "CHANGELOG.md:1: version none, where CMakeLists.txt has 1.2.3"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -53,7 +53,7 @@ bool in_camera_space(const FrameBuildJob& job) {
   return found != job.baked.scalars.end() && found->second > 0.5F;
 }
 
-// What is read and what is drawn into are levels of one texture: only the one that is read can be reached.
+// The level that a coarser one is made from.
 void show_one_level(const gl::Texture& map, int level) {
   gl::api().TextureParameteri(map.name(), GL_TEXTURE_BASE_LEVEL, level);
   gl::api().TextureParameteri(map.name(), GL_TEXTURE_MAX_LEVEL, level);
@@ -205,7 +205,7 @@ void InstantMap::split(const FrameBuildJob& job, const gl::Program& program, std
       bind(0, texture_of(job, from)->texture);
       gl::api().UseProgram(whole_.coarsen.name());
       gl::api().Uniform1i(whole_.coarsen.uniform("first_layer"), own);
-      draw_into(whole_, parts, 0, own * parts_);
+      draw_into(whole_, parts, {parts.width(), parts.height()}, own * parts_);
     }
     bind(0, texture_of(job, whole_name)->texture);
     bind(1, texture_of(job, from)->texture);
@@ -213,18 +213,20 @@ void InstantMap::split(const FrameBuildJob& job, const gl::Program& program, std
     gl::api().Uniform1i(program.uniform("source"), own);
     for (int first = first_cut_; first < parts_; first += static_cast<int>(split_stage_.layers)) {
       gl::api().Uniform1i(program.uniform("first_part"), first);
-      draw_into(split_stage_, parts, 0, own * parts_ + first);
+      draw_into(split_stage_, parts, {parts.width(), parts.height()}, own * parts_ + first);
     }
   }
 }
 
-void InstantMap::draw_into(const Stage& stage, const gl::Texture& map, int level, int first_layer) const {
+// Draws a level of that size into the finest level of a texture, from a layer on.
+void InstantMap::draw_into(const Stage& stage, const gl::Texture& target, const glm::ivec2& size,
+                           int first_layer) const {
   for (GLuint i = 0; i < stage.layers; ++i) {
-    gl::api().NamedFramebufferTextureLayer(stage.framebuffer.name(), GL_COLOR_ATTACHMENT0 + i, map.name(), level,
+    gl::api().NamedFramebufferTextureLayer(stage.framebuffer.name(), GL_COLOR_ATTACHMENT0 + i, target.name(), 0,
                                            first_layer + static_cast<GLint>(i));
   }
   gl::api().BindFramebuffer(GL_FRAMEBUFFER, stage.framebuffer.name());
-  gl::api().Viewport(0, 0, std::max(map.width() >> level, 1), std::max(map.height() >> level, 1));
+  gl::api().Viewport(0, 0, size.x, size.y);
   gl::api().BindVertexArray(no_vertices_.name());
   gl::api().DrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -239,12 +241,15 @@ void InstantMap::coarsen(const FrameBuildJob& job, std::string_view name) const 
   bind(0, built->texture);
   for (int level = 1; level < levels; ++level) {
     show_one_level(built->texture, level - 1);
+    const glm::ivec2 size = glm::max(glm::ivec2(built->texture.width(), built->texture.height()) >> level, 1);
     for (int first = 0; first < layers;) {
       const Stage& stage = of_parts && first % parts_ >= first_cut_ ? split_stage_ : whole_;
       gl::api().UseProgram(stage.coarsen.name());
       gl::api().Uniform1i(stage.coarsen.uniform("first_layer"), first);
-      draw_into(stage, built->texture, level, first);
-      first += static_cast<int>(stage.layers);
+      const int drawn = static_cast<int>(stage.layers);
+      draw_into(stage, drawn_.make_room(built->texture, size.x, size.y, drawn), size, 0);
+      drawn_.copy_to(built->texture, level, first, drawn);
+      first += drawn;
     }
   }
   show_all_levels(built->texture, levels);

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "methods/xu_vmf/drawn_level.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/gl/objects.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
@@ -54,7 +55,7 @@ class InstantMap final : public FrameBuild {
   void split(const FrameBuildJob& job) const;
   void split(const FrameBuildJob& job, const gl::Program& program, std::string_view from, std::string_view to) const;
   void coarsen(const FrameBuildJob& job, std::string_view name) const;
-  void draw_into(const Stage& stage, const gl::Texture& map, int level, int first_layer) const;
+  void draw_into(const Stage& stage, const gl::Texture& target, const glm::ivec2& size, int first_layer) const;
 
   Options options_;
   EffectSet effects_;
@@ -67,6 +68,7 @@ class InstantMap final : public FrameBuild {
   std::optional<gl::Program> join_surface_, split_, split_guard_;
   Stage whole_, split_stage_;
   mutable SamplerCache samplers_;
+  mutable DrawnLevel drawn_;
 };
 
 }  // namespace footprint::xu_vmf

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <stdexcept>
 #include <utility>
 
@@ -93,8 +94,7 @@ ContextInfo describe(Backend backend) {
   info.max_texture_units = integer(GL_MAX_TEXTURE_IMAGE_UNITS);
   if (has_extension("GL_EXT_texture_filter_anisotropic") || has_extension("GL_ARB_texture_filter_anisotropic"))
     info.max_anisotropy = integer(GL_MAX_TEXTURE_MAX_ANISOTROPY);
-  info.software = std::ranges::any_of(std::array{"llvmpipe", "softpipe", "swrast", "Software Rasterizer"},
-                                      [&](const char* name) { return info.renderer.find(name) != std::string::npos; });
+  info.software = is_software_renderer(info.renderer);
   return info;
 }
 
@@ -111,6 +111,16 @@ std::unique_ptr<NativeContext> open_native(Backend backend, int device) {
 }
 
 }  // namespace
+
+bool is_software_renderer(std::string_view renderer) {
+  // zink names the Vulkan device that it draws by: lavapipe calls its own "llvmpipe", as "zink (llvmpipe (LLVM ...))".
+  constexpr std::array<std::string_view, 9> names = {"llvmpipe",   "lavapipe",    "softpipe", "swrast",
+                                                     "openswr",    "swiftshader", "software", "basic render driver",
+                                                     "gdi generic"};
+  std::string lower(renderer);
+  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::ranges::any_of(names, [&](std::string_view name) { return lower.find(name) != std::string::npos; });
+}
 
 const Functions& api() {
   if (current.functions == nullptr) throw std::logic_error("an OpenGL call where no context is current");

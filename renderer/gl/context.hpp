@@ -35,8 +35,12 @@ struct ContextInfo {
   int max_uniform_block_bytes = 0;
   int max_texture_units = 0;  ///< for the fragment stage
   int max_anisotropy = 1;     ///< probes of a sampler; 1: it has no anisotropic filter
-  bool software = false;      ///< llvmpipe, softpipe or swrast: timer queries mean nothing there
+  bool software = false;      ///< is_software_renderer: timer queries mean nothing there
 };
+
+/// Whether a GL_RENDERER draws on the processor: Mesa's software drivers, also below one that translates (zink over
+/// lavapipe, D3D12 over Microsoft's), SwiftShader, OpenSWR, and what calls itself software.
+[[nodiscard]] bool is_software_renderer(std::string_view renderer);
 
 /// Which context is wanted. The order is fixed, so that the same request gives the same backend on the same machine: a
 /// user who wants a GPU that only egl_device reaches asks for egl_device, though egl gives a software renderer.

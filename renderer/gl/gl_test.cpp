@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <map>
+#include <optional>
+#include <string>
 #include <thread>
 
 #include "renderer/core/error.hpp"
@@ -184,6 +187,28 @@ TEST(Backends, DrawTheSameImage) {
       EXPECT_NEAR(image[i], first[i], 1e-6) << name << " against " << first_name;
     }
   }
+}
+
+// OSMesa of Mesa 22.3 crashes where the variable names a driver that needs a device; nobody who sets it means OSMesa.
+TEST(Backends, OsMesaKeepsToItsOwnDriver) {
+  if (const auto reason = why_absent(Backend::osmesa); !reason.empty()) GTEST_SKIP() << reason;
+  const char* before = std::getenv("GALLIUM_DRIVER");
+  const std::optional<std::string> kept = before == nullptr ? std::nullopt : std::optional<std::string>(before);
+  setenv("GALLIUM_DRIVER", "zink", 1);
+  EXPECT_TRUE(Context({.backend = Backend::osmesa}).info().software);
+  EXPECT_STREQ(std::getenv("GALLIUM_DRIVER"), "zink") << "it is hidden for others too";
+  kept ? setenv("GALLIUM_DRIVER", kept->c_str(), 1) : unsetenv("GALLIUM_DRIVER");
+}
+
+TEST(SoftwareRenderers, AreKnownByMoreNamesThanOne) {
+  for (const char* name :
+       {"llvmpipe (LLVM 15.0.6, 256 bits)", "zink (llvmpipe (LLVM 15.0.6, 256 bits))", "softpipe", "Mesa swrast",
+        "ANGLE (Google, Vulkan 1.3.0 (SwiftShader Device (Subzero) (0x0000C0DE)), SwiftShader driver)",
+        "D3D12 (Microsoft Basic Render Driver)", "GDI Generic", "Apple Software Renderer", "Software Rasterizer"})
+    EXPECT_TRUE(is_software_renderer(name)) << name;
+  for (const char* name : {"NVIDIA H200/PCIe/SSE2", "AMD Radeon RX 6800 (radeonsi, navi21, LLVM 15.0.6, DRM 3.49)",
+                           "zink (NVIDIA GeForce RTX 3080)", "Mesa Intel(R) UHD Graphics 620 (KBL GT2)", "virgl", ""})
+    EXPECT_FALSE(is_software_renderer(name)) << name;
 }
 
 TEST(Backends, LiveSideBySide) {

@@ -2,7 +2,10 @@
 #include <dlfcn.h>
 
 #include <array>
+#include <cstdlib>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "renderer/core/error.hpp"
 #include "renderer/gl/native_context.hpp"
@@ -59,6 +62,27 @@ class Library {
   void* library_;
 };
 
+/// Hides GALLIUM_DRIVER where it names a driver other than OSMesa's own two, as long as it lives: OSMesa of Mesa 22.3
+/// takes any driver's word for it, and crashes on those that need a device (zink).
+class OwnDriverOnly {
+ public:
+  OwnDriverOnly() {
+    const char* named = std::getenv(variable);
+    if (named == nullptr || std::string_view(named) == "llvmpipe" || std::string_view(named) == "softpipe") return;
+    hidden_ = named;
+    unsetenv(variable);
+  }
+  OwnDriverOnly(const OwnDriverOnly&) = delete;
+  OwnDriverOnly& operator=(const OwnDriverOnly&) = delete;
+  ~OwnDriverOnly() {
+    if (hidden_) setenv(variable, hidden_->c_str(), 1);
+  }
+
+ private:
+  static constexpr const char* variable = "GALLIUM_DRIVER";
+  std::optional<std::string> hidden_;
+};
+
 class OsMesaContext final : public NativeContext {
  public:
   OsMesaContext() {
@@ -71,6 +95,7 @@ class OsMesaContext final : public NativeContext {
                                                osmesa_minor_version,
                                                5,
                                                0};
+    const OwnDriverOnly own_driver_only;
     context_ = library_.create_context(attributes.data(), nullptr);
     if (context_ == nullptr) fail("the library gives no OpenGL 4.5 core context");
   }

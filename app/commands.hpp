@@ -13,6 +13,7 @@ void add_recommend_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_run_command(CLI::App& app);
 void add_check_command(CLI::App& app);
+void add_merge_command(CLI::App& app);
 void add_animate_command(CLI::App& app);
 void add_edit_command(CLI::App& app);
 void add_bake_command(CLI::App& app);

@@ -48,7 +48,8 @@ Results compare_into(OutputFolder& folder, const RunSettings& settings, const Pr
   constexpr double weight = 10;  // of the main process's work, where a further process's is 1
   const int others = settings.timing.processes - 1;
   ProgressParts parts(progress, weight + others);
-  const auto further = times_of_processes(others, {}, folder.path(), parts.next(others, ""));
+  const Progress of_others = parts.next(others, "");
+  const FurtherTimes further = [&] { return times_of_processes(others, {}, folder.path(), of_others); };
   Results results = run_compare(settings, folder.path(), further, parts.next(weight, ""));
   keep_results(results, folder, write_report);
   return results;

@@ -43,6 +43,7 @@ void run(int argc, const char* const* argv) {
   footprint::add_edit_command(app);
   footprint::add_run_command(app);
   footprint::add_check_command(app);
+  footprint::add_merge_command(app);
   footprint::add_bake_command(app);
   footprint::add_explain_command(app);
   footprint::add_ndf_command(app);

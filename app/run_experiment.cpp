@@ -2,23 +2,25 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <utility>
+#include <system_error>
 
+#include "app/asked_experiments.hpp"
 #include "app/commands.hpp"
-#include "app/folders.hpp"
+#include "app/experiment_runs.hpp"
 #include "app/hard_cases.hpp"
-#include "app/output.hpp"
+#include "app/messages.hpp"
+#include "app/part_file.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
 #include "app/standard_output.hpp"
 #include "app/timing_process.hpp"
 #include "experiments/runner/run_experiment.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/files.hpp"
-#include "results/report/report.hpp"
+#include "renderer/core/host.hpp"
 
 namespace footprint {
 namespace {
@@ -33,6 +35,8 @@ constexpr const char* run_examples =
     "  footprint run tan2005_fig4 -o out            the figures beside the published ones, and the claims\n"
     "  footprint run tan2005_fig4 --quick -o out    a quarter of the size: whether it runs and how it looks\n"
     "  footprint run xu2017_table1 --processes 5 -o out    times over five processes\n"
+    "  footprint run engine_constants --only ggx -o out    of its members those that are called so\n"
+    "  footprint run cells --shard 1/4 -o parts/1          a quarter of it, for `footprint merge parts/* -o out`\n"
     "  footprint run mine.toml -o out";
 
 constexpr const char* check_examples =
@@ -50,7 +54,10 @@ struct ExperimentArguments {
   RunOptions run;
   std::string experiment;
   std::string output = "out";
+  std::string only;
+  std::string shard;  // empty: all of it
   bool quick = false;
+  bool fresh = false;
   bool wide = false;          // hard_cases: every storage in every case
   std::string timing_file;    // not empty: this is a process that only takes times
   std::string timing_member;  // and of this experiment alone
@@ -61,49 +68,29 @@ void add_options(CLI::App& command, ExperimentArguments& arguments) {
   command.add_option("experiment", arguments.experiment, "What to run")->required();
   command
       .add_option("-o,--output", arguments.output,
-                  "Folder for results.json, results.csv, table.md, index.html, images/")
+                  "Folder for results.json, results.csv, table.md, index.html, images/, and kept/: finished work, from "
+                  "which a run that was interrupted goes on")
       ->capture_default_str();
+  command
+      .add_option("--only", arguments.only, "Of an experiment's members those whose names match (a regular expression)")
+      ->type_name("REGEX");
+  command.add_flag("--fresh", arguments.fresh,
+                   "Measure everything anew: forget the finished work in the output folder");
   command.add_option(timing_file_option, arguments.timing_file)->group("");  // no part of the help
   command.add_option(timing_member_option, arguments.timing_member)->group("");
   add_quiet_flag(command, arguments.quiet);
 }
 
-Results run_into(const Experiment& experiment, OutputFolder& folder, const Progress& progress) {
-  constexpr double weight = 10;  // of the main process's work, where a further process's is 1
-  const int others = experiment.run.timing.processes - 1;
-  ProgressParts parts(progress, weight + others);
-  const auto further =
-      times_of_processes(others, {timing_member_option, experiment.name}, folder.path(), parts.next(others, ""));
-  Results results = run_experiment(experiment, further, folder.path(), parts.next(weight, ""));
-  keep_results(results, folder, write_report);
-  return results;
-}
-
-// The experiment of a file, run as the command line asks.
-Experiment asked_experiment(const std::filesystem::path& file, const ExperimentArguments& arguments) {
-  Experiment experiment = read_experiment(file);
-  arguments.run.apply(experiment.run);
-  if (arguments.quick) make_quick(experiment);
-  return experiment;
-}
-
-// The experiments to run: the one that is named, or its members, none of which has members of its own.
-std::vector<Experiment> asked_experiments(const ExperimentArguments& arguments) {
-  const Experiment named = asked_experiment(find_experiment(arguments.experiment, experiments_folder()), arguments);
-  if (named.members.empty()) return {named};
-  std::vector<Experiment> members;
-  for (const std::filesystem::path& file : named.members) {
-    members.push_back(asked_experiment(file, arguments));
-    if (members.back().members.empty()) continue;
-    throw Error(ErrorKind::usage, named.file.string(), fmt::format("its member {} has members", members.back().name),
-                "name those instead");
-  }
-  return members;
+AskedExperiments asked(const ExperimentArguments& arguments) {
+  return ask_experiments({.experiment = arguments.experiment,
+                          .only = arguments.only,
+                          .quick = arguments.quick,
+                          .apply = [&](RunSettings& run) { arguments.run.apply(run); }});
 }
 
 // What a further process does: times the frames of one member.
 void take_times(const ExperimentArguments& arguments) {
-  for (const Experiment& experiment : asked_experiments(arguments)) {
+  for (const Experiment& experiment : asked(arguments).experiments) {
     if (experiment.name != arguments.timing_member) continue;
     return write_frame_times(arguments.timing_file, time_frames(experiment.run, no_progress));
   }
@@ -111,23 +98,53 @@ void take_times(const ExperimentArguments& arguments) {
               "it is for processes that this program starts itself");
 }
 
+KeptWork finished_work(const AskedExperiments& asked, const ExperimentArguments& arguments) {
+  KeptWork kept(kept_folder(arguments.output), maker_for(asked.experiments.front().run));
+  if (arguments.fresh) kept.clear();
+  return kept;
+}
+
 // Runs the experiment, or each of its members into a folder of its own, prints the tables and gives what fell short.
-std::vector<std::string> run_and_print(const ExperimentArguments& arguments) {
-  const std::vector<Experiment> experiments = asked_experiments(arguments);
-  std::vector<std::string> shortfalls;
-  for (const Experiment& experiment : experiments) {
-    const std::filesystem::path output = arguments.output;
-    ProgressDisplay display(progress_style(arguments.quiet));
-    const auto [results, path] =
-        write_whole(experiments.size() > 1 ? output / experiment.name : output,
-                    [&](OutputFolder& folder) { return run_into(experiment, folder, display.callback()); });
-    display.finish();
-    print_results(results, path);
-    for (const std::string& line : results.experiment->shortfalls()) {
-      shortfalls.push_back(experiments.size() > 1 ? experiment.name + ": " + line : line);
-    }
-  }
+std::vector<std::string> run_all(const ExperimentArguments& arguments) {
+  const AskedExperiments experiments = asked(arguments);
+  const KeptWork kept = finished_work(experiments, arguments);
+  std::vector<std::string> shortfalls = run_and_print(experiments, arguments.output, kept, arguments.quiet);
+  if (kept.found() > 0 && !arguments.quiet)
+    write_message(fmt::format("{} finished parts of an earlier run were taken from {} (--fresh: measure anew)",
+                              kept.found(), kept.folder().string()));
   return shortfalls;
+}
+
+// Runs one part; `part.json` says that it is whole, and is there only then.
+void run_shard(const ExperimentArguments& arguments) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Shard shard = parse_shard(arguments.shard);
+  const AskedExperiments experiments = asked(arguments);
+  const std::filesystem::path output = arguments.output;
+  const KeptWork kept = finished_work(experiments, arguments);
+  std::error_code none;
+  std::filesystem::remove(output / "part.json", none);
+  run_part(experiments, shard, output, kept, arguments.quiet);
+  const RunSettings& run = experiments.experiments.front().run;
+  std::filesystem::create_directories(output);
+  write_part_file(output, {.experiment = std::filesystem::absolute(experiments.file).lexically_normal().string(),
+                           .fingerprint = experiments.fingerprint,
+                           .maker = kept.maker(),
+                           .shard = shard,
+                           .only = arguments.only,
+                           .quick = arguments.quick,
+                           .processes = run.timing.processes,
+                           .tile = run.backend.tile,
+                           .node = host_name(),
+                           .seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
+                           .keys = kept.used()});
+  write_output(fmt::format("part {} of {}: {}\n", shard.index, shard.count, output.string()));
+}
+
+void run(const ExperimentArguments& arguments) {
+  if (!arguments.timing_file.empty()) return take_times(arguments);
+  if (!arguments.shard.empty()) return run_shard(arguments);
+  (void)run_all(arguments);
 }
 
 void check(const ExperimentArguments& arguments) {
@@ -138,7 +155,7 @@ void check(const ExperimentArguments& arguments) {
                              .quiet = arguments.quiet});
   }
   if (!arguments.timing_file.empty()) return take_times(arguments);
-  const std::vector<std::string> shortfalls = run_and_print(arguments);
+  const std::vector<std::string> shortfalls = run_all(arguments);
   if (shortfalls.empty()) return;
   std::string list;
   for (const std::string& line : shortfalls) list += "fell short: " + line + "\n";
@@ -157,10 +174,9 @@ void add_run_command(CLI::App& app) {
   add_options(*command, *arguments);
   command->add_flag("--quick", arguments->quick, "A quarter of the size and few samples: no measurement");
   command->footer(std::string(experiment_words) + run_examples);
-  command->callback([arguments] {
-    if (!arguments->timing_file.empty()) return take_times(*arguments);
-    (void)run_and_print(*arguments);
-  });
+  command->add_option("--shard", arguments->shard, "Run part I of N into the output folder, for `footprint merge`")
+      ->type_name("I/N");
+  command->callback([arguments] { run(*arguments); });
 }
 
 void add_check_command(CLI::App& app) {

@@ -19,6 +19,7 @@
 #include "renderer/core/file_names.hpp"
 #include "renderer/core/suggest.hpp"
 #include "renderer/core/toml_table.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
 #include "renderer/scene/settings/scene.hpp"
 
 namespace footprint {
@@ -337,6 +338,35 @@ Experiment read_experiment(const fs::path& file) {
   read_thresholds(root, experiment);
   if (const auto figure = root.table("figure", {"crop", "inset", "row"})) read_figure(*figure, experiment);
   return experiment;
+}
+
+void check_against_scene(const Experiment& experiment) {
+  const RunSettings& run = experiment.run;
+  if (!given_distances(run.view).empty()) return;  // known when the file was read
+  Experiment known = experiment;
+  known.run.view.distances = read_scene(run.scene, run.scene_library, run.overrides).settings.distances;
+  const std::string file = experiment.file.string();
+  const auto check = [&](const Expression& expression) {
+    try {
+      check_measures(expression, known);
+    } catch (const Error& error) {
+      throw error.within(file);
+    }
+  };
+  for (const Claim& claim : experiment.claims) {
+    check(claim.inequality.left());
+    check(claim.inequality.right());
+  }
+  for (const Threshold& threshold : experiment.thresholds) check(threshold.measure);
+  for (const PublishedValue& published : experiment.published) check(published.measure);
+  const std::size_t frames = known.run.view.distances.size();
+  for (const auto& row : experiment.figure.rows) {
+    for (const FigurePicture& picture : row) {
+      if (picture.frame < frames) continue;
+      throw Error(ErrorKind::usage, file, fmt::format("[figure] shows frame {}", picture.frame),
+                  "the scene's zoom path is shorter: give [zoom] distances, or show an earlier frame");
+    }
+  }
 }
 
 }  // namespace footprint

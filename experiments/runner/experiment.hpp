@@ -96,4 +96,8 @@ struct Experiment {
 /// not exist.
 [[nodiscard]] Experiment read_experiment(const std::filesystem::path& file);
 
+/// What only the scene's own zoom path tells of an experiment that gives no distances: that it has every distance and
+/// frame that is asked for. Errors (usage) name the file and the call or the frame; those of read_scene.
+void check_against_scene(const Experiment& experiment);
+
 }  // namespace footprint

@@ -271,6 +271,7 @@ class Evaluator {
 
   Evaluation run(const Node& node) {
     found_.value = value(node);
+    if (found_.problem.empty()) found_.problem = trouble_with(found_.nodes);
     if (!found_.problem.empty()) found_.value.reset();
     if (found_.value && std::isnan(*found_.value)) {
       found_.value.reset();
@@ -316,6 +317,7 @@ class Evaluator {
     if (std::ranges::find(found_.calls, text, &MeasuredCall::text) == found_.calls.end()) {
       found_.calls.push_back({.text = text, .value = *answer.value, .at_noise_floor = answer.at_noise_floor});
     }
+    found_.nodes.insert(answer.nodes.begin(), answer.nodes.end());
     return *answer.value;
   }
 

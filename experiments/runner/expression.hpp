@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@ struct Evaluation {
   std::optional<double> value;
   std::string problem;
   std::vector<MeasuredCall> calls;
+  std::set<std::string> nodes{};  ///< the machines that times in it were taken on; of several there is a problem
 };
 
 /// `2 * error(toksvig, distance=4) - 0.01`: numbers, calls, `abs(...)`, + - * /, unary minus, parentheses.

@@ -117,7 +117,7 @@ TEST(Expression, WhatIsRebuiltEachFrameIsTakenApartFromTheShading) {
 
 TEST(Expression, PlainSupersamplingIsTimedByItsCountOfSamples) {
   Results results = two_frames();
-  results.supersampling = {{1.0, 16, 0.1, {}, 20.0}, {1.0, 64, 0.0, {}, 80.0}, {2.5, 64, 0.0, {}, 40.0}};
+  results.supersampling = {{1.0, 16, 0.1, {}, 20.0, "m"}, {1.0, 64, 0.0, {}, 80.0, "m"}, {2.5, 64, 0.0, {}, 40.0, "m"}};
   const auto value = [&](const std::string& text) { return Expression(text, "").evaluate(results).value; };
   EXPECT_EQ(value("supersampling_time(a, spp=64)"), 60.0);
   EXPECT_EQ(value("supersampling_time(a, spp=64, distance=2.5)"), 40.0);
@@ -125,6 +125,21 @@ TEST(Expression, PlainSupersamplingIsTimedByItsCountOfSamples) {
   EXPECT_EQ(value("supersampling_time(a, spp=4)"), std::nullopt);
   EXPECT_EQ(value("supersampling_time(a)"), std::nullopt);
   EXPECT_NE(complaint("supersampling_time(a, frame=1)").find("selects nothing"), std::string::npos);
+}
+
+TEST(Expression, TimesOfSeveralMachinesAreNoFigureAndRatiosAre) {
+  Results results = two_frames();
+  for (Record& record : results.records) record.node = record.frame == 0 ? "one" : "two";
+  results.supersampling = {{1.0, 16, 0.1, {}, 20.0, "one"}, {2.5, 16, 0.1, {}, 20.0, "two"}};
+  const auto evaluated = [&](const std::string& text) { return Expression(text, "").evaluate(results); };
+  for (const char* const text : {"time(a)", "fps(a)", "shading(a)", "total(a)", "supersampling_time(a, spp=16)",
+                                 "time(a, frame=0) / time(b, frame=1)"}) {
+    EXPECT_FALSE(evaluated(text).value) << text;
+    EXPECT_NE(evaluated(text).problem.find("taken on 2 machines (one, two)"), std::string::npos) << text;
+  }
+  for (const char* const text : {"time(a, frame=0)", "time(a, frame=0) / time(b, frame=0)", "ratio(a)", "error(a)",
+                                 "supersampling_time(a, spp=16, distance=1)"})
+    EXPECT_TRUE(evaluated(text).value) << text << ": " << evaluated(text).problem;
 }
 
 TEST(Expression, ABoundOfTheCurveCountsAsItsEnd) { EXPECT_DOUBLE_EQ(value_of("equivalent_spp(a)"), 64); }

@@ -94,6 +94,7 @@ using Evaluate = decltype(FigureFunction::evaluate);
 struct Sample {
   Figure value;
   bool at_noise_floor = false;
+  std::string node{};  // of a time
 };
 
 Measured no_figure(std::string problem) { return {.value = {}, .problem = std::move(problem)}; }
@@ -115,6 +116,7 @@ Evaluate over_samples(std::function<Sample(const Measure&, const Record&)> sampl
                                                                   const Results& results) {
     double sum = 0;
     std::size_t count = 0, noisy = 0, matching = 0;
+    std::set<std::string> nodes;
     for (const Record& record : results.records) {
       if (!selects(measure, method, record)) continue;
       ++matching;
@@ -123,11 +125,13 @@ Evaluate over_samples(std::function<Sample(const Measure&, const Record&)> sampl
       sum += *found.value;
       ++count;
       noisy += found.at_noise_floor ? 1 : 0;
+      if (!found.node.empty()) nodes.insert(found.node);
     }
     if (matching == 0) return no_figure("the run has no such record");
     if (count == 0) return no_figure(absent);
     Measured mean = mean_of(sum, count);
     mean.at_noise_floor = noisy == count;
+    mean.nodes = std::move(nodes);
     return mean;
   };
 }
@@ -136,6 +140,13 @@ Evaluate over_records(std::function<Figure(const Record&)> figure, std::string a
   return over_samples([figure = std::move(figure)](const Measure& /*measure*/,
                                                    const Record& record) { return Sample{.value = figure(record)}; },
                       std::move(absent));
+}
+
+// A time, which belongs to the machine that it was taken on.
+Evaluate over_times(std::function<Figure(const Record&)> time) {
+  return over_samples([time = std::move(time)](const Measure& /*measure*/,
+                                               const Record& r) { return Sample{.value = time(r), .node = r.node}; },
+                      "no record has this figure");
 }
 
 Evaluate over_errors(double RecordError::*member) {
@@ -189,12 +200,17 @@ Evaluate over_footprints(double FootprintNdf::*member) {
 Measured supersampling_ms(const Measure& measure, const std::string& /*method*/, const Results& results) {
   double sum = 0;
   std::size_t count = 0;
+  std::set<std::string> nodes;
   for (const SupersamplingPoint& point : results.supersampling) {
     if (point.spp != measure.spp || (measure.distance && point.distance != *measure.distance)) continue;
     sum += point.ms;
     ++count;
+    if (!point.node.empty()) nodes.insert(point.node);
   }
-  return count > 0 ? mean_of(sum, count) : no_figure("no such count of samples was timed");
+  if (count == 0) return no_figure("no such count of samples was timed");
+  Measured mean = mean_of(sum, count);
+  mean.nodes = std::move(nodes);
+  return mean;
 }
 
 Measured quantity_figure(const Measure& measure, const std::string& method, const Results& results) {
@@ -235,12 +251,12 @@ std::vector<FigureFunction> function_table() {
        over_records([](const Record& r) { return r.equivalent ? Figure(r.equivalent->spp) : Figure(); })},
       {"flicker", records, a_zoom, over_flicker(&Flicker::mean)},
       {"flicker_p99", records, a_zoom, over_flicker(&Flicker::p99)},
-      {"time", records, nothing, over_records([](const Record& r) { return r.frame_ms.median; })},
-      {"fps", records, nothing, over_records([](const Record& r) { return r.fps; })},
+      {"time", records, nothing, over_times([](const Record& r) { return r.frame_ms.median; })},
+      {"fps", records, nothing, over_times([](const Record& r) { return r.fps; })},
       {"build", records, nothing,
-       over_records([](const Record& r) { return r.frame_build ? Figure(r.frame_build->ms) : Figure(); })},
-      {"shading", records, nothing, over_records(shading_ms)},
-      {"total", records, nothing, over_records([](const Record& r) { return shading_ms(r) + build_ms(r); })},
+       over_times([](const Record& r) { return r.frame_build ? Figure(r.frame_build->ms) : Figure(); })},
+      {"shading", records, nothing, over_times(shading_ms)},
+      {"total", records, nothing, over_times([](const Record& r) { return shading_ms(r) + build_ms(r); })},
       {"supersampling_time", {distance, spp}, a_timed_count, supersampling_ms},
       {"ratio", records, nothing, over_records([](const Record& r) { return r.ratio_to_direct.median; })},
       {"precompute", records, nothing,
@@ -271,6 +287,12 @@ std::string_view selector_name(Selector selector) {
       break;
   }
   return "name";
+}
+
+std::string trouble_with(const std::set<std::string>& nodes) {
+  if (nodes.size() < 2) return {};
+  return fmt::format("its times were taken on {} machines ({}): compare ratios to direct", nodes.size(),
+                     fmt::join(nodes, ", "));
 }
 
 std::span<const FigureFunction> figure_functions() {

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,9 +26,14 @@ enum class Selector { distance, frame, spp, footprint, name };
 /// What a run says to a measure.
 struct Measured {
   std::optional<double> value;
-  std::string problem;          ///< why there is none
-  bool at_noise_floor = false;  ///< an error that the reference's own noise explains, in every record that counts
+  std::string problem;            ///< why there is none
+  bool at_noise_floor = false;    ///< an error that the reference's own noise explains, in every record that counts
+  std::set<std::string> nodes{};  ///< of a time: the machines that it was taken on
 };
+
+/// Why times of these machines are no figure; empty where they are of one. Times of two machines say nothing of each
+/// other: what compares across machines is `ratio`, each formed on one.
+[[nodiscard]] std::string trouble_with(const std::set<std::string>& nodes);
 
 /// A function of a method's figures: a row of the table.
 struct FigureFunction {

@@ -2,7 +2,11 @@
 #include "experiments/runner/judge.hpp"
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <utility>
+
+#include "experiments/runner/functions.hpp"
 
 namespace footprint {
 namespace {
@@ -29,7 +33,10 @@ ClaimOutcome outcome_of(const Claim& claim, const Results& results) {
                        .figures = {}};
   add_figures(left, outcome.figures);
   add_figures(right, outcome.figures);
-  if (left.value && right.value) {
+  std::set<std::string> nodes = left.nodes;
+  nodes.insert(right.nodes.begin(), right.nodes.end());
+  if (outcome.problem.empty()) outcome.problem = trouble_with(nodes);
+  if (outcome.problem.empty() && left.value && right.value) {
     const bool holds = claim.inequality.holds(*left.value, *right.value);
     outcome.outcome = holds ? Verdict::reproduced : Verdict::not_reproduced;
   }

@@ -1,13 +1,18 @@
 // Runs an experiment's comparison, and adds NDFs, quantities and composed figures to its results.
 #include "experiments/runner/run_experiment.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
+#include <optional>
 
 #include "experiments/runner/composed_figure.hpp"
 #include "experiments/runner/judge.hpp"
 #include "experiments/runner/quantities.hpp"
+#include "experiments/studies/kept_comparison.hpp"
 #include "experiments/studies/ndf_inspection.hpp"
+#include "experiments/studies/zoom.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 
 namespace footprint {
@@ -18,29 +23,104 @@ constexpr int quick_repeats = 3;
 constexpr int quick_divisor = 4;
 constexpr int quick_default = 128;  // pixels a side where the experiment gives no size
 
-// Looks into the footprints, each in a folder NDF/NAME of its own, and adds the figures to the results.
-void inspect_footprints(const Experiment& experiment, const std::filesystem::path& folder, Results& results,
-                        const Progress& progress) {
-  if (experiment.footprints.empty()) return;
-  const NdfSource source = load_ndf_source(experiment.run.scene, "", experiment.run.scene_library);
-  ProgressParts parts(progress, static_cast<double>(experiment.footprints.size()));
-  for (const NamedFootprint& footprint : experiment.footprints) {
-    const std::string subfolder = "ndf/" + footprint.name;
-    std::filesystem::create_directories(folder / subfolder / "images");
-    const NdfSettings wanted{.run = experiment.run, .footprint = footprint.rect};
-    const NdfResults found =
-        inspect_ndf(source, wanted, folder / subfolder, parts.next(1, "footprint " + footprint.name + ": "));
-    for (const NdfRecord& record : found.records) {
-      results.ndf.push_back({.footprint = footprint.name,
-                             .method = record.method,
-                             .l2 = record.l2,
-                             .energy = record.energy,
-                             .peak = record.peak,
-                             .lobes = record.lobes,
-                             .picture = subfolder + "/" + found.strip});
-    }
+// Looks into one footprint, in a folder ndf/NAME of its own.
+std::vector<FootprintNdf> inspected(const Experiment& experiment, const NdfSource& source,
+                                    const NamedFootprint& footprint, const std::filesystem::path& folder,
+                                    const Progress& progress) {
+  const std::string subfolder = "ndf/" + footprint.name;
+  std::filesystem::create_directories(folder / subfolder / "images");
+  const NdfSettings wanted{.run = experiment.run, .footprint = footprint.rect};
+  const NdfResults found = inspect_ndf(source, wanted, folder / subfolder, progress);
+  std::vector<FootprintNdf> figures;
+  for (const NdfRecord& record : found.records) {
+    figures.push_back({.footprint = footprint.name,
+                       .method = record.method,
+                       .l2 = record.l2,
+                       .energy = record.energy,
+                       .peak = record.peak,
+                       .lobes = record.lobes,
+                       .picture = subfolder + "/" + found.strip});
   }
+  return figures;
 }
+
+// The files of a folder below `folder`, relative to that.
+std::vector<std::string> files_below(const std::filesystem::path& folder, const std::string& subfolder) {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / subfolder)) {
+    if (entry.is_regular_file()) files.push_back(entry.path().lexically_relative(folder).string());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+bool looks_further(const Experiment& experiment) {
+  return !experiment.footprints.empty() || !experiment.quantities.empty();
+}
+
+// What an experiment asks for beside its comparison: NDFs and quantities, each kept on its own.
+class FurtherFigures {
+ public:
+  FurtherFigures(const Experiment& experiment, const std::filesystem::path& folder, const KeptWork* kept)
+      : experiment_(experiment),
+        folder_(folder),
+        kept_(kept),
+        scene_(load_scene(experiment.run.scene, experiment.run.scene_library, experiment.run.overrides)) {
+    if (kept_ != nullptr) keys_.emplace(*kept_, experiment.run, scene_, run_distances(experiment.run.view, scene_));
+  }
+
+  void add_to(Results& results, const Progress& progress) {
+    ProgressParts parts(progress, static_cast<double>(experiment_.footprints.size() + 1));
+    for (const NamedFootprint& footprint : experiment_.footprints)
+      std::ranges::move(ndf_of(footprint, parts.next(1, "footprint " + footprint.name + ": ")),
+                        std::back_inserter(results.ndf));
+    if (!experiment_.quantities.empty()) results.quantities = quantities(parts.next(1, ""));
+  }
+
+ private:
+  std::vector<FootprintNdf> ndf_of(const NamedFootprint& footprint, const Progress& progress) {
+    const auto& [lower, upper] = footprint.rect;
+    const std::string key =
+        key_of("ndf", {footprint.name, fmt::format("{} {} {} {}", lower.x, lower.y, upper.x, upper.y)});
+    if (auto known = found<std::vector<FootprintNdf>>(key)) return *known;
+    const NdfSource source = load_ndf_source(experiment_.run.scene, "", experiment_.run.scene_library);
+    std::vector<FootprintNdf> figures = inspected(experiment_, source, footprint, folder_, progress);
+    if (kept_ != nullptr) kept_->keep(key, figures, folder_, files_below(folder_, "ndf/" + footprint.name));
+    return figures;
+  }
+
+  std::vector<QuantityFigure> quantities(const Progress& progress) {
+    std::vector<std::string> asked;
+    for (const NamedQuantity& quantity : experiment_.quantities) {
+      asked.push_back(fmt::format("{} {} {}", quantity.name, quantity.quantity, quantity.material));
+      for (const auto& [name, value] : quantity.parameters) asked.push_back(name + "=" + value);
+    }
+    const std::string key = key_of("quantities", asked);
+    if (auto known = found<std::vector<QuantityFigure>>(key)) return *known;
+    std::vector<QuantityFigure> figures = measure_quantities(experiment_, scene_, progress);
+    if (kept_ != nullptr) kept_->keep(key, figures, folder_);
+    return figures;
+  }
+
+  [[nodiscard]] std::string key_of(std::string_view kind, const std::vector<std::string>& more) const {
+    return keys_ ? keys_->of_scene(kind, more) : "";
+  }
+
+  // Errors (usage): it is not kept, where all of it must be.
+  template <class T>
+  std::optional<T> found(const std::string& key) const {
+    if (kept_ == nullptr) return {};
+    auto known = kept_->find<T>(key, folder_);
+    if (!known) kept_->require_more_allowed(experiment_.run.scene);
+    return known;
+  }
+
+  const Experiment& experiment_;
+  const std::filesystem::path& folder_;
+  const KeptWork* kept_;
+  Scene scene_;
+  std::optional<ComparisonKeys> keys_;  // where work is kept
+};
 
 // The pictures of all footprints, each once.
 std::vector<std::string> ndf_pictures(const Results& results) {
@@ -61,21 +141,41 @@ void make_quick(Experiment& experiment) {
   run.view.size = run.view.size ? glm::max(*run.view.size / quick_divisor, glm::ivec2(1)) : glm::ivec2(quick_default);
 }
 
-Results run_experiment(const Experiment& experiment, std::span<const FrameTimes> further_times,
-                       const std::filesystem::path& folder, const Progress& progress) {
-  const bool looks_further = !experiment.footprints.empty() || !experiment.quantities.empty();
-  ProgressParts parts(progress, looks_further ? 6 : 4);
-  Results results = run_compare(experiment.run, folder, further_times, parts.next(4, ""));
-  inspect_footprints(experiment, folder, results, parts.next(1, ""));
-  if (!experiment.quantities.empty()) {
-    const Scene scene = load_scene(experiment.run.scene, experiment.run.scene_library, experiment.run.overrides);
-    results.quantities = measure_quantities(experiment, scene, parts.next(1, ""));
-  }
+Results run_experiment(const Experiment& experiment, const FurtherTimes& further_times,
+                       const std::filesystem::path& folder, const Progress& progress, const KeptWork* kept) {
+  ProgressParts parts(progress, looks_further(experiment) ? 6 : 4);
+  Results results = run_compare(experiment.run, folder, further_times, parts.next(4, ""), nullptr, kept);
+  if (looks_further(experiment)) FurtherFigures(experiment, folder, kept).add_to(results, parts.next(2, ""));
   results.experiment = judge(experiment, results);
   results.experiment->quick = experiment.quick;
   results.experiment->pictures = write_figures(experiment.figure, experiment, results, folder);
   std::ranges::copy(ndf_pictures(results), std::back_inserter(results.experiment->pictures));
   return results;
+}
+
+std::vector<WorkUnit> work_units(const Experiment& experiment) {
+  const RunSettings& run = experiment.run;
+  std::size_t count = given_distances(run.view).size();
+  if (count == 0) {
+    Scene with_distances;  // all that a zoom path asks of a scene
+    with_distances.distances = read_scene(run.scene, run.scene_library, run.overrides).settings.distances;
+    count = run_distances(run.view, with_distances).size();
+  }
+  std::vector<WorkUnit> units;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i == 0 || run.view.zoom.frames == 0) units.emplace_back();
+    units.back().distances.push_back(i);
+  }
+  if (looks_further(experiment)) units.emplace_back();
+  return units;
+}
+
+void measure_unit(const Experiment& experiment, const WorkUnit& unit, const FurtherTimes& further_times,
+                  const std::filesystem::path& folder, const Progress& progress, const KeptWork& kept) {
+  if (!unit.distances.empty())
+    return measure_distances(experiment.run, unit.distances, folder, further_times, kept, progress);
+  Results figures;
+  FurtherFigures(experiment, folder, &kept).add_to(figures, progress);
 }
 
 }  // namespace footprint

@@ -1,4 +1,5 @@
-// One comparison from its stage to its records: each distance in turn, then what all of them share.
+// One comparison from its stage to its records: each distance in turn, as far as it is not kept, then what all of them
+// share.
 #include "experiments/studies/compare.hpp"
 
 #include <fmt/format.h>
@@ -7,10 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <memory>
 #include <utility>
 
 #include "experiments/studies/error_pictures.hpp"
 #include "experiments/studies/exposure.hpp"
+#include "experiments/studies/kept_comparison.hpp"
 #include "experiments/studies/method_pairs.hpp"
 #include "experiments/studies/method_record.hpp"
 #include "experiments/studies/picture_files.hpp"
@@ -19,6 +22,8 @@
 #include "experiments/studies/stage.hpp"
 #include "experiments/studies/truth.hpp"
 #include "experiments/studies/zoom.hpp"
+#include "renderer/core/host.hpp"
+#include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/unresolved.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
@@ -48,37 +53,50 @@ double weight_of_methods(const RunSettings& settings) {
   return static_cast<double>(settings.methods.size()) * (settings.reference.spp + settings.timing.repeats);
 }
 
+// One distance of a comparison, as far as it is known.
+struct DistanceWork {
+  std::optional<KeptTruth> truth;
+  std::vector<std::optional<Draft>> drafts;  // one a method, without times
+  std::optional<std::vector<MethodPair>> pairs;
+  std::optional<KeptTimes> times;
+
+  [[nodiscard]] bool is_drawn() const {
+    return truth && pairs && std::ranges::all_of(drafts, [](const auto& draft) { return draft.has_value(); });
+  }
+};
+
 class Comparison {
  public:
-  Comparison(const RunSettings& settings, std::filesystem::path folder, const Progress& progress)
+  Comparison(const RunSettings& settings, std::filesystem::path folder, const Progress& progress, const KeptWork* kept)
       : settings_(settings),
         folder_(std::move(folder)),
+        kept_(kept),
         whole_(progress, 4),
-        stage_(load_scene(settings.scene, settings.scene_library, settings.overrides), with_direct(settings),
-               whole_.next(1, ""), pictures_of_a_frame, filter_of_the_unit),
-        distances_(run_distances(settings.view, stage_.scene())),
+        scene_(load_scene(settings.scene, settings.scene_library, settings.overrides)),
+        size_(frame_size(scene_, settings.view.size)),
+        distances_(run_distances(settings.view, scene_)),
+        stage_progress_(whole_.next(1, "")),
         parts_(whole_.next(3, ""),
-               static_cast<double>(distances_.size()) * (TruthFinder::weight(settings) + weight_of_methods(settings))),
-        measurer_(stage_) {
-    require_pictures(stage_.view(1.0).size, pictures_held(settings.methods.size(), distances_.size()));
+               static_cast<double>(distances_.size()) * (TruthFinder::weight(settings) + weight_of_methods(settings))) {
+    require_pictures(size_, pictures_held(settings.methods.size(), distances_.size()));
+    if (kept_ != nullptr) keys_.emplace(*kept_, settings_, scene_, distances_);
   }
 
-  Results run(std::span<const FrameTimes> further_times, SharedTruth* shared) {
+  Results run(const FurtherTimes& further_times, SharedTruth* shared) {
+    further_ = &further_times;
+    shared_ = shared;
     std::filesystem::create_directories(folder_ / "images");
-    TruthFinder finder(
-        settings_, stage_, folder_, [this](const Image& first) { return choose(first); }, parts_, shared);
-    results_.scene.warnings = finder.warnings();
-    for (std::size_t i = 0; i < distances_.size(); ++i) {
-      Truth truth = finder.find(i, distances_[i]);
-      for (std::size_t m = 0; m < settings_.methods.size(); ++m) drafts_.push_back(compare_method(truth, m));
-      std::ranges::move(compare_pairs(folder_, drafts_at(i), truth, exposure_.factor),
-                        std::back_inserter(results_.pairs));
-      time_records(i, further_times);
-      keep(std::move(truth));
-    }
+    for (std::size_t i = 0; i < distances_.size(); ++i) add(i, measured(i));
     finish_error_pictures();
-    describe(static_cast<int>(further_times.size()) + 1);
+    describe();
     return std::move(results_);
+  }
+
+  void measure(std::span<const std::size_t> wanted, const FurtherTimes& further_times) {
+    further_ = &further_times;
+    std::filesystem::create_directories(folder_ / "images");
+    for (const std::size_t i : wanted) add(i, measured(i));
+    (void)head();
   }
 
   FrameTimes times() {
@@ -88,11 +106,126 @@ class Comparison {
   }
 
  private:
-  [[nodiscard]] const StagedMethod& method(std::size_t index) const { return stage_.methods()[index + 1]; }
+  // ---- what is made where something is to be drawn, and not before
+
+  const Stage& stage() {
+    if (!stage_) {
+      if (kept_ != nullptr) kept_->require_more_allowed(settings_.scene);
+      stage_ = std::make_unique<Stage>(std::move(scene_), with_direct(settings_), stage_progress_, pictures_of_a_frame,
+                                       filter_of_the_unit);
+      measurer_.emplace(*stage_);
+    }
+    return *stage_;
+  }
+
+  // As it was loaded, or as the stage has it: no second copy of a large one.
+  [[nodiscard]] const Scene& scene() const { return stage_ ? stage_->scene() : scene_; }
+
+  TruthFinder& finder() {
+    if (!finder_)
+      finder_.emplace(
+          settings_, stage(), folder_, [this](const Image& first) { return choose(first); }, parts_, shared_);
+    return *finder_;
+  }
+
+  const StagedMethod& method(std::size_t index) { return stage().methods()[index + 1]; }
 
   float choose(const Image& first_reference) {
-    exposure_ = choose_exposure(settings_.view.exposure, stage_.scene(), first_reference);
-    return exposure_.factor;
+    exposure_ = choose_exposure(settings_.view.exposure, scene(), first_reference);
+    return exposure_->factor;
+  }
+
+  // ---- one distance
+
+  DistanceWork measured(std::size_t i) {
+    DistanceWork work = found(i);
+    if (work.truth) exposure_ = work.truth->exposure;
+    if (!work.is_drawn()) draw(i, work);
+    if (!work.times) work.times = keep(keys_ ? keys_->times(i) : "", take_times(i), {});
+    return work;
+  }
+
+  // What was kept of it.
+  DistanceWork found(std::size_t i) {
+    DistanceWork work;
+    work.drafts.resize(settings_.methods.size());
+    if (!keys_) return work;
+    work.truth = kept_->find<KeptTruth>(keys_->truth(i), folder_);
+    work.pairs = kept_->find<std::vector<MethodPair>>(keys_->pairs(i), folder_);
+    work.times = kept_->find<KeptTimes>(keys_->times(i), folder_);
+    if (!work.truth) return work;
+    for (std::size_t m = 0; m < settings_.methods.size(); ++m) work.drafts[m] = found_draft(i, m, *work.truth);
+    return work;
+  }
+
+  std::optional<Draft> found_draft(std::size_t i, std::size_t m, const KeptTruth& truth) {
+    auto kept = kept_->find<KeptRecord>(keys_->record(i, m), folder_);
+    if (!kept) return {};
+    kept->record.frame = static_cast<int>(i);
+    Image picture = read_image(folder_ / kept->record.images.color, Transfer::linear);
+    Image error = error_map(picture, counted_reference(truth), truth.exposure.factor);
+    return Draft{
+        .record = std::move(kept->record),
+        .exhibit = {.caption = settings_.methods[m].text, .picture = std::move(picture), .error = std::move(error)},
+        .stem = std::move(kept->stem),
+        .name = std::move(kept->name)};
+  }
+
+  [[nodiscard]] Image whole_reference(const KeptTruth& truth) const {
+    return read_image(folder_ / truth.files.reference, Transfer::linear);
+  }
+
+  // The reference without the pixels that it does not resolve.
+  [[nodiscard]] Image counted_reference(const KeptTruth& truth) const {
+    Image reference = whole_reference(truth);
+    uncover(reference, mask_of(truth.unresolved, reference.width, reference.height));
+    return reference;
+  }
+
+  // Whatever it lacks of what is drawn, each part kept as soon as it is there.
+  void draw(std::size_t i, DistanceWork& work) {
+    Truth truth = truth_of(i);
+    if (!work.truth) work.truth = keep(keys_ ? keys_->truth(i) : "", outline(truth), files_of(truth.files));
+    std::vector<Draft> drafts;
+    for (std::size_t m = 0; m < settings_.methods.size(); ++m) {
+      drafts.push_back(work.drafts[m] ? std::move(*work.drafts[m]) : kept_draft(truth, i, m));
+    }
+    if (!work.pairs) {
+      std::vector<MethodPair> pairs = compare_pairs(folder_, drafts, truth, exposure_->factor);
+      std::vector<std::string> files;
+      for (const MethodPair& pair : pairs) files.push_back(pair.picture);
+      work.pairs = keep(keys_ ? keys_->pairs(i) : "", std::move(pairs), files);
+    }
+    std::ranges::move(drafts, work.drafts.begin());
+    before_ = {i, std::move(truth.reference)};
+  }
+
+  Truth truth_of(std::size_t i) {
+    if (exposure_) {
+      finder().set_exposure(exposure_->factor);
+    } else if (i > 0) {
+      finder().choose_exposure(distances_.front());
+    }
+    return finder().find(i, distances_[i]);
+  }
+
+  KeptTruth outline(const Truth& truth) {
+    return {.exposure = *exposure_,
+            .standard_error = relative_standard_error(truth.reference),
+            .samples = truth.samples,
+            .seconds = truth.seconds,
+            .unresolved = set_pixels(truth.unresolved),
+            .files = truth.files,
+            .curve = truth.curve,
+            .warnings = truth.warnings};
+  }
+
+  Draft kept_draft(const Truth& truth, std::size_t i, std::size_t m) {
+    Draft draft = compare_method(truth, m);
+    if (keys_)
+      kept_->keep(keys_->record(i, m), KeptRecord{draft.record, draft.stem, draft.name}, folder_,
+                  exposable_files(draft.record.images.color));
+    return draft;
   }
 
   Draft compare_method(const Truth& truth, std::size_t index) {
@@ -101,60 +234,83 @@ class Comparison {
     const std::string prefix = fmt::format("distance {:g}: {}, ", truth.distance, text);
     MethodPictures pictures{.frame = staged.frames().render(truth.view), .finest = {}};
     pictures.finest = settings_.reference.finest_levels ? finest_level(truth, staged, prefix) : pictures.frame;
-    stage_.context().check("rendering " + text);
-    Draft draft{.record = measurer_.measure(staged, pictures, truth, exposure_.factor),
+    stage().context().check("rendering " + text);
+    Draft draft{.record = measurer_->measure(staged, pictures, truth, exposure_->factor),
                 .exhibit = {},
                 .stem = {},
                 .name = method_stem(settings_.methods, index)};
     draft.stem = distance_stem(truth.distance, draft.name);
+    draft.record.work = measurer_->work_of(staged, truth.view);
     set_flicker(draft.record, truth, pictures.frame, index);
-    draft.record.images.color = write_exposable_picture(folder_, draft.stem, pictures.frame, exposure_.factor);
-    Image error = error_map(pictures.frame, truth.reference.mean, exposure_.factor);
+    draft.record.images.color = write_exposable_picture(folder_, draft.stem, pictures.frame, exposure_->factor);
+    Image error = error_map(pictures.frame, truth.reference.mean, exposure_->factor);
     draft.exhibit = {.caption = text, .picture = std::move(pictures.frame), .error = std::move(error)};
     return draft;
   }
 
   Image finest_level(const Truth& truth, const StagedMethod& staged, const std::string& prefix) {
-    const Image finest = finest_mean(stage_.finest_level(staged), truth.view, settings_.reference,
+    const Image finest = finest_mean(stage().finest_level(staged), truth.view, settings_.reference,
                                      parts_.next(finest_samples(settings_.reference), prefix + "finest level, "));
     return as_converged(finest, truth.first, truth.reference.mean);
   }
 
   // Against the frame before: the picture of the same method, one round of drafts earlier.
-  void set_flicker(Record& record, const Truth& truth, const Image& picture, std::size_t index) const {
+  void set_flicker(Record& record, const Truth& truth, const Image& picture, std::size_t index) {
     if (settings_.view.zoom.frames == 0 || truth.frame == 0) return;
     const Image& before = drafts_[(truth.frame - 1) * settings_.methods.size() + index].exhibit.picture;
-    record.flicker = flicker_between(before, picture, before_, truth.reference, exposure_.factor);
+    record.flicker =
+        flicker_between(before, picture, reference_before(truth.frame), truth.reference, exposure_->factor);
   }
 
-  std::vector<std::vector<double>> time_distance(double distance) {
+  // Of the frame before; drawn again where that one was kept.
+  const Supersampled& reference_before(std::size_t frame) {
+    if (before_.first + 1 != frame || before_.second.spp == 0)
+      before_ = {frame - 1, std::move(truth_of(frame - 1).reference)};
+    return before_.second;
+  }
+
+  // ---- times
+
+  DistanceTimes time_distance(double distance) {
     const double weight = static_cast<double>(settings_.methods.size()) * settings_.timing.repeats;
-    return time_methods(stage_, stage_.view(distance), settings_.timing.repeats,
+    return time_methods(stage(), stage().view(distance), settings_.timing.repeats,
                         parts_.next(weight, fmt::format("distance {:g}: ", distance)));
   }
 
-  void time_records(std::size_t distance, std::span<const FrameTimes> further) {
-    std::vector<FrameTimes> processes(further.begin(), further.end());
-    processes.emplace_back(distances_.size());
-    processes.back()[distance] = time_distance(distances_[distance]);
-    std::vector<std::reference_wrapper<Record>> records;
-    for (Draft& draft : drafts_at(distance)) records.emplace_back(draft.record);
-    set_times(records, stage_, processes, distance);
-    for (std::size_t m = 0; m < records.size(); ++m)
-      records[m].get().work = measurer_.work_of(method(m), stage_.view(distances_[distance]));
+  KeptTimes take_times(std::size_t i) {
+    if (!further_known_) further_known_ = *further_ ? (*further_)() : std::vector<FrameTimes>{};
+    KeptTimes times{.processes = {}, .builds = build_timings(stage()), .node = host_name()};
+    for (const FrameTimes& process : *further_known_) times.processes.push_back(process.at(i));
+    times.processes.push_back(time_distance(distances_[i]));
+    return times;
   }
 
-  // What outlives its distance.
-  void keep(Truth truth) {
-    if (truth.frame == 0) results_.reference.standard_error = relative_standard_error(truth.reference);
-    results_.reference.samples += truth.samples / static_cast<double>(distances_.size());
-    results_.reference.seconds += truth.seconds;
-    std::ranges::move(truth.curve, std::back_inserter(results_.supersampling));
-    std::ranges::move(truth.warnings, std::back_inserter(results_.scene.warnings));
+  // ---- the whole
+
+  template <class T>
+  T keep(const std::string& key, T value, const std::vector<std::string>& files) {
+    if (keys_) kept_->keep(key, value, folder_, files);
+    return value;
+  }
+
+  void add(std::size_t i, DistanceWork work) {
+    std::vector<std::reference_wrapper<Record>> records;
+    for (std::optional<Draft>& draft : work.drafts) {
+      draft->record.node = work.times->node;
+      records.emplace_back(draft->record);
+    }
+    set_times(records, work.times->builds, work.times->processes);
+    for (std::optional<Draft>& draft : work.drafts) drafts_.push_back(std::move(*draft));
+    std::ranges::move(*work.pairs, std::back_inserter(results_.pairs));
+    if (i == 0) results_.reference.standard_error = work.truth->standard_error;
+    results_.reference.samples += work.truth->samples / static_cast<double>(distances_.size());
+    results_.reference.seconds += work.truth->seconds;
+    std::ranges::move(work.truth->curve, std::back_inserter(results_.supersampling));
+    std::ranges::move(work.truth->warnings, std::back_inserter(results_.scene.warnings));
     references_.push_back({.caption = fmt::format("reference, {} spp", settings_.reference.spp),
-                           .picture = std::move(truth.whole),
+                           .picture = whole_reference(*work.truth),
                            .error = {}});
-    before_ = std::move(truth.reference);
+    processes_ = static_cast<int>(work.times->processes.size());
   }
 
   // The drafts stand in the order of the distances, as many for each as there are methods.
@@ -169,71 +325,104 @@ class Comparison {
       const std::span<Draft> drafts = drafts_at(i);
       const double scale = error_scale(drafts, asked);
       results_.error_scales.push_back({.distance = distances_[i], .error = scale});
-      write_distance_strips(folder_, std::move(references_[i]), drafts, exposure_.factor, scale);
+      write_distance_strips(folder_, std::move(references_[i]), drafts, exposure_->factor, scale);
       write_error_pictures(folder_, drafts, scale, results_.error_scale);
       for (Draft& draft : drafts) results_.records.push_back(std::move(draft.record));
     }
   }
 
-  void describe(int processes) {
-    results_.backend = backend_info(stage_.context().info());
+  void describe() {
+    KeptHead said = head();
+    results_.backend = std::move(said.backend);
     results_.reference.spp = settings_.reference.spp;
     results_.reference.filter = word_for(reference_filters, settings_.reference.filter);
     results_.reference.seed = settings_.reference.seed;
-    results_.footprint = footprint_filter_text(footprint_filter_of(settings_, stage_.scene()));
-    results_.timing = {.frames = settings_.timing.repeats, .processes = processes};
-    if (has(stage_.effects(), Effect::environment_light))
+    results_.footprint = std::move(said.footprint);
+    results_.timing = {.frames = settings_.timing.repeats, .processes = processes_};
+    if (said.lit_by_environment)
       results_.reference.environment = word_for(reference_integrals, settings_.reference.environment);
-    std::vector<std::string> notes = std::move(results_.scene.warnings);
-    results_.scene = scene_info(stage_.scene(), exposure_);
+    std::vector<std::string> notes = std::move(said.first_warnings);
+    std::ranges::move(results_.scene.warnings, std::back_inserter(notes));
+    results_.scene = std::move(said.scene);
+    results_.scene.exposure = exposure_->factor;
+    results_.scene.exposure_source = word_for(exposure_sources, exposure_->source);
     std::ranges::move(notes, std::back_inserter(results_.scene.warnings));
     if (auto warning = linear_measures_warning(results_.reference))
       results_.scene.warnings.push_back(std::move(*warning));
-    add_left_out();
-    add_precompute_notes();
+    std::ranges::move(said.last_warnings, std::back_inserter(results_.scene.warnings));
   }
 
-  void add_left_out() {
-    const EffectSet left_out = effects_on(stage_.decisions()) & settings_.without;
+  KeptHead head() {
+    const std::string key = keys_ ? keys_->head() : "";
+    if (auto known = keys_ ? kept_->find<KeptHead>(key, folder_) : std::nullopt) return std::move(*known);
+    KeptHead head{.backend = backend_info(stage().context().info()),
+                  .scene = scene_info(scene(), {}),
+                  .footprint = footprint_filter_text(footprint_filter_of(settings_, scene())),
+                  .lit_by_environment = has(stage().effects(), Effect::environment_light),
+                  .first_warnings = finder().warnings(),
+                  .last_warnings = {}};
+    add_left_out(head.last_warnings);
+    add_precompute_notes(head.last_warnings);
+    return keep(key, std::move(head), {});
+  }
+
+  void add_left_out(std::vector<std::string>& warnings) {
+    const EffectSet left_out = effects_on(stage().decisions()) & settings_.without;
     if (left_out.none()) return;
-    results_.scene.warnings.push_back(fmt::format("left out of every picture, the reference's too, as was asked: {}",
-                                                  fmt::join(effect_names(left_out), ", ")));
+    warnings.push_back(fmt::format("left out of every picture, the reference's too, as was asked: {}",
+                                   fmt::join(effect_names(left_out), ", ")));
   }
 
-  void add_precompute_notes() {
+  void add_precompute_notes(std::vector<std::string>& warnings) {
     for (std::size_t m = 0; m < settings_.methods.size(); ++m) {
       const BakedMethod& baked = method(m).baked();
       for (std::size_t i = 0; i < baked.materials.size(); ++i) {
         for (const std::string& note : baked.materials[i].notes)
-          results_.scene.warnings.push_back(
-              fmt::format("{}, material {}: {}", baked.spec.text, stage_.scene().materials[i].name, note));
+          warnings.push_back(
+              fmt::format("{}, material {}: {}", baked.spec.text, stage().scene().materials[i].name, note));
       }
     }
   }
 
   const RunSettings& settings_;
   std::filesystem::path folder_;
+  const KeptWork* kept_;
   ProgressParts whole_;
-  Stage stage_;
+  Scene scene_;
+  glm::ivec2 size_;
   std::vector<double> distances_;
+  std::optional<ComparisonKeys> keys_;  // where work is kept
+  Progress stage_progress_;
   ProgressParts parts_;
-  MethodMeasurer measurer_;
-  Exposure exposure_;
+  std::unique_ptr<Stage> stage_;
+  std::optional<MethodMeasurer> measurer_;
+  std::optional<TruthFinder> finder_;
+  SharedTruth* shared_ = nullptr;
+  const FurtherTimes* further_ = nullptr;
+  std::optional<std::vector<FrameTimes>> further_known_;
+  std::optional<Exposure> exposure_;
   std::vector<Draft> drafts_;
-  std::vector<Exhibit> references_;  // one a distance, for the strips
-  Supersampled before_;              // the reference of the frame before
+  std::vector<Exhibit> references_;                // one a distance, for the strips
+  std::pair<std::size_t, Supersampled> before_{};  // a frame and its reference
+  int processes_ = 1;
   Results results_;
 };
 
 }  // namespace
 
 FrameTimes time_frames(const RunSettings& settings, const Progress& progress) {
-  return Comparison(settings, {}, progress).times();
+  return Comparison(settings, {}, progress, nullptr).times();
 }
 
-Results run_compare(const RunSettings& settings, const std::filesystem::path& folder,
-                    std::span<const FrameTimes> further_times, const Progress& progress, SharedTruth* shared) {
-  return Comparison(settings, folder, progress).run(further_times, shared);
+Results run_compare(const RunSettings& settings, const std::filesystem::path& folder, const FurtherTimes& further_times,
+                    const Progress& progress, SharedTruth* shared, const KeptWork* kept) {
+  return Comparison(settings, folder, progress, kept).run(further_times, shared);
+}
+
+void measure_distances(const RunSettings& settings, std::span<const std::size_t> distances,
+                       const std::filesystem::path& folder, const FurtherTimes& further_times, const KeptWork& kept,
+                       const Progress& progress) {
+  Comparison(settings, folder, progress, &kept).measure(distances, further_times);
 }
 
 }  // namespace footprint

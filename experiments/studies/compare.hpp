@@ -1,9 +1,13 @@
 // The main job: methods against the supersampled reference over the distances of a scene, as records and pictures.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
+#include <vector>
 
+#include "experiments/kept/kept_work.hpp"
 #include "experiments/settings/run_settings.hpp"
 #include "experiments/studies/frame_times.hpp"
 #include "renderer/core/progress.hpp"
@@ -16,12 +20,23 @@ namespace footprint {
 
 struct SharedTruth;
 
-/// Runs the comparison and writes its pictures into FOLDER/images (made here). `further_times` are those of other
-/// processes; the figures are over all of them. Results lacks tool and backend.cpu, which the program knows.
-/// What `shared` has of the truth is not rendered again (truth.hpp).
-/// Errors: of scene, methods and settings (usage), of the machine, an interrupt through `progress`.
+/// Gives the times of other processes, at all distances; called once, where times are taken at all. Empty: there are
+/// none.
+using FurtherTimes = std::function<std::vector<FrameTimes>()>;
+
+/// Runs the comparison and writes its pictures into FOLDER/images (made here). The figures are over this process and
+/// `further_times`. Results lacks tool and backend.cpu, which the program knows.
+/// What `shared` has of the truth is not rendered again (truth.hpp). What `kept` has is not done again, and what is
+/// done is kept there, part by part: where all of it is there, no OpenGL is asked for. Errors: of scene, methods and
+/// settings (usage), of the machine, an interrupt through `progress`.
 [[nodiscard]] Results run_compare(const RunSettings& settings, const std::filesystem::path& folder,
-                                  std::span<const FrameTimes> further_times, const Progress& progress,
-                                  SharedTruth* shared = nullptr);
+                                  const FurtherTimes& further_times, const Progress& progress,
+                                  SharedTruth* shared = nullptr, const KeptWork* kept = nullptr);
+
+/// Of the comparison only what belongs to some of its distances, by their index, into `kept`; FOLDER is for pictures on
+/// their way. In a zoom, the frame before each must be among them or kept.
+void measure_distances(const RunSettings& settings, std::span<const std::size_t> distances,
+                       const std::filesystem::path& folder, const FurtherTimes& further_times, const KeptWork& kept,
+                       const Progress& progress);
 
 }  // namespace footprint

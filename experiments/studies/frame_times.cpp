@@ -8,11 +8,11 @@
 namespace footprint {
 namespace {
 
-// The times of one candidate at one distance, over all processes.
-std::vector<double> pooled(std::span<const FrameTimes> processes, std::size_t distance, std::size_t candidate) {
+// The times of one candidate over all processes.
+std::vector<double> pooled(std::span<const DistanceTimes> processes, std::size_t candidate) {
   std::vector<double> times;
-  for (const FrameTimes& process : processes) {
-    const auto& own = process.at(distance).at(candidate);
+  for (const DistanceTimes& process : processes) {
+    const auto& own = process.at(candidate);
     times.insert(times.end(), own.begin(), own.end());
   }
   return times;
@@ -28,8 +28,7 @@ void set_frame_times(Record& record, const std::vector<double>& times, const std
 
 }  // namespace
 
-std::vector<std::vector<double>> time_methods(const Stage& stage, const View& view, int repeats,
-                                              const Progress& progress) {
+DistanceTimes time_methods(const Stage& stage, const View& view, int repeats, const Progress& progress) {
   std::vector<DrawFrame> draws;
   for (const StagedMethod& staged : stage.methods())
     draws.emplace_back([&staged, &view] { staged.frames().draw(view); });
@@ -39,17 +38,25 @@ std::vector<std::vector<double>> time_methods(const Stage& stage, const View& vi
   return interleaved_times(stage.context().info(), draws, repeats, progress);
 }
 
-void set_times(std::span<const std::reference_wrapper<Record>> records, const Stage& stage,
-               std::span<const FrameTimes> processes, std::size_t distance) {
-  const std::vector<double> direct = pooled(processes, distance, 0);
+std::vector<std::optional<BuildTiming>> build_timings(const Stage& stage) {
+  std::vector<std::optional<BuildTiming>> builds;
+  for (const StagedMethod& staged : std::span(stage.methods()).subspan(1)) {
+    const GpuMethod& gpu = staged.gpu();
+    builds.emplace_back();
+    if (gpu.has_frame_build()) builds.back() = gpu.keeps_builds() ? BuildTiming::reused : BuildTiming::every_frame;
+  }
+  return builds;
+}
+
+void set_times(std::span<const std::reference_wrapper<Record>> records,
+               std::span<const std::optional<BuildTiming>> builds, std::span<const DistanceTimes> processes) {
+  const std::vector<double> direct = pooled(processes, 0);
   std::size_t build = records.size() + 1;  // the candidate that is the next method's frame build
   for (std::size_t m = 0; m < records.size(); ++m) {
     Record& record = records[m];
-    set_frame_times(record, pooled(processes, distance, m + 1), direct);
-    const GpuMethod& gpu = stage.methods()[m + 1].gpu();
-    if (!gpu.has_frame_build()) continue;
-    record.frame_build = FrameBuildTime{.ms = quantile(pooled(processes, distance, build++), 0.5),
-                                        .timing = gpu.keeps_builds() ? BuildTiming::reused : BuildTiming::every_frame};
+    set_frame_times(record, pooled(processes, m + 1), direct);
+    if (!builds[m]) continue;
+    record.frame_build = FrameBuildTime{.ms = quantile(pooled(processes, build++), 0.5), .timing = *builds[m]};
   }
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "experiments/studies/plain_supersampling.hpp"
+#include "renderer/core/host.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/timing.hpp"
 
@@ -88,7 +89,8 @@ std::vector<SupersamplingPoint> measured_curve(const Stage& stage, const Referen
                      .spp = spp,
                      .normalized_color = normalized_color(picture, target.reference, target.exposure),
                      .shading = normalized_color_over(picture, target.reference, target.exposure, target.interior),
-                     .ms = ms.at(timed) * spp / timed});
+                     .ms = ms.at(timed) * spp / timed,
+                     .node = host_name()});
   }
   return curve;
 }

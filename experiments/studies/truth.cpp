@@ -112,13 +112,26 @@ Truth TruthFinder::find(std::size_t frame, double distance) {
   return truth;
 }
 
+void TruthFinder::set_exposure(float exposure) {
+  known_exposure_ = exposure;
+  exposure_ = exposure;
+}
+
+void TruthFinder::choose_exposure(double first_distance) {
+  const ReferenceSettings& asked = settings_.reference;
+  set_exposure(
+      choose_exposure_(stage_.reference()
+                           .render(stage_.view(first_distance), asked.spp, asked.seed, progress_.next(0, "exposure, "))
+                           .mean));
+}
+
 void TruthFinder::render_reference(Truth& truth, const std::string& prefix) {
   const ReferenceSettings& asked = settings_.reference;
   SharedTruth::AtDistance first = first_samples(truth, prefix);
   truth.reference = std::move(first.reference);
   truth.first = std::move(first.first);
   const auto begin = std::chrono::steady_clock::now();
-  if (truth.frame == 0) exposure_ = choose_exposure_(truth.reference.mean);
+  if (!known_exposure_ && truth.frame == 0) set_exposure(choose_exposure_(truth.reference.mean));
   truth.samples = asked.by_noise && !asked.fixed_spp ? refine_reference(truth, prefix) : asked.spp;
   truth.seconds = first.seconds + seconds_since(begin);
 }

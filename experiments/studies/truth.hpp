@@ -78,8 +78,9 @@ struct SharedTruth {
 /// Finds it distance by distance. Keeps the addresses of what it is given.
 class TruthFinder {
  public:
-  /// `exposure` is asked for the factor once the first reference is there. Pictures go to FOLDER/images. What `shared`
-  /// has is taken from there, and what it lacks is added: for comparisons of the same scene, view and reference.
+  /// `exposure` is asked for the factor once the first reference is there, unless it is known. Pictures go to
+  /// FOLDER/images. What `shared` has is taken from there, and what it lacks is added: for comparisons of the same
+  /// scene, view and reference.
   TruthFinder(const RunSettings& settings, const Stage& stage, std::filesystem::path folder,
               std::function<float(const Image& first_reference)> exposure, ProgressParts& progress,
               SharedTruth* shared = nullptr);
@@ -87,7 +88,14 @@ class TruthFinder {
   /// What it weighs in progress, a distance.
   [[nodiscard]] static double weight(const RunSettings& settings);
 
+  /// The exposure is chosen by the first reference, which is that of frame 0, unless it is known before.
   [[nodiscard]] Truth find(std::size_t frame, double distance);
+
+  /// The exposure as it was chosen in another run.
+  void set_exposure(float exposure);
+
+  /// Chooses it by the reference's first samples at `first_distance`, where no truth of that one is to be found.
+  void choose_exposure(double first_distance);
 
   /// Why there is no bound, where there is none.
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
@@ -108,6 +116,7 @@ class TruthFinder {
   std::filesystem::path folder_;
   std::function<float(const Image&)> choose_exposure_;
   ProgressParts& progress_;
+  std::optional<float> known_exposure_;
   float exposure_ = 1.0F;
   InteriorFinder interior_finder_;
   std::optional<MaterialFinder> material_finder_;  // where materials are told apart

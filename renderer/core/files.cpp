@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
@@ -16,6 +15,7 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/hash.hpp"
+#include "renderer/core/host.hpp"
 
 namespace footprint {
 namespace {
@@ -33,11 +33,9 @@ std::error_code last_error() { return {errno, std::generic_category()}; }
 // Where process ids count: the host's name and the namespace of ids. Others share the folder over a network.
 const std::string& id_space() {
   static const std::string space = [] {
-    std::array<char, 256> host{};
-    if (::gethostname(host.data(), host.size() - 1) != 0) host[0] = '?';
     std::error_code unknown;
     ContentHash hash;
-    hash.add(std::string(host.data()));
+    hash.add(host_name());
     hash.add(fs::read_symlink("/proc/self/ns/pid", unknown).string());
     return hash.hex().substr(0, 8);
   }();
@@ -223,6 +221,8 @@ OutputFolder::OutputFolder(const fs::path& final_path) {
   if (fs::exists(status) && !fs::is_directory(status)) refuse("is not a folder");
   if (!fs::exists(status) && fs::is_symlink(fs::symlink_status(final_, ignored))) refuse("is a link to nothing");
   const fs::path home = fs::exists(status) ? final_ : final_.parent_path();
+  // The folder may have come to be while such a process ran.
+  if (fs::exists(final_.parent_path(), ignored)) remove_dead_partials(final_.parent_path(), final_.filename());
   try {
     create_folders(home, created_parents_);
     staging_ = create_staging(home, final_);

@@ -1,10 +1,12 @@
-// Every field of a material, and of what it refers to, in one order.
+// Every field of a material or a scene, and of what it refers to, in one order.
 #include "renderer/scene/material_content.hpp"
 
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "renderer/microgeometry/microgeometry.hpp"
@@ -49,6 +51,14 @@ class Counter {
   void add(const std::shared_ptr<const T>& value) {
     add(value != nullptr);
     if (value) add(*value);
+  }
+
+  void add(const std::string& text) { hash_->add(text); }
+
+  template <class... T>
+  void add(const std::variant<T...>& value) {
+    add(value.index());
+    std::visit([this](const auto& held) { add(held); }, value);
   }
 
   void add(const Image& image) {
@@ -105,6 +115,61 @@ class Counter {
     add_all(alpha_cutoff, double_sided, microgeometry);
   }
 
+  void add(const Mesh& mesh) {
+    const auto& [name, vertices, indices, material] = mesh;
+    static_assert(sizeof(Vertex) == 18 * sizeof(float), "a vertex is its bytes, without gaps");
+    hash_->add(std::as_bytes(std::span(vertices)));
+    add_all(name, indices, material);
+  }
+
+  void add(const PointLight& light) {
+    const auto& [position, intensity, range] = light;
+    add_all(position, intensity, range);
+  }
+
+  void add(const SpotLight& light) {
+    const auto& [point, direction, inner, outer] = light;
+    add_all(point, direction, inner, outer);
+  }
+
+  void add(const DirectionalLight& light) {
+    const auto& [direction, illuminance] = light;
+    add_all(direction, illuminance);
+  }
+
+  void add(const Camera& camera) {
+    const auto& [world, orthographic, yfov, ymag, znear, zfar, aspect] = camera;
+    add_all(world, orthographic, yfov, ymag, znear, zfar, aspect);
+  }
+
+  void add(const Environment& environment) {
+    const auto& [name, radiance, rotation] = environment;
+    add_all(name, radiance, rotation);
+  }
+
+  void add(const ShadowSettings& shadows) {
+    const auto& [cast, both_sides, resolution] = shadows;
+    add_all(cast, both_sides, resolution);
+  }
+
+  void add(const Bounds& bounds) {
+    const auto& [lower, upper] = bounds;
+    add_all(lower, upper);
+  }
+
+  void add(const FootprintFilter& filter) {
+    const auto& [kind, count] = filter;
+    add_all(kind, count);
+  }
+
+  void add(const Scene& scene) {
+    const auto& [name, source, meshes, materials, lights, shadows, horizon, environment, camera, bounds, footprint,
+                 exposure, distances, frame_size, choices, defaults, warnings] = scene;
+    add_all(name, meshes, materials, lights, shadows, horizon, environment, camera, bounds, footprint, exposure);
+    add_all(distances, frame_size, defaults, warnings);
+    for (const Material& material : materials) add(material.name);
+  }
+
  private:
   template <class... T>
   void add_all(const T&... values) {
@@ -117,5 +182,7 @@ class Counter {
 }  // namespace
 
 void add_content(ContentHash& hash, const Material& material) { Counter(hash).add(material); }
+
+void add_content(ContentHash& hash, const Scene& scene) { Counter(hash).add(scene); }
 
 }  // namespace footprint

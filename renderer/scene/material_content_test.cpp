@@ -1,4 +1,4 @@
-// What tells materials apart: every field does, names do not.
+// What tells materials and scenes apart: every field does, a material's names do not.
 #include "renderer/scene/material_content.hpp"
 
 #include <gtest/gtest.h>
@@ -113,6 +113,70 @@ TEST(MaterialContent, NamesDoNotCount) {
   material.normal_map->name = "another";
   small_scale([](Microgeometry& s) { s.patch.name = "another"; })(material);
   EXPECT_EQ(content(material), content(whole_material()));
+}
+
+Scene whole_scene() {
+  Scene scene;
+  scene.name = "a scene";
+  scene.meshes = {{"a mesh", {{}, {}, {}}, {0, 1, 2}, 0}};
+  scene.materials = {whole_material()};
+  scene.lights = {PointLight{}, SpotLight{}, DirectionalLight{}};
+  scene.environment = Environment{"sky", std::make_shared<const Image>(2, 1, 3, 0.5F), 0.0F};
+  scene.distances = {1.0, 2.0};
+  scene.warnings = {"a warning"};
+  return scene;
+}
+
+std::string content(const Scene& scene) {
+  ContentHash hash;
+  add_content(hash, scene);
+  return hash.hex();
+}
+
+TEST(SceneContent, EveryFieldCounts) {
+  const std::vector<std::function<void(Scene&)>> all{
+      [](Scene& s) { s.name = "another"; },
+      [](Scene& s) { s.meshes[0].name = "another"; },
+      [](Scene& s) { s.meshes[0].vertices[1].uv1.y = 0.5F; },
+      [](Scene& s) { s.meshes[0].vertices[2].color.a = 0.5F; },
+      [](Scene& s) { s.meshes[0].indices[2] = 1; },
+      [](Scene& s) { s.meshes[0].material = 1; },
+      [](Scene& s) { s.materials[0].roughness = 0.5F; },
+      [](Scene& s) { s.materials[0].name = "another"; },
+      [](Scene& s) { std::get<PointLight>(s.lights[0]).range = 2.0F; },
+      [](Scene& s) { std::get<SpotLight>(s.lights[1]).outer_cone_angle = 0.5F; },
+      [](Scene& s) { std::get<SpotLight>(s.lights[1]).point.intensity.b = 0.5F; },
+      [](Scene& s) { std::get<DirectionalLight>(s.lights[2]).illuminance.g = 0.5F; },
+      [](Scene& s) { std::swap(s.lights[0], s.lights[2]); },
+      [](Scene& s) { s.shadows.cast = true; },
+      [](Scene& s) { s.shadows.resolution = 64; },
+      [](Scene& s) { s.horizon = Horizon::open; },
+      [](Scene& s) { s.environment->rotation = 0.5F; },
+      [](Scene& s) { s.environment->radiance = std::make_shared<const Image>(2, 1, 3, 0.25F); },
+      [](Scene& s) { s.environment.reset(); },
+      [](Scene& s) { s.camera.world[3].x = 0.5F; },
+      [](Scene& s) { s.camera.aspect = 2.0F; },
+      [](Scene& s) { s.bounds.upper.z = 0.5F; },
+      [](Scene& s) { s.footprint = FootprintFilter{}; },
+      [](Scene& s) { s.exposure = 0.5F; },
+      [](Scene& s) {
+        s.distances = {1.0, 3.0};
+      },
+      [](Scene& s) { s.frame_size = glm::ivec2(3, 4); },
+      [](Scene& s) { s.defaults = {"a default"}; },
+      [](Scene& s) { s.warnings.clear(); }};
+  std::set<std::string> found{content(whole_scene())};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Scene scene = whole_scene();
+    all[i](scene);
+    EXPECT_TRUE(found.insert(content(scene)).second) << "change " << i;
+  }
+}
+
+TEST(SceneContent, WhereItCameFromDoesNotCount) {
+  Scene scene = whole_scene();
+  scene.source = "elsewhere";
+  EXPECT_EQ(content(scene), content(whole_scene()));
 }
 
 }  // namespace

@@ -136,6 +136,7 @@ struct Record {
   std::optional<EquivalentSamples> equivalent;   ///< none: there is no error, or no curve
   std::vector<OtherReference> other_references;  ///< none where there is no error
   std::optional<Flicker> flicker;                ///< none: no frame of a zoom, or its first
+  std::string node = {};                         ///< the machine that the times below were taken on
   FrameTime frame_ms;
   std::optional<FrameBuildTime> frame_build;  ///< none: the method rebuilds nothing
   double fps = 0;                             ///< 1000 / frame_ms.median
@@ -169,6 +170,7 @@ struct SupersamplingPoint {
   std::optional<double> normalized_color;
   std::optional<double> shading;  ///< over interior pixels
   double ms = 0;
+  std::string node = {};  ///< the machine that it was timed on
 };
 
 /// What stands at the top of a distance's false-colour pictures.

@@ -62,7 +62,8 @@ Json other_references_json(const Record& record) {
 
 Json time_json(const Record& record) {
   const std::optional<FrameBuildTime>& build = record.frame_build;
-  return {{"frame_ms",
+  return {{"node", record.node},
+          {"frame_ms",
            {{"median", json_number(record.frame_ms.median)},
             {"min", json_number(record.frame_ms.minimum)},
             {"p90", json_number(record.frame_ms.p90)}}},
@@ -132,7 +133,8 @@ Json supersampling_json(const SupersamplingPoint& point) {
           {"spp", point.spp},
           {"normalized_color", json_number(point.normalized_color)},
           {"shading", json_number(point.shading)},
-          {"ms", json_number(point.ms)}};
+          {"ms", json_number(point.ms)},
+          {"node", point.node}};
 }
 
 }  // namespace

@@ -1,0 +1,32 @@
+// Experiments run to their reports, or a part of them to be merged later.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/asked_experiments.hpp"
+#include "app/part_file.hpp"
+#include "experiments/kept/kept_work.hpp"
+#include "renderer/core/progress.hpp"
+
+namespace footprint {
+
+/// The folder below a run's output folder in which its finished work is kept.
+[[nodiscard]] std::filesystem::path kept_folder(const std::filesystem::path& output);
+
+/// Who makes this run's work: the program, and what draws for it by these settings. Errors (machine): no OpenGL.
+[[nodiscard]] std::string maker_for(const RunSettings& run);
+
+/// Runs each experiment as far as `kept` does not have it, into `output` or, of members, into folders of their own
+/// below it, and prints the tables. Returns what fell short, a line each. Errors: those of run_experiment; what is
+/// finished until then is kept.
+[[nodiscard]] std::vector<std::string> run_and_print(const AskedExperiments& asked, const std::filesystem::path& output,
+                                                     const KeptWork& kept, bool quiet);
+
+/// Does one part of the work of all experiments together and keeps it in `kept`, below `output`; pictures on their way
+/// go there too and are gone at the end.
+void run_part(const AskedExperiments& asked, const Shard& shard, const std::filesystem::path& output,
+              const KeptWork& kept, bool quiet);
+
+}  // namespace footprint

@@ -1,0 +1,131 @@
+// `footprint merge`: the parts of a run, made by `run --shard`, joined to its report.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/asked_experiments.hpp"
+#include "app/commands.hpp"
+#include "app/experiment_runs.hpp"
+#include "app/part_file.hpp"
+#include "app/run_options.hpp"
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* merge_words =
+    "Each PART is the output folder of `footprint run EXPERIMENT --shard I/N`, of one experiment's file and one\n"
+    "program; all N of them are needed, each once. What they hold is checked, taken over, and reported as by one run;\n"
+    "nothing is measured. Times carry the name of the machine that took them (docs/cluster.md).\n"
+    "\n"
+    "Examples:\n"
+    "  footprint merge parts/1 parts/2 -o out\n"
+    "  footprint merge parts/* -o out";
+
+struct MergeArguments {
+  explicit MergeArguments(CLI::App& command) : run(command) {}
+
+  RunOptions run;
+  std::vector<std::string> parts;
+  std::string output = "out";
+  bool quiet = false;
+};
+
+struct Part {
+  fs::path folder;
+  PartFile file;
+};
+
+[[noreturn]] void refuse(const Part& part, const std::string& why, const std::string& hint) {
+  throw Error(ErrorKind::usage, (part.folder / "part.json").string(), why, hint);
+}
+
+// All parts, in the order of their numbers. Errors (usage): one does not go with the first, is there twice, or missing.
+std::vector<Part> parts_of(const std::vector<std::string>& folders) {
+  std::map<int, Part> parts;
+  for (const std::string& folder : folders) {
+    Part part{folder, read_part_file(folder)};
+    const int index = part.file.shard.index;
+    if (parts.contains(index))
+      refuse(part, fmt::format("is part {}, and so is {}", index, parts.at(index).folder.string()),
+             "name each part once");
+    if (!parts.empty()) {
+      const Part& first = parts.begin()->second;
+      const std::string other = first.folder.string();
+      if (part.file.fingerprint != first.file.fingerprint)
+        refuse(part, fmt::format("is of another experiment, or of other options, than {}", other),
+               "merge the parts of one run");
+      if (part.file.maker != first.file.maker)
+        refuse(part, fmt::format("was made by another program, or drawn by another OpenGL, than {}", other),
+               "run all parts with one program, on machines of one kind");
+      if (part.file.shard.count != first.file.shard.count)
+        refuse(part,
+               fmt::format("is of {} parts, and {} is of {}", part.file.shard.count, other, first.file.shard.count),
+               "merge the parts of one run");
+    }
+    parts.emplace(index, std::move(part));
+  }
+  std::vector<Part> all;
+  for (auto& [index, part] : parts) all.push_back(std::move(part));
+  for (int index = 1; index <= all.front().file.shard.count; ++index) {
+    if (!std::ranges::any_of(all, [&](const Part& part) { return part.file.shard.index == index; }))
+      refuse(all.front(), fmt::format("part {} of {} is missing", index, all.front().file.shard.count),
+             fmt::format("run it with --shard {}/{}, and name its folder too", index, all.front().file.shard.count));
+  }
+  return all;
+}
+
+// As the parts were run. Errors (usage): the files or this program are not what they were.
+AskedExperiments asked_by(const Part& first, const RunOptions& options) {
+  AskedExperiments asked = ask_experiments({.experiment = first.file.experiment,
+                                            .only = first.file.only,
+                                            .quick = first.file.quick,
+                                            .apply = [&](RunSettings& run) {
+                                              options.apply(run);
+                                              run.timing.processes = first.file.processes;
+                                              run.backend.tile = first.file.tile;
+                                            }});
+  if (asked.fingerprint != first.file.fingerprint)
+    refuse(first, fmt::format("{} is not what it was when this part was run", asked.file.string()),
+           "run all parts again, or merge with the file as it was");
+  if (!is_made_by_this_program(first.file.maker))
+    refuse(first, "was made by another program than this one", "merge with the program that ran the parts");
+  return asked;
+}
+
+void merge(const MergeArguments& arguments) {
+  const std::vector<Part> parts = parts_of(arguments.parts);
+  const AskedExperiments asked = asked_by(parts.front(), arguments.run);
+  const std::string& maker = parts.front().file.maker;
+  const KeptWork kept(kept_folder(arguments.output), maker, true);
+  for (const Part& part : parts) {
+    const KeptWork from(kept_folder(part.folder), maker);
+    for (const std::string& key : part.file.keys) kept.take(key, from);
+  }
+  (void)run_and_print(asked, arguments.output, kept, arguments.quiet);
+}
+
+}  // namespace
+
+void add_merge_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("merge", "Join the parts of a run, made by `run --shard`, to its report");
+  const auto arguments = std::make_shared<MergeArguments>(*command);
+  command->add_option("part", arguments->parts, "Folders of the parts, all of them")->required()->type_name("PART");
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Folder for results.json, results.csv, table.md, index.html, images/, kept/")
+      ->capture_default_str();
+  add_quiet_flag(*command, arguments->quiet);
+  command->footer(merge_words);
+  command->callback([arguments] { merge(*arguments); });
+}
+
+}  // namespace footprint

@@ -1,0 +1,86 @@
+// Parts as JSON.
+#include "app/part_file.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "renderer/core/error.hpp"
+#include "renderer/core/files.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr const char* schema = "footprint-part/1";
+constexpr int most_shards = 100000;
+
+// A whole number without a sign; 0 where it is none.
+int count_of(std::string_view text) {
+  int number = 0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return status == std::errc{} && end == text.data() + text.size() ? number : 0;
+}
+
+}  // namespace
+
+Shard parse_shard(const std::string& text) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const std::string_view all = text;
+  const Shard shard{.index = count_of(all.substr(0, slash)),
+                    .count = slash < text.size() ? count_of(all.substr(slash + 1)) : 0};
+  if (shard.index >= 1 && shard.count >= shard.index && shard.count <= most_shards) return shard;
+  throw Error(ErrorKind::usage, "--shard", fmt::format("`{:.80}` is no part", text),
+              "give I/N, part I of N, for example 1/4");
+}
+
+std::pair<std::size_t, std::size_t> range_of(const Shard& shard, std::size_t total) {
+  const auto count = static_cast<std::size_t>(shard.count), index = static_cast<std::size_t>(shard.index);
+  return {(index - 1) * total / count, index * total / count};
+}
+
+void write_part_file(const std::filesystem::path& folder, const PartFile& part) {
+  const nlohmann::ordered_json document{{"schema", schema},
+                                        {"experiment", part.experiment},
+                                        {"fingerprint", part.fingerprint},
+                                        {"maker", part.maker},
+                                        {"shard", {part.shard.index, part.shard.count}},
+                                        {"only", part.only},
+                                        {"quick", part.quick},
+                                        {"processes", part.processes},
+                                        {"tile", part.tile},
+                                        {"node", part.node},
+                                        {"seconds", part.seconds},
+                                        {"keys", part.keys}};
+  write_file_atomically(folder / "part.json",
+                        document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+PartFile read_part_file(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "part.json";
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream)
+    throw Error(ErrorKind::usage, file.string(), "is missing: no part of a run, or one that is not finished",
+                "run it with --shard I/N until it ends");
+  try {
+    const nlohmann::json document = nlohmann::json::parse(stream);
+    if (document.at("schema") != schema)
+      throw Error(ErrorKind::usage, file.string(), "is of another format", "run it again");
+    return {.experiment = document.at("experiment"),
+            .fingerprint = document.at("fingerprint"),
+            .maker = document.at("maker"),
+            .shard = {.index = document.at("shard").at(0), .count = document.at("shard").at(1)},
+            .only = document.at("only"),
+            .quick = document.at("quick"),
+            .processes = document.at("processes"),
+            .tile = document.at("tile"),
+            .node = document.at("node"),
+            .seconds = document.at("seconds"),
+            .keys = document.at("keys").get<std::vector<std::string>>()};
+  } catch (const nlohmann::json::exception&) {
+    throw Error(ErrorKind::usage, file.string(), "is damaged", "run that part again");
+  }
+}
+
+}  // namespace footprint

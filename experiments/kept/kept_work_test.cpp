@@ -1,0 +1,158 @@
+// Finished work on disk: what was kept comes back with its files, what is damaged does not, and a maker's is its own.
+#include "experiments/kept/kept_work.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "renderer/core/error.hpp"
+#include "tests/support/fresh_folder.hpp"
+#include "tests/support/says.hpp"
+
+namespace footprint {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<double> figures{1.0, -0.0, 1e300};
+
+void write(const fs::path& file, const std::string& text) {
+  fs::create_directories(file.parent_path());
+  fs::remove(file);
+  std::ofstream(file) << text;
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// The call fails as a user's mistake, in these words.
+template <class Call>
+void expect_error(Call call, ErrorKind kind, const std::vector<std::string>& words) {
+  try {
+    call();
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), kind);
+    for (const std::string& word : words) EXPECT_TRUE(test::says(error.what(), word));
+  }
+}
+
+class KeptWorkTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = test::fresh_folder();
+    write(run() / "images/a.png", "a picture");
+    write(run() / "images/same.png", "a picture");
+    work_.emplace(folder_ / "kept", "me");
+    key_ = work_->key("record", std::vector<std::string>{"one", "two"});
+    work_->keep(key_, figures, run(), {"images/a.png", "images/same.png"});
+  }
+
+  [[nodiscard]] fs::path run() const { return folder_ / "run"; }
+  [[nodiscard]] fs::path later() const { return folder_ / "later"; }
+  [[nodiscard]] fs::path item() const { return folder_ / "kept" / (key_ + ".done"); }
+  [[nodiscard]] fs::path only_file() const { return fs::directory_iterator(folder_ / "kept/files")->path(); }
+  [[nodiscard]] std::optional<std::vector<double>> found() const {
+    return work_->find<std::vector<double>>(key_, later());
+  }
+
+  fs::path folder_;
+  std::optional<KeptWork> work_;
+  std::string key_;
+};
+
+TEST_F(KeptWorkTest, ComesBackWithItsFiles) {
+  EXPECT_EQ(found(), figures);
+  EXPECT_EQ(text_of(later() / "images/a.png"), "a picture");
+  EXPECT_EQ(text_of(later() / "images/same.png"), "a picture");
+  EXPECT_EQ(work_->found(), 1U);
+  EXPECT_THAT(work_->used(), ::testing::ElementsAre(key_));
+  EXPECT_TRUE(work_->has_whole(key_));
+}
+
+TEST_F(KeptWorkTest, EqualFilesAreKeptOnce) {
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "kept/files"), {}), 1);
+}
+
+TEST_F(KeptWorkTest, ARunThatWritesItsFileAgainLeavesTheKeptOne) {
+  write(run() / "images/a.png", "another");
+  EXPECT_EQ(found(), figures);
+  EXPECT_EQ(text_of(later() / "images/a.png"), "a picture");
+}
+
+TEST_F(KeptWorkTest, KeysTellApart) {
+  const auto key = [&](const std::vector<std::string>& fields) { return work_->key("record", fields); };
+  EXPECT_NE(key({"one", "two"}), key({"onet", "wo"}));
+  EXPECT_NE(key({"one", "two"}), work_->key("truth", std::vector<std::string>{"one", "two"}));
+  EXPECT_NE(key({"one"}), KeptWork(folder_ / "kept", "another").key("record", std::vector<std::string>{"one"}));
+}
+
+TEST_F(KeptWorkTest, WhatIsNotThereIsNotFound) {
+  EXPECT_FALSE(work_->find<std::vector<double>>(work_->key("record", std::vector<std::string>{}), later()));
+  EXPECT_FALSE(work_->find<std::string>(key_, later())) << "it is of another type";
+}
+
+TEST_F(KeptWorkTest, ADamagedItemIsNotFound) {
+  std::string bytes = text_of(item());
+  bytes[bytes.size() / 2] ^= 1;
+  write(item(), bytes);
+  EXPECT_FALSE(found());
+  EXPECT_FALSE(work_->has_whole(key_));
+  write(item(), text_of(item()).substr(0, 20));
+  EXPECT_FALSE(found());
+}
+
+TEST_F(KeptWorkTest, AnItemUnderAnotherKeyIsNotFound) {
+  const std::string other = work_->key("record", std::vector<std::string>{"other"});
+  fs::copy_file(item(), folder_ / "kept" / (other + ".done"));
+  EXPECT_FALSE(work_->find<std::vector<double>>(other, later()));
+}
+
+TEST_F(KeptWorkTest, ADamagedOrMissingFileIsNotFound) {
+  write(only_file(), "a pictura");
+  EXPECT_FALSE(found());
+  fs::remove(only_file());
+  EXPECT_FALSE(found());
+  work_->keep(key_, figures, run(), {"images/a.png"});
+  EXPECT_EQ(found(), figures) << "it can be kept again";
+}
+
+TEST_F(KeptWorkTest, AnotherFolderTakesItOverWhole) {
+  const KeptWork other(folder_ / "other", "me");
+  other.take(key_, *work_);
+  EXPECT_EQ(other.find<std::vector<double>>(key_, later()), figures);
+  EXPECT_EQ(text_of(later() / "images/a.png"), "a picture");
+}
+
+TEST_F(KeptWorkTest, NothingDamagedIsTakenOver) {
+  const KeptWork other(folder_ / "other", "me");
+  write(only_file(), "a pictura");
+  expect_error([&] { other.take(key_, *work_); }, ErrorKind::usage, {only_file().string(), "missing or damaged"});
+  write(item(), "damaged");
+  expect_error([&] { other.take(key_, *work_); }, ErrorKind::usage, {item().string(), "missing or damaged"});
+  EXPECT_THAT(other.keys(), ::testing::IsEmpty());
+}
+
+TEST_F(KeptWorkTest, WhatIsCompleteTakesNothingMore) {
+  expect_error([&] { KeptWork(folder_ / "kept", "me", true).require_more_allowed("a scene"); }, ErrorKind::usage,
+               {"lacks finished work of a scene"});
+  EXPECT_NO_THROW(work_->require_more_allowed("a scene"));
+}
+
+TEST_F(KeptWorkTest, ClearingLeavesNothing) {
+  work_->clear();
+  EXPECT_FALSE(fs::exists(folder_ / "kept"));
+  EXPECT_FALSE(found());
+}
+
+TEST_F(KeptWorkTest, AFileInPlaceOfTheFolderIsRefused) {
+  write(folder_ / "taken", "text");
+  expect_error([&] { KeptWork(folder_ / "taken", "me"); }, ErrorKind::usage, {"taken", "is not a folder"});
+}
+
+}  // namespace
+}  // namespace footprint

@@ -1,0 +1,174 @@
+"""A run goes on where it was killed: nothing is lost, nothing is measured twice, and the result is that of one run.
+
+FOOTPRINT_KILLS: how many kills at random moments (scripts/kills asks for more); FOOTPRINT_SEED: of those moments.
+"""
+
+import os
+import random
+import shutil
+import time
+import unittest
+
+from kept_runs import DISTANCES, METHODS, NDF, ZOOM, KeptRunTest, finished, outcome
+
+KILLS = int(os.environ.get("FOOTPRINT_KILLS", "3"))
+SEED = int(os.environ.get("FOOTPRINT_SEED", "1"))
+ALL_PARTS = 32  # two members of 3 distances, each with truth, pairs, times and 2 records; what both say of the scene; an NDF
+
+
+class Resumed(KeptRunTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.distances = cls.write("distances", DISTANCES + NDF)
+        cls.group = cls.write_group("group", cls.distances, cls.write("zoom", ZOOM))
+        cls.whole = cls.folder / "whole"
+        begin = time.monotonic()
+        code, errors = cls.execute("run", cls.group, "-q", "-o", cls.whole)
+        cls.seconds = time.monotonic() - begin
+        assert code == 0, errors
+        cls.expected = outcome(cls.whole)
+
+    def copy(self, name):
+        out = self.folder / name
+        shutil.copytree(self.whole, out)
+        return out
+
+    def run_until(self, out, stop):
+        """Starts the run and kills it as soon as `stop` says so; whether it was killed."""
+        process = self.start("run", self.group, "-q", "-o", out)
+        while process.poll() is None and not stop():
+            time.sleep(0.002)
+        killed = process.poll() is None
+        process.kill()
+        _, errors = process.communicate()
+        if not killed:
+            self.assertEqual(process.returncode, 0, errors)
+        return killed
+
+    def assert_goes_on(self, out, before):
+        """What was finished is as it was; the rest is done; nothing is left that no run would leave."""
+        self.must("run", self.group, "-q", "-o", out)
+        after = finished(out)
+        self.assertEqual({key: after.get(key) for key in before}, before, "finished work was lost or done again")
+        self.assertEqual(after.keys(), finished(self.whole).keys())
+        self.assert_same_outcome(self.expected, outcome(out))
+        left = [p.name for p in [*out.iterdir(), *out.parent.glob(f".{out.name}*")] if ".partial-" in p.name]
+        self.assertEqual(left, [], "the killed run's own folder stays")
+
+    def test_how_many_parts_there_are(self):
+        self.assertEqual(len(finished(self.whole)), ALL_PARTS)
+
+    def test_killed_at_random_moments(self):
+        generator = random.Random(SEED)
+        out, kills, before = self.folder / "random", 0, {}
+        for attempt in range(20 * KILLS):
+            moment = time.monotonic() + generator.uniform(0.02, self.seconds)
+            killed = self.run_until(out, lambda end=moment: time.monotonic() > end)
+            now = finished(out)
+            self.assertEqual({key: now.get(key) for key in before}, before, f"attempt {attempt}")
+            before, kills = now, kills + killed
+            if kills == KILLS:
+                break
+            if not killed:  # it got to its end: that is one whole run, and the next begins anew
+                self.assert_goes_on(out, before)
+                shutil.rmtree(out)
+                before = {}
+        self.assertEqual(kills, KILLS)
+        self.assert_goes_on(out, before)
+
+    def test_killed_after_a_few_parts(self):
+        for count in (1, 9):
+            out = self.folder / f"after_{count}"
+            self.run_until(out, lambda o=out, c=count: len(finished(o)) >= c)
+            before = finished(out)
+            self.assertGreaterEqual(len(before), count)
+            self.assert_goes_on(out, before)
+
+    def test_a_whole_run_is_reported_again_and_nothing_measured(self):
+        out = self.copy("again")
+        before = finished(out)
+        errors = self.must("run", self.group, "-o", out)
+        self.assertIn("finished parts of an earlier run were taken from", errors)
+        self.assertEqual(finished(out), before)
+        self.assert_same_outcome(self.expected, outcome(out))
+
+    def test_fresh_measures_anew(self):
+        out = self.copy("fresh")
+        before = finished(out)
+        self.must("run", self.group, "-q", "--fresh", "-o", out)
+        after = finished(out)
+        self.assertEqual(after.keys(), before.keys())
+        self.assertFalse([key for key in after if after[key] == before[key]])
+
+    # What is damaged is done again, and it alone.
+
+    def assert_done_again(self, out, before, kinds):
+        after = finished(out)
+        self.assertEqual(sorted(key.split("-")[0] for key in after if after[key] != before.get(key)), kinds)
+
+    def test_a_damaged_part_is_measured_anew(self):
+        out = self.copy("damaged")
+        before = finished(out)
+        part = sorted((out / "kept").glob("record-*.done"))[0]
+        content = bytearray(part.read_bytes())
+        content[len(content) // 2] ^= 1
+        part.write_bytes(content)
+        self.must("run", self.group, "-q", "-o", out)
+        self.assert_done_again(out, before, ["record"])
+        self.assert_same_outcome(self.expected, outcome(out))
+
+    def test_a_damaged_picture_is_drawn_anew(self):
+        out = self.copy("damaged_picture")
+        before = finished(out)
+        # The kept picture and the one in images/ are one file, unless it was copied.
+        of_direct = (self.whole / "distances/images/d2_direct.exr").read_bytes()
+        for file in (out / "kept/files").iterdir():
+            if file.read_bytes() == of_direct:
+                file.write_bytes(of_direct[:-1] + b"?")
+        self.must("run", self.group, "-q", "-o", out)
+        self.assertTrue([key for key, when in finished(out).items() if when != before[key]])
+        self.assert_same_outcome(self.expected, outcome(out))
+
+
+SCENE = """[surface]
+name = "bumps"
+resolution = 64
+seed = 1
+[brdf]
+distribution = "blinn_phong"
+exponent = 64.0
+[[light]]
+type = "directional"
+direction = [-0.4, -0.3, -1.0]
+intensity = {}
+"""
+
+
+class Changed(KeptRunTest):
+    """A changed part alone is measured anew."""
+
+    def kinds_after(self, distances, more="", methods=METHODS):
+        """The kinds of the parts that a run of such a file measures beside those that are there."""
+        out = self.folder / "out"
+        file = self.write("changing", f"[zoom]\ndistances = {distances}\n{more}", self.scene, methods)
+        before = finished(out)
+        self.must("run", file, "-q", "-o", out)
+        return sorted(key.split("-")[0] for key in finished(out) if key not in before)
+
+    def test_changes(self):
+        self.scene = self.folder / "own.toml"
+        self.scene.write_text(SCENE.format(1.5), encoding="utf-8")
+        everything = ["head", *2 * ["pairs"], *4 * ["record"], *2 * ["times"], *2 * ["truth"]]
+        self.assertEqual(self.kinds_after([1, 2]), everything)
+        self.assertEqual(self.kinds_after([1, 2], '[threshold]\n"error(toksvig)" = 1\n'), [], "a threshold")
+        self.assertEqual(self.kinds_after([1, 2, 3]), ["pairs", "record", "record", "times", "truth"], "a distance more")
+        self.assertEqual(self.kinds_after([1, 2], methods=METHODS + ', "naive_mip"'),
+                         ["head", "pairs", "pairs", "record", "record", "times", "times"],
+                         "a method more: times are taken in turn with it")
+        self.scene.write_text(SCENE.format(2.5), encoding="utf-8")
+        self.assertEqual(self.kinds_after([1, 2]), everything, "another light")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -4,6 +4,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <system_error>
 
 #include "app/commands.hpp"
 #include "app/messages.hpp"
@@ -84,6 +85,11 @@ int main(int argc, char** argv) {
     return fail(error.what(), error.kind());
   } catch (const std::bad_alloc&) {
     return fail("out of memory (ask for a smaller --size, or free memory)", ErrorKind::machine);
+  } catch (const std::system_error& error) {
+    const bool no_thread = error.code() == std::errc::resource_unavailable_try_again;
+    return fail(
+        no_thread ? "this machine gives no further thread (raise `ulimit -u`, or end other programs)" : error.what(),
+        ErrorKind::machine);
   } catch (const std::exception& error) {
     return fail(error.what(), ErrorKind::machine);
   }

@@ -60,7 +60,7 @@ function(footprint_install_development)
   install(DIRECTORY "${PROJECT_BINARY_DIR}/renderer/gl/generated/renderer" COMPONENT development
           DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/footprint" FILES_MATCHING PATTERN "*.hpp")
   install(DIRECTORY cmake DESTINATION "${parts}" COMPONENT development FILES_MATCHING PATTERN "*.cmake")
-  install(FILES app/main.cpp DESTINATION "${parts}/app" COMPONENT development)
+  install(FILES app/early_start.cpp app/main.cpp DESTINATION "${parts}/app" COMPONENT development)
   install(FILES methods/quantities.cpp.in methods/registry.cpp.in DESTINATION "${parts}/methods" COMPONENT development)
   install(DIRECTORY methods/template DESTINATION "${parts}/methods" COMPONENT development)
 

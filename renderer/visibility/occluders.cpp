@@ -14,8 +14,8 @@ namespace {
 constexpr float relative_offset = 1e-4F;
 
 [[noreturn]] void throw_out_of_memory(const Scene& scene) {
-  throw Error(ErrorKind::machine, scene.source, "memory is out for the search of what casts shadows",
-              "set `cast = false` in [shadows] of a scene.toml, or free memory");
+  throw Error(ErrorKind::machine, scene.source, "the search of what casts shadows gets no memory, or no thread",
+              "set `cast = false` in [shadows] of a scene.toml, free memory, or raise `ulimit -u`");
 }
 
 int wrapped(int texel, int size, Wrap wrap) {

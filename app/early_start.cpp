@@ -1,0 +1,49 @@
+// What holds before main, while some thirty libraries set themselves up, which takes a tenth of a second or more:
+// Ctrl-C ends the program with its exit code, and a library that cannot start its thread (log4cplus, below OpenImageIO,
+// starts one as soon as it is loaded, and throws) ends it with a message instead of an abort. .preinit_array of a
+// program comes before all set-up of its libraries (System V gABI, chapter 5, Initialization and Termination
+// Functions).
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <system_error>
+
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+namespace {
+
+// No stream and no allocation: neither need work yet.
+[[noreturn]] void end_with(const char* message, ErrorKind kind) {
+  static_cast<void>(::write(STDERR_FILENO, message, std::strlen(message)) == 0);
+  ::_exit(static_cast<int>(kind));
+}
+
+extern "C" void end_before_main(int) {
+  end_with("footprint: interrupted: nothing was written\n", ErrorKind::interrupted);
+}
+
+[[noreturn]] void end_without_thread() {
+  try {
+    if (std::current_exception()) std::rethrow_exception(std::current_exception());
+  } catch (const std::system_error& error) {
+    if (error.code() == std::errc::resource_unavailable_try_again)
+      end_with("footprint: this machine gives no further thread (raise `ulimit -u`, or end other programs)\n",
+               ErrorKind::machine);
+  } catch (...) {  // an abort tells more of any other
+  }
+  std::abort();
+}
+
+void before_libraries(int, char**, char**) {
+  std::set_terminate(end_without_thread);
+  std::signal(SIGINT, end_before_main);  // main puts its own there, which lets work end in order
+}
+
+[[gnu::section(".preinit_array"), gnu::used]] void (*const start)(int, char**, char**) = before_libraries;
+
+}  // namespace
+}  // namespace footprint

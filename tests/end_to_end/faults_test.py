@@ -1,0 +1,69 @@
+"""What machines do to programs: no thread to be had, Ctrl-C before main, a folder that takes nothing, two at once."""
+
+import os
+import subprocess
+import unittest
+
+from whole_runs import PROGRAM, WholeRunTest
+
+SETTINGS = ["ribbed_plane", "--method", "toksvig", "--size", "32x32", "--distance", "2", "--exposure", "1"]
+FAULTS = {name: os.environ[f"FOOTPRINT_FAULT_{name.upper()}"] for name in ("no_thread", "early_interrupt")}
+
+
+def try_run(*arguments, **settings):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False, **settings)
+
+
+class Faults(WholeRunTest):
+    def assert_fails(self, done, code, *texts):
+        """One line on standard error that has these texts, and the exit code."""
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+        for text in ("footprint: ", *texts):
+            self.assertIn(text, done.stderr)
+
+    def with_fault(self, name, *arguments):
+        return try_run(*arguments, env=os.environ | {"LD_PRELOAD": FAULTS[name]})
+
+    def test_no_thread_to_be_had(self):
+        self.assert_fails(self.with_fault("no_thread", "--version"), 3, "no further thread", "ulimit -u")
+
+    def test_interrupted_before_main(self):
+        self.assert_fails(self.with_fault("early_interrupt", "--version"), 130, "interrupted")
+
+    def test_a_library_that_does_nothing_does_no_harm(self):
+        self.assertEqual(try_run("--version").returncode, 0)
+
+    def test_a_folder_that_takes_nothing(self):
+        folder = self.folder / "read_only"
+        folder.mkdir()
+        folder.chmod(0o555)
+        # Root writes wherever it likes: it becomes nobody, who must reach its scratch folder and this picture's.
+        self.folder.chmod(0o755)
+        user = {"user": 65534, "group": 65534, "extra_groups": []} if os.getuid() == 0 else {}
+        picture = folder / "picture.exr"
+        done = try_run("render", *SETTINGS, "--no-cache", "-q", "-o", picture, **user)
+        self.assert_fails(done, 3, str(picture), "a folder that you can write to")
+        self.assertEqual(list(folder.iterdir()), [])
+
+    def test_two_at_once_on_one_cache_and_one_output(self):
+        cache = self.folder / "cache"
+        alone = self.folder / "alone.exr"
+        both = self.folder / "both.exr"
+        settings = [PROGRAM, "render", *SETTINGS[:2], "fournier", *SETTINGS[3:], "-q", "-o"]
+        environment = os.environ | {"FOOTPRINT_CACHE": str(cache)}
+        pair = [subprocess.Popen([*settings, both], env=environment, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL)
+                for _ in range(2)]
+        self.assertEqual([(one.communicate()[1], one.returncode) for one in pair], [(b"", 0)] * 2)
+        subprocess.run([*settings, alone], env=os.environ | {"FOOTPRINT_CACHE": str(self.folder / "other")}, check=True,
+                       stdout=subprocess.DEVNULL)
+        self.assertEqual(both.read_bytes(), alone.read_bytes())
+        again = self.folder / "again.exr"
+        subprocess.run([*settings, again], env=environment, check=True, stdout=subprocess.DEVNULL)
+        self.assertEqual(again.read_bytes(), alone.read_bytes(), "what the two left in the cache")
+        partial = [path for path in self.folder.rglob("*partial*")] + [path for path in cache.rglob(".*") if path.is_file()]
+        self.assertEqual(partial, [])
+
+
+if __name__ == "__main__":
+    unittest.main()

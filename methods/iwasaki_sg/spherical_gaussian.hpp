@@ -26,7 +26,7 @@ struct SphericalGaussian {
 [[nodiscard]] double convolution(const SphericalGaussian& a, const SphericalGaussian& b);
 
 /// The same as one SG in the angle between the axes (Eq. 14): good where both are sharp. The largest error is
-/// 1.45 / (eta1 + eta2)^2.
+/// 1.45 / (eta1 + eta2)^2 in the limit, 1.6 / (eta1 + eta2)^2 where they sum to 10 or more.
 [[nodiscard]] double approximate_convolution(const SphericalGaussian& a, const SphericalGaussian& b);
 
 }  // namespace footprint::iwasaki_sg

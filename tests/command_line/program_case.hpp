@@ -32,6 +32,8 @@ struct Case {
   std::set<std::string> leaves{};                  ///< files that must be there afterwards
   bool keeps_work = false;                         ///< of a run that failed, what it had finished stays in out/kept
   double seconds = 120;                            ///< it must have ended by then
+  bool starts_program = false;  ///< by its file, as a shell does: rows of processes that start themselves,
+                                ///< and of variables that the loader of libraries reads
 };
 
 void PrintTo(const Case& row, std::ostream* out);

@@ -1,4 +1,5 @@
-// fork and execve with output and errors in files; polls them for the end, the text to interrupt at and the timeout.
+// fork, and execve or the function, with output and errors in files; polls them for the end, the text to interrupt at
+// and the timeout.
 #include "tests/support/process.hpp"
 
 #include <fcntl.h>
@@ -8,8 +9,11 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <system_error>
 #include <thread>
 
@@ -49,17 +53,42 @@ void redirect(int descriptor, const char* file) {
   if (opened < 0 || dup2(opened, descriptor) < 0) _exit(126);
 }
 
-// The child: only async-signal-safe calls between fork and exec.
-[[noreturn]] void become(char* const* command, char* const* environment, const char* output, const char* errors,
-                         const std::optional<std::uint64_t>& file_size_limit) {
+// In the child.
+void redirect_and_limit(const char* output, const char* errors, const std::optional<std::uint64_t>& file_size_limit) {
   redirect(STDOUT_FILENO, output);
   redirect(STDERR_FILENO, errors);
   if (file_size_limit) {
     const rlimit limit{*file_size_limit, *file_size_limit};
     if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(126);
   }
+}
+
+// The child: only async-signal-safe calls between fork and exec.
+[[noreturn]] void become(char* const* command, char* const* environment) {
   execve(command[0], command, environment);
   _exit(127);
+}
+
+std::ptrdiff_t threads_now() {
+  return std::distance(fs::directory_iterator("/proc/self/task"), fs::directory_iterator());
+}
+
+// A library that OpenImageIO's formats load, log4cplus, starts four when it is loaded, which wait for work ever after.
+const std::ptrdiff_t threads_of_libraries = threads_now();
+
+// A fork has the thread that made it alone, and the locks of all others as they were.
+void require_no_threads() {
+  if (threads_now() > threads_of_libraries)
+    throw std::logic_error("a process that has started threads runs no function in its fork");
+}
+
+// The child that stays what it is. What runs at a program's end is left out: log4cplus would wait for its threads,
+// which a fork does not have.
+[[noreturn]] void run_function(const ProcessRequest& request, const std::vector<char*>& arguments) {
+  for (const auto& [name, value] : request.environment) setenv(name.c_str(), value.c_str(), 1);
+  const int code = request.function(static_cast<int>(arguments.size()) - 1, arguments.data());
+  std::fflush(nullptr);
+  _exit(code);
 }
 
 // Waits for the end of `child`, interrupting it when asked and killing it at the timeout.
@@ -90,10 +119,16 @@ ProcessResult run_process(const ProcessRequest& request) {
   const std::vector<char*> argv = pointers(command);
   const std::vector<char*> envp = pointers(environment);
 
+  if (request.function != nullptr) require_no_threads();
   const auto start = Clock::now();
+  std::fflush(nullptr);  // a copy of this process would write what is not yet written once more
   const pid_t child = fork();
   if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
-  if (child == 0) become(argv.data(), envp.data(), output.c_str(), errors.c_str(), request.file_size_limit);
+  if (child == 0) {
+    redirect_and_limit(output.c_str(), errors.c_str(), request.file_size_limit);
+    if (request.function != nullptr) run_function(request, argv);
+    become(argv.data(), envp.data());
+  }
 
   ProcessResult result;
   const int status = wait_for(child, request, errors, result.interrupted);

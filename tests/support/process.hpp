@@ -1,4 +1,5 @@
-// Runs a program as a process of its own, as a user does: arguments in, exit code and texts out.
+// Runs a program as a process of its own, as a user does: arguments in, exit code and texts out; or a function in its
+// place, in a process that is a copy of this one.
 #pragma once
 
 #include <chrono>
@@ -11,9 +12,13 @@
 
 namespace footprint::test {
 
+/// A program as a function: argc, argv to exit code.
+using ProgramFunction = int (*)(int, const char* const*);
+
 /// How a process is started and what happens to it.
 struct ProcessRequest {
   std::vector<std::string> command;                  ///< the program's path, then its arguments
+  ProgramFunction function = nullptr;                ///< run in place of the program, in a fork of this process
   std::filesystem::path folder;                      ///< scratch, exists; its texts are kept here while it runs
   std::map<std::string, std::string> environment{};  ///< added to the caller's
   std::filesystem::path standard_output{};           ///< a file or device instead of the text that comes back
@@ -30,7 +35,8 @@ struct ProcessResult {
   std::chrono::duration<double> duration{0};
 };
 
-/// Runs to the end. Throws std::system_error if the process cannot be started.
+/// Runs to the end. Throws std::system_error if the process cannot be started; std::logic_error where a function is to
+/// run in a fork of a process that has started threads.
 [[nodiscard]] ProcessResult run_process(const ProcessRequest& request);
 
 }  // namespace footprint::test

@@ -75,6 +75,12 @@ std::string KeptWork::key(std::string_view kind, std::span<const std::string> de
   return fmt::format("{}-{}", kind, hash.hex());
 }
 
+fs::path KeptWork::item_path(const std::string& key) const {
+  return folder_ / key.substr(key.rfind('-') + 1, 2) / (key + std::string(ending));
+}
+
+fs::path KeptWork::file_path(const std::string& hash) const { return folder_ / "files" / hash.substr(0, 2) / hash; }
+
 std::optional<KeptWork::Item> KeptWork::read(const std::string& key) const {
   const auto bytes = bytes_of(item_path(key));
   if (!bytes) return {};
@@ -113,7 +119,7 @@ bool KeptWork::put_files(const Item& item, const fs::path& run_folder) const {
 
 void KeptWork::write(const std::string& key, std::span<const std::uint8_t> value, const fs::path& run_folder,
                      const std::vector<std::string>& files) const {
-  make_folder(folder_ / "files");
+  make_folder(item_path(key).parent_path());
   SealedWriter writer(form);
   writer.add_text(key);
   writer.add<std::uint64_t>(files.size());
@@ -132,8 +138,9 @@ void KeptWork::write(const std::string& key, std::span<const std::uint8_t> value
 std::vector<std::string> KeptWork::keys() const {
   std::vector<std::string> keys;
   std::error_code unknown;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder_, unknown)) {
-    const std::string name = entry.path().filename().string();
+  for (fs::recursive_directory_iterator entry(folder_, unknown), end; entry != end; entry.increment(unknown)) {
+    if (entry->path().filename() == "files") entry.disable_recursion_pending();
+    const std::string name = entry->path().filename().string();
     if (name.ends_with(ending) && name.front() != '.') keys.push_back(name.substr(0, name.size() - ending.size()));
   }
   std::ranges::sort(keys);
@@ -147,7 +154,7 @@ void KeptWork::take(const std::string& key, const KeptWork& from) const {
   const auto item_bytes = bytes_of(from.item_path(key));
   const std::optional<Item> item = from.read(key);
   if (!item_bytes || !item) refuse(from.item_path(key));
-  make_folder(folder_ / "files");
+  make_folder(item_path(key).parent_path());
   for (const KeptFile& file : item->files) {
     const auto bytes = bytes_of(from.file_path(file.hash));
     if (!bytes || hash_of(*bytes) != file.hash) refuse(from.file_path(file.hash));
@@ -164,7 +171,10 @@ void KeptWork::require_more_allowed(const std::string& what) const {
 
 void KeptWork::clear() const {
   std::error_code ignored;  // what stays is found damaged, or is as it was
-  for (const std::string& key : keys()) fs::remove(item_path(key), ignored);
+  for (const std::string& key : keys()) {
+    fs::remove(item_path(key), ignored);
+    fs::remove(item_path(key).parent_path(), ignored);  // once it is empty
+  }
   fs::remove_all(folder_ / "files", ignored);
   fs::remove(folder_, ignored);  // where nothing else lies in it
 }

@@ -15,7 +15,8 @@
 
 namespace footprint {
 
-/// A folder of finished work: an item is `KEY.done`, its files lie in `files/` by the hash of their bytes, each once.
+/// A folder of finished work: an item is `XY/KEY.done`, its files lie in `files/XY/` by the hash of their bytes, each
+/// once. XY are the first digits of the hash, so that no folder of a large run is slow to search.
 /// Everything appears whole or not at all, and is checked when it is read again: what is damaged counts as not there.
 class KeptWork {
  public:
@@ -78,8 +79,8 @@ class KeptWork {
     std::vector<KeptFile> files;
     std::vector<std::uint8_t> value;
   };
-  [[nodiscard]] std::filesystem::path item_path(const std::string& key) const { return folder_ / (key + ".done"); }
-  [[nodiscard]] std::filesystem::path file_path(const std::string& hash) const { return folder_ / "files" / hash; }
+  [[nodiscard]] std::filesystem::path item_path(const std::string& key) const;
+  [[nodiscard]] std::filesystem::path file_path(const std::string& hash) const;
   [[nodiscard]] std::optional<Item> read(const std::string& key) const;
   [[nodiscard]] bool is_whole(const KeptFile& file) const;
   [[nodiscard]] bool put_files(const Item& item, const std::filesystem::path& run_folder) const;

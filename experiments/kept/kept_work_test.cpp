@@ -54,8 +54,16 @@ class KeptWorkTest : public ::testing::Test {
 
   [[nodiscard]] fs::path run() const { return folder_ / "run"; }
   [[nodiscard]] fs::path later() const { return folder_ / "later"; }
-  [[nodiscard]] fs::path item() const { return folder_ / "kept" / (key_ + ".done"); }
-  [[nodiscard]] fs::path only_file() const { return fs::directory_iterator(folder_ / "kept/files")->path(); }
+  [[nodiscard]] fs::path item() const { return item_of(key_); }
+  [[nodiscard]] fs::path item_of(const std::string& key) const {
+    return folder_ / "kept" / key.substr(key.find('-') + 1, 2) / (key + ".done");
+  }
+  [[nodiscard]] fs::path only_file() const {
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / "kept/files")) {
+      if (entry.is_regular_file()) return entry.path();
+    }
+    return {};
+  }
   [[nodiscard]] std::optional<std::vector<double>> found() const {
     return work_->find<std::vector<double>>(key_, later());
   }
@@ -75,6 +83,7 @@ TEST_F(KeptWorkTest, ComesBackWithItsFiles) {
 }
 
 TEST_F(KeptWorkTest, EqualFilesAreKeptOnce) {
+  EXPECT_EQ(std::distance(fs::directory_iterator(only_file().parent_path()), {}), 1);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "kept/files"), {}), 1);
 }
 
@@ -108,7 +117,8 @@ TEST_F(KeptWorkTest, ADamagedItemIsNotFound) {
 
 TEST_F(KeptWorkTest, AnItemUnderAnotherKeyIsNotFound) {
   const std::string other = work_->key("record", std::vector<std::string>{"other"});
-  fs::copy_file(item(), folder_ / "kept" / (other + ".done"));
+  fs::create_directories(item_of(other).parent_path());
+  fs::copy_file(item(), item_of(other));
   EXPECT_FALSE(work_->find<std::vector<double>>(other, later()));
 }
 

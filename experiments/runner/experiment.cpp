@@ -63,8 +63,7 @@ void read_head(const TomlTable& table, Experiment& experiment) {
   experiment.description = table.word("description").value_or("");
   read_settings(table, "experiment", experiment.run);
   const fs::path beside = experiment.file.parent_path() / experiment.run.scene;
-  std::error_code unknown;
-  if (fs::exists(beside, unknown)) experiment.run.scene = beside.string();
+  if (is_scene(beside)) experiment.run.scene = beside.string();
 }
 
 // Distances that are given, or a zoom with both its ends.

@@ -74,6 +74,21 @@ TEST_F(ExperimentFile, DefaultsAreThoseOfACompare) {
   EXPECT_TRUE(std::holds_alternative<std::monostate>(experiment.run.overrides.camera));
 }
 
+TEST_F(ExperimentFile, ASizeIsTakenAsOnTheCommandLine) {
+  const std::string methods = "[experiment]\ntitle = \"t\"\nscene = \"ribbed_plane\"\nmethods = [\"direct\"]\n";
+  EXPECT_EQ(read(methods + "size = \"256x128\"\n").run.view.size, glm::ivec2(256, 128));
+  EXPECT_EQ(read(methods + "size = [256, 128]\n").run.view.size, glm::ivec2(256, 128));
+  expect_complaint(methods + "size = \"256\"\n", "`256` is no frame size");
+  expect_complaint(methods + "size = \"0x3\"\n", "has no pixels");
+}
+
+TEST_F(ExperimentFile, OnlyASceneBesideItComesBeforeTheLibrary) {
+  fs::create_directories(folder_ / "ribbed_plane");
+  EXPECT_EQ(read(head).run.scene, "ribbed_plane") << "a folder without a scene, as runs leave them";
+  write("ribbed_plane/scene.toml", "");
+  EXPECT_EQ(read(head).run.scene, (folder_ / "ribbed_plane").string());
+}
+
 constexpr const char* every_key = R"toml(
 description = "words"
 size = [500, 400]

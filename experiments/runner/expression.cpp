@@ -315,7 +315,10 @@ class Evaluator {
     if (!answer.value) return trouble(measure_text(measure) + ": " + answer.problem);
     const std::string text = measure_text(measure);
     if (std::ranges::find(found_.calls, text, &MeasuredCall::text) == found_.calls.end()) {
-      found_.calls.push_back({.text = text, .value = *answer.value, .at_noise_floor = answer.at_noise_floor});
+      found_.calls.push_back({.text = text,
+                              .value = *answer.value,
+                              .at_noise_floor = answer.at_noise_floor,
+                              .noise_floor = answer.noise_floor});
     }
     found_.nodes.insert(answer.nodes.begin(), answer.nodes.end());
     return *answer.value;

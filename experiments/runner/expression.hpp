@@ -17,6 +17,7 @@ struct MeasuredCall {
   std::string text;
   double value = 0;
   bool at_noise_floor = false;
+  std::optional<double> noise_floor{};  ///< of an error, where it is known
 };
 
 /// An expression's value, or why it has none, and the figures that it was made of.

@@ -94,7 +94,8 @@ using Evaluate = decltype(FigureFunction::evaluate);
 struct Sample {
   Figure value;
   bool at_noise_floor = false;
-  std::string node{};  // of a time
+  Figure noise_floor{};  // of an error
+  std::string node{};    // of a time
 };
 
 Measured no_figure(std::string problem) { return {.value = {}, .problem = std::move(problem)}; }
@@ -114,8 +115,8 @@ bool selects(const Measure& measure, const std::string& method, const Record& re
 Evaluate over_samples(std::function<Sample(const Measure&, const Record&)> sample, std::string absent) {
   return [sample = std::move(sample), absent = std::move(absent)](const Measure& measure, const std::string& method,
                                                                   const Results& results) {
-    double sum = 0;
-    std::size_t count = 0, noisy = 0, matching = 0;
+    double sum = 0, floors = 0;
+    std::size_t count = 0, noisy = 0, matching = 0, with_floor = 0;
     std::set<std::string> nodes;
     for (const Record& record : results.records) {
       if (!selects(measure, method, record)) continue;
@@ -125,12 +126,15 @@ Evaluate over_samples(std::function<Sample(const Measure&, const Record&)> sampl
       sum += *found.value;
       ++count;
       noisy += found.at_noise_floor ? 1 : 0;
+      floors += found.noise_floor.value_or(0.0);
+      with_floor += found.noise_floor ? 1 : 0;
       if (!found.node.empty()) nodes.insert(found.node);
     }
     if (matching == 0) return no_figure("the run has no such record");
     if (count == 0) return no_figure(absent);
     Measured mean = mean_of(sum, count);
     mean.at_noise_floor = noisy == count;
+    if (with_floor == count) mean.noise_floor = floors / static_cast<double>(count);
     mean.nodes = std::move(nodes);
     return mean;
   };
@@ -166,12 +170,14 @@ Evaluate over_flicker(double Flicker::*member) {
 Sample error_sample(const Measure& measure, const Record& record) {
   if (!measure.spp) {
     return {.value = record.error ? Figure(record.error->normalized_color) : Figure(),
-            .at_noise_floor = at_noise_floor(record)};
+            .at_noise_floor = at_noise_floor(record),
+            .noise_floor = record.error ? record.error->noise_floor : Figure()};
   }
   const auto other = std::ranges::find(record.other_references, *measure.spp, &OtherReference::spp);
   if (other == record.other_references.end()) return {};
   return {.value = other->normalized_color,
-          .at_noise_floor = other->noise_floor && other->normalized_color <= *other->noise_floor};
+          .at_noise_floor = other->noise_floor && other->normalized_color <= *other->noise_floor,
+          .noise_floor = other->noise_floor};
 }
 
 double build_ms(const Record& record) { return record.frame_build ? record.frame_build->ms : 0.0; }
@@ -236,7 +242,8 @@ std::vector<FigureFunction> function_table() {
        over_samples(
            [](const Measure& /*measure*/, const Record& r) {
              return Sample{.value = r.error ? r.error->causes.shading : Figure(),
-                           .at_noise_floor = shading_at_noise_floor(r)};
+                           .at_noise_floor = shading_at_noise_floor(r),
+                           .noise_floor = r.error ? r.error->causes.shading_floor : Figure()};
            },
            "no pixel is interior")},
       {"edge_error", records, nothing, over_causes(&ErrorCauses::edges, "no pixel has an edge")},
@@ -249,7 +256,12 @@ std::vector<FigureFunction> function_table() {
        over_records([](const Record& r) { return r.error ? r.error->noise_floor : Figure(); })},
       {"equivalent_spp", records, nothing,
        over_records([](const Record& r) { return r.equivalent ? Figure(r.equivalent->spp) : Figure(); })},
-      {"flicker", records, a_zoom, over_flicker(&Flicker::mean)},
+      {"flicker", records, a_zoom,
+       over_samples(
+           [](const Measure& /*measure*/, const Record& r) {
+             return r.flicker ? Sample{.value = r.flicker->mean, .noise_floor = r.flicker->noise_floor} : Sample{};
+           },
+           "no record has this figure")},
       {"flicker_p99", records, a_zoom, over_flicker(&Flicker::p99)},
       {"time", records, nothing, over_times([](const Record& r) { return r.frame_ms.median; })},
       {"fps", records, nothing, over_times([](const Record& r) { return r.fps; })},

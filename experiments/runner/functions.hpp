@@ -26,8 +26,10 @@ enum class Selector { distance, frame, spp, footprint, name };
 /// What a run says to a measure.
 struct Measured {
   std::optional<double> value;
-  std::string problem;            ///< why there is none
-  bool at_noise_floor = false;    ///< an error that the reference's own noise explains, in every record that counts
+  std::string problem;          ///< why there is none
+  bool at_noise_floor = false;  ///< an error that the reference's own noise explains, in every record that counts
+  std::optional<double>
+      noise_floor{};              ///< of an error: what the reference's own noise causes of it, where that is known
   std::set<std::string> nodes{};  ///< of a time: the machines that it was taken on
 };
 

@@ -1,7 +1,10 @@
 // Evaluates an experiment's expressions over its results, and compares each outcome with what was expected.
 #include "experiments/runner/judge.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -43,6 +46,23 @@ ClaimOutcome outcome_of(const Claim& claim, const Results& results) {
   return outcome;
 }
 
+// A bound on one error that lies within what the reference's noise causes of it can be neither held nor missed.
+ThresholdOutcome outcome_of(const Threshold& threshold, const Results& results) {
+  Evaluation found = threshold.measure.evaluate(results);
+  ThresholdOutcome outcome{.measure = threshold.measure.text(),
+                           .limit = threshold.limit,
+                           .measured = found.value,
+                           .problem = std::move(found.problem)};
+  const bool is_one_call = found.calls.size() == 1 && found.calls.front().text == outcome.measure;
+  const std::optional<double> floor = is_one_call ? found.calls.front().noise_floor : std::nullopt;
+  if (found.value && floor && threshold.limit <= *floor) {
+    outcome.measured.reset();
+    outcome.problem =
+        fmt::format("the limit lies within the reference's noise, {:.3g}: more samples, or a higher limit", *floor);
+  }
+  return outcome;
+}
+
 }  // namespace
 
 ExperimentReport judge(const Experiment& experiment, const Results& results) {
@@ -64,13 +84,7 @@ ExperimentReport judge(const Experiment& experiment, const Results& results) {
                                 .note = measured.value ? published.note : measured.problem});
   }
   for (const Claim& claim : experiment.claims) report.claims.push_back(outcome_of(claim, results));
-  for (const Threshold& threshold : experiment.thresholds) {
-    Evaluation measured = threshold.measure.evaluate(results);
-    report.thresholds.push_back({.measure = threshold.measure.text(),
-                                 .limit = threshold.limit,
-                                 .measured = measured.value,
-                                 .problem = std::move(measured.problem)});
-  }
+  for (const Threshold& threshold : experiment.thresholds) report.thresholds.push_back(outcome_of(threshold, results));
   return report;
 }
 

@@ -309,10 +309,11 @@ SettingType frame_size(Field<std::optional<glm::ivec2>> field) {
   return {
       .word = "WIDTHxHEIGHT",
       .option_takes = fmt::format("1 to {} a side, and what memory holds", max_frame_side),
-      .file_takes = fmt::format("[width, height], 1 to {} each", max_frame_side),
+      .file_takes = fmt::format("[width, height] or \"WIDTHxHEIGHT\", 1 to {} each", max_frame_side),
       .read_text = parse,
       .read_file =
           [=](RunSettings& run, const TomlTable& table, std::string_view key) {
+            if (table.is_word(key)) return at_key(table, key, [&] { parse(run, "", *table.word(key)); });
             const std::vector<int> sides = read_whole_numbers(table, key, 2, {1, max_frame_side});
             field(run) = glm::ivec2(sides[0], sides[1]);
           },

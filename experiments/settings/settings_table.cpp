@@ -43,7 +43,7 @@ std::vector<Setting> what_is_drawn() {
       {.table = "experiment",
        .key = "scene",
        .type = any_text(scene, "SCENE"),
-       .help = "SCENE as on the command line; a path that exists beside the file comes first",
+       .help = "SCENE as on the command line; a scene beside the file comes first",
        .required = true},
       {.option = "--model-scene",
        .commands = of_a_scene,

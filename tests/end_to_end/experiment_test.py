@@ -11,7 +11,7 @@ from whole_runs import PROGRAM, SOURCE, WholeRunTest, largest_difference, pictur
 HEAD = """[experiment]
 title = "A small one"
 scene = "ribbed_plane"
-size = [32, 32]
+size = "32x32"
 methods = ["direct", "toksvig"]
 repeats = 1
 [reference]
@@ -69,12 +69,16 @@ class Experiments(WholeRunTest):
     # Each gate must be able to fall.
 
     def test_a_threshold_that_is_too_low_falls(self):
-        content = HEAD + '[threshold]\n"error(toksvig)" = 0.001\n"error(direct)" = 1\n'
-        self.assert_falls_short("low", content, "threshold error(toksvig): at most 0.00100, measured 0.")
+        content = HEAD + '[threshold]\n"error(direct)" = 0.2\n"error(toksvig)" = 1\n'
+        self.assert_falls_short("low", content, "threshold error(direct): at most 0.20000, measured 0.")
 
     def test_a_threshold_without_a_figure_falls(self):
         content = HEAD + '[zoom]\ndistances = [1000000]\n[threshold]\n"error(toksvig)" = 1\n'
         self.assert_falls_short("without", content, "no record has this figure")
+
+    def test_a_threshold_within_the_noise_falls(self):
+        content = HEAD.replace("spp = 16", "spp = 2") + '[threshold]\n"error(toksvig)" = 0.001\n'
+        self.assert_falls_short("within_noise", content, "the limit lies within the reference's noise, 0.")
 
     def test_a_threshold_of_each_method_falls_for_the_one_that_exceeds_it(self):
         limit = 0.3  # between the two

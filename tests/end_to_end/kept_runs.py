@@ -49,7 +49,7 @@ def outcome(folder):
 
 def finished(folder):
     """When each finished part was written, by its key."""
-    return {file.stem: file.stat().st_mtime_ns for file in (folder / "kept").glob("*.done")}
+    return {file.stem: file.stat().st_mtime_ns for file in (folder / "kept").glob("*/*.done")}
 
 
 class KeptRunTest(WholeRunTest):

@@ -115,7 +115,7 @@ class Merged(KeptRunTest):
 
     def test_damaged_work(self):
         part = self.copy(1, "work")
-        item = sorted((part / "kept").glob("record-*.done"))[0]
+        item = sorted((part / "kept").glob("*/record-*.done"))[0]
         content = bytearray(item.read_bytes())
         content[len(content) // 2] ^= 1
         item.write_bytes(content)
@@ -123,13 +123,13 @@ class Merged(KeptRunTest):
 
     def test_work_that_is_gone(self):
         part = self.copy(1, "gone")
-        item = sorted((part / "kept").glob("times-*.done"))[0]
+        item = sorted((part / "kept").glob("*/times-*.done"))[0]
         item.unlink()
         self.assert_refused([self.parts[0], part, self.parts[2]], item.name, "missing or damaged")
 
     def test_a_damaged_picture(self):
         part = self.copy(1, "picture")
-        picture = sorted((part / "kept/files").iterdir())[0]
+        picture = sorted((part / "kept/files").glob("*/*"))[0]
         picture.write_bytes(picture.read_bytes()[:-1] + b"?")
         self.assert_refused([self.parts[0], part, self.parts[2]], picture.name, "missing or damaged")
 

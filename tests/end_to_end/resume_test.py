@@ -110,7 +110,7 @@ class Resumed(KeptRunTest):
     def test_a_damaged_part_is_measured_anew(self):
         out = self.copy("damaged")
         before = finished(out)
-        part = sorted((out / "kept").glob("record-*.done"))[0]
+        part = sorted((out / "kept").glob("*/record-*.done"))[0]
         content = bytearray(part.read_bytes())
         content[len(content) // 2] ^= 1
         part.write_bytes(content)
@@ -123,7 +123,7 @@ class Resumed(KeptRunTest):
         before = finished(out)
         # The kept picture and the one in images/ are one file, unless it was copied.
         of_direct = (self.whole / "distances/images/d2_direct.exr").read_bytes()
-        for file in (out / "kept/files").iterdir():
+        for file in (out / "kept/files").glob("*/*"):
             if file.read_bytes() == of_direct:
                 file.write_bytes(of_direct[:-1] + b"?")
         self.must("run", self.group, "-q", "-o", out)

@@ -112,6 +112,11 @@ Scene load_scene(const std::string& scene, const SceneLibrary& library, const Sc
   return assemble(read_scene(scene, library, overrides));
 }
 
+bool is_scene(const fs::path& path) {
+  if (is_file(path)) return lower_extension(path) == ".toml" || names_model(path);
+  return is_file(path / settings_name);
+}
+
 std::vector<std::string> list_scenes(const fs::path& scenes_folder) {
   std::vector<std::string> names;
   std::error_code error;

@@ -41,6 +41,9 @@ struct SceneOverrides {
 [[nodiscard]] Scene load_scene(const std::string& scene, const SceneLibrary& library,
                                const SceneOverrides& overrides = {});
 
+/// Whether a path leads to something that load_scene takes: a folder with a scene.toml, a TOML file or a model file.
+[[nodiscard]] bool is_scene(const std::filesystem::path& path);
+
 /// The names of the folders in `scenes_folder` that hold a scene.toml, sorted.
 [[nodiscard]] std::vector<std::string> list_scenes(const std::filesystem::path& scenes_folder);
 

@@ -76,9 +76,8 @@ std::string maker_for(const RunSettings& run) {
   return maker_of_work(fmt::format("{} {}", context.info().renderer, context.info().version));
 }
 
-std::vector<std::string> run_and_print(const AskedExperiments& asked, const fs::path& output, const KeptWork& kept,
-                                       bool quiet) {
-  std::vector<std::string> shortfalls;
+void run_and_print(const AskedExperiments& asked, const fs::path& output, const KeptWork& kept, bool quiet,
+                   const std::function<void(const Results& results)>& each) {
   for (const Experiment& experiment : asked.experiments) {
     ProgressDisplay display(progress_style(quiet));
     const auto [results, path] =
@@ -86,10 +85,8 @@ std::vector<std::string> run_and_print(const AskedExperiments& asked, const fs::
                     [&](OutputFolder& folder) { return run_into(experiment, folder, kept, display.callback()); });
     display.finish();
     print_results(results, path);
-    for (const std::string& line : results.experiment->shortfalls())
-      shortfalls.push_back(asked.has_members() ? experiment.name + ": " + line : line);
+    each(results);
   }
-  return shortfalls;
 }
 
 void run_part(const AskedExperiments& asked, const Shard& shard, const fs::path& output, const KeptWork& kept,

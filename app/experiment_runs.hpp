@@ -2,13 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
-#include <vector>
 
 #include "app/asked_experiments.hpp"
 #include "app/part_file.hpp"
 #include "experiments/kept/kept_work.hpp"
-#include "renderer/core/progress.hpp"
+#include "results/report/records.hpp"
 
 namespace footprint {
 
@@ -19,10 +19,10 @@ namespace footprint {
 [[nodiscard]] std::string maker_for(const RunSettings& run);
 
 /// Runs each experiment as far as `kept` does not have it, into `output` or, of members, into folders of their own
-/// below it, and prints the tables. Returns what fell short, a line each. Errors: those of run_experiment; what is
-/// finished until then is kept.
-[[nodiscard]] std::vector<std::string> run_and_print(const AskedExperiments& asked, const std::filesystem::path& output,
-                                                     const KeptWork& kept, bool quiet);
+/// below it, and prints the tables; `each` sees the results of each. Errors: those of run_experiment; what is finished
+/// until then is kept.
+void run_and_print(const AskedExperiments& asked, const std::filesystem::path& output, const KeptWork& kept, bool quiet,
+                   const std::function<void(const Results& results)>& each);
 
 /// Does one part of the work of all experiments together and keeps it in `kept`, below `output`; pictures on their way
 /// go there too and are gone at the end.

@@ -110,7 +110,7 @@ void merge(const MergeArguments& arguments) {
     const KeptWork from(kept_folder(part.folder), maker);
     for (const std::string& key : part.file.keys) kept.take(key, from);
   }
-  (void)run_and_print(asked, arguments.output, kept, arguments.quiet);
+  run_and_print(asked, arguments.output, kept, arguments.quiet, [](const Results& /*results*/) {});
 }
 
 }  // namespace

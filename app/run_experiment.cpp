@@ -4,11 +4,13 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <system_error>
 
 #include "app/asked_experiments.hpp"
+#include "app/check_reports.hpp"
 #include "app/commands.hpp"
 #include "app/experiment_runs.hpp"
 #include "app/hard_cases.hpp"
@@ -46,7 +48,9 @@ constexpr const char* check_examples =
     "Examples:\n"
     "  footprint check quick -o out                 every method, in seconds\n"
     "  footprint check hard_cases -o out            every method where numbers are hard (docs/stability.md)\n"
-    "  footprint check experiments/tan2005_fig4.toml -o out";
+    "  footprint check experiments/tan2005_fig4.toml -o out\n"
+    "  footprint check quick -o out --junit out/junit.xml --github\n"
+    "  footprint check quick -o out --baseline quick.json --update-baseline    once; and without the latter ever after";
 
 struct ExperimentArguments {
   explicit ExperimentArguments(CLI::App& command) : run(command) {}
@@ -55,7 +59,8 @@ struct ExperimentArguments {
   std::string experiment;
   std::string output = "out";
   std::string only;
-  std::string shard;  // empty: all of it
+  std::string shard;     // empty: all of it
+  CheckReports reports;  // of `check`
   bool quick = false;
   bool fresh = false;
   bool wide = false;          // hard_cases: every storage in every case
@@ -104,15 +109,14 @@ KeptWork finished_work(const AskedExperiments& asked, const ExperimentArguments&
   return kept;
 }
 
-// Runs the experiment, or each of its members into a folder of its own, prints the tables and gives what fell short.
-std::vector<std::string> run_all(const ExperimentArguments& arguments) {
+// Runs the experiment, or each of its members into a folder of its own, and prints the tables.
+void run_all(const ExperimentArguments& arguments, const std::function<void(const Results& results)>& each) {
   const AskedExperiments experiments = asked(arguments);
   const KeptWork kept = finished_work(experiments, arguments);
-  std::vector<std::string> shortfalls = run_and_print(experiments, arguments.output, kept, arguments.quiet);
+  run_and_print(experiments, arguments.output, kept, arguments.quiet, each);
   if (kept.found() > 0 && !arguments.quiet)
     write_message(fmt::format("{} finished parts of an earlier run were taken from {} (--fresh: measure anew)",
                               kept.found(), kept.folder().string()));
-  return shortfalls;
 }
 
 // Runs one part; `part.json` says that it is whole, and is there only then.
@@ -144,18 +148,33 @@ void run_shard(const ExperimentArguments& arguments) {
 void run(const ExperimentArguments& arguments) {
   if (!arguments.timing_file.empty()) return take_times(arguments);
   if (!arguments.shard.empty()) return run_shard(arguments);
-  (void)run_all(arguments);
+  run_all(arguments, [](const Results& /*results*/) {});
+}
+
+// Errors (usage): a report is asked for that only experiments have.
+void refuse_reports(const CheckReports& reports) {
+  const char* option = nullptr;
+  if (!reports.junit.empty()) option = "--junit";
+  if (reports.github) option = "--github";
+  if (!reports.baseline.empty() || reports.update) option = "--baseline";
+  if (option == nullptr) return;
+  throw Error(ErrorKind::usage, option, fmt::format("{} is no experiment and has no such report", hard_cases_name),
+              "leave it out: hard_cases.json has all outcomes");
 }
 
 void check(const ExperimentArguments& arguments) {
   if (arguments.experiment == hard_cases_name) {
+    refuse_reports(arguments.reports);
     return check_hard_cases({.run = arguments.run.settings(),
                              .wide = arguments.wide,
                              .output = arguments.output,
                              .quiet = arguments.quiet});
   }
   if (!arguments.timing_file.empty()) return take_times(arguments);
-  const std::vector<std::string> shortfalls = run_all(arguments);
+  CheckBook book(arguments.reports);
+  run_all(arguments, [&](const Results& results) { book.add(results); });
+  book.report();
+  const std::vector<std::string> shortfalls = book.shortfalls();
   if (shortfalls.empty()) return;
   std::string list;
   for (const std::string& line : shortfalls) list += "fell short: " + line + "\n";
@@ -184,6 +203,16 @@ void add_check_command(CLI::App& app) {
   const auto arguments = std::make_shared<ExperimentArguments>(*command);
   add_options(*command, *arguments);
   command->add_flag("--wide", arguments->wide, "hard_cases: every storage in every case, not over single lobes alone");
+  command->add_option("--junit", arguments->reports.junit, "Also write every claim and threshold as JUnit XML")
+      ->type_name("FILE");
+  command->add_flag("--github", arguments->reports.github,
+                    "Also print what fell short as annotations of a GitHub workflow");
+  command
+      ->add_option("--baseline", arguments->reports.baseline,
+                   "Also hold errors, flicker and bytes of every record against those of an earlier run")
+      ->type_name("FILE");
+  command->add_flag("--update-baseline", arguments->reports.update,
+                    "Write --baseline anew instead of holding against it, and print what differs");
   command->footer(std::string(experiment_words) + check_examples);
   command->callback([arguments] { check(*arguments); });
 }

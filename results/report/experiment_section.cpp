@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "results/report/check_outcomes.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/markdown_table.hpp"
 #include "results/report/text_template.hpp"
@@ -122,21 +123,16 @@ std::string html_table(const Table& table) {
 
 }  // namespace
 
-std::vector<std::string> ExperimentReport::shortfalls() const {
-  std::vector<std::string> lines;
-  for (const ClaimOutcome& claim : claims) {
-    if (claim.as_expected()) continue;
-    lines.push_back(
-        fmt::format("claim {}: {}: {} ({})", claim.name, outcome_text(claim), claim.inequality, figures_text(claim)));
-  }
-  for (const ThresholdOutcome& threshold : thresholds) {
-    if (threshold.held()) continue;
-    lines.push_back(fmt::format("threshold {}: at most {}, measured {}", threshold.measure,
-                                figure_text(threshold.limit),
-                                threshold.problem.empty() ? figure_text(threshold.measured) : threshold.problem));
-  }
-  return lines;
+std::string shortfall_of(const ClaimOutcome& claim) {
+  return fmt::format("{}: {} ({})", outcome_text(claim), claim.inequality, figures_text(claim));
 }
+
+std::string shortfall_of(const ThresholdOutcome& threshold) {
+  return fmt::format("at most {}, measured {}", figure_text(threshold.limit),
+                     threshold.problem.empty() ? figure_text(threshold.measured) : threshold.problem);
+}
+
+std::vector<std::string> ExperimentReport::shortfalls() const { return shortfalls_of(check_outcomes(*this)); }
 
 std::string experiment_markdown(const ExperimentReport& report) {
   std::string text = fmt::format("\n## Experiment {}\n\n{}\n\n{}\n", markdown_escaped(report.name),

@@ -7,6 +7,10 @@
 
 namespace footprint {
 
+/// How a claim or a threshold fell short, in one line without its name.
+[[nodiscard]] std::string shortfall_of(const ClaimOutcome& claim);
+[[nodiscard]] std::string shortfall_of(const ThresholdOutcome& threshold);
+
 /// The sections of table.md that an experiment adds, each with its heading.
 [[nodiscard]] std::string experiment_markdown(const ExperimentReport& report);
 

@@ -5,6 +5,7 @@ import json
 import re
 import subprocess
 import unittest
+import xml.etree.ElementTree
 
 from whole_runs import PROGRAM, SOURCE, WholeRunTest, largest_difference, picture_facts, results_of, run
 
@@ -106,6 +107,59 @@ class Experiments(WholeRunTest):
         self.assertEqual(code, 0)
         self.assertIn("Fell short:", output)
         self.assertFalse(results_of(out)["experiment"]["thresholds"][0]["held"])
+
+    # What other programs read.
+
+    def check(self, name, content, *more):
+        """Exit code and standard output of a check whose finished work is kept from call to call."""
+        file = self.folder / f"{name}.toml"
+        file.write_text(content, encoding="utf-8")
+        command = [PROGRAM, "check", file, "--quiet", "-o", self.folder / f"{name}_out", *more]
+        done = subprocess.run([*map(str, command)], capture_output=True, text=True, check=False)
+        return done.returncode, done.stdout, done.stderr
+
+    def test_junit_and_annotations(self):
+        junit = self.folder / "junit.xml"
+        content = HEAD + '[threshold]\n"error(direct)" = 0.2\n"error(toksvig)" = 1\n'
+        code, output, _ = self.check("read", content, "--junit", junit, "--github")
+        self.assertEqual(code, 1)
+        suites = xml.etree.ElementTree.parse(junit).getroot()
+        self.assertEqual((suites.tag, suites.get("tests"), suites.get("failures")), ("testsuites", "2", "1"))
+        failed = [case for case in suites.iter("testcase") if case.find("failure") is not None]
+        self.assertEqual([case.get("name") for case in failed], ["threshold error(direct)"])
+        self.assertIn("at most 0.20000", failed[0].find("failure").get("message"))
+        line = 1 + content[:content.index('"error(direct)"')].count("\n")
+        self.assertRegex(output, rf"(?m)^::error file=.*read\.toml,line={line},title=read%3A threshold error\(direct\)::at most")
+
+    def test_a_baseline_is_written_when_asked_for_held_and_falls(self):
+        baseline = self.folder / "baseline.json"
+        code, _, errors = self.check("based", HEAD, "--baseline", baseline)
+        self.assertEqual(code, 2)
+        self.assertIn("baseline.json: no such baseline (--update-baseline writes it)", errors)
+        self.assertEqual(self.check("based", HEAD, "--update-baseline")[0], 2)
+        code, output, errors = self.check("based", HEAD, "--baseline", baseline, "--update-baseline")
+        self.assertEqual((code, errors), (0, ""))
+        self.assertIn("based: baseline toksvig at 1: the baseline does not have this record", output)
+        written = baseline.read_text(encoding="utf-8")
+        self.assertEqual(self.check("based", HEAD, "--baseline", baseline)[0], 0)
+        document = json.loads(written)
+        document["figures"]["based"]["toksvig at 1"]["error"] += 0.01
+        document["figures"]["another"] = {"x at 1": {"error": 0.5}}
+        baseline.write_text(json.dumps(document), encoding="utf-8")
+        code, output, errors = self.check("based", HEAD, "--baseline", baseline)
+        self.assertEqual(code, 1)
+        self.assertRegex(output, r"(?m)^fell short: baseline toksvig at 1: error 0\.\d+, was 0\.\d+$")
+        self.assertIn("1 of its claims and thresholds fell short", errors)
+        code, output, _ = self.check("based", HEAD, "--baseline", baseline, "--update-baseline")
+        self.assertEqual(code, 0)
+        self.assertRegex(output, r"based: baseline toksvig at 1: error 0\.\d+, was 0\.\d+\n")
+        updated = json.loads(baseline.read_text(encoding="utf-8"))
+        self.assertEqual(updated["figures"].pop("another"), {"x at 1": {"error": 0.5}}, "what was not run stays")
+        self.assertEqual(updated, json.loads(written))
+        baseline.write_text("{", encoding="utf-8")
+        code, _, errors = self.check("based", HEAD, "--baseline", baseline)
+        self.assertEqual(code, 2)
+        self.assertIn("baseline.json: is damaged", errors)
 
     # What a run writes.
 

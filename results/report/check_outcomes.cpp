@@ -1,0 +1,136 @@
+// Outcomes as text, each format with its own escapes.
+#include "results/report/check_outcomes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "results/report/experiment_section.hpp"
+
+namespace footprint {
+namespace {
+
+// The line of the first place of `text` that has one of the `words`; 0 where none has.
+int line_of(const std::string& text, std::span<const std::string> words) {
+  std::size_t place = std::string::npos;
+  for (const std::string& word : words) place = std::min(place, text.find(word));
+  if (place == std::string::npos) return 0;
+  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(place), '\n'));
+}
+
+// XML 1.0: characters that no document may hold, not even escaped, become blanks.
+std::string xml_escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\n':
+        out += "&#10;";
+        break;
+      default:
+        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+  }
+  return out;
+}
+
+// As workflow commands take them: a property also ends at a comma, and its name at a colon.
+std::string command_escaped(std::string_view text, bool is_property) {
+  std::string out;
+  for (const char c : text) {
+    const bool special = c == '%' || c == '\r' || c == '\n' || (is_property && (c == ':' || c == ','));
+    out += special ? fmt::format("%{:02X}", static_cast<unsigned>(c)) : std::string(1, c);
+  }
+  return out;
+}
+
+std::string test_case(const CheckOutcome& outcome) {
+  const std::string head =
+      fmt::format(R"(    <testcase classname="{}" name="{}")", xml_escaped(outcome.suite), xml_escaped(outcome.name));
+  if (outcome.failure.empty()) return head + "/>\n";
+  return head + fmt::format(">\n      <failure message=\"{0}\">{0}</failure>\n    </testcase>\n",
+                            xml_escaped(outcome.failure));
+}
+
+std::size_t failures_among(std::span<const CheckOutcome> outcomes) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(outcomes, [](const CheckOutcome& outcome) { return !outcome.failure.empty(); }));
+}
+
+}  // namespace
+
+std::vector<CheckOutcome> check_outcomes(const ExperimentReport& report, const std::string& toml) {
+  std::vector<CheckOutcome> outcomes;
+  for (const ClaimOutcome& claim : report.claims) {
+    const std::vector<std::string> written{fmt::format("name = \"{}\"", claim.name)};
+    outcomes.push_back({.suite = report.name,
+                        .name = "claim " + claim.name,
+                        .failure = claim.as_expected() ? "" : shortfall_of(claim),
+                        .file = report.file,
+                        .line = line_of(toml, written)});
+  }
+  for (const ThresholdOutcome& threshold : report.thresholds) {
+    // Of a `*` each method has an outcome, and all have one line.
+    const std::string function = threshold.measure.substr(0, threshold.measure.find('('));
+    const std::vector<std::string> written{fmt::format("\"{}\"", threshold.measure), fmt::format("\"{}(*", function)};
+    outcomes.push_back(
+        {.suite = report.name,
+         .name = "threshold " + threshold.measure,
+         .failure = threshold.held() ? "" : shortfall_of(threshold),
+         .file = report.file,
+         .line = line_of(toml, std::span(written).first(line_of(toml, std::span(written).first(1)) ? 1 : 2))});
+  }
+  return outcomes;
+}
+
+std::vector<std::string> shortfalls_of(std::span<const CheckOutcome> outcomes) {
+  std::vector<std::string> lines;
+  for (const CheckOutcome& outcome : outcomes) {
+    if (!outcome.failure.empty()) lines.push_back(outcome.name + ": " + outcome.failure);
+  }
+  return lines;
+}
+
+std::string junit_xml(std::span<const CheckOutcome> outcomes) {
+  std::string xml =
+      fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"{}\" failures=\"{}\">\n",
+                  outcomes.size(), failures_among(outcomes));
+  while (!outcomes.empty()) {
+    const auto end = std::ranges::find_if(
+        outcomes, [&](const CheckOutcome& outcome) { return outcome.suite != outcomes.front().suite; });
+    const auto suite = outcomes.first(static_cast<std::size_t>(end - outcomes.begin()));
+    xml += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n", xml_escaped(suite.front().suite),
+                       suite.size(), failures_among(suite));
+    for (const CheckOutcome& outcome : suite) xml += test_case(outcome);
+    xml += "  </testsuite>\n";
+    outcomes = outcomes.subspan(suite.size());
+  }
+  return xml + "</testsuites>\n";
+}
+
+std::string github_annotations(std::span<const CheckOutcome> outcomes) {
+  std::string text;
+  for (const CheckOutcome& outcome : outcomes) {
+    if (outcome.failure.empty()) continue;
+    std::string place;
+    if (!outcome.file.empty()) place += fmt::format("file={},", command_escaped(outcome.file, true));
+    if (outcome.line > 0) place += fmt::format("line={},", outcome.line);
+    text += fmt::format("::error {}title={}::{}\n", place, command_escaped(outcome.suite + ": " + outcome.name, true),
+                        command_escaped(outcome.failure, false));
+  }
+  return text;
+}
+
+}  // namespace footprint

@@ -59,7 +59,7 @@ function(footprint_add_test name)
 endfunction()
 
 # footprint_compile_shaders_fast(TEST): of a test that draws hundreds of programs once each. llvmpipe's compiler leaves
-# its optimisation passes out, which takes a third off where no program is kept from an earlier run; other drivers do not
+# its optimisation passes out, which takes a third off and more where no program is kept from an earlier run; other drivers do not
 # know the word.
 function(footprint_compile_shaders_fast test)
   if(FOOTPRINT_TESTS)

@@ -12,6 +12,7 @@ option(FOOTPRINT_TESTS "Build the tests" ON)
 option(FOOTPRINT_BENCH "Build the benchmarks" ON)
 option(FOOTPRINT_UNITY "Compile tests, and sources that read large headers, four at once" ON)
 option(FOOTPRINT_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
+option(FOOTPRINT_FUZZ "Build libFuzzer targets for the readers (Clang, with FOOTPRINT_SANITIZE)" OFF)
 
 add_library(footprint_settings INTERFACE)
 target_include_directories(footprint_settings INTERFACE "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>"
@@ -26,6 +27,9 @@ if(FOOTPRINT_SANITIZE)
   target_compile_options(footprint_settings INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer
                                                       -fno-sanitize-recover=undefined)
   target_link_options(footprint_settings INTERFACE -fsanitize=address,undefined)
+endif()
+if(FOOTPRINT_FUZZ)
+  target_compile_options(footprint_settings INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
 # ccache keeps an object that starts from precompiled headers only where it need not look into them for __TIME__.

@@ -112,5 +112,18 @@ TEST(SealedBytes, ValuesComeBackAndNothingIsLeft) {
   EXPECT_FALSE(SealedReader::open(bytes, "numbers 2"));
 }
 
+// Found by scripts/fuzz: any byte was taken for a bool.
+TEST(SealedBytes, AByteThatIsNeither0Nor1IsNoBool) {
+  for (const int byte : {0, 1, 2, 115, 255}) {
+    SealedWriter out("bools 1");
+    out.add(static_cast<std::uint8_t>(byte));
+    const std::vector<std::uint8_t> bytes = std::move(out).seal();
+    std::optional<SealedReader> in = SealedReader::open(bytes, "bools 1");
+    ASSERT_TRUE(in);
+    EXPECT_EQ(in->get<bool>(), byte == 1) << byte;
+    EXPECT_EQ(in->finished(), byte <= 1) << byte;
+  }
+}
+
 }  // namespace
 }  // namespace footprint

@@ -51,10 +51,16 @@ class SealedReader {
 
   template <class Value>
   requires std::is_trivially_copyable_v<Value> Value get() {
-    Value value{};
-    const std::span<const std::uint8_t> block = take(sizeof(Value));
-    if (!block.empty()) std::memcpy(&value, block.data(), sizeof(Value));
-    return value;
+    if constexpr (std::is_same_v<Value, bool>) {  // 0 or 1: any other byte is no bool to begin with
+      const auto byte = get<std::uint8_t>();
+      whole_ = whole_ && byte <= 1;
+      return byte == 1;
+    } else {
+      Value value{};
+      const std::span<const std::uint8_t> block = take(sizeof(Value));
+      if (!block.empty()) std::memcpy(&value, block.data(), sizeof(Value));
+      return value;
+    }
   }
   std::span<const std::uint8_t> get_block() { return take(get<std::uint64_t>()); }
   std::string get_text();

@@ -121,6 +121,66 @@ class ExpectedOutput(InFolder):
             (self.folder / name).write_text("x", encoding="utf-8")
 
 
+# Stands for the program: recommends `quick_choice` or, exhaustively, `whole_choice` of the folder beside it.
+ADVISER = """#!/bin/sh
+here=$(dirname "$0"); choice=quick_choice
+for word in "$@"; do [ "$word" = --exhaustive ] && choice=whole_choice; done
+echo "$@" >> "$here/calls"
+while [ "$1" != "-o" ]; do shift; done
+mkdir -p "$2" && cp "$here/$choice" "$2/recommend.json"
+"""
+
+
+class CheckRecommendations(InFolder):
+    """What was measured is kept and not measured again; what differs, and what fails, is told."""
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "program").write_text(ADVISER, encoding="utf-8")
+        (self.folder / "program").chmod(0o755)
+        self.choose("quick", 0)
+        self.choose("whole", 0)
+
+    def choose(self, run, index):
+        costs = lambda median: {"min": 0.9 * median, "median": median, "max": 1.1 * median}
+        candidates = [{"method": "direct", "footprint": "trilinear", "error": 0.2, "noise": 0.001, "cost": costs(1.0)},
+                      {"method": "lean", "footprint": "trilinear", "error": 0.1, "noise": 0.001, "cost": costs(3.0)}]
+        advice = {"material": "stone", "candidates": candidates, "chosen": index, "nearest": None}
+        document = {"limits": {"max_error": None}, "materials": [advice]}
+        (self.folder / f"{run}_choice").write_text(json.dumps(document), encoding="utf-8")
+
+    def check(self, *words):
+        return subprocess.run([SOURCE / "scripts/check_recommendations", "--keep", self.folder / "kept", *words],
+                              env={**os.environ, "FOOTPRINT_PROGRAM": str(self.folder / "program")},
+                              capture_output=True, text=True, check=False)
+
+    def test_runs_that_are_kept_are_not_repeated(self):
+        for _ in range(2):
+            done = self.check("--small", "bumps", "scales")
+            self.assertEqual((done.returncode, done.stdout), (0, "bumps: agrees\nscales: agrees\n"))
+        calls = (self.folder / "calls").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(len(calls), 4)
+        self.assertTrue(all("--size 64x64" in call for call in calls))
+
+    def test_another_choice_is_told(self):
+        self.choose("whole", 1)
+        done = self.check("bumps")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stdout, "^bumps: stone: direct .* exhaustively lean ")
+
+    def test_a_run_that_fails_is_told_and_leaves_nothing_that_counts(self):
+        (self.folder / "program").write_text("#!/bin/sh\nexit 3\n", encoding="utf-8")
+        done = self.check("bumps")
+        self.assertEqual((done.returncode, done.stdout), (1, "bumps: could not be measured\n"))
+        self.assertEqual(list((self.folder / "kept" / "bumps").iterdir()), [])
+
+    def test_runs_with_other_options_are_not_mixed(self):
+        self.assertEqual(self.check("--small", "bumps").returncode, 0)
+        done = self.check("bumps")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("holds runs with other options", done.stderr)
+
+
 class EngineConstants(InFolder):
     """The page is what results say: the least error wins, and what is missing is named."""
 

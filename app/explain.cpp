@@ -177,8 +177,9 @@ std::string text_of(const Explanation& explanation) {
   if (!explanation.left_out.empty()) {
     text += fmt::format("  {:<24} {}\n", "left out", fmt::join(explanation.left_out, ", "));
   }
-  text += fmt::format("\nmemory for maps, estimated\n  {:<24} {}\n  {:<24} {}\n  {:<24} {}\n", "decoded",
-                      readable_bytes(explanation.memory.maps), "peak with this method",
+  text += fmt::format("\nmemory for maps, estimated\n  {:<24} {}\n  {:<24} {}\n  {:<24} {}\n  {:<24} {}\n",
+                      "as 32-bit floats", readable_bytes(explanation.memory.maps), "kept, at their own depth",
+                      readable_bytes(explanation.memory.kept), "peak with this method",
                       readable_bytes(explanation.memory.peak(1)), "each further method",
                       readable_bytes(explanation.memory.a_method));
   if (explanation.costs.empty()) return text;
@@ -224,6 +225,7 @@ std::string json_of(const Explanation& explanation) {
   json["passes"].push_back(
       {{"name", "forward"}, {"draws", explanation.draws}, {"shader_lines", explanation.shader_lines}});
   json["memory"] = {{"decoded_maps", explanation.memory.maps},
+                    {"kept_maps", explanation.memory.kept},
                     {"estimated_peak", explanation.memory.peak(1)},
                     {"each_further_method", explanation.memory.a_method}};
   json["shared_bytes"] = explanation.shared_bytes;

@@ -71,7 +71,7 @@ FootprintRect footprint_of(const NdfArguments& arguments, const Material& materi
   if (!arguments.texels.empty()) {
     rect = parse_rectangle("--texels", arguments.texels);
     const glm::dvec2 size = material.normal_map
-                                ? glm::dvec2(material.normal_map->image->width, material.normal_map->image->height)
+                                ? glm::dvec2(material.normal_map->image.width(), material.normal_map->image.height())
                                 : glm::dvec2(1.0);
     rect = {rect.lower / size, rect.upper / size};
   }

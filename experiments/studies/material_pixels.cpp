@@ -13,10 +13,10 @@ namespace {
 // What is cut out by alpha stays cut out.
 std::optional<TextureMap> alpha_alone(const Material& material) {
   if (!material.alpha_cutoff || !material.base_color_map) return {};
-  auto white = std::make_shared<Image>(*material.base_color_map->image);
+  auto white = std::make_shared<Image>(material.base_color_map->image.decoded());
   for (std::size_t i = 0; i < white->texel_count(); ++i) std::fill_n(&white->texels[4 * i], 3, 1.0F);
   TextureMap map = *material.base_color_map;
-  map.image = std::move(white);
+  map.image = white;
   return map;
 }
 

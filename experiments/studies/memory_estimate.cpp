@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint64_t float_bytes = sizeof(float);
 
-std::uint64_t texels_of(const std::optional<TextureMap>& map) { return map ? map->image->texel_count() : 0; }
+std::uint64_t texels_of(const std::optional<TextureMap>& map) { return map ? map->image.texel_count() : 0; }
 
 std::uint64_t chain_bytes(std::uint64_t texels, std::uint64_t channels) {
   return texels * channels * float_bytes * 4 / 3;
@@ -19,16 +19,21 @@ std::uint64_t chain_bytes(std::uint64_t texels, std::uint64_t channels) {
 // What is made of a normal map while its chain is: a copy of it, its levels, and these as they are uploaded.
 constexpr std::uint64_t copies_in_a_bake = 3;
 
+// Of normals: the moments of slope take five, the mean normal three (bake_slopes).
+constexpr std::uint64_t channels_kept_by_lean = 8;
+
 }  // namespace
 
 MemoryEstimate estimate_memory(const Scene& scene, const EffectSet& effects) {
   MemoryEstimate out;
-  std::set<const Image*> counted;
+  std::set<MapTexels> counted;
   for (const Material& m : scene.materials) {
     for (const auto* map : {&m.base_color_map, &m.metallic_roughness_map, &m.lobe_parameter_map, &m.specular_map,
                             &m.normal_map, &m.layer_map}) {
-      if (!*map || !counted.insert((*map)->image.get()).second) continue;
-      out.maps += (*map)->image->texels.size() * float_bytes;
+      if (!*map || !counted.insert((*map)->image).second) continue;
+      const MapTexels& texels = (*map)->image;
+      out.maps += texels.texel_count() * static_cast<std::uint64_t>(texels.channels()) * float_bytes;
+      out.kept += texels.byte_count();
     }
     if (has(effects, Effect::base_color_variation)) out.shared += chain_bytes(texels_of(m.base_color_map), 4);
     if (has(effects, Effect::metallic_variation)) out.shared += chain_bytes(texels_of(m.metallic_roughness_map), 1);
@@ -37,8 +42,9 @@ MemoryEstimate estimate_memory(const Scene& scene, const EffectSet& effects) {
     const std::uint64_t normals = has(effects, Effect::normal_variation) ? texels_of(m.normal_map) : 0;
     const std::uint64_t widths = has(effects, Effect::roughness_variation) ? width : 0;
     out.reference += (4 * normals + widths) * float_bytes;
-    out.a_method += chain_bytes(normals, 4) + chain_bytes(widths, 1);
+    out.a_method += chain_bytes(normals, channels_kept_by_lean) + chain_bytes(widths, 1);
     out.bake = std::max(out.bake, copies_in_a_bake * chain_bytes(std::max(normals, texels_of(m.base_color_map)), 4));
+    out.upload = std::max(out.upload, 4 * normals * float_bytes);
   }
   return out;
 }

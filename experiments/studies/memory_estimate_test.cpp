@@ -35,9 +35,27 @@ TEST(MemoryEstimate, CountsEachMapOnceAndItsChainsForEachMaterial) {
   EXPECT_EQ(estimate.maps, texels * 4 * (4 + 4 + 2));
   EXPECT_EQ(estimate.shared, texels * 4 * (4 + 1) * 4 / 3);
   EXPECT_EQ(estimate.reference, texels * 4 * (2 * 4 + 1));
-  EXPECT_EQ(estimate.a_method, texels * 4 * (2 * 4 + 1) * 4 / 3);
+  EXPECT_EQ(estimate.a_method, texels * 4 * (2 * 8 + 1) * 4 / 3);
   EXPECT_EQ(estimate.bake, 3 * texels * 4 * 4 * 4 / 3);
+  EXPECT_EQ(estimate.upload, texels * 4 * 4);
+  EXPECT_EQ(estimate.peak(1),
+            estimate.kept + estimate.shared + estimate.a_method + estimate.reference + estimate.upload);
   EXPECT_EQ(estimate.peak(3) - estimate.peak(1), 2 * estimate.a_method);
+}
+
+// Noise of 8 bits: a quarter of its floats, and a table of its values for each channel.
+TEST(MemoryEstimate, CountsWhatIsKeptAtItsOwnDepth) {
+  Image noise(64, 48, 4);
+  for (std::size_t i = 0; i < noise.texels.size(); ++i)
+    noise.texels[i] = static_cast<float>((i * i + 7 * i) % 251) / 255.0F;
+  Scene scene = two_materials();
+  const MemoryEstimate floats = estimate_memory(scene, {});
+  EXPECT_EQ(floats.kept, floats.maps);
+  scene.materials[0].base_color_map->image = MapTexels::packed(noise);
+  const MemoryEstimate packed = estimate_memory(scene, {});
+  EXPECT_EQ(packed.maps, floats.maps);
+  EXPECT_LE(packed.kept, floats.kept - 3 * texels * 4 + 4 * 256 * sizeof(float));
+  EXPECT_EQ(floats.peak(1) - packed.peak(1), floats.kept - packed.kept);
 }
 
 TEST(MemoryEstimate, EffectsThatAreOffTakeNothing) {

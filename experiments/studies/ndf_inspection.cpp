@@ -78,8 +78,8 @@ NdfResults described(const NdfSource& source, const NdfSettings& settings, const
   results.kind = source.is_map ? "map" : "scene";
   results.material = source.material.name;
   if (source.material.normal_map) {
-    const Image& map = *source.material.normal_map->image;
-    results.map_size = {map.width, map.height};
+    const MapTexels& map = source.material.normal_map->image;
+    results.map_size = {map.width(), map.height()};
   }
   results.lobe_varies = texels.facets.front().parameter != texels.facets.back().parameter;  // sorted by it
   results.footprint = {rect.lower.x, rect.lower.y, rect.upper.x, rect.upper.y};
@@ -101,8 +101,8 @@ std::vector<MethodSpec> methods_of(const NdfSettings& settings) {
 // Of the texels of the normal map those that a method bakes, where a part of it is enough.
 double share_baked(const Material& material, const std::optional<FootprintPart>& part) {
   if (!part) return 1.0;
-  return static_cast<double>(part->material.normal_map->image->texel_count()) /
-         static_cast<double>(material.normal_map->image->texel_count());
+  return static_cast<double>(part->material.normal_map->image.texel_count()) /
+         static_cast<double>(material.normal_map->image.texel_count());
 }
 
 // What a method bakes and draws from.

@@ -36,12 +36,11 @@ bool names_a_map(const std::string& path) {
 }
 
 NdfSource load_map(const std::string& path) {
-  NormalMap map = read_normal_map(path, 1.0);
-  NdfSource source{path, true, {}, describe_faults(map, fs::path(path).filename().string())};
+  NdfSource source{path, true, {}, {}};
   source.material.name = fs::path(path).stem().string();
   source.material.brdf = {NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, false};
   source.material.normal_map = {
-      fs::path(path).filename().string(), std::make_shared<const Image>(std::move(map.image)), {}};
+      fs::path(path).filename().string(), read_normal_map(path, 1.0, NormalChannels::xyz, source.notes), {}};
   source.material = with_lobe(std::move(source.material), {NormalDistribution::blinn_phong, default_exponent});
   return source;
 }

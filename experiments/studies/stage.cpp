@@ -22,7 +22,7 @@ constexpr float highest_default = 1 << 20;  // of a camera narrower than a hair
 constexpr std::uint64_t pixel_bytes = 16;   // RGBA, 32-bit floats
 
 // A method on the GPU, baked and uploaded one material after the other, so that what is baked lies in memory twice for
-// one material at most. A frame build may read what was baked; of every other method the GPU has all that a frame
+// one texture at most. A frame build may read what was baked; of every other method the GPU has all that a frame
 // needs.
 using Uploaded = std::pair<std::unique_ptr<BakedMethod>, std::unique_ptr<GpuMethod>>;
 
@@ -31,8 +31,9 @@ Uploaded bake_and_upload(const GpuScene& gpu_scene, const Scene& scene, const Ef
   auto baked = std::make_unique<BakedMethod>(unbaked(method, spec));
   auto gpu = std::make_unique<GpuMethod>(gpu_scene, *baked);
   bake_materials(*baked, scene, effects, progress, cache, [&](std::size_t material) {
-    gpu->upload_material(material);
-    if (!gpu->has_frame_build()) free_texels(baked->materials[material]);
+    gpu->upload_material(material, [&](std::size_t texture) {
+      if (!gpu->has_frame_build()) free_texels(baked->materials[material].textures[texture]);
+    });
   });
   return {std::move(baked), std::move(gpu)};
 }
@@ -47,7 +48,7 @@ Uploaded bake_and_upload(const GpuScene& gpu_scene, const Scene& scene, const Ef
 
 // The scene's own maps are there already, and available memory knows it.
 void require_maps(const MemoryEstimate& estimate, std::size_t methods) {
-  require_memory(estimate.peak(methods) - estimate.maps, fmt::format("what {} methods make of the maps", methods),
+  require_memory(estimate.peak(methods) - estimate.kept, fmt::format("what {} methods make of the maps", methods),
                  "compare fewer methods at once, use smaller textures, or free memory");
 }
 

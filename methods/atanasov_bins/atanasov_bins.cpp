@@ -117,8 +117,7 @@ class AtanasovBins final : public Method {
   static void add_maps(const Material& material, int across, bool lobes, bool by_width, const Progress& progress,
                        Prefiltered& out) {
     const TextureCoordinates coordinates = normal_coordinates(material);
-    const Image flat = material.normal_map ? Image() : normal_map_of(material);
-    const Image& normals = material.normal_map ? *material.normal_map->image : flat;
+    const Image normals = normal_map_of(material);
     const BinMap bins = bin_map(normals, across, progress);
     out.textures.push_back(bin_map_texture(bins, coordinates));
     const InverseMap inverse = inverse_of(bins, progress);

@@ -48,7 +48,7 @@ glm::dvec3 normal_at(const Image& normals, std::size_t i) {
 
 // The sum that the method stands for: the mean of the base lobes about all valid texels.
 double sum_over_texels(const Material& material, const glm::dvec3& h) {
-  const Image& normals = *material.normal_map->image;
+  const Image normals = material.normal_map->image.decoded();
   double sum = 0;
   double weight = 0;
   for (std::size_t i = 0; i < normals.texel_count(); ++i) {

@@ -40,7 +40,7 @@ ProbedMethod lean(const Material& material, const Words& options = {}) {
 
 // The sum that the method stands for: the mean of the base lobes about all texels.
 double exact_density(const Material& material, const glm::dvec3& h) {
-  const Image& normals = *material.normal_map->image;
+  const Image normals = material.normal_map->image.decoded();
   double sum = 0;
   for (std::size_t i = 0; i < normals.texels.size(); i += 4) {
     const glm::dvec3 n(normals.texels[i], normals.texels[i + 1], normals.texels[i + 2]);

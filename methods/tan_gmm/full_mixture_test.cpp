@@ -47,7 +47,7 @@ std::vector<double> ndf_of(const Material& material, const WordOptions& options,
 
 // The mean of the texels' own lobes.
 std::vector<double> truth_of(const Material& material, const std::vector<glm::dvec3>& directions) {
-  const Image& normals = *material.normal_map->image;
+  const Image normals = material.normal_map->image.decoded();
   std::vector<double> truth;
   for (const glm::dvec3& h : directions) {
     double sum = 0.0;

@@ -15,7 +15,7 @@ Image one_channel(const Image& image, int channel) {
 }
 
 Image normals_or_flat(const std::optional<TextureMap>& map) {
-  if (map) return *map->image;
+  if (map) return map->image.decoded();
   Image flat(1, 1, 4);
   flat.texels = {0.0F, 0.0F, 1.0F, 1.0F};
   return flat;
@@ -30,7 +30,7 @@ Image layer_map_of(const Material& material) { return normals_or_flat(material.l
 Image roughness_map_of(const Material& material) {
   const NormalDistribution distribution = material.brdf.distribution;
   if (const TextureMap* map = width_map(material); map != nullptr) {
-    Image roughness = one_channel(*map->image, 0);
+    Image roughness = one_channel(map->image.decoded(), 0);
     if (material.lobe_parameter_map) {
       std::ranges::transform(roughness.texels, roughness.texels.begin(), [&](float parameter) {
         return lobe_roughness({distribution, parameter});
@@ -44,7 +44,7 @@ Image roughness_map_of(const Material& material) {
 
 Image lobe_parameter_map_of(const Material& material) {
   if (width_map(material) == nullptr) return Image(1, 1, 1, static_cast<float>(lobe_of(material).parameter));
-  if (material.lobe_parameter_map) return *material.lobe_parameter_map->image;
+  if (material.lobe_parameter_map) return material.lobe_parameter_map->image.decoded();
   Image lobes = roughness_map_of(material);
   std::ranges::transform(lobes.texels, lobes.texels.begin(), [&](float roughness) {
     return static_cast<float>(lobe_from_alpha(material.brdf.distribution, roughness * roughness).parameter);
@@ -53,20 +53,20 @@ Image lobe_parameter_map_of(const Material& material) {
 }
 
 Image base_color_map_of(const Material& material) {
-  return material.base_color_map ? *material.base_color_map->image : Image(1, 1, 4, 1.0F);
+  return material.base_color_map ? material.base_color_map->image.decoded() : Image(1, 1, 4, 1.0F);
 }
 
 Image material_share_of(const Material& material) {
-  return material.share ? *material.share->map.image : Image(1, 1, 1, 1.0F);
+  return material.share ? material.share->map.image.decoded() : Image(1, 1, 1, 1.0F);
 }
 
 Image metallic_map_of(const Material& material) {
-  if (const TextureMap* map = metallic_map(material); map != nullptr) return one_channel(*map->image, 1);
+  if (const TextureMap* map = metallic_map(material); map != nullptr) return one_channel(map->image.decoded(), 1);
   return Image(1, 1, 1, material.metallic);
 }
 
 Image specular_map_of(const Material& material) {
-  return material.specular_map ? *material.specular_map->image : Image(1, 1, 3, 1.0F);
+  return material.specular_map ? material.specular_map->image.decoded() : Image(1, 1, 3, 1.0F);
 }
 
 TextureCoordinates normal_coordinates(const Material& material) {

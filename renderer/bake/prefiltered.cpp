@@ -121,10 +121,8 @@ std::size_t byte_count(const Prefiltered& prefiltered) {
   return bytes;
 }
 
-void free_texels(Prefiltered& prefiltered) {
-  for (PrefilteredTexture& texture : prefiltered.textures) {
-    for (TextureLevel& level : texture.levels) std::vector<std::uint8_t>().swap(level.bytes);
-  }
+void free_texels(PrefilteredTexture& texture) {
+  for (TextureLevel& level : texture.levels) std::vector<std::uint8_t>().swap(level.bytes);
 }
 
 std::size_t finest_texels(const Prefiltered& prefiltered) {

@@ -68,8 +68,8 @@ struct Prefiltered {
 /// Bytes of all textures and scalars as stored on the GPU.
 [[nodiscard]] std::size_t byte_count(const Prefiltered& prefiltered);
 
-/// Gives the texels back, for what lies on the GPU by now; names, sizes, scalars and notes stay.
-void free_texels(Prefiltered& prefiltered);
+/// Gives the texels back, for what lies on the GPU by now; name and sizes stay.
+void free_texels(PrefilteredTexture& texture);
 
 /// Texels of the finest level of its largest texture: what a figure per texel refers to. 0 without textures.
 [[nodiscard]] std::size_t finest_texels(const Prefiltered& prefiltered);

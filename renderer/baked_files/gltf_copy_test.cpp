@@ -69,12 +69,12 @@ void expect_copied(const Material& before, const Material& after) {
   ASSERT_TRUE(after.normal_map && after.metallic_roughness_map && after.base_color_map);
   EXPECT_EQ(after.normal_map->coordinates, before.normal_map->coordinates);
   EXPECT_EQ(after.metallic_roughness_map->coordinates, before.normal_map->coordinates);
-  EXPECT_EQ(*after.base_color_map->image, *before.base_color_map->image);
+  EXPECT_EQ(after.base_color_map->image.decoded(), before.base_color_map->image.decoded());
   const Image expected = random_normals(4, 4, 0.3F, 2);
-  const Image& normals = *after.normal_map->image;
+  const Image normals = after.normal_map->image.decoded();
   ASSERT_EQ(normals.width, 4);
   for (std::size_t i = 0; i < normals.texels.size(); ++i) EXPECT_NEAR(normals.texels[i], expected.texels[i], 0.01);
-  const Image& rough = *after.metallic_roughness_map->image;
+  const Image rough = after.metallic_roughness_map->image.decoded();
   for (std::size_t i = 0; i < rough.texel_count(); ++i)
     EXPECT_NEAR(rough.texels[2 * i], static_cast<float>(10 + i) / 255.0F, 1e-6);
 }
@@ -84,7 +84,7 @@ TEST(GltfCopy, HasTheMapsAndKeepsTheRest) {
   const Material before = load_gltf(source).materials.at(0);
   const Material after = copied_material(source, smaller_maps(false), test::fresh_folder());
   expect_copied(before, after);
-  EXPECT_FLOAT_EQ(after.metallic_roughness_map->image->texels[1], 0.75F);  // the factor stays
+  EXPECT_FLOAT_EQ(after.metallic_roughness_map->image.decoded().texels[1], 0.75F);  // the factor stays
 }
 
 TEST(GltfCopy, OfAContainerIsTheSame) {
@@ -92,7 +92,7 @@ TEST(GltfCopy, OfAContainerIsTheSame) {
   const Material before = load_gltf(source).materials.at(0);
   const Material after = copied_material(source, smaller_maps(true), test::fresh_folder());
   expect_copied(before, after);
-  EXPECT_NEAR(after.metallic_roughness_map->image->texels[1], 100.0 / 255.0, 1e-6);
+  EXPECT_NEAR(after.metallic_roughness_map->image.decoded().texels[1], 100.0 / 255.0, 1e-6);
 }
 
 // Files of the source lie elsewhere, under names that a copy could not have.
@@ -109,7 +109,7 @@ TEST(GltfCopy, TakesItsFilesAlong) {
   fs::remove_all(test::test_folder() / "a b");
   const auto color = load_gltf(folder / name).materials.at(0).base_color_map;
   ASSERT_TRUE(color.has_value());
-  EXPECT_NEAR(color->image->texels[0], 0.0513, 1e-3);  // sRGB 0.25, 64 of 255
+  EXPECT_NEAR(color->image.decoded().texels[0], 0.0513, 1e-3);  // sRGB 0.25, 64 of 255
 }
 
 TEST(GltfCopy, NamesTheWholeChainInExtras) {

@@ -85,14 +85,14 @@ bool reflects_diffusely(const Material& m) {
 
 EffectDecision normal_variation(const Scene& scene) {
   const Count mapped = count_materials(scene, [](const Material& m) { return m.normal_map.has_value(); });
-  const auto rough = [](const Material& m) { return m.normal_map && !is_flat(*m.normal_map->image); };
+  const auto rough = [](const Material& m) { return m.normal_map && !is_flat(m.normal_map->image.decoded()); };
   return decide(Effect::normal_variation, scene, rough, "a normal map that is not flat",
                 mapped.holding == 0 ? "no normal map" : "every normal map is flat");
 }
 
 EffectDecision normal_layers(const Scene& scene) {
   const Count layered = count_materials(scene, [](const Material& m) { return m.layer_map.has_value(); });
-  const auto rough = [](const Material& m) { return m.layer_map && !is_flat(*m.layer_map->image); };
+  const auto rough = [](const Material& m) { return m.layer_map && !is_flat(m.layer_map->image.decoded()); };
   return decide(Effect::normal_layers, scene, rough, "a detail layer that is not flat",
                 layered.holding == 0 ? "no detail layer" : "every detail layer is flat");
 }
@@ -156,16 +156,16 @@ std::vector<EffectDecision> base_brdf_effects(const Scene& scene) {
 
 std::vector<EffectDecision> map_effects(const Scene& scene) {
   const auto roughness_varies = [](const Material& m) {
-    return width_map(m) != nullptr && channel_varies(*width_map(m)->image, 0);
+    return width_map(m) != nullptr && channel_varies(width_map(m)->image.decoded(), 0);
   };
   const auto has_lobes = [](const Material& m) { return !m.lobes.empty(); };
   const auto colored = [](const Material& m) { return m.base_color_map.has_value(); };
   const auto metallic_varies = [](const Material& m) {
-    return metallic_map(m) != nullptr && channel_varies(*metallic_map(m)->image, 1);
+    return metallic_map(m) != nullptr && channel_varies(metallic_map(m)->image.decoded(), 1);
   };
   const auto specular_varies = [](const Material& m) {
     if (!m.specular_map) return false;
-    const Image& image = *m.specular_map->image;
+    const Image image = m.specular_map->image.decoded();
     return channel_varies(image, 0) || channel_varies(image, 1) || channel_varies(image, 2);
   };
   return {normal_variation(scene),

@@ -82,22 +82,22 @@ Image cut_out(const Image& map, const Range& columns, const Range& rows) {
 std::optional<FootprintPart> part_under(const Material& material, const FootprintRect& rect,
                                         const FootprintFilter& filter) {
   if (!material.normal_map || filter.kind == FootprintFilterKind::hardware) return {};
-  const Image& map = *material.normal_map->image;
-  const glm::dvec2 size(map.width, map.height);
+  const MapTexels& map = material.normal_map->image;
+  const glm::dvec2 size(map.width(), map.height());
   const ProbeSet probes =
       probes_of(filter, {rect.centre() * size, {rect.size().x * size.x, 0.0}, {0.0, rect.size().y * size.y}});
-  const Levels levels = levels_of(probes.level, mip_level_count(map.width, map.height));
+  const Levels levels = levels_of(probes.level, mip_level_count(map.width(), map.height()));
   const std::array<Wrap, 2>& wrap = material.normal_map->coordinates.wrap;
   const int block = 1 << levels.coarser;
-  const Range columns = cut(range_of(probes, 0, levels), map.width, wrap[0], block);
-  const Range rows = cut(range_of(probes, 1, levels), map.height, wrap[1], block);
+  const Range columns = cut(range_of(probes, 0, levels), map.width(), wrap[0], block);
+  const Range rows = cut(range_of(probes, 1, levels), map.height(), wrap[1], block);
   if (2.0 * columns.size() * rows.size() > size.x * size.y) return {};
 
   const glm::dvec2 scale = size / glm::dvec2(columns.size(), rows.size());
   const glm::dvec2 offset = -glm::dvec2(columns.first, rows.first) / glm::dvec2(columns.size(), rows.size());
   FootprintPart part{material, {scale * rect.lower + offset, scale * rect.upper + offset}};
   TextureMap& cropped = *part.material.normal_map;
-  cropped.image = std::make_shared<const Image>(cut_out(map, columns, rows));
+  cropped.image = std::make_shared<const Image>(cut_out(map.decoded(), columns, rows));
   glm::mat3x2& transform = cropped.coordinates.transform;
   for (int i = 0; i < 3; ++i) transform[i] = glm::vec2(scale * glm::dvec2(transform[i]));
   transform[2] += glm::vec2(offset);

@@ -110,16 +110,14 @@ Alignment alignment(const Material& material) {
 class Facets {
  public:
   explicit Facets(const Material& material)
-      : normals_(material.normal_map ? material.normal_map->image
-                                     : std::make_shared<const Image>(normal_map_of(material))),
-        parameters_(lobe_parameter_map_of(material)) {}
+      : normals_(normal_map_of(material)), parameters_(lobe_parameter_map_of(material)) {}
 
-  [[nodiscard]] const Image& normals() const { return *normals_; }
+  [[nodiscard]] const Image& normals() const { return normals_; }
   [[nodiscard]] const Image& parameters() const { return parameters_; }
 
   /// No share where the texel has no normal.
   [[nodiscard]] WeightedFacet facet(const Stretch& column, const Stretch& row, double area) const {
-    const auto texel = normals_->at(column.normal, row.normal);
+    const auto texel = normals_.at(column.normal, row.normal);
     const glm::dvec3 normal(texel[0], texel[1], texel[2]);
     const double length = glm::length(normal);
     const bool valid = texel[3] >= 0.5F && std::isfinite(length) && length >= shortest_normal;
@@ -129,7 +127,7 @@ class Facets {
   }
 
  private:
-  std::shared_ptr<const Image> normals_;
+  Image normals_;
   Image parameters_;  // of the lobe, where the roughness map has its texels
 };
 

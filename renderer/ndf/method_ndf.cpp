@@ -72,8 +72,8 @@ Scene scene_of_facets(const Material& material) {
 
 double footprint_level(const Material& material, const FootprintRect& rect) {
   if (!material.normal_map) return 0.0;
-  const Image& map = *material.normal_map->image;
-  return std::log2(std::max(rect.size().x * map.width, rect.size().y * map.height));
+  const MapTexels& map = material.normal_map->image;
+  return std::log2(std::max(rect.size().x * map.width(), rect.size().y * map.height()));
 }
 
 MethodNdf::MethodNdf(const gl::ContextInfo& context, GpuScene& scene, const BakedMethod& baked,

@@ -58,7 +58,7 @@ TextureUnits units_of(const GpuScene& scene, bool shadows) {
 
 glm::vec2 map_size_of(const Material& material) {
   if (!material.normal_map) return glm::vec2(0.0F);
-  return {material.normal_map->image->width, material.normal_map->image->height};
+  return {material.normal_map->image.width(), material.normal_map->image.height()};
 }
 
 void bind_textures(const gl::RenderTarget& target, std::size_t count, GLuint unit) {

@@ -151,12 +151,15 @@ GpuMethod::GpuMethod(const GpuScene& scene, const BakedMethod& baked)
   for (std::size_t i = 0; i < baked.materials.size(); ++i) upload_material(i);
 }
 
-void GpuMethod::upload_material(std::size_t material) {
+void GpuMethod::upload_material(std::size_t material, const TextureUploaded& uploaded) {
   const Prefiltered& prefiltered = baked_->materials.at(material);
   for (const GpuBatch& batch : scene_->batches()) {
     if (batch.material != material) continue;
     PerBatch& part = batches_.at(static_cast<std::size_t>(&batch - scene_->batches().data()));
-    for (const PrefilteredTexture& texture : prefiltered.textures) part.textures.push_back(upload(texture));
+    for (std::size_t i = 0; i < prefiltered.textures.size(); ++i) {
+      part.textures.push_back(upload(prefiltered.textures[i]));
+      uploaded(i);
+    }
     const std::vector<float> scalars = scalar_block(prefiltered);
     if (!scalars.empty()) part.scalars = gl::Buffer(std::as_bytes(std::span(scalars)));
     if (prefiltered.surface_coordinates) {

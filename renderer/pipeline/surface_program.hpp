@@ -1,6 +1,7 @@
 // A method on the GPU: its textures for every material of a scene, and one program for one way of sampling.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,13 +16,17 @@
 
 namespace footprint {
 
+/// Told the number of a texture that was uploaded.
+using TextureUploaded = std::function<void(std::size_t texture)>;
+
 /// A baked method's textures and scalars on the GPU, shared by its programs.
 class GpuMethod {
  public:
   /// Uploads what was baked by now. What a frame build fills is empty until the first one.
   GpuMethod(const GpuScene& scene, const BakedMethod& baked);
-  /// Uploads what was baked for one material since.
-  void upload_material(std::size_t material);
+  /// Uploads what was baked for one material since, and tells of each of its textures when that lies on the GPU.
+  void upload_material(
+      std::size_t material, const TextureUploaded& uploaded = [](std::size_t) {});
   /// Whether the method has a frame build, and whether a frame in which nothing moved keeps what was built before.
   [[nodiscard]] bool has_frame_build() const { return build_ != nullptr; }
   [[nodiscard]] bool keeps_builds() const { return build_ && build_->kept_until_change_of(); }

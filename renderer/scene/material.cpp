@@ -23,8 +23,8 @@ Lobe lobe_of(const Material& material) {
   if (material.lobe_parameter) return {distribution, *material.lobe_parameter};
   if (!material.lobes.empty()) return lobe_from_variance(distribution, variance_about_normal(material));
   const TextureMap* const map = width_map(material);
-  if (map != nullptr && material.lobe_parameter_map) return {distribution, map->image->texels.front()};
-  const float roughness = map != nullptr ? map->image->texels.front() : material.roughness;
+  if (map != nullptr && material.lobe_parameter_map) return {distribution, map->image.first().front()};
+  const float roughness = map != nullptr ? map->image.first().front() : material.roughness;
   return lobe_from_alpha(distribution, roughness * roughness);
 }
 

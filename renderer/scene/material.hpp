@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "renderer/image/image.hpp"
 #include "renderer/lobes/lobe.hpp"
+#include "renderer/scene/map_texels.hpp"
 
 namespace footprint {
 
@@ -40,10 +40,10 @@ struct TextureCoordinates {
   friend bool operator==(const TextureCoordinates&, const TextureCoordinates&) = default;
 };
 
-/// A map and where it is looked up. The image is shared by the materials that use it and never changed.
+/// A map and where it is looked up. The texels are shared by the materials that use it and never changed.
 struct TextureMap {
   std::string name;  ///< file or image name, for messages
-  std::shared_ptr<const Image> image;
+  MapTexels image;
   TextureCoordinates coordinates;
 };
 

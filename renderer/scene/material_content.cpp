@@ -78,7 +78,9 @@ class Counter {
 
   void add(const TextureMap& map) {
     const auto& [name, image, coordinates] = map;
-    add_all(image, coordinates);
+    add(static_cast<bool>(image));
+    if (image) add(image.decoded());
+    add(coordinates);
   }
 
   void add(const FacetLobe& lobe) {

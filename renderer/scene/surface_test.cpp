@@ -57,10 +57,10 @@ TEST(SurfaceInScene, ComesWithMapMeshAndMaterial) {
   EXPECT_EQ(material.metallic, 0.0F);
   EXPECT_FALSE(material.base_color_map);
   ASSERT_TRUE(material.normal_map);
-  EXPECT_EQ(material.normal_map->image->width, 8);
-  EXPECT_EQ(material.normal_map->image->at(0, 0)[0], 1.0F);
-  EXPECT_EQ(material.normal_map->image->at(0, 0)[1], 2.0F);
-  EXPECT_EQ(material.normal_map->image->at(0, 0)[2], 0.25F);
+  EXPECT_EQ(material.normal_map->image.width(), 8);
+  EXPECT_EQ(material.normal_map->image.decoded().at(0, 0)[0], 1.0F);
+  EXPECT_EQ(material.normal_map->image.decoded().at(0, 0)[1], 2.0F);
+  EXPECT_EQ(material.normal_map->image.decoded().at(0, 0)[2], 0.25F);
   EXPECT_EQ(material.normal_map->coordinates.transform * glm::vec3(1, 1, 1), glm::vec2(3, 5));
   EXPECT_EQ(scene.meshes.front().vertices.size(), 4U);
   EXPECT_TRUE(scene.warnings.empty());
@@ -70,13 +70,13 @@ TEST(SurfaceInScene, EverySettingIsRead) {
   const Scene scene = load_surface(
       "[surface]\nname = \"lawn\"\nresolution = 33\nseed = 4294967295\n"
       "[surface.parameters]\nheight = 0.75\ncount = 9\nkind = \"round\"\n");
-  const Image& map = *scene.materials.front().normal_map->image;
+  const Image map = scene.materials.front().normal_map->image.decoded();
   EXPECT_EQ(map.width, 33);
   EXPECT_EQ(map.at(0, 0)[0], 4294967295.0F);
   EXPECT_EQ(map.at(0, 0)[1], 0.75F);
   EXPECT_EQ(map.at(0, 0)[2], 0.5F);
   ASSERT_TRUE(scene.materials.front().base_color_map);
-  EXPECT_EQ(scene.materials.front().base_color_map->image->width, 33);
+  EXPECT_EQ(scene.materials.front().base_color_map->image.width(), 33);
 }
 
 TEST(SurfaceInScene, OwnColoursGiveWayToTheScenes) {

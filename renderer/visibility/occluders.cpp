@@ -44,7 +44,16 @@ std::array<const Vertex*, 3> corners_of(const Mesh& mesh, std::size_t triangle) 
           &mesh.vertices[mesh.indices[3 * triangle + 2]]};
 }
 
-bool is_there(const Mesh& mesh, const Material& material, const SurfacePoint& point) {
+// The last channel of the base-colour map, where an alpha mask needs it.
+Image alpha_of(const Material& material) {
+  if (!material.alpha_cutoff || !material.base_color_map) return {};
+  const Image color = material.base_color_map->image.decoded();
+  Image alpha(color.width, color.height, 1);
+  for (std::size_t i = 0; i < alpha.texels.size(); ++i) alpha.texels[i] = color.texels[4 * i + 3];
+  return alpha;
+}
+
+bool is_there(const Mesh& mesh, const Material& material, const Image& alpha_map, const SurfacePoint& point) {
   if (!material.alpha_cutoff) return true;
   const auto corners = corners_of(mesh, point.triangle);
   const float vertex_alpha =
@@ -56,9 +65,8 @@ bool is_there(const Mesh& mesh, const Material& material, const SurfacePoint& po
     const glm::vec2 uv =
         (1.0F - point.u - point.v) * uv_of(*corners[0]) + point.u * uv_of(*corners[1]) + point.v * uv_of(*corners[2]);
     const glm::vec2 mapped = coordinates.transform * glm::vec3(uv, 1.0F);
-    const Image& image = *material.base_color_map->image;
-    alpha *= image.at(texel_of(mapped.x, image.width, coordinates.wrap[0]),
-                      texel_of(mapped.y, image.height, coordinates.wrap[1]))[3];
+    alpha *= alpha_map.at(texel_of(mapped.x, alpha_map.width, coordinates.wrap[0]),
+                          texel_of(mapped.y, alpha_map.height, coordinates.wrap[1]))[0];
   }
   return alpha >= *material.alpha_cutoff;
 }
@@ -88,7 +96,7 @@ Occluders::Occluders(const Scene& scene)
   rtcSetSceneFlags(rays_.get(), RTC_SCENE_FLAG_ROBUST);
   for (const Mesh& mesh : scene.meshes) {
     const Material& material = scene.materials[static_cast<std::size_t>(mesh.material)];
-    sieves_.push_back({&mesh, &material, !material.double_sided && !scene.shadows.both_sides});
+    sieves_.push_back({&mesh, &material, !material.double_sided && !scene.shadows.both_sides, alpha_of(material)});
   }
   for (Sieve& sieve : sieves_) add(*sieve.mesh, sieve);
   rtcCommitScene(rays_.get());
@@ -113,7 +121,7 @@ void Occluders::add(const Mesh& mesh, Sieve& sieve) {
 
 // `towards_front` is the sign of a ray's direction along the outward normal of a triangle whose front it concerns.
 void Occluders::drop_hits(const RTCFilterFunctionNArguments* hits, float towards_front) {
-  const auto& [mesh, material, open] = *static_cast<const Sieve*>(hits->geometryUserPtr);
+  const auto& [mesh, material, open, alpha] = *static_cast<const Sieve*>(hits->geometryUserPtr);
   const unsigned n = hits->N;
   for (unsigned i = 0; i < n; ++i) {
     if (hits->valid[i] == 0) continue;
@@ -123,7 +131,7 @@ void Occluders::drop_hits(const RTCFilterFunctionNArguments* hits, float towards
     const bool from_behind = open && towards_front * glm::dot(normal, along) < 0.0F;
     const SurfacePoint point{0, RTCHitN_primID(hits->hit, n, i), RTCHitN_u(hits->hit, n, i),
                              RTCHitN_v(hits->hit, n, i)};
-    if (from_behind || !is_there(*mesh, *material, point)) hits->valid[i] = 0;
+    if (from_behind || !is_there(*mesh, *material, alpha, point)) hits->valid[i] = 0;
   }
 }
 
@@ -166,8 +174,8 @@ std::optional<SurfacePoint> Occluders::nearest(const glm::vec3& origin, const gl
 }
 
 bool Occluders::present(const SurfacePoint& point) const {
-  const Mesh& mesh = scene_->meshes[point.mesh];
-  return is_there(mesh, scene_->materials[static_cast<std::size_t>(mesh.material)], point);
+  const Sieve& sieve = sieves_[point.mesh];
+  return is_there(*sieve.mesh, *sieve.material, sieve.alpha, point);
 }
 
 std::array<const Vertex*, 3> Occluders::corners(std::size_t mesh, std::size_t triangle) const {

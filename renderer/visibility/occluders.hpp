@@ -70,6 +70,7 @@ class Occluders {
     const Mesh* mesh;
     const Material* material;
     bool open_from_behind;
+    Image alpha;  // of the base-colour map, its one channel, where an alpha mask looks at it
   };
 
   // Drops the hits of rays towards a light, and of rays that light takes.

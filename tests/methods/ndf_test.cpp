@@ -220,7 +220,7 @@ TEST_P(EveryMethodsNdf, IsTheSameFromThePartThatIsLookedAt) {
       std::optional<FootprintPart> part = part_under(material, rect, filter);
       if (!part && wrap == Wrap::mirrored_repeat && rect.lower.x > 1.5) continue;  // the third copy: baked whole
       ASSERT_TRUE(part);
-      EXPECT_LE(part->material.normal_map->image->texel_count(), std::size_t{32} * 32 / 2);
+      EXPECT_LE(part->material.normal_map->image.texel_count(), std::size_t{32} * 32 / 2);
       EXPECT_LT(difference_by_part(material, name(), rect, *part, filter), 1e-5);
       const glm::dvec2 step = part->rect.size();
       part->rect = {part->rect.lower + step, part->rect.upper + step};
@@ -236,7 +236,7 @@ TEST(FootprintParts, AreAsSmallAsTheirFootprints) {
   const Material material = material_of(constant_normals(2048, 1024, {0.0F, 0.0F, 1.0F}), {blinn_phong, 64});
   const auto texels = [&](const FootprintRect& rect) {
     const std::optional<FootprintPart> part = part_under(material, rect, default_footprint_filter);
-    return part ? part->material.normal_map->image->texel_count() : material.normal_map->image->texel_count();
+    return part ? part->material.normal_map->image.texel_count() : material.normal_map->image.texel_count();
   };
   EXPECT_EQ(texels({{0.0, 0.0}, {0.125, 0.25}}), std::size_t{256} * 256);      // one texel of a level
   EXPECT_LE(texels({{0.1, 0.1}, {0.225, 0.35}}), std::size_t{9} * 256 * 256);  // wherever it lies

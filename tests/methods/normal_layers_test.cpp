@@ -94,7 +94,7 @@ TEST(NormalLayers, MomentsCombineAsInThePaper) {
   Material material = square_scene(random_normals(16, 16, 0.5F, 7), {}).materials[0];
   material.layer_map = tiled(random_normals(8, 8, 0.6F, 8), 1.0F);
   const auto moments = [](const TextureMap& map) {
-    const Image top = slope_moment_chain(*map.image, Image(1, 1, 1, 0.0F)).back();
+    const Image top = slope_moment_chain(map.image.decoded(), Image(1, 1, 1, 0.0F)).back();
     const std::vector<float>& t = top.texels;
     return SlopeMoments{{t[slope_x], t[slope_y]}, {t[slope_xx], t[slope_xy], t[slope_xy], t[slope_yy]}};
   };

@@ -76,7 +76,7 @@ double SlopeTwin::gaussian(const glm::dvec3& h) const {
 }
 
 SlopeTwin slope_twin_of(const Material& material) {
-  const Image top = slope_moment_chain(*material.normal_map->image, Image(1, 1, 1, 0.0F)).back();
+  const Image top = slope_moment_chain(material.normal_map->image.decoded(), Image(1, 1, 1, 0.0F)).back();
   const auto t = top.at(0, 0);
   const SlopeMoments m{{t[slope_x], t[slope_y]}, {t[slope_xx], t[slope_xy], t[slope_xy], t[slope_yy]}};
   return {m.mean, covariance(m), material.brdf.distribution, *material.lobe_parameter};

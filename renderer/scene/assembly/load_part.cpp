@@ -39,8 +39,10 @@ Model load_content(const ModelSettings& settings) {
               settings.package.empty() ? "check the paths" : "install the package " + settings.package);
 }
 
-TextureMap make_map(const std::filesystem::path& file, Image image, glm::vec2 uv = glm::vec2(1.0F)) {
-  TextureMap map{file.filename().string(), std::make_shared<const Image>(std::move(image)), {}};
+MapTexels computed(Image image) { return std::make_shared<const Image>(std::move(image)); }
+
+TextureMap make_map(const std::filesystem::path& file, MapTexels texels, glm::vec2 uv = glm::vec2(1.0F)) {
+  TextureMap map{file.filename().string(), std::move(texels), {}};
   map.coordinates.transform = {uv.x, 0.0F, 0.0F, uv.y, 0.0F, 0.0F};
   return map;
 }
@@ -53,18 +55,18 @@ Model load_content(const PlaneSettings& settings) {
   material.metallic = settings.metallic;
   if (settings.normal_map) {
     const auto& file = *settings.normal_map;
-    NormalMap map = read_normal_map(file, settings.normal_scale, settings.normal_channels);
-    model.warnings = describe_faults(map, file.filename().string());
-    material.normal_map = make_map(file, std::move(map.image));
+    material.normal_map =
+        make_map(file, read_normal_map(file, settings.normal_scale, settings.normal_channels, model.warnings));
   }
   if (settings.base_color_map) {
     const auto& file = *settings.base_color_map;
-    material.base_color_map = make_map(file, to_rgba(read_image(file, Transfer::srgb)));
+    material.base_color_map = make_map(file, MapTexels::packed(to_rgba(read_image(file, Transfer::srgb))));
   }
   if (settings.metallic_roughness_map) {
     const auto& file = *settings.metallic_roughness_map;
-    material.metallic_roughness_map = make_map(
-        file, decode_metallic_roughness(read_image(file, Transfer::linear), settings.roughness, settings.metallic));
+    material.metallic_roughness_map =
+        make_map(file, MapTexels::packed(decode_metallic_roughness(read_image(file, Transfer::linear),
+                                                                   settings.roughness, settings.metallic)));
   }
   model.materials.push_back(std::move(material));
   model.meshes.push_back(make_plane(settings.size, {1.0F, 1.0F}));
@@ -81,10 +83,10 @@ Material surface_material(const SurfaceContent& content) {
   material.name = surface.name;
   material.roughness = 0.5F;
   material.metallic = 0.0F;
-  material.normal_map = make_map(surface.name, surface_normals(surface, settings));
+  material.normal_map = make_map(surface.name, computed(surface_normals(surface, settings)));
   const glm::vec2 uv = surface.map_tiling != nullptr ? surface.map_tiling(settings) : glm::vec2(1.0F);
   const auto lay = [&](std::optional<TextureMap>& map, Image image) {
-    if (!image.empty()) map = make_map(surface.name, std::move(image), uv);
+    if (!image.empty()) map = make_map(surface.name, computed(std::move(image)), uv);
   };
   lay(material.base_color_map, surface_base_color(surface, settings));
   lay(material.specular_map, surface_specular(surface, settings));
@@ -122,16 +124,16 @@ Model load_content(const DressedModel& content) {
 }
 
 TextureMap load_layer(const LayerFile& file, double strength, std::vector<std::string>& warnings) {
-  NormalMap map = file.heights ? normals_of_heights(read_image(file.path, Transfer::linear), strength)
-                               : read_normal_map(file.path, strength);
+  if (!file.heights) return make_map(file.path, read_normal_map(file.path, strength, NormalChannels::xyz, warnings));
+  NormalMap map = normals_of_heights(read_image(file.path, Transfer::linear), strength);
   std::ranges::move(describe_faults(map, file.path.filename().string()), std::back_inserter(warnings));
-  return make_map(file.path, std::move(map.image));
+  return make_map(file.path, computed(std::move(map.image)));
 }
 
 TextureMap load_layer(const SurfaceContent& content, double strength, std::vector<std::string>& /*warnings*/) {
   Image normals = surface_normals(*content.surface, content.settings);
   scale_slopes(normals, strength);
-  return make_map(content.surface->name, std::move(normals));
+  return make_map(content.surface->name, computed(std::move(normals)));
 }
 
 TextureMap load_layer(const LayerSettings& settings, std::vector<std::string>& warnings) {
@@ -145,11 +147,11 @@ void replace_base_color(const glm::vec3& color, Material& material) {
   material.base_color = {color, material.base_color.a};
   // An alpha mask still needs the map's alpha: only its colour is replaced, by white.
   if (material.base_color_map && material.alpha_cutoff) {
-    Image alpha_only = *material.base_color_map->image;
+    Image alpha_only = material.base_color_map->image.decoded();
     for (std::size_t i = 0; i < alpha_only.texels.size(); ++i) {
       if (i % 4 != 3) alpha_only.texels[i] = 1.0F;
     }
-    material.base_color_map->image = std::make_shared<const Image>(std::move(alpha_only));
+    material.base_color_map->image = MapTexels::packed(alpha_only);
   } else {
     material.base_color_map.reset();
   }
@@ -233,7 +235,7 @@ struct LaidMaps {
 LaidMaps load_maps(const PartSettings& settings) {
   const auto load = [&](const std::optional<MapFile>& from, const auto& read) -> std::optional<TextureMap> {
     if (!from) return std::nullopt;
-    return make_map(from->file, read(from->file), from->uv.value_or(settings.tiling));
+    return make_map(from->file, MapTexels::packed(read(from->file)), from->uv.value_or(settings.tiling));
   };
   const NormalDistribution distribution = settings.brdf.distribution.value_or(NormalDistribution::ggx);
   const auto read_colors = [](const auto& file) { return read_image(file, Transfer::srgb); };
@@ -256,7 +258,7 @@ void lay(const LaidMaps& maps, const BrdfSettings& settings, Material& material)
     material.lobe_parameter_map.reset();
     material.metallic_roughness_map = maps.roughness;
     material.metallic_roughness_map->image =
-        std::make_shared<const Image>(with_metallic(*maps.roughness->image, material.metallic));
+        MapTexels::packed(with_metallic(maps.roughness->image.decoded(), material.metallic));
   }
   if (maps.diffuse) {
     material.base_color_map = maps.diffuse;
@@ -272,8 +274,8 @@ std::vector<TextureMap> load_shares(const MapFile& from, glm::vec2 tiling, std::
   }
   std::vector<TextureMap> shares;
   try {
-    for (Image& share : decode_indices(stored, count)) {
-      shares.push_back(make_map(from.file, std::move(share), from.uv.value_or(tiling)));
+    for (const Image& share : decode_indices(stored, count)) {
+      shares.push_back(make_map(from.file, MapTexels::packed(share), from.uv.value_or(tiling)));
     }
   } catch (const Error& error) {
     throw error.within(from.file.string());

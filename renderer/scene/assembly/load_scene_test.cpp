@@ -40,7 +40,7 @@ TEST(LoadScene, ScenesOfTheRepositoryAreListedAndLoad) {
 
 TEST(LoadScene, RibbedPlaneHasTheNormalsOfItsFormula) {
   const Scene scene = load_scene("ribbed_plane", library);
-  const Image& map = *scene.materials.at(0).normal_map->image;
+  const Image map = scene.materials.at(0).normal_map->image.decoded();
   ASSERT_EQ(map.width, 128);
   constexpr double pi = 3.14159265358979323846;
   for (const auto& [column, row] : {std::pair{0, 0}, {5, 17}, {100, 90}}) {
@@ -141,7 +141,7 @@ TEST(LoadScene, SettingsOverrideEveryMaterial) {
   const Material as_given = load_made(plane).materials.at(0);
   ASSERT_TRUE(as_given.normal_map && as_given.base_color_map && as_given.metallic_roughness_map);
   EXPECT_EQ(as_given.normal_map->coordinates.transform * glm::vec3(1, 1, 1), glm::vec2(3, 5));
-  EXPECT_NEAR(as_given.metallic_roughness_map->image->texels[0], 0.25F, 0.002F);
+  EXPECT_NEAR(as_given.metallic_roughness_map->image.decoded().texels[0], 0.25F, 0.002F);
   EXPECT_EQ(as_given.brdf, BaseBrdf{});
 
   const Material changed = load_made(plane +

@@ -28,7 +28,7 @@ parameters = { warp_width = 0.5, weft_red = 0.0 }
   ASSERT_NE(material.microgeometry, nullptr);
   EXPECT_EQ(material.microgeometry->patch.name, "weave");
   EXPECT_TRUE(has_colors(material.microgeometry->patch));
-  EXPECT_EQ(material.normal_map->image->width, 32);
+  EXPECT_EQ(material.normal_map->image.width(), 32);
   EXPECT_FLOAT_EQ(material.base_color.g, 0.5F);
   EXPECT_FLOAT_EQ(material.base_color.r, 0.5F * material.microgeometry->mean_color.r);
 }
@@ -84,8 +84,8 @@ TEST(MicrogeometryContent, AMapOfIndicesChoosesAmongSeveral) {
     EXPECT_EQ(scene.materials[1].microgeometry->patch.name, "weave");
     EXPECT_TRUE(scene.materials[0].share->first);
     EXPECT_FALSE(scene.materials[1].share->first);
-    EXPECT_EQ(scene.materials[0].share->map.image->texels, (std::vector{1.0F, 0.0F, 0.0F, 0.0F}));
-    EXPECT_EQ(scene.materials[1].share->map.image->texels, (std::vector{0.0F, 1.0F, 1.0F, 1.0F}));
+    EXPECT_EQ(scene.materials[0].share->map.image.decoded().texels, (std::vector{1.0F, 0.0F, 0.0F, 0.0F}));
+    EXPECT_EQ(scene.materials[1].share->map.image.decoded().texels, (std::vector{0.0F, 1.0F, 1.0F, 1.0F}));
     EXPECT_EQ(scene.materials[1].share->map.coordinates.transform[0].x, 3.0F);
     ASSERT_EQ(scene.meshes.size(), 2U);
     EXPECT_EQ(scene.meshes[1].material, 1);

@@ -2,11 +2,14 @@
 #include "renderer/scene/assembly/surface_maps.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <iterator>
 
 #include "renderer/core/error.hpp"
 #include "renderer/image/image_io.hpp"
@@ -34,19 +37,20 @@ template <class Decode>
 NormalMap to_normal_map(const Image& stored, Decode decode, bool xy, double scale) {
   constexpr double smallest_z = 1e-6;
   NormalMap map{Image(stored.width, stored.height, 4), 0, 0};
-  for (int y = 0; y < stored.height; ++y) {
+  std::atomic<std::size_t> invalid = 0, inverted = 0;
+  tbb::parallel_for(0, stored.height, [&](int y) {
     for (int x = 0; x < stored.width; ++x) {
       const auto in = stored.at(x, y);
       const auto out = map.image.at(x, y);
       glm::dvec3 normal = xy ? with_z(decode(glm::dvec2{in[0], in[1]})) : decode(glm::dvec3{in[0], in[1], in[2]});
       const double length = glm::length(normal);
       if (!std::isfinite(length) || length < 1e-3) {
-        ++map.invalid;
+        ++invalid;
         std::ranges::copy(std::array{0.0F, 0.0F, 1.0F, 0.0F}, out.begin());
         continue;
       }
       if (normal.z <= 0.0) {
-        ++map.inverted;
+        ++inverted;
         normal.z = smallest_z;
       }
       normal = glm::normalize(normal * glm::dvec3{scale, scale, 1.0});
@@ -54,7 +58,9 @@ NormalMap to_normal_map(const Image& stored, Decode decode, bool xy, double scal
           std::array{static_cast<float>(normal.x), static_cast<float>(normal.y), static_cast<float>(normal.z), 1.0F},
           out.begin());
     }
-  }
+  });
+  map.invalid = invalid;
+  map.inverted = inverted;
   return map;
 }
 
@@ -111,10 +117,21 @@ NormalMap decode_unit_normals(const Image& stored, double scale, NormalChannels 
       stored, [](const auto& v) { return v; }, xy, scale);
 }
 
-NormalMap read_normal_map(const std::filesystem::path& file, double scale, NormalChannels channels) {
+MapTexels kept_normals(const Image& stored, const std::function<NormalMap(const Image&)>& decode,
+                       const std::string& name, std::vector<std::string>& faults) {
+  const NormalMap map = decode(stored);
+  std::ranges::move(describe_faults(map, name), std::back_inserter(faults));
+  return MapTexels::packed(map.image, stored, [decode](const Image& again) { return decode(again).image; });
+}
+
+MapTexels read_normal_map(const std::filesystem::path& file, double scale, NormalChannels channels,
+                          std::vector<std::string>& faults) {
   const Image stored = read_image(file, Transfer::linear);
+  const auto decode = [scale, channels, unit = is_exr(file)](const Image& image) {
+    return unit ? decode_unit_normals(image, scale, channels) : decode_normal_map(image, scale, channels);
+  };
   try {
-    return is_exr(file) ? decode_unit_normals(stored, scale, channels) : decode_normal_map(stored, scale, channels);
+    return kept_normals(stored, decode, file.filename().string(), faults);
   } catch (const Error& error) {
     throw error.within(file.string());
   }

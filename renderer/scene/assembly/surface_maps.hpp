@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "renderer/image/image.hpp"
+#include "renderer/scene/map_texels.hpp"
 #include "renderer/scene/normal_channels.hpp"
 
 namespace footprint {
@@ -30,9 +32,15 @@ struct NormalMap {
                                             NormalChannels channels = NormalChannels::xyz);
 
 /// The one rule for files of normals: an EXR holds unit normals as they are, every other format encodes them as
-/// (n + 1) / 2. Errors (usage), which name the file: as above, and of read_image.
-[[nodiscard]] NormalMap read_normal_map(const std::filesystem::path& file, double scale,
-                                        NormalChannels channels = NormalChannels::xyz);
+/// (n + 1) / 2. What is wrong with it is added to `faults`. Errors (usage), which name the file: as above, and of
+/// read_image.
+[[nodiscard]] MapTexels read_normal_map(const std::filesystem::path& file, double scale, NormalChannels channels,
+                                        std::vector<std::string>& faults);
+
+/// The normals of a stored map as a material keeps them, by `decode`, one of the functions above; what is wrong with
+/// them is added to `faults`.
+[[nodiscard]] MapTexels kept_normals(const Image& stored, const std::function<NormalMap(const Image&)>& decode,
+                                     const std::string& name, std::vector<std::string>& faults);
 
 /// Multiplies the slopes of a normal map by `strength`.
 void scale_slopes(Image& normals, double strength);

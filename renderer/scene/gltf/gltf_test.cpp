@@ -340,12 +340,12 @@ TEST(Gltf, MapsAreDecodedAndShared) {
   const Material& material = model.materials.at(0);
   ASSERT_TRUE(material.base_color_map && material.metallic_roughness_map && material.normal_map);
   // IEC 61966-2-1 at 128 / 255.
-  EXPECT_NEAR(material.base_color_map->image->at(0, 0)[0], 0.2158605, 1e-5);
-  EXPECT_EQ(material.base_color_map->image->at(1, 1)[3], 1.0F);
-  EXPECT_FLOAT_EQ(material.metallic_roughness_map->image->at(0, 0)[0], 0.25F);
-  EXPECT_FLOAT_EQ(material.metallic_roughness_map->image->at(0, 0)[1], 0.5F);
+  EXPECT_NEAR(material.base_color_map->image.decoded().at(0, 0)[0], 0.2158605, 1e-5);
+  EXPECT_EQ(material.base_color_map->image.decoded().at(1, 1)[3], 1.0F);
+  EXPECT_FLOAT_EQ(material.metallic_roughness_map->image.decoded().at(0, 0)[0], 0.25F);
+  EXPECT_FLOAT_EQ(material.metallic_roughness_map->image.decoded().at(0, 0)[1], 0.5F);
   // (0.0039, 1, 1) normalised.
-  EXPECT_NEAR(material.normal_map->image->at(0, 0)[2], std::sqrt(0.5), 1e-5);
+  EXPECT_NEAR(material.normal_map->image.decoded().at(0, 0)[2], std::sqrt(0.5), 1e-5);
   EXPECT_EQ(material.normal_map->image, model.materials.at(1).normal_map->image);
 }
 

@@ -211,28 +211,30 @@ Image GltfMaterials::stored(int index, Transfer transfer) const {
              : read_image(std::span<const std::uint8_t>{image.image}, image_name(image, index), transfer);
 }
 
-GltfMaterials::MapPointer GltfMaterials::base_color(int image) {
+MapTexels GltfMaterials::base_color(int image) {
   auto& map = maps_[fmt::format("{} color", image)];
-  if (!map) map = std::make_shared<const Image>(to_rgba(stored(image, Transfer::srgb)));
+  if (!map) map = MapTexels::packed(to_rgba(stored(image, Transfer::srgb)));
   return map;
 }
 
-GltfMaterials::MapPointer GltfMaterials::metallic_roughness(int image, const Material& material) {
+MapTexels GltfMaterials::metallic_roughness(int image, const Material& material) {
   auto& map = maps_[fmt::format("{} rough {} {}", image, material.roughness, material.metallic)];
   if (!map) {
-    map = std::make_shared<const Image>(
+    map = MapTexels::packed(
         decode_metallic_roughness(stored(image, Transfer::linear), material.roughness, material.metallic));
   }
   return map;
 }
 
-GltfMaterials::MapPointer GltfMaterials::normals(int image, double scale) {
+MapTexels GltfMaterials::normals(int image, double scale) {
   auto& map = maps_[fmt::format("{} normal {}", image, scale)];
   if (map) return map;
-  NormalMap decoded = decode_normal_map(stored(image, Transfer::linear), scale);
+  const auto decode = [scale](const Image& texels) { return decode_normal_map(texels, scale); };
   const std::string name = image_name(document_.model.images[static_cast<std::size_t>(image)], image);
-  for (std::string& line : describe_faults(decoded, name)) add_once(warnings_, std::move(line));
-  return map = std::make_shared<const Image>(std::move(decoded.image));
+  std::vector<std::string> faults;
+  map = kept_normals(stored(image, Transfer::linear), decode, name, faults);
+  for (std::string& line : faults) add_once(warnings_, std::move(line));
+  return map;
 }
 
 }  // namespace footprint

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,8 +29,6 @@ class GltfMaterials {
   [[nodiscard]] const std::vector<Material>& materials() const { return materials_; }
 
  private:
-  using MapPointer = std::shared_ptr<const Image>;
-
   [[nodiscard]] Material convert(int gltf_index);
   [[nodiscard]] Material convert_named(int gltf_index);
   void convert_maps(const tinygltf::Material& source, Material& material);
@@ -39,15 +36,15 @@ class GltfMaterials {
   void warn_left_out(const tinygltf::Material& source);
   [[nodiscard]] std::optional<TextureMap> find_map(int texture, int set, const tinygltf::ExtensionMap& extensions);
   [[nodiscard]] Image stored(int index, Transfer transfer) const;
-  [[nodiscard]] MapPointer base_color(int image);
-  [[nodiscard]] MapPointer metallic_roughness(int image, const Material& material);
-  [[nodiscard]] MapPointer normals(int image, double scale);
+  [[nodiscard]] MapTexels base_color(int image);
+  [[nodiscard]] MapTexels metallic_roughness(int image, const Material& material);
+  [[nodiscard]] MapTexels normals(int image, double scale);
 
   const GltfDocument& document_;
   std::vector<std::string>& warnings_;
   std::vector<Material> materials_;
   std::map<int, int> indices_;
-  std::map<std::string, MapPointer> maps_;  ///< decoded, by image, use and factors
+  std::map<std::string, MapTexels> maps_;  ///< by image, use and factors
 };
 
 }  // namespace footprint

@@ -96,11 +96,11 @@ TEST(MapSettings, MapsHaveTheirOwnSizeAndTiling) {
                                  exr("ks.exr", Image(1, 1, 3, 0.5F)) + "\"\n[maps.diffuse]\nfile = \"" +
                                  exr("kd.exr", Image(1, 4, 3, 0.25F)) + "\"\nuv = [7, 1]\n");
   ASSERT_TRUE(made.lobe_parameter_map && made.specular_map && made.base_color_map);
-  EXPECT_EQ(*made.lobe_parameter_map->image, lobes);  // no digit is lost
+  EXPECT_EQ(made.lobe_parameter_map->image.decoded(), lobes);  // no digit is lost
   EXPECT_EQ(made.lobe_parameter_map->coordinates.transform[1], glm::vec2(0, 5));
   EXPECT_EQ(made.specular_map->coordinates.transform[0], glm::vec2(2, 0));
   EXPECT_EQ(made.base_color_map->coordinates.transform[0], glm::vec2(7, 0));
-  EXPECT_EQ(made.base_color_map->image->height, 4);
+  EXPECT_EQ(made.base_color_map->image.height(), 4);
   EXPECT_EQ(made.dielectric_specular, glm::vec3(0.5F, 1.0F, 1.0F));
   EXPECT_EQ(made.metallic, 0.0F);
 }
@@ -112,7 +112,7 @@ TEST(MapSettings, MapsMayHoldTheBoundsOfTheirLobe) {
   const std::string plane = "[plane]\n[brdf]\ndistribution = \"ggx\"\n[maps.alpha]\nfile = \"";
   const Material made = material(plane + exr("alpha.exr", alphas) + "\"\n");
   ASSERT_TRUE(made.lobe_parameter_map);
-  EXPECT_EQ(*made.lobe_parameter_map->image, alphas);
+  EXPECT_EQ(made.lobe_parameter_map->image.decoded(), alphas);
   alphas.at(0, 0)[0] = std::nextafter(0.001F, 0.0F);
   expect_brdf_error(plane + exr("low.exr", alphas) + "\"\n", {"low.exr", "texel (0, 0)"});
 }
@@ -122,8 +122,8 @@ TEST(MapSettings, RoughnessTakesThePlaceOfEveryOtherWidth) {
                                  exr("r.exr", Image(2, 2, 1, 0.4F)) + "\" }\n");
   EXPECT_FALSE(made.lobe_parameter_map);
   ASSERT_NE(width_map(made), nullptr);
-  EXPECT_EQ(width_map(made)->image->at(1, 1)[0], 0.4F);
-  EXPECT_EQ(width_map(made)->image->at(1, 1)[1], made.metallic);
+  EXPECT_EQ(width_map(made)->image.decoded().at(1, 1)[0], 0.4F);
+  EXPECT_EQ(width_map(made)->image.decoded().at(1, 1)[1], made.metallic);
 }
 
 TEST(MapSettings, MistakesAreNamed) {
@@ -149,7 +149,7 @@ TEST(SurfaceMaps, ASurfaceBringsLobesAndMaps) {
   EXPECT_EQ(glossy.brdf.distribution, NormalDistribution::vmf);
   ASSERT_TRUE(glossy.lobe_parameter_map && glossy.specular_map);
   EXPECT_EQ(glossy.lobe_parameter_map->coordinates.transform[0], glm::vec2(8, 0));
-  EXPECT_EQ(glossy.specular_map->image->width, 5);
+  EXPECT_EQ(glossy.specular_map->image.width(), 5);
   EXPECT_EQ(glossy.dielectric_specular, glm::vec3(1.0F));
   EXPECT_EQ(material("[surface]\nname = \"leaner\"\n").lobes.size(), 1U);
 }

@@ -1,0 +1,80 @@
+// What is kept is an image of floats, or a packed one and what to make of it.
+#include "renderer/scene/map_texels.hpp"
+
+#include <utility>
+
+#include "renderer/image/packed_image.hpp"
+
+namespace footprint {
+
+struct MapTexels::Kept {
+  std::shared_ptr<const Image> floats;  // or else:
+  PackedImage packed;
+  Decode decode;             // none: the packed image is the map
+  std::vector<float> first;  // texel of the map: as many channels as that has
+  int width = 0, height = 0;
+
+  [[nodiscard]] Image decoded() const {
+    if (floats) return *floats;
+    return decode ? decode(packed.unpacked()) : packed.unpacked();
+  }
+};
+
+namespace {
+
+std::vector<float> first_texel(const Image& image) {
+  if (image.empty()) return {};
+  return {image.at(0, 0).begin(), image.at(0, 0).end()};
+}
+
+}  // namespace
+
+MapTexels::MapTexels(std::shared_ptr<const Image> image) {
+  if (!image) return;
+  Kept kept{.floats = {},
+            .packed = {},
+            .decode = {},
+            .first = first_texel(*image),
+            .width = image->width,
+            .height = image->height};
+  kept.floats = std::move(image);
+  kept_ = std::make_shared<const Kept>(std::move(kept));
+}
+
+MapTexels MapTexels::packed(const Image& image) { return packed(image, image, {}); }
+
+MapTexels MapTexels::packed(const Image& map, const Image& stored, Decode decode) {
+  MapTexels out;
+  out.kept_ = std::make_shared<const Kept>(Kept{.floats = {},
+                                                .packed = PackedImage(stored),
+                                                .decode = std::move(decode),
+                                                .first = first_texel(map),
+                                                .width = map.width,
+                                                .height = map.height});
+  return out;
+}
+
+int MapTexels::width() const { return kept_->width; }
+
+int MapTexels::height() const { return kept_->height; }
+
+int MapTexels::channels() const { return static_cast<int>(kept_->first.size()); }
+
+std::size_t MapTexels::texel_count() const {
+  return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
+}
+
+std::span<const float> MapTexels::first() const { return kept_->first; }
+
+Image MapTexels::decoded() const { return kept_->decoded(); }
+
+const void* MapTexels::identity() const {
+  if (!kept_) return nullptr;
+  return kept_->floats ? static_cast<const void*>(kept_->floats.get()) : kept_.get();
+}
+
+std::size_t MapTexels::byte_count() const {
+  return kept_->floats ? kept_->floats->texels.size() * sizeof(float) : kept_->packed.byte_count();
+}
+
+}  // namespace footprint

@@ -82,8 +82,17 @@ ShaderVariant variant_of(const BakeToFiles& bake) {
           .brdf = bake.scene.materials.front().brdf,
           .footprint = bake.footprint,
           .horizon_open = bake.scene.horizon == Horizon::open,
+          .screen_derivatives = bake.baked.method->info().screen_derivatives,
           .facet_lobes = most_lobes};
 }
+
+constexpr const char* screen_contract =
+    R"(//
+// This method looks at the next pixels. Between the first two lines, and in place of the last:
+//
+//   lookAround(at, eye, frame, world_to_camera, f);  // in every pixel of a quad, before any is discarded
+//   vec3 f_cos = reflectedTowards(e, s, wi, wo, vec4(lamp, 1.0));   // vec4(direction, 0.0) of light without a place
+)";
 
 std::string contract(const BakeToFiles& bake) {
   return fmt::format(
@@ -98,8 +107,9 @@ std::string contract(const BakeToFiles& bake) {
 //   vec3 f_cos = reflectedTowards(e, s, wi, wo);     // for each light; f * cos
 //
 // wi and wo are unit vectors in the tangent frame (x tangent, y bitangent, z normal), towards the light and the viewer.
-)",
-      bake.baked.spec.text, bake.version, footprint_filter_text(bake.footprint));
+{})",
+      bake.baked.spec.text, bake.version, footprint_filter_text(bake.footprint),
+      bake.baked.method->info().screen_derivatives ? screen_contract : "");
 }
 
 }  // namespace
@@ -125,23 +135,19 @@ BakeListing list_bake(const BakeToFiles& bake) {
 }
 
 void require_files(const BakeToFiles& bake) {
-  if (bake.baked.method->info().screen_derivatives) {
-    throw Error(ErrorKind::usage, fmt::format("method {}", bake.baked.spec.text),
-                "filters by the next pixels, which no file tells a module of",
-                "bake roughness_bake, which has the maps that it may stand on");
-  }
   std::size_t count = 0;
   for (const Prefiltered& prefiltered : bake.baked.materials) {
     count += prefiltered.textures.size();
     const bool is_built = prefiltered.surface_coordinates.has_value() ||
                           std::ranges::any_of(prefiltered.textures, &PrefilteredTexture::built);
     if (is_built) {
-      throw Error(ErrorKind::usage, fmt::format("method {}", bake.baked.spec.text),
-                  "its textures are built anew for each frame: there is nothing to bake",
-                  "choose another; `footprint list methods` names them");
+      throw Error(
+          ErrorKind::usage, fmt::format("method {}", bake.baked.spec.text),
+          "joins normal map and base BRDF on the GPU anew for each frame: there is nothing that a file could hold",
+          "bake cells, tan_gmm or lean, whose lobes are made beforehand");
     }
   }
-  if (count > 0) return;
+  if (count > 0 || bake.baked.method->info().screen_derivatives) return;  // the screen tells of curvature, too
   throw Error(ErrorKind::usage, fmt::format("{}, method {}", bake.scene.source, bake.baked.spec.text),
               "bakes nothing: normals and roughness do not vary on any material", "give a model with a normal map");
 }

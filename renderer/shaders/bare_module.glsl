@@ -23,15 +23,43 @@ Footprints footprintsAt(vec2 uv) {
   return all;
 }
 
-// f * cos of both terms; times the light's irradiance on a plane that faces it, that light's share.
-vec3 reflectedTowards(Effective e, Surface s, vec3 wi, vec3 wo) {
-//? if not horizon_open
-  if (wi.z <= 0.0) return vec3(0.0);  // the scene's horizon cuts: nothing of a light below the surface's plane
-//? end
-  Reflected r = shade(e, s, wi, wo);
+vec3 bothTerms(Reflected r) {
 //? if diffuse
   return r.specular + r.diffuse;
 //? else
   return r.specular;
 //? end
 }
+
+// f * cos of both terms; times the light's irradiance on a plane that faces it, that light's share.
+vec3 reflectedTowards(Effective e, Surface s, vec3 wi, vec3 wo) {
+//? if not horizon_open
+  if (wi.z <= 0.0) return vec3(0.0);  // the scene's horizon cuts: nothing of a light below the surface's plane
+//? end
+  return bothTerms(shade(e, s, wi, wo));
+}
+//? if screen_derivatives
+
+// Of the pixel, in world space: set by `lookAround`.
+vec3 world_position;
+vec3 camera_position;
+//? include neighbour_pixels.glsl
+
+// Looks at the next pixels, before `effective` and in every pixel of a quad. `at` and `eye` are the surface's and the
+// camera's place in world space; the columns of `frame` are tangent, bitangent and normal there, unit and orthogonal;
+// `world_to_camera` turns to x right, y up, z towards the viewer.
+void lookAround(vec3 at, vec3 eye, mat3 frame, mat3 world_to_camera, inout Footprints f) {
+  world_position = at;
+  camera_position = eye;
+  tangent_to_camera = world_to_camera * frame;
+  lookBeside(frame, f);
+}
+
+// The same of a light whose half vector changes over the screen: at source.xyz (w 1), or in that direction (w 0).
+vec3 reflectedTowards(Effective e, Surface s, vec3 wi, vec3 wo, vec4 source) {
+//? if not horizon_open
+  if (wi.z <= 0.0) return vec3(0.0);
+//? end
+  return bothTerms(shade(e, s, wi, wo, halfSteps(wi, source, wo)));
+}
+//? end

@@ -26,9 +26,10 @@ vec3 halfVectorAt(Neighbour n, vec4 source) {
   return halfVector(normalize(source.xyz - source.w * n.position), to_viewer) * n.frame;
 }
 
-HalfSteps halfSteps(Incident light, vec3 wo) {
-  vec3 h = halfVector(light.wi, wo);
-  HalfSteps steps = HalfSteps(halfVectorAt(beside[0], light.source) - h, halfVectorAt(beside[1], light.source) - h);
+// Of light along wi that comes from `source` in world space: a point (w 1) or a direction (w 0).
+HalfSteps halfSteps(vec3 wi, vec4 source, vec3 wo) {
+  vec3 h = halfVector(wi, wo);
+  HalfSteps steps = HalfSteps(halfVectorAt(beside[0], source) - h, halfVectorAt(beside[1], source) - h);
 //? if filter_shaded
   steps.dx /= float(footprint_parts);
   steps.dy /= float(footprint_parts);

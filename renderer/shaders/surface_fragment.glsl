@@ -101,7 +101,7 @@ vec3 reflectance(Effective e, Surface s, vec3 wi, vec3 wo) {
 vec3 reflected(SurfacePoint p, Incident light) {
   if (!reachesFacets(light.wi)) return vec3(0.0);
 //? if screen_derivatives
-  Reflected r = shade(p.effective, p.surface, light.wi, p.wo, halfSteps(light, p.wo));
+  Reflected r = shade(p.effective, p.surface, light.wi, p.wo, halfSteps(light.wi, light.source, p.wo));
 //? else
   Reflected r = shade(p.effective, p.surface, light.wi, p.wo);
 //? end

@@ -53,7 +53,6 @@ std::vector<Case> wrong_bakes() {
       row("BakeByAWrongOption", {"v_grooves", "--method", "toksvig:storag=fp16"}, {"storag", "storage"}),
       row("BakeByTwoMethods", {"v_grooves", "--method", "toksvig,lean"}, {"--method", "name one"}),
       row("BakeTheReference", {"v_grooves", "--method", "reference"}, {"reference"}),
-      row("BakeWhatLooksAtTheScreen", {"v_grooves", "--method", "specular_aa"}, {"specular_aa", "next pixels"}),
       row("BakeWhatIsBuiltEachFrame", {"v_grooves", "--method", "xu_vmf"}, {"xu_vmf", "anew for each frame"}),
       nothing,
       row("BakeAMissingScene", {"{}/missing.gltf", "--method", "toksvig"}, {"missing.gltf"}),

@@ -50,6 +50,7 @@ uniform vec3 lamp;
 uniform vec3 candela;
 uniform vec3 albedo;
 uniform vec3 f0;
+uniform mat3 world_to_camera;
 layout(location = 0) out vec4 seen;
 void main() {
   vec3 z = normalize(up);
@@ -58,8 +59,13 @@ void main() {
   vec3 towards_lamp = lamp - at;
   vec3 wi = transpose(to_world) * normalize(towards_lamp);
   vec3 wo = transpose(to_world) * normalize(eye - at);
-  Effective e = effective(footprintsAt(uv));
-  vec3 reflected = reflectedTowards(e, Surface(albedo, f0), wi, wo);
+  Footprints f = footprintsAt(uv);
+#ifdef LOOKS_AROUND
+  lookAround(at, eye, to_world, world_to_camera, f);
+  vec3 reflected = reflectedTowards(effective(f), Surface(albedo, f0), wi, wo, vec4(lamp, 1.0));
+#else
+  vec3 reflected = reflectedTowards(effective(f), Surface(albedo, f0), wi, wo);
+#endif
   seen = vec4(reflected * candela / dot(towards_lamp, towards_lamp), 1.0);
 }
 )";
@@ -182,8 +188,9 @@ Image render_from_files(const fs::path& folder, const Scene& scene, const glm::i
   const gl::Context& context = shared_context();
   const Json manifest = Json::parse(text_of(folder / "manifest.json"));
   const Json& material = manifest["materials"][0];
-  const gl::Program program(
-      "bare", vertex_text, "#version 450 core\n" + text_of(folder / manifest["module"].get<std::string>()) + main_text);
+  const std::string module = text_of(folder / manifest["module"].get<std::string>());
+  const std::string looks_around = module.find("lookAround") == std::string::npos ? "" : "#define LOOKS_AROUND\n";
+  const gl::Program program("bare", vertex_text, "#version 450 core\n" + looks_around + module + main_text);
   std::vector<gl::Texture> textures;
   std::vector<gl::Sampler> samplers;
   for (const Json& texture : material["textures"]) {
@@ -218,6 +225,10 @@ Image render_from_files(const fs::path& folder, const Scene& scene, const glm::i
   gl::api().ProgramUniformMatrix4fv(program.name(), program.uniform("world_to_clip"), 1, GL_FALSE,
                                     glm::value_ptr(world_to_clip));
 
+  if (const GLint place = program.uniform("world_to_camera"); place >= 0) {
+    const glm::mat3 turn = footprint::world_to_camera(scene.camera);
+    gl::api().ProgramUniformMatrix3fv(program.name(), place, 1, GL_FALSE, glm::value_ptr(turn));
+  }
   const gl::RenderTarget target(size.x, size.y, std::array<GLenum, 1>{GL_RGBA32F}, true);
   const Triangles triangles(scene.meshes.front());
   gl::api().BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());

@@ -25,7 +25,7 @@ RC_GTEST_PROP(Clipping, CoversAllOfARectangle, ()) {
   const FootprintTexels under = texels_under(material, rect);
   const double sum = std::accumulate(under.facets.begin(), under.facets.end(), 0.0,
                                      [](double so_far, const WeightedFacet& facet) { return so_far + facet.share; });
-  const Image& map = *material.normal_map->image;
+  const Image map = material.normal_map->image.decoded();
   const double texels = rect.size().x * map.width * rect.size().y * map.height;
   RC_ASSERT(std::abs(sum - 1.0) <= 1e-9);
   RC_ASSERT(std::abs(under.texels - texels) <= 1e-9 * texels);

@@ -59,8 +59,8 @@ function(footprint_add_test name)
 endfunction()
 
 # footprint_compile_shaders_fast(TEST): of a test that draws hundreds of programs once each. llvmpipe's compiler leaves
-# its optimisation passes out, which takes a third off and more where no program is kept from an earlier run; other drivers do not
-# know the word.
+# its optimisation passes out, which takes a fifth to two fifths off where no program is kept from an earlier run; other
+# drivers do not know the word. All other tests, and those that run whole jobs, draw as users do.
 function(footprint_compile_shaders_fast test)
   if(FOOTPRINT_TESTS)
     set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT GALLIVM_PERF=nopt)

@@ -38,6 +38,19 @@ std::string hash_of(std::span<const std::uint8_t> bytes) {
   return fmt::format("{}-{}", hash.hex(), bytes.size());
 }
 
+// Parts come from elsewhere: what they name must lie in the folders that it is looked for in, and be put there.
+bool is_word(std::string_view text) {
+  constexpr std::string_view others = "-_";
+  return !text.empty() && std::ranges::all_of(text, [&](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+           others.find(c) != std::string_view::npos;
+  });
+}
+
+bool is_within(const fs::path& name) {
+  return name.is_relative() && name.has_filename() && std::ranges::find(name, fs::path("..")) == name.end();
+}
+
 void make_folder(const fs::path& folder) {
   std::error_code failed;
   fs::create_directories(folder, failed);
@@ -82,7 +95,7 @@ fs::path KeptWork::item_path(const std::string& key) const {
 fs::path KeptWork::file_path(const std::string& hash) const { return folder_ / "files" / hash.substr(0, 2) / hash; }
 
 std::optional<KeptWork::Item> KeptWork::read(const std::string& key) const {
-  const auto bytes = bytes_of(item_path(key));
+  const auto bytes = is_word(key) ? bytes_of(item_path(key)) : std::nullopt;
   if (!bytes) return {};
   std::optional<SealedReader> reader = SealedReader::open(*bytes, form);
   if (!reader || reader->get_text() != key) return {};
@@ -91,6 +104,7 @@ std::optional<KeptWork::Item> KeptWork::read(const std::string& key) const {
     KeptFile& file = item.files.emplace_back();
     file.name = reader->get_text();
     file.hash = reader->get_text();
+    if (!is_within(file.name) || !is_word(file.hash)) return {};
   }
   const std::span<const std::uint8_t> value = reader->get_block();
   item.value.assign(value.begin(), value.end());
@@ -151,8 +165,8 @@ void KeptWork::take(const std::string& key, const KeptWork& from) const {
   const auto refuse = [&](const fs::path& file) {
     throw Error(ErrorKind::usage, file.string(), "is missing or damaged", "run that part again, and merge then");
   };
-  const auto item_bytes = bytes_of(from.item_path(key));
   const std::optional<Item> item = from.read(key);
+  const auto item_bytes = bytes_of(from.item_path(key));
   if (!item_bytes || !item) refuse(from.item_path(key));
   make_folder(item_path(key).parent_path());
   for (const KeptFile& file : item->files) {

@@ -17,7 +17,8 @@ namespace footprint {
 
 /// A folder of finished work: an item is `XY/KEY.done`, its files lie in `files/XY/` by the hash of their bytes, each
 /// once. XY are the first digits of the hash, so that no folder of a large run is slow to search.
-/// Everything appears whole or not at all, and is checked when it is read again: what is damaged counts as not there.
+/// Everything appears whole or not at all, and is checked when it is read again: what is damaged, or names a file
+/// outside of the folder of a run, counts as not there.
 class KeptWork {
  public:
   /// `maker` names what made it and enters every key: the program and the renderer (maker_of_work). Nothing is written

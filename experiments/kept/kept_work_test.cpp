@@ -6,6 +6,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "renderer/core/error.hpp"
 #include "tests/support/fresh_folder.hpp"
@@ -145,6 +146,39 @@ TEST_F(KeptWorkTest, NothingDamagedIsTakenOver) {
   write(item(), "damaged");
   expect_error([&] { other.take(key_, *work_); }, ErrorKind::usage, {item().string(), "missing or damaged"});
   EXPECT_THAT(other.keys(), ::testing::IsEmpty());
+}
+
+// An item made by someone else's program: whole, under its key, with a file to be put where it should not be.
+TEST_F(KeptWorkTest, NoFileIsPutOutsideOfTheRunsFolder) {
+  const std::string hash = only_file().filename().string();
+  for (const auto& [name, named_hash] :
+       std::vector<std::pair<std::string, std::string>>{{"images/a.png", hash},
+                                                        {"../outside.png", hash},
+                                                        {"images/../../outside.png", hash},
+                                                        {(folder_ / "outside.png").string(), hash},
+                                                        {"", hash},
+                                                        {"images/", hash},
+                                                        {"images/a.png", "../" + hash.substr(0, 2) + "/" + hash}}) {
+    SealedWriter writer("footprint-kept/1");
+    writer.add_text(key_);
+    writer.add<std::uint64_t>(1);
+    writer.add_text(name);
+    writer.add_text(named_hash);
+    writer.add_block(packed(figures, key_));
+    const std::vector<std::uint8_t> bytes = std::move(writer).seal();
+    write(item(), std::string(bytes.begin(), bytes.end()));
+    EXPECT_EQ(found().has_value(), name == "images/a.png" && named_hash == hash) << name;
+    EXPECT_FALSE(fs::exists(folder_ / "outside.png"));
+  }
+}
+
+TEST_F(KeptWorkTest, AKeyIsNoPath) {
+  const KeptWork other(folder_ / "other", "me");
+  for (const std::string key : {"", "../../record-1", "record/../record-1", "/tmp/record-1", "record-1\n"}) {
+    EXPECT_FALSE(work_->has_whole(key)) << key;
+    expect_error([&] { other.take(key, *work_); }, ErrorKind::usage, {"missing or damaged"});
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "other"));
 }
 
 TEST_F(KeptWorkTest, WhatIsCompleteTakesNothingMore) {

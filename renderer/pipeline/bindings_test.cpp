@@ -1,11 +1,13 @@
 // Texture units and block bindings: what is declared, and what ends with an error.
 #include "renderer/pipeline/bindings.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <map>
 #include <regex>
 #include <string>
+#include <tuple>
 
 #include "renderer/bake/shared_maps.hpp"
 #include "renderer/core/error.hpp"
@@ -50,6 +52,28 @@ Error error_of(const Method& method) {
     return error;
   }
   return {ErrorKind::machine, "nothing", "was thrown"};
+}
+
+// The lights of one kind lie in one uniform block.
+TEST(LightBlocks, OneTooManyNamesTheLimit) {
+  const auto block = static_cast<std::size_t>(shared_context().info().max_uniform_block_bytes);
+  Scene scene = square_scene(random_normals(4, 4, 0.4F, 7), {});
+  for (const auto& [light, most, kind] :
+       {std::tuple<Light, std::size_t, std::string>{PointLight{}, block / 32, "point"},
+        {SpotLight{}, block / 64, "spot"},
+        {DirectionalLight{}, block / 32, "directional"}}) {
+    scene.lights.assign(most + 1, light);
+    try {
+      const GpuScene refused(shared_context().info(), scene, EffectSet{});
+      ADD_FAILURE() << most + 1 << " " << kind << " lights are taken";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::machine);
+      EXPECT_TRUE(test::says(error.what(), fmt::format("has {} {} lights", most + 1, kind)));
+      EXPECT_TRUE(test::says(error.what(), fmt::format("takes {} at once", most)));
+    }
+    scene.lights.resize(most);
+    EXPECT_NO_THROW(GpuScene(shared_context().info(), scene, EffectSet{}));
+  }
 }
 
 TEST(TextureUnits, AsManyAsTheGlHasAreDrawn) {

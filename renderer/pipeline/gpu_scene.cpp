@@ -7,6 +7,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
 #include <span>
+#include <string_view>
 
 #include "renderer/bake/facet_lobes.hpp"
 #include "renderer/bake/material_maps.hpp"
@@ -153,11 +154,15 @@ std::size_t add_shared_textures(const Material& material, const EffectSet& effec
   return bytes;
 }
 
-void require_capacity(const gl::ContextInfo& context, std::size_t vectors, const std::string& source) {
-  const std::size_t bytes = vectors * sizeof(glm::vec4);
-  if (bytes <= static_cast<std::size_t>(context.max_uniform_block_bytes)) return;
-  throw Error(ErrorKind::machine, source, fmt::format("its lights take {} bytes of a uniform block", bytes),
-              fmt::format("this GL takes {}: use fewer lights", context.max_uniform_block_bytes));
+// Lights of one kind, of so many vectors each, lie in one uniform block.
+void require_capacity(const gl::ContextInfo& context, std::string_view kind, std::span<const glm::vec4> block,
+                      std::size_t vectors_a_light, const std::string& source) {
+  const std::size_t most =
+      static_cast<std::size_t>(context.max_uniform_block_bytes) / sizeof(glm::vec4) / vectors_a_light;
+  const std::size_t lights = block.size() / vectors_a_light;
+  if (lights <= most) return;
+  throw Error(ErrorKind::machine, source, fmt::format("has {} {} lights", lights, kind),
+              fmt::format("the OpenGL of this machine takes {} at once: leave the others out", most));
 }
 
 }  // namespace
@@ -267,8 +272,9 @@ void GpuScene::make_lights(const gl::ContextInfo& context, const Scene& scene) {
     shared_bytes_ += shadow_maps_->bytes();
   }
   const LightBlocks blocks = blocks_of(scene.lights);
-  require_capacity(context, std::max({blocks.point.size(), blocks.spot.size(), blocks.directional.size()}),
-                   scene.source);
+  require_capacity(context, "point", blocks.point, 2, scene.source);
+  require_capacity(context, "spot", blocks.spot, 4, scene.source);
+  require_capacity(context, "directional", blocks.directional, 2, scene.source);
   point_lights_ = light_buffer(blocks.point);
   spot_lights_ = light_buffer(blocks.spot);
   directional_lights_ = light_buffer(blocks.directional);

@@ -17,8 +17,8 @@ struct MemoryEstimate {
   std::uint64_t reference = 0;
   std::uint64_t a_method = 0;  ///< mip chains of what LEAN keeps of normals, and of widths: toksvig keeps half, some
                                ///< far more
-  std::uint64_t bake = 0;    ///< of the largest map, while its chain is made
-  std::uint64_t upload = 0;  ///< of the largest map, while it lies in memory and on the GPU
+  std::uint64_t bake = 0;      ///< of the largest map, while its chain is made
+  std::uint64_t upload = 0;    ///< of the largest map, while it lies in memory and on the GPU
 
   /// With so many methods, what is kept of the scene's own maps included.
   [[nodiscard]] std::uint64_t peak(std::size_t methods) const {

@@ -48,6 +48,8 @@ void set_error(Record& record, const Truth& truth, const MethodPictures& picture
                   .psnr = figures->psnr,
                   .energy_bias = figures->energy_bias,
                   .luminance_distance = figures->luminance_distance,
+                  .luminances = figures->luminances,
+                  .reference_luminances = figures->reference_luminances,
                   .noise_floor = truth.noise_floor,
                   .representation = normalized_color(pictures.finest, truth.reference.mean, exposure).value(),
                   .filtering = normalized_color(pictures.frame, pictures.finest, exposure).value(),

@@ -68,6 +68,15 @@ double luminance(const Rgb& rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.
 // What a display of peak 1 shows.
 double displayed(double value, double exposure) { return std::clamp(exposure * value, 0.0, 1.0); }
 
+LuminanceHistogram histogram_of(std::span<const double> luminances) {
+  LuminanceHistogram counts{};
+  for (const double y : luminances) {
+    const auto bin = static_cast<std::size_t>(y * static_cast<double>(counts.size()));
+    ++counts[std::min(bin, counts.size() - 1)];
+  }
+  return counts;
+}
+
 // The mean distance of two lists of one size, each sorted: Wasserstein's distance of their distributions.
 double sorted_distance(std::vector<double> a, std::vector<double> b) {
   std::ranges::sort(a);
@@ -123,12 +132,15 @@ std::optional<ErrorFigures> compare_images(const Image& picture, const Image& re
       reference_sum += r[c];
     }
   });
+  const LuminanceHistogram shown = histogram_of(shown_luminances), truth = histogram_of(true_luminances);
   return ErrorFigures{.normalized_color = distance / pixels,
                       .relative_rmse = std::sqrt(ratio(squares, reference_squares)),
                       .relmse = relative / (3 * pixels),
                       .psnr = -10 * std::log10(shown_squares / (3 * pixels)),
                       .energy_bias = ratio(sum - reference_sum, reference_sum),
-                      .luminance_distance = sorted_distance(std::move(shown_luminances), std::move(true_luminances))};
+                      .luminance_distance = sorted_distance(std::move(shown_luminances), std::move(true_luminances)),
+                      .luminances = shown,
+                      .reference_luminances = truth};
 }
 
 std::optional<double> normalized_color(const Image& picture, const Image& reference, float exposure) {

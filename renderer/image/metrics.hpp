@@ -1,11 +1,17 @@
 // The error measures of docs/metrics.md, over the object's pixels.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 
 #include "renderer/image/image.hpp"
 
 namespace footprint {
+
+/// How many pixels are how bright: bin i counts those whose luminance (Rec. 709, of exposed values clamped to [0, 1])
+/// lies from i / 32 to (i + 1) / 32; the last bin has white too.
+using LuminanceHistogram = std::array<std::uint32_t, 32>;
 
 /// What a picture differs from the reference by. Only object pixels count: those whose reference coverage is 1.
 struct ErrorFigures {
@@ -16,6 +22,7 @@ struct ErrorFigures {
   double energy_bias = 0;       ///< (sum x - sum r) / sum r on linear radiance, signed
   double luminance_distance =
       0;  ///< mean of |y - y_ref| of exposed clamped luminances, each picture's sorted on its own
+  LuminanceHistogram luminances{}, reference_luminances{};  ///< of the object's pixels
 };
 
 /// Compares RGBA pictures of the same size: linear radiance (mean over the covered part of the pixel), coverage in

@@ -99,6 +99,24 @@ TEST(Metrics, LuminanceDistanceIsThatOfHistograms) {
   EXPECT_NEAR(compare_images(pixels({{0, 1, 0, 1}}), black, 1.0F)->luminance_distance, 0.7152, 1e-6);
 }
 
+// Four object pixels and one that is none: black, just below and at the border of the second bin, over white.
+TEST(Metrics, HistogramsCountTheObjectsPixelsByLuminance) {
+  const float border = 1.0F / 32;
+  const Image reference = pixels({{0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {1, 1, 1, 0.5F}});
+  const Image picture = pixels({{0, 0, 0, 1},
+                                {0.99F * border, 0.99F * border, 0.99F * border, 1},
+                                {1.01F * border, 1.01F * border, 1.01F * border, 1},
+                                {3, 3, 3, 1},
+                                {1, 1, 1, 1}});
+  const ErrorFigures figures = compare_images(picture, reference, 1.0F).value();
+  LuminanceHistogram expected{};
+  expected[0] = 2;
+  expected[1] = 1;
+  expected[31] = 1;
+  EXPECT_EQ(figures.luminances, expected);
+  EXPECT_EQ(figures.reference_luminances, (LuminanceHistogram{4}));
+}
+
 TEST(Metrics, EqualPicturesDifferByNothing) {
   const Image image = noise(1, 3.0F);
   const ErrorFigures figures = compare_images(image, image, 1.0F).value();

@@ -24,6 +24,19 @@ constexpr std::array<Behaviour, 4> behaviours = {{{"direct", 0.021, 2.1, 2.04, 0
                                                   {"toksvig", 0.011, 1.18, 2.52, 16'777'216},
                                                   {"toksvig:storage=unorm8", 0.0125, 1.22, 2.43, 4'194'304}}};
 
+// So many pixels, fewer the brighter, and a few that sparkle: of the last bin.
+std::array<std::uint32_t, 32> example_luminances(std::uint32_t pixels, std::uint32_t sparkles) {
+  std::array<std::uint32_t, 32> counts{};
+  std::uint32_t left = pixels - sparkles;
+  for (std::size_t i = 0; i < counts.size() / 2; ++i) {
+    counts[i] = left / 3;
+    left -= counts[i];
+  }
+  counts.front() += left;
+  counts.back() = sparkles;
+  return counts;
+}
+
 Record example_record(const Results& results, const Behaviour& behaviour, double distance) {
   Record record;
   record.scene = results.scene.name;
@@ -38,6 +51,8 @@ Record example_record(const Results& results, const Behaviour& behaviour, double
                              -20 * std::log10(error),
                              -0.013 * distance,
                              error * 0.4,
+                             example_luminances(12'345, static_cast<std::uint32_t>(1000 * error)),
+                             example_luminances(12'345, 40),
                              0.00071,
                              error * 0.22,
                              error * 0.91,

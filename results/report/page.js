@@ -390,6 +390,60 @@ function showPlot() {
   });
 }
 
+// ---- sparkle
+
+/** A histogram as the line of its shares; a bin without pixels has no place on a logarithmic axis. */
+function histogramSeries(label, counts, color, dash) {
+  const pixels = counts.reduce((sum, count) => sum + count, 0);
+  return {
+    label,
+    data: counts.map((count, i) => ({x: (i + 0.5) / counts.length, y: count ? count / pixels : null})),
+    stepped: 'middle',
+    showLine: true,
+    borderColor: color,
+    backgroundColor: color,
+    borderWidth: 2,
+    borderDash: dash,
+    pointRadius: 0,
+    pointHitRadius: 6,
+    pointStyle: 'line',
+  };
+}
+
+function sparkleText(item) {
+  return `${item.dataset.label}: ${figure(100 * item.raw.y)}% of the pixels about luminance ${figure(item.raw.x)}`;
+}
+
+function showSparkle() {
+  Chart.getChart('sparkle')?.destroy();
+  const counted = shown().filter((record) => record.error);
+  byId('sparkle-section').hidden = counted.length === 0;
+  if (counted.length === 0) return;
+  const datasets = [histogramSeries('reference', counted[0].error.reference_luminances, styleValue('--ink'), [6, 4]),
+    ...counted.map((record) => histogramSeries(record.method, record.error.luminances, seriesColor(record.method), []))];
+  const shares = datasets.flatMap((set) => set.data.map((point) => point.y)).filter((share) => share > 0);
+  new Chart('sparkle', {
+    type: 'scatter',
+    data: {datasets},
+    options: {
+      animation: false,
+      maintainAspectRatio: false,
+      scales: {
+        x: {...logAxis('Luminance as shown', {min: 0, max: 1}), type: 'linear',
+          ticks: {color: styleValue('--muted'), maxRotation: 0}},
+        y: logAxis('Share of pixels', padded(shares, 1.5, 1.5)),
+      },
+      plugins: {
+        legend: {
+          position: 'bottom',
+          labels: {usePointStyle: true, boxWidth: 18, padding: 16, color: styleValue('--ink')},
+        },
+        tooltip: {callbacks: {label: sparkleText}, displayColors: false},
+      },
+    },
+  });
+}
+
 // ---- pictures
 
 // Below 0 stops pictures are those that were written four stops darker, so that highlights come back.
@@ -468,6 +522,7 @@ function showDistance() {
   showTable();
   showPairs();
   showPlot();
+  showSparkle();
   showScale();
   showCards();
 }
@@ -494,6 +549,7 @@ dark.addEventListener('change', () => {
     node.style.setProperty('--series', seriesColor(node.dataset.method));
   }
   showPlot();
+  showSparkle();
 });
 
 showHead();

@@ -159,6 +159,17 @@ def check_first_sight(browser):
     assert browser.run("return !document.getElementById('floor-note').hidden"), "one error is at the noise floor"
 
 
+def check_sparkle(browser):
+    """The reference's histogram and one a method: shares of all object pixels, bins without any left out."""
+    series = browser.run("""return Chart.getChart('sparkle').data.datasets.map(
+        (set) => [set.label, set.data.map((point) => point.y)])""")
+    assert [label for label, _ in series] == ["reference", "direct", "naive_mip", "toksvig", "toksvig:storage=unorm8"]
+    for label, shares in series:
+        assert len(shares) == 32 and abs(sum(share or 0 for share in shares) - 1) < 1e-9, (label, shares)
+        assert shares[20] is None, (label, shares)
+    assert len({shares[31] for _, shares in series}) == len(series), "methods sparkle alike"
+
+
 def check_distances(browser):
     words, drawn = browser.run("return document.getElementById('words').textContent"), plot(browser)
     sources = "return [...document.querySelectorAll('.compare img')].map((image) => image.getAttribute('src'))"
@@ -293,6 +304,7 @@ def check_looks(browser, folder):
 def check_example(browser, folder):
     browser.open(folder / "index.html")
     check_first_sight(browser)
+    check_sparkle(browser)
     check_cautions(browser)
     check_pairs(browser)
     check_distances(browser)

@@ -50,10 +50,10 @@ void fields(Archive& archive, PixelCounts& value) {
 
 template <class Archive>
 void fields(Archive& archive, RecordError& value) {
-  auto& [normalized_color, relative_rmse, relmse, psnr, energy_bias, luminance_distance, noise_floor, representation,
-         filtering, causes] = value;
-  archive(normalized_color, relative_rmse, relmse, psnr, energy_bias, luminance_distance, noise_floor, representation,
-          filtering, causes);
+  auto& [normalized_color, relative_rmse, relmse, psnr, energy_bias, luminance_distance, luminances,
+         reference_luminances, noise_floor, representation, filtering, causes] = value;
+  archive(normalized_color, relative_rmse, relmse, psnr, energy_bias, luminance_distance, luminances,
+          reference_luminances, noise_floor, representation, filtering, causes);
 }
 
 template <class Archive>

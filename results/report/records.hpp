@@ -84,6 +84,8 @@ struct RecordError {
   double psnr = 0;  ///< dB; infinite for equal pictures (null in the JSON)
   double energy_bias = 0;
   double luminance_distance = 0;
+  std::array<std::uint32_t, 32> luminances{},
+      reference_luminances{};         ///< pixels by luminance, in even bins from 0 to 1
   std::optional<double> noise_floor;  ///< normalised colour error that the reference's own noise causes
   double representation = 0;          ///< normalised colour error of the method's finest level, supersampled
   double filtering = 0;               ///< normalised colour error against that supersampled finest level

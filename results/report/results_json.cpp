@@ -29,6 +29,8 @@ Json error_json(const std::optional<RecordError>& error) {
           {"psnr", json_number(error->psnr)},
           {"energy_bias", json_number(error->energy_bias)},
           {"luminance_distance", json_number(error->luminance_distance)},
+          {"luminances", error->luminances},
+          {"reference_luminances", error->reference_luminances},
           {"noise_floor", json_number(error->noise_floor)},
           {"representation", json_number(error->representation)},
           {"filtering", json_number(error->filtering)},

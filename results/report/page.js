@@ -392,12 +392,12 @@ function showPlot() {
 
 // ---- sparkle
 
-/** A histogram as the line of its shares; a bin without pixels has no place on a logarithmic axis. */
+/** A histogram as the line of its shares; a bin without pixels lies where half a pixel would, at the axis' foot. */
 function histogramSeries(label, counts, color, dash) {
   const pixels = counts.reduce((sum, count) => sum + count, 0);
   return {
     label,
-    data: counts.map((count, i) => ({x: (i + 0.5) / counts.length, y: count ? count / pixels : null})),
+    data: counts.map((count, i) => ({x: (i + 0.5) / counts.length, y: Math.max(count, 0.5) / pixels, count})),
     stepped: 'middle',
     showLine: true,
     borderColor: color,
@@ -411,7 +411,8 @@ function histogramSeries(label, counts, color, dash) {
 }
 
 function sparkleText(item) {
-  return `${item.dataset.label}: ${figure(100 * item.raw.y)}% of the pixels about luminance ${figure(item.raw.x)}`;
+  const {x, y, count} = item.raw;
+  return `${item.dataset.label}: ${count} pixels, ${count ? figure(100 * y) : 0}%, about luminance ${figure(x)}`;
 }
 
 function showSparkle() {
@@ -421,7 +422,7 @@ function showSparkle() {
   if (counted.length === 0) return;
   const datasets = [histogramSeries('reference', counted[0].error.reference_luminances, styleValue('--ink'), [6, 4]),
     ...counted.map((record) => histogramSeries(record.method, record.error.luminances, seriesColor(record.method), []))];
-  const shares = datasets.flatMap((set) => set.data.map((point) => point.y)).filter((share) => share > 0);
+  const shares = datasets.flatMap((set) => set.data.map((point) => point.y));
   new Chart('sparkle', {
     type: 'scatter',
     data: {datasets},
@@ -431,7 +432,7 @@ function showSparkle() {
       scales: {
         x: {...logAxis('Luminance as shown', {min: 0, max: 1}), type: 'linear',
           ticks: {color: styleValue('--muted'), maxRotation: 0}},
-        y: logAxis('Share of pixels', padded(shares, 1.5, 1.5)),
+        y: logAxis('Share of pixels', padded(shares, 1, 1.5)),
       },
       plugins: {
         legend: {

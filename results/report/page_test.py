@@ -160,14 +160,16 @@ def check_first_sight(browser):
 
 
 def check_sparkle(browser):
-    """The reference's histogram and one a method: shares of all object pixels, bins without any left out."""
+    """The reference's histogram and one a method, of all object pixels; bins without any lie at the foot."""
     series = browser.run("""return Chart.getChart('sparkle').data.datasets.map(
-        (set) => [set.label, set.data.map((point) => point.y)])""")
+        (set) => [set.label, set.data.map((point) => point.count)])""")
     assert [label for label, _ in series] == ["reference", "direct", "naive_mip", "toksvig", "toksvig:storage=unorm8"]
-    for label, shares in series:
-        assert len(shares) == 32 and abs(sum(share or 0 for share in shares) - 1) < 1e-9, (label, shares)
-        assert shares[20] is None, (label, shares)
-    assert len({shares[31] for _, shares in series}) == len(series), "methods sparkle alike"
+    for label, counts in series:
+        assert len(counts) == 32 and sum(counts) == 12345 and counts[20] == 0, (label, counts)
+    assert len({counts[31] for _, counts in series}) == len(series), "methods sparkle alike"
+    foot, heights = browser.run("""const plot = Chart.getChart('sparkle');
+        return [plot.scales.y.min, plot.data.datasets[0].data.map((point) => point.y)]""")
+    assert abs(heights[20] / foot - 1) < 1e-9 and heights[31] > foot, (foot, heights)
 
 
 def check_distances(browser):

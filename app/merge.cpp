@@ -74,6 +74,7 @@ std::vector<Part> parts_of(const std::vector<std::string>& folders) {
     parts.emplace(index, std::move(part));
   }
   std::vector<Part> all;
+  all.reserve(parts.size());
   for (auto& [index, part] : parts) all.push_back(std::move(part));
   for (int index = 1; index <= all.front().file.shard.count; ++index) {
     if (!std::ranges::any_of(all, [&](const Part& part) { return part.file.shard.index == index; }))

@@ -75,7 +75,8 @@ void add_inverse_map(const InverseMap& map, Prefiltered& out) {
   out.textures.push_back(word_texture("bins_lists", lists));
   out.textures.push_back(word_texture("bins_hash", hash));
   const bool invalid = map.has_invalid();
-  out.scalars["bins_hash_slots"] = static_cast<float>(hash.size() / 2);
+  const std::size_t slots = hash.size() / 2;  // of two integers each
+  out.scalars["bins_hash_slots"] = static_cast<float>(slots);
   out.scalars["bins_list_count"] = static_cast<float>(map.lists.size() - (invalid ? 1 : 0));
   out.scalars["bins_invalid_list"] = invalid ? static_cast<float>(map.lists.size() - 1) : -1.0F;
 }

@@ -193,7 +193,7 @@ std::vector<std::uint32_t> hashed_lists(const InverseMap& map) {
   const std::uint32_t slots = std::bit_ceil(std::max(2 * static_cast<std::uint32_t>(map.lists.size()), 2U));
   std::vector<std::uint32_t> table(2 * static_cast<std::size_t>(slots), no_bin);
   for (std::size_t i = 0; i < map.lists.size(); ++i) {
-    std::uint32_t slot = hash_slot(map.lists[i].bin, slots);
+    std::size_t slot = hash_slot(map.lists[i].bin, slots);
     while (table[2 * slot] != no_bin) slot = (slot + 1) % slots;
     table[2 * slot] = map.lists[i].bin;
     table[2 * slot + 1] = static_cast<std::uint32_t>(i);

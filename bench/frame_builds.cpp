@@ -16,11 +16,11 @@ namespace footprint::bench {
 namespace {
 
 constexpr int few_spp = 16;
-constexpr const char* surface_name = "bumps";
+constexpr const char* built_surface = "bumps";
 
 Scene scene_with_map(int resolution) {
-  Scene scene = load_bench_scene(surface_name).value();
-  const Surface& surface = find_surface(all_surfaces(), surface_name);
+  Scene scene = load_bench_scene(built_surface).value();
+  const Surface& surface = find_surface(all_surfaces(), built_surface);
   SurfaceSettings settings = surface_settings(surface, {});
   settings.resolution = resolution;
   scene.materials.at(0).normal_map.value().image = std::make_shared<const Image>(surface_normals(surface, settings));

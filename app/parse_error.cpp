@@ -1,13 +1,15 @@
-// Finds the word that the parser stumbled over, and the nearest one that it would have taken.
+// Finds the word that the parser stumbled over, and the nearest one that it would have taken; or what was asked for.
 #include "app/parse_error.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "renderer/core/memory.hpp"
 #include "renderer/core/suggest.hpp"
 
 namespace footprint {
@@ -48,7 +50,24 @@ std::string unexpected_word(const CLI::App& app) {
   return {};
 }
 
+// What the command works on, and how large: "carved_disk, --size 64x64".
+std::string asked_work(const CLI::App& command) {
+  std::string text;
+  for (const CLI::Option* const option : command.get_options()) {
+    const bool size = option->check_lname("size");
+    if (option->count() == 0 || !(option->get_positional() || size)) continue;
+    const std::string words = fmt::format("{}", fmt::join(option->results(), " "));
+    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", size ? "--size " : "", words);
+  }
+  return text;
+}
+
 }  // namespace
+
+Error memory_error(const CLI::App& app) {
+  return {ErrorKind::machine, asked_work(innermost(app)), fmt::format("out of memory: {}", taken_memory_text()),
+          "ask for a smaller --size or smaller maps, free memory, or raise its limit"};
+}
 
 Error usage_error(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = innermost(app);

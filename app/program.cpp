@@ -65,6 +65,8 @@ void run_subcommand(int argc, const char* const* argv) {
     write_output(std::string(version.what()) + "\n");
   } catch (const CLI::ParseError& error) {
     throw usage_error(app, error);
+  } catch (const std::bad_alloc&) {
+    throw memory_error(app);
   }
 }
 
@@ -85,8 +87,6 @@ int run_program(int argc, const char* const* argv) {
     return 0;
   } catch (const Error& error) {
     return told(error.what(), error.kind());
-  } catch (const std::bad_alloc&) {
-    return told("out of memory (ask for a smaller --size, or free memory)", ErrorKind::machine);
   } catch (const std::system_error& error) {
     const bool no_thread = error.code() == std::errc::resource_unavailable_try_again;
     return told(

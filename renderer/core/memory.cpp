@@ -1,4 +1,5 @@
-// The least of MemAvailable in /proc/meminfo and what the limits of control groups (versions 1 and 2) leave.
+// The least of MemAvailable in /proc/meminfo and what the limits of control groups (versions 1 and 2) and of the
+// address space leave.
 #include "renderer/core/memory.hpp"
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include <fstream>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <string>
 
 #include "renderer/core/error.hpp"
@@ -84,11 +86,36 @@ std::uint64_t left_by_groups(const fs::path& root) {
   return left;
 }
 
+std::uint64_t own_bytes(const fs::path& root, std::string_view key) {
+  return 1024 * read_keyed_number(root / "proc/self/status", key).value_or(0);
+}
+
 }  // namespace
+
+std::optional<AddressSpace> limited_address_space(const fs::path& root) {
+  std::ifstream in(root / "proc/self/limits");  // lines "Max address space     SOFT     HARD     bytes"
+  constexpr std::string_view name = "Max address space";
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with(name)) continue;
+    std::uint64_t limit = 0;
+    if (!(std::istringstream(line.substr(name.size())) >> limit)) return {};  // the word `unlimited`
+    return AddressSpace{limit, limit - std::min(limit, own_bytes(root, "VmSize:"))};
+  }
+  return {};
+}
 
 std::uint64_t available_memory(const fs::path& root) {
   const auto kibibytes = read_keyed_number(root / "proc/meminfo", "MemAvailable:");
-  return std::min(kibibytes ? *kibibytes * 1024 : unlimited, left_by_groups(root));
+  const auto space = limited_address_space(root);
+  return std::min({kibibytes ? *kibibytes * 1024 : unlimited, left_by_groups(root), space ? space->left : unlimited});
+}
+
+std::string taken_memory_text(const fs::path& root) {
+  if (const auto space = limited_address_space(root))
+    return fmt::format("up to {} of address space was taken of the {} that `ulimit -v` grants",
+                       readable_bytes(own_bytes(root, "VmPeak:")), readable_bytes(space->limit));
+  return fmt::format("up to {} was taken, {} is available now", readable_bytes(own_bytes(root, "VmHWM:")),
+                     readable_bytes(available_memory(root)));
 }
 
 std::uint64_t frame_bytes(std::uint64_t width, std::uint64_t height, std::uint64_t bytes_per_pixel) {
@@ -111,10 +138,14 @@ std::string readable_bytes(std::uint64_t bytes) {
 void require_memory(std::uint64_t bytes, std::string_view what, std::string_view hint) {
   const std::uint64_t available = available_memory();
   if (bytes <= available) return;
-  throw Error(
-      ErrorKind::machine, {},
-      fmt::format("{} needs {} of memory, and {} is available", what, readable_bytes(bytes), readable_bytes(available)),
-      std::string(hint));
+  const auto space = limited_address_space();
+  const std::string limit = space && space->left == available
+                                ? fmt::format(" of the {} that `ulimit -v` grants", readable_bytes(space->limit))
+                                : std::string();
+  throw Error(ErrorKind::machine, {},
+              fmt::format("{} needs {} of memory, and {}{} is available", what, readable_bytes(bytes),
+                          readable_bytes(available), limit),
+              std::string(hint));
 }
 
 }  // namespace footprint

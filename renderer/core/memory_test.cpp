@@ -58,6 +58,21 @@ TEST_F(MemoryTest, Version1InsideAContainer) {
   EXPECT_EQ(available_memory(root_), 0U);
 }
 
+TEST_F(MemoryTest, LimitOfTheAddressSpace) {
+  file("proc/meminfo", "MemAvailable: 4000000 kB\n");
+  file("proc/self/status", "Name: footprint\nVmPeak:\t 900 kB\nVmSize:\t 700 kB\nVmHWM:\t 300 kB\n");
+  file("proc/self/limits", "Limit  Soft  Hard  Units\nMax address space         1024000   unlimited   bytes\n");
+  EXPECT_EQ(available_memory(root_), 300U * 1024U);
+  ASSERT_TRUE(limited_address_space(root_).has_value());
+  EXPECT_EQ(limited_address_space(root_)->limit, 1024000U);
+  EXPECT_EQ(taken_memory_text(root_),
+            "up to 900 KiB of address space was taken of the 1000 KiB that `ulimit -v` grants");
+  file("proc/self/limits", "Max address space         unlimited            unlimited            bytes\n");
+  EXPECT_FALSE(limited_address_space(root_).has_value());
+  EXPECT_EQ(available_memory(root_), 4000000ULL * 1024U);
+  EXPECT_EQ(taken_memory_text(root_), "up to 300 KiB was taken, 3.81 GiB is available now");
+}
+
 TEST(FrameBytes, SaturatesInsteadOfWrapping) {
   EXPECT_EQ(frame_bytes(512, 256, 16), 512U * 256U * 16U);
   EXPECT_EQ(frame_bytes(1000000, 1000000, 16), 16000000000000U);

@@ -8,9 +8,11 @@
 #include <array>
 #include <cctype>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include "renderer/core/error.hpp"
+#include "renderer/core/memory.hpp"
 #include "renderer/gl/debug_log.hpp"
 #include "renderer/gl/functions.hpp"
 #include "renderer/gl/native_context.hpp"
@@ -129,6 +131,28 @@ const Functions& api() {
 
 bool has_current_context() noexcept { return current.functions != nullptr; }
 
+namespace {
+
+// Mesa 22.3's llvmpipe does not look whether its allocations succeed: where `ulimit -v` leaves it too little,
+// eglCreateContext writes through null pointers, or frees what it never got (docs/command-line.md). What it takes was
+// measured with 1, 2, 4 and 8 threads: 385, 528, 816 and 1201 MiB until the context is there, and 100 for the first
+// frame. Each thread comes with a heap of its own.
+void require_address_space() {
+  constexpr std::uint64_t mebibyte = 1 << 20, at_least = 512 * mebibyte, a_thread = 160 * mebibyte;
+  constexpr unsigned most_threads = 16;  // of llvmpipe
+  const auto space = limited_address_space();
+  const std::uint64_t threads = std::clamp(std::thread::hardware_concurrency(), 1U, most_threads);
+  const std::uint64_t needed = at_least + threads * a_thread;
+  if (!space || space->left >= needed) return;
+  throw Error(ErrorKind::machine, "OpenGL",
+              fmt::format("it needs up to {} of address space to draw by {} threads, and {} is left of the {} that "
+                          "`ulimit -v` grants",
+                          readable_bytes(needed), threads, readable_bytes(space->left), readable_bytes(space->limit)),
+              "raise the limit, or lift it with `ulimit -v unlimited`");
+}
+
+}  // namespace
+
 struct Context::Impl {
   // The log and the table come first: the context may use them until it is gone.
   DebugLog log;
@@ -199,6 +223,7 @@ Context::Context(const ContextRequest& request) {
     throw Error(ErrorKind::usage, fmt::format("device {}", request.device), "only the backend egl-device has devices",
                 "choose `--backend egl-device`");
   }
+  require_address_space();
   RestoreCurrent restore;
   impl_ = request.backend ? std::make_unique<Impl>(*request.backend, request.device) : Impl::open_any();
   restore.keep();

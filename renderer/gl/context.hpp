@@ -53,8 +53,9 @@ struct ContextRequest {
 /// synchronous: messages of severity high or of type error are collected.
 class Context {
  public:
-  /// Errors (machine): says for each backend that was tried why it is not there; (usage): no such device, or a device
-  /// other than 0 for a backend that has none. What was current before stays so after an error.
+  /// Errors (machine): says for each backend that was tried why it is not there; too little is left of a limited
+  /// address space, in which a driver may crash instead of failing; (usage): no such device, or a device other than 0
+  /// for a backend that has none. What was current before stays so after an error.
   explicit Context(const ContextRequest& request);
   Context(Context&&) noexcept;
   Context& operator=(Context&&) noexcept;

@@ -70,7 +70,9 @@ std::vector<unsigned char> encoded_chain(const std::string& name, const ExrChain
     whole = write_level(*output, name, chain, level, texel);
   if (whole && output->close()) return bytes;
   const std::string queued = OIIO::geterror();
-  throw Error(ErrorKind::machine, name, fmt::format("cannot be encoded: {}", output ? output->geterror() : queued));
+  const std::string reason = output ? output->geterror() : queued;
+  throw Error(ErrorKind::machine, name,
+              fmt::format("cannot be encoded: {}", reason.empty() ? taken_memory_text() : reason));
 }
 
 Error damaged(const std::string& name, std::string reason) {

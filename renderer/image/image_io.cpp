@@ -166,8 +166,10 @@ std::vector<unsigned char> encode(const std::string& name, const char* format, c
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format, &target);
   if (output && output->open(name, spec) && output->write_image(type, texels) && output->close()) return bytes;
   const std::string queued = OIIO::geterror();
+  const std::string reason = first_line(output ? output->geterror() : queued);
+  // OpenImageIO says nothing where it gets no memory.
   throw Error(ErrorKind::machine, name,
-              fmt::format("cannot be encoded: {}", first_line(output ? output->geterror() : queued)));
+              fmt::format("cannot be encoded: {}", reason.empty() ? taken_memory_text() : reason));
 }
 
 OIIO::ImageSpec writable_spec(const std::filesystem::path& file, const Image& image, const OIIO::TypeDesc& type) {

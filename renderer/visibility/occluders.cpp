@@ -15,7 +15,7 @@ constexpr float relative_offset = 1e-4F;
 
 [[noreturn]] void throw_out_of_memory(const Scene& scene) {
   throw Error(ErrorKind::machine, scene.source, "the search of what casts shadows gets no memory, or no thread",
-              "set `cast = false` in [shadows] of a scene.toml, free memory, or raise `ulimit -u`");
+              "set `cast = false` in [shadows] of a scene.toml, free memory, or raise `ulimit -v` or `ulimit -u`");
 }
 
 int wrapped(int texel, int size, Wrap wrap) {

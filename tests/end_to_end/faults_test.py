@@ -1,13 +1,14 @@
 """What machines do to programs: no thread to be had, Ctrl-C before main, a folder that takes nothing, two at once."""
 
 import os
+import resource
 import subprocess
 import unittest
 
 from whole_runs import PROGRAM, WholeRunTest
 
 SETTINGS = ["ribbed_plane", "--method", "toksvig", "--size", "32x32", "--distance", "2", "--exposure", "1"]
-FAULTS = {name: os.environ[f"FOOTPRINT_FAULT_{name.upper()}"] for name in ("no_thread", "early_interrupt")}
+FAULTS = {name: os.environ[f"FOOTPRINT_FAULT_{name.upper()}"] for name in ("no_thread", "no_memory", "early_interrupt")}
 
 
 def try_run(*arguments, **settings):
@@ -27,6 +28,28 @@ class Faults(WholeRunTest):
 
     def test_no_thread_to_be_had(self):
         self.assert_fails(self.with_fault("no_thread", "--version"), 3, "no further thread", "ulimit -u")
+
+    def test_no_memory_to_be_had(self):
+        done = self.with_fault("no_memory", "render", *SETTINGS, "-q", "-o", self.folder / "none.exr")
+        self.assert_fails(done, 3, "ribbed_plane, --size 32x32: out of memory: up to ", " was taken, ")
+        self.assertFalse((self.folder / "none.exr").exists())
+
+    def limited(self, mebibytes, *arguments):
+        """With so much address space."""
+        limit = mebibytes << 20
+        return try_run(*arguments, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+
+    def test_too_little_address_space_for_opengl(self):
+        # The driver itself would crash at some of these.
+        for mebibytes in (762, 768, 1000):
+            with self.subTest(mebibytes=mebibytes):
+                done = self.limited(mebibytes, "render", *SETTINGS, "-q", "-o", self.folder / "none.exr")
+                self.assert_fails(done, 3, "OpenGL: it needs up to", "that `ulimit -v` grants")
+        self.assertFalse((self.folder / "none.exr").exists())
+
+    def test_a_map_over_the_address_space(self):
+        done = self.limited(1000, "surface", "bumps", "--resolution", "16384", "-o", self.folder / "none.png")
+        self.assert_fails(done, 3, "a map of 16384 x 16384 texels needs", "of the 1000 MiB that `ulimit -v` grants is available")
 
     def test_interrupted_before_main(self):
         self.assert_fails(self.with_fault("early_interrupt", "--version"), 130, "interrupted")

@@ -1,65 +1,124 @@
-// `footprint animate`: the frames of a zoom-out, with error and flicker against the reference.
+// `footprint animate`: the frames of a zoom, an orbit or a light's path, with error and flicker against the reference.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <memory>
 #include <string>
-#include <utility>
+#include <system_error>
 
 #include "app/commands.hpp"
+#include "app/experiment_runs.hpp"
+#include "app/film.hpp"
+#include "app/messages.hpp"
 #include "app/output.hpp"
+#include "app/part_file.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
 #include "app/standard_output.hpp"
+#include "app/written_animation.hpp"
 #include "experiments/studies/animate.hpp"
-#include "renderer/core/files.hpp"
+#include "renderer/core/host.hpp"
 
 namespace footprint {
 namespace {
 
 constexpr const char* animate_examples =
-    "SCENE is a folder of scenes/, a path to a scene.toml, or a .gltf or .glb file. The folder gets "
-    "images/METHOD_NNNN\n"
-    "and images/reference_NNNN, each .exr and .png, animation.json, animation.csv and table.md. A film of them:\n"
-    "  ffmpeg -framerate 30 -i out/images/toksvig_%04d.png -pix_fmt yuv420p toksvig.mp4\n"
+    "SCENE is a folder of scenes/, a path to a scene.toml, or a .gltf or .glb file. The folder gets\n"
+    "images/METHOD_NNNN and images/reference_NNNN, each .exr and .png, index.html with the film and its figures,\n"
+    "animation.json, animation.csv and table.md; and kept/, finished frames, from which a run that was interrupted "
+    "goes\n"
+    "on. Parts of one animation, made by --shard, are joined by `footprint merge`.\n"
     "\n"
     "Examples:\n"
-    "  footprint animate model.gltf --method toksvig --frames 60 -o out\n"
-    "  footprint animate ribbed_plane --method direct,toksvig --frames 30 --from 1 --to 16 --spp 64 -o out";
+    "  footprint animate model.gltf --methods toksvig --frames 60 -o out\n"
+    "  footprint animate ribbed_plane --methods direct,toksvig --frames 30 --from 1 --to 16 --spp 64 -o out\n"
+    "  footprint animate carved_disk --methods direct,lean --path orbit --degrees 40 --video -o out\n"
+    "  footprint animate carved_disk --methods direct,lean --path light --axis 0,1,0 --shard 1/4 -o parts/1";
 
 struct AnimateArguments {
   explicit AnimateArguments(CLI::App& command) : run(command) {}
 
   RunOptions run;
   std::string output = "out";
+  std::string shard;  // empty: all frames
+  bool video = false;
+  bool fresh = false;
   bool quiet = false;
 };
 
 void add_options(CLI::App& command, AnimateArguments& arguments) {
-  command.add_option("-o,--output", arguments.output, "Folder for animation.json, animation.csv, table.md, images/")
+  command
+      .add_option("-o,--output", arguments.output,
+                  "Folder for index.html, animation.json, animation.csv, table.md, images/, kept/")
       ->capture_default_str();
+  command
+      .add_option("--shard", arguments.shard,
+                  "Render part I of N of the frames into the output folder, for `footprint merge`")
+      ->type_name("I/N");
+  command.add_flag("--video", arguments.video, "Also make images/film.mp4 of the frames, all side by side, by ffmpeg");
+  command.add_flag("--fresh", arguments.fresh, "Render everything anew: forget the finished frames");
   add_quiet_flag(command, arguments.quiet);
 }
 
-Animation animate_into(OutputFolder& folder, const RunSettings& settings, const Progress& progress) {
-  Animation animation = run_animation(settings, folder.path(), progress);
-  keep_results(animation, folder, write_animation);
-  return animation;
+KeptWork finished_frames(const AnimateArguments& arguments, const RunSettings& settings) {
+  KeptWork kept(kept_folder(arguments.output), maker_for(settings));
+  if (arguments.fresh) kept.clear();
+  return kept;
+}
+
+// Renders one part; `part.json` says that it is whole, and is there only then.
+void animate_part(const AnimateArguments& arguments, const RunSettings& settings) {
+  if (arguments.video)
+    throw Error(ErrorKind::usage, "--video", "a part is no film",
+                "merge the parts, then run this without --shard over the merged folder: its frames are kept");
+  const auto begin = std::chrono::steady_clock::now();
+  const Shard shard = parse_shard(arguments.shard);
+  const KeptWork kept = finished_frames(arguments, settings);
+  const std::filesystem::path output = arguments.output;
+  std::error_code none;
+  std::filesystem::remove(output / "part.json", none);
+  ProgressDisplay display(progress_style(arguments.quiet));
+  {
+    const OutputFolder scratch(output);  // never moved to its place
+    const auto range = [&](std::size_t frames) { return range_of(shard, frames); };
+    const MeasuredFrames measured = measure_animation(settings, range, scratch.path(), kept, display.callback());
+    std::filesystem::create_directories(output);
+    write_part_file(output, {.kind = PartKind::animation,
+                             .experiment = settings.scene,
+                             .fingerprint = measured.head,
+                             .maker = kept.maker(),
+                             .shard = shard,
+                             .only = {},
+                             .tile = settings.backend.tile,
+                             .node = host_name(),
+                             .seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
+                             .keys = kept.used()});
+  }
+  display.finish();
+  write_output(fmt::format("part {} of {}: {}\n", shard.index, shard.count, output.string()));
 }
 
 void run_animate(const AnimateArguments& arguments) {
   const RunSettings settings = arguments.run.settings();
+  if (!arguments.shard.empty()) return animate_part(arguments, settings);
+  const std::filesystem::path ffmpeg = arguments.video ? find_ffmpeg() : std::filesystem::path();
+  const KeptWork kept = finished_frames(arguments, settings);
   ProgressDisplay display(progress_style(arguments.quiet));
-  const auto [animation, path] = write_whole(
-      arguments.output, [&](OutputFolder& folder) { return animate_into(folder, settings, display.callback()); });
-  display.finish();
-  write_output(fmt::format("{}\nframes: {}\n", animation_table(animation), (path / "images").string()));
+  write_and_print(arguments.output, [&](const std::filesystem::path& folder) {
+    ProgressParts parts(display.callback(), 20);
+    Animation animation = run_animation(settings, folder, kept, parts.next(19, ""));
+    if (arguments.video) animation.film = make_film(ffmpeg, animation, folder, parts.next(1, ""));
+    display.finish();
+    return animation;
+  });
 }
 
 }  // namespace
 
 void add_animate_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("animate", "Render the frames of a zoom, with error and flicker");
+  CLI::App* command =
+      app.add_subcommand("animate", "Render the frames of a zoom, an orbit or a light's path, with error and flicker");
   const auto arguments = std::make_shared<AnimateArguments>(*command);
   add_options(*command, *arguments);
   command->footer(animate_examples);

@@ -14,6 +14,8 @@
 #include "app/experiment_runs.hpp"
 #include "app/part_file.hpp"
 #include "app/run_options.hpp"
+#include "app/written_animation.hpp"
+#include "experiments/studies/kept_animation.hpp"
 #include "renderer/core/error.hpp"
 
 namespace footprint {
@@ -23,8 +25,10 @@ namespace fs = std::filesystem;
 
 constexpr const char* merge_words =
     "Each PART is the output folder of `footprint run EXPERIMENT --shard I/N`, of one experiment's file and one\n"
-    "program; all N of them are needed, each once. What they hold is checked, taken over, and reported as by one run;\n"
-    "nothing is measured. Times carry the name of the machine that took them (docs/cluster.md).\n"
+    "program, or of `footprint animate ... --shard I/N`; all N of them are needed, each once. What they hold is "
+    "checked,\n"
+    "taken over, and reported as by one run; nothing is measured. Times carry the name of the machine that took them\n"
+    "(docs/cluster.md).\n"
     "\n"
     "Examples:\n"
     "  footprint merge parts/1 parts/2 -o out\n"
@@ -102,15 +106,33 @@ AskedExperiments asked_by(const Part& first, const RunOptions& options) {
   return asked;
 }
 
+// Takes over what all parts hold, and says under which keys.
+std::vector<std::string> take_over(const std::vector<Part>& parts, const KeptWork& kept) {
+  std::vector<std::string> keys;
+  for (const Part& part : parts) {
+    const KeptWork from(kept_folder(part.folder), kept.maker());
+    for (const std::string& key : part.file.keys) kept.take(key, from);
+    keys.insert(keys.end(), part.file.keys.begin(), part.file.keys.end());
+  }
+  return keys;
+}
+
+void merge_animation(const std::vector<Part>& parts, const std::string& output) {
+  if (!is_made_by_this_program(parts.front().file.maker))
+    refuse(parts.front(), "was made by another program than this one", "merge with the program that ran the parts");
+  const KeptWork kept(kept_folder(output), parts.front().file.maker, true);
+  const std::vector<std::string> keys = take_over(parts, kept);
+  write_and_print(output, [&](const fs::path& folder) {
+    return joined_animation(kept, parts.front().file.fingerprint, keys, folder);
+  });
+}
+
 void merge(const MergeArguments& arguments) {
   const std::vector<Part> parts = parts_of(arguments.parts);
+  if (parts.front().file.kind == PartKind::animation) return merge_animation(parts, arguments.output);
   const AskedExperiments asked = asked_by(parts.front(), arguments.run);
-  const std::string& maker = parts.front().file.maker;
-  const KeptWork kept(kept_folder(arguments.output), maker, true);
-  for (const Part& part : parts) {
-    const KeptWork from(kept_folder(part.folder), maker);
-    for (const std::string& key : part.file.keys) kept.take(key, from);
-  }
+  const KeptWork kept(kept_folder(arguments.output), parts.front().file.maker, true);
+  take_over(parts, kept);
   run_and_print(asked, arguments.output, kept, arguments.quiet, [](const Results& /*results*/) {});
 }
 

@@ -38,13 +38,13 @@ auto write_whole(const std::filesystem::path& output, Write write) {
 }
 
 /// Signs measured `results` with the program's version and the processor, lets `write` put them into the folder and
-/// moves that to its place, where pictures go that an earlier run's results.json lists. Errors (interrupted): nothing
-/// is moved.
+/// moves that to its place, where pictures go that an earlier run's `document` lists. Errors (interrupted): nothing is
+/// moved.
 template <typename Measured, typename Write>
-void keep_results(Measured& results, OutputFolder& folder, Write write) {
+void keep_results(Measured& results, OutputFolder& folder, Write write, const char* document = "results.json") {
   sign(results.tool, results.backend);
   write(results, folder.path());
-  folder.replaces(listed_files(folder.final_path() / "results.json"));
+  folder.replaces(listed_files(folder.final_path() / document));
   keep(folder);
 }
 

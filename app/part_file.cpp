@@ -9,11 +9,16 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
+#include "renderer/core/words.hpp"
 
 namespace footprint {
 namespace {
 
 constexpr const char* schema = "footprint-part/1";
+constexpr std::array<Word<PartKind>, 2> part_kinds{{
+    {PartKind::experiment, "experiment"},
+    {PartKind::animation, "animation"},
+}};
 constexpr int most_shards = 100000;
 
 // A whole number without a sign; 0 where it is none.
@@ -42,6 +47,7 @@ std::pair<std::size_t, std::size_t> range_of(const Shard& shard, std::size_t tot
 
 void write_part_file(const std::filesystem::path& folder, const PartFile& part) {
   const nlohmann::ordered_json document{{"schema", schema},
+                                        {"kind", word_for(part_kinds, part.kind)},
                                         {"experiment", part.experiment},
                                         {"fingerprint", part.fingerprint},
                                         {"maker", part.maker},
@@ -67,7 +73,9 @@ PartFile read_part_file(const std::filesystem::path& folder) {
     const nlohmann::json document = nlohmann::json::parse(stream);
     if (document.at("schema") != schema)
       throw Error(ErrorKind::usage, file.string(), "is of another format", "run it again");
-    return {.experiment = document.at("experiment"),
+    const std::string kind = document.at("kind");
+    return {.kind = word_value(part_kinds, kind, "kind of part", file.string()),
+            .experiment = document.at("experiment"),
             .fingerprint = document.at("fingerprint"),
             .maker = document.at("maker"),
             .shard = {.index = document.at("shard").at(0), .count = document.at("shard").at(1)},

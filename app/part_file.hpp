@@ -19,10 +19,14 @@ struct Shard {
 /// most.
 [[nodiscard]] std::pair<std::size_t, std::size_t> range_of(const Shard& shard, std::size_t total);
 
+/// What is run in parts.
+enum class PartKind { experiment, animation };
+
 /// What one part holds, and of what.
 struct PartFile {
-  std::string experiment;   ///< its file, absolute
-  std::string fingerprint;  ///< of all that was asked for (AskedExperiments)
+  PartKind kind = PartKind::experiment;
+  std::string experiment;   ///< its file, absolute; of an animation its scene
+  std::string fingerprint;  ///< of all that was asked for (AskedExperiments); of an animation the key of its head
   std::string maker;        ///< program and renderer (maker_of_work)
   Shard shard;
   std::string only;  ///< as the command line had it

@@ -1,20 +1,13 @@
 // Starts this program again, waits for it, and reads back what it measured.
 #include "app/timing_process.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
-#include <csignal>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
-#include <thread>
 #include <utility>
 
+#include "app/child_process.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
 
@@ -23,11 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string read_text(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 // The arguments that this process was started with; they are separated by zero bytes.
 std::vector<std::string> own_arguments() {
   std::ifstream in("/proc/self/cmdline", std::ios::binary);
@@ -35,45 +23,6 @@ std::vector<std::string> own_arguments() {
   for (std::string argument; std::getline(in, argument, '\0');) arguments.push_back(argument);
   return arguments;
 }
-
-// A child process that does not outlive its owner.
-class Child {
- public:
-  // Starts this program with other arguments, its standard error in a file.
-  Child(std::vector<std::string> arguments, const fs::path& errors) {
-    std::vector<char*> pointers;
-    pointers.reserve(arguments.size() + 1);
-    for (std::string& argument : arguments) pointers.push_back(argument.data());
-    pointers.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    const int failure = posix_spawn(&id_, "/proc/self/exe", &actions, nullptr, pointers.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (failure == 0) return;
-    id_ = 0;
-    throw Error(ErrorKind::machine, "--processes", "a process for timing cannot be started",
-                "ask for fewer --processes");
-  }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-  ~Child() {
-    if (id_ == 0) return;
-    kill(id_, SIGKILL);
-    waitpid(id_, nullptr, 0);
-  }
-
-  // The exit code, or -1 if a signal ended it. Empty while it runs.
-  [[nodiscard]] std::optional<int> poll() {
-    int status = 0;
-    if (waitpid(id_, &status, WNOHANG) == 0) return std::nullopt;
-    id_ = 0;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-
- private:
-  pid_t id_ = 0;
-};
 
 // What the process said was wrong, as this process's own error.
 Error failure_of(int exit_code, std::string text) {
@@ -93,15 +42,12 @@ FrameTimes times_of_one(const std::vector<std::string>& further, const fs::path&
   std::vector<std::string> arguments = own_arguments();
   arguments.insert(arguments.end(), further.begin(), further.end());
   arguments.insert(arguments.end(), {timing_file_option, file.string(), "--quiet"});
-  Child child(std::move(arguments), errors);
-  std::optional<int> exit_code;
-  while (!exit_code) {
-    tick();
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    exit_code = child.poll();
-  }
-  if (*exit_code != 0) throw failure_of(*exit_code, read_text(errors));
-  FrameTimes times = nlohmann::json::parse(read_text(file)).get<FrameTimes>();
+  ChildProcess child(
+      {.program = "/proc/self/exe", .arguments = std::move(arguments), .errors = errors, .folder = {}},
+      Error(ErrorKind::machine, "--processes", "a process for timing cannot be started", "ask for fewer --processes"));
+  const int exit_code = child.wait(tick);
+  if (exit_code != 0) throw failure_of(exit_code, text_of(errors));
+  FrameTimes times = nlohmann::json::parse(text_of(file)).get<FrameTimes>();
   fs::remove(file);
   fs::remove(errors);
   return times;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +44,27 @@ struct ZoomSettings {
   int frames = 0;              ///< 0: there is no zoom; else 2 or more
   std::optional<double> from;  ///< factor on the camera's distance; none: the first of the scene's zoom path
   std::optional<double> to;    ///< none: the last of it; 8 times `from` where it has one only
+};
+
+/// What moves from frame to frame of an animation.
+enum class AnimationPath {
+  zoom,   ///< the camera along its own axis
+  orbit,  ///< the camera around the centre of the bounds
+  light   ///< all lights around it, together
+};
+
+/// As users write it.
+inline constexpr std::array<Word<AnimationPath>, 3> animation_paths{{
+    {AnimationPath::zoom, "zoom"},
+    {AnimationPath::orbit, "orbit"},
+    {AnimationPath::light, "light"},
+}};
+
+/// The path of an animation; how many frames it has, and from where to where a zoom leads, says ZoomSettings.
+struct PathSettings {
+  AnimationPath kind = AnimationPath::zoom;
+  std::optional<double> degrees;   ///< from the first frame to the last, of what turns; none: 60
+  std::optional<glm::dvec3> axis;  ///< of the turn, unit, in the world; none: the camera's up
 };
 
 /// What is seen of the scene.
@@ -110,6 +132,7 @@ struct RunSettings {
   bool by_material = false;  ///< errors are told by material too
   EffectSet without;         ///< effects that every method and the reference leave out
   ViewSettings view;
+  PathSettings path;
   std::optional<FootprintFilter> footprint;  ///< none: the scene's own, else default_footprint_filter
   ReferenceSettings reference;
   TimingSettings timing;

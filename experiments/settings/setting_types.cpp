@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 
 #include "experiments/settings/known_methods.hpp"
@@ -51,6 +52,24 @@ double parse_positive(std::string_view option, std::string_view text, double low
   if (*number < low || *number > high)
     throw does_not_fit(option, text, fmt::format("is not within {} to {}", low, high), hint);
   return *number;
+}
+
+double parse_angle(std::string_view option, std::string_view text, double most) {
+  const auto number = parse_whole_of<double>(text);
+  if (number && std::abs(*number) <= most && *number != 0.0) return *number;
+  throw does_not_fit(option, text, "is no angle to turn by", fmt::format("give degrees from -{0} to {0}, not 0", most));
+}
+
+glm::dvec3 parse_direction(std::string_view option, const std::string& text) {
+  std::vector<double> values;
+  for (const std::string& part : parts_of(text)) {
+    if (const auto number = parse_whole_of<double>(part); number && std::isfinite(*number)) values.push_back(*number);
+  }
+  const glm::dvec3 direction =
+      values.size() == 3 && parts_of(text).size() == 3 ? glm::dvec3(values[0], values[1], values[2]) : glm::dvec3(0);
+  const double length = glm::length(direction);
+  if (length > 0.0 && std::isfinite(length)) return direction / length;
+  throw does_not_fit(option, text, "is no direction", "give X,Y,Z in the world, for example 0,1,0");
 }
 
 int parse_side(std::string_view option, std::string_view size, std::string_view digits) {
@@ -237,6 +256,30 @@ SettingType positive_number(Field<std::optional<double>> field, double low, doub
                 field(run) = *table.number(key, {low, high});
               },
           .text = [=](RunSettings run) { return field(run) ? fmt::format("{}", *field(run)) : ""; }};
+}
+
+SettingType angle(Field<std::optional<double>> field, double most) {
+  return {.word = "DEGREES",
+          .option_takes = fmt::format("-{0} to {0}", most),
+          .file_takes = {},
+          .read_text = [=](RunSettings& run, std::string_view option,
+                           const std::string& text) { field(run) = parse_angle(option, text, most); },
+          .read_file = nullptr,
+          .text = [=](RunSettings run) { return field(run) ? fmt::format("{}", *field(run)) : ""; }};
+}
+
+SettingType direction(Field<std::optional<glm::dvec3>> field) {
+  return {.word = "X,Y,Z",
+          .option_takes = {},
+          .file_takes = {},
+          .read_text = [=](RunSettings& run, std::string_view option,
+                           const std::string& text) { field(run) = parse_direction(option, text); },
+          .read_file = nullptr,
+          .text =
+              [=](RunSettings run) {
+                const std::optional<glm::dvec3>& axis = field(run);
+                return axis ? fmt::format("{},{},{}", axis->x, axis->y, axis->z) : "";
+              }};
 }
 
 SettingType fixed_samples(Field<ReferenceSettings> field, int low, int high) {

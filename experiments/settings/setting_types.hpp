@@ -42,6 +42,12 @@ using Field = Value& (*)(RunSettings& run);
 /// A number above 0.
 [[nodiscard]] SettingType positive_number(Field<std::optional<double>> field, double low, double high);
 
+/// An angle in degrees, either way round.
+[[nodiscard]] SettingType angle(Field<std::optional<double>> field, double most);
+
+/// A direction of the world, of any length but 0; it is kept as a unit vector.
+[[nodiscard]] SettingType direction(Field<std::optional<glm::dvec3>> field);
+
 /// Samples a pixel, which then are fixed.
 [[nodiscard]] SettingType fixed_samples(Field<ReferenceSettings> field, int low, int high);
 

@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "experiments/studies/flicker_causes.hpp"
 #include "renderer/image/metrics.hpp"
 
 namespace footprint {
@@ -178,6 +179,56 @@ TEST(CheapParts, LieWhereThePictureHasThem) {
   ASSERT_EQ(tiles.size(), 1U);
   EXPECT_EQ(tiles[0].origin, glm::ivec2(32, 32));
   EXPECT_EQ(count_pixels(within(parts.interior, tiles)), 1024U);
+}
+
+FrameTruth truth_of(const Image& reference, const Interior& interior) {
+  FrameTruth truth;
+  truth.reference.mean = reference;
+  truth.parts = pixel_parts(reference, interior);
+  return truth;
+}
+
+// Only what changes otherwise than the reference flickers, and it is told by the pixels in which it does.
+TEST(FlickerCauses, AreToldByPixels) {
+  const Image reference = noise(4, 1), before = noise(4, 2);
+  Image picture = before;
+  for (int y = 0; y < 4; ++y) {  // the second column is an edge, the third is interior
+    for (int c = 0; c < 3; ++c)
+      picture.at(1, y)[static_cast<std::size_t>(c)] = 1.0F - before.at(1, y)[static_cast<std::size_t>(c)];
+  }
+  const FrameTruth truth = truth_of(reference, stripes(4));
+  const FlickerCauses causes = flicker_causes(before, picture, truth, truth, 1.0F);
+  EXPECT_EQ(causes.shading->mean, 0.0);
+  EXPECT_GT(causes.edges->mean, 0.05);
+  EXPECT_FALSE(causes.filter);
+  EXPECT_FALSE(causes.method);
+}
+
+// A pixel that is interior in one frame alone is an edge.
+TEST(FlickerCauses, AnInteriorPixelIsOneInBothFrames) {
+  const Image reference = noise(4, 1);
+  const FrameTruth striped = truth_of(reference, stripes(4)), none = truth_of(reference, everywhere(4, 0.0F));
+  const FlickerCauses causes = flicker_causes(reference, reference, striped, none, 1.0F);
+  EXPECT_FALSE(causes.shading);
+  EXPECT_EQ(causes.edges->mean, 0.0);
+}
+
+// The bound's own flicker is the filter's; a picture that is the bound has none of its own, and one that is the
+// reference has the filter's, the other way round.
+TEST(FlickerCauses, FilterAndMethodAreToldByTheBound) {
+  const Image old_reference = noise(4, 1), reference = noise(4, 2);
+  const Image old_bound = noise(4, 3), bound = noise(4, 4);
+  const Image all(4, 4, 1, 1.0F);
+  FrameTruth before = truth_of(old_reference, everywhere(4, 1.0F)), now = truth_of(reference, everywhere(4, 1.0F));
+  before.bound = BoundPicture{.picture = old_bound, .pixels = all};
+  now.bound = BoundPicture{.picture = bound, .pixels = all};
+  const FlickerCauses same = flicker_causes(old_bound, bound, before, now, 1.0F);
+  EXPECT_GT(same.filter->mean, 0.1);
+  EXPECT_GE(same.filter->p99, same.filter->mean);
+  EXPECT_EQ(same.method->mean, 0.0);
+  const FlickerCauses truth = flicker_causes(old_reference, reference, before, now, 1.0F);
+  EXPECT_EQ(truth.shading->mean, 0.0);
+  EXPECT_NEAR(truth.method->mean, same.filter->mean, 1e-12);
 }
 
 }  // namespace

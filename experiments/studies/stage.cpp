@@ -125,6 +125,11 @@ Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress,
 
 View Stage::view(double distance) const { return {.size = size_, .camera = camera_at_distance(scene_, distance)}; }
 
+void Stage::move_lights(std::vector<Light> lights) {
+  scene_.lights = std::move(lights);
+  gpu_scene_->update(scene_);
+}
+
 StagedMethod Stage::stage(const MethodSpec& method, const Progress& progress) const {
   return {context_.info(), *gpu_scene_, scene_,  effects_, method, footprint_filter_of(settings_, scene_),
           size_,           settings_,   progress};

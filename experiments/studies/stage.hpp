@@ -65,6 +65,10 @@ class Stage {
   [[nodiscard]] const Supersampler& reference() const { return *reference_; }
   [[nodiscard]] View view(double distance) const;
 
+  /// Puts lights in the place of the scene's own, of the same kinds in the same order; shadows follow. Errors (usage):
+  /// others.
+  void move_lights(std::vector<Light> lights);
+
   /// Another method over the same scene.
   [[nodiscard]] StagedMethod stage(const MethodSpec& method, const Progress& progress) const;
 

@@ -49,6 +49,11 @@ void require_comparable(const Image& picture, const Image& reference) {
   }
 }
 
+void require_mask(const Image& mask, const Image& reference) {
+  if (mask.channels == 1 && mask.width == reference.width && mask.height == reference.height) return;
+  throw Error(ErrorKind::usage, "comparison", "the mask is no picture of one channel and the reference's size");
+}
+
 template <typename Visit>  // visit(column, row, picture's rgb, reference's rgb), row by row
 void visit_object_pixels(const Image& picture, const Image& reference, Visit visit) {
   require_comparable(picture, reference);
@@ -149,9 +154,7 @@ std::optional<double> normalized_color(const Image& picture, const Image& refere
 
 std::optional<double> normalized_color_over(const Image& picture, const Image& reference, float exposure,
                                             const Image& mask) {
-  if (mask.channels != 1 || mask.width != reference.width || mask.height != reference.height) {
-    throw Error(ErrorKind::usage, "comparison", "the mask is no picture of one channel and the reference's size");
-  }
+  require_mask(mask, reference);
   require_comparable(picture, reference);
   double distance = 0;
   std::size_t pixels = 0;
@@ -168,11 +171,18 @@ std::optional<double> normalized_color_over(const Image& picture, const Image& r
 
 std::optional<FlickerFigures> compare_changes(const Image& before, const Image& picture, const Image& reference_before,
                                               const Image& reference, float exposure) {
+  return compare_changes_over(before, picture, reference_before, reference, exposure, object_pixels(reference));
+}
+
+std::optional<FlickerFigures> compare_changes_over(const Image& before, const Image& picture,
+                                                   const Image& reference_before, const Image& reference,
+                                                   float exposure, const Image& mask) {
+  require_mask(mask, reference);
   require_comparable(before, reference_before);
   require_comparable(reference_before, reference);
   std::vector<double> differences;
   visit_object_pixels(picture, reference, [&](int column, int row, const Rgb& x, const Rgb& r) {
-    if (!covers_whole_pixel(reference_before.at(column, row))) return;
+    if (mask.at(column, row)[0] <= 0.0F || !covers_whole_pixel(reference_before.at(column, row))) return;
     const Rgb old_x = rgb_of(before, column, row, "the picture before");
     const Rgb old_r = rgb_of(reference_before, column, row, "the reference before");
     double sum = 0;
@@ -188,6 +198,16 @@ std::optional<FlickerFigures> compare_changes(const Image& before, const Image& 
   const auto rank = static_cast<std::ptrdiff_t>(std::ceil(flicker_quantile * count)) - 1;
   std::ranges::nth_element(differences, differences.begin() + rank);
   return FlickerFigures{.mean = mean, .p99 = differences[static_cast<std::size_t>(rank)]};
+}
+
+std::optional<double> highlight_energy(const Image& picture, const Image& reference, float exposure) {
+  double sum = 0;
+  std::size_t pixels = 0;
+  visit_object_pixels(picture, reference, [&](int, int, const Rgb& x, const Rgb&) {
+    sum += std::max(exposure * luminance(x) - highlight_level, 0.0);
+    ++pixels;
+  });
+  return pixels > 0 ? std::optional(sum / static_cast<double>(pixels)) : std::nullopt;
 }
 
 Image error_map(const Image& picture, const Image& reference, float exposure) {

@@ -51,6 +51,19 @@ struct FlickerFigures {
                                                             const Image& reference_before, const Image& reference,
                                                             float exposure);
 
+/// The same over those of these pixels at which `mask` (one channel, the size of the pictures) is above 0.
+[[nodiscard]] std::optional<FlickerFigures> compare_changes_over(const Image& before, const Image& picture,
+                                                                 const Image& reference_before, const Image& reference,
+                                                                 float exposure, const Image& mask);
+
+/// What bright pixels carry: the mean over object pixels of how far exposed luminance lies above `highlight_level`, not
+/// clamped. Empty if there is no object pixel. Errors as for compare_images.
+[[nodiscard]] std::optional<double> highlight_energy(const Image& picture, const Image& reference, float exposure);
+
+/// Exposed luminance from which on a pixel counts as a highlight: where an automatic exposure puts the brightest
+/// twentieth of the reference.
+inline constexpr double highlight_level = 0.8;
+
 /// Per-pixel normalised colour error, one channel, 0 outside the object: what the false-colour picture shows.
 [[nodiscard]] Image error_map(const Image& picture, const Image& reference, float exposure);
 

@@ -278,6 +278,29 @@ TEST(Flicker, ThePercentileIsTheNearestRank) {
   EXPECT_NEAR(compare_changes(covered, ramp, covered, covered, 1.0F)->p99, 0.99 / std::sqrt(3.0), 1e-7);
 }
 
+TEST(Flicker, OverAMaskCountsItsPixelsAlone) {
+  const Image before = pixels({{0, 0, 0, 1}, {0, 0, 0, 1}}), picture = pixels({{0.5F, 0.5F, 0.5F, 1}, {0, 0, 0, 1}});
+  Image mask(2, 1, 1);
+  mask.at(0, 0)[0] = 1.0F;
+  EXPECT_NEAR(compare_changes_over(before, picture, before, before, 1.0F, mask)->mean, 0.5, 1e-7);
+  EXPECT_NEAR(compare_changes(before, picture, before, before, 1.0F)->mean, 0.25, 1e-7);
+  mask.at(0, 0)[0] = 0.0F;
+  EXPECT_FALSE(compare_changes_over(before, picture, before, before, 1.0F, mask));
+  EXPECT_NE(error_text([&] {
+              (void)compare_changes_over(before, picture, before, before, 1.0F, Image(1, 1, 1));
+            }).find("mask"),
+            std::string::npos);
+}
+
+TEST(HighlightEnergy, IsWhatLiesAboveTheLevelUnclamped) {
+  const Image reference = pixels({{0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 0.5F}});
+  const Image picture = pixels({{4, 4, 4, 1}, {0.5F, 0.5F, 0.5F, 1}, {9, 9, 9, 1}});
+  EXPECT_NEAR(*highlight_energy(picture, reference, 1.0F), (4.0 - highlight_level) / 2.0, 1e-6);
+  EXPECT_NEAR(*highlight_energy(picture, reference, 0.25F), (1.0 - highlight_level) / 2.0, 1e-6);
+  EXPECT_NEAR(*highlight_energy(picture, reference, 0.125F), 0.0, 1e-12);
+  EXPECT_FALSE(highlight_energy(picture, pixels({{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}}), 1.0F));
+}
+
 TEST(Flicker, NoPixelCoveredInBothFramesNoFigures) {
   const Image left = pixels({{0, 0, 0, 1}, {0, 0, 0, 0}}), right = pixels({{0, 0, 0, 0}, {0, 0, 0, 1}});
   EXPECT_FALSE(compare_changes(left, right, left, right, 1.0F));

@@ -10,6 +10,7 @@
 #include "renderer/image/false_color.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"
+#include "results/report/example_animation.hpp"
 #include "results/report/example_results.hpp"
 #include "results/report/report.hpp"
 
@@ -74,7 +75,18 @@ void write_pictures(const Results& results, const std::filesystem::path& folder)
   for (const std::string& name : results.experiment->pictures) write_png(folder / name, to_display(ball(64, 1), 1));
 }
 
+void write_film(const Animation& animation, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder / "images");
+  for (const AnimationFrame& frame : animation.frames)
+    write_png(png_of(folder, frame.image), to_display(ball(64, 0.05), static_cast<float>(frame.frame + 1)));
+  for (const AnimationRecord& record : animation.records)
+    write_png(png_of(folder, record.image), to_display(ball(64, 4), static_cast<float>(record.frame + 1)));
+  write_animation(animation, folder);
+}
+
 void write_fixture(const std::filesystem::path& folder, std::string_view kind) {
+  if (kind == "film") return write_film(example_animation(), folder);
+  if (kind == "hostile_film") return write_film(hostile_animation(), folder);
   const Results results = kind == "hostile" ? hostile_results() : example_results();
   write_pictures(results, folder);
   write_report(results, folder);
@@ -85,7 +97,8 @@ void write_fixture(const std::filesystem::path& folder, std::string_view kind) {
 
 int main(int argc, char** argv) {
   try {
-    if (argc != 3) throw std::invalid_argument("usage: footprint_page_fixture FOLDER example|hostile");
+    if (argc != 3)
+      throw std::invalid_argument("usage: footprint_page_fixture FOLDER example|hostile|film|hostile_film");
     footprint::write_fixture(argv[1], argv[2]);
     return 0;
   } catch (const std::exception& fault) {

@@ -335,9 +335,44 @@ def check_hostile(browser, folder):
     assert not messages, messages
 
 
+def check_film(browser, folder):
+    """The slider, a click into a chart and the arrow keys choose the frame; each picture is that of its frame."""
+    browser.open(folder / "index.html")
+    sources = "return [...document.querySelectorAll('#film img:not(.over)')].map((image) => image.getAttribute('src'))"
+    assert browser.run(sources) == [f"images/{name}_0000.png" for name in ("reference", "a", "b")], browser.run(sources)
+    browser.keys("#frame", "\ue014")  # arrow right
+    assert browser.run(sources) == [f"images/{name}_0001.png" for name in ("reference", "a", "b")], browser.run(sources)
+    assert browser.run("return document.getElementById('where').textContent") == "frame 1 of 2, 10°"
+    browser.wait_for("Promise.all([...document.images].map((image) => image.decode()))")
+    browser.drag("#highlights", [200, 201])  # right of the middle: the last frame
+    browser.wait_for("new Promise((done) => setTimeout(() => requestAnimationFrame(done), 100))")
+    assert browser.run(sources)[0] == "images/reference_0002.png", browser.run(sources)
+    series = "return Chart.getChart(arguments[0]).data.datasets.map((set) => [set.label, set.data.map((p) => p.y)])"
+    assert [label for label, _ in browser.run(series, "highlights")] == ["reference", "a", 'b:x=1,"y"']
+    flicker = dict(browser.run(series, "flicker"))
+    assert flicker["a"][0] is None and abs(flicker["a"][2] - 0.6) < 1e-9 and abs(flicker["a, p99"][2] - 0.9) < 1e-9, flicker
+    assert dict(browser.run(series, "causes"))["filter"] == [None] * 3
+    browser.click("#of-method label:nth-of-type(2)")
+    assert dict(browser.run(series, "causes"))["filter"][1:] == [0.05, 0.05]
+    browser.click("#difference")
+    assert browser.run("return getComputedStyle(document.querySelector('.over')).display") == "block"
+    assert len(browser.screenshot(folder / "film.png")) > 50
+    assert not (messages := browser.complaints()), messages
+
+
+def check_hostile_film(browser, folder):
+    browser.open(folder / "index.html")
+    assert browser.run("return document.title").startswith("</script><script>"), "the title is not the scene's name"
+    names = browser.run("return [...document.querySelectorAll('td.name')].map((cell) => cell.textContent)")
+    assert names[1].startswith("<img"), names
+    assert browser.run("return document.querySelector('#video a').getAttribute('href')") == "images/film.mp4"
+    assert not (messages := browser.complaints()), messages
+
+
 def main(fixture, keep=None):
     with tempfile.TemporaryDirectory() as temporary, started_browser() as browser:
-        for kind, check in (("example", check_example), ("hostile", check_hostile)):
+        for kind, check in (("example", check_example), ("hostile", check_hostile), ("film", check_film),
+                            ("hostile_film", check_hostile_film)):
             folder = pathlib.Path(keep or temporary).resolve() / kind
             folder.mkdir(parents=True, exist_ok=True)
             subprocess.run([fixture, str(folder), kind], check=True)

@@ -2,8 +2,11 @@
 
 import csv
 import json
+import os
 import re
+import signal
 import subprocess
+import time
 import unittest
 import xml.etree.ElementTree
 
@@ -225,7 +228,8 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
         run("animate", "ribbed_plane", "--methods", "direct,toksvig", "--frames", 3, "--from", 1, "--to", 4, "--size",
             "32x32", "--spp", 16, "--quiet", "-o", out)
         document = json.loads((out / "animation.json").read_text(encoding="utf-8"))
-        self.assertEqual([r["distance"] for r in document["records"]], [1, 1, 2, 2, 4, 4])
+        self.assertEqual([f["distance"] for f in document["frames"]], [1, 2, 4])
+        self.assertEqual([r["frame"] for r in document["records"]], [0, 0, 1, 1, 2, 2])
         for record in document["records"]:
             self.assertEqual(record["flicker"] is None, record["frame"] == 0)
             self.assertTrue((out / record["image"]).is_file())
@@ -233,14 +237,93 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
         with (out / "animation.csv").open(encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file, strict=True))
         self.assertEqual([float(r["normalized_color_error"]) for r in rows],
-                         [r["normalized_color"] for r in document["records"]])
+                         [r["error"]["normalized_color"] for r in document["records"]])
         # A frame is the picture that `render` makes, and its error the one that `compare` finds.
         still = self.render("still", "ribbed_plane", "--method", "toksvig", "--distance", 2, "--size", "32x32")
         self.assertEqual(largest_difference(still, out / "images" / "toksvig_0001.exr"), 0.0)
         compared = self.compare("compared", "ribbed_plane", "--methods", "toksvig", "--distance", "2", "--size", "32x32",
                                 "--spp", "16")
         self.assertEqual(results_of(compared)["records"][0]["error"]["normalized_color"],
-                         document["records"][3]["normalized_color"])
+                         document["records"][3]["error"]["normalized_color"])
+        # Flicker's parts make the whole: interior pixels and edges, weighed by how many they are.
+        for record in document["records"][2:]:
+            means = [record["flicker"][part]["mean"] for part in ("shading", "edges") if record["flicker"][part]]
+            self.assertLessEqual(min(means), record["flicker"]["mean"])
+            self.assertGreaterEqual(max(means), record["flicker"]["mean"])
+            self.assertIsNotNone(record["flicker"]["method"])
+
+    LIGHT = ["ribbed_plane", "--methods", "direct,lean", "--path", "light", "--degrees", 40, "--frames", 3, "--size", "24x24",
+             "--spp", 4, "--quiet"]
+
+    def files(self, folder):
+        return {str(file.relative_to(folder)): file.read_bytes() for file in folder.rglob("*")
+                if file.is_file() and "kept" not in file.relative_to(folder).parts}
+
+    def test_an_animation_is_the_same_in_parts_and_in_pieces(self):
+        whole, again, merged = (self.folder / name for name in ("whole", "again", "merged"))
+        run("animate", *self.LIGHT, "-o", whole)
+        run("animate", *self.LIGHT, "-o", again)
+        self.assertEqual(self.files(whole), self.files(again), "two runs")
+        parts = [self.folder / f"part_{i}" for i in (1, 2)]
+        for i, part in enumerate(parts, 1):
+            run("animate", *self.LIGHT, "--shard", f"{i}/2", "-o", part)
+        run("merge", *reversed(parts), "-q", "-o", merged)
+        self.assertEqual(self.files(whole), self.files(merged), "one run and its parts")
+        self.assertEqual(len({name for name in self.files(whole) if name.endswith(".exr")}), 9)
+        frames = {self.files(whole)[f"images/reference_000{i}.exr"] for i in range(3)}
+        self.assertEqual(len(frames), 3, "the light moves")
+        # A frame that was lost, as by a kill, is drawn anew; the others are not.
+        lost = next((again / "kept").glob("*/frame-*.done"))
+        lost.unlink()
+        run("animate", *self.LIGHT, "-o", again)
+        self.assertEqual(self.files(whole), self.files(again))
+
+        def refused(arguments, *words):
+            out = self.folder / "refused"
+            done = subprocess.run([PROGRAM, "merge", *map(str, arguments), "-q", "-o", str(out)], capture_output=True,
+                                  text=True, check=False)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            for word in words:
+                self.assertIn(word, done.stderr)
+            self.assertFalse((out / "animation.json").exists())
+
+        refused(parts[:1], "part 2 of 2 is missing")
+        refused([parts[0], parts[0]], "name each part once")
+        other = self.folder / "other"
+        run("animate", *self.LIGHT, "--seed", 2, "--shard", "2/2", "-o", other)
+        refused([parts[0], other], "of other options")
+
+    def film(self, name, script, **options):
+        """Runs with a program of that script as ffmpeg."""
+        tools = self.folder / f"{name}_tools"
+        tools.mkdir()
+        (tools / "ffmpeg").write_text("#!/bin/sh\n" + script, encoding="utf-8")
+        (tools / "ffmpeg").chmod(0o755)
+        out = self.folder / f"{name}_out"
+        environment = {**os.environ, "PATH": f"{tools}:{os.environ['PATH']}"}
+        process = subprocess.Popen([PROGRAM, "animate", *map(str, self.LIGHT), "--video", "-o", str(out)], env=environment,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
+        return process, tools, out
+
+    def test_the_film_is_whole_or_not_there(self):
+        process, tools, out = self.film("good", 'for last; do :; done; echo "$@" > "$(dirname "$0")/said"; echo film > $last')
+        self.assertEqual(process.communicate()[1], "")
+        said = (tools / "said").read_text(encoding="utf-8")
+        self.assertIn("-i images/reference_%04d.png -framerate 30 -i images/direct_%04d.png -framerate 30 -i images/lean_%04d.png",
+                      said)
+        self.assertEqual((out / "images/film.mp4").read_text(encoding="utf-8"), "film\n")
+        self.assertEqual(json.loads((out / "animation.json").read_text(encoding="utf-8"))["film"], "images/film.mp4")
+        process, _, out = self.film("bad", 'for last; do :; done; echo half > $last; echo "no such codec" >&2; exit 1')
+        self.assertIn("--video: ffmpeg ended with 1: no such codec", process.communicate()[1])
+        self.assertEqual(process.returncode, 3)
+        self.assertEqual(list(out.rglob("film*")) + list(out.rglob("*.json")), [])
+        process, tools, out = self.film("stopped", 'touch "$(dirname "$0")/started"; for last; do :; done; echo half > $last; exec sleep 60')
+        while not (tools / "started").exists() and process.poll() is None:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        process.communicate()
+        self.assertEqual(process.returncode, 130)
+        self.assertEqual(list(out.rglob("film*")) + list(out.rglob("*.json")), [])
 
     def test_the_flicker_of_an_animation_by_hand(self):
         out = self.folder / "by_hand"

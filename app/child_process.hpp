@@ -1,0 +1,48 @@
+// Another program that this one starts and waits for.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+
+/// What is started, and how.
+struct ChildCommand {
+  std::filesystem::path program;       ///< absolute
+  std::vector<std::string> arguments;  ///< with the program's name first
+  std::filesystem::path errors;        ///< file that gets its standard error
+  std::filesystem::path folder;        ///< that it runs in; empty: this program's own
+};
+
+/// A child process that does not outlive its owner.
+class ChildProcess {
+ public:
+  /// Starts it. Errors: `failure`, where it cannot be started.
+  ChildProcess(ChildCommand command, const Error& failure);
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+  ChildProcess(ChildProcess&&) = delete;
+  ChildProcess& operator=(ChildProcess&&) = delete;
+  ~ChildProcess();
+
+  /// The exit code, or -1 if a signal ended it. Empty while it runs.
+  [[nodiscard]] std::optional<int> poll();
+
+  /// Waits for it, calls `tick` meanwhile, which may throw, and gives the exit code.
+  [[nodiscard]] int wait(const std::function<void()>& tick);
+
+ private:
+  pid_t id_ = 0;
+};
+
+/// The whole of a text file; empty where there is none.
+[[nodiscard]] std::string text_of(const std::filesystem::path& file);
+
+}  // namespace footprint

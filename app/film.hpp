@@ -1,0 +1,21 @@
+// The frames of an animation as one video, made by ffmpeg.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "renderer/core/progress.hpp"
+#include "results/report/animation_report.hpp"
+
+namespace footprint {
+
+/// Where ffmpeg is. Errors (machine): it is in no folder of PATH.
+[[nodiscard]] std::filesystem::path find_ffmpeg();
+
+/// Writes FOLDER/images/film.mp4, the reference and then all methods side by side, 30 frames a second, and returns its
+/// path from the folder. Errors (machine): ffmpeg ends otherwise than well, in its own words; an interrupt through
+/// `progress`: ffmpeg is ended.
+[[nodiscard]] std::string make_film(const std::filesystem::path& ffmpeg, const Animation& animation,
+                                    const std::filesystem::path& folder, const Progress& progress);
+
+}  // namespace footprint

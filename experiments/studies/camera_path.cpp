@@ -1,0 +1,121 @@
+// Turns about an axis through the centre of the bounds, in double; a zoom's distances are those of zoom.hpp.
+#include "experiments/studies/camera_path.hpp"
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+#include <string>
+#include <variant>
+
+#include "experiments/studies/zoom.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/effects/effects.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr double default_turn = 60.0;  // degrees
+
+[[noreturn]] void refuse(const char* option, const char* why) {
+  throw Error(ErrorKind::usage, option, why, "leave it out, or choose another --path");
+}
+
+void require_settings_of_its_own(const RunSettings& settings) {
+  const bool zooms = settings.path.kind == AnimationPath::zoom;
+  if (zooms && settings.path.degrees) refuse("--degrees", "nothing turns in a zoom");
+  if (zooms && settings.path.axis) refuse("--axis", "nothing turns in a zoom");
+  if (zooms && !settings.view.distances.empty()) refuse("--distance", "a zoom goes from --from to --to");
+  if (!zooms && settings.view.zoom.from) refuse("--from", "this path is no zoom");
+  if (!zooms && settings.view.zoom.to) refuse("--to", "this path is no zoom");
+}
+
+// The turn that a path has made in a frame, about the centre of the bounds.
+glm::dmat4 turn_of(const PathSettings& path, const Scene& scene, const PathFrame& frame) {
+  const glm::dvec3 axis = turning_axis(path, scene);
+  const glm::dvec3 centre(scene.bounds.centre());
+  return glm::translate(glm::dmat4(1.0), centre) * glm::rotate(glm::dmat4(1.0), glm::radians(frame.degrees), axis) *
+         glm::translate(glm::dmat4(1.0), -centre);
+}
+
+glm::vec3 turned_point(const glm::dmat4& turn, const glm::vec3& point) {
+  return glm::vec3(turn * glm::dvec4(glm::dvec3(point), 1.0));
+}
+
+glm::vec3 turned_direction(const glm::dmat4& turn, const glm::vec3& direction) {
+  return glm::normalize(glm::vec3(glm::dmat3(turn) * glm::dvec3(direction)));
+}
+
+struct Turned {
+  const glm::dmat4& turn;
+
+  Light operator()(PointLight light) const {
+    light.position = turned_point(turn, light.position);
+    return light;
+  }
+  Light operator()(SpotLight light) const {
+    light.point.position = turned_point(turn, light.point.position);
+    light.direction = turned_direction(turn, light.direction);
+    return light;
+  }
+  Light operator()(DirectionalLight light) const {
+    light.direction = turned_direction(turn, light.direction);
+    return light;
+  }
+};
+
+bool casts_shadows(const Scene& scene) {
+  return std::ranges::any_of(derive_effects(scene), [](const EffectDecision& decision) {
+    return decision.effect == Effect::cast_shadow && decision.on;
+  });
+}
+
+}  // namespace
+
+std::vector<PathFrame> path_frames(const RunSettings& settings, const Scene& scene) {
+  require_settings_of_its_own(settings);
+  std::vector<PathFrame> frames;
+  if (settings.path.kind == AnimationPath::zoom) {
+    for (const double distance : run_distances(settings.view, scene)) frames.push_back({.distance = distance});
+    return frames;
+  }
+  if (settings.path.kind == AnimationPath::light && scene.lights.empty())
+    throw Error(ErrorKind::usage, "--path", scene.source + " has no light to move, and its environment stays",
+                "take --path orbit");
+  const int count = settings.view.zoom.frames;
+  const double distance = settings.view.distances.empty() ? 1.0 : settings.view.distances.front();
+  const double turn = settings.path.degrees.value_or(default_turn);
+  for (int i = 0; i < count; ++i) frames.push_back({.distance = distance, .degrees = turn * i / (count - 1)});
+  return frames;
+}
+
+glm::dvec3 turning_axis(const PathSettings& path, const Scene& scene) {
+  return path.axis.value_or(glm::normalize(glm::dvec3(scene.camera.world[1])));
+}
+
+Camera camera_on_path(const PathSettings& path, const Scene& scene, const PathFrame& frame) {
+  Camera camera = camera_at_distance(scene, frame.distance);
+  if (path.kind != AnimationPath::orbit || frame.degrees == 0.0) return camera;
+  camera.world = glm::mat4(turn_of(path, scene, frame) * glm::dmat4(camera.world));
+  return camera;
+}
+
+std::vector<Light> lights_on_path(const PathSettings& path, const Scene& scene, const PathFrame& frame) {
+  if (path.kind != AnimationPath::light || frame.degrees == 0.0) return scene.lights;
+  const glm::dmat4 turn = turn_of(path, scene, frame);
+  std::vector<Light> lights;
+  for (const Light& light : scene.lights) lights.push_back(std::visit(Turned{turn}, light));
+  return lights;
+}
+
+Scene scene_for_path(const RunSettings& settings, Scene scene) {
+  if (settings.path.kind != AnimationPath::light || scene.shadows.cast || casts_shadows(scene)) return scene;
+  Scene moved = scene;
+  const std::vector<PathFrame> frames = path_frames(settings, scene);
+  const bool casts = std::ranges::any_of(frames, [&](const PathFrame& frame) {
+    moved.lights = lights_on_path(settings.path, scene, frame);
+    return casts_shadows(moved);
+  });
+  if (casts) scene.shadows.cast = true;
+  return scene;
+}
+
+}  // namespace footprint

@@ -1,0 +1,112 @@
+// Where camera and lights are along a path, on a scene without a file.
+#include "experiments/studies/camera_path.hpp"
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <string>
+
+#include "renderer/core/error.hpp"
+
+namespace footprint {
+namespace {
+
+// A camera at z = 5 that looks at a box around (0, 0, 1).
+Scene looked_at() {
+  Scene scene;
+  scene.source = "made up";
+  scene.bounds = {.lower = glm::vec3(-1, -1, 0), .upper = glm::vec3(1, 1, 2)};
+  scene.camera.world = glm::translate(glm::mat4(1.0F), glm::vec3(0, 0, 5));
+  return scene;
+}
+
+RunSettings path_of(AnimationPath kind, int frames) {
+  RunSettings run;
+  run.path.kind = kind;
+  run.view.zoom.frames = frames;
+  return run;
+}
+
+std::string refusal(const RunSettings& run, const Scene& scene) {
+  try {
+    (void)path_frames(run, scene);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(CameraPath, AnOrbitKeepsItsDistanceAndLooksAtTheCentre) {
+  RunSettings run = path_of(AnimationPath::orbit, 3);
+  run.path.degrees = 90;
+  run.view.distances = {2.0};
+  const Scene scene = looked_at();
+  const std::vector<PathFrame> frames = path_frames(run, scene);
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(frames[0].degrees, 0.0);
+  EXPECT_EQ(frames[2].degrees, 90.0);
+  const Camera last = camera_on_path(run.path, scene, frames[2]);
+  EXPECT_NEAR(glm::length(glm::vec3(last.world[3]) - glm::vec3(8, 0, 1)), 0.0F, 1e-5F);
+  EXPECT_NEAR(glm::length(glm::vec3(last.world[2]) - glm::vec3(1, 0, 0)), 0.0F, 1e-6F);
+  EXPECT_EQ(camera_on_path(run.path, scene, frames[0]), camera_at_distance(scene, 2.0));
+}
+
+TEST(CameraPath, LightsTurnTogetherAndTheCameraStays) {
+  RunSettings run = path_of(AnimationPath::light, 2);
+  run.path.degrees = 180;
+  run.path.axis = glm::dvec3(0, 0, 1);
+  Scene scene = looked_at();
+  scene.lights = {PointLight{.position = glm::vec3(3, 0, 7), .range = {}},
+                  DirectionalLight{.direction = glm::vec3(0.6F, 0, -0.8F)}};
+  const std::vector<PathFrame> frames = path_frames(run, scene);
+  const std::vector<Light> lights = lights_on_path(run.path, scene, frames[1]);
+  EXPECT_NEAR(glm::length(std::get<PointLight>(lights[0]).position - glm::vec3(-3, 0, 7)), 0.0F, 1e-5F);
+  EXPECT_NEAR(glm::length(std::get<DirectionalLight>(lights[1]).direction - glm::vec3(-0.6F, 0, -0.8F)), 0.0F, 1e-6F);
+  EXPECT_EQ(camera_on_path(run.path, scene, frames[1]), camera_at_distance(scene, 1.0));
+}
+
+TEST(CameraPath, AZoomIsThatOfAnExperiment) {
+  RunSettings run = path_of(AnimationPath::zoom, 3);
+  run.view.zoom.from = 1;
+  run.view.zoom.to = 4;
+  const std::vector<PathFrame> frames = path_frames(run, looked_at());
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(frames[1].distance, 2.0);
+  EXPECT_EQ(lights_on_path(run.path, looked_at(), frames[2]).size(), 0U);
+}
+
+TEST(CameraPath, WhatAPathHasNoUseForIsRefused) {
+  RunSettings zoom = path_of(AnimationPath::zoom, 2);
+  zoom.path.degrees = 5;
+  EXPECT_NE(refusal(zoom, looked_at()).find("--degrees: nothing turns"), std::string::npos);
+  RunSettings orbit = path_of(AnimationPath::orbit, 2);
+  orbit.view.zoom.to = 5;
+  EXPECT_NE(refusal(orbit, looked_at()).find("--to: this path is no zoom"), std::string::npos);
+  EXPECT_NE(refusal(path_of(AnimationPath::light, 2), looked_at()).find("no light to move"), std::string::npos);
+}
+
+// A plate before a plate: the light beside them casts no shadow until it has turned in front.
+TEST(CameraPath, ShadowsCountWhereAnyFrameCallsForThem) {
+  Scene scene = looked_at();
+  scene.materials.resize(1);
+  const auto plate = [](float half, float z) {
+    Mesh mesh;
+    for (const auto& [x, y] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)})
+      mesh.vertices.push_back({.position = glm::vec3(half * static_cast<float>(x), half * static_cast<float>(y), z)});
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    return mesh;
+  };
+  scene.meshes = {plate(1.0F, 0.0F), plate(0.3F, 1.0F)};
+  scene.lights = {DirectionalLight{.direction = glm::vec3(0, 0, 1)}};  // from behind
+  RunSettings run = path_of(AnimationPath::light, 3);
+  run.path.axis = glm::dvec3(0, 1, 0);
+  run.path.degrees = 20;  // still from behind
+  EXPECT_FALSE(scene_for_path(run, scene).shadows.cast.has_value());
+  run.path.degrees = 180;
+  EXPECT_EQ(scene_for_path(run, scene).shadows.cast, true);
+  scene.shadows.cast = false;
+  EXPECT_EQ(scene_for_path(run, scene).shadows.cast, false) << "what the scene says, holds";
+}
+
+}  // namespace
+}  // namespace footprint

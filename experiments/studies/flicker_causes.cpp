@@ -1,0 +1,59 @@
+// Pixels that count in both frames, and changes held against the reference's or against those of `exact`.
+#include "experiments/studies/flicker_causes.hpp"
+
+#include "renderer/image/metrics.hpp"
+
+namespace footprint {
+namespace {
+
+Image in_both(const Image& first, const Image& second) {
+  Image both = first;
+  for (std::size_t i = 0; i < both.texels.size(); ++i) {
+    if (second.texels[i] <= 0.0F) both.texels[i] = 0.0F;
+  }
+  return both;
+}
+
+Image without(const Image& mask, const Image& left_out) {
+  Image rest = mask;
+  for (std::size_t i = 0; i < rest.texels.size(); ++i) {
+    if (left_out.texels[i] > 0.0F) rest.texels[i] = 0.0F;
+  }
+  return rest;
+}
+
+// `picture` in the reference's place: it covers what the reference does.
+Image as_reference(const Image& picture, const Image& reference) {
+  Image covered = picture;
+  for (std::size_t i = 3; i < covered.texels.size(); i += 4) covered.texels[i] = reference.texels[i];
+  return covered;
+}
+
+std::optional<PartFlicker> part_of(const std::optional<FlickerFigures>& figures) {
+  if (!figures) return {};
+  return PartFlicker{.mean = figures->mean, .p99 = figures->p99};
+}
+
+}  // namespace
+
+FlickerCauses flicker_causes(const Image& before, const Image& picture, const FrameTruth& truth_before,
+                             const FrameTruth& truth, float exposure) {
+  const Image& old_reference = truth_before.reference.mean;
+  const Image& reference = truth.reference.mean;
+  const Image interior = in_both(truth_before.parts.interior, truth.parts.interior);
+  const Image edges = without(object_pixels(reference), interior);
+  const auto over = [&](const Image& mask) {
+    return part_of(compare_changes_over(before, picture, old_reference, reference, exposure, mask));
+  };
+  FlickerCauses causes{.shading = over(interior), .edges = over(edges), .filter = {}, .method = {}};
+  if (!truth_before.bound || !truth.bound) return causes;
+  const Image pixels = in_both(truth_before.bound->pixels, truth.bound->pixels);
+  const Image& old_bound = truth_before.bound->picture;
+  const Image& bound = truth.bound->picture;
+  causes.filter = part_of(compare_changes_over(old_bound, bound, old_reference, reference, exposure, pixels));
+  causes.method = part_of(compare_changes_over(before, picture, as_reference(old_bound, old_reference),
+                                               as_reference(bound, reference), exposure, pixels));
+  return causes;
+}
+
+}  // namespace footprint

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "renderer/microgeometry/microgeometry.hpp"
+#include "renderer/scene/small_sun.hpp"
 #include "renderer/visibility/cast_shadows.hpp"
 
 namespace footprint {
@@ -119,7 +120,10 @@ EffectDecision environment_light(const Scene& scene) {
   if (!scene.environment) return {Effect::environment_light, false, "no environment"};
   const Image& map = *scene.environment->radiance;
   const bool lit = std::ranges::any_of(map.texels, [](float value) { return value > 0.0F; });
-  const std::string text = fmt::format("the environment {}, {} x {}", scene.environment->name, map.width, map.height);
+  std::string text = fmt::format("the environment {}, {} x {}", scene.environment->name, map.width, map.height);
+  if (const auto apart = sun_apart(*scene.environment))
+    text += fmt::format(", whose small sun, {:.0f}% of its light, methods take as a directional light",
+                        100.0 * apart->sun.share);
   return {Effect::environment_light, lit, lit ? text : text + ", is black"};
 }
 

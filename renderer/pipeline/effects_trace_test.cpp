@@ -219,6 +219,17 @@ TEST(MaterialIndex, SharesAddUpAndCoverOnce) {
   EXPECT_NEAR(picture.at(24, 32)[1], second.at(24, 32)[1], 0.07 * first.at(24, 32)[1]);
 }
 
+// A sun apart is a part of the environment's light, and leaves no more behind than that.
+TEST(EffectTrace, ASunOfAnEnvironmentIsInTheShaderWhereThereIsOne) {
+  Scene scene = least_scene();
+  scene.environment = constant_environment(glm::vec3(1.0F));
+  EXPECT_EQ(TestRenderer(scene).fragment_text(base_surface()).find("environment_sun"), std::string::npos);
+  Image map(512, 256, 3, 1.0F);
+  for (float& channel : map.at(100, 30)) channel = 1e5F;
+  scene.environment->radiance = std::make_shared<const Image>(std::move(map));
+  EXPECT_NE(TestRenderer(scene).fragment_text(base_surface()).find("environment_sun"), std::string::npos);
+}
+
 TEST(EffectTrace, EveryEffectHasACase) { EXPECT_EQ(std::size(cases), effect_count); }
 
 TEST(EffectTrace, TexturesAndBytesFollow) {

@@ -1,8 +1,8 @@
 // What each use of an environment reads: prefiltered maps, tables to draw directions from, or cells of light.
 #include "renderer/pipeline/gpu_environment.hpp"
 
-#include <array>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "renderer/environment/cell_light.hpp"
 #include "renderer/environment/direction_table.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr float nodes_around = 4.0F;  // a ring of a lobe with a tail: docs/base-brdf.md
 
-gl::Buffer block_of(const std::array<glm::vec4, 2>& values) { return gl::Buffer(std::as_bytes(std::span(values))); }
+gl::Buffer block_of(const std::vector<glm::vec4>& values) { return gl::Buffer(std::as_bytes(std::span(values))); }
 
 gl::Texture plain_texture(const Image& image, GLenum internal_format, GLenum format) {
   gl::Texture texture(internal_format, image.width, image.height);
@@ -25,14 +25,20 @@ gl::Texture plain_texture(const Image& image, GLenum internal_format, GLenum for
 }  // namespace
 
 GpuEnvironment::Part GpuEnvironment::stack_part() const {
-  const RadianceStack stack = prefilter_environment(environment_, no_progress);
+  const RadianceStack stack = prefilter_environment(looked_up(), no_progress);
   const PrefilteredTexture maps = make_array_texture("environment_stack", stack.layers, Storage::fp32, {});
   Part part;
   part.first = std::move(upload(maps).texture);
   part.second = plain_texture(stack.irradiance, GL_RGBA32F, GL_RGBA);
   part.sampler = gl::trilinear_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
-  part.block = block_of({glm::vec4(stack.mean, 0.0F),
-                         glm::vec4(stack.finest_sharpness, static_cast<float>(stack.map_count()), nodes_around, 0.0F)});
+  std::vector<glm::vec4> values{
+      glm::vec4(stack.mean, 0.0F),
+      glm::vec4(stack.finest_sharpness, static_cast<float>(stack.map_count()), nodes_around, 0.0F)};
+  if (apart_) {
+    values.emplace_back(apart_->sun.direction, 0.0F);
+    values.emplace_back(apart_->sun.irradiance, 0.0F);
+  }
+  part.block = block_of(values);
   part.bytes = byte_count(maps) + stack.irradiance.texels.size() * sizeof(float);
   return part;
 }

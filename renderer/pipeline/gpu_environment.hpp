@@ -7,6 +7,7 @@
 #include "renderer/environment/radiance_stack.hpp"
 #include "renderer/gl/objects.hpp"
 #include "renderer/pipeline/environment_use.hpp"
+#include "renderer/scene/small_sun.hpp"
 
 namespace footprint {
 
@@ -17,13 +18,19 @@ class TextureUnits;
 /// current, also when destroyed.
 class GpuEnvironment {
  public:
-  explicit GpuEnvironment(Environment environment) : environment_(std::move(environment)) {}
+  explicit GpuEnvironment(Environment environment)
+      : environment_(std::move(environment)), apart_(sun_apart(environment_)) {}
 
   /// Makes what a program needs, if it is not there yet. Errors (machine): over the GL limits, out of memory.
   void prepare(EnvironmentUse use);
 
   /// Binds it: two textures at their `units`, and the block.
   void bind(const TextureUnits& units, EnvironmentUse use) const;
+
+  /// Whether methods light by a sun of it as by a directional light (environment_stack.glsl).
+  [[nodiscard]] bool has_sun() const { return apart_.has_value(); }
+  /// What methods look up: all of it, but for that sun.
+  [[nodiscard]] const Environment& looked_up() const { return apart_ ? apart_->rest : environment_; }
 
   /// Bytes of the prefiltered maps, 0 before they are made. The reference's tables are no part of any method's cost.
   [[nodiscard]] std::size_t stack_bytes() const { return parts_[0] ? parts_[0]->bytes : 0; }
@@ -40,6 +47,7 @@ class GpuEnvironment {
   [[nodiscard]] Part light_part() const;
 
   Environment environment_;
+  std::optional<SunApart> apart_;
   std::array<std::optional<Part>, 3> parts_;  // in the order of EnvironmentUse
 };
 

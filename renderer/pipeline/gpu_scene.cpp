@@ -248,7 +248,8 @@ GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const Eff
 
 void GpuScene::make_visibility(const Scene& scene, const Progress& progress, const DiskCache* cache) {
   if (visibility_) shared_bytes_ -= visibility_->bytes();
-  visibility_.emplace(scene, progress, cache);
+  const Environment white = constant_environment(glm::vec3(1.0F));
+  visibility_.emplace(scene, scene.environment ? environment_->looked_up() : white, progress, cache);
   shared_bytes_ += visibility_->bytes();
   for (GpuBatch& batch : batches_) {
     const std::vector<glm::vec4> attributes = visibility_->attributes(scene, batch.material);

@@ -124,6 +124,7 @@ class GpuScene {
     return shared_bytes_ + (environment_ ? environment_->stack_bytes() : 0);
   }
   /// None without its light.
+  [[nodiscard]] const GpuEnvironment* environment() const { return environment_ ? &*environment_ : nullptr; }
   [[nodiscard]] GpuEnvironment* environment() { return environment_ ? &*environment_ : nullptr; }
   /// None where nothing hides a part of the environment.
   [[nodiscard]] const std::optional<GpuVisibility>& visibility() const { return visibility_; }

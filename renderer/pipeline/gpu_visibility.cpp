@@ -25,9 +25,9 @@ Scene refined_for_visibility(Scene scene, const EffectSet& effects) {
   return scene;
 }
 
-GpuVisibility::GpuVisibility(const Scene& scene, const Progress& progress, const DiskCache* cache)
-    : field_(kept_visibility_field(scene, scene.environment.value_or(constant_environment(glm::vec3(1.0F))), cache,
-                                   progress)),
+GpuVisibility::GpuVisibility(const Scene& scene, const Environment& environment, const Progress& progress,
+                             const DiskCache* cache)
+    : field_(kept_visibility_field(scene, environment, cache, progress)),
       sampler_(gl::trilinear_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE)) {
   std::vector<std::vector<Image>> chains;
   for (const Image& layer : field_.layers) chains.push_back({layer});

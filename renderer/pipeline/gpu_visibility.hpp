@@ -22,9 +22,10 @@ namespace footprint {
 /// current, also when destroyed.
 class GpuVisibility {
  public:
-  /// Takes the visibility of all vertices from `cache`, or asks it and keeps it there. Errors: those of
+  /// Takes the visibility of all vertices from `cache`, or asks it and keeps it there; diffuse light is that of
+  /// `environment`. Errors: those of
   /// visibility_field; (machine): over GL's limits.
-  GpuVisibility(const Scene& scene, const Progress& progress, const DiskCache* cache);
+  GpuVisibility(const Scene& scene, const Environment& environment, const Progress& progress, const DiskCache* cache);
 
   /// The attributes of a material's vertices in the order of the scene's meshes: five vectors each, the weights (1 for
   /// the mean, then the components) and the diffuse share.

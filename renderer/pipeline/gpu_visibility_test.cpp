@@ -132,6 +132,26 @@ TEST(GpuVisibility, ABallDarkensTheFloorAsRaysSay) {
   EXPECT_GT(relative_rmse(TestRenderer(scene, {picture_size, picture_size}).frame(base_surface()), truth), 0.1);
 }
 
+// A low sun behind the wall, and little else: the shadow lies where the reference has it.
+TEST(GpuVisibility, AWallHidesASmallSun) {
+  Scene scene = floor_by_a_wall();
+  Image map(512, 256, 3, 0.2F);
+  Environment environment{.name = "sunny", .radiance = std::make_shared<const Image>(map)};
+  const glm::dvec2 at = environment_uv(environment, glm::normalize(glm::dvec3(-1.0, 0.0, 1.0)));
+  for (float& channel : map.at(static_cast<int>(at.x * 512), static_cast<int>(at.y * 256))) channel = 4e4F;
+  environment.radiance = std::make_shared<const Image>(std::move(map));
+  scene.environment = environment;
+  TestRenderer renderer(scene, {picture_size, picture_size});
+  ASSERT_TRUE(renderer.gpu_scene().environment()->has_sun());
+  const Image picture = renderer.frame(base_surface());
+  const Image truth = renderer.reference(64).mean;
+  const float lit = picture.at(picture_size - 2, picture_size / 2)[0], hidden = picture.at(4, picture_size / 2)[0];
+  EXPECT_LT(hidden, 0.2F * lit);
+  EXPECT_LT(relative_rmse(picture, truth), 0.06);
+  scene.shadows.cast = false;
+  EXPECT_GT(relative_rmse(TestRenderer(scene, {picture_size, picture_size}).frame(base_surface()), truth), 0.5);
+}
+
 TEST(GpuVisibility, IsNowhereWhereNothingHidesTheEnvironment) {
   TestRenderer plain(under_white_sky(white_floor()), {picture_size, picture_size});
   EXPECT_FALSE(plain.gpu_scene().visibility());

@@ -89,6 +89,11 @@ constexpr auto rows = std::to_array<FlagRow>({
      [](const Variant& v) {
        return v.sums_environment && has(v.effects, Effect::environment_light) && !samples_environment(v);
      }},
+    {"environment_sun",
+     [](const Variant& v) {
+       return v.environment_sun && has(v.effects, Effect::environment_light) &&
+              v.environment == EnvironmentUse::prefiltered;
+     }},
     {"environment_diffuse", reflects_diffusely},
     {"environment_visibility",
      [](const Variant& v) { return has(v.effects, Effect::environment_light) && has(v.effects, Effect::cast_shadow); }},

@@ -1,22 +1,28 @@
-// Light that comes from so small a part of an environment that methods' lookups by lobes lose it.
+// A sun that takes up so small a part of an environment that no lookup by lobes finds it: told apart from the rest.
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "renderer/scene/environment.hpp"
 
 namespace footprint {
 
-/// Within this angle of the centre of an environment's brightest texel, radians, 0.34 degrees: the sun's disc, well
-/// under the 0.8 degrees that the sharpest map of methods' lookups smears over (radiance_stack.hpp).
-inline constexpr double small_sun_angle = 0.006;
+/// What a small sun lights, as a directional light.
+struct SmallSun {
+  glm::dvec3 direction{0.0};   ///< towards it: unit, world, rotation applied
+  glm::dvec3 irradiance{0.0};  ///< on a surface that faces it
+  double share = 0.0;          ///< of the environment's light, over all directions and channels
+};
 
-/// The share of an environment's light, over all directions and channels, that comes from within `small_sun_angle` of
-/// its brightest texel; 0 of a black one, and of one whose texels are larger.
-[[nodiscard]] double small_sun_share(const Environment& environment);
+/// An environment in two parts, whose light together is all of it.
+struct SunApart {
+  SmallSun sun;
+  Environment rest;  ///< no texel of the sun's is brighter than the ring around it
+};
 
-/// What a user should know of it; none where the share is under a tenth.
-[[nodiscard]] std::optional<std::string> small_sun_warning(const Environment& environment);
+/// The brightest texel's surroundings, half a degree or a texel and a half, where what is brighter there than in the
+/// ring about them has a hundredth of all light, and the brightest texel is ten times as bright as that ring. None in a
+/// black environment, in a sky with a soft sun, and where a texel is larger than 1.3 degrees.
+[[nodiscard]] std::optional<SunApart> sun_apart(const Environment& environment);
 
 }  // namespace footprint

@@ -3,6 +3,10 @@
 layout(std140, binding = 5) uniform EnvironmentBlock {
   vec4 environment_mean;         // radiance over all directions
   vec4 environment_stack_range;  // sharpness of the finest map's lobe, number of maps: two a level; nodes around a ring
+//? if environment_sun
+  vec4 environment_sun_direction;   // towards it, world space
+  vec4 environment_sun_irradiance;  // on what faces it
+//? end
 };
 
 //? include octahedral.glsl
@@ -62,6 +66,18 @@ VisibleLobe visibleLobe(NormalLobe lobe, vec3 wo) {
 //? include environment_visibility.glsl
 //? else
 float visibleElevation(vec3 direction, float elevation) { return elevation; }
+//? end
+
+//? if environment_sun
+// A sun that is too small for any lookup, and that the maps are without: one more directional light, hidden where the
+// environment is.
+vec3 sunLit(SurfacePoint p) {
+  vec3 direction = environment_sun_direction.xyz;
+//? if environment_visibility
+  if (!isVisible(direction)) return vec3(0.0);
+//? end
+  return reflected(p, incident(direction * p.frame, environment_sun_irradiance.rgb, vec4(direction, 0.0)));
+}
 //? end
 
 // The normal of the plane below which no light counts for a lobe: the surface's own, or with an open horizon that of the

@@ -156,6 +156,9 @@ vec3 lit(SurfacePoint p) {
 //? elif environment_light
   radiance += environmentLit(p.effective, p.surface, p.wo, p.frame);
 //? end
+//? if environment_sun
+  radiance += sunLit(p);
+//? end
   return radiance;
 }
 

@@ -8,6 +8,7 @@
 
 #include "methods/registry.hpp"
 #include "renderer/image/metrics.hpp"
+#include "renderer/scene/small_sun.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/test_scenes.hpp"
 
@@ -113,6 +114,71 @@ TEST_P(UnderAnEnvironment, IsNearTheReference) {
 
 INSTANTIATE_TEST_SUITE_P(Registry, UnderAnEnvironment, ::testing::ValuesIn(all_methods().begin(), all_methods().end()),
                          [](const auto& test) { return test.param->info().name; });
+
+// A sun of one texel in 512 columns that has a third of all light, and where the square's mirror image of it lies in
+// the picture.
+Environment sunny_environment() {
+  constexpr int width = 512, height = width / 2;
+  Image map(width, height, 3, 1.0F);
+  Environment environment{.name = "sunny", .radiance = std::make_shared<const Image>(map)};
+  const glm::dvec2 at = environment_uv(environment, glm::normalize(glm::dvec3(0.12, 0.1, 1.0)));
+  for (float& channel : map.at(static_cast<int>(at.x * width), static_cast<int>(at.y * height))) channel = 4e4F;
+  environment.radiance = std::make_shared<const Image>(std::move(map));
+  return environment;
+}
+
+Scene sunny_square(float roughness) {
+  constexpr BaseBrdf brdf{NormalDistribution::ggx, GeometryTerm::smith, FresnelTerm::schlick, true};
+  return lit_square({}, {.brdf = brdf, .roughness = roughness}, sunny_environment());
+}
+
+// Of the mean over the picture, and of each pixel's radiance.
+struct SunErrors {
+  double mean, picture;
+  [[nodiscard]] bool hold(double most) const { return std::abs(mean) < 0.03 && picture < most; }
+};
+
+SunErrors errors_of(const Image& picture, const Image& truth) {
+  return {covered_mean(picture) / covered_mean(truth) - 1.0,
+          compare_images(picture, truth, 1.0F).value().relative_rmse};
+}
+
+constexpr glm::ivec2 sunny_size{24, 24};
+
+// No map at all: methods and reference see one lobe. With the sun in the maps the mean was off by up to all of it. At
+// roughness 0.1 the highlight is hardly larger than a pixel, whose middle alone a frame looks at: there the mean
+// counts.
+TEST(SmallSunInAnEnvironment, IsWhatTheReferenceSeesOfItAtEveryRoughness) {
+  for (const auto& [roughness, most] : {std::pair(0.1F, 1.0), {0.3F, 0.04}, {0.5F, 0.04}, {1.0F, 0.04}}) {
+    TestRenderer renderer(sunny_square(roughness), sunny_size);
+    const SunErrors errors = errors_of(renderer.frame(find_method("direct")), renderer.reference(128).mean);
+    EXPECT_TRUE(errors.hold(most)) << "roughness " << roughness << ": mean " << errors.mean << ", picture "
+                                   << errors.picture;
+  }
+}
+
+TEST(SmallSunInAnEnvironment, IsMissedWhereItIsLostAndWhereItCountsTwice) {
+  const Scene scene = sunny_square(0.5F);
+  const Image truth = TestRenderer(scene, sunny_size).reference(32).mean;
+  const SunApart apart = sun_apart(*scene.environment).value();
+  Scene lost = scene, twice = scene;
+  lost.environment = apart.rest;
+  twice.lights = {DirectionalLight{glm::vec3(-apart.sun.direction), glm::vec3(apart.sun.irradiance)}};
+  for (const Scene& wrong : {lost, twice})
+    EXPECT_FALSE(errors_of(TestRenderer(wrong, sunny_size).frame(find_method("direct")), truth).hold(0.25));
+}
+
+// Modules that sum over texels, and that look at their neighbours, among them.
+TEST(SmallSunInAnEnvironment, IsTheSameForEveryMethod) {
+  Scene scene = sunny_square(0.3F);
+  Image normals = constant_normals(16, 16, {0.0F, 0.0F, 1.0F});
+  normals.at(0, 0)[0] += 2e-5F;
+  scene.materials[0].normal_map = TextureMap{"normals", std::make_shared<const Image>(std::move(normals)), {}};
+  TestRenderer renderer(scene, sunny_size);
+  const Image direct = renderer.frame(find_method("direct"));
+  for (const char* const name : {"exact", "specular_aa", "leadr"})
+    EXPECT_LT(compare_images(renderer.frame(find_method(name)), direct, 1.0F).value().relative_rmse, 0.01) << name;
+}
 
 // Radiance of a flat surface at one point of the picture by a sum over directions that shares no code with the shaders.
 double blinn_phong_under(const Environment& environment, double exponent, std::size_t channel) {

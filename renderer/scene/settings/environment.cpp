@@ -6,7 +6,6 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/toml_table.hpp"
-#include "renderer/scene/small_sun.hpp"
 
 namespace footprint {
 namespace {
@@ -106,7 +105,6 @@ EnvironmentSettings read_environment(const TomlTable& table, const std::filesyst
 Environment make_environment(const EnvironmentSettings& settings, std::vector<std::string>& warnings) {
   Environment environment = unscaled(settings, warnings);
   environment.rotation = static_cast<float>(settings.rotation_degrees * std::numbers::pi / 180.0);
-  if (auto warning = small_sun_warning(environment)) warnings.push_back(*std::move(warning));
   if (settings.intensity == 1.0) return environment;
   Image scaled = *environment.radiance;
   for (float& value : scaled.texels) value = static_cast<float>(value * settings.intensity);

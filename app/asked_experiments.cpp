@@ -33,6 +33,21 @@ std::regex expression_of(const std::string& only) {
   }
 }
 
+// Those of a folder, but for the ones that are made of others: their members lie there too.
+std::vector<Experiment> experiments_in(const std::filesystem::path& folder, const ExperimentRequest& request) {
+  const std::regex only = expression_of(request.only);
+  std::vector<Experiment> all;
+  for (const std::string& name : list_experiments(folder)) {
+    if (!std::regex_search(name, only)) continue;
+    Experiment experiment = experiment_of(folder / (name + ".toml"), request);
+    if (experiment.members.empty()) all.push_back(std::move(experiment));
+  }
+  if (!all.empty()) return all;
+  throw Error(ErrorKind::usage, request.only.empty() ? folder.string() : "--only",
+              fmt::format("no experiment in {} is called so", folder.string()),
+              "`footprint list experiments` names those of this program");
+}
+
 std::vector<Experiment> members_of(const Experiment& named, const ExperimentRequest& request) {
   const std::regex only = expression_of(request.only);
   std::vector<Experiment> members;
@@ -54,7 +69,7 @@ std::string fingerprint_of(const AskedExperiments& asked, const ExperimentReques
     hash.add(file.stem().string());
     hash.add(std::as_bytes(std::span(bytes)));
   };
-  add_file(asked.file);
+  if (!std::filesystem::is_directory(asked.file)) add_file(asked.file);
   for (const Experiment& experiment : asked.experiments) {
     add_file(experiment.file);
     hash.add(fmt::format("{} {}", experiment.run.timing.processes, experiment.run.backend.tile));
@@ -66,6 +81,12 @@ std::string fingerprint_of(const AskedExperiments& asked, const ExperimentReques
 }  // namespace
 
 AskedExperiments ask_experiments(const ExperimentRequest& request) {
+  if (std::filesystem::is_directory(request.experiment)) {
+    AskedExperiments asked{
+        .file = request.experiment, .experiments = experiments_in(request.experiment, request), .fingerprint = {}};
+    asked.fingerprint = fingerprint_of(asked, request);
+    return asked;
+  }
   AskedExperiments asked{
       .file = find_experiment(request.experiment, experiments_folder()), .experiments = {}, .fingerprint = {}};
   const Experiment named = experiment_of(asked.file, request);

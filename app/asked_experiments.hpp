@@ -12,13 +12,14 @@ namespace footprint {
 
 /// Which experiments, and how.
 struct ExperimentRequest {
-  std::string experiment;  ///< a name, or a path
+  std::string experiment;  ///< a name, or a path; a folder stands for all experiments in it
   std::string only;        ///< a regular expression that a member's name must have a match of; empty: all are run
   bool quick = false;
   std::function<void(RunSettings& run)> apply;  ///< what the command line sets over an experiment's own settings
 };
 
-/// The file that is named, and the experiments to run: that one, or its members, none of which has members of its own.
+/// The file or folder that is named, and the experiments to run: that one, its members, or all in the folder, none of
+/// which has members of its own.
 struct AskedExperiments {
   std::filesystem::path file;
   std::vector<Experiment> experiments;

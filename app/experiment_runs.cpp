@@ -2,6 +2,7 @@
 #include "app/experiment_runs.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/messages.hpp"
 #include "app/output.hpp"
@@ -78,15 +79,32 @@ std::string maker_for(const RunSettings& run) {
 
 void run_and_print(const AskedExperiments& asked, const fs::path& output, const KeptWork& kept, bool quiet,
                    const std::function<void(const Results& results)>& each) {
-  for (const Experiment& experiment : asked.experiments) {
+  const auto run_one = [&](const Experiment& experiment, const fs::path& to) {
     ProgressDisplay display(progress_style(quiet));
     const auto [results, path] =
-        write_whole(asked.has_members() ? output / experiment.name : output,
-                    [&](OutputFolder& folder) { return run_into(experiment, folder, kept, display.callback()); });
+        write_whole(to, [&](OutputFolder& folder) { return run_into(experiment, folder, kept, display.callback()); });
     display.finish();
     print_results(results, path);
     each(results);
+  };
+  if (!asked.has_members()) return run_one(asked.experiments.front(), output);
+  std::vector<std::string> missing;
+  ErrorKind kind = ErrorKind::machine;
+  for (const Experiment& experiment : asked.experiments) {
+    try {
+      run_one(experiment, output / experiment.name);
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::interrupted) throw;
+      if (missing.empty()) kind = error.kind();
+      missing.push_back(experiment.name);
+      write_message(fmt::format("{} was not run: {}", experiment.name, error.what()));
+    }
   }
+  if (missing.empty()) return;
+  throw Error(kind, asked.file.string(),
+              fmt::format("{} of {} experiments were not run: {}", missing.size(), asked.experiments.size(),
+                          fmt::join(missing, ", ")),
+              "run it again when what they lack is there; the others are kept");
 }
 
 void run_part(const AskedExperiments& asked, const Shard& shard, const fs::path& output, const KeptWork& kept,

@@ -20,7 +20,7 @@ namespace footprint {
 
 /// Runs each experiment as far as `kept` does not have it, into `output` or, of members, into folders of their own
 /// below it, and prints the tables; `each` sees the results of each. Errors: those of run_experiment; what is finished
-/// until then is kept.
+/// until then is kept. A member that cannot be run is passed over: the error comes at the end, of the first one's kind.
 void run_and_print(const AskedExperiments& asked, const std::filesystem::path& output, const KeptWork& kept, bool quiet,
                    const std::function<void(const Results& results)>& each);
 

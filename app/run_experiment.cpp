@@ -13,6 +13,7 @@
 #include "app/check_reports.hpp"
 #include "app/commands.hpp"
 #include "app/experiment_runs.hpp"
+#include "app/folders.hpp"
 #include "app/hard_cases.hpp"
 #include "app/messages.hpp"
 #include "app/part_file.hpp"
@@ -29,7 +30,7 @@ namespace {
 
 constexpr const char* experiment_words =
     "EXPERIMENT is a TOML file of experiments/ by its name, or a path to one (docs/experiments.md).\n"
-    "`footprint list experiments` names them.\n"
+    "`footprint list experiments` names them. A folder stands for all experiments in it.\n"
     "\n";
 
 constexpr const char* run_examples =
@@ -38,6 +39,7 @@ constexpr const char* run_examples =
     "  footprint run tan2005_fig4 --quick -o out    a quarter of the size: whether it runs and how it looks\n"
     "  footprint run xu2017_table1 --processes 5 -o out    times over five processes\n"
     "  footprint run engine_constants --only ggx -o out    of its members those that are called so\n"
+    "  footprint run --all -o results                      every experiment, resumable; --only '^tan' some of them\n"
     "  footprint run cells --shard 1/4 -o parts/1          a quarter of it, for `footprint merge parts/* -o out`\n"
     "  footprint run mine.toml -o out";
 
@@ -61,6 +63,7 @@ struct ExperimentArguments {
   std::string only;
   std::string shard;     // empty: all of it
   CheckReports reports;  // of `check`
+  bool all = false;      // in the place of one experiment
   bool quick = false;
   bool fresh = false;
   bool wide = false;          // hard_cases: every storage in every case
@@ -70,14 +73,17 @@ struct ExperimentArguments {
 };
 
 void add_options(CLI::App& command, ExperimentArguments& arguments) {
-  command.add_option("experiment", arguments.experiment, "What to run")->required();
+  CLI::Option* const named = command.add_option("experiment", arguments.experiment, "What to run");
+  command.add_flag("--all", arguments.all, "Every experiment of the program, each into a folder of its name below DIR")
+      ->excludes(named);
   command
       .add_option("-o,--output", arguments.output,
                   "Folder for results.json, results.csv, table.md, index.html, images/, and kept/: finished work, from "
                   "which a run that was interrupted goes on")
       ->capture_default_str();
   command
-      .add_option("--only", arguments.only, "Of an experiment's members those whose names match (a regular expression)")
+      .add_option("--only", arguments.only,
+                  "Of an experiment's members, or of all, those whose names match (a regular expression)")
       ->type_name("REGEX");
   command.add_flag("--fresh", arguments.fresh,
                    "Measure everything anew: forget the finished work in the output folder");
@@ -87,7 +93,10 @@ void add_options(CLI::App& command, ExperimentArguments& arguments) {
 }
 
 AskedExperiments asked(const ExperimentArguments& arguments) {
-  return ask_experiments({.experiment = arguments.experiment,
+  if (arguments.experiment.empty() && !arguments.all)
+    throw Error(ErrorKind::usage, "EXPERIMENT", "no experiment is named",
+                "`footprint list experiments` names them, `footprint check --help` says more");
+  return ask_experiments({.experiment = arguments.all ? experiments_folder().string() : arguments.experiment,
                           .only = arguments.only,
                           .quick = arguments.quick,
                           .apply = [&](RunSettings& run) { arguments.run.apply(run); }});

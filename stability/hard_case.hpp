@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "renderer/effects/effects.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
+#include "renderer/scene/footprint_filter.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace footprint::stability {
@@ -24,7 +26,8 @@ struct NdfCase {
   std::optional<double>
       limit{};          ///< where the method must meet the sum itself: the most difference, relative to the sum's peak
   bool narrow = false;  ///< lobes that no grid over the hemisphere finds: looked at about the facets' normals alone
-  bool texels_only = false;  ///< only for methods that show texels where they are large
+  bool texels_only = false;      ///< only for methods that show texels where they are large
+  std::optional<Effect> asks{};  ///< only for methods that honour it
 };
 
 /// A scene as a whole, drawn in one frame: every number finite, none below 0.
@@ -32,11 +35,16 @@ struct PictureCase {
   std::string name;
   std::string what;
   std::function<Scene()> scene;
-  bool equals_direct = false;  ///< there is nothing to filter: the picture is `direct`'s
+  bool equals_direct = false;     ///< there is nothing to filter: the picture is `direct`'s
+  std::function<Scene()> twin{};  ///< another scene of which a method draws the same picture
+  std::optional<double> mean{};   ///< of the first channel over the surface, in closed form; held to 0.05
+  FootprintFilter filter = default_footprint_filter;
+  std::string group = "pictures";
 };
 
 /// A parameter that goes through a hard value in small steps: a step of the distribution is no larger than `most` of
-/// all of it, nor than four times the sum's own step.
+/// all of it, nor than four times the sum's own step; where `energy` is
+/// given, at none is the integral off by more.
 struct Sweep {
   std::string name;
   std::string what;
@@ -44,6 +52,7 @@ struct Sweep {
   double from = 0.0, to = 1.0;
   int steps = 8;
   double most = 0.1;
+  std::optional<double> energy{};  ///< where the directions find every lobe
 };
 
 [[nodiscard]] std::span<const NdfCase> ndf_cases();

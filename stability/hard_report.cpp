@@ -90,8 +90,11 @@ in the tables of [`stability/`](../stability); a new one is one entry, and a new
 | energy | difference of the integral over the hemisphere from that of the sum over texels, relative | the case's |
 | limit | largest difference from the sum, where the method must meet it, relative to the sum's peak | the case's |
 | direct | relative error of the picture against `direct`, where there is nothing to filter | 0.001 |
+| twin | relative error of the picture against that of another scene which must look the same | 0.001 |
+| mean | mean over the surface against its closed form, relative | 0.05 |
 | step | largest change of the distribution from one step of a parameter to the next, of the whole | four times the sum's own, or the case's |
-| backends | numbers that differ between EGL and OSMesa | 0 |
+| threads | materials that one thread bakes to other bytes than two | 0 |
+| backends | numbers that differ between EGL, by all threads, and OSMesa, by one | 0 |
 
 The sum over texels is in double precision and shares no code with the shaders (`renderer/ndf/true_ndf.hpp`). *Guarded*:
 a guard bites there, and the figure is its cost. *Out of range*: known not to hold, the method's README gives the range;

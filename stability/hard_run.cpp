@@ -2,10 +2,13 @@
 #include "stability/hard_run.hpp"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
+#include <string>
 
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
@@ -13,6 +16,7 @@
 #include "renderer/image/false_color.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"
+#include "renderer/ndf/method_ndf.hpp"
 #include "renderer/pipeline/frame.hpp"
 #include "stability/ndf_bench.hpp"
 
@@ -61,6 +65,66 @@ double step_between(const HemisphereGrid& grid, const Values& before, const Valu
          integral(grid, [&](std::size_t i) { return static_cast<double>(after[i]); });
 }
 
+// Of the first channel, over the pixels that are wholly covered.
+double surface_mean(const Image& picture) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < picture.texel_count(); ++i) {
+    if (picture.texels[4 * i + 3] < 1.0F) continue;
+    sum += picture.texels[4 * i];
+    count += 1.0;
+  }
+  return sum / count;
+}
+
+// A scene on the GPU, drawn in one frame by any method.
+class Drawing {
+ public:
+  Drawing(const gl::Context& context, Scene scene, const FootprintFilter& filter)
+      : context_(&context),
+        scene_(std::move(scene)),
+        effects_(effects_on(derive_effects(scene_))),
+        filter_(filter),
+        gpu_(context.info(), scene_, effects_) {}
+
+  [[nodiscard]] Image draw(const MethodSpec& spec) {
+    const BakedMethod baked = bake(find_method(spec.name), spec, scene_, effects_, no_progress);
+    const GpuMethod method(gpu_, baked);
+    const FrameRenderer frames(context_->info(), gpu_, method, frame, {.footprint = filter_});
+    Image picture = frames.render({.size = frame, .camera = scene_.camera});
+    context_->check("drawing " + spec.text);
+    return picture;
+  }
+
+ private:
+  const gl::Context* context_;
+  Scene scene_;
+  EffectSet effects_;
+  FootprintFilter filter_;
+  GpuScene gpu_;
+};
+
+// An environment variable while a library reads it.
+class Variable {
+ public:
+  Variable(const char* name, const char* value) : name_(name) {
+    if (const char* const before = std::getenv(name)) before_ = before;
+    ::setenv(name, value, 1);
+  }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+  ~Variable() {
+    if (before_) {
+      ::setenv(name_, before_->c_str(), 1);
+    } else {
+      ::unsetenv(name_);
+    }
+  }
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
 class Run {
  public:
   Run(const HardSettings& settings, const fs::path& folder)
@@ -78,6 +142,7 @@ class Run {
     for (const MethodSpec& spec : every_storage ? with_storages() : methods_) {
       progress(fmt::format("{}, {}", hard.name, spec.text), 0.0);
       if (hard.texels_only && !find_method(spec.name).info().resolves_texels) continue;
+      if (hard.asks && !has(find_method(spec.name).info().honours, *hard.asks)) continue;
       const std::vector<float> values = bench.densities(spec, directions);
       const std::size_t first = rows_.size();
       const auto add = [&](const char* figure, double value, double bound) {
@@ -93,16 +158,16 @@ class Run {
 
   void run(const PictureCase& hard, const Progress& progress) {
     context_.make_current();
-    const Scene scene = hard.scene();
-    const EffectSet effects = effects_on(derive_effects(scene));
-    GpuScene gpu(context_.info(), scene, effects);
+    Drawing drawing(context_, hard.scene(), hard.filter);
+    std::optional<Drawing> twin;
+    if (hard.twin) twin.emplace(context_, hard.twin(), hard.filter);
     std::optional<Image> direct;
-    if (hard.equals_direct) direct = draw(parse_methods("direct").front(), scene, effects, gpu);
+    if (hard.equals_direct) direct = drawing.draw(parse_methods("direct").front());
     for (const MethodSpec& spec : settings_.wide ? with_storages() : methods_) {
       progress(fmt::format("{}, {}", hard.name, spec.text), 0.0);
-      const Image picture = draw(spec, scene, effects, gpu);
+      const Image picture = drawing.draw(spec);
       const auto add = [&](const char* figure, double value, double bound) {
-        HardRow& row = rows_.emplace_back(HardRow{spec.text, hard.name, "pictures", hard.what, figure, value, bound});
+        HardRow& row = rows_.emplace_back(HardRow{spec.text, hard.name, hard.group, hard.what, figure, value, bound});
         judge(row, known_limits());
         if (row.verdict == Verdict::held) return;
         row.picture = fmt::format("images/{}_{}.exr", hard.name, file_stem(spec.text));
@@ -110,13 +175,16 @@ class Run {
       };
       add("finite", bad_numbers(picture.texels), 0.0);
       if (direct) add("direct", compare_images(picture, *direct, 1.0F).value().relative_rmse, 1e-3);
+      if (twin) add("twin", compare_images(twin->draw(spec), picture, 1.0F).value().relative_rmse, 1e-3);
+      if (hard.mean) add("mean", std::abs(surface_mean(picture) / *hard.mean - 1.0), 0.05);
     }
   }
 
   void run(const Sweep& sweep, const Progress& progress) {
     context_.make_current();
-    std::vector<std::optional<std::vector<float>>> before(methods_.size());
-    std::vector<double> largest(methods_.size(), 0.0);
+    const std::vector<MethodSpec> methods = swept_methods();
+    std::vector<std::optional<std::vector<float>>> before(methods.size());
+    std::vector<double> largest(methods.size(), 0.0), most_lost(methods.size(), 0.0);
     std::vector<double> truth;
     double true_step = 0.0;
     for (int i = 0; i <= sweep.steps; ++i) {
@@ -125,9 +193,11 @@ class Run {
       const Directions directions = bench.over_the_hemisphere(sweep_rings);
       if (i > 0) true_step = std::max(true_step, step_between(directions.grid, truth, directions.truth));
       truth = directions.truth;
-      for (std::size_t m = 0; m < methods_.size(); ++m) {
-        progress(fmt::format("{}, {}", sweep.name, methods_[m].text), 0.0);
-        std::vector<float> values = bench.densities(methods_[m], directions);
+      for (std::size_t m = 0; m < methods.size(); ++m) {
+        progress(fmt::format("{}, {}", sweep.name, methods[m].text), 0.0);
+        std::vector<float> values = bench.densities(methods[m], directions);
+        const double lost = energy_error(directions, values);
+        if (!(lost <= most_lost[m])) most_lost[m] = lost;
         if (before[m]) {
           const double step = step_between(directions.grid, *before[m], values);
           if (!(step <= largest[m])) largest[m] = step;
@@ -135,18 +205,44 @@ class Run {
         before[m] = std::move(values);
       }
     }
-    for (std::size_t m = 0; m < methods_.size(); ++m) {
-      HardRow& row = rows_.emplace_back(HardRow{methods_[m].text, sweep.name, "steps", sweep.what, "step", largest[m],
-                                                std::max(sweep.most, 4.0 * true_step)});
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+      const auto add = [&](const char* figure, double value, double bound) {
+        HardRow& row =
+            rows_.emplace_back(HardRow{methods[m].text, sweep.name, "steps", sweep.what, figure, value, bound});
+        judge(row, known_limits());
+      };
+      add("step", largest[m], std::max(sweep.most, 4.0 * true_step));
+      if (sweep.energy) add("energy", most_lost[m], *sweep.energy);
+    }
+  }
+
+  // What is baked of a material by one thread and by two.
+  void compare_threads(const NdfCase& hard, const Progress& progress) {
+    const Scene scene = scene_of_facets(hard.material());
+    const EffectSet effects = effects_on(derive_effects(scene));
+    for (const MethodSpec& spec : with_storages()) {
+      progress(fmt::format("threads, {}", spec.text), 0.0);
+      std::vector<BakedMethod> baked;
+      for (const std::size_t threads : {1U, 2U}) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        baked.push_back(bake(find_method(spec.name), spec, scene, effects, no_progress));
+      }
+      double different = 0.0;
+      for (std::size_t i = 0; i < baked[0].materials.size(); ++i)
+        different += baked[0].materials[i] == baked[1].materials[i] ? 0.0 : 1.0;
+      HardRow& row = rows_.emplace_back(HardRow{spec.text, hard.name + "_threads", "threads",
+                                                "what one thread bakes, and what two do", "threads", different, 0.0});
       judge(row, known_limits());
     }
   }
 
-  // The same numbers by another way to OpenGL, where the machine has it and neither is a GPU.
+  // The same numbers by another way to OpenGL, by one thread and by as many as there are, where the machine has it and
+  // neither is a GPU.
   void compare_backends(const NdfCase& hard, const Progress& progress) {
     if (!context_.info().software || context_.info().backend == gl::Backend::osmesa) return;
     std::optional<gl::Context> other;
     try {
+      const Variable threads("LP_NUM_THREADS", "1");  // read once, as llvmpipe starts
       other.emplace(gl::ContextRequest{gl::Backend::osmesa, 0});
     } catch (const Error&) {
       return;  // `footprint info` says why
@@ -162,7 +258,8 @@ class Run {
       double different = 0.0;
       for (std::size_t i = 0; i < values[0].size(); ++i) different += values[0][i] == values[1][i] ? 0.0 : 1.0;
       HardRow& row = rows_.emplace_back(HardRow{spec.text, hard.name + "_backends", "backends",
-                                                "the same numbers by EGL and by OSMesa", "backends", different, 0.0});
+                                                "the same numbers by EGL and, by one thread, by OSMesa", "backends",
+                                                different, 0.0});
       judge(row, known_limits());
     }
     context_.make_current();
@@ -171,6 +268,14 @@ class Run {
   [[nodiscard]] std::vector<HardRow> take_rows() { return std::move(rows_); }
 
  private:
+  // Every method, and what is said to be without another's steps.
+  [[nodiscard]] std::vector<MethodSpec> swept_methods() const {
+    std::vector<MethodSpec> out = methods_;
+    if (std::ranges::find(out, "xu_vmf", &MethodSpec::text) != out.end())
+      out.push_back(parse_methods("xu_vmf:thresholds=blended").front());
+    return out;
+  }
+
   // Every method, and again with each storage that is not its default.
   [[nodiscard]] std::vector<MethodSpec> with_storages() const {
     std::vector<MethodSpec> out;
@@ -186,15 +291,6 @@ class Run {
       }
     }
     return out;
-  }
-
-  [[nodiscard]] Image draw(const MethodSpec& spec, const Scene& scene, const EffectSet& effects, GpuScene& gpu) {
-    const BakedMethod baked = bake(find_method(spec.name), spec, scene, effects, no_progress);
-    const GpuMethod method(gpu, baked);
-    const FrameRenderer frames(context_.info(), gpu, method, frame, {.footprint = default_footprint_filter});
-    Image picture = frames.render({.size = frame, .camera = scene.camera});
-    context_.check("drawing " + spec.text);
-    return picture;
   }
 
   // A method's distribution beside the sum, where a figure of it did not hold.
@@ -230,11 +326,12 @@ std::vector<HardRow> run_hard_cases(const HardSettings& settings, const fs::path
   fs::create_directories(folder / "images");
   Run run(settings, folder);
   ProgressParts parts(progress,
-                      static_cast<double>(ndf_cases().size() + picture_cases().size() + 7 * sweeps().size() + 2));
+                      static_cast<double>(ndf_cases().size() + picture_cases().size() + 7 * sweeps().size() + 3));
   for (const NdfCase& hard : ndf_cases()) run.run(hard, parts.next(1.0, ""));
   for (const PictureCase& hard : picture_cases()) run.run(hard, parts.next(1.0, ""));
   for (const Sweep& sweep : sweeps()) run.run(sweep, parts.next(7.0, ""));
   const auto plain = std::ranges::find(ndf_cases(), "noise_0_5", &NdfCase::name);
+  run.compare_threads(*plain, parts.next(1.0, ""));
   run.compare_backends(*plain, parts.next(2.0, ""));
   return run.take_rows();
 }

@@ -25,7 +25,7 @@ struct HardRow {
   std::string hard_case;  ///< by its name
   std::string group;      ///< column of the table
   std::string what;       ///< the case in words
-  std::string figure;     ///< finite, energy, limit, direct, step or backends
+  std::string figure;     ///< finite, energy, limit, direct, twin, mean, step, threads or backends
   double value = 0.0, bound = 0.0;
   Verdict verdict = Verdict::held;
   std::string why{};      ///< of a known limit, or what fell

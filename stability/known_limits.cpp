@@ -78,6 +78,16 @@ void add_means(Limits& limits) {
              "the thresholds of the paper split a lobe at once where its sides lean by 14 degrees");
 }
 
+void add_pictures(Limits& limits) {
+  limits.add({"cells", "tan_gmm"}, {"mirrored_uvs"}, "twin", 0.11,
+             "what is learned of a map hangs on the order of its texels: mirrored, it leads to another minimum");
+  limits.add({"naive_mip", "fixed_brdf", "roughness_bake", "specular_aa"}, {"steep_plaster"}, "mean", 6.0,
+             "the mean of steep sides is level, and lit as a level surface");
+  limits.add({"direct"}, {"steep_plaster"}, "mean", 2.2, "between two texels it blends their normals, to a level one");
+  limits.add({"leadr"}, {"steep_plaster"}, "mean", 4.0,
+             "the diffuse term takes slopes for a Gaussian about their mean; two sides of a groove are none");
+}
+
 }  // namespace
 
 std::span<const KnownLimit> known_limits() {
@@ -87,6 +97,7 @@ std::span<const KnownLimit> known_limits() {
     add_slopes(all);
     add_widths(all);
     add_means(all);
+    add_pictures(all);
     return all.take();
   }();
   return limits;

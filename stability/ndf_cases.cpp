@@ -74,6 +74,31 @@ std::vector<NdfCase> bump_cases() {
   return cases;
 }
 
+// Facets of two lobes: about two axes, and twice the same, which is one.
+std::vector<NdfCase> two_lobe_cases() {
+  const auto with_lobes = [](const char* name, const char* what, const std::vector<FacetLobe>& lobes,
+                             std::optional<double> limit) {
+    return NdfCase{.name = name,
+                   .group = "two lobes",
+                   .what = what,
+                   .material =
+                       [=] {
+                         Material material = facets(tilted(10.0), even_lobe);
+                         material.lobe_parameter.reset();
+                         material.lobes = lobes;
+                         return material;
+                       },
+                   .limit = limit,
+                   .asks = Effect::multi_lobe};
+  };
+  const glm::vec3 one(leaning(20.0)), other(leaning(-20.0)), level(0.0F, 0.0F, 1.0F);
+  return {with_lobes("two_axes", "facets of two lobes, 20 degrees to either side of their normal",
+                     {{one, 64.0F, 0.5F}, {other, 256.0F, 0.5F}}, 0.02),
+          with_lobes("one_lobe_twice", "facets of two equal lobes", {{level, 64.0F, 0.5F}, {level, 64.0F, 0.5F}}, 0.02),
+          with_lobes("narrow_and_nearly_nothing", "facets of a lobe, and of a ten-thousandth of another",
+                     {{level, 64.0F, 1.0F}, {one, 256.0F, 1e-4F}}, 0.02)};
+}
+
 std::vector<NdfCase> width_cases() {
   const auto varying = [](const char* name, const char* what, NormalDistribution distribution, float one, float other,
                           double degrees) {
@@ -128,7 +153,7 @@ std::vector<NdfCase> size_cases() {
 std::span<const NdfCase> ndf_cases() {
   static const std::vector<NdfCase> cases = [] {
     std::vector<NdfCase> all;
-    for (const auto& part : {lobe_cases(), bump_cases(), width_cases(), texel_cases(), size_cases()})
+    for (const auto& part : {lobe_cases(), bump_cases(), two_lobe_cases(), width_cases(), texel_cases(), size_cases()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();
@@ -143,7 +168,8 @@ std::span<const Sweep> sweeps() {
        .from = 11.0,
        .to = 17.0,
        .steps = 6,
-       .most = 0.25},
+       .most = 0.25,
+       .energy = 0.02},
       {.name = "roughness_to_0",
        .what = "GGX of roughness 0.3 to 0.15 over noise",
        .material =

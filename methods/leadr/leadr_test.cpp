@@ -344,5 +344,33 @@ TEST(Leadr, StaysFiniteAtTheLimits) {
   }
 }
 
+// Two sides of a groove are no Gaussian of slopes; what that costs is said, with the figures of the README.
+TEST(Leadr, SaysWhereItsDiffuseTermIsOff) {
+  const auto note_of = [](double degrees, bool diffuse) {
+    const double angle = degrees * pi / 180.0;
+    Image map(8, 8, 4, 1.0F);
+    for (std::size_t i = 0; i < map.texel_count(); ++i) {
+      map.texels[4 * i] = static_cast<float>(i % 2 == 0 ? std::sin(angle) : -std::sin(angle));
+      map.texels[4 * i + 1] = 0.0F;
+      map.texels[4 * i + 2] = static_cast<float>(std::cos(angle));
+    }
+    EffectSet effects;
+    effects.set(static_cast<std::size_t>(Effect::normal_variation));
+    effects.set(static_cast<std::size_t>(Effect::diffuse), diffuse);
+    const Options options(leadr_method().info().options, {}, "test");
+    std::string notes;
+    for (const std::string& note :
+         leadr_method().precompute(material_of(map, ggx, 0.3F), options, effects, no_progress).notes)
+      notes += note;
+    return notes;
+  };
+  EXPECT_NE(note_of(80.0, true).find("0.73 of a level surface instead of 0.17 (+320%)"), std::string::npos)
+      << note_of(80.0, true);
+  EXPECT_NE(note_of(45.0, true).find("0.83 of a level surface instead of 0.71 (+18%)"), std::string::npos)
+      << note_of(45.0, true);
+  EXPECT_EQ(note_of(20.0, true), "");
+  EXPECT_EQ(note_of(45.0, false), "") << "without a diffuse term";
+}
+
 }  // namespace
 }  // namespace footprint::testing

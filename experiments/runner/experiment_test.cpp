@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "experiments/runner/judge.hpp"
+#include "experiments/runner/run_experiment.hpp"
 #include "experiments/studies/zoom.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
@@ -343,6 +344,16 @@ TEST_F(ExperimentFile, MayBeMadeOfOthersAndThenHasNothingElse) {
   expect_complaint(title + "members = [\"first\"]\nscene = \"bumps\"\n", "excludes `members`");
   expect_complaint(title + "members = [\"first\"]\n[zoom]\ndistances = [1]\n", "excludes `members`");
   expect_complaint(title + "members = [\"first\"]\n[[quantity]]\nname = \"a\"\n", "excludes `members`");
+}
+
+TEST_F(ExperimentFile, AQuickRunWaitsForNoNoise) {
+  Experiment experiment = read(std::string(head) + "size = [640, 480]\n[reference]\nnoise = 0.001\n");
+  EXPECT_FALSE(experiment.run.reference.fixed_spp);
+  make_quick(experiment);
+  EXPECT_TRUE(experiment.quick);
+  EXPECT_TRUE(experiment.run.reference.fixed_spp);
+  EXPECT_EQ(experiment.run.reference.spp, 32);
+  EXPECT_EQ(experiment.run.view.size, glm::ivec2(160, 120));
 }
 
 }  // namespace

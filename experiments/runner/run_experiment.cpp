@@ -137,6 +137,7 @@ void make_quick(Experiment& experiment) {
   RunSettings& run = experiment.run;
   experiment.quick = true;
   run.reference.spp = std::min(run.reference.spp, quick_spp);
+  run.reference.fixed_spp = true;  // no noise is waited for
   run.timing.repeats = std::min(run.timing.repeats, quick_repeats);
   run.view.size = run.view.size ? glm::max(*run.view.size / quick_divisor, glm::ivec2(1)) : glm::ivec2(quick_default);
 }

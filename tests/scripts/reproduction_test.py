@@ -1,0 +1,137 @@
+"""scripts/reproduction and scripts/reference_floors: the document is made of results, faults in it are told, floors too."""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import tomllib
+import unittest
+
+SOURCE = pathlib.Path(os.environ["FOOTPRINT_SOURCE_DIR"])
+NAME = "tan2005_fig6"  # an experiment of one claim
+
+
+def script(name, *arguments):
+    return subprocess.run([SOURCE / "scripts" / name, *map(str, arguments)], capture_output=True, text=True, check=False)
+
+
+def record(method, error, floor):
+    return {"method": method, "distance": 1, "frame": 0, "flicker": None,
+            "error": {"normalized_color": error, "noise_floor": floor, "shading_floor": floor}}
+
+
+def results(left, right, floor=0.001, inequality="error(a:x=1) < 0.5 * error(b)", **experiment):
+    claim = {"name": "n", "inequality": inequality, "left": left, "right": right, "outcome": "reproduced",
+             "expect": "reproduced", "as_expected": True}
+    return {"tool": {"version": "0"}, "backend": {"cpu": "some", "renderer": "none", "version": "4.5"},
+            "scene": {"warnings": ["a | bar"]}, "reference": {"samples": 64},
+            "records": [record("a:x=1", 2 * left, floor), record("b", 2 * right, floor)],
+            "experiment": {"name": "e", "quick": False, "claims": [claim], "published": [], "pictures": [], **experiment}}
+
+
+class Tree(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def write(self, name, document):
+        (self.folder / "out" / name).mkdir(parents=True)
+        (self.folder / "out" / name / "results.json").write_text(json.dumps(document), encoding="utf-8")
+        return self.folder / "out"
+
+
+class Floors(Tree):
+    def told(self, document):
+        done = script("reference_floors", self.write("e", document))
+        return done.returncode, done.stdout.splitlines()
+
+    def test_a_floor_under_a_third_passes(self):
+        code, lines = self.told(results(0.01, 0.02, floor=0.0033))
+        self.assertEqual((code, lines[-1]), (0, "1 of 1 claims have a floor under a third of their difference"))
+
+    def test_a_floor_above_a_third_is_told_with_the_samples_that_would_do(self):
+        code, lines = self.told(results(0.01, 0.02, floor=0.02 / 3))
+        self.assertEqual(code, 1)
+        self.assertIn("n  difference 0.01000  floor 0.00667  not converged with 64 samples a pixel; 256 would do", lines[0])
+
+    def test_claims_of_other_things_have_none(self):
+        for inequality in ("time(a:x=1) < 2 * time(b)", "error(a:x=1, spp=16) < error(b)", "error(a:x=1) / error(b) < 2",
+                           "abs(energy_bias(b)) < 0.1"):
+            with self.subTest(inequality):
+                shutil.rmtree(self.folder / "out", ignore_errors=True)
+                code, lines = self.told(results(0.01, 0.02, floor=1.0, inequality=inequality))
+                self.assertEqual((code, len(lines)), (0, 1))
+
+    def test_selectors_choose_the_records(self):
+        document = results(0.01, 0.02, floor=0.001, inequality="error(a:x=1, frame=0) < error(b, distance=1)")
+        document["records"].append({**record("b", 1, 1.0), "frame": 1, "distance": 2})
+        self.assertEqual(self.told(document)[0], 0)
+
+    def test_what_is_no_measurement_is_refused(self):
+        self.assertEqual(script("reference_floors", self.write("e", results(0.1, 0.2, quick=True))).returncode, 2)
+        self.assertIn("has no results.json", script("reference_floors", self.folder / "none").stderr)
+
+
+class Document(Tree):
+    def setUp(self):
+        super().setUp()
+        for part in ("experiments", "results/published"):
+            shutil.copytree(SOURCE / part, self.folder / part, ignore=shutil.ignore_patterns("*.cpp", "*.hpp", "*.txt"))
+        claim = tomllib.loads((SOURCE / "experiments" / f"{NAME}.toml").read_text(encoding="utf-8"))["claim"][0]
+        document = results(0.01, 0.02)
+        document["experiment"]["claims"][0].update(name=claim["name"], inequality=claim["inequality"])
+        out = self.write(NAME, document)
+        done = script("reproduction", out, self.folder / "docs")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.text = (self.folder / "docs/reproduction.md").read_text(encoding="utf-8")
+
+    def faults(self, text=None):
+        if text is not None:
+            (self.folder / "docs/reproduction.md").write_text(text, encoding="utf-8")
+        done = script("reproduction", "--check", self.folder / "docs")
+        self.assertEqual(done.stderr, "")
+        self.assertEqual(done.returncode, 1 if done.stdout else 0)
+        return done.stdout.splitlines()
+
+    def test_the_projects_own_agrees(self):
+        done = script("reproduction", "--check")
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+
+    def test_what_was_measured_stands_in_it(self):
+        self.assertEqual(self.faults(), [])
+        self.assertIn("0.01 against 0.02 | reproduced |", self.text)
+        self.assertIn("Warning: a \\| bar.", self.text)
+        self.assertIn("Not measured in this run.", self.text)
+        self.assertIn("| Figure 3 | a drawing: why components", self.text)
+
+    def test_a_claim_that_is_missing_changed_or_no_more_is_told(self):
+        row = next(line for line in self.text.splitlines() if "0.01 against 0.02" in line)
+        name = row.split("`")[1]
+        self.assertEqual(self.faults(self.text.replace(row + "\n", "")), [f"{NAME}: the claim {name} is not in the document"])
+        self.assertEqual(self.faults(self.text.replace(row, row.replace("error(", "relmse("))),
+                         [f"{NAME}: the claim {name} is not what its file says"])
+        self.assertEqual(self.faults(self.text.replace(row, row + "\n" + row.replace(name, "another"))),
+                         [f"{NAME}: the document has 2 claims, its file 1"])
+        self.assertEqual(self.faults(self.text.replace(f"#### `{NAME}`", "#### gone")), [f"{NAME}: is not in the document"])
+
+    def test_an_experiment_that_shows_no_figure_is_told(self):
+        shutil.copy(SOURCE / "experiments" / f"{NAME}.toml", self.folder / "experiments/tan2005_new.toml")
+        self.assertEqual(self.faults(), ["figures.toml: tan2005_new shows no figure"])
+
+    def test_a_figure_that_is_not_told_of_is_told(self):
+        file = self.folder / "results/published/figures.toml"
+        more = '\n[[figure]]\npaper = "xu2017"\nname = "Figure 9"\nshows = "nothing"\n'
+        file.write_text(file.read_text(encoding="utf-8") + more, encoding="utf-8")
+        self.assertEqual(self.faults(), ["figures.toml: xu2017, Figure 9: give experiments, or why it is not shown",
+                                         "xu2017, Figure 9: is not in the document as figures.toml has it"])
+
+    def test_no_results_are_refused(self):
+        done = script("reproduction", self.folder / "none", self.folder / "elsewhere")
+        self.assertIn("none: has no results", done.stderr)
+        self.assertFalse((self.folder / "elsewhere").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -33,11 +33,15 @@ void setPart(inout Effective e, int i, float covered, Moments m, BaseLobe base) 
   e.part[i] = stretchedPart(m.first.x / covered, centreOf(i) + mean, spread, base.parameter, base.variance);
 }
 
+// That of the smallest alpha of a material, 0.001. In 16 bits the weighted variance of a small part of polished facets
+// rounds to 0, which no lobe has.
+const float least_variance = 5e-7;
+
 // The base lobe over a part: where the roughness map lies on the normals, the mean of the part's own texels.
 BaseLobe lobeOfPart(BaseLobe shared_lobe, float weight, float weighted_variance) {
 //? if roughness_variation and roughness_joint
   if (cells_joint > 0.5 && weight > 0.0) {
-    float variance = weighted_variance / weight * stored_lobe_variance;
+    float variance = max(weighted_variance / weight * stored_lobe_variance, least_variance);
     return BaseLobe(lobeFromVariance(variance), variance);
   }
 //? end

@@ -19,8 +19,8 @@ constexpr std::uint64_t largest_experiment = 1U << 26U;  // bytes of TOML
 Experiment experiment_of(const std::filesystem::path& file, const ExperimentRequest& request) {
   Experiment experiment = read_experiment(file);
   request.apply(experiment.run);
-  if (request.quick) make_quick(experiment);
-  if (experiment.members.empty()) check_against_scene(experiment);
+  if (request.quick && experiment.axes.empty()) make_quick(experiment);  // a matrix: each member
+  if (experiment.members.empty()) check_against_scenes(experiment);
   return experiment;
 }
 
@@ -33,18 +33,39 @@ std::regex expression_of(const std::string& only) {
   }
 }
 
-// Those of a folder, but for the ones that are made of others: their members lie there too.
-std::vector<Experiment> experiments_in(const std::filesystem::path& folder, const ExperimentRequest& request) {
-  const std::regex only = expression_of(request.only);
-  std::vector<Experiment> all;
-  for (const std::string& name : list_experiments(folder)) {
-    if (!std::regex_search(name, only)) continue;
-    Experiment experiment = experiment_of(folder / (name + ".toml"), request);
-    if (experiment.members.empty()) all.push_back(std::move(experiment));
+// Adds those of a matrix whose names match; what is said of others is left out of the matrix.
+void add_members(AskedExperiments& asked, const Experiment& whole, const std::regex& only, bool quick) {
+  AskedMatrix matrix{.whole = whole, .first = asked.experiments.size(), .count = 0, .left_out = {}};
+  std::vector<Coordinates> missing;
+  for (Experiment& member : members_of_matrix(whole)) {
+    if (!std::regex_search(member.name, only)) {
+      missing.push_back(member.coordinates);
+      continue;
+    }
+    if (quick) make_quick(member);
+    asked.experiments.push_back(std::move(member));
+    ++matrix.count;
   }
-  if (!all.empty()) return all;
-  throw Error(ErrorKind::usage, request.only.empty() ? folder.string() : "--only",
-              fmt::format("no experiment in {} is called so", folder.string()),
+  matrix.whole.quick = quick;
+  matrix.left_out = leave_out(matrix.whole, missing);
+  asked.matrices.push_back(std::move(matrix));
+}
+
+// Those of a folder, but for the ones that are made of others: their members lie there too.
+void add_folder(AskedExperiments& asked, const ExperimentRequest& request) {
+  const std::regex only = expression_of(request.only);
+  for (const std::string& name : list_experiments(asked.file)) {
+    if (!std::regex_search(name, only)) continue;
+    Experiment experiment = experiment_of(asked.file / (name + ".toml"), request);
+    if (!experiment.axes.empty()) {
+      add_members(asked, experiment, std::regex(""), request.quick);
+    } else if (experiment.members.empty()) {
+      asked.experiments.push_back(std::move(experiment));
+    }
+  }
+  if (!asked.experiments.empty()) return;
+  throw Error(ErrorKind::usage, request.only.empty() ? asked.file.string() : "--only",
+              fmt::format("no experiment in {} is called so", asked.file.string()),
               "`footprint list experiments` names those of this program");
 }
 
@@ -54,7 +75,7 @@ std::vector<Experiment> members_of(const Experiment& named, const ExperimentRequ
   for (const std::filesystem::path& file : named.members) {
     if (!std::regex_search(file.stem().string(), only)) continue;
     members.push_back(experiment_of(file, request));
-    if (members.back().members.empty()) continue;
+    if (members.back().members.empty() && members.back().axes.empty()) continue;
     throw Error(ErrorKind::usage, named.file.string(), fmt::format("its member {} has members", members.back().name),
                 "name those instead");
   }
@@ -72,6 +93,8 @@ std::string fingerprint_of(const AskedExperiments& asked, const ExperimentReques
   if (!std::filesystem::is_directory(asked.file)) add_file(asked.file);
   for (const Experiment& experiment : asked.experiments) {
     add_file(experiment.file);
+    if (experiment.presets) add_file(*experiment.presets);
+    hash.add(experiment.full_name());
     hash.add(fmt::format("{} {}", experiment.run.timing.processes, experiment.run.backend.tile));
   }
   hash.add(request.quick ? "quick" : "");
@@ -80,23 +103,38 @@ std::string fingerprint_of(const AskedExperiments& asked, const ExperimentReques
 
 }  // namespace
 
+std::filesystem::path AskedExperiments::folder_of(const AskedMatrix& matrix) const {
+  return file == matrix.whole.file ? std::filesystem::path() : std::filesystem::path(matrix.whole.name);
+}
+
+std::filesystem::path AskedExperiments::folder_of(const Experiment& experiment) const {
+  if (!has_members()) return {};
+  return file == experiment.file ? experiment.name : experiment.full_name();
+}
+
 AskedExperiments ask_experiments(const ExperimentRequest& request) {
+  AskedExperiments asked;
   if (std::filesystem::is_directory(request.experiment)) {
-    AskedExperiments asked{
-        .file = request.experiment, .experiments = experiments_in(request.experiment, request), .fingerprint = {}};
+    asked.file = request.experiment;
+    add_folder(asked, request);
     asked.fingerprint = fingerprint_of(asked, request);
     return asked;
   }
-  AskedExperiments asked{
-      .file = find_experiment(request.experiment, experiments_folder()), .experiments = {}, .fingerprint = {}};
+  asked.file = find_experiment(request.experiment, experiments_folder());
   const Experiment named = experiment_of(asked.file, request);
-  if (named.members.empty() && !request.only.empty())
+  const bool has_members = !named.members.empty() || !named.axes.empty();
+  if (!has_members && !request.only.empty())
     throw Error(ErrorKind::usage, "--only", fmt::format("{} has no members to choose from", named.name),
                 "leave it out");
-  asked.experiments = named.members.empty() ? std::vector{named} : members_of(named, request);
+  if (!named.axes.empty()) {
+    add_members(asked, named, expression_of(request.only), request.quick);
+  } else {
+    asked.experiments = has_members ? members_of(named, request) : std::vector{named};
+  }
   if (asked.experiments.empty())
     throw Error(ErrorKind::usage, "--only", fmt::format("no member of {} is called `{:.80}`", named.name, request.only),
-                "`footprint list experiments` names them");
+                named.axes.empty() ? "`footprint list experiments` names them"
+                                   : fmt::format("its first is {}", members_of_matrix(named).front().name));
   asked.fingerprint = fingerprint_of(asked, request);
   return asked;
 }

@@ -39,10 +39,13 @@ std::optional<Baseline> baseline_of(const CheckReports& reports) {
 
 CheckBook::CheckBook(CheckReports reports) : reports_(std::move(reports)), baseline_(baseline_of(reports_)) {}
 
-void CheckBook::add(const Results& results) {
+void CheckBook::add(const ExperimentReport& report) {
   ++runs_;
-  const ExperimentReport& report = results.experiment.value();
   for (CheckOutcome& outcome : check_outcomes(report, text_of(report.file))) outcomes_.push_back(std::move(outcome));
+}
+
+void CheckBook::add(const Results& results) {
+  add(results.experiment.value());
   const BaselineFigures figures = baseline_figures(results);
   if (baseline_ && !reports_.update) {
     for (CheckOutcome& outcome : held_against(*baseline_, figures, reports_.baseline))

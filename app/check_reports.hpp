@@ -25,8 +25,9 @@ class CheckBook {
   /// and not named.
   explicit CheckBook(CheckReports reports);
 
-  /// The outcomes of one run.
+  /// The outcomes of one run, or of a matrix.
   void add(const Results& results);
+  void add(const ExperimentReport& report);
 
   /// Writes and prints what is asked for; a baseline that is updated is written here, and how it differs is printed.
   /// Errors (machine): a file cannot be written.

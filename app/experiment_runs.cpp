@@ -4,11 +4,21 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <span>
+#include <utility>
+
 #include "app/messages.hpp"
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
+#include "app/standard_output.hpp"
 #include "app/timing_process.hpp"
+#include "experiments/runner/judge.hpp"
+#include "experiments/runner/noise_guard.hpp"
 #include "experiments/runner/run_experiment.hpp"
+#include "results/report/matrix_report.hpp"
 #include "results/report/report.hpp"
 
 namespace footprint {
@@ -23,18 +33,88 @@ FurtherTimes further_times_of(const Experiment& experiment, const fs::path& scra
   const int others = experiment.run.timing.processes - 1;
   if (others == 0) return {};
   return [others, &experiment, scratch, progress] {
-    return times_of_processes(others, {timing_member_option, experiment.name}, scratch, progress);
+    return times_of_processes(others, {timing_member_option, experiment.full_name()}, scratch, progress);
   };
 }
 
-Results run_into(const Experiment& experiment, OutputFolder& folder, const KeptWork& kept, const Progress& progress) {
+Results run_into(const Experiment& experiment, OutputFolder& folder, const KeptWork& kept, const Progress& progress,
+                 const RecordWatch& watch) {
   ProgressParts parts(progress, weight + experiment.run.timing.processes - 1);
   const FurtherTimes further =
       further_times_of(experiment, folder.path(), parts.next(experiment.run.timing.processes - 1, ""));
-  Results results = run_experiment(experiment, further, folder.path(), parts.next(weight, ""), &kept);
+  Results results = run_experiment(experiment, further, folder.path(), parts.next(weight, ""), &kept, watch);
   keep_results(results, folder, write_report);
   return results;
 }
+
+// Experiments that are judged together: the members of a matrix, or one alone.
+struct Group {
+  const AskedMatrix* matrix;  // null: one alone
+  std::span<const Experiment> experiments;
+
+  [[nodiscard]] const Experiment& judged() const { return matrix != nullptr ? matrix->whole : experiments.front(); }
+};
+
+std::vector<Group> groups_of(const AskedExperiments& asked) {
+  std::vector<Group> groups;
+  const std::span<const Experiment> all = asked.experiments;
+  for (std::size_t i = 0; i < all.size(); i += groups.back().experiments.size()) {
+    const auto matrix = std::ranges::find(asked.matrices, i, &AskedMatrix::first);
+    const bool is_one = matrix != asked.matrices.end();
+    groups.push_back({is_one ? &*matrix : nullptr, all.subspan(i, is_one ? matrix->count : 1)});
+  }
+  return groups;
+}
+
+// What became of all members together.
+ExperimentReport report_matrix(const Group& group, std::vector<Results> members, const fs::path& output) {
+  const Experiment& whole = group.judged();
+  MatrixResults results{.report = judge(whole, members), .left_out = group.matrix->left_out, .members = {}};
+  results.report.quick = whole.quick;
+  for (std::size_t i = 0; i < members.size(); ++i)
+    results.members.push_back({.folder = group.experiments[i].name, .results = std::move(members[i])});
+  const auto [text, path] = write_whole(output, [&](OutputFolder& folder) {
+    write_matrix_report(results, folder.path());
+    keep(folder);
+    return matrix_table(results);
+  });
+  write_output(fmt::format("{}\nreport: {}\n", text, (path / "matrix.json").string()));
+  return std::move(results.report);
+}
+
+// Runs groups into their folders, prints what became of them and tells it.
+class Runs {
+ public:
+  Runs(const AskedExperiments& asked, const fs::path& output, const KeptWork& kept, bool quiet,
+       const RunListener& listener)
+      : asked_(asked), output_(output), kept_(kept), quiet_(quiet), listener_(listener) {}
+
+  void run(const Group& group) const {
+    NoiseGuard guard(group.judged(), group.experiments);
+    std::vector<Results> all;
+    for (const Experiment& experiment : group.experiments) {
+      ProgressDisplay display(progress_style(quiet_));
+      auto [results, path] = write_whole(below(asked_.folder_of(experiment)), [&](OutputFolder& folder) {
+        return run_into(experiment, folder, kept_, display.callback(), guard.watch(experiment));
+      });
+      display.finish();
+      if (group.matrix == nullptr) print_results(results, path);
+      listener_.experiment(results);
+      all.push_back(std::move(results));
+    }
+    if (group.matrix == nullptr) return;
+    listener_.matrix(report_matrix(group, std::move(all), below(asked_.folder_of(*group.matrix))));
+  }
+
+ private:
+  [[nodiscard]] fs::path below(const fs::path& folder) const { return folder.empty() ? output_ : output_ / folder; }
+
+  const AskedExperiments& asked_;
+  const fs::path& output_;
+  const KeptWork& kept_;
+  bool quiet_;
+  const RunListener& listener_;
+};
 
 // The units of all experiments in one row: which experiment each is of.
 struct Assigned {
@@ -78,46 +158,46 @@ std::string maker_for(const RunSettings& run) {
 }
 
 void run_and_print(const AskedExperiments& asked, const fs::path& output, const KeptWork& kept, bool quiet,
-                   const std::function<void(const Results& results)>& each) {
-  const auto run_one = [&](const Experiment& experiment, const fs::path& to) {
-    ProgressDisplay display(progress_style(quiet));
-    const auto [results, path] =
-        write_whole(to, [&](OutputFolder& folder) { return run_into(experiment, folder, kept, display.callback()); });
-    display.finish();
-    print_results(results, path);
-    each(results);
-  };
-  if (!asked.has_members()) return run_one(asked.experiments.front(), output);
+                   const RunListener& listener) {
+  const Runs runs(asked, output, kept, quiet, listener);
+  const std::vector<Group> groups = groups_of(asked);
+  if (groups.size() == 1) return runs.run(groups.front());
   std::vector<std::string> missing;
   ErrorKind kind = ErrorKind::machine;
-  for (const Experiment& experiment : asked.experiments) {
+  for (const Group& group : groups) {
     try {
-      run_one(experiment, output / experiment.name);
+      runs.run(group);
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::interrupted) throw;
       if (missing.empty()) kind = error.kind();
-      missing.push_back(experiment.name);
-      write_message(fmt::format("{} was not run: {}", experiment.name, error.what()));
+      missing.push_back(group.judged().name);
+      write_message(fmt::format("{} was not run: {}", group.judged().name, error.what()));
     }
   }
   if (missing.empty()) return;
-  throw Error(kind, asked.file.string(),
-              fmt::format("{} of {} experiments were not run: {}", missing.size(), asked.experiments.size(),
-                          fmt::join(missing, ", ")),
-              "run it again when what they lack is there; the others are kept");
+  throw Error(
+      kind, asked.file.string(),
+      fmt::format("{} of {} experiments were not run: {}", missing.size(), groups.size(), fmt::join(missing, ", ")),
+      "run it again when what they lack is there; the others are kept");
 }
 
 void run_part(const AskedExperiments& asked, const Shard& shard, const fs::path& output, const KeptWork& kept,
               bool quiet) {
   const OutputFolder scratch(output);  // never moved to its place
   const std::vector<Assigned> share = share_of(all_units(asked), shard);
+  std::map<const Experiment*, std::shared_ptr<NoiseGuard>> guards;
+  for (const Group& group : groups_of(asked)) {
+    const auto guard = std::make_shared<NoiseGuard>(group.judged(), group.experiments);
+    for (const Experiment& experiment : group.experiments) guards[&experiment] = guard;
+  }
   ProgressDisplay display(progress_style(quiet));
   ProgressParts parts(display.callback(), static_cast<double>(share.size()));
   for (const auto& [experiment, unit] : share) {
-    const Progress progress = parts.next(1, experiment->name + ": ");
-    const fs::path pictures = scratch.path() / experiment->name;
+    const Progress progress = parts.next(1, experiment->full_name() + ": ");
+    const fs::path pictures = scratch.path() / experiment->full_name();
     fs::create_directories(pictures);
-    measure_unit(*experiment, unit, further_times_of(*experiment, pictures, progress), pictures, progress, kept);
+    measure_unit(*experiment, unit, further_times_of(*experiment, pictures, progress), pictures, progress, kept,
+                 guards.at(experiment)->watch(*experiment));
   }
   display.finish();
 }

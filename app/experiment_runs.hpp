@@ -18,11 +18,18 @@ namespace footprint {
 /// Who makes this run's work: the program, and what draws for it by these settings. Errors (machine): no OpenGL.
 [[nodiscard]] std::string maker_for(const RunSettings& run);
 
+/// Who is told what became of a run.
+struct RunListener {
+  std::function<void(const Results& results)> experiment = [](const Results& /*results*/) {};
+  std::function<void(const ExperimentReport& report)> matrix = [](const ExperimentReport& /*report*/) {};
+};
+
 /// Runs each experiment as far as `kept` does not have it, into `output` or, of members, into folders of their own
-/// below it, and prints the tables; `each` sees the results of each. Errors: those of run_experiment; what is finished
-/// until then is kept. A member that cannot be run is passed over: the error comes at the end, of the first one's kind.
+/// below it, and prints the tables; of a matrix the one over all members, which is written to its folder too. Errors:
+/// those of run_experiment, and (usage) a threshold within the reference's noise; what is finished until then is kept.
+/// Of several experiments one that cannot be run is passed over: the error comes at the end, of the first one's kind.
 void run_and_print(const AskedExperiments& asked, const std::filesystem::path& output, const KeptWork& kept, bool quiet,
-                   const std::function<void(const Results& results)>& each);
+                   const RunListener& listener);
 
 /// Does one part of the work of all experiments together and keeps it in `kept`, below `output`; pictures on their way
 /// go there too and are gone at the end.

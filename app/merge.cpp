@@ -133,7 +133,7 @@ void merge(const MergeArguments& arguments) {
   const AskedExperiments asked = asked_by(parts.front(), arguments.run);
   const KeptWork kept(kept_folder(arguments.output), parts.front().file.maker, true);
   take_over(parts, kept);
-  run_and_print(asked, arguments.output, kept, arguments.quiet, [](const Results& /*results*/) {});
+  run_and_print(asked, arguments.output, kept, arguments.quiet, {});
 }
 
 }  // namespace

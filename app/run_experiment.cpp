@@ -105,7 +105,7 @@ AskedExperiments asked(const ExperimentArguments& arguments) {
 // What a further process does: times the frames of one member.
 void take_times(const ExperimentArguments& arguments) {
   for (const Experiment& experiment : asked(arguments).experiments) {
-    if (experiment.name != arguments.timing_member) continue;
+    if (experiment.full_name() != arguments.timing_member) continue;
     return write_frame_times(arguments.timing_file, time_frames(experiment.run, no_progress));
   }
   throw Error(ErrorKind::usage, timing_member_option, fmt::format("no experiment `{}` here", arguments.timing_member),
@@ -119,10 +119,10 @@ KeptWork finished_work(const AskedExperiments& asked, const ExperimentArguments&
 }
 
 // Runs the experiment, or each of its members into a folder of its own, and prints the tables.
-void run_all(const ExperimentArguments& arguments, const std::function<void(const Results& results)>& each) {
+void run_all(const ExperimentArguments& arguments, const RunListener& listener) {
   const AskedExperiments experiments = asked(arguments);
   const KeptWork kept = finished_work(experiments, arguments);
-  run_and_print(experiments, arguments.output, kept, arguments.quiet, each);
+  run_and_print(experiments, arguments.output, kept, arguments.quiet, listener);
   if (kept.found() > 0 && !arguments.quiet)
     write_message(fmt::format("{} finished parts of an earlier run were taken from {} (--fresh: measure anew)",
                               kept.found(), kept.folder().string()));
@@ -157,7 +157,7 @@ void run_shard(const ExperimentArguments& arguments) {
 void run(const ExperimentArguments& arguments) {
   if (!arguments.timing_file.empty()) return take_times(arguments);
   if (!arguments.shard.empty()) return run_shard(arguments);
-  run_all(arguments, [](const Results& /*results*/) {});
+  run_all(arguments, {});
 }
 
 // Errors (usage): a report is asked for that only experiments have.
@@ -181,7 +181,8 @@ void check(const ExperimentArguments& arguments) {
   }
   if (!arguments.timing_file.empty()) return take_times(arguments);
   CheckBook book(arguments.reports);
-  run_all(arguments, [&](const Results& results) { book.add(results); });
+  run_all(arguments, {.experiment = [&](const Results& results) { book.add(results); },
+                      .matrix = [&](const ExperimentReport& report) { book.add(report); }});
   book.report();
   const std::vector<std::string> shortfalls = book.shortfalls();
   if (shortfalls.empty()) return;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -31,8 +32,12 @@ constexpr NumberRange any_number{-1e300, 1e300};
 constexpr double most_frames = 10000;
 
 // The tables of an experiment that has no members, beside [experiment].
-const std::vector<std::string> further_tables{"zoom",      "camera", "reference", "ndf",   "quantity",
-                                              "published", "claim",  "threshold", "figure"};
+const std::vector<std::string> further_tables{"zoom",     "camera",    "reference", "matrix",    "ndf",
+                                              "quantity", "published", "claim",     "threshold", "figure"};
+// What presets may hold, and of that what the file may take key by key; the others it takes whole.
+const std::vector<std::string> preset_tables{"experiment", "zoom", "camera", "reference", "matrix"};
+const std::vector<std::string> joined_tables{"experiment", "reference", "matrix"};
+const std::vector<std::string> head_keys{"title", "description", "members", "presets"};
 
 std::vector<std::string> with(std::vector<std::string> keys, const std::vector<std::string>& further) {
   keys.insert(keys.end(), further.begin(), further.end());
@@ -58,12 +63,23 @@ std::vector<std::string> texts_of(const std::vector<MethodSpec>& methods) {
   return texts;
 }
 
-void read_head(const TomlTable& table, Experiment& experiment) {
+// The keys of [`name`] that [matrix] gives. Errors (usage): one stands in both.
+std::vector<std::string> given_by_matrix(const TomlTable& root, const std::optional<TomlTable>& table,
+                                         std::string_view name) {
+  std::vector<std::string> given;
+  for (const std::string& key : matrix_keys_of(root)) {
+    if (std::ranges::count(axis_keys(name), key) == 0) continue;
+    if (table && table->has(key)) throw table->error_at(key, "stands in [matrix] too", "give it in one of them");
+    given.push_back(key);
+  }
+  return given;
+}
+
+void read_head(const TomlTable& table, const std::vector<std::string>& given, Experiment& experiment) {
   experiment.title = required_word(table, "title");
   experiment.description = table.word("description").value_or("");
-  read_settings(table, "experiment", experiment.run);
-  const fs::path beside = experiment.file.parent_path() / experiment.run.scene;
-  if (is_scene(beside)) experiment.run.scene = beside.string();
+  read_settings(table, "experiment", experiment.run, given);
+  experiment.run.scene = scene_of_file(experiment.file, experiment.run.scene);
 }
 
 // Distances that are given, or a zoom with both its ends.
@@ -135,7 +151,8 @@ void read_thresholds(const TomlTable& root, Experiment& experiment) {
     for (const std::string& method : each ? texts_of(experiment.run.methods) : std::vector<std::string>{""}) {
       const Expression measure = written.with_method(method);
       at_key(*table, key, [&] { check_measures(measure, experiment); });
-      experiment.thresholds.push_back({.measure = measure, .limit = limit});
+      const std::string place = table->error_at(key, "", "").place();
+      experiment.thresholds.push_back({.measure = measure, .limit = limit, .written = key, .place = place});
     }
   }
 }
@@ -263,6 +280,24 @@ void read_figure(const TomlTable& table, Experiment& experiment) {
   if (experiment.figure.rows.empty()) refuse_absent(table, "row");
 }
 
+// A file, over its presets where it names some.
+TomlTable root_of(Experiment& experiment) {
+  const std::vector<std::string> known = with(further_tables, {"experiment"});
+  TomlTable root(experiment.file, known);
+  const auto head = root.table("experiment", with(setting_keys("experiment"), head_keys));
+  const auto name = head ? head->word("presets") : std::nullopt;
+  if (!name) return root;
+  if (head->has("members")) throw head->error_at("presets", "excludes `members`", "move it into one of them");
+  const fs::path file = experiment.file.parent_path() / *name;
+  std::error_code unknown;
+  if (!fs::is_regular_file(file, unknown))
+    throw head->error_at("presets", fmt::format("names {}, which is no file", file.string()),
+                         "write its path from the experiment's folder");
+  (void)TomlTable(file, preset_tables).table("experiment", setting_keys("experiment"));
+  experiment.presets = file;
+  return TomlTable::over_presets(experiment.file, file, known, joined_tables);
+}
+
 // An experiment that is made of others has nothing but their names.
 std::vector<fs::path> read_members(const TomlTable& root, const TomlTable& head, const fs::path& folder) {
   for (const std::string& key : setting_keys("experiment")) {
@@ -286,6 +321,56 @@ std::vector<fs::path> read_members(const TomlTable& root, const TomlTable& head,
     members.push_back(member);
   }
   return members;
+}
+
+// The distances at which an experiment looks at one of its scenes.
+struct SceneDistances {
+  std::string name;  // as an axis has it; empty without one
+  std::vector<double> distances;
+};
+
+// Errors (usage): of a scene; what a file gets wrong stands in the file's name.
+std::vector<SceneDistances> distances_by_scene(const Experiment& experiment) {
+  const auto axis = std::ranges::find(experiment.axes, "scene", &Axis::key);
+  if (axis == experiment.axes.end()) return {{.name = {}, .distances = distances_of(experiment)}};
+  std::vector<SceneDistances> scenes;
+  for (const std::string& name : axis->values) {
+    Experiment of_scene = experiment;
+    of_scene.run.scene = scene_of_file(experiment.file, name);
+    (void)read_scene(of_scene.run.scene, of_scene.run.scene_library, of_scene.run.overrides);
+    scenes.push_back({.name = name, .distances = distances_of(of_scene)});
+  }
+  return scenes;
+}
+
+// Each measure against the distances of all scenes that it is over.
+void check_at_distances(const Expression& expression, const Experiment& experiment,
+                        const std::vector<SceneDistances>& scenes) {
+  for (const Measure& measure : expression.measures()) {
+    std::vector<double> distances;
+    std::size_t frames = 0;
+    for (const SceneDistances& scene : scenes) {
+      const auto wanted = measure.slice.find("scene");
+      if (wanted != measure.slice.end() && wanted->second != scene.name) continue;
+      std::ranges::copy(scene.distances, std::back_inserter(distances));
+      frames = std::max(frames, scene.distances.size());
+    }
+    try {
+      check_distance(measure, distances, frames);
+    } catch (const Error& error) {
+      throw error.within(experiment.file.string());
+    }
+  }
+}
+
+void check_frames(const Experiment& experiment, std::size_t frames) {
+  for (const auto& row : experiment.figure.rows) {
+    for (const FigurePicture& picture : row) {
+      if (picture.frame < frames) continue;
+      throw Error(ErrorKind::usage, experiment.file.string(), fmt::format("[figure] shows frame {}", picture.frame),
+                  "the scene's zoom path is shorter: give [zoom] distances, or show an earlier frame");
+    }
+  }
 }
 
 }  // namespace
@@ -313,11 +398,11 @@ std::vector<std::string> list_experiments(const fs::path& folder) {
 }
 
 Experiment read_experiment(const fs::path& file) {
-  const TomlTable root(file, with(further_tables, {"experiment"}));
   Experiment experiment;
   experiment.name = file.stem().string();
   experiment.file = file;
-  const auto head = root.table("experiment", with(setting_keys("experiment"), {"title", "description", "members"}));
+  const TomlTable root = root_of(experiment);
+  const auto head = root.table("experiment", with(setting_keys("experiment"), head_keys));
   if (!head) refuse_absent(root, "experiment");
   if (head->has("members")) {
     experiment.title = required_word(*head, "title");
@@ -325,11 +410,13 @@ Experiment read_experiment(const fs::path& file) {
     experiment.members = read_members(root, *head, file.parent_path());
     return experiment;
   }
-  read_head(*head, experiment);
+  read_head(*head, given_by_matrix(root, head, "experiment"), experiment);
   if (const auto zoom = root.table("zoom", setting_keys("zoom"))) read_zoom(*zoom, experiment.run);
   if (const auto camera = root.table("camera", camera_keys())) experiment.run.overrides.camera = read_camera(*camera);
-  if (const auto reference = root.table("reference", setting_keys("reference")))
-    read_settings(*reference, "reference", experiment.run);
+  const auto reference = root.table("reference", setting_keys("reference"));
+  (void)given_by_matrix(root, reference, "reference");
+  if (reference) read_settings(*reference, "reference", experiment.run);
+  read_matrix(root, experiment);
   read_footprints(root, experiment);
   read_quantities(root, experiment);
   if (const auto published = root.table("published", {"file", "figures"})) read_published(*published, experiment);
@@ -339,33 +426,27 @@ Experiment read_experiment(const fs::path& file) {
   return experiment;
 }
 
-void check_against_scene(const Experiment& experiment) {
+std::vector<double> distances_of(const Experiment& experiment) {
   const RunSettings& run = experiment.run;
-  if (!given_distances(run.view).empty()) return;  // known when the file was read
-  Experiment known = experiment;
-  known.run.view.distances = read_scene(run.scene, run.scene_library, run.overrides).settings.distances;
-  const std::string file = experiment.file.string();
-  const auto check = [&](const Expression& expression) {
-    try {
-      check_measures(expression, known);
-    } catch (const Error& error) {
-      throw error.within(file);
-    }
-  };
+  std::vector<double> given = given_distances(run.view);
+  if (!given.empty()) return given;
+  Scene with_distances;  // all that a zoom path asks of a scene
+  with_distances.distances = read_scene(run.scene, run.scene_library, run.overrides).settings.distances;
+  return run_distances(run.view, with_distances);
+}
+
+void check_against_scenes(const Experiment& experiment) {
+  const bool varies = std::ranges::find(experiment.axes, "scene", &Axis::key) != experiment.axes.end();
+  if (!given_distances(experiment.run.view).empty() && !varies) return;  // known when the file was read
+  const std::vector<SceneDistances> scenes = distances_by_scene(experiment);
+  const auto check = [&](const Expression& expression) { check_at_distances(expression, experiment, scenes); };
   for (const Claim& claim : experiment.claims) {
     check(claim.inequality.left());
     check(claim.inequality.right());
   }
   for (const Threshold& threshold : experiment.thresholds) check(threshold.measure);
   for (const PublishedValue& published : experiment.published) check(published.measure);
-  const std::size_t frames = known.run.view.distances.size();
-  for (const auto& row : experiment.figure.rows) {
-    for (const FigurePicture& picture : row) {
-      if (picture.frame < frames) continue;
-      throw Error(ErrorKind::usage, file, fmt::format("[figure] shows frame {}", picture.frame),
-                  "the scene's zoom path is shorter: give [zoom] distances, or show an earlier frame");
-    }
-  }
+  for (const SceneDistances& scene : scenes) check_frames(experiment, scene.distances.size());
 }
 
 }  // namespace footprint

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "experiments/runner/expression.hpp"
+#include "experiments/runner/matrix.hpp"
 #include "experiments/settings/run_settings.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
 
@@ -26,6 +27,7 @@ struct Claim {
 struct Threshold {
   Expression measure;
   double limit = 0;
+  std::string written{}, place{};  ///< its key in the file, and FILE:LINE of that
 };
 
 /// A figure that a paper prints.
@@ -69,19 +71,26 @@ struct FigureLayout {
 };
 
 struct Experiment {
-  std::string name;  ///< the file's stem
+  std::string name;  ///< the file's stem; of a member of a matrix its own
   std::filesystem::path file;
+  std::optional<std::filesystem::path> presets;  ///< the file that it takes what it lacks from
   std::string title, description;
   std::vector<std::filesystem::path>
-      members;         ///< files of the experiments that it is made of; with any, all below is unset
-  RunSettings run;     ///< what is compared
-  bool quick = false;  ///< `run` is cut short: no measurement
+      members;              ///< files of the experiments that it is made of; with any, all below is unset
+  std::vector<Axis> axes;   ///< of a matrix: what its members (members_of_matrix) vary; `run` is the first one's
+  Coordinates coordinates;  ///< of a member of a matrix: where it stands
+  std::string whole;        ///< of a member of a matrix: the matrix' name
+  RunSettings run;          ///< what is compared
+  bool quick = false;       ///< `run` is cut short: no measurement
   std::vector<PublishedValue> published;
   std::vector<Claim> claims;
   std::vector<Threshold> thresholds;
   std::vector<NamedFootprint> footprints;
   std::vector<NamedQuantity> quantities;
   FigureLayout figure;  ///< no rows: none is composed
+
+  /// "NAME", of a member of a matrix "MATRIX/NAME".
+  [[nodiscard]] std::string full_name() const { return whole.empty() ? name : whole + "/" + name; }
 };
 
 /// The file that EXPERIMENT names: NAME.toml in `folder`, or a path to a TOML file, with or without its ending.
@@ -96,8 +105,12 @@ struct Experiment {
 /// not exist.
 [[nodiscard]] Experiment read_experiment(const std::filesystem::path& file);
 
-/// What only the scene's own zoom path tells of an experiment that gives no distances: that it has every distance and
-/// frame that is asked for. Errors (usage) name the file and the call or the frame; those of read_scene.
-void check_against_scene(const Experiment& experiment);
+/// What only its scenes tell of an experiment, read where it gives no distances or a matrix varies them: that they are
+/// there, and that their zoom paths have every distance and frame that is asked for. Errors (usage) name the file and
+/// the call or the frame; those of read_scene.
+void check_against_scenes(const Experiment& experiment);
+
+/// The distances of an experiment: those that it gives, or its scene's. Errors (usage): of its scene.
+[[nodiscard]] std::vector<double> distances_of(const Experiment& experiment);
 
 }  // namespace footprint

@@ -162,6 +162,11 @@ class Parser {
         return read(value, measure.frame) && *measure.frame >= 0;
       case Selector::spp:
         return read(value, measure.spp) && *measure.spp > 0;
+      case Selector::scene:
+      case Selector::size:
+      case Selector::filter:
+      case Selector::seed:
+        return !value.empty() && measure.slice.emplace(selector_name(selector), value).second;
       case Selector::footprint:
         return read(value, measure.footprint);
       case Selector::name:
@@ -267,7 +272,7 @@ std::string text_of(const Node& node) {
 
 class Evaluator {
  public:
-  explicit Evaluator(const Results& results) : results_(&results) {}
+  explicit Evaluator(std::span<const Results> runs) : runs_(runs) {}
 
   Evaluation run(const Node& node) {
     found_.value = value(node);
@@ -311,14 +316,15 @@ class Evaluator {
   }
 
   double call(const Measure& measure) {
-    const Measured answer = measured(measure, *results_);
+    const Measured answer = measured(measure, runs_);
     if (!answer.value) return trouble(measure_text(measure) + ": " + answer.problem);
     const std::string text = measure_text(measure);
     if (std::ranges::find(found_.calls, text, &MeasuredCall::text) == found_.calls.end()) {
       found_.calls.push_back({.text = text,
                               .value = *answer.value,
                               .at_noise_floor = answer.at_noise_floor,
-                              .noise_floor = answer.noise_floor});
+                              .noise_floor = answer.noise_floor,
+                              .records = answer.records});
     }
     found_.nodes.insert(answer.nodes.begin(), answer.nodes.end());
     return *answer.value;
@@ -329,7 +335,7 @@ class Evaluator {
     return 0;
   }
 
-  const Results* results_;
+  std::span<const Results> runs_;
   Evaluation found_;
 };
 
@@ -360,7 +366,7 @@ Expression Expression::with_method(const std::string& method) const {
 
 std::string Expression::text() const { return text_of(root_.front()); }
 
-Evaluation Expression::evaluate(const Results& results) const { return Evaluator(results).run(root_.front()); }
+Evaluation Expression::evaluate(std::span<const Results> runs) const { return Evaluator(runs).run(root_.front()); }
 
 struct Inequality::Parts {
   Expression left;

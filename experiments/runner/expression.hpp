@@ -1,6 +1,7 @@
 // Arithmetic over the figures of a run, and the inequalities that claims are made of (docs/experiments.md).
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <set>
 #include <span>
@@ -18,6 +19,7 @@ struct MeasuredCall {
   double value = 0;
   bool at_noise_floor = false;
   std::optional<double> noise_floor{};  ///< of an error, where it is known
+  std::size_t records = 0;              ///< that the value is the mean of
 };
 
 /// An expression's value, or why it has none, and the figures that it was made of.
@@ -48,8 +50,9 @@ class Expression {
   [[nodiscard]] Expression with_method(const std::string& method) const;
   /// As it would be written, in one style.
   [[nodiscard]] std::string text() const;
-  /// Its methods must be the run's (select_method). A division by 0 or a figure that was not measured is a problem.
-  [[nodiscard]] Evaluation evaluate(const Results& results) const;
+  /// Over one run, or the members of a matrix. Its methods must be the runs' (select_method). A division by 0 or a
+  /// figure that was not measured is a problem.
+  [[nodiscard]] Evaluation evaluate(std::span<const Results> runs) const;
 
  private:
   std::vector<Node> root_;  // exactly one: Node is not complete here

@@ -11,6 +11,8 @@
 namespace footprint {
 namespace {
 
+std::span<const Results> only(const Results& results) { return {&results, 1}; }
+
 Record record_of(const std::string& method, int frame, double distance, double error, double ms) {
   Record record;
   record.method = method;
@@ -37,7 +39,7 @@ Results two_frames() {
 }
 
 double value_of(const std::string& text) {
-  const Evaluation found = Expression(text, "here").evaluate(two_frames());
+  const Evaluation found = Expression(text, "here").evaluate(only(two_frames()));
   EXPECT_TRUE(found.value) << text << ": " << found.problem;
   return found.value.value_or(std::nan(""));
 }
@@ -77,21 +79,21 @@ TEST(Expression, ACallIsTheMeanOverTheRecordsThatItSelects) {
 TEST(Expression, RecordsWithoutTheFigureDoNotCount) {
   EXPECT_DOUBLE_EQ(value_of("flicker(a)"), 0.1);
   EXPECT_DOUBLE_EQ(value_of("flicker_p99(a)"), 0.6);
-  EXPECT_EQ(Expression("flicker(a, frame=0)", "").evaluate(two_frames()).problem,
+  EXPECT_EQ(Expression("flicker(a, frame=0)", "").evaluate(only(two_frames())).problem,
             "flicker(a, frame=0): no record has this figure");
-  EXPECT_EQ(Expression("error(a, distance=7)", "").evaluate(two_frames()).problem,
+  EXPECT_EQ(Expression("error(a, distance=7)", "").evaluate(only(two_frames())).problem,
             "error(a, distance=7): the run has no such record");
 }
 
 TEST(Expression, FiguresOfFootprintsAreMeansOverThem) {
   Results results = two_frames();
   results.ndf = {{"p", "a", 0.2, 1, 3, 4, ""}, {"q", "a", 0.6, 0.9, 5, 4, ""}, {"p", "b", 0.9, 1, 1, 1, ""}};
-  EXPECT_DOUBLE_EQ(Expression("ndf_l2(a)", "").evaluate(results).value.value(), 0.4);
-  EXPECT_DOUBLE_EQ(Expression("ndf_peak(a, footprint=q)", "").evaluate(results).value.value(), 5);
-  EXPECT_NE(Expression("ndf_energy(b, footprint=q)", "").evaluate(results).problem.find("no such footprint"),
+  EXPECT_DOUBLE_EQ(Expression("ndf_l2(a)", "").evaluate(only(results)).value.value(), 0.4);
+  EXPECT_DOUBLE_EQ(Expression("ndf_peak(a, footprint=q)", "").evaluate(only(results)).value.value(), 5);
+  EXPECT_NE(Expression("ndf_energy(b, footprint=q)", "").evaluate(only(results)).problem.find("no such footprint"),
             std::string::npos);
   EXPECT_NE(complaint("ndf_l2(a, distance=1)").find("known: footprint"), std::string::npos);
-  EXPECT_NE(complaint("error(a, footprint=p)").find("selects nothing of error"), std::string::npos);
+  EXPECT_NE(complaint("error(a, name=p)").find("selects nothing of error"), std::string::npos);
 }
 
 TEST(Expression, WhatIsRebuiltEachFrameIsTakenApartFromTheShading) {
@@ -101,7 +103,7 @@ TEST(Expression, WhatIsRebuiltEachFrameIsTakenApartFromTheShading) {
     if (record.method == "a") record.frame_build = FrameBuildTime{.ms = 4.0, .timing = BuildTiming::every_frame};
     record.precompute_bytes_per_texel = 12;
   }
-  const auto value = [&](const std::string& text) { return Expression(text, "").evaluate(results).value; };
+  const auto value = [&](const std::string& text) { return Expression(text, "").evaluate(only(results)).value; };
   EXPECT_EQ(value("build(a)"), 4.0);
   EXPECT_EQ(value("shading(a)"), 6.0);
   EXPECT_EQ(value("total(a)"), 10.0);
@@ -118,7 +120,7 @@ TEST(Expression, WhatIsRebuiltEachFrameIsTakenApartFromTheShading) {
 TEST(Expression, PlainSupersamplingIsTimedByItsCountOfSamples) {
   Results results = two_frames();
   results.supersampling = {{1.0, 16, 0.1, {}, 20.0, "m"}, {1.0, 64, 0.0, {}, 80.0, "m"}, {2.5, 64, 0.0, {}, 40.0, "m"}};
-  const auto value = [&](const std::string& text) { return Expression(text, "").evaluate(results).value; };
+  const auto value = [&](const std::string& text) { return Expression(text, "").evaluate(only(results)).value; };
   EXPECT_EQ(value("supersampling_time(a, spp=64)"), 60.0);
   EXPECT_EQ(value("supersampling_time(a, spp=64, distance=2.5)"), 40.0);
   EXPECT_EQ(value("supersampling_time(a, spp=16)"), 20.0);
@@ -131,7 +133,7 @@ TEST(Expression, TimesOfSeveralMachinesAreNoFigureAndRatiosAre) {
   Results results = two_frames();
   for (Record& record : results.records) record.node = record.frame == 0 ? "one" : "two";
   results.supersampling = {{1.0, 16, 0.1, {}, 20.0, "one"}, {2.5, 16, 0.1, {}, 20.0, "two"}};
-  const auto evaluated = [&](const std::string& text) { return Expression(text, "").evaluate(results); };
+  const auto evaluated = [&](const std::string& text) { return Expression(text, "").evaluate(only(results)); };
   for (const char* const text : {"time(a)", "fps(a)", "shading(a)", "total(a)", "supersampling_time(a, spp=16)",
                                  "time(a, frame=0) / time(b, frame=1)"}) {
     EXPECT_FALSE(evaluated(text).value) << text;
@@ -147,11 +149,11 @@ TEST(Expression, ABoundOfTheCurveCountsAsItsEnd) { EXPECT_DOUBLE_EQ(value_of("eq
 TEST(Expression, ABakeFromTheCacheHasNoTime) {
   Results results = two_frames();
   for (Record& record : results.records) record.precompute_cached = true;
-  EXPECT_NE(Expression("precompute(a)", "").evaluate(results).problem.find("--no-cache"), std::string::npos);
+  EXPECT_NE(Expression("precompute(a)", "").evaluate(only(results)).problem.find("--no-cache"), std::string::npos);
 }
 
 TEST(Expression, DivisionByZeroIsAProblemNotAFigure) {
-  const Evaluation found = Expression("1 / (error(a) - error(a))", "").evaluate(two_frames());
+  const Evaluation found = Expression("1 / (error(a) - error(a))", "").evaluate(only(two_frames()));
   EXPECT_FALSE(found.value);
   EXPECT_NE(found.problem.find("division by 0"), std::string::npos);
 }
@@ -159,9 +161,9 @@ TEST(Expression, DivisionByZeroIsAProblemNotAFigure) {
 TEST(Expression, AtTheNoiseFloorIsTold) {
   Results results = two_frames();
   for (Record& record : results.records) record.error->normalized_color = 0.005;
-  EXPECT_TRUE(Expression("error(a)", "").evaluate(results).calls.at(0).at_noise_floor);
+  EXPECT_TRUE(Expression("error(a)", "").evaluate(only(results)).calls.at(0).at_noise_floor);
   results.records[3].error->normalized_color = 0.5;  // one frame of `a` that stands out
-  EXPECT_FALSE(Expression("error(a)", "").evaluate(results).calls.at(0).at_noise_floor);
+  EXPECT_FALSE(Expression("error(a)", "").evaluate(only(results)).calls.at(0).at_noise_floor);
 }
 
 TEST(Expression, TheStarStandsForAMethod) {
@@ -212,8 +214,8 @@ TEST(Expression, AMethodIsTakenByItsTextElseByItsNameWhereThatIsClear) {
 
 TEST(Inequality, ComparesItsSides) {
   const Inequality claim("error(a) <= 0.5 * error(b)", "here");
-  EXPECT_DOUBLE_EQ(claim.left().evaluate(two_frames()).value.value(), 0.15);
-  EXPECT_DOUBLE_EQ(claim.right().evaluate(two_frames()).value.value(), 0.2);
+  EXPECT_DOUBLE_EQ(claim.left().evaluate(only(two_frames())).value.value(), 0.15);
+  EXPECT_DOUBLE_EQ(claim.right().evaluate(only(two_frames())).value.value(), 0.2);
   EXPECT_TRUE(claim.holds(1, 1));
   EXPECT_FALSE(claim.holds(2, 1));
   EXPECT_FALSE(Inequality("1 < 1", "").holds(1, 1));

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 #include "experiments/runner/experiment.hpp"
@@ -13,6 +14,7 @@
 #include "experiments/studies/zoom.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/core/suggest.hpp"
 #include "results/report/figures.hpp"
 
 namespace footprint {
@@ -28,12 +30,19 @@ std::vector<std::string> methods_of(const Experiment& experiment) {
   return texts;
 }
 
-std::vector<std::string> methods_of(const Results& results) {
+std::vector<std::string> methods_of(std::span<const Results> runs) {
   std::vector<std::string> methods;
-  for (const Record& record : results.records) {
-    if (std::ranges::find(methods, record.method) == methods.end()) methods.push_back(record.method);
+  for (const Results& run : runs) {
+    for (const Record& record : run.records) {
+      if (std::ranges::find(methods, record.method) == methods.end()) methods.push_back(record.method);
+    }
   }
   return methods;
+}
+
+// The runs that a measure is over.
+auto selected(const Measure& measure, std::span<const Results> runs) {
+  return runs | std::views::filter([&measure](const Results& run) { return selects(measure, run.coordinates); });
 }
 
 template <typename Values, typename Value>
@@ -103,40 +112,56 @@ Measured no_figure(std::string problem) { return {.value = {}, .problem = std::m
 Measured mean_of(double sum, std::size_t count) {
   const double mean = sum / static_cast<double>(count);
   if (std::isnan(mean)) return no_figure("the figure is not a number");
-  return {.value = mean, .problem = {}};
+  return {.value = mean, .problem = {}, .records = count};
 }
 
-bool selects(const Measure& measure, const std::string& method, const Record& record) {
+bool selects_record(const Measure& measure, const std::string& method, const Record& record) {
   return record.method == method && (!measure.distance || record.distance == *measure.distance) &&
          (!measure.frame || record.frame == *measure.frame);
 }
 
+// Those of all records that are selected.
+class Samples {
+ public:
+  void add(const Sample& sample) {
+    ++matching_;
+    if (!sample.value) return;
+    sum_ += *sample.value;
+    ++count_;
+    noisy_ += sample.at_noise_floor ? 1 : 0;
+    floors_ += sample.noise_floor.value_or(0.0);
+    with_floor_ += sample.noise_floor ? 1 : 0;
+    if (!sample.node.empty()) nodes_.insert(sample.node);
+  }
+
+  // `absent` is the problem where none of them has the figure.
+  [[nodiscard]] Measured mean(const std::string& absent) const {
+    if (matching_ == 0) return no_figure("the run has no such record");
+    if (count_ == 0) return no_figure(absent);
+    Measured mean = mean_of(sum_, count_);
+    mean.at_noise_floor = noisy_ == count_;
+    if (with_floor_ == count_) mean.noise_floor = floors_ / static_cast<double>(count_);
+    mean.nodes = nodes_;
+    return mean;
+  }
+
+ private:
+  double sum_ = 0, floors_ = 0;
+  std::size_t count_ = 0, noisy_ = 0, matching_ = 0, with_floor_ = 0;
+  std::set<std::string> nodes_;
+};
+
 // The mean over the records that are selected; `absent` is the problem where none of them has the figure.
 Evaluate over_samples(std::function<Sample(const Measure&, const Record&)> sample, std::string absent) {
   return [sample = std::move(sample), absent = std::move(absent)](const Measure& measure, const std::string& method,
-                                                                  const Results& results) {
-    double sum = 0, floors = 0;
-    std::size_t count = 0, noisy = 0, matching = 0, with_floor = 0;
-    std::set<std::string> nodes;
-    for (const Record& record : results.records) {
-      if (!selects(measure, method, record)) continue;
-      ++matching;
-      const Sample found = sample(measure, record);
-      if (!found.value) continue;
-      sum += *found.value;
-      ++count;
-      noisy += found.at_noise_floor ? 1 : 0;
-      floors += found.noise_floor.value_or(0.0);
-      with_floor += found.noise_floor ? 1 : 0;
-      if (!found.node.empty()) nodes.insert(found.node);
+                                                                  std::span<const Results> runs) {
+    Samples samples;
+    for (const Results& run : selected(measure, runs)) {
+      for (const Record& record : run.records) {
+        if (selects_record(measure, method, record)) samples.add(sample(measure, record));
+      }
     }
-    if (matching == 0) return no_figure("the run has no such record");
-    if (count == 0) return no_figure(absent);
-    Measured mean = mean_of(sum, count);
-    mean.at_noise_floor = noisy == count;
-    if (with_floor == count) mean.noise_floor = floors / static_cast<double>(count);
-    mean.nodes = std::move(nodes);
-    return mean;
+    return samples.mean(absent);
   };
 }
 
@@ -190,47 +215,54 @@ double shading_ms(const Record& record) {
 
 // The mean over the footprints.
 Evaluate over_footprints(double FootprintNdf::*member) {
-  return [member](const Measure& measure, const std::string& method, const Results& results) {
+  return [member](const Measure& measure, const std::string& method, std::span<const Results> runs) {
     double sum = 0;
     std::size_t count = 0;
-    for (const FootprintNdf& figures : results.ndf) {
-      if (figures.method != method || (measure.footprint && figures.footprint != *measure.footprint)) continue;
-      sum += figures.*member;
-      ++count;
+    for (const Results& run : selected(measure, runs)) {
+      for (const FootprintNdf& figures : run.ndf) {
+        if (figures.method != method || (measure.footprint && figures.footprint != *measure.footprint)) continue;
+        sum += figures.*member;
+        ++count;
+      }
     }
     return count > 0 ? mean_of(sum, count) : no_figure("no such footprint was looked into");
   };
 }
 
 // The mean over the distances.
-Measured supersampling_ms(const Measure& measure, const std::string& /*method*/, const Results& results) {
-  double sum = 0;
-  std::size_t count = 0;
-  std::set<std::string> nodes;
-  for (const SupersamplingPoint& point : results.supersampling) {
-    if (point.spp != measure.spp || (measure.distance && point.distance != *measure.distance)) continue;
-    sum += point.ms;
-    ++count;
-    if (!point.node.empty()) nodes.insert(point.node);
+Measured supersampling_ms(const Measure& measure, const std::string& /*method*/, std::span<const Results> runs) {
+  Samples samples;
+  for (const Results& run : selected(measure, runs)) {
+    for (const SupersamplingPoint& point : run.supersampling) {
+      if (point.spp != measure.spp || (measure.distance && point.distance != *measure.distance)) continue;
+      samples.add({.value = point.ms, .node = point.node});
+    }
   }
-  if (count == 0) return no_figure("no such count of samples was timed");
-  Measured mean = mean_of(sum, count);
-  mean.nodes = std::move(nodes);
-  return mean;
+  Measured mean = samples.mean("");
+  return mean.value ? mean : no_figure("no such count of samples was timed");
 }
 
-Measured quantity_figure(const Measure& measure, const std::string& method, const Results& results) {
-  for (const QuantityFigure& figure : results.quantities) {
-    if (figure.method == method && figure.name == measure.name) return mean_of(figure.value, 1);
+Measured quantity_figure(const Measure& measure, const std::string& method, std::span<const Results> runs) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const Results& run : selected(measure, runs)) {
+    for (const QuantityFigure& figure : run.quantities) {
+      if (figure.method != method || figure.name != measure.name) continue;
+      sum += figure.value;
+      ++count;
+    }
   }
-  return no_figure("the run has no such figure");
+  return count > 0 ? mean_of(sum, count) : no_figure("the run has no such figure");
 }
 
 std::vector<FigureFunction> function_table() {
   using enum Selector;
-  const std::vector<Selector> records{distance, frame};
+  const std::vector<Selector> records{distance, frame, scene, size, filter, seed};
   return {
-      {"error", {distance, frame, spp}, its_reference, over_samples(error_sample, "no record has this figure")},
+      {"error",
+       {distance, frame, spp, scene, size, filter, seed},
+       its_reference,
+       over_samples(error_sample, "no record has this figure")},
       {"relative_rmse", records, nothing, over_errors(&RecordError::relative_rmse)},
       {"relmse", records, nothing, over_errors(&RecordError::relmse)},
       {"psnr", records, nothing, over_errors(&RecordError::psnr)},
@@ -269,7 +301,7 @@ std::vector<FigureFunction> function_table() {
        over_times([](const Record& r) { return r.frame_build ? Figure(r.frame_build->ms) : Figure(); })},
       {"shading", records, nothing, over_times(shading_ms)},
       {"total", records, nothing, over_times([](const Record& r) { return shading_ms(r) + build_ms(r); })},
-      {"supersampling_time", {distance, spp}, a_timed_count, supersampling_ms},
+      {"supersampling_time", {distance, spp, scene, size, filter, seed}, a_timed_count, supersampling_ms},
       {"ratio", records, nothing, over_records([](const Record& r) { return r.ratio_to_direct.median; })},
       {"precompute", records, nothing,
        over_records([](const Record& r) { return r.precompute_cached ? Figure() : Figure(r.precompute_seconds); },
@@ -277,10 +309,10 @@ std::vector<FigureFunction> function_table() {
       {"bytes", records, nothing,
        over_records([](const Record& r) { return static_cast<double>(r.precompute_bytes); })},
       {"bytes_per_texel", records, nothing, over_records([](const Record& r) { return r.precompute_bytes_per_texel; })},
-      {"ndf_l2", {footprint}, a_footprint, over_footprints(&FootprintNdf::l2)},
-      {"ndf_energy", {footprint}, a_footprint, over_footprints(&FootprintNdf::energy)},
-      {"ndf_peak", {footprint}, a_footprint, over_footprints(&FootprintNdf::peak)},
-      {"quantity", {name}, a_quantity, quantity_figure}};
+      {"ndf_l2", {footprint, scene, size, seed}, a_footprint, over_footprints(&FootprintNdf::l2)},
+      {"ndf_energy", {footprint, scene, size, seed}, a_footprint, over_footprints(&FootprintNdf::energy)},
+      {"ndf_peak", {footprint, scene, size, seed}, a_footprint, over_footprints(&FootprintNdf::peak)},
+      {"quantity", {name, scene, size, filter, seed}, a_quantity, quantity_figure}};
 }
 
 }  // namespace
@@ -293,13 +325,35 @@ std::string_view selector_name(Selector selector) {
       return "frame";
     case Selector::spp:
       return "spp";
+    case Selector::scene:
+      return "scene";
+    case Selector::size:
+      return "size";
+    case Selector::filter:
     case Selector::footprint:
       return "footprint";
+    case Selector::seed:
+      return "seed";
     case Selector::name:
       break;
   }
   return "name";
 }
+
+namespace {
+
+// Every value that members are chosen by must be on an axis of the matrix.
+void check_slice(const Measure& measure, const Experiment& experiment) {
+  for (const auto& [key, value] : measure.slice) {
+    const auto axis = std::ranges::find(experiment.axes, key, &Axis::key);
+    if (axis == experiment.axes.end())
+      refuse(measure, fmt::format("no matrix varies `{}` here", key), fmt::format("leave {}={} out", key, value));
+    if (!has(axis->values, value))
+      refuse(measure, fmt::format("the matrix has no {} `{:.80}`", key, value), suggestion(value, axis->values));
+  }
+}
+
+}  // namespace
 
 std::string trouble_with(const std::set<std::string>& nodes) {
   if (nodes.size() < 2) return {};
@@ -314,20 +368,25 @@ std::span<const FigureFunction> figure_functions() {
 
 void check_measure(const Measure& measure, const Experiment& experiment) {
   (void)select_method(measure.method, methods_of(experiment));
+  check_slice(measure, experiment);
   measure.function->needs(measure, experiment);
   const std::vector<double> distances = given_distances(experiment.run.view);
-  if (distances.empty()) return;  // those of the scene, which is not loaded yet
-  if (measure.frame && static_cast<std::size_t>(*measure.frame) >= distances.size()) {
-    refuse(measure, "there is no such frame", fmt::format("frames are 0 to {}", distances.size() - 1));
+  if (distances.empty()) return;  // those of scenes that are not loaded yet
+  check_distance(measure, distances, distances.size());
+}
+
+void check_distance(const Measure& measure, const std::vector<double>& distances, std::size_t frames) {
+  if (measure.frame && static_cast<std::size_t>(*measure.frame) >= frames) {
+    refuse(measure, "there is no such frame", fmt::format("frames are 0 to {}", frames - 1));
   }
   if (measure.distance && !has(distances, *measure.distance)) {
     refuse(measure, "the experiment has no such distance", fmt::format("it has {}", fmt::join(distances, ", ")));
   }
 }
 
-Measured measured(const Measure& measure, const Results& results) {
-  const std::vector<std::string> methods = methods_of(results);
-  return measure.function->evaluate(measure, methods[select_method(measure.method, methods)], results);
+Measured measured(const Measure& measure, std::span<const Results> runs) {
+  const std::vector<std::string> methods = methods_of(runs);
+  return measure.function->evaluate(measure, methods[select_method(measure.method, methods)], runs);
 }
 
 }  // namespace footprint

@@ -18,7 +18,17 @@ namespace footprint {
 struct Experiment;
 
 /// What narrows a call down: `distance=4`.
-enum class Selector { distance, frame, spp, footprint, name };
+enum class Selector {
+  distance,
+  frame,
+  spp,
+  scene,  ///< this and the next three: of the members of a matrix those that have the value on that axis
+  size,
+  filter,  ///< written "footprint": the footprint filter
+  seed,
+  footprint,  ///< of an effective NDF
+  name
+};
 
 /// As it is written: "distance".
 [[nodiscard]] std::string_view selector_name(Selector selector);
@@ -31,6 +41,7 @@ struct Measured {
   std::optional<double>
       noise_floor{};              ///< of an error: what the reference's own noise causes of it, where that is known
   std::set<std::string> nodes{};  ///< of a time: the machines that it was taken on
+  std::size_t records = 0;        ///< that the value is the mean of
 };
 
 /// Why times of these machines are no figure; empty where they are of one. Times of two machines say nothing of each
@@ -43,8 +54,8 @@ struct FigureFunction {
   std::vector<Selector> selectors;
   /// Refuses (usage) a call that a run of the experiment would have no figure for.
   void (*needs)(const Measure& measure, const Experiment& experiment);
-  /// Over the records of `method`, which is one of the run's as it is written.
-  std::function<Measured(const Measure& measure, const std::string& method, const Results& results)> evaluate;
+  /// Over the records of `method`, which is one of the runs' as it is written.
+  std::function<Measured(const Measure& measure, const std::string& method, std::span<const Results> runs)> evaluate;
 };
 
 /// The table, in the order of the documentation.
@@ -54,8 +65,11 @@ struct FigureFunction {
 /// it starts.
 void check_measure(const Measure& measure, const Experiment& experiment);
 
-/// The mean over the records of the method that match; those without the figure do not count. `measure.method` must be
-/// one of the run's.
-[[nodiscard]] Measured measured(const Measure& measure, const Results& results);
+/// The same of its distance and frame alone, in an experiment over these distances and of so many frames.
+void check_distance(const Measure& measure, const std::vector<double>& distances, std::size_t frames);
+
+/// The mean over the records of the method that match, in one run or in the members of a matrix; those without the
+/// figure do not count. `measure.method` must be one of the runs'.
+[[nodiscard]] Measured measured(const Measure& measure, std::span<const Results> runs);
 
 }  // namespace footprint

@@ -21,9 +21,9 @@ void add_figures(const Evaluation& evaluation, std::vector<ClaimFigure>& figures
   }
 }
 
-ClaimOutcome outcome_of(const Claim& claim, const Results& results) {
-  const Evaluation left = claim.inequality.left().evaluate(results);
-  const Evaluation right = claim.inequality.right().evaluate(results);
+ClaimOutcome outcome_of(const Claim& claim, std::span<const Results> runs) {
+  const Evaluation left = claim.inequality.left().evaluate(runs);
+  const Evaluation right = claim.inequality.right().evaluate(runs);
   ClaimOutcome outcome{.name = claim.name,
                        .text = claim.text,
                        .inequality = claim.inequality.text(),
@@ -47,12 +47,13 @@ ClaimOutcome outcome_of(const Claim& claim, const Results& results) {
 }
 
 // A bound on one error that lies within what the reference's noise causes of it can be neither held nor missed.
-ThresholdOutcome outcome_of(const Threshold& threshold, const Results& results) {
-  Evaluation found = threshold.measure.evaluate(results);
+ThresholdOutcome outcome_of(const Threshold& threshold, std::span<const Results> runs) {
+  Evaluation found = threshold.measure.evaluate(runs);
   ThresholdOutcome outcome{.measure = threshold.measure.text(),
                            .limit = threshold.limit,
                            .measured = found.value,
-                           .problem = std::move(found.problem)};
+                           .problem = std::move(found.problem),
+                           .written = threshold.written};
   const bool is_one_call = found.calls.size() == 1 && found.calls.front().text == outcome.measure;
   const std::optional<double> floor = is_one_call ? found.calls.front().noise_floor : std::nullopt;
   if (found.value && floor && threshold.limit <= *floor) {
@@ -65,8 +66,8 @@ ThresholdOutcome outcome_of(const Threshold& threshold, const Results& results) 
 
 }  // namespace
 
-ExperimentReport judge(const Experiment& experiment, const Results& results) {
-  ExperimentReport report{.name = experiment.name,
+ExperimentReport judge(const Experiment& experiment, std::span<const Results> runs) {
+  ExperimentReport report{.name = experiment.full_name(),
                           .title = experiment.title,
                           .description = experiment.description,
                           .file = experiment.file.string(),
@@ -75,7 +76,7 @@ ExperimentReport judge(const Experiment& experiment, const Results& results) {
                           .thresholds = {},
                           .pictures = {}};
   for (const PublishedValue& published : experiment.published) {
-    const Evaluation measured = published.measure.evaluate(results);
+    const Evaluation measured = published.measure.evaluate(runs);
     report.published.push_back({.figure = published.figure,
                                 .measure = published.measure.text(),
                                 .unit = published.unit,
@@ -83,8 +84,8 @@ ExperimentReport judge(const Experiment& experiment, const Results& results) {
                                 .measured = measured.value,
                                 .note = measured.value ? published.note : measured.problem});
   }
-  for (const Claim& claim : experiment.claims) report.claims.push_back(outcome_of(claim, results));
-  for (const Threshold& threshold : experiment.thresholds) report.thresholds.push_back(outcome_of(threshold, results));
+  for (const Claim& claim : experiment.claims) report.claims.push_back(outcome_of(claim, runs));
+  for (const Threshold& threshold : experiment.thresholds) report.thresholds.push_back(outcome_of(threshold, runs));
   return report;
 }
 

@@ -19,6 +19,7 @@ std::string measure_text(const Measure& measure) {
   };
   add(Selector::distance, measure.distance);
   add(Selector::frame, measure.frame);
+  for (const auto& [axis, value] : measure.slice) text += fmt::format(", {}={}", axis, value);
   add(Selector::footprint, measure.footprint);
   add(Selector::name, measure.name);
   add(Selector::spp, measure.spp);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,9 +17,10 @@ struct Measure {
   std::string method;  ///< a method as the experiment writes it, its name alone where only one has it, or `*`
   std::optional<double> distance;
   std::optional<int> frame;
-  std::optional<int> spp;                ///< above 0; of the reference, or of plain supersampling
-  std::optional<std::string> footprint;  ///< its name in the experiment
-  std::optional<std::string> name;       ///< of a quantity in the experiment
+  std::optional<int> spp;                      ///< above 0; of the reference, or of plain supersampling
+  std::map<std::string, std::string> slice{};  ///< of a matrix: by an axis' key the value that members must have
+  std::optional<std::string> footprint;        ///< of an NDF: its name in the experiment
+  std::optional<std::string> name;             ///< of a quantity in the experiment
 };
 
 /// "error(toksvig:storage=fp16, distance=4)".

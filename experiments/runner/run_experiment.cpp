@@ -143,11 +143,13 @@ void make_quick(Experiment& experiment) {
 }
 
 Results run_experiment(const Experiment& experiment, const FurtherTimes& further_times,
-                       const std::filesystem::path& folder, const Progress& progress, const KeptWork* kept) {
+                       const std::filesystem::path& folder, const Progress& progress, const KeptWork* kept,
+                       const RecordWatch& watch) {
   ProgressParts parts(progress, looks_further(experiment) ? 6 : 4);
-  Results results = run_compare(experiment.run, folder, further_times, parts.next(4, ""), nullptr, kept);
+  Results results = run_compare(experiment.run, folder, further_times, parts.next(4, ""), nullptr, kept, watch);
+  results.coordinates = experiment.coordinates;
   if (looks_further(experiment)) FurtherFigures(experiment, folder, kept).add_to(results, parts.next(2, ""));
-  results.experiment = judge(experiment, results);
+  results.experiment = judge(experiment, std::span(&results, 1));
   results.experiment->quick = experiment.quick;
   results.experiment->pictures = write_figures(experiment.figure, experiment, results, folder);
   std::ranges::copy(ndf_pictures(results), std::back_inserter(results.experiment->pictures));
@@ -155,16 +157,10 @@ Results run_experiment(const Experiment& experiment, const FurtherTimes& further
 }
 
 std::vector<WorkUnit> work_units(const Experiment& experiment) {
-  const RunSettings& run = experiment.run;
-  std::size_t count = given_distances(run.view).size();
-  if (count == 0) {
-    Scene with_distances;  // all that a zoom path asks of a scene
-    with_distances.distances = read_scene(run.scene, run.scene_library, run.overrides).settings.distances;
-    count = run_distances(run.view, with_distances).size();
-  }
+  const std::size_t count = distances_of(experiment).size();
   std::vector<WorkUnit> units;
   for (std::size_t i = 0; i < count; ++i) {
-    if (i == 0 || run.view.zoom.frames == 0) units.emplace_back();
+    if (i == 0 || experiment.run.view.zoom.frames == 0) units.emplace_back();
     units.back().distances.push_back(i);
   }
   if (looks_further(experiment)) units.emplace_back();
@@ -172,9 +168,10 @@ std::vector<WorkUnit> work_units(const Experiment& experiment) {
 }
 
 void measure_unit(const Experiment& experiment, const WorkUnit& unit, const FurtherTimes& further_times,
-                  const std::filesystem::path& folder, const Progress& progress, const KeptWork& kept) {
+                  const std::filesystem::path& folder, const Progress& progress, const KeptWork& kept,
+                  const RecordWatch& watch) {
   if (!unit.distances.empty())
-    return measure_distances(experiment.run, unit.distances, folder, further_times, kept, progress);
+    return measure_distances(experiment.run, unit.distances, folder, further_times, kept, progress, watch);
   Results figures;
   FurtherFigures(experiment, folder, &kept).add_to(figures, progress);
 }

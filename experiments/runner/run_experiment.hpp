@@ -14,11 +14,12 @@ namespace footprint {
 void make_quick(Experiment& experiment);
 
 /// Runs it and writes its pictures into FOLDER/images; the results hold its report. `further_times` are those of other
-/// processes, as run_compare takes them. What `kept` has is not done again, and what is done is kept there.
+/// processes, as run_compare takes them. What `kept` has is not done again, and what is done is kept there;
+/// `watch` is as run_compare takes it.
 /// Errors: those of run_compare, and of the figures.
 [[nodiscard]] Results run_experiment(const Experiment& experiment, const FurtherTimes& further_times,
                                      const std::filesystem::path& folder, const Progress& progress,
-                                     const KeptWork* kept);
+                                     const KeptWork* kept, const RecordWatch& watch);
 
 /// What of an experiment one process can do by itself.
 struct WorkUnit {
@@ -30,6 +31,7 @@ struct WorkUnit {
 
 /// Does one of them and keeps it; FOLDER is for pictures on their way. Errors: as of run_experiment.
 void measure_unit(const Experiment& experiment, const WorkUnit& unit, const FurtherTimes& further_times,
-                  const std::filesystem::path& folder, const Progress& progress, const KeptWork& kept);
+                  const std::filesystem::path& folder, const Progress& progress, const KeptWork& kept,
+                  const RecordWatch& watch);
 
 }  // namespace footprint

@@ -1,6 +1,8 @@
 // What is done with the table of settings, whatever stands in it.
 #include "experiments/settings/setting.hpp"
 
+#include <algorithm>
+
 #include "experiments/settings/toml_reading.hpp"
 
 namespace footprint {
@@ -19,12 +21,13 @@ std::vector<std::string> setting_keys(std::string_view table) {
   return keys;
 }
 
-void read_settings(const TomlTable& table, std::string_view name, RunSettings& run) {
+void read_settings(const TomlTable& table, std::string_view name, RunSettings& run,
+                   const std::vector<std::string>& given) {
   for (const Setting& setting : run_settings()) {
     if (setting.key.empty() || setting.table != name) continue;
     if (table.has(setting.key)) {
       setting.type.read_file(run, table, setting.key);
-    } else if (setting.required) {
+    } else if (setting.required && std::ranges::find(given, setting.key) == given.end()) {
       refuse_absent(table, setting.key);
     }
   }

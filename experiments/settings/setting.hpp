@@ -51,7 +51,8 @@ struct Setting {
 [[nodiscard]] std::vector<std::string> setting_keys(std::string_view table);
 
 /// Reads the settings of [`name`] from an experiment's file. Errors (usage) name file, line and key: a value that does
-/// not fit, a required key that is missing.
-void read_settings(const TomlTable& table, std::string_view name, RunSettings& run);
+/// not fit, a required key that is missing and not among those that are `given` elsewhere.
+void read_settings(const TomlTable& table, std::string_view name, RunSettings& run,
+                   const std::vector<std::string>& given = {});
 
 }  // namespace footprint

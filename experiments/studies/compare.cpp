@@ -67,10 +67,12 @@ struct DistanceWork {
 
 class Comparison {
  public:
-  Comparison(const RunSettings& settings, std::filesystem::path folder, const Progress& progress, const KeptWork* kept)
+  Comparison(const RunSettings& settings, std::filesystem::path folder, const Progress& progress, const KeptWork* kept,
+             RecordWatch watch)
       : settings_(settings),
         folder_(std::move(folder)),
         kept_(kept),
+        watch_(std::move(watch)),
         whole_(progress, 4),
         scene_(load_scene(settings.scene, settings.scene_library, settings.overrides)),
         size_(frame_size(scene_, settings.view.size)),
@@ -141,8 +143,34 @@ class Comparison {
     DistanceWork work = found(i);
     if (work.truth) exposure_ = work.truth->exposure;
     if (!work.is_drawn()) draw(i, work);
+    show_errors(work);
     if (!work.times) work.times = keep(keys_ ? keys_->times(i) : "", take_times(i), {});
     return work;
+  }
+
+  // ---- what is known before times are taken, for whom it may be enough
+
+  void show_floors(const Truth& truth) {
+    if (!watch_) return;
+    Record floors;
+    floors.distance = truth.distance;
+    floors.frame = static_cast<int>(truth.frame);
+    RecordError& error = floors.error.emplace();
+    error.noise_floor = truth.noise_floor;
+    error.causes.shading_floor = truth.shading_floor;
+    if (truth.shading_floor) error.causes.shading = 0.0;
+    for (const OtherTruth& other : truth.others)
+      floors.other_references.push_back({.spp = other.spp, .normalized_color = 0, .noise_floor = other.noise_floor});
+    std::vector<Record> records(settings_.methods.size(), floors);
+    for (std::size_t m = 0; m < records.size(); ++m) records[m].method = settings_.methods[m].text;
+    watch_(records);
+  }
+
+  void show_errors(const DistanceWork& work) {
+    if (!watch_) return;
+    std::vector<Record> records;
+    for (const std::optional<Draft>& draft : work.drafts) records.push_back(draft->record);
+    watch_(records);
   }
 
   // What was kept of it.
@@ -186,6 +214,7 @@ class Comparison {
   void draw(std::size_t i, DistanceWork& work) {
     Truth truth = truth_of(i);
     if (!work.truth) work.truth = keep(keys_ ? keys_->truth(i) : "", outline(truth), files_of(truth.files));
+    show_floors(truth);
     std::vector<Draft> drafts;
     for (std::size_t m = 0; m < settings_.methods.size(); ++m) {
       drafts.push_back(work.drafts[m] ? std::move(*work.drafts[m]) : kept_draft(truth, i, m));
@@ -387,6 +416,7 @@ class Comparison {
   const RunSettings& settings_;
   std::filesystem::path folder_;
   const KeptWork* kept_;
+  RecordWatch watch_;
   ProgressParts whole_;
   Scene scene_;
   glm::ivec2 size_;
@@ -411,18 +441,18 @@ class Comparison {
 }  // namespace
 
 FrameTimes time_frames(const RunSettings& settings, const Progress& progress) {
-  return Comparison(settings, {}, progress, nullptr).times();
+  return Comparison(settings, {}, progress, nullptr, {}).times();
 }
 
 Results run_compare(const RunSettings& settings, const std::filesystem::path& folder, const FurtherTimes& further_times,
-                    const Progress& progress, SharedTruth* shared, const KeptWork* kept) {
-  return Comparison(settings, folder, progress, kept).run(further_times, shared);
+                    const Progress& progress, SharedTruth* shared, const KeptWork* kept, const RecordWatch& watch) {
+  return Comparison(settings, folder, progress, kept, watch).run(further_times, shared);
 }
 
 void measure_distances(const RunSettings& settings, std::span<const std::size_t> distances,
                        const std::filesystem::path& folder, const FurtherTimes& further_times, const KeptWork& kept,
-                       const Progress& progress) {
-  Comparison(settings, folder, progress, &kept).measure(distances, further_times);
+                       const Progress& progress, const RecordWatch& watch) {
+  Comparison(settings, folder, progress, &kept, watch).measure(distances, further_times);
 }
 
 }  // namespace footprint

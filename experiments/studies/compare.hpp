@@ -24,6 +24,11 @@ struct SharedTruth;
 /// none.
 using FurtherTimes = std::function<std::vector<FrameTimes>()>;
 
+/// Sees the records of one distance before its times are taken, one a method: first with nothing but what the
+/// reference's noise causes of their errors, before any method is drawn, then with their errors. What it throws ends
+/// the run.
+using RecordWatch = std::function<void(std::span<const Record> records)>;
+
 /// Runs the comparison and writes its pictures into FOLDER/images (made here). The figures are over this process and
 /// `further_times`. Results lacks tool and backend.cpu, which the program knows.
 /// What `shared` has of the truth is not rendered again (truth.hpp). What `kept` has is not done again, and what is
@@ -31,12 +36,13 @@ using FurtherTimes = std::function<std::vector<FrameTimes>()>;
 /// settings (usage), of the machine, an interrupt through `progress`.
 [[nodiscard]] Results run_compare(const RunSettings& settings, const std::filesystem::path& folder,
                                   const FurtherTimes& further_times, const Progress& progress,
-                                  SharedTruth* shared = nullptr, const KeptWork* kept = nullptr);
+                                  SharedTruth* shared = nullptr, const KeptWork* kept = nullptr,
+                                  const RecordWatch& watch = {});
 
 /// Of the comparison only what belongs to some of its distances, by their index, into `kept`; FOLDER is for pictures on
 /// their way. In a zoom, the frame before each must be among them or kept.
 void measure_distances(const RunSettings& settings, std::span<const std::size_t> distances,
                        const std::filesystem::path& folder, const FurtherTimes& further_times, const KeptWork& kept,
-                       const Progress& progress);
+                       const Progress& progress, const RecordWatch& watch = {});
 
 }  // namespace footprint

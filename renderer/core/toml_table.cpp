@@ -14,8 +14,28 @@
 namespace footprint {
 namespace {
 
+// What was parsed says which file it is of; a table that no line has written is of `file`.
 std::string line_place(const std::filesystem::path& file, const toml::source_region& source) {
-  return fmt::format("{}:{}", file.string(), source.begin.line);
+  return fmt::format("{}:{}", source.path ? *source.path : file.string(), source.begin.line);
+}
+
+toml::table parse_file(const std::filesystem::path& file) {
+  constexpr std::uint64_t largest = std::uint64_t{1} << 20U;
+  const auto bytes = read_file_bytes(file, largest);
+  try {
+    return toml::parse(std::string_view{reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
+  } catch (const toml::parse_error& error) {
+    throw Error(ErrorKind::usage, line_place(file, error.source()),
+                fmt::format("not valid TOML: {}", error.description()), "correct the line");
+  }
+}
+
+// Moves what `target` lacks into it: a node that is copied forgets its line.
+void take_missing(toml::table& target, toml::table& presets) {
+  for (auto&& [key, node] : presets) {
+    if (target.contains(key.str())) continue;
+    node.visit([&](auto& value) { target.insert(key, std::move(value)); });
+  }
 }
 
 }  // namespace
@@ -30,25 +50,29 @@ struct TomlTable::Parsed {
     return std::make_shared<const Parsed>(Parsed{file, &other});
   }
 
-  static std::shared_ptr<const Parsed> whole(const std::filesystem::path& file);
+  static std::shared_ptr<const Parsed> whole(toml::table content);
 };
 
-std::shared_ptr<const TomlTable::Parsed> TomlTable::Parsed::whole(const std::filesystem::path& file) {
-  constexpr std::uint64_t largest = std::uint64_t{1} << 20U;
-  const auto bytes = read_file_bytes(file, largest);
-  try {
-    const std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-    auto parsed = std::make_shared<const toml::table>(toml::parse(text));
-    const toml::table* const table = parsed.get();
-    return std::make_shared<const Parsed>(Parsed{std::move(parsed), table});
-  } catch (const toml::parse_error& error) {
-    throw Error(ErrorKind::usage, line_place(file, error.source()),
-                fmt::format("not valid TOML: {}", error.description()), "correct the line");
-  }
+std::shared_ptr<const TomlTable::Parsed> TomlTable::Parsed::whole(toml::table content) {
+  auto parsed = std::make_shared<const toml::table>(std::move(content));
+  const toml::table* const table = parsed.get();
+  return std::make_shared<const Parsed>(Parsed{std::move(parsed), table});
 }
 
 TomlTable::TomlTable(const std::filesystem::path& file, const std::vector<std::string>& known)
-    : TomlTable(Parsed::whole(file), file, "", known) {}
+    : TomlTable(Parsed::whole(parse_file(file)), file, "", known) {}
+
+TomlTable TomlTable::over_presets(const std::filesystem::path& file, const std::filesystem::path& presets,
+                                  const std::vector<std::string>& known, const std::vector<std::string>& joined) {
+  toml::table content = parse_file(file), further = parse_file(presets);
+  for (const std::string& name : joined) {
+    toml::table* const own = content[name].as_table();
+    toml::table* const shared = further[name].as_table();
+    if (own != nullptr && shared != nullptr) take_missing(*own, *shared);
+  }
+  take_missing(content, further);
+  return {Parsed::whole(std::move(content)), file, "", known};
+}
 
 TomlTable::TomlTable(std::shared_ptr<const Parsed> parsed, std::filesystem::path file, std::string name,
                      const std::vector<std::string>& known)
@@ -156,6 +180,24 @@ std::optional<std::vector<std::string>> TomlTable::words(std::string_view key) c
   }
   if (array == nullptr || values.empty() || values.size() != array->size()) {
     throw error_at(key, "must be a list of strings", R"(write it as ["a", "b"])");
+  }
+  return values;
+}
+
+std::optional<std::vector<std::string>> TomlTable::words_or_numbers(std::string_view key) const {
+  const toml::node* node = parsed_->find(key);
+  if (node == nullptr) return std::nullopt;
+  const toml::array* array = node->as_array();
+  std::vector<std::string> values;
+  if (array != nullptr) {
+    for (const toml::node& element : *array) {
+      if (element.is_string()) values.push_back(*element.value<std::string>());
+      if (element.is_integer()) values.push_back(fmt::format("{}", *element.value<std::int64_t>()));
+      if (element.is_floating_point()) values.push_back(fmt::format("{}", *element.value<double>()));
+    }
+  }
+  if (array == nullptr || values.empty() || values.size() != array->size()) {
+    throw error_at(key, "must be a list of strings or numbers", R"(write it as ["a", "b"], or [1, 2])");
   }
   return values;
 }

@@ -28,6 +28,11 @@ class TomlTable {
   /// nearest right one. Errors (usage): missing, empty, or not TOML, as "FILE:LINE: ...".
   TomlTable(const std::filesystem::path& file, const std::vector<std::string>& known);
 
+  /// A whole file over another, its presets: a table that `file` lacks is that of the presets, and in the tables that
+  /// `joined` names so is every key that it lacks. Errors, also later ones, name the file that their line is of.
+  static TomlTable over_presets(const std::filesystem::path& file, const std::filesystem::path& presets,
+                                const std::vector<std::string>& known, const std::vector<std::string>& joined);
+
   [[nodiscard]] bool has(std::string_view key) const;
   [[nodiscard]] bool is_word(std::string_view key) const;
   [[nodiscard]] bool is_table(std::string_view key) const;
@@ -42,6 +47,8 @@ class TomlTable {
   [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view key, std::size_t count,
                                                            NumberRange range) const;
   [[nodiscard]] std::optional<std::vector<std::string>> words(std::string_view key) const;
+  /// Strings and numbers, one or more; numbers as they are written shortest.
+  [[nodiscard]] std::optional<std::vector<std::string>> words_or_numbers(std::string_view key) const;
   [[nodiscard]] std::optional<TomlTable> table(std::string_view key, const std::vector<std::string>& known) const;
   /// The keys of the table [key], sorted; none where there is no such table.
   [[nodiscard]] std::vector<std::string> keys_of(std::string_view key) const;

@@ -11,10 +11,9 @@
 namespace footprint {
 namespace {
 
-// The line of the first place of `text` that has one of the `words`; 0 where none has.
-int line_of(const std::string& text, std::span<const std::string> words) {
-  std::size_t place = std::string::npos;
-  for (const std::string& word : words) place = std::min(place, text.find(word));
+// The line of the first place of `text` that has these words; 0 where none has.
+int line_of(const std::string& text, const std::string& words) {
+  const std::size_t place = text.find(words);
   if (place == std::string::npos) return 0;
   return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(place), '\n'));
 }
@@ -74,23 +73,18 @@ std::size_t failures_among(std::span<const CheckOutcome> outcomes) {
 std::vector<CheckOutcome> check_outcomes(const ExperimentReport& report, const std::string& toml) {
   std::vector<CheckOutcome> outcomes;
   for (const ClaimOutcome& claim : report.claims) {
-    const std::vector<std::string> written{fmt::format("name = \"{}\"", claim.name)};
     outcomes.push_back({.suite = report.name,
                         .name = "claim " + claim.name,
                         .failure = claim.as_expected() ? "" : shortfall_of(claim),
                         .file = report.file,
-                        .line = line_of(toml, written)});
+                        .line = line_of(toml, fmt::format("name = \"{}\"", claim.name))});
   }
   for (const ThresholdOutcome& threshold : report.thresholds) {
-    // Of a `*` each method has an outcome, and all have one line.
-    const std::string function = threshold.measure.substr(0, threshold.measure.find('('));
-    const std::vector<std::string> written{fmt::format("\"{}\"", threshold.measure), fmt::format("\"{}(*", function)};
-    outcomes.push_back(
-        {.suite = report.name,
-         .name = "threshold " + threshold.measure,
-         .failure = threshold.held() ? "" : shortfall_of(threshold),
-         .file = report.file,
-         .line = line_of(toml, std::span(written).first(line_of(toml, std::span(written).first(1)) ? 1 : 2))});
+    outcomes.push_back({.suite = report.name,
+                        .name = "threshold " + threshold.measure,
+                        .failure = threshold.held() ? "" : shortfall_of(threshold),
+                        .file = report.file,
+                        .line = line_of(toml, fmt::format("\"{}\"", threshold.written))});
   }
   return outcomes;
 }

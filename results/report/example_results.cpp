@@ -215,4 +215,30 @@ Results hostile_results() {
   return results;
 }
 
+MatrixResults example_matrix(std::size_t members) {
+  MatrixResults matrix{.report = example_experiment(""), .left_out = {"error(lean)"}, .members = {}};
+  matrix.report.pictures.clear();
+  for (std::size_t i = 0; i < members; ++i) {
+    Results results = example_results();
+    const std::string scene = fmt::format("surface_{}", i / 2);
+    results.footprint = i % 2 == 0 ? "trilinear" : "anisotropic:8";
+    results.coordinates = {{"scene", scene}, {"footprint", results.footprint}};
+    results.scene.name = scene;
+    results.experiment.reset();
+    const double scale = 1.0 + 0.1 * static_cast<double>(i % 7);
+    for (Record& record : results.records) {
+      record.scene = scene;
+      record.error->normalized_color *= scale;
+      if (record.error->causes.shading) *record.error->causes.shading *= scale;
+      record.frame_ms = {.median = record.frame_ms.median * scale,
+                         .minimum = record.frame_ms.minimum * scale,
+                         .p90 = record.frame_ms.p90 * scale};
+      record.flicker = Flicker{.mean = 0.02 * scale / record.distance, .p99 = 0.3, .noise_floor = 0.002};
+    }
+    std::string folder = fmt::format("{}-{}", scene, i % 2 == 0 ? "trilinear" : "anisotropic_8");
+    matrix.members.push_back({.folder = std::move(folder), .results = std::move(results)});
+  }
+  return matrix;
+}
+
 }  // namespace footprint

@@ -1,7 +1,7 @@
 // Runs made up for the tests of this folder: one as a scene gives it, one with everything that could break a page.
 #pragma once
 
-#include "results/report/records.hpp"
+#include "results/report/matrix_report.hpp"
 
 namespace footprint {
 
@@ -11,5 +11,9 @@ namespace footprint {
 
 /// Names with markup, quotes, commas, line breaks and bytes that are no UTF-8; absent and infinite figures.
 [[nodiscard]] Results hostile_results();
+
+/// A matrix of so many members, each with the twelve records of example_results() and figures of its own: every two
+/// share a scene, under two footprint filters. Frames have flicker.
+[[nodiscard]] MatrixResults example_matrix(std::size_t members);
 
 }  // namespace footprint

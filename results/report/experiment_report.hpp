@@ -49,7 +49,8 @@ struct ThresholdOutcome {
   std::string measure;
   double limit = 0;
   std::optional<double> measured;
-  std::string problem;  ///< why there is no figure, or empty
+  std::string problem;    ///< why there is no figure, or empty
+  std::string written{};  ///< its key in the file, whose `*` each method has an outcome of
 
   [[nodiscard]] bool held() const { return measured && *measured <= limit; }
 };

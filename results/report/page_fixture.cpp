@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 
@@ -84,9 +85,21 @@ void write_film(const Animation& animation, const std::filesystem::path& folder)
   write_animation(animation, folder);
 }
 
+constexpr std::size_t few_members = 4, many_members = 84;  // the latter: 1008 records
+constexpr std::size_t with_pictures = 1;                   // members
+
+void write_matrix(const std::filesystem::path& folder, std::size_t members) {
+  const MatrixResults matrix = example_matrix(members);
+  for (const MatrixMember& member : std::span(matrix.members).first(with_pictures))
+    write_pictures(member.results, folder / member.folder);
+  write_matrix_report(matrix, folder);
+}
+
 void write_fixture(const std::filesystem::path& folder, std::string_view kind) {
   if (kind == "film") return write_film(example_animation(), folder);
   if (kind == "hostile_film") return write_film(hostile_animation(), folder);
+  if (kind == "matrix") return write_matrix(folder, few_members);
+  if (kind == "large") return write_matrix(folder, many_members);
   const Results results = kind == "hostile" ? hostile_results() : example_results();
   write_pictures(results, folder);
   write_report(results, folder);
@@ -98,7 +111,8 @@ void write_fixture(const std::filesystem::path& folder, std::string_view kind) {
 int main(int argc, char** argv) {
   try {
     if (argc != 3)
-      throw std::invalid_argument("usage: footprint_page_fixture FOLDER example|hostile|film|hostile_film");
+      throw std::invalid_argument(
+          "usage: footprint_page_fixture FOLDER example|hostile|film|hostile_film|matrix|large");
     footprint::write_fixture(argv[1], argv[2]);
     return 0;
   } catch (const std::exception& fault) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -238,6 +239,9 @@ struct TimingInfo {
   int processes = 0;  ///< one after the other
 };
 
+/// Where a member of an experiment's [matrix] stands: each axis with its value, as the file writes them.
+using Coordinates = std::vector<std::pair<std::string, std::string>>;
+
 /// A whole run.
 struct Results {
   ToolInfo tool;
@@ -252,6 +256,7 @@ struct Results {
   std::vector<FootprintNdf> ndf;               ///< empty where no footprint was looked into
   std::vector<QuantityFigure> quantities;      ///< empty where none was asked for
   std::optional<ExperimentReport> experiment;  ///< none: a plain comparison
+  Coordinates coordinates{};                   ///< in the matrix that it is a member of; empty: of none
   double error_scale = 0;                      ///< at the top of the false-colour pictures on the shared scale
   std::vector<ErrorScale> error_scales;        ///< of the pictures on the scale of their distance
 };

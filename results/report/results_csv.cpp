@@ -70,8 +70,6 @@ constexpr std::array csv_columns{"scene",
                                  "image_interior",
                                  "image_standard_error"};
 
-constexpr std::string_view line_end = "\r\n";
-
 /// "name=value;name=value", every option in the order of its name.
 std::string options_text(const Record& record) {
   std::vector<std::string> pairs;
@@ -111,7 +109,11 @@ std::array<std::string, 6> pixel_fields(const PixelCounts& pixels) {
           pixels.light ? fmt::format("{}", *pixels.light) : ""};
 }
 
-std::string line(const Record& record) {
+}  // namespace
+
+std::string csv_header() { return fmt::format("{}", fmt::join(csv_columns, ",")); }
+
+std::string csv_line(const Record& record) {
   const FrameTime& frame = record.frame_ms;
   const TimeRatio& ratio = record.ratio_to_direct;
   const std::optional<FrameBuildTime>& build = record.frame_build;
@@ -150,11 +152,9 @@ std::string line(const Record& record) {
                      fmt::join(pixel_fields(record.pixels), ","), fmt::join(after_error, ","));
 }
 
-}  // namespace
-
 std::string results_csv(const Results& results) {
-  std::string csv = fmt::format("{}{}", fmt::join(csv_columns, ","), line_end);
-  for (const Record& record : results.records) csv.append(line(record)).append(line_end);
+  std::string csv = csv_header().append(csv_line_end);
+  for (const Record& record : results.records) csv.append(csv_line(record)).append(csv_line_end);
   return csv;
 }
 

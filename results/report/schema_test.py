@@ -1,9 +1,9 @@
-"""Holds docs/results.schema.json and results.json against each other.
+"""Holds docs/results.schema.json and results.json, or docs/matrix.schema.json and matrix.json, against each other.
 
 schema_test.py SCHEMA PROGRAM    with the examples that PROGRAM writes
 schema_test.py SCHEMA X.json     with a run's own results
 
-A written results.json validates, and documents that are broken in one place each do not. Exit code 77 (skipped)
+A written document validates, and documents that are broken in one place each do not. Exit code 77 (skipped)
 without the package python3-jsonschema.
 """
 
@@ -35,8 +35,23 @@ def described(node, place):
         described(node["items"], f"{place}/items")
 
 
+MATRIX_CHANGES = {
+    "an unknown key": lambda d: d.update(extra=1),
+    "another schema": lambda d: d.update(schema="footprint-matrix/0"),
+    "no members": lambda d: d.update(members=[]),
+    "no experiment": lambda d: d.update(experiment=None),
+    "a member without its folder": lambda d: d["members"][0].pop("folder"),
+    "a coordinate that is no text": lambda d: d["members"][0]["coordinates"].update(seed=1),
+    "a member without records": lambda d: d["members"][0].update(records=0),
+    "a threshold without its limit": lambda d: d["experiment"]["thresholds"][0].pop("limit"),
+    "a number for what was left out": lambda d: d.update(left_out=[1]),
+}
+
+
 def broken(document):
     """Copies of the document, each wrong in one place."""
+    if "members" in document:
+        return changed(document, MATRIX_CHANGES)
     changes = {
         "an unknown key": lambda d: d.update(extra=1),
         "an unknown key in a record": lambda d: d["records"][0]["time"].update(gpu_ms=1),
@@ -68,6 +83,10 @@ def broken(document):
             "a claim that may come out": lambda d: d["experiment"]["claims"][0].update(outcome="maybe"),
             "an undecided expectation": lambda d: d["experiment"]["claims"][0].update(expect="undecided"),
         }
+    return changed(document, changes)
+
+
+def changed(document, changes):
     for name, change in changes.items():
         wrong = copy.deepcopy(document)
         change(wrong)
@@ -84,15 +103,17 @@ def agree(document):
         assert threshold["held"] == (measured is not None and measured <= threshold["limit"]), threshold["measure"]
 
 
-def documents(source):
+def documents(schema_file, source):
     """The documents to hold against the schema, each with its name."""
     if source.endswith(".json"):
         yield source, json.loads(pathlib.Path(source).read_text(encoding="utf-8"))
         return
-    for kind in ("example", "hostile"):
+    of_matrix = pathlib.Path(schema_file).name.startswith("matrix")
+    for kind in ("matrix",) if of_matrix else ("example", "hostile"):
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([source, folder, kind], check=True)
-            yield kind, json.loads((pathlib.Path(folder) / "results.json").read_text(encoding="utf-8"))
+            file = pathlib.Path(folder) / ("matrix.json" if of_matrix else "results.json")
+            yield kind, json.loads(file.read_text(encoding="utf-8"))
 
 
 def main(schema_file, source):
@@ -100,12 +121,12 @@ def main(schema_file, source):
     jsonschema.Draft7Validator.check_schema(schema)
     described(schema, "")
     validator = jsonschema.Draft7Validator(schema)
-    for title, document in documents(source):
+    for title, document in documents(schema_file, source):
         validator.validate(document)
         agree(document)
         for name, wrong in broken(document):
             assert not validator.is_valid(wrong), f"{title}: the schema takes {name}"
-    print("results.json holds to its schema, and broken documents do not")
+    print("what is written holds to its schema, and broken documents do not")
 
 
 if __name__ == "__main__":

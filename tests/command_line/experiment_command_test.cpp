@@ -11,6 +11,14 @@ const std::string large =
     "[experiment]\ntitle = \"t\"\nscene = \"ribbed_plane\"\nsize = [256, 256]\nmethods = [\"direct\"]\n"
     "[reference]\nspp = 4096\n";
 
+// Four members; of each surface its own bound.
+const std::string matrix =
+    "[experiment]\ntitle = \"t\"\nsize = [16, 16]\nmethods = [\"direct\"]\nrepeats = 1\n"
+    "[matrix]\nscene = [\"ribbed_plane\", \"bumps\"]\nseed = [1, 2]\n[zoom]\ndistances = [1]\n"
+    "[reference]\nspp = 2\nsupersampling = [1]\nbound = \"off\"\n"
+    "[threshold]\n\"error(direct, scene=bumps)\" = 0.9\n\"-error(*)\" = 0\n";
+const std::string within_noise = small + "[threshold]\n\"error(direct)\" = 1e-9\n";
+
 std::vector<std::string> animate(const std::vector<std::string>& more) {
   std::vector<std::string> arguments{"animate", "ribbed_plane", "--size", "16x16", "--spp", "2", "-o", "{}/out"};
   arguments.insert(arguments.end(), more.begin(), more.end());
@@ -137,6 +145,45 @@ const std::vector<Case> experiment_cases{
      .output_has = {"## Experiment mine", "page: "},
      .files = {{"mine.toml", small}},
      .leaves = {"out/index.html", "out/results.json", "out/results.csv", "out/table.md", "out/images"}},
+    {.name = "CheckAMatrix",
+     .arguments = {"check", "{}/mine.toml", "-o", "{}/out"},
+     .output_has = {"All 2 claims and thresholds", "error(direct, scene=bumps)", "of 4 members", "matrix.json"},
+     .files = {{"mine.toml", matrix}},
+     .leaves = {"out/matrix.json", "out/results.csv", "out/table.md", "out/ribbed_plane-seed1/index.html",
+                "out/bumps-seed2/results.json"}},
+    {.name = "SomeMembersOfAMatrix",
+     .arguments = {"check", "{}/mine.toml", "--only", "^bumps-.*1$", "-o", "{}/out"},
+     .output_has = {"All 0 claims and thresholds", "Not judged", "of 1 members"},
+     .files = {{"mine.toml", matrix}},
+     .leaves = {"out/matrix.json", "out/bumps-seed1/results.json"}},
+    {.name = "NoMemberOfAMatrix",
+     .arguments = {"run", "{}/mine.toml", "--only", "bunny", "-o", "{}/out"},
+     .exit_code = 2,
+     .errors_have = {"--only", "no member of mine is called `bunny`", "its first is ribbed_plane-seed1"},
+     .files = {{"mine.toml", matrix}}},
+    {.name = "AMatrixWithASceneThatIsNotThere",
+     .arguments = {"run", "{}/mine.toml", "-o", "{}/out"},
+     .exit_code = 2,
+     .errors_have = {"bumbs: no such scene", "did you mean `bumps`"},
+     .files = {{"mine.toml",
+                "[experiment]\ntitle = \"t\"\nmethods = [\"direct\"]\n"
+                "[matrix]\nscene = [\"ribbed_plane\", \"bumbs\"]\n"}}},
+    {.name = "AMatrixAsAMember",
+     .arguments = {"run", "{}/mine.toml", "-o", "{}/out"},
+     .exit_code = 2,
+     .errors_have = {"its member a has members"},
+     .files = {{"mine.toml", "[experiment]\ntitle = \"t\"\nmembers = [\"a\"]\n"}, {"a.toml", matrix}}},
+    {.name = "AThresholdWithinTheNoise",
+     .arguments = {"check", "{}/mine.toml", "-o", "{}/out"},
+     .exit_code = 2,
+     .errors_have = {"mine.toml:12", "error(direct) = 1e-09 lies within the reference's noise", "more samples"},
+     .files = {{"mine.toml", within_noise}},
+     .keeps_work = true},
+    {.name = "AQuickRunRefusesNoThreshold",
+     .arguments = {"run", "{}/mine.toml", "--quick", "-o", "{}/out"},
+     .output_has = {"the limit lies within the reference's noise", "not held"},
+     .files = {{"mine.toml", within_noise}},
+     .leaves = {"out/results.json"}},
     {.name = "TimesOfSeveralProcesses",
      .arguments = {"check", "{}/mine.toml", "--processes", "3", "-o", "{}/out"},
      .output_has = {"## Experiment a", "## Experiment b", "Timing: 1 frame of each method in each of 3 processes"},

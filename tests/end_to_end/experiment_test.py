@@ -80,9 +80,15 @@ class Experiments(WholeRunTest):
         content = HEAD + '[zoom]\ndistances = [1000000]\n[threshold]\n"error(toksvig)" = 1\n'
         self.assert_falls_short("without", content, "no record has this figure")
 
-    def test_a_threshold_within_the_noise_falls(self):
+    def test_a_threshold_within_the_noise_is_refused_before_anything_is_timed(self):
         content = HEAD.replace("spp = 16", "spp = 2") + '[threshold]\n"error(toksvig)" = 0.001\n'
-        self.assert_falls_short("within_noise", content, "the limit lies within the reference's noise, 0.")
+        code, _, errors, out = self.execute("within_noise", content)
+        self.assertEqual(code, 2, errors)
+        self.assertRegex(errors, r"within_noise.toml:\d+: the threshold error\(toksvig\) = 0.001 lies within the "
+                                 r"reference's noise, 0\.")
+        kept = {file.stem.split("-")[0] for file in (out / "kept").glob("*/*.done")}
+        self.assertEqual(kept, {"truth"}, "no method was drawn or timed")
+        self.assertFalse((out / "results.json").exists())
 
     def test_a_threshold_of_each_method_falls_for_the_one_that_exceeds_it(self):
         limit = 0.3  # between the two

@@ -17,6 +17,15 @@ supersampling = [1, 4]
 """
 DISTANCES = "[zoom]\ndistances = [1, 2, 6]\n"
 ZOOM = "[zoom]\nfrom = 1.5\nto = 3\nframes = 3\n"
+MATRIX = """[zoom]
+distances = [1, 2]
+[matrix]
+seed = [1, 2]
+footprint = ["trilinear", "box:2"]
+[threshold]
+"error(toksvig, seed=2)" = 0.9
+"error(direct, footprint=box:2, distance=2)" = 0.9
+"""
 NDF = '[[ndf]]\nname = "one"\nfootprint = [0.1, 0.1, 0.3, 0.3]\n'
 METHODS = '"direct", "toksvig"'
 
@@ -42,6 +51,8 @@ def outcome(folder):
             continue
         if file.name == "results.json":
             found[place] = without_times(json.loads(file.read_text(encoding="utf-8")))
+        elif file.name == "matrix.json":
+            found[place] = json.loads(file.read_text(encoding="utf-8"))
         elif file.suffix in (".exr", ".png"):
             found[place] = file.read_bytes()
     return found

@@ -4,7 +4,7 @@ import json
 import shutil
 import unittest
 
-from kept_runs import DISTANCES, NDF, ZOOM, KeptRunTest, finished, outcome
+from kept_runs import DISTANCES, MATRIX, NDF, ZOOM, KeptRunTest, finished, outcome
 
 COUNT = 3
 
@@ -73,6 +73,26 @@ class Merged(KeptRunTest):
         self.must("run", self.group, "-q", "--only", "^zo+m$", "--shard", "1/1", "-o", part)
         self.must("merge", part, "-q", "-o", self.folder / "of_only")
         self.assertEqual(sorted(p.name for p in (self.folder / "of_only").iterdir()), ["kept", "zoom"])
+
+    def test_a_matrix_in_parts_goes_on_as_one(self):
+        """Members that were run before are not run again, and parts of all of them are one matrix."""
+        file, whole = self.write("matrix", MATRIX), self.folder / "matrix_whole"
+        self.must("run", file, "-q", "--only", "seed2", "-o", whole)
+        before = finished(whole)
+        self.must("run", file, "-q", "-o", whole)
+        after = finished(whole)
+        self.assertEqual({key: after.get(key) for key in before}, before, "finished work was done again")
+        self.assertGreater(len(after), len(before))
+        parts = [self.folder / f"matrix_{i}" for i in range(1, 4)]
+        for i, part in enumerate(parts, 1):
+            self.must("run", file, "-q", "--shard", f"{i}/3", "-o", part)
+        merged = self.folder / "matrix_merged"
+        self.must("merge", *parts, "-q", "-o", merged)
+        self.assert_same_outcome(outcome(whole), outcome(merged))
+        document = json.loads((merged / "matrix.json").read_text(encoding="utf-8"))
+        self.assertEqual([member["folder"] for member in document["members"]],
+                         ["trilinear-seed1", "trilinear-seed2", "box_2-seed1", "box_2-seed2"])
+        self.assertTrue(all(threshold["held"] for threshold in document["experiment"]["thresholds"]))
 
     # What does not fit.
 

@@ -1,0 +1,262 @@
+// Reads axes through the settings that they vary, and multiplies them out.
+#include "experiments/runner/matrix.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "experiments/runner/experiment.hpp"
+#include "experiments/settings/known_methods.hpp"
+#include "experiments/settings/setting.hpp"
+#include "experiments/settings/toml_reading.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/core/file_names.hpp"
+#include "renderer/core/toml_table.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
+
+namespace footprint {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Each member is a folder and a comparison, whose methods all are held at once.
+constexpr std::size_t most_members = 1000, most_methods = 200;
+
+struct AxisSource {
+  std::string_view key, table;  // of the setting
+};
+
+constexpr std::array<AxisSource, 4> axis_sources{
+    {{"scene", "experiment"}, {"size", "experiment"}, {"footprint", "experiment"}, {"seed", "reference"}}};
+
+const Setting& setting_of(std::string_view key) {
+  const AxisSource& source = *std::ranges::find(axis_sources, key, &AxisSource::key);
+  return *std::ranges::find_if(
+      run_settings(), [&](const Setting& setting) { return setting.key == key && setting.table == source.table; });
+}
+
+void set_value(Experiment& experiment, const std::string& key, const std::string& value) {
+  setting_of(key).type.read_text(experiment.run, key, value);
+  if (key == "scene") experiment.run.scene = scene_of_file(experiment.file, value);
+}
+
+// As the setting writes it, so that one value has one name.
+std::string written_by_setting(const std::string& key, const std::string& value) {
+  RunSettings run;
+  const Setting& setting = setting_of(key);
+  setting.type.read_text(run, "", value);
+  return setting.type.text(run);
+}
+
+Axis read_axis(const TomlTable& matrix, const std::string& key) {
+  Axis axis{.key = key, .values = {}};
+  const std::vector<std::string> values = matrix.words_or_numbers(key).value();
+  for (const std::string& written : values) {
+    const std::string value = at_key(matrix, key, [&] { return written_by_setting(key, written); });
+    if (value.empty()) throw matrix.error_at(key, "has an empty value", "fill it in, or leave it out");
+    if (std::ranges::find(axis.values, value) != axis.values.end())
+      throw matrix.error_at(key, fmt::format("has `{:.80}` twice", value), "give each once");
+    axis.values.push_back(value);
+  }
+  return axis;
+}
+
+// Every method with every combination of its options' values, in the place of the method.
+std::vector<std::string> times_options(const TomlTable& table, const std::string& method) {
+  std::vector<std::string> texts{method};
+  const std::vector<std::string> options = table.keys_of(method);
+  if (options.empty()) throw table.error_at(method, "varies nothing", "write METHOD = { option = [1, 2] }");
+  const TomlTable axes = *table.table(method, options);
+  for (const std::string& option : options) {
+    const std::vector<std::string> values = axes.words_or_numbers(option).value();
+    std::vector<std::string> longer;
+    for (const std::string& text : texts) {
+      for (const std::string& value : values) longer.push_back(fmt::format("{}:{}={}", text, option, value));
+    }
+    texts = std::move(longer);
+    if (texts.size() > most_methods)
+      throw table.error_at(method, fmt::format("makes more than {} methods", most_methods), "leave values out");
+  }
+  return texts;
+}
+
+void read_options(const TomlTable& matrix, std::vector<MethodSpec>& methods) {
+  const std::vector<std::string> varied = matrix.keys_of("options");
+  const TomlTable table = *matrix.table("options", varied);
+  std::vector<std::string> texts;
+  for (const MethodSpec& method : methods) texts.push_back(method.text);
+  std::vector<std::vector<std::string>> variants;
+  for (const std::string& text : texts) variants.push_back({text});
+  for (const std::string& method : varied) {
+    const std::size_t index = at_key(table, method, [&] { return select_method(method, texts); });
+    variants[index] = at_key(table, method, [&] {
+      if (variants[index].front() != texts[index])
+        throw Error(ErrorKind::usage, "", "is varied twice", "give its options once");
+      std::vector<std::string> made = times_options(table, method);
+      for (std::string& text : made) text.replace(0, method.size(), texts[index]);
+      return made;
+    });
+  }
+  std::vector<MethodSpec> all;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    for (const std::string& text : variants[i]) {
+      at_key(matrix, "options", [&] { all.push_back(parse_known_methods(text).front()); });
+      if (std::ranges::count(all, all.back().text, &MethodSpec::text) > 1)
+        throw matrix.error_at("options", fmt::format("makes `{:.80}` twice", text), "give each value once");
+    }
+  }
+  if (all.size() > most_methods)
+    throw matrix.error_at("options", fmt::format("makes {} methods, {} at most", all.size(), most_methods),
+                          "leave values out, or split the experiment");
+  methods = std::move(all);
+}
+
+// What a value is called in a folder's name: of a path what tells it from others.
+std::string value_name(const std::string& key, const std::string& value) {
+  if (key == "seed") return "seed" + value;
+  if (key != "scene") return value;
+  const fs::path path(value);
+  if (path.filename() == "scene.toml") return path.parent_path().filename().string();
+  return path.has_extension() ? path.stem().string() : path.filename().string();
+}
+
+// Of each member, where it stands.
+std::vector<Coordinates> multiplied_out(const std::vector<Axis>& axes) {
+  std::vector<Coordinates> all{{}};
+  for (const Axis& axis : axes) {
+    std::vector<Coordinates> longer;
+    for (const Coordinates& start : all) {
+      for (const std::string& value : axis.values) {
+        longer.push_back(start);
+        longer.back().emplace_back(axis.key, value);
+      }
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+std::vector<std::string> member_names(const std::vector<Coordinates>& places) {
+  std::vector<std::string> names{"kept", "images"};  // what else may lie in the output folder
+  const std::size_t others = names.size();
+  for (const Coordinates& place : places) {
+    std::string name;
+    for (const auto& [key, value] : place) name += (name.empty() ? "" : "-") + value_name(key, value);
+    names.push_back(name);
+  }
+  names = distinct_stems(names);
+  names.erase(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(others));
+  return names;
+}
+
+std::string title_of(const Experiment& whole, const Coordinates& place) {
+  std::string values;
+  for (const auto& [key, value] : place) values += fmt::format("{}{} {}", values.empty() ? "" : ", ", key, value);
+  return fmt::format("{}: {}", whole.title, values);
+}
+
+bool is_over(const Expression& expression, const std::vector<Coordinates>& members) {
+  const std::vector<Measure> measures = expression.measures();
+  return std::ranges::any_of(measures, [&](const Measure& measure) {
+    return std::ranges::any_of(members, [&](const Coordinates& member) { return selects(measure, member); });
+  });
+}
+
+// Expressions are moved and not assigned.
+template <class Item, class Keeps>
+void keep_if(std::vector<Item>& items, Keeps keeps) {
+  std::vector<Item> kept;
+  for (Item& item : items) {
+    if (keeps(item)) kept.push_back(std::move(item));
+  }
+  items = std::move(kept);
+}
+
+}  // namespace
+
+std::vector<std::string> axis_keys(std::string_view table) {
+  std::vector<std::string> keys;
+  for (const AxisSource& source : axis_sources) {
+    if (table.empty() || table == source.table) keys.emplace_back(source.key);
+  }
+  return keys;
+}
+
+std::vector<std::string> matrix_keys_of(const TomlTable& root) {
+  std::vector<std::string> known = axis_keys();
+  known.emplace_back("options");
+  const auto table = root.table("matrix", known);
+  std::vector<std::string> keys = root.keys_of("matrix");
+  if (table && keys.empty())
+    throw root.error_at("matrix", "varies nothing", fmt::format("give one of {}", fmt::join(known, ", ")));
+  return keys;
+}
+
+void read_matrix(const TomlTable& root, Experiment& experiment) {
+  const std::vector<std::string> keys = matrix_keys_of(root);
+  if (keys.empty()) return;
+  const TomlTable matrix = *root.table("matrix", keys);
+  std::size_t members = 1;
+  for (const std::string& key : axis_keys()) {
+    if (!matrix.has(key)) continue;
+    experiment.axes.push_back(read_axis(matrix, key));
+    set_value(experiment, key, experiment.axes.back().values.front());
+    members *= experiment.axes.back().values.size();
+    if (members > most_members)
+      throw matrix.error_at(key, fmt::format("makes {} members, {} at most", members, most_members),
+                            "leave values out, or split the experiment");
+  }
+  if (matrix.has("options")) read_options(matrix, experiment.run.methods);
+}
+
+std::vector<Experiment> members_of_matrix(const Experiment& whole) {
+  const std::vector<Coordinates> places = multiplied_out(whole.axes);
+  const std::vector<std::string> names = member_names(places);
+  Experiment first = whole;
+  first.axes.clear();
+  first.claims.clear();
+  first.thresholds.clear();
+  first.published.clear();
+  first.whole = whole.name;
+  std::vector<Experiment> members(places.size(), first);
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    members[i].name = names[i];
+    members[i].title = title_of(whole, places[i]);
+    members[i].coordinates = places[i];
+    for (const auto& [key, value] : places[i]) set_value(members[i], key, value);
+  }
+  return members;
+}
+
+bool selects(const Measure& measure, const Coordinates& member) {
+  return std::ranges::all_of(measure.slice, [&](const auto& wanted) {
+    return std::ranges::any_of(
+        member, [&](const auto& axis) { return axis.first == wanted.first && axis.second == wanted.second; });
+  });
+}
+
+std::vector<std::string> leave_out(Experiment& whole, const std::vector<Coordinates>& missing) {
+  std::vector<std::string> names;
+  keep_if(whole.claims, [&](const Claim& claim) {
+    if (!is_over(claim.inequality.left(), missing) && !is_over(claim.inequality.right(), missing)) return true;
+    names.push_back(claim.name);
+    return false;
+  });
+  keep_if(whole.thresholds, [&](const Threshold& threshold) {
+    if (!is_over(threshold.measure, missing)) return true;
+    names.push_back(threshold.measure.text());
+    return false;
+  });
+  keep_if(whole.published, [&](const PublishedValue& published) { return !is_over(published.measure, missing); });
+  return names;
+}
+
+std::string scene_of_file(const std::filesystem::path& file, const std::string& name) {
+  const fs::path beside = file.parent_path() / name;
+  return is_scene(beside) ? beside.string() : name;
+}
+
+}  // namespace footprint

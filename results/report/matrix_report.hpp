@@ -1,0 +1,39 @@
+// The report over all members of an experiment's [matrix]: matrix.json, results.csv and table.md. Each member has its
+// own results.json and page in the folder of its name.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "results/report/records.hpp"
+
+namespace footprint {
+
+/// One member.
+struct MatrixMember {
+  std::string folder;  ///< that its own report lies in, beside that of the matrix
+  Results results;     ///< with its coordinates
+};
+
+/// A whole matrix, or what of it was run.
+struct MatrixResults {
+  ExperimentReport report;            ///< claims, thresholds and published figures over all members
+  std::vector<std::string> left_out;  ///< of those, what was not judged because it is over members that were not run
+  std::vector<MatrixMember> members;  ///< one or more
+};
+
+/// The document of docs/matrix.schema.json, "schema": "footprint-matrix/1"; pretty-printed.
+[[nodiscard]] std::string matrix_json(const MatrixResults& matrix);
+
+/// The lines of the members' results.csv, each after its member's name, footprint filter and seed; paths of pictures
+/// start from the matrix' folder.
+[[nodiscard]] std::string matrix_csv(const MatrixResults& matrix);
+
+/// What became of it, and every record in one table, in Markdown.
+[[nodiscard]] std::string matrix_table(const MatrixResults& matrix);
+
+/// Writes the files into `folder` (which exists), each whole or not at all. Errors (machine): cannot write.
+void write_matrix_report(const MatrixResults& matrix, const std::filesystem::path& folder);
+
+}  // namespace footprint

@@ -53,6 +53,7 @@ struct Sweep {
   int steps = 8;
   double most = 0.1;
   std::optional<double> energy{};  ///< where the directions find every lobe
+  std::string also{};              ///< a method with options that has another course there
 };
 
 [[nodiscard]] std::span<const NdfCase> ndf_cases();

@@ -182,7 +182,8 @@ class Run {
 
   void run(const Sweep& sweep, const Progress& progress) {
     context_.make_current();
-    const std::vector<MethodSpec> methods = swept_methods();
+    std::vector<MethodSpec> methods = methods_;
+    if (settings_.methods.empty() && !sweep.also.empty()) methods.push_back(parse_methods(sweep.also).front());
     std::vector<std::optional<std::vector<float>>> before(methods.size());
     std::vector<double> largest(methods.size(), 0.0), most_lost(methods.size(), 0.0);
     std::vector<double> truth;
@@ -268,14 +269,6 @@ class Run {
   [[nodiscard]] std::vector<HardRow> take_rows() { return std::move(rows_); }
 
  private:
-  // Every method, and what is said to be without another's steps.
-  [[nodiscard]] std::vector<MethodSpec> swept_methods() const {
-    std::vector<MethodSpec> out = methods_;
-    if (std::ranges::find(out, "xu_vmf", &MethodSpec::text) != out.end())
-      out.push_back(parse_methods("xu_vmf:thresholds=blended").front());
-    return out;
-  }
-
   // Every method, and again with each storage that is not its default.
   [[nodiscard]] std::vector<MethodSpec> with_storages() const {
     std::vector<MethodSpec> out;

@@ -20,12 +20,23 @@ constexpr std::array<Word<PartKind>, 2> part_kinds{{
     {PartKind::animation, "animation"},
 }};
 constexpr int most_shards = 100000;
+constexpr int most_processes = 64, most_tile = 1 << 16;  // as the options of a run have them
 
 // A whole number without a sign; 0 where it is none.
 int count_of(std::string_view text) {
   int number = 0;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
   return status == std::errc{} && end == text.data() + text.size() ? number : 0;
+}
+
+Error damaged(const std::filesystem::path& file) {
+  return {ErrorKind::usage, file.string(), "is damaged", "run that part again"};
+}
+
+// A number that a part may have; JSON has any. Errors (usage): another, or none.
+int whole_number(const nlohmann::json& value, int least, int most, const std::filesystem::path& file) {
+  if (!value.is_number_integer() || value < least || value > most) throw damaged(file);
+  return value.get<int>();
 }
 
 }  // namespace
@@ -74,20 +85,21 @@ PartFile read_part_file(const std::filesystem::path& folder) {
     if (document.at("schema") != schema)
       throw Error(ErrorKind::usage, file.string(), "is of another format", "run it again");
     const std::string kind = document.at("kind");
+    const int count = whole_number(document.at("shard").at(1), 1, most_shards, file);
     return {.kind = word_value(part_kinds, kind, "kind of part", file.string()),
             .experiment = document.at("experiment"),
             .fingerprint = document.at("fingerprint"),
             .maker = document.at("maker"),
-            .shard = {.index = document.at("shard").at(0), .count = document.at("shard").at(1)},
+            .shard = {.index = whole_number(document.at("shard").at(0), 1, count, file), .count = count},
             .only = document.at("only"),
             .quick = document.at("quick"),
-            .processes = document.at("processes"),
-            .tile = document.at("tile"),
+            .processes = whole_number(document.at("processes"), 1, most_processes, file),
+            .tile = whole_number(document.at("tile"), 0, most_tile, file),
             .node = document.at("node"),
             .seconds = document.at("seconds"),
             .keys = document.at("keys").get<std::vector<std::string>>()};
   } catch (const nlohmann::json::exception&) {
-    throw Error(ErrorKind::usage, file.string(), "is damaged", "run that part again");
+    throw damaged(file);
   }
 }
 

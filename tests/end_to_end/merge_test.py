@@ -132,6 +132,11 @@ class Merged(KeptRunTest):
         part = self.copy(1, "list")
         (part / "part.json").write_text("{", encoding="utf-8")
         self.assert_refused([self.parts[0], part, self.parts[2]], "list/part.json", "is damaged")
+        for number, change in enumerate([{"shard": [0, COUNT]}, {"shard": [2, 1e300]}, {"shard": [-1, -1]},
+                                         {"processes": -3}, {"tile": 2**40}, {"keys": [1]}]):
+            name = f"numbers_{number}"
+            part = self.with_document(1, name, **change)
+            self.assert_refused([self.parts[0], part, self.parts[2]], f"{name}/part.json", "is damaged")
 
     def test_damaged_work(self):
         part = self.copy(1, "work")

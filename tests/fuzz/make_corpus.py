@@ -82,6 +82,42 @@ def pictures(program, folder, scratch):
         shutil.copy(folder / "picture" / name, folder / "environment" / name)
 
 
+SMALL_EXPERIMENT = """[experiment]
+title = "A small one"
+scene = "{scene}"
+size = [8, 8]
+methods = ["direct", "toksvig:spread=0.5"]
+repeats = 1
+[reference]
+spp = 1
+[zoom]
+distances = [1, 2]
+[threshold]
+"error(toksvig)" = 1
+[[claim]]
+name = "closer"
+text = "One is closer."
+inequality = "error(toksvig) < 0.6 * error(direct)"
+expect = "reproduced"
+reason = "it is"
+[[ndf]]
+name = "one"
+footprint = [0.1, 0.1, 0.3, 0.3]
+"""
+
+
+def parts(program, folder, scratch):
+    """The project's own experiments, and what a part of a small one says of itself."""
+    for experiment in SOURCE.glob("experiments/*.toml"):
+        shutil.copy(experiment, folder / "experiment" / experiment.name)
+    small = scratch / "small.toml"
+    small.write_text(SMALL_EXPERIMENT.format(scene=SOURCE / "scenes/bumps"))
+    shutil.copy(small, folder / "experiment" / "small.toml")
+    subprocess.run([program, "run", small, "--shard", "1/2", "-q", "-o", scratch / "part"], check=True,
+                   capture_output=True)
+    shutil.copy(scratch / "part" / "part.json", folder / "part" / "part.json")
+
+
 def runs(program, folder, scratch):
     """A results.json."""
     out = scratch / "out"
@@ -122,7 +158,8 @@ def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     program, folder = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
-    for reader in ("gltf", "glb", "obj", "merl", "picture", "environment", "scene", "cache_entry", "results"):
+    for reader in ("gltf", "glb", "obj", "merl", "picture", "environment", "scene", "cache_entry", "experiment", "part",
+                   "results"):
         (folder / reader).mkdir(parents=True, exist_ok=True)
     (folder / "gltf" / "quad.gltf").write_bytes(gltf())
     (folder / "glb" / "quad.glb").write_bytes(glb())
@@ -136,6 +173,7 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         pictures(program, folder, pathlib.Path(scratch))
         runs(program, folder, pathlib.Path(scratch))
+        parts(program, folder, pathlib.Path(scratch))
         bakes(program, folder, pathlib.Path(scratch))
 
 

@@ -78,7 +78,7 @@ ExperimentReport report_matrix(const Group& group, std::vector<Results> members,
     keep(folder);
     return matrix_table(results);
   });
-  write_output(fmt::format("{}\nreport: {}\n", text, (path / "matrix.json").string()));
+  write_output(fmt::format("{}\npage: {}\n", text, (path / "index.html").string()));
   return std::move(results.report);
 }
 

@@ -233,7 +233,8 @@ MatrixResults example_matrix(std::size_t members) {
       record.frame_ms = {.median = record.frame_ms.median * scale,
                          .minimum = record.frame_ms.minimum * scale,
                          .p90 = record.frame_ms.p90 * scale};
-      record.flicker = Flicker{.mean = 0.02 * scale / record.distance, .p99 = 0.3, .noise_floor = 0.002};
+      record.flicker = Flicker{
+          .mean = (0.5 * record.error->normalized_color + 0.01) / record.distance, .p99 = 0.3, .noise_floor = 0.002};
     }
     std::string folder = fmt::format("{}-{}", scene, i % 2 == 0 ? "trilinear" : "anisotropic_8");
     matrix.members.push_back({.folder = std::move(folder), .results = std::move(results)});

@@ -107,6 +107,7 @@ void write_matrix_report(const MatrixResults& matrix, const std::filesystem::pat
   write_file_atomically(folder / "matrix.json", matrix_json(matrix));
   write_file_atomically(folder / "results.csv", matrix_csv(matrix));
   write_file_atomically(folder / "table.md", matrix_table(matrix));
+  write_file_atomically(folder / "index.html", matrix_page(matrix));
 }
 
 }  // namespace footprint

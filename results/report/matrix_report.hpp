@@ -1,5 +1,5 @@
-// The report over all members of an experiment's [matrix]: matrix.json, results.csv and table.md. Each member has its
-// own results.json and page in the folder of its name.
+// The report over all members of an experiment's [matrix]: matrix.json, results.csv, table.md and index.html. Each
+// member has its own results.json and page in the folder of its name.
 #pragma once
 
 #include <filesystem>
@@ -32,6 +32,9 @@ struct MatrixResults {
 
 /// What became of it, and every record in one table, in Markdown.
 [[nodiscard]] std::string matrix_table(const MatrixResults& matrix);
+
+/// The page over all members, which shows their pictures in their folders; else as results_page (report.hpp).
+[[nodiscard]] std::string matrix_page(const MatrixResults& matrix);
 
 /// Writes the files into `folder` (which exists), each whole or not at all. Errors (machine): cannot write.
 void write_matrix_report(const MatrixResults& matrix, const std::filesystem::path& folder);

@@ -3,11 +3,16 @@
 'use strict';
 
 const data = JSON.parse(document.getElementById('data').textContent);
-const records = data.results.records.map((record, i) => ({...record, display: data.display[i]}));
+const runs = data.runs;  // of a matrix its members, else the run
+const records = runs.flatMap((run) =>
+  run.results.records.map((record, i) => ({...record, run, display: run.display[i]})));
+const axes = Object.keys(runs[0].coordinates);  // what the members of a matrix vary
 const distances = [...new Set(records.map((record) => record.distance))];
 const methods = [...new Set(records.map((record) => record.method))];
-const state = {distance: distances[0], all: false, sort: null, descending: false, scale: 'own', stops: 0};
+const state = {distance: distances[0], all: false, place: {}, hidden: new Set(), sort: null, descending: false,
+  scale: 'own', stops: 0};
 const dark = window.matchMedia('(prefers-color-scheme: dark)');
+const paper = window.matchMedia('print');
 
 // Okabe and Ito's colours, told apart by every kind of colour vision; each with a mark of its own.
 const palette = {
@@ -17,7 +22,7 @@ const palette = {
 const marks = ['circle', 'rectRot', 'triangle', 'rect', 'star', 'crossRot'];
 
 const columns = [
-  {title: 'Distance', words: false, text: 'distance', value: (r) => r.distance, only: () => state.all,
+  {title: 'Distance', show: (r) => String(r.distance), value: (r) => r.distance, only: () => state.all,
    meaning: 'How far the camera stands, as a factor on the distance at which the scene places it.'},
   {title: 'Rank', text: 'rank', value: (r) => (r.display.rank === '–' ? null : Number(r.display.rank)),
    meaning: 'Place by shading error. Methods that differ by no more than the reference’s noise share it; – where too few pixels are interior.'},
@@ -39,6 +44,9 @@ const columns = [
    meaning: 'Frames of direct, averaged, that have the same shading error.'},
   {title: 'Pixels', text: 'pixels', value: (r) => r.pixels.interior,
    meaning: 'Interior pixels, over which the shading error is taken; ! marks fewer than 100.'},
+  {title: 'Flicker', show: (r) => (r.flicker ? figure(r.flicker.mean) : '–'), value: (r) => r.flicker?.mean,
+   only: () => records.some((r) => r.flicker),
+   meaning: 'How much more or otherwise the picture changes from the frame before than the reference does, 0 to 2.'},
   {title: 'Frame ms', text: 'frame', value: (r) => r.time.frame_ms.median, best: 'is_fastest',
    meaning: 'Time of one frame: median (least–90th percentile of the repeats).'},
   {title: '× direct', text: 'ratio', value: (r) => r.time.ratio_to_direct.median,
@@ -57,6 +65,8 @@ const columns = [
    meaning: 'Effects that the scene calls for and the method cannot show.'},
 ];
 const nameColumn = {title: 'Method', words: true, value: (r) => r.method};
+const axisColumns = axes.map((axis) => ({title: axis, words: true, show: (r) => r.run.coordinates[axis],
+  value: (r) => r.run.coordinates[axis], meaning: 'What the members of the matrix vary.'}));
 
 /** The samples that a record is worth as a sortable number; bounds go beyond the curve's ends. */
 function worth(record) {
@@ -75,10 +85,20 @@ function element(tag, className, ...children) {
 }
 
 const byId = (id) => document.getElementById(id);
-const theme = () => (dark.matches ? 'dark' : 'light');
+const theme = () => (dark.matches && !paper.matches ? 'dark' : 'light');
 const seriesColor = (method) => palette[theme()][methods.indexOf(method) % palette.light.length];
 const styleValue = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-const shown = () => records.filter((record) => record.distance === state.distance);
+
+// What the filters leave: members, of which the first is looked at closely, and of it the records at one distance.
+const matching = () => runs.filter((run) => axes.every((axis) => (state.place[axis] ?? run.coordinates[axis]) === run.coordinates[axis]));
+const focus = () => matching()[0] ?? runs[0];
+const isVisible = (record) => !state.hidden.has(record.method);
+const shown = () => records.filter((r) => r.run === focus() && r.distance === state.distance && isVisible(r));
+const filtered = () => {
+  const members = new Set(matching());
+  return records.filter((r) => members.has(r.run) && isVisible(r));
+};
+const placeOf = (run) => axes.map((axis) => run.coordinates[axis]).join(', ');
 
 function key(method) {
   const node = element('span', 'key');
@@ -92,7 +112,7 @@ function breakable(method) {
   return method.split(/(?=:)/).flatMap((part, i) => (i ? [element('wbr'), part] : [part]));
 }
 
-/** A row of radio buttons that looks like one segmented control. */
+/** A row of radio buttons that looks like one segmented control; `chosen` at first. */
 function segments(id, choices, chosen, onChange) {
   for (const choice of choices) {
     const input = element('input');
@@ -107,18 +127,23 @@ function count(number, noun) {
 }
 
 function showHead() {
-  byId('lede').textContent = `${count(methods.length, 'method')} at ${count(distances.length, 'distance')}, held ` +
-    `against a reference of ${count(data.results.reference.spp, 'sample')} a pixel.`;
-  for (const {label, value} of data.provenance) {
-    byId('provenance').append(element('dt', '', label), element('dd', label === 'Warning' ? 'warning' : '', value));
-  }
+  byId('lede').textContent = `${count(methods.length, 'method')} at ${count(distances.length, 'distance')}` +
+    `${runs.length > 1 ? ` in ${count(runs.length, 'member')} of a matrix, ${count(records.length, 'record')}` : ''}, held ` +
+    `against a reference of ${count(runs[0].results.reference.spp, 'sample')} a pixel.`;
   for (const {title, meaning} of columns) byId('meanings').append(element('dt', '', title), element('dd', '', meaning));
 }
 
-const ofDistance = () => data.distances.find((entry) => entry.distance === state.distance);
+/** Which member the parts below are of, where there are several, and where its figures come from. */
+function showFocus() {
+  byId('focus').textContent = runs.length > 1 ? `In detail, beside the tables and plots of all that is chosen: ${placeOf(focus())}.` : '';
+  byId('provenance').replaceChildren(...focus().provenance.flatMap(({label, value}) =>
+    [element('dt', '', label), element('dd', label === 'Warning' ? 'warning' : '', value)]));
+}
+
+const ofDistance = () => focus().distances.find((entry) => entry.distance === state.distance);
 
 function showCautions() {
-  const warnings = data.results.ranking_warnings;
+  const warnings = focus().results.ranking_warnings;
   byId('caution').hidden = warnings.length === 0;
   byId('cautions').replaceChildren(...warnings.map((text) => element('li', '', text)));
 }
@@ -149,6 +174,7 @@ function headCell(column) {
     state.descending = state.sort === column && !state.descending;
     state.sort = column;
     showTable();
+    writeState();
     byId('table').querySelector('th[aria-sort] button').focus();
   });
   const cell = element('th', column.words ? 'words-column' : '', button);
@@ -158,28 +184,44 @@ function headCell(column) {
 }
 
 function bodyCell(record, column) {
-  const text = String(column.text === 'distance' ? record.distance : record.display[column.text]);
+  const text = column.show ? column.show(record) : String(record.display[column.text]);
   const [figure, spread] = text.split(/ (?=\()/);
   const cell = element('td', column.words ? 'words-column' : '', figure);
   if (spread) cell.append(element('small', '', ' ' + spread));
   if (column.text === 'shading' && record.display.at_floor) cell.prepend(element('span', 'floor-mark', '≈ '));
-  if (column.best && !state.all && record.display[column.best]) cell.classList.add('best');
+  if (column.best && !state.all && matching().length === 1 && record.display[column.best]) cell.classList.add('best');
   return cell;
 }
 
-function showTable() {
-  const rows = sorted(state.all ? records : shown());
-  const visible = columns.filter((column) => !column.only || column.only());
-  byId('table').tHead.replaceChildren(element('tr', '', headCell(nameColumn), ...visible.map(headCell)));
-  byId('table').tBodies[0].replaceChildren(...rows.map((record) => element(
+const rowsAtOnce = 100;  // laying a thousand out takes longer than a reader waits for the first
+let laterRows = 0;
+
+/** The first rows at once, the others as soon as those are seen. */
+function showRows(rows, visible) {
+  const rowOf = (record) => element(
     'tr', '', element('td', 'name words-column', key(record.method), ...breakable(record.method)),
-    ...visible.map((column) => bodyCell(record, column)))));
+    ...visible.map((column) => bodyCell(record, column)));
+  const body = byId('table').tBodies[0];
+  body.replaceChildren(...rows.slice(0, rowsAtOnce).map(rowOf));
+  cancelAnimationFrame(laterRows);
+  if (rows.length <= rowsAtOnce) return;
+  laterRows = requestAnimationFrame(() => {
+    laterRows = requestAnimationFrame(() => body.append(...rows.slice(rowsAtOnce).map(rowOf)));
+  });
+}
+
+function showTable() {
+  const rows = sorted(filtered().filter((record) => state.all || record.distance === state.distance));
+  const visible = [...(runs.length > 1 ? axisColumns : []), ...columns.filter((column) => !column.only || column.only())];
+  byId('rows').textContent = `${count(rows.length, 'record')} of ${records.length}`;
+  byId('table').tHead.replaceChildren(element('tr', '', headCell(nameColumn), ...visible.map(headCell)));
+  showRows(rows, visible);
   byId('floor-note').hidden = !rows.some((record) => record.display.at_floor);
 }
 
 // ---- pairs
 
-const pairOf = (row, column) => data.results.pairs.find((pair) =>
+const pairOf = (row, column) => focus().results.pairs.find((pair) =>
   pair.distance === state.distance && pair.methods.includes(row) && pair.methods.includes(column));
 
 function swatch(name, method, share) {
@@ -190,7 +232,7 @@ function swatch(name, method, share) {
 function showPair(pair) {
   const undecided = 1 - pair.closer[0] - pair.closer[1];
   byId('pair-view').hidden = false;
-  byId('pair-picture').replaceChildren(picture(pair.picture, `Where ${pair.methods.join(' or ')} is closer`));
+  byId('pair-picture').replaceChildren(picture(focus(), pair.picture, `Where ${pair.methods.join(' or ')} is closer`));
   byId('pair-picture').style.aspectRatio = shown()[0].size.join(' / ');
   byId('pair-caption').replaceChildren(swatch('first', pair.methods[0], pair.closer[0]),
     swatch('second', pair.methods[1], pair.closer[1]),
@@ -211,7 +253,7 @@ function pairCell(row, column) {
 function showPairs() {
   const here = shown().map((record) => record.method);
   byId('pair-view').hidden = true;
-  byId('pairs-section').hidden = !data.results.pairs.some((pair) => pair.distance === state.distance);
+  byId('pairs-section').hidden = !focus().results.pairs.some((pair) => pair.distance === state.distance);
   const head = (method) => element('th', '', key(method), ...breakable(method));
   byId('pairs').tHead.replaceChildren(element('tr', '', element('th', 'words-column', 'closer than'), ...here.map(head)));
   byId('pairs').tBodies[0].replaceChildren(...here.map((row) => element(
@@ -233,18 +275,20 @@ const whiskers = {
     const {ctx, scales: {x, y}} = plot;
     plot.data.datasets.forEach((set, i) => {
       if (!set.whiskers || !plot.isDatasetVisible(i)) return;
-      const [left, right] = set.whiskers.map((value) => x.getPixelForValue(value));
-      const at = y.getPixelForValue(set.data[0].y);
       ctx.save();
       ctx.strokeStyle = set.borderColor;
       ctx.lineWidth = 1.5;
       ctx.beginPath();
-      ctx.moveTo(left, at);
-      ctx.lineTo(right, at);
-      for (const end of [left, right]) {
-        ctx.moveTo(end, at - 4);
-        ctx.lineTo(end, at + 4);
-      }
+      set.whiskers.forEach((ends, j) => {
+        const [left, right] = ends.map((value) => x.getPixelForValue(value));
+        const at = y.getPixelForValue(set.data[j].y);
+        ctx.moveTo(left, at);
+        ctx.lineTo(right, at);
+        for (const end of [left, right]) {
+          ctx.moveTo(end, at - 4);
+          ctx.lineTo(end, at + 4);
+        }
+      });
       ctx.stroke();
       ctx.restore();
     });
@@ -271,19 +315,45 @@ const countLabels = {
   },
 };
 
-function methodSeries(record) {
-  const color = seriesColor(record.method);
-  const {median, min, p90} = record.time.frame_ms;
+/** How a method's points look: its colour and its mark. */
+function seriesStyle(method, radius) {
+  const color = seriesColor(method);
   return {
-    label: record.method,
-    data: [{x: median, y: plotted(record.error)}],
-    whiskers: [min, p90],
+    label: method,
     borderColor: color,
     backgroundColor: color,
-    pointStyle: marks[methods.indexOf(record.method) % marks.length],
-    pointRadius: 7,
-    pointHoverRadius: 9,
+    pointStyle: marks[methods.indexOf(method) % marks.length],
+    pointRadius: radius,
+    pointHoverRadius: radius + 2,
     pointBorderWidth: 2,
+  };
+}
+
+/** A method's records, one a member. */
+function methodSeries(method, own) {
+  return {
+    ...seriesStyle(method, own.length > 1 ? 5 : 7),
+    data: own.map((r) => ({x: r.time.frame_ms.median, y: plotted(r.error), place: placeOf(r.run)})),
+    whiskers: own.length > 20 ? undefined : own.map(({time: {frame_ms: {min, p90}}}) => [min, p90]),
+  };
+}
+
+/** The methods of one member that none is both faster and closer than: each left of them costs error, each below time. */
+function frontSeries(own) {
+  let least = Infinity;
+  const front = [...own].sort((a, b) => a.time.frame_ms.median - b.time.frame_ms.median || plotted(a.error) - plotted(b.error))
+    .filter((r) => plotted(r.error) < least && ((least = plotted(r.error)), true));
+  return {
+    label: 'Pareto front',
+    data: front.map((r) => ({x: r.time.frame_ms.median, y: plotted(r.error)})),
+    showLine: true,
+    stepped: 'before',
+    borderColor: styleValue('--ink'),
+    borderWidth: 1.5,
+    borderDash: [2, 3],
+    pointRadius: 0,
+    pointHitRadius: 0,
+    pointStyle: 'line',
   };
 }
 
@@ -339,18 +409,20 @@ function tooltipText(item) {
   const set = item.dataset;
   const {x, y} = item.raw;
   const name = set.counts ? `mean of ${set.counts[item.dataIndex]} frames of direct` : set.label;
-  return `${name}: error ${figure(y)} in ${figure(x)} ms`;
+  return `${name}${item.raw.place ? `, ${item.raw.place}` : ''}: error ${figure(y)} in ${figure(x)} ms`;
 }
 
 /** What stands on logarithmic axes at the chosen distance, and what cannot. */
 function plotContent() {
   const positive = (time, error) => time > 0 && error > 0;
-  const drawn = shown().filter((r) => positive(r.time.frame_ms.median, plotted(r.error)));
-  const curve = data.results.supersampling
+  const here = filtered().filter((r) => r.distance === state.distance);
+  const drawn = here.filter((r) => positive(r.time.frame_ms.median, plotted(r.error)));
+  const alone = matching().length === 1;  // the curve and the floor are of one member
+  const curve = !alone ? [] : focus().results.supersampling
     .filter((point) => point.distance === state.distance && positive(point.ms, plotted(point)))
     .sort((a, b) => a.spp - b.spp);
-  const floors = shown().map((r) => r.error?.shading_floor ?? r.error?.noise_floor).filter((floor) => floor > 0);
-  const missing = shown().filter((r) => !drawn.includes(r));
+  const floors = !alone ? [] : here.map((r) => r.error?.shading_floor ?? r.error?.noise_floor).filter((floor) => floor > 0);
+  const missing = here.filter((r) => !drawn.includes(r));
   return {drawn, curve, floor: floors.length ? Math.max(...floors) : null, missing};
 }
 
@@ -359,7 +431,7 @@ function showPlot() {
   const {drawn, curve, floor, missing} = plotContent();
   byId('plot-note').textContent = missing.length
     ? `Not shown, because an error of 0 or none has no place on a logarithmic axis: ${
-      missing.map((r) => r.method).join(', ')}.`
+      [...new Set(missing.map((r) => r.method))].join(', ')}.`
     : '';
   byId('plot').parentElement.hidden = drawn.length + curve.length === 0;
   if (drawn.length + curve.length === 0) return;
@@ -368,9 +440,12 @@ function showPlot() {
   const errors = [...drawn.map((r) => plotted(r.error)), ...curve.map(plotted)];
   const x = padded(times, 1.25, 1.45);
   const y = padded(floor ? [...errors, floor] : errors, 1.4, 1.5);
-  const datasets = drawn.map(methodSeries);
+  const datasets = methods.map((method) => [method, drawn.filter((r) => r.method === method)])
+    .filter(([, own]) => own.length > 0).map(([method, own]) => methodSeries(method, own));
   if (curve.length) datasets.push(curveSeries(curve));
   if (floor) datasets.push(floorSeries(floor, x));
+  const members = [...new Set(drawn.map((r) => r.run))];
+  if (members.length <= mostFronts) datasets.push(...members.map((run) => frontSeries(drawn.filter((r) => r.run === run))));
   new Chart('plot', {
     type: 'scatter',
     data: {datasets},
@@ -382,12 +457,65 @@ function showPlot() {
       plugins: {
         legend: {
           position: 'bottom',
-          labels: {usePointStyle: true, boxWidth: 9, boxHeight: 9, padding: 16, color: styleValue('--ink')},
+          labels: {usePointStyle: true, boxWidth: 9, boxHeight: 9, padding: 16, color: styleValue('--ink'),
+            filter: (entry, {datasets: all}) => all.findIndex((set) => set.label === entry.text) === entry.datasetIndex},
         },
         tooltip: {callbacks: {label: tooltipText}, displayColors: false},
       },
     },
   });
+}
+
+// ---- figures against distance
+
+const mostFronts = 12;  // lines that can be told apart
+
+/** A method's figure at each distance, the mean over the members that have it there. */
+function trendSeries(method, value) {
+  const own = filtered().filter((r) => r.method === method && value(r) > 0);
+  const points = distances.map((distance) => {
+    const values = own.filter((r) => r.distance === distance).map(value);
+    return {x: distance, y: values.reduce((sum, v) => sum + v, 0) / values.length, count: values.length};
+  });
+  return {...seriesStyle(method, 5), showLine: true, borderWidth: 2,
+    data: points.filter((point) => point.count > 0).sort((a, b) => a.x - b.x)};
+}
+
+function trendText(item) {
+  const {x, y, count: members} = item.raw;
+  return `${item.dataset.label}: ${figure(y)} at ${figure(x)}${members > 1 ? `, mean of ${members}` : ''}`;
+}
+
+function showTrend(id, title, value) {
+  Chart.getChart(id)?.destroy();
+  const datasets = methods.map((method) => trendSeries(method, value)).filter((set) => set.data.length > 0);
+  const points = datasets.flatMap((set) => set.data);
+  const isThere = new Set(points.map((point) => point.x)).size > 1;
+  byId(id).closest('figure').hidden = !isThere;
+  if (!isThere) return false;
+  new Chart(id, {
+    type: 'scatter',
+    data: {datasets},
+    options: {
+      animation: false,
+      maintainAspectRatio: false,
+      scales: {x: logAxis('Distance', padded(points.map((p) => p.x), 1.15, 1.15)),
+        y: logAxis(title, padded(points.map((p) => p.y), 1.4, 1.5))},
+      plugins: {
+        legend: {position: 'bottom', labels: {usePointStyle: true, boxWidth: 9, boxHeight: 9, padding: 16, color: styleValue('--ink')}},
+        tooltip: {callbacks: {label: trendText}, displayColors: false},
+      },
+    },
+  });
+  return true;
+}
+
+function showTrends() {
+  byId('trends').hidden = false;  // a chart that is hidden has no size
+  const error = showTrend('trend-error', 'Shading error', (r) => plotted(r.error));
+  const flicker = showTrend('trend-flicker', 'Flicker', (r) => r.flicker?.mean);
+  byId('trends').hidden = !error && !flicker;
+  byId('trends-note').hidden = runs.length === 1;
 }
 
 // ---- sparkle
@@ -452,12 +580,13 @@ const darkStops = 4;
 const pngOf = (path) => path.replace(/\.exr$/i, state.stops < 0 ? '_dark.png' : '.png');
 const urlOf = (path) => path.split('/').map(encodeURIComponent).join('/');
 
-function picture(path, description) {
+function picture(run, path, description) {
+  const place = run.folder ? `${run.folder}/${path}` : path;
   const image = element('img');
   image.alt = description;
   image.draggable = false;
-  image.addEventListener('error', () => image.replaceWith(element('span', 'missing', `${path} is not there`)));
-  image.src = urlOf(path);
+  image.addEventListener('error', () => image.replaceWith(element('span', 'missing', `${place} is not there`)));
+  image.src = data.pictures?.[place] ?? urlOf(place);
   return image;
 }
 
@@ -467,8 +596,8 @@ function comparison(record) {
   Object.assign(slider, {type: 'range', min: 0, max: 100, step: 0.5, value: 50});
   slider.setAttribute('aria-label', `How much of the reference shows beside ${record.method}, in percent`);
   const node = element('div', 'picture compare',
-    picture(pngOf(record.images.reference), `Reference at distance ${record.distance}`),
-    element('div', 'over', picture(pngOf(record.images.color), `${record.method} at distance ${record.distance}`)),
+    picture(record.run, pngOf(record.images.reference), `Reference at distance ${record.distance}`),
+    element('div', 'over', picture(record.run, pngOf(record.images.color), `${record.method} at distance ${record.distance}`)),
     element('div', 'divider'), element('span', 'tag left', 'reference'), element('span', 'tag right', record.method),
     slider);
   const move = () => node.style.setProperty('--split', `${slider.value}%`);
@@ -480,7 +609,7 @@ function comparison(record) {
 function card(record) {
   const {display} = record;
   const error = element('div', 'picture',
-    picture(state.scale === 'own' ? record.images.error : record.images.error_shared, `Error of ${record.method} at distance ${record.distance}`),
+    picture(record.run, state.scale === 'own' ? record.images.error : record.images.error_shared, `Error of ${record.method} at distance ${record.distance}`),
     element('span', 'tag left', 'error'));
   const pair = element('div', 'pair', comparison(record), error);
   for (const node of pair.children) node.style.aspectRatio = record.size.join(' / ');
@@ -501,7 +630,7 @@ function setZoom(factor) {
 
 function showScale() {
   byId('ramp').style.background = `linear-gradient(to right, ${data.scale_colors.join(', ')})`;
-  byId('scale-top').textContent = state.scale === 'own' ? ofDistance()?.scale_top : data.scale_top;
+  byId('scale-top').textContent = state.scale === 'own' ? ofDistance()?.scale_top : focus().scale_top;
 }
 
 /** Radiance times 2^stops, in linear light. */
@@ -518,20 +647,87 @@ function setExposure(stops) {
 
 // ---- the whole
 
-function showDistance() {
+function showAll() {
+  showFocus();
+  showCautions();
   showWords();
   showTable();
   showPairs();
   showPlot();
+  showTrends();
   showSparkle();
   showScale();
   showCards();
 }
 
-segments('distances', distances.map((value) => ({value, text: String(value)})), state.distance, (distance) => {
-  state.distance = distance;
-  showDistance();
-});
+// ---- what is shown, in the address: a link to it shows the same
+
+function writeState() {
+  const words = new URLSearchParams();
+  if (state.distance !== distances[0]) words.set('distance', state.distance);
+  if (state.all) words.set('all', '1');
+  for (const axis of axes) if (state.place[axis] !== undefined) words.set(axis, state.place[axis]);
+  for (const method of state.hidden) words.append('without', method);
+  if (state.sort) words.set('sort', state.sort.title);
+  if (state.descending) words.set('down', '1');
+  history.replaceState(null, '', `#${words}`);
+}
+
+/** What no record has is passed over: a link may be of another run. */
+function readState() {
+  const words = new URLSearchParams(location.hash.slice(1));
+  const distance = Number(words.get('distance'));
+  state.distance = distances.includes(distance) ? distance : distances[0];
+  state.all = words.has('all');
+  state.place = {};
+  for (const axis of axes) {
+    if (runs.some((run) => run.coordinates[axis] === words.get(axis))) state.place[axis] = words.get(axis);
+  }
+  if (matching().length === 0) state.place = {};
+  state.hidden = new Set(words.getAll('without').filter((method) => methods.includes(method)));
+  state.sort = [nameColumn, ...axisColumns, ...columns].find((column) => column.title === words.get('sort')) ?? null;
+  state.descending = words.has('down');
+}
+
+/** The controls as the state is. */
+function showControls() {
+  for (const input of document.querySelectorAll('#distances input')) input.checked = Number(input.value) === state.distance;
+  for (const input of document.querySelectorAll('#methods input')) input.checked = !state.hidden.has(input.value);
+  for (const select of document.querySelectorAll('#axes select')) select.value = state.place[select.name] ?? '';
+  byId('all-distances').checked = state.all;
+  byId('hidden').textContent = state.hidden.size ? `${methods.length - state.hidden.size} of ${methods.length}` : 'all';
+}
+
+function change(what) {
+  Object.assign(state, what);
+  writeState();
+  showControls();
+  showAll();
+}
+
+function axisSelect(axis) {
+  const values = [...new Set(runs.map((run) => run.coordinates[axis]))];
+  const options = values.map((value) => Object.assign(element('option', '', value), {value}));
+  const select = element('select', '', Object.assign(element('option', '', 'all'), {value: ''}), ...options);
+  select.name = axis;
+  select.addEventListener('change', () => change({place: {...state.place, [axis]: select.value || undefined}}));
+  return element('label', 'axis', `${axis} `, select);
+}
+
+function methodBox(method) {
+  const input = Object.assign(element('input'), {type: 'checkbox', value: method});
+  input.addEventListener('change', () => {
+    const hidden = new Set(state.hidden);
+    if (input.checked) hidden.delete(method); else hidden.add(method);
+    change({hidden});
+  });
+  return element('label', '', input, key(method), method);
+}
+
+byId('axes').append(...axes.map(axisSelect));
+byId('methods').append(...methods.map(methodBox));
+segments('distances', distances.map((value) => ({value, text: String(value)})), state.distance,
+  (distance) => change({distance}));
 segments('zooms', [1, 2, 4, 8].map((value) => ({value, text: `${value}×`})), 1, setZoom);
 segments('layouts', [{value: 'list', text: 'large'}, {value: 'grid', text: 'side by side'}], 'list', (layout) =>
   byId('cards').classList.toggle('grid', layout === 'grid'));
@@ -541,18 +737,25 @@ segments('scales', [{value: 'own', text: 'this distance'}, {value: 'shared', tex
   showCards();
 });
 byId('exposure').addEventListener('input', (event) => setExposure(Number(event.target.value)));
-byId('all-distances').addEventListener('change', (event) => {
-  state.all = event.target.checked;
-  showTable();
+byId('all-distances').addEventListener('change', (event) => change({all: event.target.checked}));
+window.addEventListener('hashchange', () => {
+  readState();
+  showControls();
+  showAll();
 });
-dark.addEventListener('change', () => {
+/** All that is drawn in a method's colour, or in the page's. */
+function recolour() {
   for (const node of document.querySelectorAll('.key')) {
     node.style.setProperty('--series', seriesColor(node.dataset.method));
   }
   showPlot();
+  showTrends();
   showSparkle();
-});
+}
+
+for (const query of [dark, paper]) query.addEventListener('change', recolour);
 
 showHead();
-showCautions();
-showDistance();
+readState();
+showControls();
+showAll();

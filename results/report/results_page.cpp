@@ -11,6 +11,7 @@
 #include "renderer/image/false_color.hpp"
 #include "results/report/experiment_section.hpp"
 #include "results/report/figures.hpp"
+#include "results/report/matrix_report.hpp"
 #include "results/report/ranking.hpp"
 #include "results/report/report.hpp"
 #include "results/report/results_document.hpp"
@@ -94,37 +95,59 @@ Json distance_json(const Results& results, double distance) {
           {"scale_top", error_text(top)}};
 }
 
-std::string page_data(const Results& results) {
+// What the page shows of a run; `folder` is where its pictures start from, below the page's own.
+Json run_json(const Results& results, const std::string& folder) {
   Json head = Json::array();
   for (const Provenance& line : provenance(results)) head.push_back({{"label", line.label}, {"value", line.value}});
   Json records = Json::array();
   for (const Record& record : results.records) records.push_back(display(record, records_at(results, record.distance)));
   Json distances = Json::array();
   for (const double distance : distances_of(results)) distances.push_back(distance_json(results, distance));
-  const Json data{{"results", results_document(results)},
-                  {"provenance", std::move(head)},
-                  {"display", std::move(records)},
-                  {"distances", std::move(distances)},
-                  {"scale_top", error_text(results.error_scale)},
-                  {"scale_colors", scale_colors()}};
-  return script_escaped(json_text(data, -1));
+  Json coordinates = Json::object();
+  for (const auto& [axis, value] : results.coordinates) coordinates[axis] = value;
+  return {{"folder", folder},
+          {"coordinates", std::move(coordinates)},
+          {"results", results_document(results)},
+          {"provenance", std::move(head)},
+          {"display", std::move(records)},
+          {"distances", std::move(distances)},
+          {"scale_top", error_text(results.error_scale)}};
 }
 
-}  // namespace
+struct PageTexts {
+  std::string title, table, experiment;
+};
 
-std::string results_page(const Results& results) {
-  const std::string data = page_data(results);
-  const std::string title = html_escaped(results.scene.name);
-  const std::string table = html_escaped(results_table(results));
-  const std::string experiment = results.experiment ? experiment_html(*results.experiment) : std::string();
+std::string page_of(Json runs, const PageTexts& own) {
+  const Json data{{"runs", std::move(runs)}, {"scale_colors", scale_colors()}};
+  const std::string filled = script_escaped(json_text(data, -1));
+  const std::string title = html_escaped(own.title), table = html_escaped(own.table);
   const auto text = [](std::string_view file) { return find_text(embedded::page_texts, file)->text; };
   return fill_template(text("page.html"), {{"title", title},
                                            {"css", text("page.css")},
                                            {"chart", text("chart.min.js")},
                                            {"script", text("page.js")},
                                            {"table", table},
-                                           {"experiment", experiment},
-                                           {"data", data}});
+                                           {"experiment", own.experiment},
+                                           {"data", filled}});
+}
+
+}  // namespace
+
+std::string results_page(const Results& results) {
+  Json runs = Json::array();
+  runs.push_back(run_json(results, ""));
+  return page_of(std::move(runs), {.title = results.scene.name,
+                                   .table = results_table(results),
+                                   .experiment = results.experiment ? experiment_html(*results.experiment) : ""});
+}
+
+std::string matrix_page(const MatrixResults& matrix) {
+  Json runs = Json::array();
+  for (const auto& [folder, results] : matrix.members) runs.push_back(run_json(results, folder));
+  return page_of(
+      std::move(runs),
+      {.title = matrix.report.title, .table = matrix_table(matrix), .experiment = experiment_html(matrix.report)});
 }
 
 }  // namespace footprint

@@ -44,14 +44,31 @@ TEST(ResultsPage, IsWholeAndAsksForNothingFromTheNetwork) {
   EXPECT_EQ(count(page, "default-src 'none'"), 1U);
 }
 
-TEST(ResultsPage, CarriesTheDocumentOfResultsJson) {
-  const Results results = hostile_results();
-  const std::string page = results_page(results);
+nlohmann::json data_of(const std::string& page) {
   const std::string open = R"(<script type="application/json" id="data">)";
   const std::size_t begin = page.find(open) + open.size();
-  const auto data = nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
-  EXPECT_EQ(data.at("results"), nlohmann::json::parse(results_json(results)));
-  EXPECT_EQ(data.at("display").size(), results.records.size());
+  return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+}
+
+TEST(ResultsPage, OfAMatrixCarriesTheDocumentsOfItsMembers) {
+  const MatrixResults matrix = example_matrix(3);
+  const auto data = data_of(matrix_page(matrix));
+  ASSERT_EQ(data.at("runs").size(), matrix.members.size());
+  for (std::size_t i = 0; i < matrix.members.size(); ++i) {
+    const auto& run = data.at("runs").at(i);
+    EXPECT_EQ(run.at("folder"), matrix.members[i].folder);
+    EXPECT_EQ(run.at("coordinates").at("footprint"), i % 2 == 0 ? "trilinear" : "anisotropic:8");
+    EXPECT_EQ(run.at("results"), nlohmann::json::parse(results_json(matrix.members[i].results)));
+  }
+}
+
+TEST(ResultsPage, CarriesTheDocumentOfResultsJson) {
+  const Results results = hostile_results();
+  const auto data = data_of(results_page(results));
+  ASSERT_EQ(data.at("runs").size(), 1U);
+  EXPECT_EQ(data.at("runs").front().at("folder"), "");
+  EXPECT_EQ(data.at("runs").front().at("results"), nlohmann::json::parse(results_json(results)));
+  EXPECT_EQ(data.at("runs").front().at("display").size(), results.records.size());
   EXPECT_EQ(data.at("scale_colors").size(), 33U);
   EXPECT_NE(data.at("scale_colors").front(), data.at("scale_colors").back());
 }

@@ -4,6 +4,7 @@ import csv
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import time
@@ -267,12 +268,18 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
 
     def test_an_animation_is_the_same_in_parts_and_in_pieces(self):
         whole, again, merged = (self.folder / name for name in ("whole", "again", "merged"))
-        run("animate", *self.LIGHT, "-o", whole)
-        run("animate", *self.LIGHT, "-o", again)
+        scene = self.folder / "unexposed/scene.toml"  # so that its exposure is that of the first frame, in all parts
+        shutil.copytree(SOURCE / "scenes/ribbed_plane", scene.parent)
+        text = (SOURCE / "scenes/ribbed_plane/scene.toml").read_text(encoding="utf-8")
+        scene.write_text(re.sub(r"(?m)^exposure.*\n", "", text), encoding="utf-8")
+        light = [scene, *self.LIGHT[1:]]
+        run("animate", *light, "-o", whole)
+        run("animate", *light, "-o", again)
+        self.assertIn('"exposure_source": "automatic"', (whole / "animation.json").read_text(encoding="utf-8"))
         self.assertEqual(self.files(whole), self.files(again), "two runs")
         parts = [self.folder / f"part_{i}" for i in (1, 2)]
         for i, part in enumerate(parts, 1):
-            run("animate", *self.LIGHT, "--shard", f"{i}/2", "-o", part)
+            run("animate", *light, "--shard", f"{i}/2", "-o", part)
         run("merge", *reversed(parts), "-q", "-o", merged)
         self.assertEqual(self.files(whole), self.files(merged), "one run and its parts")
         self.assertEqual(len({name for name in self.files(whole) if name.endswith(".exr")}), 9)
@@ -281,7 +288,7 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
         # A frame that was lost, as by a kill, is drawn anew; the others are not.
         lost = next((again / "kept").glob("*/frame-*.done"))
         lost.unlink()
-        run("animate", *self.LIGHT, "-o", again)
+        run("animate", *light, "-o", again)
         self.assertEqual(self.files(whole), self.files(again))
 
         def refused(arguments, *words):
@@ -296,7 +303,7 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
         refused(parts[:1], "part 2 of 2 is missing")
         refused([parts[0], parts[0]], "name each part once")
         other = self.folder / "other"
-        run("animate", *self.LIGHT, "--seed", 2, "--shard", "2/2", "-o", other)
+        run("animate", *light, "--seed", 2, "--shard", "2/2", "-o", other)
         refused([parts[0], other], "of other options")
 
     def film(self, name, script, **options):

@@ -6,7 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <functional>
+#include <iterator>
 #include <utility>
 
 #include "experiments/runner/experiment.hpp"
@@ -41,8 +42,11 @@ std::vector<std::string> methods_of(std::span<const Results> runs) {
 }
 
 // The runs that a measure is over.
-auto selected(const Measure& measure, std::span<const Results> runs) {
-  return runs | std::views::filter([&measure](const Results& run) { return selects(measure, run.coordinates); });
+std::vector<std::reference_wrapper<const Results>> selected(const Measure& measure, std::span<const Results> runs) {
+  std::vector<std::reference_wrapper<const Results>> found;
+  std::ranges::copy_if(runs, std::back_inserter(found),
+                       [&](const Results& run) { return selects(measure, run.coordinates); });
+  return found;
 }
 
 template <typename Values, typename Value>

@@ -86,9 +86,10 @@ std::vector<std::string> times_options(const TomlTable& table, const std::string
 void read_options(const TomlTable& matrix, std::vector<MethodSpec>& methods) {
   const std::vector<std::string> varied = matrix.keys_of("options");
   const TomlTable table = *matrix.table("options", varied);
-  std::vector<std::string> texts;
-  for (const MethodSpec& method : methods) texts.push_back(method.text);
+  std::vector<std::string> texts(methods.size());
+  std::ranges::transform(methods, texts.begin(), &MethodSpec::text);
   std::vector<std::vector<std::string>> variants;
+  variants.reserve(texts.size());
   for (const std::string& text : texts) variants.push_back({text});
   for (const std::string& method : varied) {
     const std::size_t index = at_key(table, method, [&] { return select_method(method, texts); });

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "experiments/runner/functions.hpp"
 #include "renderer/core/error.hpp"
 
 namespace footprint {
@@ -55,10 +56,11 @@ void NoiseGuard::hold(const Threshold& threshold) const {
 }
 
 std::size_t NoiseGuard::count_of(const Measure& measure) const {
+  const std::size_t first = measure.function->name.starts_with("flicker") ? 1 : 0;  // the first frame has none
   std::size_t count = 0;
   for (std::size_t m = 0; m < members_.size(); ++m) {
     if (!selects(measure, members_[m].coordinates)) continue;
-    for (std::size_t i = 0; i < distances_[m].size(); ++i) {
+    for (std::size_t i = first; i < distances_[m].size(); ++i) {
       const bool is_meant = (!measure.distance || distances_[m][i] == *measure.distance) &&
                             (!measure.frame || static_cast<std::size_t>(*measure.frame) == i);
       count += is_meant ? 1 : 0;

@@ -71,6 +71,18 @@ TEST(NoiseGuard, HeedsWhatTheBoundIsOn) {
   EXPECT_EQ(refusal(arithmetic.watch(several), floor_at(1, 0.5)), "") << "not a bound on one error";
 }
 
+TEST(NoiseGuard, FlickerIsBetweenFrames) {
+  const Experiment experiment = experiment_with("flicker(direct)", 0.01);
+  NoiseGuard guard(experiment, std::span(&experiment, 1));
+  const RecordWatch watch = guard.watch(experiment);
+  EXPECT_EQ(refusal(watch, floor_at(1, 0.9)), "") << "a first frame, which has no flicker";
+  Record second = floor_at(2, 0.9);
+  second.flicker = Flicker{.mean = 0.02, .p99 = 0.1, .noise_floor = 0.009};
+  EXPECT_EQ(refusal(watch, second), "");
+  second.flicker->noise_floor = 0.01;
+  EXPECT_NE(refusal(watch, second), "") << "it is over the second frame alone";
+}
+
 TEST(NoiseGuard, SlicesOfAMatrixHaveTheirOwnNoise) {
   Experiment whole = experiment_with("error(direct, scene=b)", 0.01);
   whole.axes = {{.key = "scene", .values = {"a", "b"}}};

@@ -169,6 +169,7 @@ class Comparison {
   void show_errors(const DistanceWork& work) {
     if (!watch_) return;
     std::vector<Record> records;
+    records.reserve(work.drafts.size());
     for (const std::optional<Draft>& draft : work.drafts) records.push_back(draft->record);
     watch_(records);
   }
@@ -222,6 +223,7 @@ class Comparison {
     if (!work.pairs) {
       std::vector<MethodPair> pairs = compare_pairs(folder_, drafts, truth, exposure_->factor);
       std::vector<std::string> files;
+      files.reserve(pairs.size());
       for (const MethodPair& pair : pairs) files.push_back(pair.picture);
       work.pairs = keep(keys_ ? keys_->pairs(i) : "", std::move(pairs), files);
     }

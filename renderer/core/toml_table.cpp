@@ -32,9 +32,9 @@ toml::table parse_file(const std::filesystem::path& file) {
 
 // Moves what `target` lacks into it: a node that is copied forgets its line.
 void take_missing(toml::table& target, toml::table& presets) {
-  for (auto&& [key, node] : presets) {
-    if (target.contains(key.str())) continue;
-    node.visit([&](auto& value) { target.insert(key, std::move(value)); });
+  for (auto&& entry : presets) {
+    if (target.contains(entry.first.str())) continue;
+    entry.second.visit([&](auto& value) { target.insert(entry.first, std::move(value)); });
   }
 }
 

@@ -243,7 +243,9 @@ std::vector<std::string> Context::take_debug_errors() const {
   // A driver may raise an error flag without a message; where there is one, the flag says nothing new.
   const bool silent = messages.empty();
   for (GLenum code = api().GetError(); code != GL_NO_ERROR; code = api().GetError()) {
-    if (silent) messages.push_back(gl_error_name(code));
+    const bool lost = code == GL_CONTEXT_LOST;
+    if (silent || lost) messages.push_back(gl_error_name(code));
+    if (lost) break;  // every call says so from now on
   }
   return messages;
 }

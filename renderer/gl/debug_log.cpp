@@ -60,6 +60,8 @@ std::string gl_error_name(unsigned code) {
       return "GL_INVALID_FRAMEBUFFER_OPERATION";
     case GL_OUT_OF_MEMORY:
       return "GL_OUT_OF_MEMORY";
+    case GL_CONTEXT_LOST:
+      return "GL_CONTEXT_LOST: the driver was reset";
     default:
       return fmt::format("GL error {:#06x}", code);
   }

@@ -16,7 +16,9 @@ namespace {
 /// cannot hold is reported once, by the caller, who knows what it was for.
 template <class Allocation>
 GLenum error_of(const Allocation& allocate) {
-  while (api().GetError() != GL_NO_ERROR) {
+  // One of a lost context stays for ever.
+  for (GLenum before = api().GetError(); before != GL_NO_ERROR && before != GL_CONTEXT_LOST;
+       before = api().GetError()) {
   }
   api().Disable(GL_DEBUG_OUTPUT);
   allocate();
@@ -26,8 +28,9 @@ GLenum error_of(const Allocation& allocate) {
 }
 
 [[noreturn]] void throw_no_memory(const std::string& place, const std::string& what, GLenum error) {
-  throw Error(ErrorKind::machine, place, fmt::format("{} cannot be allocated ({})", what, gl_error_name(error)),
-              "use smaller frames or textures, or a machine with more memory");
+  throw Error(
+      ErrorKind::machine, place, fmt::format("{} cannot be allocated ({})", what, gl_error_name(error)),
+      error == GL_CONTEXT_LOST ? "run it again" : "use smaller frames or textures, or a machine with more memory");
 }
 
 GLenum read_format(int channels) {

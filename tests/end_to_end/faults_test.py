@@ -8,7 +8,7 @@ import unittest
 from whole_runs import PROGRAM, WholeRunTest
 
 SETTINGS = ["ribbed_plane", "--method", "toksvig", "--size", "32x32", "--distance", "2", "--exposure", "1"]
-FAULTS = {name: os.environ[f"FOOTPRINT_FAULT_{name.upper()}"] for name in ("no_thread", "no_memory", "early_interrupt")}
+FAULTS = {name: os.environ[f"FOOTPRINT_FAULT_{name.upper()}"] for name in ("no_thread", "no_memory", "no_gl_memory", "lost_context", "early_interrupt")}
 
 
 def try_run(*arguments, **settings):
@@ -24,7 +24,7 @@ class Faults(WholeRunTest):
             self.assertIn(text, done.stderr)
 
     def with_fault(self, name, *arguments):
-        return try_run(*arguments, env=os.environ | {"LD_PRELOAD": FAULTS[name]})
+        return try_run(*arguments, env=os.environ | {"LD_PRELOAD": FAULTS[name]}, timeout=60)
 
     def test_no_thread_to_be_had(self):
         self.assert_fails(self.with_fault("no_thread", "--version"), 3, "no further thread", "ulimit -u")
@@ -32,6 +32,17 @@ class Faults(WholeRunTest):
     def test_no_memory_to_be_had(self):
         done = self.with_fault("no_memory", "render", *SETTINGS, "-q", "-o", self.folder / "none.exr")
         self.assert_fails(done, 3, "ribbed_plane, --size 32x32: out of memory: up to ", " was taken, ")
+        self.assertFalse((self.folder / "none.exr").exists())
+
+    def test_no_memory_of_opengl(self):
+        sizes = ["--size", "512x512", "-q", "-o", self.folder / "none.exr"]
+        done = self.with_fault("no_gl_memory", "render", *SETTINGS[:3], *sizes)
+        self.assert_fails(done, 3, "512x512 texels of format", "cannot be allocated (GL_OUT_OF_MEMORY)")
+        self.assertFalse((self.folder / "none.exr").exists())
+
+    def test_a_lost_context(self):
+        done = self.with_fault("lost_context", "render", *SETTINGS, "-q", "-o", self.folder / "none.exr")
+        self.assert_fails(done, 3, "GL_CONTEXT_LOST: the driver was reset")
         self.assertFalse((self.folder / "none.exr").exists())
 
     def limited(self, mebibytes, *arguments):

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
@@ -127,8 +128,8 @@ class Variable {
 
 class Run {
  public:
-  Run(const HardSettings& settings, const fs::path& folder)
-      : settings_(settings), folder_(folder), context_(settings.context) {
+  Run(const HardSettings& settings, fs::path folder)
+      : settings_(settings), folder_(std::move(folder)), context_(settings.context) {
     methods_ = settings.methods;
     if (!methods_.empty()) return;
     for (const Method* const method : all_methods()) methods_.push_back(parse_methods(method->info().name).front());

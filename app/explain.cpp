@@ -80,11 +80,12 @@ struct Explanation {
 
 std::vector<TextureUse> texture_uses(const BakedMethod& baked) {
   std::vector<TextureUse> uses;
-  for (const Prefiltered& material : baked.materials) {
-    for (const PrefilteredTexture& texture : material.textures) {
-      auto use = std::ranges::find(uses, texture.name, &TextureUse::name);
-      if (use == uses.end()) use = uses.insert(uses.end(), {.name = texture.name});
-      use->bytes += byte_count(texture);
+  for (std::size_t material = 0; material < baked.materials.size(); ++material) {
+    const std::vector<PrefilteredTexture>& textures = baked.materials[material].textures;
+    for (std::size_t i = 0; i < textures.size(); ++i) {
+      auto use = std::ranges::find(uses, textures[i].name, &TextureUse::name);
+      if (use == uses.end()) use = uses.insert(uses.end(), {.name = textures[i].name});
+      if (!baked.shared.contains({material, i})) use->bytes += byte_count(textures[i]);
     }
   }
   return uses;

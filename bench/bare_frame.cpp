@@ -51,7 +51,7 @@ void BareFrame::draw(const View& view) const {
     } else {
       gl::api().Enable(GL_CULL_FACE);
     }
-    gl::api().BindTextureUnit(0, normal_maps_[i].texture.name());
+    gl::api().BindTextureUnit(0, normal_maps_[i].texture->name());
     gl::api().BindVertexArray(batch.vertex_array.name());
     gl::api().DrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT, nullptr);
   }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <string_view>
+#include <utility>
 
 namespace footprint {
 namespace {
@@ -22,11 +24,45 @@ constexpr std::uint64_t copies_in_a_bake = 3;
 // Of normals: the moments of slope take five, the mean normal three (bake_slopes).
 constexpr std::uint64_t channels_kept_by_lean = 8;
 
+// What lies on the GPU of a material's maps, once for all materials that are looked up in the same ones.
+class OnGpu {
+ public:
+  void add(const Material& m, const EffectSet& effects, MemoryEstimate& out) {
+    if (has(effects, Effect::base_color_variation)) out.shared += chain_bytes(added("color", m.base_color_map), 4);
+    if (has(effects, Effect::metallic_variation))
+      out.shared += chain_bytes(added("metal", m.metallic_roughness_map), 1);
+    if (has(effects, Effect::specular_variation)) out.shared += chain_bytes(added("specular", m.specular_map), 3);
+    const auto& width = texels_of(m.metallic_roughness_map) >= texels_of(m.lobe_parameter_map)
+                            ? m.metallic_roughness_map
+                            : m.lobe_parameter_map;
+    const std::optional<TextureMap> none;
+    const auto& normals = has(effects, Effect::normal_variation) ? m.normal_map : none;
+    const auto& widths = has(effects, Effect::roughness_variation) ? width : none;
+    out.reference += (4 * added("facets", normals) + added("widths", widths)) * float_bytes;
+    // What is prefiltered of normals knows the widths beside them.
+    const std::uint64_t chains = chain_bytes(texels_of(normals), channels_kept_by_lean);
+    if (pairs_.emplace(image_of(normals), image_of(widths)).second)
+      out.a_method += chains + chain_bytes(texels_of(widths), 1);
+  }
+
+ private:
+  static MapTexels image_of(const std::optional<TextureMap>& map) { return map ? map->image : MapTexels(); }
+
+  // Texels of a map that has no such use yet.
+  std::uint64_t added(std::string_view use, const std::optional<TextureMap>& map) {
+    return map && uses_.emplace(use, map->image).second ? texels_of(map) : 0;
+  }
+
+  std::set<std::pair<std::string_view, MapTexels>> uses_;
+  std::set<std::pair<MapTexels, MapTexels>> pairs_;
+};
+
 }  // namespace
 
 MemoryEstimate estimate_memory(const Scene& scene, const EffectSet& effects) {
   MemoryEstimate out;
   std::set<MapTexels> counted;
+  OnGpu on_gpu;
   for (const Material& m : scene.materials) {
     for (const auto* map : {&m.base_color_map, &m.metallic_roughness_map, &m.lobe_parameter_map, &m.specular_map,
                             &m.normal_map, &m.layer_map}) {
@@ -35,14 +71,8 @@ MemoryEstimate estimate_memory(const Scene& scene, const EffectSet& effects) {
       out.maps += texels.texel_count() * static_cast<std::uint64_t>(texels.channels()) * float_bytes;
       out.kept += texels.byte_count();
     }
-    if (has(effects, Effect::base_color_variation)) out.shared += chain_bytes(texels_of(m.base_color_map), 4);
-    if (has(effects, Effect::metallic_variation)) out.shared += chain_bytes(texels_of(m.metallic_roughness_map), 1);
-    if (has(effects, Effect::specular_variation)) out.shared += chain_bytes(texels_of(m.specular_map), 3);
-    const std::uint64_t width = std::max(texels_of(m.metallic_roughness_map), texels_of(m.lobe_parameter_map));
+    on_gpu.add(m, effects, out);
     const std::uint64_t normals = has(effects, Effect::normal_variation) ? texels_of(m.normal_map) : 0;
-    const std::uint64_t widths = has(effects, Effect::roughness_variation) ? width : 0;
-    out.reference += (4 * normals + widths) * float_bytes;
-    out.a_method += chain_bytes(normals, channels_kept_by_lean) + chain_bytes(widths, 1);
     out.bake = std::max(out.bake, copies_in_a_bake * chain_bytes(std::max(normals, texels_of(m.base_color_map)), 4));
     out.upload = std::max(out.upload, 4 * normals * float_bytes);
   }

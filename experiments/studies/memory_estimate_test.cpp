@@ -28,19 +28,30 @@ Scene two_materials() {
   return scene;
 }
 
-TEST(MemoryEstimate, CountsEachMapOnceAndItsChainsForEachMaterial) {
+TEST(MemoryEstimate, CountsEachMapOnceAndItsChainsForEachPairOfMaps) {
   const MemoryEstimate estimate =
       estimate_memory(two_materials(), effects_of({Effect::normal_variation, Effect::roughness_variation,
                                                    Effect::metallic_variation, Effect::base_color_variation}));
   EXPECT_EQ(estimate.maps, texels * 4 * (4 + 4 + 2));
   EXPECT_EQ(estimate.shared, texels * 4 * (4 + 1) * 4 / 3);
-  EXPECT_EQ(estimate.reference, texels * 4 * (2 * 4 + 1));
+  EXPECT_EQ(estimate.reference, texels * 4 * (4 + 1));
   EXPECT_EQ(estimate.a_method, texels * 4 * (2 * 8 + 1) * 4 / 3);
   EXPECT_EQ(estimate.bake, 3 * texels * 4 * 4 * 4 / 3);
   EXPECT_EQ(estimate.upload, texels * 4 * 4);
   EXPECT_EQ(estimate.peak(1),
             estimate.kept + estimate.shared + estimate.a_method + estimate.reference + estimate.upload);
   EXPECT_EQ(estimate.peak(3) - estimate.peak(1), 2 * estimate.a_method);
+}
+
+TEST(MemoryEstimate, CountsWhatMaterialsShareOnce) {
+  Scene scene = two_materials();
+  const EffectSet normals = effects_of({Effect::normal_variation});
+  const MemoryEstimate shared = estimate_memory(scene, normals);
+  EXPECT_EQ(shared.a_method, texels * 4 * 8 * 4 / 3);
+  scene.materials[1].normal_map = map_of(std::make_shared<const Image>(64, 48, 4, 0.25F));
+  const MemoryEstimate apart = estimate_memory(scene, normals);
+  EXPECT_EQ(apart.a_method, 2 * shared.a_method);
+  EXPECT_EQ(apart.reference, 2 * shared.reference);
 }
 
 // Noise of 8 bits: a quarter of its floats, and a table of its values for each channel.

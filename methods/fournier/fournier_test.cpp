@@ -74,7 +74,7 @@ std::vector<double> ndf(const Baked& baked, const SquareFootprint& footprint,
   for (const PrefilteredTexture& texture : baked.prefiltered.textures) {
     const auto unit = static_cast<GLuint>(textures.size());
     textures.push_back(upload(texture));
-    gl::api().BindTextureUnit(unit, textures.back().texture.name());
+    gl::api().BindTextureUnit(unit, textures.back().texture->name());
     gl::api().BindSampler(unit, samplers.sampler(texture.coordinates, textures.back().lookup(Lookup::trilinear)));
     text += "layout(binding = " + std::to_string(unit) + ") uniform sampler2DArray " + texture.name + ";\n";
   }

@@ -48,7 +48,7 @@ std::vector<glm::vec4> probed(const PrefilteredTexture& mixture, const Given& gi
   if (brdf.geometry != GeometryTerm::none) variant.effects.set(static_cast<std::size_t>(Effect::masking_shadowing));
   const GpuTexture texture = upload(mixture);
   SamplerCache samplers;
-  gl::api().BindTextureUnit(0, texture.texture.name());
+  gl::api().BindTextureUnit(0, texture.texture->name());
   gl::api().BindSampler(0, samplers.sampler(texture.coordinates, texture.lookup(Lookup::trilinear)));
   const ShaderFlags flags = shader_flags(variant, options, {.textures = {mixture}, .scalars = {}});
   const std::string text =

@@ -44,7 +44,7 @@ Recovered recovered(const Material& material, const std::map<std::string, std::s
   const Prefiltered baked = toksvig_method().precompute(material, options, variant.effects, no_progress);
   const GpuTexture texture = upload(baked.textures.at(0));
   SamplerCache samplers;
-  gl::api().BindTextureUnit(0, texture.texture.name());
+  gl::api().BindTextureUnit(0, texture.texture->name());
   gl::api().BindSampler(0, samplers.sampler(texture.coordinates, Lookup::trilinear));
   const ShaderFlags flags = shader_flags(variant, options);
   const std::string text =

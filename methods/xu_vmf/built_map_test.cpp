@@ -33,7 +33,7 @@ EffectSet effects_of_map(const Material& material) {
 void spoil(const GpuTexture& texture, const PrefilteredTexture& declared) {
   constexpr std::array<float, 4> anything{0.1F, -0.2F, 0.3F, 0.4F};
   for (std::size_t level = 0; level < declared.levels.size(); ++level) {
-    gl::api().ClearTexImage(texture.texture.name(), static_cast<GLint>(level),
+    gl::api().ClearTexImage(texture.texture->name(), static_cast<GLint>(level),
                             declared.channels == 4 ? GL_RGBA : GL_RED, GL_FLOAT, anything.data());
   }
 }
@@ -104,7 +104,7 @@ Image BuiltMap::level(std::string_view name, std::size_t index) const {
   const auto found = std::ranges::find(baked_.textures, name, &PrefilteredTexture::name);
   if (found == baked_.textures.end()) return {};
   Image out(found->levels.at(index).width, found->levels.at(index).height * found->layers, found->channels);
-  gl::api().GetTextureImage(textures_.at(static_cast<std::size_t>(found - baked_.textures.begin())).texture.name(),
+  gl::api().GetTextureImage(textures_.at(static_cast<std::size_t>(found - baked_.textures.begin())).texture->name(),
                             static_cast<GLint>(index), found->channels == 4 ? GL_RGBA : GL_RED, GL_FLOAT,
                             static_cast<GLsizei>(out.texels.size() * sizeof(float)), out.texels.data());
   shared_context().check("reading a map");
@@ -127,7 +127,7 @@ std::string BuiltMap::shader_text() const {
 
 std::vector<glm::vec4> BuiltMap::probe(const std::string& body, const ProbeInputs& inputs) const {
   for (GLuint unit = 0; unit < textures_.size(); ++unit) {
-    gl::api().BindTextureUnit(unit, textures_[unit].texture.name());
+    gl::api().BindTextureUnit(unit, textures_[unit].texture->name());
     gl::api().BindSampler(unit, samplers_.sampler(textures_[unit].coordinates, Lookup::trilinear));
   }
   std::string setting =

@@ -147,11 +147,11 @@ void InstantMap::prepare_join(const FrameBuildJob& job, const gl::Program& progr
   constexpr std::array inputs{normals_name, variances_name, table_name};
   for (GLuint unit = 0; unit < inputs.size(); ++unit) {
     if (const GpuTexture* input = texture_of(job, inputs.at(unit)))
-      bind(unit, input->texture, samplers_.sampler(input->coordinates, Lookup::nearest));
+      bind(unit, *input->texture, samplers_.sampler(input->coordinates, Lookup::nearest));
   }
   gl::api().UseProgram(program.name());
   if (!camera) {
-    const gl::Texture& map = texture_of(job, whole_name)->texture;
+    const gl::Texture& map = *texture_of(job, whole_name)->texture;
     gl::api().Uniform2i(program.uniform("map_size"), map.width(), map.height());
     return;
   }
@@ -166,7 +166,7 @@ void InstantMap::prepare_join(const FrameBuildJob& job, const gl::Program& progr
 
 void InstantMap::join(const FrameBuildJob& job) const {
   const bool camera = in_camera_space(job);
-  const gl::Texture& map = texture_of(job, whole_name)->texture;
+  const gl::Texture& map = *texture_of(job, whole_name)->texture;
   const gl::Program& program = camera ? *join_surface_ : join_flat_;
   prepare_join(job, program, camera);
   gl::api().BindFramebuffer(GL_FRAMEBUFFER, joined_.name());
@@ -176,7 +176,7 @@ void InstantMap::join(const FrameBuildJob& job) const {
   for (int layer = 0; layer < layers; ++layer) {
     gl::api().NamedFramebufferTextureLayer(joined_.name(), GL_COLOR_ATTACHMENT0, map.name(), 0, layer);
     if (guards_) {
-      const gl::Texture& guard = texture_of(job, whole_guard_name)->texture;
+      const gl::Texture& guard = *texture_of(job, whole_guard_name)->texture;
       gl::api().NamedFramebufferTextureLayer(joined_.name(), GL_COLOR_ATTACHMENT1, guard.name(), 0, 0);
     }
     const bool normals_alone = layers > 1 && layer == layers - 1;
@@ -198,17 +198,17 @@ void InstantMap::split(const FrameBuildJob& job) const {
 // Level 1 of the parts, from the finest level of the whole hemisphere's texture `from`.
 void InstantMap::split(const FrameBuildJob& job, const gl::Program& program, std::string_view from,
                        std::string_view to) const {
-  const gl::Texture& parts = texture_of(job, to)->texture;
+  const gl::Texture& parts = *texture_of(job, to)->texture;
   const int own_lobes = declared(job, to).layers / parts_;
   for (int own = 0; own < own_lobes; ++own) {
     if (first_cut_ > 0) {  // the hemisphere itself
-      bind(0, texture_of(job, from)->texture);
+      bind(0, *texture_of(job, from)->texture);
       gl::api().UseProgram(whole_.coarsen.name());
       gl::api().Uniform1i(whole_.coarsen.uniform("first_layer"), own);
       draw_into(whole_, parts, {parts.width(), parts.height()}, own * parts_);
     }
-    bind(0, texture_of(job, whole_name)->texture);
-    bind(1, texture_of(job, from)->texture);
+    bind(0, *texture_of(job, whole_name)->texture);
+    bind(1, *texture_of(job, from)->texture);
     gl::api().UseProgram(program.name());
     gl::api().Uniform1i(program.uniform("source"), own);
     for (int first = first_cut_; first < parts_; first += static_cast<int>(split_stage_.layers)) {
@@ -238,21 +238,21 @@ void InstantMap::coarsen(const FrameBuildJob& job, std::string_view name) const 
   const bool of_parts = name == parts_name || name == parts_guard_name;
   const int levels = static_cast<int>(declared(job, name).levels.size());
   const int layers = declared(job, name).layers;
-  bind(0, built->texture);
+  bind(0, *built->texture);
   for (int level = 1; level < levels; ++level) {
-    show_one_level(built->texture, level - 1);
-    const glm::ivec2 size = glm::max(glm::ivec2(built->texture.width(), built->texture.height()) >> level, 1);
+    show_one_level(*built->texture, level - 1);
+    const glm::ivec2 size = glm::max(glm::ivec2(built->texture->width(), built->texture->height()) >> level, 1);
     for (int first = 0; first < layers;) {
       const Stage& stage = of_parts && first % parts_ >= first_cut_ ? split_stage_ : whole_;
       gl::api().UseProgram(stage.coarsen.name());
       gl::api().Uniform1i(stage.coarsen.uniform("first_layer"), first);
       const int drawn = static_cast<int>(stage.layers);
-      draw_into(stage, drawn_.make_room(built->texture, size.x, size.y, drawn), size, 0);
-      drawn_.copy_to(built->texture, level, first, drawn);
+      draw_into(stage, drawn_.make_room(*built->texture, size.x, size.y, drawn), size, 0);
+      drawn_.copy_to(*built->texture, level, first, drawn);
       first += drawn;
     }
   }
-  show_all_levels(built->texture, levels);
+  show_all_levels(*built->texture, levels);
 }
 
 }  // namespace xu_vmf

@@ -27,7 +27,7 @@ std::vector<glm::vec4> converted(const std::string& body, const ProbeInputs& inp
   const BuiltMap map(blinn_phong_square(constant_normals(1, 1, {0, 0, 1}), 10), {{"conversion", "table"}});
   const GpuTexture table = upload(map.baked().textures.back());
   const gl::Sampler sampler = gl::nearest_sampler(GL_REPEAT, GL_REPEAT);
-  gl::api().BindTextureUnit(0, table.texture.name());
+  gl::api().BindTextureUnit(0, table.texture->name());
   gl::api().BindSampler(0, sampler.name());
   ShaderModule conversions = xu_vmf_method().shader();
   conversions.text = "//? include xu_vmf_conversion.glsl\n//? include xu_vmf_table.glsl\n";

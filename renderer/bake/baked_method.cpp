@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstdint>
+#include <set>
 #include <utility>
 
 #include "renderer/bake/storage_range.hpp"
@@ -30,6 +32,25 @@ Outcome prefilter(const Method& method, const Scene& scene, std::size_t index, c
   return outcome;
 }
 
+// Which textures of the last material a material before it has; `kept` takes its texels in. What a frame build writes
+// is each material's own.
+void find_shared(BakedMethod& baked, std::set<std::uint64_t>& kept) {
+  const std::vector<PrefilteredTexture>& textures = baked.materials.back().textures;
+  for (std::size_t i = 0; i < textures.size(); ++i) {
+    if (!textures[i].built && !kept.insert(texel_content(textures[i])).second)
+      baked.shared.emplace(baked.materials.size() - 1, i);
+  }
+}
+
+// Of the last material, but for what it shares.
+std::size_t added_bytes(const BakedMethod& baked) {
+  std::size_t bytes = byte_count(baked.materials.back());
+  for (const auto& [material, texture] : baked.shared) {
+    if (material + 1 == baked.materials.size()) bytes -= byte_count(baked.materials.back().textures[texture]);
+  }
+  return bytes;
+}
+
 }  // namespace
 
 BakedMethod unbaked(const Method& method, const MethodSpec& spec) {
@@ -37,6 +58,7 @@ BakedMethod unbaked(const Method& method, const MethodSpec& spec) {
           .spec = spec,
           .options = Options(method.info().options, spec.options, "method " + spec.name),
           .materials = {},
+          .shared = {},
           .seconds = 0,
           .bytes = 0,
           .texels = 0,
@@ -48,6 +70,7 @@ void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& eff
   const Method& method = *baked.method;
   baked.cached = cache != nullptr && method.info().slow_precompute;
   const auto count = static_cast<double>(scene.materials.size());
+  std::set<std::uint64_t> kept;
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const auto start = std::chrono::steady_clock::now();
     const Material& material = scene.materials[i];
@@ -64,9 +87,10 @@ void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& eff
     } catch (const Error& error) {
       throw error.within(fmt::format("{}, material {}, method {}", scene.source, material.name, baked.spec.text));
     }
-    baked.bytes += byte_count(baked.materials.back());
-    baked.texels += finest_texels(baked.materials.back());
     baked.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (scene.materials.size() > 1) find_shared(baked, kept);
+    baked.bytes += added_bytes(baked);
+    baked.texels += finest_texels(baked.materials.back());
     when_baked(i);
   }
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "renderer/bake/bake_cache.hpp"
@@ -15,8 +17,10 @@ struct BakedMethod {
   MethodSpec spec;
   Options options;
   std::vector<Prefiltered> materials;  ///< one for each material of the scene
+  /// Material and number of each texture whose texels a material before it has: on the GPU they lie once.
+  std::set<std::pair<std::size_t, std::size_t>> shared;
   double seconds = 0;
-  std::size_t bytes = 0;
+  std::size_t bytes = 0;   ///< as stored on the GPU: texels that several materials have count once
   std::size_t texels = 0;  ///< of the finest levels, over all materials (`finest_texels`)
   bool cached = false;     ///< every material came from the disk: `seconds` is what reading took
 };

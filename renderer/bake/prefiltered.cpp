@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "renderer/core/error.hpp"
+#include "renderer/core/hash.hpp"
 #include "renderer/core/words.hpp"
 #include "renderer/image/mipmap.hpp"
 
@@ -119,6 +120,18 @@ std::size_t byte_count(const Prefiltered& prefiltered) {
   if (prefiltered.surface_coordinates) bytes += prefiltered.surface_coordinates->size() * sizeof(glm::vec2);
   for (const PrefilteredTexture& texture : prefiltered.textures) bytes += byte_count(texture);
   return bytes;
+}
+
+std::uint64_t texel_content(const PrefilteredTexture& texture) {
+  std::uint64_t state = fnv1a_start;
+  const auto add = [&](std::uint64_t value) { state = fnv1a(std::as_bytes(std::span(&value, 1)), state); };
+  for (const int value : {static_cast<int>(texture.storage), texture.channels, texture.layers})
+    add(static_cast<std::uint64_t>(value));
+  for (const TextureLevel& level : texture.levels) {
+    for (const int side : {level.width, level.height}) add(static_cast<std::uint64_t>(side));
+    state = fnv1a(std::as_bytes(std::span(level.bytes)), state);
+  }
+  return state;
 }
 
 void free_texels(PrefilteredTexture& texture) {

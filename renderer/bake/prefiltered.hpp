@@ -68,6 +68,10 @@ struct Prefiltered {
 /// Bytes of all textures and scalars as stored on the GPU.
 [[nodiscard]] std::size_t byte_count(const Prefiltered& prefiltered);
 
+/// Tells textures apart whose texels differ, in number, storage or value: 64 bits of a hash of them. Their names and
+/// coordinates do not count. Of texels that lie in memory.
+[[nodiscard]] std::uint64_t texel_content(const PrefilteredTexture& texture);
+
 /// Gives the texels back, for what lies on the GPU by now; name and sizes stay.
 void free_texels(PrefilteredTexture& texture);
 

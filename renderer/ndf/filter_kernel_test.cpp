@@ -101,7 +101,7 @@ std::vector<glm::vec4> by_shader(const FootprintFilter& filter, const Image& map
       .textures = {make_array_texture("map", layers, Storage::fp32, {}, TextureFilter::nearest)}, .scalars = {}};
   const GpuTexture texture = upload(prefiltered.textures[0]);
   SamplerCache samplers;
-  gl::api().BindTextureUnit(0, texture.texture.name());
+  gl::api().BindTextureUnit(0, texture.texture->name());
   gl::api().BindSampler(0, samplers.sampler(texture.coordinates, Lookup::nearest));
   ShaderVariant variant;
   variant.footprint = filter;

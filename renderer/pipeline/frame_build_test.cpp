@@ -39,7 +39,7 @@ class Fill final : public FrameBuild {
     gl::api().Viewport(1, 1, 1, 1);
     gl::api().BindVertexArray(job.vertex_array);
     for (const GLenum name : {GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND}) gl::api().Enable(name);
-    const gl::Texture& map = job.textures.front().texture;
+    const gl::Texture& map = *job.textures.front().texture;
     gl::api().UseProgram(pass_.name());
     gl::api().Uniform1f(pass_.uniform("value"), static_cast<float>(runs_));
     gl::api().BindImageTexture(0, map.name(), 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA32F);

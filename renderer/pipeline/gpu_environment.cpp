@@ -28,7 +28,7 @@ GpuEnvironment::Part GpuEnvironment::stack_part() const {
   const RadianceStack stack = prefilter_environment(looked_up(), no_progress);
   const PrefilteredTexture maps = make_array_texture("environment_stack", stack.layers, Storage::fp32, {});
   Part part;
-  part.first = std::move(upload(maps).texture);
+  part.first = upload_texels(maps);
   part.second = plain_texture(stack.irradiance, GL_RGBA32F, GL_RGBA);
   part.sampler = gl::trilinear_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
   std::vector<glm::vec4> values{

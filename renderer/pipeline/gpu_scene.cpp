@@ -142,16 +142,13 @@ GpuBatch batch_of(const Scene& scene, std::size_t material, const EffectSet& eff
 }
 
 // Uploads the maps that every method reads one after the other, and gives their bytes.
-std::size_t add_shared_textures(const Material& material, const EffectSet& effects, GpuBatch& batch) {
-  std::size_t bytes = 0;
+void add_shared_textures(const Material& material, const EffectSet& effects, SharedUploads& uploads, GpuBatch& batch) {
   for (const SharedMap& map : shared_maps()) {
     if (!has(effects, map.effect)) continue;
     const PrefilteredTexture texture =
         make_texture(std::string(map.name), mip_chain(map.image(material)), Storage::fp32, map.coordinates(material));
-    bytes += byte_count(texture);
-    batch.shared_textures.push_back(upload(texture));
+    batch.shared_textures.push_back(uploads.upload(texture));
   }
-  return bytes;
 }
 
 // Lights of one kind, of so many vectors each, lie in one uniform block.
@@ -208,17 +205,33 @@ GLuint SamplerCache::sampler(const TextureCoordinates& coordinates, Lookup looku
   return entries_.back().sampler.name();
 }
 
-GpuTexture upload(const PrefilteredTexture& texture) {
+gl::Texture upload_texels(const PrefilteredTexture& texture) {
   const GlFormat format = gl_format(texture.storage, texture.channels);
   const TextureLevel& finest = texture.levels.front();
-  GpuTexture out{gl::Texture(format.internal, finest.width, finest.height, static_cast<int>(texture.levels.size()),
-                             texture.layers),
-                 texture.coordinates, texture.filter};
+  gl::Texture out(format.internal, finest.width, finest.height, static_cast<int>(texture.levels.size()),
+                  texture.layers);
   for (std::size_t i = 0; i < texture.levels.size() && !texture.built; ++i) {
     const TextureLevel& level = texture.levels[i];
-    out.texture.upload(static_cast<int>(i), level.width, level.height, format.format, format.type, level.bytes.data());
+    out.upload(static_cast<int>(i), level.width, level.height, format.format, format.type, level.bytes.data());
   }
   return out;
+}
+
+GpuTexture upload(const PrefilteredTexture& texture) {
+  return {std::make_shared<const gl::Texture>(upload_texels(texture)), texture.coordinates, texture.filter};
+}
+
+GpuTexture SharedUploads::upload(const PrefilteredTexture& texture) {
+  if (texture.built) {
+    bytes_ += byte_count(texture);
+    return footprint::upload(texture);
+  }
+  const auto [kept, is_new] = kept_.try_emplace(texel_content(texture));
+  if (is_new) {
+    kept->second = std::make_shared<const gl::Texture>(upload_texels(texture));
+    bytes_ += byte_count(texture);
+  }
+  return {kept->second, texture.coordinates, texture.filter};
 }
 
 GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects,
@@ -236,12 +249,14 @@ GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const Eff
     }
     shared_coordinates_ = shared_coordinates_ && maps_share_coordinates(material);
   }
+  SharedUploads uploads;
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     GpuBatch batch = batch_of(scene, i, effects, content_);
     if (batch.index_count == 0) continue;
-    shared_bytes_ += add_shared_textures(scene.materials[i], effects, batch);
+    add_shared_textures(scene.materials[i], effects, uploads, batch);
     batches_.push_back(std::move(batch));
   }
+  shared_bytes_ = uploads.bytes();
   make_lights(context, scene);
   if (hides_environment(effects)) make_visibility(scene, progress, cache);
 }

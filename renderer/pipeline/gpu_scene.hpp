@@ -1,6 +1,9 @@
 // A scene on the GPU: triangles, lights and the textures that every method shares.
 #pragma once
 
+#include <cstdint>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,7 +50,7 @@ class SamplerCache {
 
 /// A texture bound with the sampler that its coordinates and its filter ask for.
 struct GpuTexture {
-  gl::Texture texture;
+  std::shared_ptr<const gl::Texture> texture;  ///< never null; materials of the same texels share it
   TextureCoordinates coordinates;
   TextureFilter filter = TextureFilter::trilinear;
 
@@ -63,7 +66,20 @@ struct GpuTexture {
 
 /// Uploads a prefiltered texture with its whole chain; of a built one it makes the storage alone. Errors (machine):
 /// over the GL limits, out of memory.
+[[nodiscard]] gl::Texture upload_texels(const PrefilteredTexture& texture);
 [[nodiscard]] GpuTexture upload(const PrefilteredTexture& texture);
+
+/// Uploads textures, those of the same texels once. What a frame build writes is never shared.
+class SharedUploads {
+ public:
+  /// As `upload`; `bytes` grow by what was not there before.
+  [[nodiscard]] GpuTexture upload(const PrefilteredTexture& texture);
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
+
+ private:
+  std::map<std::uint64_t, std::shared_ptr<const gl::Texture>> kept_;
+  std::size_t bytes_ = 0;
+};
 
 /// A vertex array over vertices and indices, and over one pair of surface coordinates a vertex where `surface` is
 /// given.

@@ -154,7 +154,7 @@ void InteriorFinder::draw(const Look& look, const gl::RenderTarget& target, cons
     gl::api().Uniform2fv(uniform("map_size"), 1, glm::value_ptr(part.map_size));
     if (reads_alpha(scene_->effects())) {
       const GpuTexture& base_color = part.batch->shared_textures.front();
-      gl::api().BindTextureUnit(0, base_color.texture.name());
+      gl::api().BindTextureUnit(0, base_color.texture->name());
       gl::api().BindSampler(0, scene_->samplers().sampler(base_color.coordinates, Lookup::trilinear));
     }
     gl::api().BindVertexArray(part.vertex_array.name());

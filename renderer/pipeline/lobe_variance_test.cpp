@@ -37,7 +37,7 @@ double variance_at(const Material& material, Storage storage, float u) {
   const Prefiltered baked = bake_lobe_variance(material, storage, varying_roughness());
   const GpuTexture texture = upload(baked.textures.at(0));
   SamplerCache samplers;
-  gl::api().BindTextureUnit(0, texture.texture.name());
+  gl::api().BindTextureUnit(0, texture.texture->name());
   gl::api().BindSampler(0, samplers.sampler(texture.coordinates, Lookup::trilinear));
   ShaderVariant variant;
   variant.brdf = material.brdf;

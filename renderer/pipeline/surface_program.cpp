@@ -74,7 +74,7 @@ std::vector<float> scalar_block(const Prefiltered& prefiltered) {
 }
 
 void bind_texture(GLuint unit, const GpuTexture& texture, GpuScene& scene, Lookup lookup) {
-  gl::api().BindTextureUnit(unit, texture.texture.name());
+  gl::api().BindTextureUnit(unit, texture.texture->name());
   gl::api().BindSampler(unit, scene.samplers().sampler(texture.coordinates, texture.lookup(lookup)));
 }
 
@@ -158,7 +158,7 @@ void GpuMethod::upload_material(std::size_t material, const TextureUploaded& upl
     if (batch.material != material) continue;
     PerBatch& part = batches_.at(static_cast<std::size_t>(&batch - scene_->batches().data()));
     for (std::size_t i = 0; i < prefiltered.textures.size(); ++i) {
-      part.textures.push_back(upload(prefiltered.textures[i]));
+      part.textures.push_back(uploads_.upload(prefiltered.textures[i]));
       uploaded(i);
     }
     const std::vector<float> scalars = scalar_block(prefiltered);
@@ -184,7 +184,7 @@ glm::ivec2 GpuMethod::texels(const GpuBatch& batch) const {
   glm::ivec2 largest(1);
   const auto look_at = [&](std::span<const GpuTexture> textures) {
     for (const GpuTexture& map : textures) {
-      const glm::ivec2 size(map.texture.width(), map.texture.height());
+      const glm::ivec2 size(map.texture->width(), map.texture->height());
       if (same_uv(map.coordinates, batch.coordinates) && size.x * size.y > largest.x * largest.y) largest = size;
     }
   };

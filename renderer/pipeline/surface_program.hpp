@@ -60,6 +60,7 @@ class GpuMethod {
 
   const BakedMethod* baked_;
   const GpuScene* scene_;
+  SharedUploads uploads_;
   std::vector<PerBatch> batches_;
   std::unique_ptr<FrameBuild> build_;
   mutable std::optional<Built> built_;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "renderer/image/mipmap.hpp"
+#include "renderer/pipeline/base_surface.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 #include "tests/support/rendering.hpp"
@@ -26,7 +27,7 @@ std::vector<glm::vec4> looked_up(const Prefiltered& prefiltered, const std::stri
   const gl::Context& context = shared_context();
   const GpuTexture texture = upload(prefiltered.textures[0]);
   SamplerCache samplers;
-  gl::api().BindTextureUnit(0, texture.texture.name());
+  gl::api().BindTextureUnit(0, texture.texture->name());
   gl::api().BindSampler(0, samplers.sampler(texture.coordinates, texture.lookup(Lookup::trilinear)));
   ShaderVariant variant;
   variant.footprint = filter;
@@ -92,6 +93,41 @@ TEST(TextureArrays, ProgramsDeclareWhatTheyNeedAndNoMore) {
   const std::string without = fragment_shader({}, empty, options, {}).text();
   EXPECT_EQ(without.find("sampler2DArray"), std::string::npos);
   EXPECT_EQ(without.find("footprintTexel"), std::string::npos);
+}
+
+// Materials of the same texels have them once on the GPU; what differs in a texel, or is written by a frame build, is
+// each one's own.
+TEST(SharedUploads, KeepTheSameTexelsOnce) {
+  const auto of = [](std::uint32_t seed, const char* name) {
+    return make_texture(name, mip_chain(random_normals(8, 8, 0.9F, seed)), Storage::fp16, {});
+  };
+  SharedUploads uploads;
+  const GpuTexture first = uploads.upload(of(1, "a"));
+  const std::size_t bytes = uploads.bytes();
+  EXPECT_EQ(bytes, byte_count(of(1, "a")));
+  EXPECT_EQ(uploads.upload(of(1, "b")).texture, first.texture);
+  EXPECT_EQ(uploads.bytes(), bytes);
+  PrefilteredTexture close = of(1, "a");
+  close.levels.back().bytes.back() ^= 1U;
+  EXPECT_NE(uploads.upload(close).texture, first.texture);
+  EXPECT_EQ(uploads.bytes(), 2 * bytes);
+  const PrefilteredTexture built =
+      make_built_texture({.name = "built", .width = 8, .height = 8, .storage = Storage::fp16}, {});
+  EXPECT_NE(uploads.upload(built).texture, uploads.upload(built).texture);
+}
+
+TEST(SharedUploads, AreCountedOnceInABake) {
+  Scene scene = square_scene(random_normals(16, 16, 0.5F, 1), {});
+  const auto bytes = [&] {
+    const EffectSet set = effects_on(derive_effects(scene));
+    return bake(base_surface(), {.text = "r", .name = "r", .options = {}}, scene, set, no_progress).bytes;
+  };
+  const std::size_t one = bytes();
+  scene.materials.push_back(scene.materials.front());
+  EXPECT_EQ(bytes(), one);
+  scene.materials.back().normal_map =
+      TextureMap{"other", std::make_shared<const Image>(random_normals(16, 16, 0.5F, 2)), {}};
+  EXPECT_EQ(bytes(), 2 * one);
 }
 
 }  // namespace

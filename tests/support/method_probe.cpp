@@ -35,7 +35,7 @@ std::vector<glm::vec4> probe_method(const ProbedMethod& probed, const std::strin
   for (const PrefilteredTexture& texture : baked.textures) {
     const auto unit = static_cast<GLuint>(textures.size());
     textures.push_back(upload(texture));
-    gl::api().BindTextureUnit(unit, textures.back().texture.name());
+    gl::api().BindTextureUnit(unit, textures.back().texture->name());
     const GpuTexture& bound = textures.back();
     gl::api().BindSampler(unit, samplers.sampler(bound.coordinates, bound.lookup(Lookup::trilinear)));
     text += fmt::format("layout(binding = {}) uniform sampler2D{} {};\n", unit, texture.layers > 0 ? "Array" : "",

@@ -18,12 +18,15 @@ function(footprint_reuse_headers target name)
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess> ${FOOTPRINT_PRECOMPILED_OPTIONS})
 endfunction()
 
-# Four sources are compiled at once, as one, where reading headers takes longer than what is written over them: tests, and
-# libraries that read CLI11, nlohmann's JSON or toml++. What renders is compiled source by source, so that who works on it
-# waits for one. Names of sources united must differ: an anonymous namespace is then one for all of them.
-# footprint_unite(TARGET ...): such targets.
+# Eight sources are compiled at once, as one: reading headers and instantiating what they hold takes a source longer than
+# what is written over them. Who works on one of them sets FOOTPRINT_UNITY=OFF and waits for that one alone. Names of
+# sources united must differ: an anonymous namespace is then one for all of them, which GCC takes for a header's.
+# footprint_unite(TARGET ...): such targets; all libraries and tests are.
 function(footprint_unite)
-  set_target_properties(${ARGN} PROPERTIES UNITY_BUILD "${FOOTPRINT_UNITY}" UNITY_BUILD_BATCH_SIZE 4)
+  set_target_properties(${ARGN} PROPERTIES UNITY_BUILD "${FOOTPRINT_UNITY}" UNITY_BUILD_BATCH_SIZE 8)
+  foreach(target IN LISTS ARGN)
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endforeach()
 endfunction()
 
 # footprint_compile_fast(TARGET ...): of sources that read and write text and do no more: CLI11's, toml++'s and nlohmann's
@@ -39,6 +42,7 @@ function(footprint_add_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
   target_link_libraries(${name} PUBLIC footprint_settings ${ARG_LIBRARIES})
+  footprint_unite(${name})
   footprint_reuse_headers(${name} footprint_precompiled)
   set_property(GLOBAL APPEND PROPERTY FOOTPRINT_LIBRARIES ${name})
 endfunction()

@@ -215,27 +215,27 @@ TEST_F(MatrixFile, PresetsStandWhereTheFileSaysNothing) {
   write("shared.toml",
         "[experiment]\nmethods = [\"direct\"]\nrepeats = 3\n[reference]\nspp = 8\nseed = 5\n[zoom]\ndistances = [1]\n"
         "[matrix]\nscene = [\"bumps\"]\nsize = [\"8x8\"]\n");
-  const std::string head = "[experiment]\ntitle = \"T\"\npresets = \"shared.toml\"\n";
+  const std::string with_presets = "[experiment]\ntitle = \"T\"\npresets = \"shared.toml\"\n";
   const Experiment experiment =
-      read(head + "repeats = 2\n[reference]\nspp = 4\n[matrix]\nscene = [\"ribbed_plane\"]\n");
+      read(with_presets + "repeats = 2\n[reference]\nspp = 4\n[matrix]\nscene = [\"ribbed_plane\"]\n");
   EXPECT_EQ(methods_of(experiment), std::vector<std::string>{"direct"});
   EXPECT_EQ(experiment.run.timing.repeats, 2);
   EXPECT_EQ(experiment.run.reference.spp, 4);
   EXPECT_EQ(experiment.run.reference.seed, 5U);
   EXPECT_EQ(experiment.run.view.distances, std::vector<double>{1});
   EXPECT_EQ(members_of_matrix(experiment).front().name, "ribbed_plane-8x8");
-  const Experiment zooms = read(head + "[zoom]\nfrom = 1\nto = 2\nframes = 2\n");
+  const Experiment zooms = read(with_presets + "[zoom]\nfrom = 1\nto = 2\nframes = 2\n");
   EXPECT_TRUE(zooms.run.view.distances.empty()) << "a zoom is taken whole or not at all";
-  expect_complaint(head + "scene = \"bumps\"\n", "mine.toml:4", "in [matrix] too");
+  expect_complaint(with_presets + "scene = \"bumps\"\n", "mine.toml:4", "in [matrix] too");
   expect_complaint("[experiment]\ntitle = \"T\"\npresets = \"none.toml\"\n", "mine.toml:3", "which is no file");
   expect_complaint("[experiment]\ntitle = \"T\"\npresets = \"shared.toml\"\nmembers = [\"a\"]\n", "mine.toml:3",
                    "excludes `members`");
   write("shared.toml", "[experiment]\ntitle = \"shared\"\n");
-  expect_complaint(head, "shared.toml:2", "unknown key `title`");
+  expect_complaint(with_presets, "shared.toml:2", "unknown key `title`");
   write("shared.toml", "[[claim]]\nname = \"n\"\n");
-  expect_complaint(head, "shared.toml:1", "unknown key `claim`");
+  expect_complaint(with_presets, "shared.toml:1", "unknown key `claim`");
   write("shared.toml", "[experiment]\nscene = \"bumps\"\nmethods = [\"toksvg\"]\n");
-  expect_complaint(head, "shared.toml:3", "did you mean `toksvig`");
+  expect_complaint(with_presets, "shared.toml:3", "did you mean `toksvig`");
 }
 
 }  // namespace

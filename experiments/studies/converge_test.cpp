@@ -11,7 +11,7 @@
 namespace footprint::testing {
 namespace {
 
-constexpr std::uint64_t seed = 3;
+constexpr std::uint64_t fixed_seed = 3;
 constexpr glm::ivec2 size{256, 128};  // two tiles: the left one rough, the right one flat
 
 // Random normals on the left half of the square, one normal on the right.
@@ -37,7 +37,7 @@ class Converge : public ::testing::Test {
         method_(gpu_, baked_),
         sampler_(context_.info(), gpu_, method_, ReferenceFilter::after_shading, false) {}
 
-  [[nodiscard]] Supersampled picture(int spp) const { return sampler_.render(view_, spp, seed, no_progress); }
+  [[nodiscard]] Supersampled picture(int spp) const { return sampler_.render(view_, spp, fixed_seed, no_progress); }
 
   const gl::Context& context_;
   Scene scene_;
@@ -62,7 +62,7 @@ TEST_F(Converge, TakesNoisyTilesFurtherAndLeavesTheOthers) {
   Supersampled refined = first;
   const double floor = noise_floor(first, 1.0F).value();
   const double samples =
-      converge(sampler_, refined, view_, seed, {.noise = floor, .spp_max = 256, .most_work = 100.0}, no_progress);
+      converge(sampler_, refined, view_, fixed_seed, {.noise = floor, .spp_max = 256, .most_work = 100.0}, no_progress);
   EXPECT_EQ(samples, (64 + 256) / 2.0);
   EXPECT_TRUE(same_columns(refined.mean, first.mean, 128, 256));
   EXPECT_FALSE(same_columns(refined.mean, first.mean, 0, 128));
@@ -73,17 +73,17 @@ TEST_F(Converge, TakesNoisyTilesFurtherAndLeavesTheOthers) {
 TEST_F(Converge, StopsAtItsNoiseAndAtItsWork) {
   Supersampled refined = picture(64);
   const Supersampled first = refined;
-  EXPECT_EQ(converge(sampler_, refined, view_, seed, {.noise = 1.0}, no_progress), 64.0);
+  EXPECT_EQ(converge(sampler_, refined, view_, fixed_seed, {.noise = 1.0}, no_progress), 64.0);
   EXPECT_EQ(refined.mean, first.mean);
-  EXPECT_EQ(converge(sampler_, refined, view_, seed, {.noise = 1e-9, .most_work = 1.0}, no_progress), 64.0);
+  EXPECT_EQ(converge(sampler_, refined, view_, fixed_seed, {.noise = 1e-9, .most_work = 1.0}, no_progress), 64.0);
   EXPECT_EQ(refined.mean, first.mean);  // one tile of 256 samples is twice the first picture's work
 }
 
 TEST_F(Converge, IsDeterministic) {
   Supersampled one = picture(64), other = picture(64);
   const Convergence wanted{.noise = 1e-4, .spp_max = 256, .most_work = 20.0};
-  EXPECT_EQ(converge(sampler_, one, view_, seed, wanted, no_progress),
-            converge(sampler_, other, view_, seed, wanted, no_progress));
+  EXPECT_EQ(converge(sampler_, one, view_, fixed_seed, wanted, no_progress),
+            converge(sampler_, other, view_, fixed_seed, wanted, no_progress));
   EXPECT_EQ(one.mean, other.mean);
 }
 

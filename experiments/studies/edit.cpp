@@ -87,9 +87,9 @@ std::vector<EditedPatch> patches_of(const SceneSettings& settings, const Scene& 
 }
 
 // A method with its program on the GPU, for a set of effects. Pinned: each part keeps the address of those before it.
-struct Drawing {
-  Drawing(const gl::Context& context, const Scene& scene, const EffectSet& wanted, BakedMethod first,
-          const glm::ivec2& size, const RunSettings& settings)
+struct EditedDrawing {
+  EditedDrawing(const gl::Context& context, const Scene& scene, const EffectSet& wanted, BakedMethod first,
+                const glm::ivec2& size, const RunSettings& settings)
       : effects(wanted),
         gpu_scene(context.info(), scene, effects),
         baked(std::make_unique<BakedMethod>(std::move(first))),
@@ -205,7 +205,7 @@ class Editor {
     if (!drawing_ || drawing_->effects != effects) {
       BakedMethod first = baked;
       drawing_.reset();
-      drawing_ = std::make_unique<Drawing>(context_, scene_, effects, std::move(first), size_, settings_.run);
+      drawing_ = std::make_unique<EditedDrawing>(context_, scene_, effects, std::move(first), size_, settings_.run);
       drawing_->frames.draw(view);
       gl::api().Finish();
     }
@@ -233,7 +233,7 @@ class Editor {
   glm::ivec2 size_;
   gl::Context context_;
   ProgressParts parts_;
-  std::unique_ptr<Drawing> drawing_;
+  std::unique_ptr<EditedDrawing> drawing_;
   Exposure exposure_;
   EditRun run_;
 };

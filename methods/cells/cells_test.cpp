@@ -27,7 +27,7 @@ namespace {
 
 using enum NormalDistribution;
 using Words = std::map<std::string, std::string>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 const std::array<std::pair<NormalDistribution, float>, 4> lobes{
     {{blinn_phong, 64.0F}, {vmf, 30.0F}, {beckmann, 0.2F}, {ggx, 0.1F}}};
 

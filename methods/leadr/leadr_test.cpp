@@ -24,7 +24,7 @@ namespace {
 using enum NormalDistribution;
 using Words = std::map<std::string, std::string>;
 using Inputs = std::vector<std::array<glm::vec4, 3>>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Material material_of(const Image& normals, NormalDistribution distribution, float lobe,
                      GeometryTerm geometry = GeometryTerm::smith) {

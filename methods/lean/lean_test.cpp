@@ -25,7 +25,7 @@ namespace {
 
 using enum NormalDistribution;
 using Words = std::map<std::string, std::string>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Material material_of(const Image& normals, NormalDistribution distribution, float lobe) {
   const BaseBrdf brdf{distribution, GeometryTerm::none, FresnelTerm::none, true};

@@ -24,7 +24,7 @@ namespace footprint::testing {
 namespace {
 
 using Words = std::map<std::string, std::string>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double seed_variance = 1.0 / (8.0 * std::numbers::ln2);
 
 Material material_of(const Image& normals, const Lobe& lobe = {NormalDistribution::beckmann, 0.1},

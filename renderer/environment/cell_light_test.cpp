@@ -9,7 +9,7 @@
 namespace footprint::testing {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(DenseLights, OfAConstantEnvironmentAreTheSolidAnglesOfACube) {
   const std::vector<DenseLight> lights = dense_lights(constant_environment({1.0F, 2.0F, 0.5F}));

@@ -15,7 +15,7 @@
 namespace footprint {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::vector<glm::dvec3> random_directions(int count) {
   std::mt19937_64 random(5);

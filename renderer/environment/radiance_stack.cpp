@@ -14,7 +14,7 @@
 namespace footprint {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int largest_map = 512, smallest_finest_map = 64, coarsest_map = 8;
 constexpr int irradiance_map = 34;
 constexpr int irradiance_source_width = 128;

@@ -13,27 +13,27 @@
 namespace footprint {
 namespace {
 
-using Rgb = std::array<float, 3>;
+using MapColor = std::array<float, 3>;
 
 // Display values at equal steps, black through violet and orange to pale yellow: lightness rises all the way, so that
 // the order survives a grey print and colour blindness (after "inferno" by Smith and van der Walt, 2015).
-constexpr std::array<Rgb, 9> anchors{{{0.001F, 0.000F, 0.014F},
-                                      {0.122F, 0.047F, 0.283F},
-                                      {0.333F, 0.059F, 0.427F},
-                                      {0.533F, 0.134F, 0.415F},
-                                      {0.729F, 0.212F, 0.333F},
-                                      {0.890F, 0.349F, 0.200F},
-                                      {0.976F, 0.549F, 0.039F},
-                                      {0.976F, 0.788F, 0.196F},
-                                      {0.988F, 1.000F, 0.643F}}};
+constexpr std::array<MapColor, 9> anchors{{{0.001F, 0.000F, 0.014F},
+                                           {0.122F, 0.047F, 0.283F},
+                                           {0.333F, 0.059F, 0.427F},
+                                           {0.533F, 0.134F, 0.415F},
+                                           {0.729F, 0.212F, 0.333F},
+                                           {0.890F, 0.349F, 0.200F},
+                                           {0.976F, 0.549F, 0.039F},
+                                           {0.976F, 0.788F, 0.196F},
+                                           {0.988F, 1.000F, 0.643F}}};
 
 // What is not a number shows as the worst: it must not hide in the dark.
-Rgb color_at(float value, float maximum) {
+MapColor color_at(float value, float maximum) {
   const float share = maximum > 0 ? value / maximum : 0.0F;
   const float position = (share < 1 ? std::max(share, 0.0F) : 1.0F) * static_cast<float>(anchors.size() - 1);
   const std::size_t lower = std::min(static_cast<std::size_t>(position), anchors.size() - 2);
   const float t = position - static_cast<float>(lower);
-  Rgb color;
+  MapColor color;
   for (std::size_t c = 0; c < color.size(); ++c) color[c] = std::lerp(anchors[lower][c], anchors[lower + 1][c], t);
   return color;
 }
@@ -84,7 +84,7 @@ Image false_color_legend(int width, int height, float maximum) {
   const int bar_height = std::max(1, height - font_size - 4);
   Image legend(width, height, 3);
   for (int x = 0; x < width; ++x) {
-    const Rgb color = color_at(static_cast<float>(x), static_cast<float>(std::max(width - 1, 1)));
+    const MapColor color = color_at(static_cast<float>(x), static_cast<float>(std::max(width - 1, 1)));
     for (int y = 0; y < std::min(bar_height, height); ++y) std::ranges::copy(color, legend.at(x, y).begin());
   }
   const std::string top = fmt::format("{:.3g}", maximum);

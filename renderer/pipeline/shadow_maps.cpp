@@ -44,8 +44,8 @@ gl::Texture make_maps(const gl::ContextInfo& context, const ShadowViews& views, 
 // faces the light is seen counter-clockwise where the three rows of u w, v w and w make a left-handed frame, w growing
 // along the map's axis.
 GLenum front_face(const ShadowView& view) {
-  const glm::mat4 rows = glm::transpose(view.world_to_map);
-  const float handed = glm::dot(glm::cross(glm::vec3(rows[0]), glm::vec3(rows[1])), glm::vec3(view.axis_texel));
+  const glm::mat4 axes = glm::transpose(view.world_to_map);
+  const float handed = glm::dot(glm::cross(glm::vec3(axes[0]), glm::vec3(axes[1])), glm::vec3(view.axis_texel));
   return handed < 0.0F ? GL_CCW : GL_CW;
 }
 
@@ -58,7 +58,7 @@ void draw_batch(const GpuBatch& batch, const EffectSet& effects, SamplerCache& s
   // The base colour comes first among the shared textures; its alpha decides what is there.
   if (has(effects, Effect::alpha_mask) && has(effects, Effect::base_color_variation)) {
     const GpuTexture& base_color = batch.shared_textures.front();
-    gl::api().BindTextureUnit(0, base_color.texture.name());
+    gl::api().BindTextureUnit(0, base_color.texture->name());
     gl::api().BindSampler(0, samplers.sampler(base_color.coordinates, Lookup::trilinear));
   }
   gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::material, batch.material_block.name());

@@ -8,7 +8,7 @@
 namespace footprint {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // What texels of one axis cover of another division of it: target i gets `share` of source j.
 struct Overlap {

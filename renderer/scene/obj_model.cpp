@@ -99,12 +99,12 @@ class ObjReader {
 
   /// A corner as written: "7", "7/2", "7//3" or "7/2/3".
   [[nodiscard]] Corner corner(const std::string_view word) const {
-    const std::array<std::size_t, 3> sizes{positions_.size(), uvs_.size(), normals_.size()};
+    const std::array<std::size_t, 3> lengths{positions_.size(), uvs_.size(), normals_.size()};
     Corner indices{-1, -1, -1};
     std::string_view rest = word;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::string_view part = rest.substr(0, rest.find('/'));
-      if (!part.empty() || i == 0) indices[i] = index_of(part, sizes[i], word);
+      if (!part.empty() || i == 0) indices[i] = index_of(part, lengths[i], word);
       if (part.size() == rest.size()) return indices;
       rest.remove_prefix(part.size() + 1);
     }

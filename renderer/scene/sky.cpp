@@ -9,7 +9,7 @@ namespace footprint {
 namespace {
 
 constexpr int sky_width = 1024;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // CIE S 011 / ISO 15469, standard general sky 12: "CIE standard clear sky, low illuminance turbidity".
 constexpr double gradation_a = -1.0, gradation_b = -0.32;

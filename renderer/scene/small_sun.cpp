@@ -8,7 +8,7 @@
 namespace footprint {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double least_share = 0.01;
 constexpr double least_contrast = 10.0;
 constexpr double largest_texel = 5e-4;  // steradians: 1.3 degrees a side

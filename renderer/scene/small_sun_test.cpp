@@ -10,7 +10,7 @@
 namespace footprint {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Environment even_with(float sun, int width = 512) {
   Image map(width, width / 2, 3, 1.0F);

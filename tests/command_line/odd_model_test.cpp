@@ -101,8 +101,8 @@ std::vector<Case> choices() {
                        "the first of 2 cameras is used",
                        "KHR_materials_clearcoat is left out: the clear coat",
                        "memory for maps, estimated"};
-  Case json = of_two_scenes("ListedInJson", {"explain", "--camera", "near", "--model-scene", "1", "--json"});
-  json.output_has = {"\"taken\": 1", "\"warnings\"", "\"estimated_peak\""};
+  Case in_json = of_two_scenes("ListedInJson", {"explain", "--camera", "near", "--model-scene", "1", "--json"});
+  in_json.output_has = {"\"taken\": 1", "\"warnings\"", "\"estimated_peak\""};
   Case taken = of_two_scenes("Taken", {"render", "--method", "direct", "--model-scene", "1", "--camera", "near",
                                        "--size", "8x8", "-o", "{}/a.exr"});
   taken.leaves = {"a.exr"};
@@ -113,7 +113,7 @@ std::vector<Case> choices() {
       "NoSuchEnvironment", {"render", "--method", "direct", "--environment", "{}/missing.exr", "-o", "{}/a.exr"});
   environment.exit_code = 2;
   environment.errors_have = {"missing.exr"};
-  return {listed, json, taken, wrong, environment};
+  return {listed, in_json, taken, wrong, environment};
 }
 
 INSTANTIATE_TEST_SUITE_P(Choice, CommandLine, ::testing::ValuesIn(choices()), case_name);

@@ -15,7 +15,7 @@
 namespace footprint::testing {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Scene lit_square(const Image& normals, const SquareMaterial& material, Environment environment) {
   Scene scene = square_scene(normals, material);

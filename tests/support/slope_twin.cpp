@@ -10,7 +10,7 @@
 namespace footprint::testing {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // M^-1/2 of a symmetric matrix by its eigenvectors (one Jacobi rotation makes a 2 x 2 matrix diagonal).
 glm::dmat2 inverse_root(const glm::dmat2& m) {

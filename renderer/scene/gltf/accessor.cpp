@@ -7,16 +7,12 @@
 #include <cstring>
 #include <string>
 
-#include "renderer/core/error.hpp"
+#include "renderer/scene/gltf/refusal.hpp"
 
 namespace footprint {
 namespace {
 
 constexpr std::uint64_t largest_unbacked_count = std::uint64_t{1} << 20U;
-
-[[noreturn]] void fail(const std::string& place, const std::string& message) {
-  throw Error(ErrorKind::usage, place, message, "repair the file or export it again");
-}
 
 /// Bytes of one component; 0 for a type that Footprint does not read.
 std::size_t component_size(int type) {
@@ -58,10 +54,10 @@ Elements locate(const tinygltf::Model& model, int view_index, std::uint64_t offs
   const std::uint64_t element = components * component_size(type);
   const std::uint64_t stride = view.byteStride == 0 ? element : view.byteStride;
   if (stride < element)
-    fail(place, fmt::format("the stride of {} bytes is less than an element's {}", stride, element));
+    refuse_gltf(place, fmt::format("the stride of {} bytes is less than an element's {}", stride, element));
   const std::uint64_t end = offset + (count - 1) * stride + element;
   if (end > view.byteLength) {
-    fail(place, fmt::format("reads up to byte {} of a buffer view that has {}", end, view.byteLength));
+    refuse_gltf(place, fmt::format("reads up to byte {} of a buffer view that has {}", end, view.byteLength));
   }
   const auto& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
   return {data.data() + view.byteOffset + offset, static_cast<std::size_t>(stride), static_cast<std::size_t>(count),
@@ -110,13 +106,14 @@ void check_shape(const tinygltf::Accessor& accessor, int components, const std::
   const int width = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
   const bool matrix = accessor.type >= TINYGLTF_TYPE_MAT2 && accessor.type <= TINYGLTF_TYPE_MAT4;
   if (matrix || width != components) {
-    fail(place, fmt::format("has elements of another type than the {} components that its use needs", components));
+    refuse_gltf(place,
+                fmt::format("has elements of another type than the {} components that its use needs", components));
   }
-  if (accessor.count == 0) fail(place, "has no element");
+  if (accessor.count == 0) refuse_gltf(place, "has no element");
   // Elements without bytes behind them cost a file nothing, so that it could ask for any memory.
   const std::uint64_t largest = accessor.bufferView < 0 ? largest_unbacked_count : largest_element_count;
   if (accessor.count > largest) {
-    fail(place, fmt::format("{} elements, more than the {} that are read", accessor.count, largest));
+    refuse_gltf(place, fmt::format("{} elements, more than the {} that are read", accessor.count, largest));
   }
 }
 
@@ -125,8 +122,8 @@ void substitute(const tinygltf::Model& model, const tinygltf::Accessor& accessor
                 std::vector<float>& values, const std::string& place) {
   const auto& sparse = accessor.sparse;
   const auto count = static_cast<std::uint64_t>(sparse.count);
-  if (count < 1 || count > accessor.count) fail(place + ".sparse", "replaces no or too many elements");
-  if (!is_index_type(sparse.indices.componentType)) fail(place + ".sparse.indices", "are not unsigned integers");
+  if (count < 1 || count > accessor.count) refuse_gltf(place + ".sparse", "replaces no or too many elements");
+  if (!is_index_type(sparse.indices.componentType)) refuse_gltf(place + ".sparse.indices", "are not unsigned integers");
   const Elements indices =
       locate(model, sparse.indices.bufferView, static_cast<std::uint64_t>(sparse.indices.byteOffset), count, 1,
              sparse.indices.componentType, place + ".sparse.indices");
@@ -137,7 +134,7 @@ void substitute(const tinygltf::Model& model, const tinygltf::Accessor& accessor
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t index = index_component(indices, i);
     if (index >= accessor.count || index <= previous) {
-      fail(place + ".sparse.indices", fmt::format("index {} does not rise or is out of range", index));
+      refuse_gltf(place + ".sparse.indices", fmt::format("index {} does not rise or is out of range", index));
     }
     previous = index;
     for (std::size_t c = 0; c < components; ++c) {
@@ -154,7 +151,7 @@ std::vector<float> read_floats(const tinygltf::Model& model, int accessor_index,
   check_shape(accessor, components, place);
   const int type = accessor.componentType;
   if (component_size(type) == 0 || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
-    fail(place, "is neither float nor an 8 or 16 bit integer");
+    refuse_gltf(place, "is neither float nor an 8 or 16 bit integer");
   }
   const auto width = static_cast<std::size_t>(components);
   Elements elements;
@@ -175,8 +172,9 @@ std::vector<std::uint32_t> read_indices(const tinygltf::Model& model, int access
   const auto& accessor = model.accessors[static_cast<std::size_t>(accessor_index)];
   const std::string place = place_of(accessor_index);
   check_shape(accessor, 1, place);
-  if (!is_index_type(accessor.componentType)) fail(place, "indices must be unsigned integers");
-  if (accessor.bufferView < 0 || accessor.sparse.isSparse) fail(place, "indices must lie in a buffer view, not sparse");
+  if (!is_index_type(accessor.componentType)) refuse_gltf(place, "indices must be unsigned integers");
+  if (accessor.bufferView < 0 || accessor.sparse.isSparse)
+    refuse_gltf(place, "indices must lie in a buffer view, not sparse");
   const Elements elements =
       locate(model, accessor.bufferView, accessor.byteOffset, accessor.count, 1, accessor.componentType, place);
   std::vector<std::uint32_t> indices(elements.count);

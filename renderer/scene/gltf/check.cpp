@@ -11,14 +11,14 @@
 #include <cstdint>
 #include <limits>
 
-#include "renderer/core/error.hpp"
+#include "renderer/scene/gltf/refusal.hpp"
 
 namespace footprint {
 namespace {
 
 using nlohmann::json;
 
-enum class Kind {
+enum class JsonKind {
   object,
   array,
   string,
@@ -34,7 +34,7 @@ enum class Need { optional, required };
 /// What the members that `path` names must be: "[]" stands for every element, "*" for every member.
 struct Rule {
   std::string_view path;
-  Kind kind;
+  JsonKind kind;
   Need need = Need::optional;
   std::string_view target{};
   std::size_t count = 0;
@@ -44,129 +44,129 @@ constexpr std::string_view lights = "extensions.KHR_lights_punctual.lights";
 constexpr std::string_view variants = "extensions.KHR_materials_variants.variants";
 
 constexpr auto rules = std::to_array<Rule>({
-    {"extensionsUsed[]", Kind::string},
-    {"extensionsRequired[]", Kind::string},
-    {"extensions", Kind::object},
-    {"scene", Kind::index, Need::optional, "scenes"},
-    {"scenes[]", Kind::object},
-    {"scenes[].nodes[]", Kind::index, Need::optional, "nodes"},
-    {"nodes[]", Kind::object},
-    {"nodes[].name", Kind::string},
-    {"nodes[].children[]", Kind::index, Need::optional, "nodes"},
-    {"nodes[].mesh", Kind::index, Need::optional, "meshes"},
-    {"nodes[].camera", Kind::index, Need::optional, "cameras"},
-    {"nodes[].skin", Kind::index, Need::optional, "skins"},
-    {"nodes[].matrix", Kind::numbers, Need::optional, "", 16},
-    {"nodes[].translation", Kind::numbers, Need::optional, "", 3},
-    {"nodes[].rotation", Kind::numbers, Need::optional, "", 4},
-    {"nodes[].scale", Kind::numbers, Need::optional, "", 3},
-    {"nodes[].extensions", Kind::object},
-    {"nodes[].extensions.KHR_lights_punctual.light", Kind::index, Need::required, lights},
-    {"meshes[]", Kind::object},
-    {"meshes[].name", Kind::string},
-    {"meshes[].primitives", Kind::array, Need::required},
-    {"meshes[].primitives[]", Kind::object},
-    {"meshes[].primitives[].attributes", Kind::object, Need::required},
-    {"meshes[].primitives[].attributes.*", Kind::index, Need::optional, "accessors"},
-    {"meshes[].primitives[].indices", Kind::index, Need::optional, "accessors"},
-    {"meshes[].primitives[].material", Kind::index, Need::optional, "materials"},
-    {"meshes[].primitives[].mode", Kind::size},
-    {"meshes[].primitives[].extensions", Kind::object},
-    {"meshes[].primitives[].extensions.KHR_materials_variants", Kind::object},
-    {"meshes[].primitives[].extensions.KHR_materials_variants.mappings", Kind::array, Need::required},
-    {"meshes[].primitives[].extensions.KHR_materials_variants.mappings[]", Kind::object},
-    {"meshes[].primitives[].extensions.KHR_materials_variants.mappings[].material", Kind::index, Need::required,
+    {"extensionsUsed[]", JsonKind::string},
+    {"extensionsRequired[]", JsonKind::string},
+    {"extensions", JsonKind::object},
+    {"scene", JsonKind::index, Need::optional, "scenes"},
+    {"scenes[]", JsonKind::object},
+    {"scenes[].nodes[]", JsonKind::index, Need::optional, "nodes"},
+    {"nodes[]", JsonKind::object},
+    {"nodes[].name", JsonKind::string},
+    {"nodes[].children[]", JsonKind::index, Need::optional, "nodes"},
+    {"nodes[].mesh", JsonKind::index, Need::optional, "meshes"},
+    {"nodes[].camera", JsonKind::index, Need::optional, "cameras"},
+    {"nodes[].skin", JsonKind::index, Need::optional, "skins"},
+    {"nodes[].matrix", JsonKind::numbers, Need::optional, "", 16},
+    {"nodes[].translation", JsonKind::numbers, Need::optional, "", 3},
+    {"nodes[].rotation", JsonKind::numbers, Need::optional, "", 4},
+    {"nodes[].scale", JsonKind::numbers, Need::optional, "", 3},
+    {"nodes[].extensions", JsonKind::object},
+    {"nodes[].extensions.KHR_lights_punctual.light", JsonKind::index, Need::required, lights},
+    {"meshes[]", JsonKind::object},
+    {"meshes[].name", JsonKind::string},
+    {"meshes[].primitives", JsonKind::array, Need::required},
+    {"meshes[].primitives[]", JsonKind::object},
+    {"meshes[].primitives[].attributes", JsonKind::object, Need::required},
+    {"meshes[].primitives[].attributes.*", JsonKind::index, Need::optional, "accessors"},
+    {"meshes[].primitives[].indices", JsonKind::index, Need::optional, "accessors"},
+    {"meshes[].primitives[].material", JsonKind::index, Need::optional, "materials"},
+    {"meshes[].primitives[].mode", JsonKind::size},
+    {"meshes[].primitives[].extensions", JsonKind::object},
+    {"meshes[].primitives[].extensions.KHR_materials_variants", JsonKind::object},
+    {"meshes[].primitives[].extensions.KHR_materials_variants.mappings", JsonKind::array, Need::required},
+    {"meshes[].primitives[].extensions.KHR_materials_variants.mappings[]", JsonKind::object},
+    {"meshes[].primitives[].extensions.KHR_materials_variants.mappings[].material", JsonKind::index, Need::required,
      "materials"},
-    {"meshes[].primitives[].extensions.KHR_materials_variants.mappings[].variants", Kind::array, Need::required},
-    {"meshes[].primitives[].extensions.KHR_materials_variants.mappings[].variants[]", Kind::index, Need::optional,
+    {"meshes[].primitives[].extensions.KHR_materials_variants.mappings[].variants", JsonKind::array, Need::required},
+    {"meshes[].primitives[].extensions.KHR_materials_variants.mappings[].variants[]", JsonKind::index, Need::optional,
      variants},
-    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression", Kind::object},
-    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression.bufferView", Kind::index, Need::required,
+    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression", JsonKind::object},
+    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression.bufferView", JsonKind::index, Need::required,
      "bufferViews"},
-    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression.attributes", Kind::object, Need::required},
-    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression.attributes.*", Kind::size},
-    {"accessors[]", Kind::object},
-    {"accessors[].bufferView", Kind::index, Need::optional, "bufferViews"},
-    {"accessors[].byteOffset", Kind::size},
-    {"accessors[].componentType", Kind::size, Need::required},
-    {"accessors[].normalized", Kind::boolean},
-    {"accessors[].count", Kind::size, Need::required},
-    {"accessors[].type", Kind::string, Need::required},
-    {"accessors[].sparse", Kind::object},
-    {"accessors[].sparse.count", Kind::size, Need::required},
-    {"accessors[].sparse.indices", Kind::object, Need::required},
-    {"accessors[].sparse.indices.bufferView", Kind::index, Need::required, "bufferViews"},
-    {"accessors[].sparse.indices.byteOffset", Kind::size},
-    {"accessors[].sparse.indices.componentType", Kind::size, Need::required},
-    {"accessors[].sparse.values", Kind::object, Need::required},
-    {"accessors[].sparse.values.bufferView", Kind::index, Need::required, "bufferViews"},
-    {"accessors[].sparse.values.byteOffset", Kind::size},
-    {"bufferViews[]", Kind::object},
-    {"bufferViews[].buffer", Kind::index, Need::required, "buffers"},
-    {"bufferViews[].byteOffset", Kind::size},
-    {"bufferViews[].byteLength", Kind::size, Need::required},
-    {"bufferViews[].byteStride", Kind::size},
-    {"bufferViews[].extensions", Kind::object},
-    {"bufferViews[].extensions.EXT_meshopt_compression", Kind::object},
-    {"bufferViews[].extensions.EXT_meshopt_compression.buffer", Kind::index, Need::required, "buffers"},
-    {"bufferViews[].extensions.EXT_meshopt_compression.byteOffset", Kind::size},
-    {"bufferViews[].extensions.EXT_meshopt_compression.byteLength", Kind::size, Need::required},
-    {"bufferViews[].extensions.EXT_meshopt_compression.byteStride", Kind::size, Need::required},
-    {"bufferViews[].extensions.EXT_meshopt_compression.count", Kind::size, Need::required},
-    {"bufferViews[].extensions.EXT_meshopt_compression.mode", Kind::string, Need::required},
-    {"bufferViews[].extensions.EXT_meshopt_compression.filter", Kind::string},
-    {"buffers[]", Kind::object},
-    {"buffers[].byteLength", Kind::size, Need::required},
-    {"buffers[].uri", Kind::string},
-    {"images[]", Kind::object},
-    {"images[].name", Kind::string},
-    {"images[].uri", Kind::string},
-    {"images[].bufferView", Kind::index, Need::optional, "bufferViews"},
-    {"textures[]", Kind::object},
-    {"textures[].source", Kind::index, Need::optional, "images"},
-    {"textures[].sampler", Kind::index, Need::optional, "samplers"},
-    {"samplers[]", Kind::object},
-    {"samplers[].wrapS", Kind::size},
-    {"samplers[].wrapT", Kind::size},
-    {"materials[]", Kind::object},
-    {"materials[].name", Kind::string},
-    {"materials[].doubleSided", Kind::boolean},
-    {"materials[].alphaMode", Kind::string},
-    {"materials[].alphaCutoff", Kind::number},
-    {"materials[].emissiveFactor", Kind::numbers, Need::optional, "", 3},
-    {"materials[].extensions", Kind::object},
-    {"materials[].extensions.*", Kind::object},
-    {"materials[].extensions.KHR_materials_ior.ior", Kind::number},
-    {"materials[].pbrMetallicRoughness", Kind::object},
-    {"materials[].pbrMetallicRoughness.baseColorFactor", Kind::numbers, Need::optional, "", 4},
-    {"materials[].pbrMetallicRoughness.metallicFactor", Kind::number},
-    {"materials[].pbrMetallicRoughness.roughnessFactor", Kind::number},
-    {"materials[].normalTexture.scale", Kind::number},
-    {"cameras[]", Kind::object},
-    {"cameras[].type", Kind::string, Need::required},
-    {"cameras[].perspective", Kind::object},
-    {"cameras[].perspective.*", Kind::number},
-    {"cameras[].orthographic", Kind::object},
-    {"cameras[].orthographic.*", Kind::number},
-    {"extensions.KHR_lights_punctual", Kind::object},
-    {"extensions.KHR_lights_punctual.lights", Kind::array, Need::required},
-    {"extensions.KHR_lights_punctual.lights[]", Kind::object},
-    {"extensions.KHR_lights_punctual.lights[].type", Kind::string, Need::required},
-    {"extensions.KHR_lights_punctual.lights[].color", Kind::numbers, Need::optional, "", 3},
-    {"extensions.KHR_lights_punctual.lights[].intensity", Kind::number},
-    {"extensions.KHR_lights_punctual.lights[].range", Kind::number},
-    {"extensions.KHR_lights_punctual.lights[].spot", Kind::object},
-    {"extensions.KHR_lights_punctual.lights[].spot.*", Kind::number},
-    {"extensions.KHR_materials_variants", Kind::object},
-    {"extensions.KHR_materials_variants.variants", Kind::array, Need::required},
-    {"extensions.KHR_materials_variants.variants[]", Kind::object},
-    {"extensions.KHR_materials_variants.variants[].name", Kind::string},
-    {"scenes[].name", Kind::string},
-    {"cameras[].name", Kind::string},
-    {"animations[]", Kind::object},
-    {"animations[].channels[]", Kind::object},
-    {"animations[].samplers[]", Kind::object},
-    {"skins[]", Kind::object},
+    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression.attributes", JsonKind::object, Need::required},
+    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression.attributes.*", JsonKind::size},
+    {"accessors[]", JsonKind::object},
+    {"accessors[].bufferView", JsonKind::index, Need::optional, "bufferViews"},
+    {"accessors[].byteOffset", JsonKind::size},
+    {"accessors[].componentType", JsonKind::size, Need::required},
+    {"accessors[].normalized", JsonKind::boolean},
+    {"accessors[].count", JsonKind::size, Need::required},
+    {"accessors[].type", JsonKind::string, Need::required},
+    {"accessors[].sparse", JsonKind::object},
+    {"accessors[].sparse.count", JsonKind::size, Need::required},
+    {"accessors[].sparse.indices", JsonKind::object, Need::required},
+    {"accessors[].sparse.indices.bufferView", JsonKind::index, Need::required, "bufferViews"},
+    {"accessors[].sparse.indices.byteOffset", JsonKind::size},
+    {"accessors[].sparse.indices.componentType", JsonKind::size, Need::required},
+    {"accessors[].sparse.values", JsonKind::object, Need::required},
+    {"accessors[].sparse.values.bufferView", JsonKind::index, Need::required, "bufferViews"},
+    {"accessors[].sparse.values.byteOffset", JsonKind::size},
+    {"bufferViews[]", JsonKind::object},
+    {"bufferViews[].buffer", JsonKind::index, Need::required, "buffers"},
+    {"bufferViews[].byteOffset", JsonKind::size},
+    {"bufferViews[].byteLength", JsonKind::size, Need::required},
+    {"bufferViews[].byteStride", JsonKind::size},
+    {"bufferViews[].extensions", JsonKind::object},
+    {"bufferViews[].extensions.EXT_meshopt_compression", JsonKind::object},
+    {"bufferViews[].extensions.EXT_meshopt_compression.buffer", JsonKind::index, Need::required, "buffers"},
+    {"bufferViews[].extensions.EXT_meshopt_compression.byteOffset", JsonKind::size},
+    {"bufferViews[].extensions.EXT_meshopt_compression.byteLength", JsonKind::size, Need::required},
+    {"bufferViews[].extensions.EXT_meshopt_compression.byteStride", JsonKind::size, Need::required},
+    {"bufferViews[].extensions.EXT_meshopt_compression.count", JsonKind::size, Need::required},
+    {"bufferViews[].extensions.EXT_meshopt_compression.mode", JsonKind::string, Need::required},
+    {"bufferViews[].extensions.EXT_meshopt_compression.filter", JsonKind::string},
+    {"buffers[]", JsonKind::object},
+    {"buffers[].byteLength", JsonKind::size, Need::required},
+    {"buffers[].uri", JsonKind::string},
+    {"images[]", JsonKind::object},
+    {"images[].name", JsonKind::string},
+    {"images[].uri", JsonKind::string},
+    {"images[].bufferView", JsonKind::index, Need::optional, "bufferViews"},
+    {"textures[]", JsonKind::object},
+    {"textures[].source", JsonKind::index, Need::optional, "images"},
+    {"textures[].sampler", JsonKind::index, Need::optional, "samplers"},
+    {"samplers[]", JsonKind::object},
+    {"samplers[].wrapS", JsonKind::size},
+    {"samplers[].wrapT", JsonKind::size},
+    {"materials[]", JsonKind::object},
+    {"materials[].name", JsonKind::string},
+    {"materials[].doubleSided", JsonKind::boolean},
+    {"materials[].alphaMode", JsonKind::string},
+    {"materials[].alphaCutoff", JsonKind::number},
+    {"materials[].emissiveFactor", JsonKind::numbers, Need::optional, "", 3},
+    {"materials[].extensions", JsonKind::object},
+    {"materials[].extensions.*", JsonKind::object},
+    {"materials[].extensions.KHR_materials_ior.ior", JsonKind::number},
+    {"materials[].pbrMetallicRoughness", JsonKind::object},
+    {"materials[].pbrMetallicRoughness.baseColorFactor", JsonKind::numbers, Need::optional, "", 4},
+    {"materials[].pbrMetallicRoughness.metallicFactor", JsonKind::number},
+    {"materials[].pbrMetallicRoughness.roughnessFactor", JsonKind::number},
+    {"materials[].normalTexture.scale", JsonKind::number},
+    {"cameras[]", JsonKind::object},
+    {"cameras[].type", JsonKind::string, Need::required},
+    {"cameras[].perspective", JsonKind::object},
+    {"cameras[].perspective.*", JsonKind::number},
+    {"cameras[].orthographic", JsonKind::object},
+    {"cameras[].orthographic.*", JsonKind::number},
+    {"extensions.KHR_lights_punctual", JsonKind::object},
+    {"extensions.KHR_lights_punctual.lights", JsonKind::array, Need::required},
+    {"extensions.KHR_lights_punctual.lights[]", JsonKind::object},
+    {"extensions.KHR_lights_punctual.lights[].type", JsonKind::string, Need::required},
+    {"extensions.KHR_lights_punctual.lights[].color", JsonKind::numbers, Need::optional, "", 3},
+    {"extensions.KHR_lights_punctual.lights[].intensity", JsonKind::number},
+    {"extensions.KHR_lights_punctual.lights[].range", JsonKind::number},
+    {"extensions.KHR_lights_punctual.lights[].spot", JsonKind::object},
+    {"extensions.KHR_lights_punctual.lights[].spot.*", JsonKind::number},
+    {"extensions.KHR_materials_variants", JsonKind::object},
+    {"extensions.KHR_materials_variants.variants", JsonKind::array, Need::required},
+    {"extensions.KHR_materials_variants.variants[]", JsonKind::object},
+    {"extensions.KHR_materials_variants.variants[].name", JsonKind::string},
+    {"scenes[].name", JsonKind::string},
+    {"cameras[].name", JsonKind::string},
+    {"animations[]", JsonKind::object},
+    {"animations[].channels[]", JsonKind::object},
+    {"animations[].samplers[]", JsonKind::object},
+    {"skins[]", JsonKind::object},
 });
 
 constexpr auto texture_paths = std::to_array<std::string_view>({
@@ -179,15 +179,15 @@ constexpr auto texture_paths = std::to_array<std::string_view>({
 
 /// What stands under each of `texture_paths`.
 constexpr auto texture_rules = std::to_array<Rule>({
-    {"", Kind::object},
-    {".index", Kind::index, Need::required, "textures"},
-    {".texCoord", Kind::size},
-    {".extensions", Kind::object},
-    {".extensions.KHR_texture_transform", Kind::object},
-    {".extensions.KHR_texture_transform.offset", Kind::numbers, Need::optional, "", 2},
-    {".extensions.KHR_texture_transform.rotation", Kind::number},
-    {".extensions.KHR_texture_transform.scale", Kind::numbers, Need::optional, "", 2},
-    {".extensions.KHR_texture_transform.texCoord", Kind::size},
+    {"", JsonKind::object},
+    {".index", JsonKind::index, Need::required, "textures"},
+    {".texCoord", JsonKind::size},
+    {".extensions", JsonKind::object},
+    {".extensions.KHR_texture_transform", JsonKind::object},
+    {".extensions.KHR_texture_transform.offset", JsonKind::numbers, Need::optional, "", 2},
+    {".extensions.KHR_texture_transform.rotation", JsonKind::number},
+    {".extensions.KHR_texture_transform.scale", JsonKind::numbers, Need::optional, "", 2},
+    {".extensions.KHR_texture_transform.texCoord", JsonKind::size},
 });
 
 constexpr auto supported = std::to_array<std::string_view>(
@@ -220,14 +220,9 @@ constexpr auto encodings = std::to_array<ExtensionWord>({
 });
 
 template <std::size_t count>
-std::string_view meaning_of(std::string_view name, const std::array<ExtensionWord, count>& words) {
-  const auto found = std::ranges::find(words, name, &ExtensionWord::name);
-  return found == words.end() ? std::string_view{} : found->meaning;
-}
-
-[[noreturn]] void fail(const std::string& place, const std::string& message,
-                       const std::string& hint = "repair the file or export it again") {
-  throw Error(ErrorKind::usage, place, message, hint);
+std::string_view meaning_of(std::string_view name, const std::array<ExtensionWord, count>& known) {
+  const auto found = std::ranges::find(known, name, &ExtensionWord::name);
+  return found == known.end() ? std::string_view{} : found->meaning;
 }
 
 std::size_t array_size(const json& document, std::string_view path) {
@@ -244,41 +239,42 @@ std::size_t array_size(const json& document, std::string_view path) {
 
 void check_numbers(const json& value, std::size_t count, const std::string& where) {
   if (!value.is_array() || value.size() != count || !std::ranges::all_of(value, &json::is_number)) {
-    fail(where, fmt::format("must be an array of {} numbers", count));
+    refuse_gltf(where, fmt::format("must be an array of {} numbers", count));
   }
 }
 
 void check_whole(const json& value, std::uint64_t end, const std::string& where, std::string_view target) {
-  if (!value.is_number_integer()) fail(where, "must be a whole number");
+  if (!value.is_number_integer()) refuse_gltf(where, "must be a whole number");
   const bool negative = !value.is_number_unsigned() && value.get<std::int64_t>() < 0;
   if (negative || value.get<std::uint64_t>() >= end) {
-    fail(where, target.empty() ? fmt::format("{} is not within 0 to {}", value.dump(), end - 1)
-                               : fmt::format("index {} is out of range: `{}` has {}", value.dump(), target, end));
+    refuse_gltf(where, target.empty()
+                           ? fmt::format("{} is not within 0 to {}", value.dump(), end - 1)
+                           : fmt::format("index {} is out of range: `{}` has {}", value.dump(), target, end));
   }
 }
 
 void check_value(const json& value, const Rule& rule, const std::string& where, std::uint64_t end) {
   switch (rule.kind) {
-    case Kind::object:
-      if (!value.is_object()) fail(where, "must be an object");
+    case JsonKind::object:
+      if (!value.is_object()) refuse_gltf(where, "must be an object");
       break;
-    case Kind::array:
-      if (!value.is_array()) fail(where, "must be an array");
+    case JsonKind::array:
+      if (!value.is_array()) refuse_gltf(where, "must be an array");
       break;
-    case Kind::string:
-      if (!value.is_string()) fail(where, "must be a string");
+    case JsonKind::string:
+      if (!value.is_string()) refuse_gltf(where, "must be a string");
       break;
-    case Kind::boolean:
-      if (!value.is_boolean()) fail(where, "must be true or false");
+    case JsonKind::boolean:
+      if (!value.is_boolean()) refuse_gltf(where, "must be true or false");
       break;
-    case Kind::number:
-      if (!value.is_number()) fail(where, "must be a number");
+    case JsonKind::number:
+      if (!value.is_number()) refuse_gltf(where, "must be a number");
       break;
-    case Kind::numbers:
+    case JsonKind::numbers:
       check_numbers(value, rule.count, where);
       break;
-    case Kind::size:
-    case Kind::index:
+    case JsonKind::size:
+    case JsonKind::index:
       check_whole(value, end, where, rule.target);
       break;
   }
@@ -295,12 +291,12 @@ void walk(const json& value, std::string_view path, const Rule& rule, std::uint6
     where.resize(depth);
   };
   if (path.starts_with("[]")) {
-    if (!value.is_array()) fail(where, "must be an array");
+    if (!value.is_array()) refuse_gltf(where, "must be an array");
     for (std::size_t i = 0; i < value.size(); ++i) descend(value[i], fmt::format("[{}]", i), path.substr(2));
     return;
   }
   if (path.front() == '.') path.remove_prefix(1);
-  if (!value.is_object()) fail(where, "must be an object");
+  if (!value.is_object()) refuse_gltf(where, "must be an object");
   if (path.front() == '*') {
     for (const auto& [key, child] : value.items()) {
       // Extension and extra data are no member of the parent's own kind.
@@ -314,12 +310,12 @@ void walk(const json& value, std::string_view path, const Rule& rule, std::uint6
   const auto member = value.find(name);
   const std::string dotted = (depth == 0 ? "" : ".") + name;
   if (member != value.end()) return descend(*member, dotted, path.substr(name_end));
-  if (name_end == path.size() && rule.need == Need::required) fail(where + dotted, "is missing");
+  if (name_end == path.size() && rule.need == Need::required) refuse_gltf(where + dotted, "is missing");
 }
 
 void apply_rule(const json& document, const Rule& rule) {
-  const std::uint64_t end = rule.kind == Kind::index ? array_size(document, rule.target)
-                                                     : std::uint64_t{std::numeric_limits<std::int32_t>::max()};
+  const std::uint64_t end = rule.kind == JsonKind::index ? array_size(document, rule.target)
+                                                         : std::uint64_t{std::numeric_limits<std::int32_t>::max()};
   std::string where;
   walk(document, rule.path, rule, end, where);
 }
@@ -328,11 +324,11 @@ void check_version(const json& document) {
   const auto asset = document.find("asset");
   if (asset == document.end() || !asset->is_object() || !asset->contains("version") ||
       !(*asset)["version"].is_string()) {
-    fail("asset.version", "is missing, so this is no glTF 2.0 file");
+    refuse_gltf("asset.version", "is missing, so this is no glTF 2.0 file");
   }
   const auto version = (*asset)["version"].get<std::string>();
   if (!version.starts_with("2.")) {
-    fail("asset.version", fmt::format("glTF {:.16} is not supported", version), "convert the file to glTF 2.0");
+    refuse_gltf("asset.version", fmt::format("glTF {:.16} is not supported", version), "convert the file to glTF 2.0");
   }
 }
 
@@ -346,8 +342,8 @@ void check_required_extensions(const json& document) {
     if (!encoding.empty()) missing += fmt::format(" ({})", encoding);
   }
   if (!missing.empty()) {
-    fail("extensionsRequired", "requires what Footprint does not support: " + missing.substr(0, 400),
-         "export without these extensions");
+    refuse_gltf("extensionsRequired", "requires what Footprint does not support: " + missing.substr(0, 400),
+                "export without these extensions");
   }
 }
 
@@ -359,9 +355,10 @@ void check_buffer_views(const json& document) {
     const auto available =
         document["buffers"][views[i]["buffer"].get<std::size_t>()]["byteLength"].get<std::uint64_t>();
     const std::string where = fmt::format("bufferViews[{}]", i);
-    if (length == 0) fail(where + ".byteLength", "must be at least 1");
+    if (length == 0) refuse_gltf(where + ".byteLength", "must be at least 1");
     if (offset + length > available) {
-      fail(where, fmt::format("bytes {} to {} are not within the buffer's {}", offset, offset + length, available));
+      refuse_gltf(where,
+                  fmt::format("bytes {} to {} are not within the buffer's {}", offset, offset + length, available));
     }
   }
 }
@@ -377,7 +374,8 @@ void check_embedded_buffers(const json& document) {
     const std::size_t bytes = std::min(text.find_first_not_of(digits), text.size()) * 6 / 8;
     const auto length = buffers[i]["byteLength"].get<std::uint64_t>();
     if (bytes == length) continue;
-    fail(fmt::format("buffers[{}]", i), fmt::format("its data URI holds {} bytes, byteLength is {}", bytes, length));
+    refuse_gltf(fmt::format("buffers[{}]", i),
+                fmt::format("its data URI holds {} bytes, byteLength is {}", bytes, length));
   }
 }
 
@@ -388,12 +386,12 @@ void check_uris(const json& document, const std::string& array) {
     const std::string where = fmt::format("{}[{}].uri", array, i);
     if (uri.starts_with("data:")) {
       if (!tinygltf::IsDataURI(uri)) {
-        fail(where, fmt::format("this kind of data URI cannot be read: `{:.40}`", uri),
-             "use base64 with application/octet-stream, image/png or image/jpeg");
+        refuse_gltf(where, fmt::format("this kind of data URI cannot be read: `{:.40}`", uri),
+                    "use base64 with application/octet-stream, image/png or image/jpeg");
       }
     } else if (uri.find("://") != std::string::npos) {
-      fail(where, fmt::format("`{:.120}` is not fetched from the network", uri),
-           "put the file beside the glTF and name it by a relative path");
+      refuse_gltf(where, fmt::format("`{:.120}` is not fetched from the network", uri),
+                  "put the file beside the glTF and name it by a relative path");
     }
   }
 }
@@ -403,19 +401,20 @@ void check_uris(const json& document, const std::string& array) {
 json parse_gltf_json(std::string_view text) {
   const int deepest = 64;  // tinygltf recurses into extras and extensions
   const auto limit_depth = [=](int depth, json::parse_event_t, json&) {
-    if (depth > deepest) fail({}, fmt::format("the JSON is nested more than {} deep", deepest));
+    if (depth > deepest) refuse_gltf({}, fmt::format("the JSON is nested more than {} deep", deepest));
     return true;
   };
   try {
     return json::parse(text, limit_depth);
   } catch (const json::exception& error) {
     const std::string_view reason = error.what();
-    fail({}, fmt::format("not valid JSON: {:.300}", reason.substr(reason.find("] ") + 2)));  // without its own number
+    refuse_gltf(
+        {}, fmt::format("not valid JSON: {:.300}", reason.substr(reason.find("] ") + 2)));  // without its own number
   }
 }
 
 void check_gltf_json(const json& document) {
-  if (!document.is_object()) fail({}, "the JSON is no object, so this is no glTF file");
+  if (!document.is_object()) refuse_gltf({}, "the JSON is no object, so this is no glTF file");
   check_version(document);
   for (const Rule& rule : rules) apply_rule(document, rule);
   for (const std::string_view texture : texture_paths) {

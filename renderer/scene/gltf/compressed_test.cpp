@@ -61,7 +61,7 @@ GltfBuilder plain(const Bumps& bumps) {
   return file;
 }
 
-Model load(const GltfBuilder& file) { return load_gltf(file.write(), {}); }
+Model loaded(const GltfBuilder& file) { return load_gltf(file.write(), {}); }
 
 void use(GltfBuilder& file, const char* extension) {
   file.json["extensionsUsed"] = {extension};
@@ -171,9 +171,9 @@ void expect_same_surface(const Model& found, const Model& expected, float tolera
 
 TEST(GltfDraco, TwinsLoadAsThePlainFileDoes) {
   const Bumps bumps(8);
-  const Model expected = load(plain(bumps));
+  const Model expected = loaded(plain(bumps));
   for (const auto method : {draco::MESH_SEQUENTIAL_ENCODING, draco::MESH_EDGEBREAKER_ENCODING})
-    expect_same_surface(load(draco_file(bumps, draco_bytes(bumps, method))), expected, 4.0F / (1 << quantization));
+    expect_same_surface(loaded(draco_file(bumps, draco_bytes(bumps, method))), expected, 4.0F / (1 << quantization));
 }
 
 // A file that somebody else compressed, and the same model as it was before. Degenerate triangles are gone from it.
@@ -209,7 +209,7 @@ TEST(GltfDraco, WhatDoesNotFitIsAnError) {
   const auto error = [&](auto change) {
     GltfBuilder file = draco_file(bumps, encoded);
     change(file);
-    const std::string message = usage_error([&] { return load(file); });
+    const std::string message = usage_error([&] { return loaded(file); });
     EXPECT_NE(message.find("primitive 0"), std::string::npos) << message;
     return message;
   };
@@ -280,7 +280,7 @@ std::filesystem::path write_with_fallback(const GltfBuilder& file) {
 
 TEST(GltfMeshopt, TwinsLoadAsThePlainFileDoes) {
   const Bumps bumps(8);
-  const Model expected = load(plain(bumps));
+  const Model expected = loaded(plain(bumps));
   for (const char* mode : {"TRIANGLES", "INDICES"})
     expect_same_surface(load_gltf(write_with_fallback(meshopt_file(bumps, mode)), {}), expected, 0.0F);
 }
@@ -303,7 +303,7 @@ TEST(GltfMeshopt, GlbFilesKeepTheirBinaryChunk) {
   };
   set(8, out.size());
   set(12, text.size());
-  expect_same_surface(load_gltf(test::write_file("compressed.glb", out), {}), load(plain(bumps)), 0.0F);
+  expect_same_surface(load_gltf(test::write_file("compressed.glb", out), {}), loaded(plain(bumps)), 0.0F);
 }
 
 TEST(GltfMeshopt, FiltersAreUndone) {
@@ -323,7 +323,7 @@ TEST(GltfMeshopt, FiltersAreUndone) {
   file.json["bufferViews"][1]["byteStride"] = 8;
   file.json["accessors"][1]["componentType"] = 5122;
   file.json["accessors"][1]["normalized"] = true;
-  expect_same_surface(load_gltf(write_with_fallback(file), {}), load(plain(bumps)), 1e-3F);
+  expect_same_surface(load_gltf(write_with_fallback(file), {}), loaded(plain(bumps)), 1e-3F);
 }
 
 TEST(GltfMeshopt, WhatDoesNotFitIsAnError) {

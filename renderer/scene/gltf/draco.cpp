@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "renderer/core/error.hpp"
+#include "renderer/scene/gltf/refusal.hpp"
 
 namespace footprint {
 namespace {
@@ -23,26 +24,23 @@ constexpr const char* extension_name = "KHR_draco_mesh_compression";
 
 using Bytes = std::vector<unsigned char>;
 
-[[noreturn]] void fail(const std::string& message) {
-  throw Error(ErrorKind::usage, extension_name, message, "repair the file or export it again");
-}
-
 std::unique_ptr<draco::Mesh> decoded(const tinygltf::Model& model, int view_index) {
   const auto& view = model.bufferViews[static_cast<std::size_t>(view_index)];
   const auto& bytes = model.buffers[static_cast<std::size_t>(view.buffer)].data;
   if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset)
-    fail("its data does not lie within its buffer");
+    refuse_gltf(extension_name, "its data does not lie within its buffer");
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()) + view.byteOffset, view.byteLength);
   draco::Decoder decoder;
   try {
     auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
-    if (!mesh.ok()) fail(fmt::format("its data cannot be decoded: {:.200}", mesh.status().error_msg()));
+    if (!mesh.ok())
+      refuse_gltf(extension_name, fmt::format("its data cannot be decoded: {:.200}", mesh.status().error_msg()));
     return std::move(mesh).value();
   } catch (const std::bad_alloc&) {
-    fail("its data cannot be decoded: it asks for more memory than there is");
+    refuse_gltf(extension_name, "its data cannot be decoded: it asks for more memory than there is");
   } catch (const std::length_error&) {
-    fail("its data cannot be decoded: it asks for more memory than there is");
+    refuse_gltf(extension_name, "its data cannot be decoded: it asks for more memory than there is");
   }
 }
 
@@ -81,7 +79,7 @@ Bytes values_of(const draco::PointAttribute& attribute, std::uint32_t points) {
   for (std::uint32_t i = 0; i < points; ++i) {
     if (!attribute.ConvertValue<T>(attribute.mapped_index(draco::PointIndex(i)), static_cast<std::int8_t>(components),
                                    values.data()))
-      fail("an attribute holds values of another type than its accessor");
+      refuse_gltf(extension_name, "an attribute holds values of another type than its accessor");
     std::memcpy(&bytes[i * components * sizeof(T)], values.data(), components * sizeof(T));
   }
   return bytes;
@@ -100,22 +98,23 @@ Bytes values_of(const draco::PointAttribute& attribute, std::uint32_t points, in
     case TINYGLTF_COMPONENT_TYPE_FLOAT:
       return values_of<float>(attribute, points);
     default:
-      fail(fmt::format("{} is no component type of an attribute", component_type));
+      refuse_gltf(extension_name, fmt::format("{} is no component type of an attribute", component_type));
   }
 }
 
 void take_attribute(tinygltf::Model& model, const draco::Mesh& mesh, const std::string& name, int id, int accessor) {
   auto& target = model.accessors[static_cast<std::size_t>(accessor)];
   const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
-  if (attribute == nullptr) fail(fmt::format("{}: its data has no attribute {}", name, id));
+  if (attribute == nullptr) refuse_gltf(extension_name, fmt::format("{}: its data has no attribute {}", name, id));
   if (target.count != mesh.num_points())
-    fail(fmt::format("{}: {} elements are decoded, accessors[{}] has {}", name, mesh.num_points(), accessor,
-                     target.count));
+    refuse_gltf(extension_name, fmt::format("{}: {} elements are decoded, accessors[{}] has {}", name,
+                                            mesh.num_points(), accessor, target.count));
   const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(target.type));
   if (attribute->num_components() != components)
-    fail(fmt::format("{}: {} components are decoded, accessors[{}] has {}", name, attribute->num_components(), accessor,
-                     components));
-  if (!is_whole(*attribute, mesh.num_points())) fail(fmt::format("{}: its data is damaged", name));
+    refuse_gltf(extension_name, fmt::format("{}: {} components are decoded, accessors[{}] has {}", name,
+                                            attribute->num_components(), accessor, components));
+  if (!is_whole(*attribute, mesh.num_points()))
+    refuse_gltf(extension_name, fmt::format("{}: its data is damaged", name));
   Bytes bytes = values_of(*attribute, mesh.num_points(), target.componentType);
   point_at(target, add_view(model, std::move(bytes)));
 }
@@ -124,7 +123,8 @@ void take_indices(tinygltf::Model& model, const draco::Mesh& mesh, int accessor)
   auto& target = model.accessors[static_cast<std::size_t>(accessor)];
   const std::uint64_t count = std::uint64_t{3} * mesh.num_faces();
   if (target.count != count)
-    fail(fmt::format("indices: {} are decoded, accessors[{}] has {}", count, accessor, target.count));
+    refuse_gltf(extension_name,
+                fmt::format("indices: {} are decoded, accessors[{}] has {}", count, accessor, target.count));
   Bytes bytes(count * sizeof(std::uint32_t));
   for (std::uint32_t i = 0; i < mesh.num_faces(); ++i) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -139,9 +139,9 @@ void take_indices(tinygltf::Model& model, const draco::Mesh& mesh, int accessor)
 void decode_primitive(tinygltf::Model& model, const tinygltf::Primitive& primitive, const tinygltf::Value& extension) {
   const auto position = primitive.attributes.find("POSITION");
   if (position == primitive.attributes.end() || primitive.indices < 0)
-    fail("a compressed primitive needs accessors for POSITION and indices");
+    refuse_gltf(extension_name, "a compressed primitive needs accessors for POSITION and indices");
   if (model.accessors[static_cast<std::size_t>(position->second)].bufferView >= 0) return;
-  if (primitive.mode != TINYGLTF_MODE_TRIANGLES) fail("only triangles are read, no strips");
+  if (primitive.mode != TINYGLTF_MODE_TRIANGLES) refuse_gltf(extension_name, "only triangles are read, no strips");
   const std::unique_ptr<draco::Mesh> mesh = decoded(model, extension.Get("bufferView").GetNumberAsInt());
   const tinygltf::Value& ids = extension.Get("attributes");
   for (const std::string& name : ids.Keys()) {

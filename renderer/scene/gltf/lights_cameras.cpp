@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "renderer/core/error.hpp"
+#include "renderer/scene/gltf/refusal.hpp"
 
 namespace footprint {
 namespace {
@@ -15,7 +15,7 @@ constexpr double largest = 1e15;
 constexpr double smallest_znear = 1e-18;  // over `largest` it still is a 32-bit float's normal number
 
 void require(bool condition, const std::string& place, const std::string& message) {
-  if (!condition) throw Error(ErrorKind::usage, place, message, "repair the file or export it again");
+  if (!condition) refuse_gltf(place, message);
 }
 
 /// Where a light or camera looks: its own -z.

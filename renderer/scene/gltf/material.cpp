@@ -13,17 +13,14 @@
 #include "renderer/core/error.hpp"
 #include "renderer/image/image_header.hpp"
 #include "renderer/scene/assembly/surface_maps.hpp"
+#include "renderer/scene/gltf/refusal.hpp"
 #include "renderer/scene/model.hpp"
 
 namespace footprint {
 namespace {
 
-[[noreturn]] void fail(const std::string& place, const std::string& message) {
-  throw Error(ErrorKind::usage, place, message, "repair the file or export it again");
-}
-
 float checked(double value, double low, double high, const std::string& name) {
-  if (!(value >= low && value <= high)) fail(name, fmt::format("{} is not within {} to {}", value, low, high));
+  if (!(value >= low && value <= high)) refuse_gltf(name, fmt::format("{} is not within {} to {}", value, low, high));
   return static_cast<float>(value);
 }
 
@@ -61,7 +58,7 @@ Wrap wrap_mode(int mode, const std::string& place) {
     case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
       return Wrap::clamp_to_edge;
     default:
-      fail(place, fmt::format("{} is no wrap mode of glTF 2.0", mode));
+      refuse_gltf(place, fmt::format("{} is no wrap mode of glTF 2.0", mode));
   }
 }
 
@@ -163,7 +160,7 @@ void GltfMaterials::convert_alpha(const tinygltf::Material& source, Material& ma
   } else if (source.alphaMode == "BLEND") {
     add_once(warnings_, "alphaMode BLEND: blended materials are drawn opaque");
   } else if (source.alphaMode != "OPAQUE") {
-    fail("alphaMode", fmt::format("`{:.40}` is none of OPAQUE, MASK, BLEND", source.alphaMode));
+    refuse_gltf("alphaMode", fmt::format("`{:.40}` is none of OPAQUE, MASK, BLEND", source.alphaMode));
   }
 }
 

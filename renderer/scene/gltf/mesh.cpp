@@ -9,14 +9,11 @@
 #include "renderer/core/error.hpp"
 #include "renderer/scene/geometry.hpp"
 #include "renderer/scene/gltf/accessor.hpp"
+#include "renderer/scene/gltf/refusal.hpp"
 #include "renderer/scene/model.hpp"
 
 namespace footprint {
 namespace {
-
-[[noreturn]] void fail(const std::string& place, const std::string& message) {
-  throw Error(ErrorKind::usage, place, message, "repair the file or export it again");
-}
 
 /// One primitive on its way; `has_*` say what the file gives.
 struct Builder {
@@ -41,7 +38,7 @@ std::vector<float> read_attribute(const Builder& builder, const std::string& nam
   auto values = read_floats(builder.model, found->second, components);
   const std::size_t count = values.size() / static_cast<std::size_t>(components);
   if (!builder.vertices.empty() && count != builder.vertices.size()) {
-    fail(name, fmt::format("has {} elements, POSITION has {}", count, builder.vertices.size()));
+    refuse_gltf(name, fmt::format("has {} elements, POSITION has {}", count, builder.vertices.size()));
   }
   return values;
 }
@@ -52,7 +49,7 @@ void read_positions(Builder& builder) {
   for (std::size_t i = 0; i < builder.vertices.size(); ++i) {
     const glm::vec3 position{values[3 * i], values[3 * i + 1], values[3 * i + 2]};
     for (int axis = 0; axis < 3; ++axis) {
-      if (!std::isfinite(position[axis])) fail(fmt::format("vertex {}", i), "the position is not finite");
+      if (!std::isfinite(position[axis])) refuse_gltf(fmt::format("vertex {}", i), "the position is not finite");
     }
     builder.vertices[i].position = position;
   }
@@ -91,7 +88,7 @@ bool read_texture_coordinates(Builder& builder, const std::string& name, glm::ve
 int color_components(const Builder& builder, int index) {
   const auto& accessor = builder.model.accessors[static_cast<std::size_t>(index)];
   if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !accessor.normalized) {
-    fail("COLOR_0", "its integers are not normalised, so that nothing tells what they stand for");
+    refuse_gltf("COLOR_0", "its integers are not normalised, so that nothing tells what they stand for");
   }
   return accessor.type == TINYGLTF_TYPE_VEC3 ? 3 : 4;
 }
@@ -132,7 +129,7 @@ void read_triangles(Builder& builder) {
     list = read_indices(builder.model, builder.primitive.indices);
     for (std::size_t i = 0; i < list.size(); ++i) {
       if (list[i] >= builder.vertices.size()) {
-        fail(fmt::format("index {}", i), fmt::format("names vertex {} of {}", list[i], builder.vertices.size()));
+        refuse_gltf(fmt::format("index {}", i), fmt::format("names vertex {} of {}", list[i], builder.vertices.size()));
       }
     }
   } else {
@@ -161,7 +158,7 @@ void transform(Builder& builder, const glm::dmat4& world) {
     const glm::dvec3 position{world * glm::dvec4{glm::dvec3{vertex.position}, 1.0}};
     for (int axis = 0; axis < 3; ++axis) {
       if (!(std::abs(position[axis]) <= farthest)) {
-        fail(fmt::format("vertex {}", i), fmt::format("lies beyond {:g} m in the world", farthest));
+        refuse_gltf(fmt::format("vertex {}", i), fmt::format("lies beyond {:g} m in the world", farthest));
       }
     }
     vertex.position = glm::vec3{position};
@@ -198,7 +195,7 @@ void complete_frames(Builder& builder, const Material& material) {
 std::optional<Mesh> convert(Builder& builder, const glm::dmat4& world, const Material& material) {
   const int mode = builder.primitive.mode;
   if (mode < TINYGLTF_MODE_POINTS || mode > TINYGLTF_MODE_TRIANGLE_FAN)
-    fail("mode", fmt::format("{} is none of 0 to 6", mode));
+    refuse_gltf("mode", fmt::format("{} is none of 0 to 6", mode));
   if (mode < TINYGLTF_MODE_TRIANGLES) {
     add_once(builder.warnings, "points and lines are left out");
     return std::nullopt;

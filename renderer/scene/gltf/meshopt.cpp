@@ -13,15 +13,12 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
+#include "renderer/scene/gltf/refusal.hpp"
 
 namespace footprint {
 namespace {
 
 constexpr const char* extension_name = "EXT_meshopt_compression";
-
-[[noreturn]] void fail(const std::string& message) {
-  throw Error(ErrorKind::usage, extension_name, message, "repair the file or export it again");
-}
 
 bool is_fallback(const nlohmann::json& buffer) {
   const auto extensions = buffer.find("extensions");
@@ -56,7 +53,8 @@ Encoding encoding_of(const tinygltf::Model& model, const tinygltf::Value& extens
                .size = whole(extension, "byteLength")};
   const auto& bytes = model.buffers[whole(extension, "buffer")].data;
   const std::size_t offset = whole(extension, "byteOffset");
-  if (offset > bytes.size() || out.size > bytes.size() - offset) fail("its data does not lie within its buffer");
+  if (offset > bytes.size() || out.size > bytes.size() - offset)
+    refuse_gltf(extension_name, "its data does not lie within its buffer");
   out.data = bytes.data() + offset;
   return out;
 }
@@ -65,20 +63,24 @@ Encoding encoding_of(const tinygltf::Model& model, const tinygltf::Value& extens
 void check(const Encoding& encoding, std::size_t length) {
   const auto& [count, stride, mode, filter, data, size] = encoding;
   if (count * stride != length)
-    fail(fmt::format("{} elements of {} bytes are not the {} bytes of the buffer view", count, stride, length));
+    refuse_gltf(extension_name,
+                fmt::format("{} elements of {} bytes are not the {} bytes of the buffer view", count, stride, length));
   if (mode == "ATTRIBUTES") {
     if (stride % 4 != 0 || stride == 0 || stride > 256)
-      fail(fmt::format("a stride of {} bytes is not allowed", stride));
+      refuse_gltf(extension_name, fmt::format("a stride of {} bytes is not allowed", stride));
     const bool fits = filter == "NONE" || filter == "EXPONENTIAL" ||
                       (filter == "OCTAHEDRAL" && (stride == 4 || stride == 8)) ||
                       (filter == "QUATERNION" && stride == 8);
-    if (!fits) fail(fmt::format("filter `{:.20}` does not go with a stride of {} bytes", filter, stride));
+    if (!fits)
+      refuse_gltf(extension_name, fmt::format("filter `{:.20}` does not go with a stride of {} bytes", filter, stride));
   } else if (mode == "TRIANGLES" || mode == "INDICES") {
-    if (stride != 2 && stride != 4) fail(fmt::format("indices of {} bytes are not allowed", stride));
-    if (mode == "TRIANGLES" && count % 3 != 0) fail(fmt::format("{} indices are no whole triangles", count));
-    if (filter != "NONE") fail("indices have no filter");
+    if (stride != 2 && stride != 4)
+      refuse_gltf(extension_name, fmt::format("indices of {} bytes are not allowed", stride));
+    if (mode == "TRIANGLES" && count % 3 != 0)
+      refuse_gltf(extension_name, fmt::format("{} indices are no whole triangles", count));
+    if (filter != "NONE") refuse_gltf(extension_name, "indices have no filter");
   } else {
-    fail(fmt::format("`{:.20}` is none of ATTRIBUTES, TRIANGLES, INDICES", mode));
+    refuse_gltf(extension_name, fmt::format("`{:.20}` is none of ATTRIBUTES, TRIANGLES, INDICES", mode));
   }
 }
 
@@ -89,7 +91,7 @@ std::vector<unsigned char> decoded(const Encoding& encoding) {
   const int failed = mode == "ATTRIBUTES"  ? meshopt_decodeVertexBuffer(out.data(), count, stride, data, size)
                      : mode == "TRIANGLES" ? meshopt_decodeIndexBuffer(out.data(), count, stride, data, size)
                                            : meshopt_decodeIndexSequence(out.data(), count, stride, data, size);
-  if (failed != 0) fail("its data is damaged");
+  if (failed != 0) refuse_gltf(extension_name, "its data is damaged");
   if (filter == "OCTAHEDRAL") meshopt_decodeFilterOct(out.data(), count, stride);
   if (filter == "QUATERNION") meshopt_decodeFilterQuat(out.data(), count, stride);
   if (filter == "EXPONENTIAL") meshopt_decodeFilterExp(out.data(), count, stride);
@@ -105,13 +107,12 @@ bool fill_fallback_buffers(nlohmann::json& document) {
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto buffer = views[i]["buffer"].get<std::size_t>();
     if (is_fallback(buffers[buffer]) && !is_compressed(views[i]))
-      throw Error(ErrorKind::usage, fmt::format("bufferViews[{}]", i),
-                  fmt::format("is not compressed, and buffers[{}] has no bytes of its own", buffer),
-                  "repair the file or export it again");
+      refuse_gltf(fmt::format("bufferViews[{}]", i),
+                  fmt::format("is not compressed, and buffers[{}] has no bytes of its own", buffer));
   }
   for (const auto& image : document.value("images", nlohmann::json::array())) {
     if (image.contains("bufferView") && is_compressed(views[image["bufferView"].get<std::size_t>()]))
-      fail("an image lies in a compressed buffer view");
+      refuse_gltf(extension_name, "an image lies in a compressed buffer view");
   }
   for (auto& buffer : document["buffers"]) {
     if (!is_fallback(buffer)) continue;

@@ -17,17 +17,13 @@
 #include "renderer/scene/gltf/lights_cameras.hpp"
 #include "renderer/scene/gltf/material.hpp"
 #include "renderer/scene/gltf/mesh.hpp"
+#include "renderer/scene/gltf/refusal.hpp"
 #include "renderer/scene/gltf/selection.hpp"
 
 namespace footprint {
 namespace {
 
 constexpr int deepest_node = 1000;
-
-[[noreturn]] void fail(const std::string& place, const std::string& message,
-                       const std::string& hint = "repair the file or export it again") {
-  throw Error(ErrorKind::usage, place, message, hint);
-}
 
 glm::dvec3 vector_or(const std::vector<double>& values, double otherwise) {
   return values.size() == 3 ? glm::dvec3{values[0], values[1], values[2]} : glm::dvec3{otherwise};
@@ -44,7 +40,7 @@ glm::dmat4 local_transform(const tinygltf::Node& node, const std::string& place)
     const auto& q = node.rotation;  // x, y, z, w
     const glm::dquat rotation{q[3], q[0], q[1], q[2]};
     const double length = glm::length(rotation);
-    if (!std::isfinite(length) || length < 1e-6) fail(place, "the rotation has no length");
+    if (!std::isfinite(length) || length < 1e-6) refuse_gltf(place, "the rotation has no length");
     local = glm::mat4_cast(rotation / length);
   }
   const glm::dvec3 scale = vector_or(node.scale, 1.0);
@@ -91,10 +87,10 @@ class Gatherer {
       stack.pop_back();
       const std::string place = fmt::format("nodes[{}]", index);
       if (seen[static_cast<std::size_t>(index)]) {
-        fail(place, "is reached twice: the nodes are a cycle or share a child, glTF wants a tree");
+        refuse_gltf(place, "is reached twice: the nodes are a cycle or share a child, glTF wants a tree");
       }
       seen[static_cast<std::size_t>(index)] = true;
-      if (depth > deepest_node) fail(place, fmt::format("lies more than {} nodes deep", deepest_node));
+      if (depth > deepest_node) refuse_gltf(place, fmt::format("lies more than {} nodes deep", deepest_node));
       const auto& node = document_.model.nodes[static_cast<std::size_t>(index)];
       const glm::dmat4 world = parent * local_transform(node, place);
       gather_node(node, world);
@@ -140,7 +136,7 @@ class Gatherer {
   void merge(Mesh part, int material) {
     index_count_ += part.indices.size();
     if (index_count_ / 3 > largest_element_count) {
-      fail({}, fmt::format("more than {} triangles", largest_element_count), "use a smaller model");
+      refuse_gltf({}, fmt::format("more than {} triangles", largest_element_count), "use a smaller model");
     }
     Mesh& whole = meshes_[material];
     whole.name = materials_.materials()[static_cast<std::size_t>(material)].name;

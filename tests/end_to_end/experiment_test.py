@@ -112,7 +112,7 @@ class Experiments(WholeRunTest):
         self.assertTrue(results_of(out)["experiment"]["claims"][0]["as_expected"])
 
     def test_run_reports_what_check_refuses(self):
-        content = HEAD + '[threshold]\n"error(toksvig)" = 0.001\n'
+        content = HEAD.replace("spp = 16", "spp = 256") + '[threshold]\n"error(toksvig)" = 0.05\n'
         code, output, _, out = self.execute("report", content, "run")
         self.assertEqual(code, 0)
         self.assertIn("Fell short:", output)

@@ -80,6 +80,8 @@ TEST_P(EveryMethod, StaysFiniteAtTheLimits) {
   for (const BaseBrdf& brdf : brdfs) {
     for (const float roughness : {0.0F, 1.0F}) {
       for (const float tilt : {0.0F, 0.999F}) {
+        if (tilt == 0.0F && &brdf != brdfs.data())
+          continue;  // a map that is left out: programs of their own, much alike
         const Scene scene = square_scene(random_normals(33, 17, tilt, 3), {.brdf = brdf, .roughness = roughness});
         for (const double distance : {0.05, 1.0, 20.0}) {
           for (const float value : TestRenderer(scene).frame(*GetParam(), {}, {}, 0, distance).texels) {
@@ -94,10 +96,10 @@ TEST_P(EveryMethod, StaysFiniteAtTheLimits) {
 // What four pixels show, whose differences are a footprint, is their own: neighbours that look other levels up, or have
 // more lobes, change nothing.
 TEST_P(EveryMethod, IsTheSameFourPixelsByFourPixels) {
-  Scene scene = square_scene(random_normals(64, 64, 0.6F, 5), {.brdf = brdfs[2], .roughness = 0.4F});
+  Scene scene = square_scene(random_normals(64, 64, 0.6F, 5), {.brdf = {}, .roughness = 0.4F});
   scene.camera = receding_grooves().camera;
   TestRenderer renderer(scene, {24, 24});
-  for (const char* const text : {"trilinear", "anisotropic:4", "shaded:2"}) {
+  for (const char* const text : {"trilinear", "anisotropic:8", "shaded:2"}) {
     const FootprintFilter filter = parse_footprint_filter(text, "");
     const Image whole = renderer.frame(*GetParam(), {}, filter);
     EXPECT_LT(largest_difference(renderer.frame(*GetParam(), {}, filter, 2), whole), 1e-4) << text;

@@ -1,5 +1,6 @@
 """A sweep over a real Slurm of this one host: four tasks, one of them killed in its middle and requeued; what is merged
-is what a single run says. FOOTPRINT_KILLS: how many kills, over all tasks (1).
+is what a single run says. FOOTPRINT_KILLS: how many kills (1), at random moments over the tasks of a sweep that grows with
+their number; FOOTPRINT_SEED: of those moments (1).
 
 Where Slurm is not installed the test says so and is skipped: apt-get install slurmctld slurmd slurm-client munge.
 """
@@ -7,6 +8,7 @@ Where Slurm is not installed the test says so and is skipped: apt-get install sl
 import collections
 import os
 import pathlib
+import random
 import shutil
 import signal
 import subprocess
@@ -17,12 +19,14 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "end_to_end"))
 
-from kept_runs import DISTANCES, ZOOM, KeptRunTest, finished, outcome  # noqa: E402
+from kept_runs import ZOOM, KeptRunTest, finished, outcome  # noqa: E402
 from one_host_slurm import OneHostSlurm, missing_programs  # noqa: E402
 from whole_runs import PROGRAM, SOURCE  # noqa: E402
 
-TASKS = 4
 KILLS = int(os.environ.get("FOOTPRINT_KILLS", "1"))
+TASKS = 4 + KILLS // 3
+MOST_RESTARTS = 3  # of a task: scripts/slurm/submit
+MORE = '"direct", "toksvig", "lean", "roughness_bake", "specular_aa"'  # of a sweep that has to last
 SKIPPED = 77
 
 
@@ -42,7 +46,8 @@ class Sweep(KeptRunTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        members = [cls.write(f"distances_{i}", DISTANCES.replace("1", str(i))) for i in (1, 4)] + [cls.write("zoom", ZOOM, methods='"direct", "tan_gmm"')]
+        members = [cls.write_member(i) for i in range(1 + KILLS)]
+        members.append(cls.write("zoom", ZOOM, methods='"direct", "tan_gmm"'))
         cls.group = cls.write_group("group", *members)
         place = tempfile.TemporaryDirectory(prefix="footprint_slurm_")  # short: a socket's path has 108 bytes
         cls.addClassCleanup(place.cleanup)
@@ -50,21 +55,46 @@ class Sweep(KeptRunTest):
         cls.slurm = slurm.__enter__()
         cls.addClassCleanup(slurm.__exit__)
 
+    @classmethod
+    def write_member(cls, number):
+        """Three distances; where there are many kills it has to last, until the last of them."""
+        if KILLS == 1:
+            return cls.write(f"distances_{number}", f"[zoom]\ndistances = [1, 2, {20 + number}]\n")
+        many = ", ".join(f"{1.1**i:.3f}" for i in range(30))
+        file = cls.write(f"distances_{number}", f"[zoom]\ndistances = [{many}, {20 + number}]\n", methods=MORE)
+        file.write_text(file.read_text(encoding="utf-8").replace("spp = 8\n", "spp = 1024\n"), encoding="utf-8")
+        return file
+
     def submit(self, out, *more):
         command = [SOURCE / "scripts/slurm/submit", self.group, "-N", TASKS, "-o", out, "--footprint", PROGRAM, "--poll", 0.2,
                    "--cache", self.folder / "cache", *more]
         return subprocess.Popen([*map(str, command)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                                 env=self.slurm.environment)
 
-    def kill_in_the_middle(self, process, part, least):
-        """Kills the program of a part once it has finished `least` pieces of it; the pieces that were there, or none
-        where the part came to its end before."""
-        while process.poll() is None and not (part / "part.json").exists():
-            found = process_of(part) if len(finished(part)) >= least else None
-            if found:
-                os.kill(found, signal.SIGKILL)
-                return finished(part)
-            time.sleep(0.002)
+    def kill_one(self, out, before, kills):
+        """Kills the program of some part that has finished more than when it was killed last; that part, or none where the
+        sweep is past it."""
+        parts = [out / "parts" / str(task) for task in range(1, TASKS + 1)]
+        self.moments.shuffle(parts)
+        for part in parts:
+            pieces = len(finished(part))
+            if kills[part] == MOST_RESTARTS or pieces <= len(before.get(part, {})) or (part / "part.json").exists():
+                continue
+            if found := process_of(part):
+                time.sleep(self.moments.uniform(0, 0.3))
+                try:
+                    os.kill(found, signal.SIGKILL)
+                except ProcessLookupError:  # it came to its end
+                    continue
+                return part
+        return None
+
+    def kill_in_the_middle(self, process, out, before, kills):
+        """Kills one program of the sweep, with what its part had finished; none where the sweep ended before."""
+        while process.poll() is None and not all((out / "parts" / str(i + 1) / "part.json").exists() for i in range(TASKS)):
+            if part := self.kill_one(out, before, kills):
+                return part
+            time.sleep(0.01)
         return None
 
     def start_again_at_once(self, job, part, restarts):
@@ -85,21 +115,18 @@ class Sweep(KeptRunTest):
         process = self.submit(out)
         self.addCleanup(process.kill)
         before, kills = {}, collections.Counter()
-        for kill in range(KILLS):
-            part = out / "parts" / str(2 + kill % 3)
-            pieces = self.kill_in_the_middle(process, part, 1 + len(before.get(part, {})))
-            if pieces is None:
-                continue
-            before[part] = pieces
+        self.moments = random.Random(int(os.environ.get("FOOTPRINT_SEED", "1")))
+        while kills.total() < KILLS and (part := self.kill_in_the_middle(process, out, before, kills)):
+            before[part] = finished(part)
             kills[part] += 1
             job = (out / "job").read_text(encoding="utf-8").strip()
             self.start_again_at_once(job, part, kills[part])
-        print(f"{kills.total()} of {KILLS} kills hit a part in its middle")
-        self.assertGreaterEqual(kills.total(), 1)
-        output, errors = process.communicate(timeout=240)
+        print(f"{kills.total()} of {KILLS} kills, over {len(kills)} of {TASKS} tasks")
+        self.assertEqual(kills.total(), KILLS)
+        output, errors = process.communicate(timeout=600)
         logs = "".join(f"{log.name}: {log.read_text(encoding='utf-8')}" for log in sorted((out / "logs").glob("*.log")))
         self.assertEqual(process.returncode, 0, errors + logs)
-        self.assertIn(f"4 of {TASKS} parts finished", errors)
+        self.assertIn(f"{TASKS} of {TASKS} parts finished", errors)
         self.assertIn("page: ", output)
         for part, pieces in before.items():
             self.assertTrue(pieces)
@@ -117,17 +144,18 @@ class Sweep(KeptRunTest):
     def goes_on(self, out):
         """The same command again submits the part that is missing, and it alone."""
         shutil.rmtree(out / "parts/3")
-        others = {part: (out / "parts" / part / "part.json").stat().st_mtime_ns for part in "124"}
+        others = lambda: {part: (part / "part.json").stat().st_mtime_ns for part in (out / "parts").iterdir() if part.name != "3"}
+        before = others()
         _, errors = self.submit(out).communicate(timeout=240)
-        self.assertIn("parts 3 of 4", errors)
-        self.assertEqual(others, {part: (out / "parts" / part / "part.json").stat().st_mtime_ns for part in "124"})
+        self.assertIn(f"parts 3 of {TASKS}", errors)
+        self.assertEqual(before, others())
         self.assertTrue((out / "parts/3/part.json").is_file())
 
     def test_what_is_wrong_is_not_tried_again(self):
         out = self.folder / "wrong"
         _, errors = (process := self.submit(out, "--run=--only=nothing")).communicate(timeout=240)
         self.assertEqual(process.returncode, 2, errors)
-        self.assertIn("parts 1-4 are not finished: see", errors)
+        self.assertIn(f"parts 1-{TASKS} are not finished: see", errors)
         self.assertIn("--only: no member of group", (out / "logs/1.log").read_text(encoding="utf-8"))
 
     def test_a_job_that_slurm_refuses(self):

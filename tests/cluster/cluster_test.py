@@ -42,6 +42,28 @@ def process_of(part):
     return None
 
 
+def state_of(process):
+    """Slurm's tasks are nobody's children here: R, S, T where it is stopped, Z where it is dead, none where it is gone."""
+    try:
+        return pathlib.Path(f"/proc/{process}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()[0]
+    except OSError:
+        return None
+
+
+def kill_unless_finished(process, part):
+    """Kills it in its middle: held first, so that what it has finished is looked at while it does nothing more. Whether it
+    was killed; one that has written its part, or died meanwhile, goes on as it would."""
+    try:
+        os.kill(process, signal.SIGSTOP)
+        while (state := state_of(process)) not in ("T", "Z", "X", None):
+            time.sleep(0.001)
+        in_its_middle = state == "T" and not (part / "part.json").exists()
+        os.kill(process, signal.SIGKILL if in_its_middle else signal.SIGCONT)
+        return in_its_middle
+    except ProcessLookupError:  # it came to its end
+        return False
+
+
 class Sweep(KeptRunTest):
     @classmethod
     def setUpClass(cls):
@@ -57,11 +79,12 @@ class Sweep(KeptRunTest):
 
     @classmethod
     def write_member(cls, number):
-        """Three distances; where there are many kills it has to last, until the last of them."""
+        """A part is more than its start, so that it has a middle; with many kills all have to last until the last of them."""
+        distances = ", ".join(f"{1.1**i:.3f}" for i in range(30))
+        zoom = f"[zoom]\ndistances = [{distances}, {20 + number}]\n"
         if KILLS == 1:
-            return cls.write(f"distances_{number}", f"[zoom]\ndistances = [1, 2, {20 + number}]\n")
-        many = ", ".join(f"{1.1**i:.3f}" for i in range(30))
-        file = cls.write(f"distances_{number}", f"[zoom]\ndistances = [{many}, {20 + number}]\n", methods=MORE)
+            return cls.write(f"distances_{number}", zoom)
+        file = cls.write(f"distances_{number}", zoom, methods=MORE)
         file.write_text(file.read_text(encoding="utf-8").replace("spp = 8\n", "spp = 1024\n"), encoding="utf-8")
         return file
 
@@ -81,12 +104,9 @@ class Sweep(KeptRunTest):
             if kills[part] == MOST_RESTARTS or pieces <= len(before.get(part, {})) or (part / "part.json").exists():
                 continue
             if found := process_of(part):
-                time.sleep(self.moments.uniform(0, 0.3))
-                try:
-                    os.kill(found, signal.SIGKILL)
-                except ProcessLookupError:  # it came to its end
-                    continue
-                return part
+                time.sleep(self.moments.uniform(0, 0.3) if KILLS > 1 else 0)
+                if kill_unless_finished(found, part):
+                    return part
         return None
 
     def kill_in_the_middle(self, process, out, before, kills):
@@ -150,6 +170,23 @@ class Sweep(KeptRunTest):
         self.assertIn(f"parts 3 of {TASKS}", errors)
         self.assertEqual(before, others())
         self.assertTrue((out / "parts/3/part.json").is_file())
+
+    def test_a_kill_strikes_in_the_middle_or_not_at_all(self):
+        part = self.folder / "struck"
+        part.mkdir()
+        for finishes, state in ((False, -signal.SIGKILL), (True, 0)):
+            if finishes:
+                (part / "part.json").touch()
+            process = subprocess.Popen(["sleep", "0.2"])
+            self.assertEqual(kill_unless_finished(process.pid, part), not finishes)
+            self.assertEqual(process.wait(timeout=10), state)
+        (part / "part.json").unlink()
+        process = subprocess.Popen(["true"])
+        while state_of(process.pid) != "Z":
+            time.sleep(0.01)
+        self.assertFalse(kill_unless_finished(process.pid, part))
+        process.wait(timeout=10)
+        self.assertFalse(kill_unless_finished(process.pid, part))
 
     def test_what_is_wrong_is_not_tried_again(self):
         out = self.folder / "wrong"

@@ -102,7 +102,7 @@ Explanation explain(const ExplainArguments& arguments, const Progress& progress)
   out.warnings = stage.scene().warnings;
   out.supplied = stage.scene().defaults;
   out.effects = stage.decisions();
-  out.memory = estimate_memory(stage.scene(), stage.effects());
+  out.memory = estimate_memory(stage.scene(), stage.effects(), normal_chain_channels_of(run.methods));
   out.method = run.methods.front().text;
   out.left_out = effect_names(stage.effects() & ~method.baked().method->info().honours);
   out.draws = stage.gpu_scene().batches().size();
@@ -181,8 +181,8 @@ std::string text_of(const Explanation& explanation) {
   text += fmt::format("\nmemory for maps, estimated\n  {:<24} {}\n  {:<24} {}\n  {:<24} {}\n  {:<24} {}\n",
                       "as 32-bit floats", readable_bytes(explanation.memory.maps), "kept, at their own depth",
                       readable_bytes(explanation.memory.kept), "peak with this method",
-                      readable_bytes(explanation.memory.peak(1)), "each further method",
-                      readable_bytes(explanation.memory.a_method));
+                      readable_bytes(explanation.memory.peak()), "each further method",
+                      readable_bytes(explanation.memory.methods.front()));
   if (explanation.costs.empty()) return text;
   text += fmt::format("\n{:<23} {:>10} {:>12} {:>10}\n", "cost, ms a frame", "with", "without", "adds");
   for (const EffectCost& cost : explanation.costs) {
@@ -227,8 +227,8 @@ std::string json_of(const Explanation& explanation) {
       {{"name", "forward"}, {"draws", explanation.draws}, {"shader_lines", explanation.shader_lines}});
   json["memory"] = {{"decoded_maps", explanation.memory.maps},
                     {"kept_maps", explanation.memory.kept},
-                    {"estimated_peak", explanation.memory.peak(1)},
-                    {"each_further_method", explanation.memory.a_method}};
+                    {"estimated_peak", explanation.memory.peak()},
+                    {"each_further_method", explanation.memory.methods.front()}};
   json["shared_bytes"] = explanation.shared_bytes;
   json["method_bytes"] = explanation.method_bytes;
   json["textures"] = Json::array();

@@ -22,11 +22,14 @@ std::uint64_t chain_bytes(std::uint64_t texels, std::uint64_t channels) {
 constexpr std::uint64_t copies_in_a_bake = 3;
 
 // Of normals: the moments of slope take five, the mean normal three (bake_slopes).
-constexpr std::uint64_t channels_kept_by_lean = 8;
+constexpr int channels_kept_by_lean = 8;
 
 // What lies on the GPU of a material's maps, once for all materials that are looked up in the same ones.
 class OnGpu {
  public:
+  explicit OnGpu(std::span<const std::optional<int>> normal_chain_channels)
+      : normal_chain_channels_(normal_chain_channels) {}
+
   void add(const Material& m, const EffectSet& effects, MemoryEstimate& out) {
     if (has(effects, Effect::base_color_variation)) out.shared += chain_bytes(added("color", m.base_color_map), 4);
     if (has(effects, Effect::metallic_variation))
@@ -40,9 +43,11 @@ class OnGpu {
     const auto& widths = has(effects, Effect::roughness_variation) ? width : none;
     out.reference += (4 * added("facets", normals) + added("widths", widths)) * float_bytes;
     // What is prefiltered of normals knows the widths beside them.
-    const std::uint64_t chains = chain_bytes(texels_of(normals), channels_kept_by_lean);
-    if (pairs_.emplace(image_of(normals), image_of(widths)).second)
-      out.a_method += chains + chain_bytes(texels_of(widths), 1);
+    if (!pairs_.emplace(image_of(normals), image_of(widths)).second) return;
+    for (std::size_t i = 0; i < out.methods.size(); ++i) {
+      const auto channels = static_cast<std::uint64_t>(normal_chain_channels_[i].value_or(channels_kept_by_lean));
+      out.methods[i] += chain_bytes(texels_of(normals), channels) + chain_bytes(texels_of(widths), 1);
+    }
   }
 
  private:
@@ -53,16 +58,19 @@ class OnGpu {
     return map && uses_.emplace(use, map->image).second ? texels_of(map) : 0;
   }
 
+  std::span<const std::optional<int>> normal_chain_channels_;
   std::set<std::pair<std::string_view, MapTexels>> uses_;
   std::set<std::pair<MapTexels, MapTexels>> pairs_;
 };
 
 }  // namespace
 
-MemoryEstimate estimate_memory(const Scene& scene, const EffectSet& effects) {
+MemoryEstimate estimate_memory(const Scene& scene, const EffectSet& effects,
+                               std::span<const std::optional<int>> normal_chain_channels) {
   MemoryEstimate out;
+  out.methods.resize(normal_chain_channels.size());
   std::set<MapTexels> counted;
-  OnGpu on_gpu;
+  OnGpu on_gpu(normal_chain_channels);
   for (const Material& m : scene.materials) {
     for (const auto* map : {&m.base_color_map, &m.metallic_roughness_map, &m.lobe_parameter_map, &m.specular_map,
                             &m.normal_map, &m.layer_map}) {

@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <vector>
 
 #include "renderer/effects/effects.hpp"
 
@@ -15,20 +19,23 @@ struct MemoryEstimate {
   std::uint64_t kept = 0;    ///< what is kept of them: texels at their own depth
   std::uint64_t shared = 0;  ///< mip chains that every method reads
   std::uint64_t reference = 0;
-  std::uint64_t a_method = 0;  ///< mip chains of what LEAN keeps of normals, and of widths: toksvig keeps half, some
-                               ///< far more
-  std::uint64_t bake = 0;      ///< of the largest map, while its chain is made
-  std::uint64_t upload = 0;    ///< of the largest map, while it lies in memory and on the GPU
+  std::vector<std::uint64_t> methods;  ///< of each: mip chains of what it keeps of normals, and of widths
+  std::uint64_t bake = 0;              ///< of the largest map, while its chain is made
+  std::uint64_t upload = 0;            ///< of the largest map, while it lies in memory and on the GPU
 
-  /// With so many methods, what is kept of the scene's own maps included.
-  [[nodiscard]] std::uint64_t peak(std::size_t methods) const {
+  /// With all of the methods, what is kept of the scene's own maps included.
+  [[nodiscard]] std::uint64_t peak() const {
     // The last method's chains are made before the reference's maps are there.
-    const std::uint64_t before = methods > 0 ? methods - 1 : 0;
-    return kept + shared + std::max(before * a_method + bake, methods * a_method + reference + upload);
+    const std::uint64_t all = std::accumulate(methods.begin(), methods.end(), std::uint64_t{0});
+    const std::uint64_t last = methods.empty() ? 0 : methods.back();
+    return kept + shared + std::max(all - last + bake, all + reference + upload);
   }
 };
 
-/// Of a scene that is loaded. Pure arithmetic over the sizes of its maps.
-[[nodiscard]] MemoryEstimate estimate_memory(const Scene& scene, const EffectSet& effects);
+/// Of a scene that is loaded, with methods that keep so many channels of a texel of normals
+/// (MethodInfo::normal_chain_channels; none: taken for LEAN's, though some keep far more). Pure arithmetic over the
+/// sizes of its maps.
+[[nodiscard]] MemoryEstimate estimate_memory(const Scene& scene, const EffectSet& effects,
+                                             std::span<const std::optional<int>> normal_chain_channels);
 
 }  // namespace footprint

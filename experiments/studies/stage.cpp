@@ -47,12 +47,19 @@ Uploaded bake_and_upload(const GpuScene& gpu_scene, const Scene& scene, const Ef
 }
 
 // The scene's own maps are there already, and available memory knows it.
-void require_maps(const MemoryEstimate& estimate, std::size_t methods) {
-  require_memory(estimate.peak(methods) - estimate.kept, fmt::format("what {} methods make of the maps", methods),
+void require_maps(const MemoryEstimate& estimate) {
+  require_memory(estimate.peak() - estimate.kept,
+                 fmt::format("what {} methods make of the maps", estimate.methods.size()),
                  "compare fewer methods at once, use smaller textures, or free memory");
 }
 
 }  // namespace
+
+std::vector<std::optional<int>> normal_chain_channels_of(std::span<const MethodSpec> methods) {
+  std::vector<std::optional<int>> channels;
+  for (const MethodSpec& method : methods) channels.push_back(find_method(method.name).info().normal_chain_channels);
+  return channels;
+}
 
 glm::ivec2 frame_size(const Scene& scene, const std::optional<glm::ivec2>& wanted) {
   glm::ivec2 size(default_width, default_width);
@@ -101,7 +108,7 @@ Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress,
       decisions_(derive_effects(scene_)),
       effects_(effects_on(decisions_) & ~settings.without) {
   require_pictures(size_, pictures);
-  require_maps(estimate_memory(scene_, effects_), settings.methods.size());
+  require_maps(estimate_memory(scene_, effects_, normal_chain_channels_of(settings.methods)));
   scene_ = refined_for_visibility(std::move(scene_), effects_);
   const std::optional<DiskCache> cache = cache_of(settings);
   const auto bakes = static_cast<double>(settings.methods.size() + 1);

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "experiments/settings/run_settings.hpp"
@@ -26,6 +27,9 @@ inline constexpr int pictures_of_a_frame = 3;
 
 /// Where slow work is kept between runs; none where the settings name no folder.
 [[nodiscard]] std::optional<DiskCache> cache_of(const RunSettings& settings);
+
+/// What each method keeps of a normal map, for estimate_memory. Errors (usage): there is no such method.
+[[nodiscard]] std::vector<std::optional<int>> normal_chain_channels_of(std::span<const MethodSpec> methods);
 
 /// Errors (machine): so many pictures (RGBA, 32-bit floats) of this size are more than memory holds.
 void require_pictures(const glm::ivec2& size, int count);

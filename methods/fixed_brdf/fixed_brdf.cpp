@@ -36,7 +36,8 @@ class FixedBrdf final : public Method {
       .summary = "The finest level's reflectance at any distance, over geometry that is filtered.",
       .paper = "Tan, Lin, Quan, Guo, Shum 2005, Multiresolution Reflectance Filtering, EGSR (its comparison, figure 8)",
       .options = {storage_option()},
-      .honours = map_effects_but({Effect::normal_layers})};
+      .honours = map_effects_but({Effect::normal_layers}),
+      .normal_chain_channels = 3};
 };
 
 }  // namespace

@@ -45,7 +45,8 @@ class NaiveMip final : public Method {
                   word_option("averages", {"roughness", "lobe"},
                               "What of a varying lobe is averaged: the perceptual roughness, as a texture stores it, "
                               "or the lobe's own parameter (exponent, alpha, kappa), as Xu 2017 does.")},
-      .honours = map_effects_but({})};
+      .honours = map_effects_but({}),
+      .normal_chain_channels = 3};
 };
 
 }  // namespace

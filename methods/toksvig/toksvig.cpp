@@ -42,7 +42,8 @@ class Toksvig final : public Method {
                       "diffuse", {"mean", "normalized"},
                       "The diffuse term's normal: the mean normal, whose dot product is the mean of the facets' "
                       "own while all face the light, or the renormalised one.")},
-      .honours = map_effects_but({})};
+      .honours = map_effects_but({}),
+      .normal_chain_channels = 3};
 };
 
 }  // namespace

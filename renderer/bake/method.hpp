@@ -39,6 +39,9 @@ struct MethodInfo {
   /// Whether it shows a map's texels where they are large on screen. Not so: one effective BRDF for the whole material,
   /// which is right where the whole map lies in a pixel.
   bool resolves_texels = true;
+  /// Channels of 32 bits that it keeps by default of each texel of a normal map and of its coarser levels: what the
+  /// estimate of memory goes by (memory_estimate.hpp), which takes LEAN's where a method says nothing.
+  std::optional<int> normal_chain_channels{};
 };
 
 /// A prefiltering method: a pure precompute, a GLSL module and, where it has one, a frame build

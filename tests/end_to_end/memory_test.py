@@ -12,9 +12,7 @@ from whole_runs import PROGRAM, WholeRunTest
 
 # Materials, sets of maps that they share out among them, texels a side; a single one's bake weighs most.
 MODELS = {"several": (2, 2, 1024), "single": (1, 1, 2048), "shared": (6, 1, 1024)}
-# Of the estimate, which counts the textures of LEAN, and of which Toksvig keeps half; heaps, drivers and decoders are not
-# as tidy.
-LEAST, MOST = {"lean": 0.75, "toksvig": 0.5}, 1.25
+LEAST, MOST = 0.75, 1.25  # of the estimate
 
 
 def png(side, seed):
@@ -70,8 +68,8 @@ def explained(file, method):
     return json.loads(text)["memory"], 1024 * usage.ru_maxrss
 
 
-def holds(measured, estimated, method):
-    return LEAST[method] * estimated <= measured <= MOST * estimated
+def holds(measured, estimated):
+    return LEAST * estimated <= measured <= MOST * estimated
 
 
 class MemoryTest(WholeRunTest):
@@ -95,9 +93,9 @@ class MemoryTest(WholeRunTest):
         # Two bytes of colour, one of roughness, two of normals: each map's third channel is constant.
         self.assertLess(abs(memory["kept_maps"] - texels * (2 + 1 + 2)), 0.01 * texels)
         self.assertLess(measured, 4 * memory["decoded_maps"])
-        self.assertTrue(holds(measured, estimated, method), f"{measured} measured, {estimated} estimated")
+        self.assertTrue(holds(measured, estimated), f"{measured} measured, {estimated} estimated")
         for wrong in (0.5, 2.0):  # an estimate that forgets what lies there, or counts it twice
-            self.assertFalse(holds(measured, wrong * estimated, method))
+            self.assertFalse(holds(measured, wrong * estimated))
 
 
 if __name__ == "__main__":

@@ -103,15 +103,18 @@ TEST_P(EveryMethodsBaseBrdf, AMapOfLobeParametersIsDirectsAtMagnificationWhereIt
   }
 }
 
-// The pipeline filters F0 for all, whatever the distribution: as `direct`, near and far, beside a normal map with
-// coordinates of its own.
+// The pipeline filters F0 for all: as `direct`, near and far, beside a normal map with coordinates of its own.
 TEST_P(EveryMethodsBaseBrdf, ASpecularMapIsDirects) {
-  const Image normals = constant_normals(16, 16, glm::vec3(0.28F, 0, 0.96F));
-  Scene scene = square_scene(normals, {.brdf = lobed_brdfs.front(), .specular = {1.0F, 0.5F, 0.25F}});
-  scene.materials[0].specular_map =
-      uniform_in_the_middle(3, [](int i, int c) { return i < 0 ? 0.4F : 0.1F * static_cast<float>((i + c) % 9); });
-  scene.materials[0].specular_map->coordinates.transform = {3.0F, 0.0F, 0.0F, 2.0F, 0.3F, 0.1F};
-  for (const double distance : {0.05, 1.0, 6.0}) EXPECT_LT(difference_from_direct(scene, distance), 1e-3) << distance;
+  for (const BaseBrdf& brdf : lobed_brdfs) {
+    Image normals = constant_normals(16, 16, glm::vec3(0.28F, 0, 0.96F));
+    Scene scene = square_scene(normals, {.brdf = brdf, .specular = {1.0F, 0.5F, 0.25F}});
+    scene.materials[0].specular_map =
+        uniform_in_the_middle(3, [](int i, int c) { return i < 0 ? 0.4F : 0.1F * static_cast<float>((i + c) % 9); });
+    scene.materials[0].specular_map->coordinates.transform = {3.0F, 0.0F, 0.0F, 2.0F, 0.3F, 0.1F};
+    for (const double distance : {0.05, 1.0, 6.0}) {
+      EXPECT_LT(difference_from_direct(scene, distance), 1e-3) << distance;
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryMethodsBaseBrdf,

@@ -6,19 +6,15 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "renderer/core/embedded_texts.hpp"
 #include "renderer/core/files.hpp"
 #include "results/report/csv_field.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/markdown_table.hpp"
+#include "results/report/page_shell.hpp"
 #include "results/report/results_document.hpp"
 #include "results/report/text_template.hpp"
 
 namespace footprint {
-namespace embedded {
-extern const EmbeddedTexts page_texts;
-}  // namespace embedded
-
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -247,14 +243,13 @@ std::string animation_page(const Animation& animation) {
   const std::string title = html_escaped(animation.scene.name), table = html_escaped(animation_table(animation));
   const std::string lede = html_escaped(fmt::format("{} frames: {}.", animation.frames.size(), path_words(animation)));
   const std::string data = script_escaped(json_text(animation_document(animation), -1));
-  const auto text = [](std::string_view file) { return find_text(embedded::page_texts, file)->text; };
-  return fill_template(text("animation.html"), {{"title", title},
-                                                {"lede", lede},
-                                                {"css", text("page.css")},
-                                                {"chart", text("chart.min.js")},
-                                                {"script", text("animation.js")},
-                                                {"table", table},
-                                                {"data", data}});
+  return fill_page({.file = "animation.html", .title = animation.scene.name + ", frame by frame"},
+                   {{"title", title},
+                    {"lede", lede},
+                    {"chart", page_text("chart.min.js")},
+                    {"script", page_text("animation.js")},
+                    {"table", table},
+                    {"data", data}});
 }
 
 void write_animation(const Animation& animation, const std::filesystem::path& folder) {

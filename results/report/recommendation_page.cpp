@@ -6,18 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/core/embedded_texts.hpp"
 #include "renderer/core/memory.hpp"
 #include "results/report/figures.hpp"
+#include "results/report/page_shell.hpp"
 #include "results/report/ranking.hpp"
 #include "results/report/recommendation.hpp"
 #include "results/report/text_template.hpp"
 
 namespace footprint {
-
-namespace embedded {
-extern const EmbeddedTexts page_texts;
-}
 
 namespace {
 
@@ -203,9 +199,9 @@ std::string recommendation_page(const Recommendation& recommendation) {
   body += pictures_html(recommendation) + provenance_html(recommendation);
   const std::string title = html_escaped(recommendation.scene.name);
   const std::string lede = html_escaped("Asked for: " + limits_text(recommendation.limits) + ".");
-  const auto text = [](std::string_view file) { return find_text(embedded::page_texts, file)->text; };
-  return fill_template(text("recommendation.html"),
-                       {{"title", title}, {"css", text("page.css")}, {"lede", lede}, {"body", body}});
+  return fill_page(
+      {.file = "recommendation.html", .title = recommendation.scene.name + " – which method?", .scripts = false},
+      {{"title", title}, {"lede", lede}, {"body", body}});
 }
 
 }  // namespace footprint

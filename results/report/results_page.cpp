@@ -6,22 +6,18 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "renderer/core/embedded_texts.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/image/false_color.hpp"
 #include "results/report/experiment_section.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/matrix_report.hpp"
+#include "results/report/page_shell.hpp"
 #include "results/report/ranking.hpp"
 #include "results/report/report.hpp"
 #include "results/report/results_document.hpp"
 #include "results/report/text_template.hpp"
 
 namespace footprint {
-namespace embedded {
-extern const EmbeddedTexts page_texts;
-}  // namespace embedded
-
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -122,14 +118,12 @@ std::string page_of(Json runs, const PageTexts& own) {
   const Json data{{"runs", std::move(runs)}, {"scale_colors", scale_colors()}};
   const std::string filled = script_escaped(json_text(data, -1));
   const std::string title = html_escaped(own.title), table = html_escaped(own.table);
-  const auto text = [](std::string_view file) { return find_text(embedded::page_texts, file)->text; };
-  return fill_template(text("page.html"), {{"title", title},
-                                           {"css", text("page.css")},
-                                           {"chart", text("chart.min.js")},
-                                           {"script", text("page.js")},
-                                           {"table", table},
-                                           {"experiment", own.experiment},
-                                           {"data", filled}});
+  return fill_page({.file = "page.html", .title = own.title}, {{"title", title},
+                                                               {"chart", page_text("chart.min.js")},
+                                                               {"script", page_text("page.js")},
+                                                               {"table", table},
+                                                               {"experiment", own.experiment},
+                                                               {"data", filled}});
 }
 
 }  // namespace

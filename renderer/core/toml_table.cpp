@@ -38,6 +38,30 @@ void take_missing(toml::table& target, toml::table& presets) {
   }
 }
 
+std::optional<std::string> word_of(const toml::node& node) {
+  return node.is_string() ? node.value<std::string>() : std::nullopt;
+}
+
+std::optional<std::string> word_or_number_of(const toml::node& node) {
+  if (node.is_integer()) return fmt::format("{}", *node.value<std::int64_t>());
+  if (node.is_floating_point()) return fmt::format("{}", *node.value<double>());
+  return word_of(node);
+}
+
+// The elements of a list that has some, each by `text_of`; none where it is no such list.
+std::optional<std::vector<std::string>> texts_of(const toml::node& node,
+                                                 std::optional<std::string> (*text_of)(const toml::node&)) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->empty()) return std::nullopt;
+  std::vector<std::string> values;
+  for (const toml::node& element : *array) {
+    std::optional<std::string> text = text_of(element);
+    if (!text) return std::nullopt;
+    values.push_back(*std::move(text));
+  }
+  return values;
+}
+
 }  // namespace
 
 struct TomlTable::Parsed {
@@ -171,35 +195,15 @@ std::optional<std::vector<double>> TomlTable::numbers(std::string_view key, std:
 std::optional<std::vector<std::string>> TomlTable::words(std::string_view key) const {
   const toml::node* node = parsed_->find(key);
   if (node == nullptr) return std::nullopt;
-  const toml::array* array = node->as_array();
-  std::vector<std::string> values;
-  if (array != nullptr) {
-    for (const toml::node& element : *array) {
-      if (element.is_string()) values.push_back(*element.value<std::string>());
-    }
-  }
-  if (array == nullptr || values.empty() || values.size() != array->size()) {
-    throw error_at(key, "must be a list of strings", R"(write it as ["a", "b"])");
-  }
-  return values;
+  if (auto values = texts_of(*node, word_of)) return values;
+  throw error_at(key, "must be a list of strings", R"(write it as ["a", "b"])");
 }
 
 std::optional<std::vector<std::string>> TomlTable::words_or_numbers(std::string_view key) const {
   const toml::node* node = parsed_->find(key);
   if (node == nullptr) return std::nullopt;
-  const toml::array* array = node->as_array();
-  std::vector<std::string> values;
-  if (array != nullptr) {
-    for (const toml::node& element : *array) {
-      if (element.is_string()) values.push_back(*element.value<std::string>());
-      if (element.is_integer()) values.push_back(fmt::format("{}", *element.value<std::int64_t>()));
-      if (element.is_floating_point()) values.push_back(fmt::format("{}", *element.value<double>()));
-    }
-  }
-  if (array == nullptr || values.empty() || values.size() != array->size()) {
-    throw error_at(key, "must be a list of strings or numbers", R"(write it as ["a", "b"], or [1, 2])");
-  }
-  return values;
+  if (auto values = texts_of(*node, word_or_number_of)) return values;
+  throw error_at(key, "must be a list of strings or numbers", R"(write it as ["a", "b"], or [1, 2])");
 }
 
 std::optional<TomlTable> TomlTable::table(std::string_view key, const std::vector<std::string>& known) const {

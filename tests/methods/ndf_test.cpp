@@ -261,7 +261,7 @@ class SurfaceNdfs : public ::testing::TestWithParam<std::tuple<std::string, doub
 // Every method's density integrates to what the truth's does, within 1%: also Tan's, which is one over the projected
 // disc and taken to solid angle. Slow ones over a smaller map.
 TEST_P(SurfaceNdfs, KeepTheTruthsEnergy) {
-  Inspection inspected = inspection(), small = inspection(32);
+  Inspection inspected = inspection(), small = inspection(48);
   for (const Method* method : all_methods()) {
     const NdfFigures figures =
         (method->info().slow_frame || method->info().slow_precompute ? small : inspected).figures(method->info().name);

@@ -80,6 +80,7 @@ void read_head(const TomlTable& table, const std::vector<std::string>& given, Ex
   experiment.description = table.word("description").value_or("");
   read_settings(table, "experiment", experiment.run, given);
   experiment.run.scene = scene_of_file(experiment.file, experiment.run.scene);
+  experiment.scene_place = table.error_at("scene", "", "").place();
 }
 
 // Distances that are given, or a zoom with both its ends.
@@ -329,16 +330,24 @@ struct SceneDistances {
   std::vector<double> distances;
 };
 
-// Errors (usage): of a scene; what a file gets wrong stands in the file's name.
+// Errors (usage) of the scene, in the name of the line that asks for it.
+SceneDistances distances_over_scene(const Experiment& experiment, const std::string& name) {
+  try {
+    (void)read_scene(experiment.run.scene, experiment.run.scene_library, experiment.run.overrides);
+    return {.name = name, .distances = distances_of(experiment)};
+  } catch (const Error& error) {
+    throw error.within(experiment.scene_place);
+  }
+}
+
 std::vector<SceneDistances> distances_by_scene(const Experiment& experiment) {
   const auto axis = std::ranges::find(experiment.axes, "scene", &Axis::key);
-  if (axis == experiment.axes.end()) return {{.name = {}, .distances = distances_of(experiment)}};
+  if (axis == experiment.axes.end()) return {distances_over_scene(experiment, {})};
   std::vector<SceneDistances> scenes;
   for (const std::string& name : axis->values) {
     Experiment of_scene = experiment;
     of_scene.run.scene = scene_of_file(experiment.file, name);
-    (void)read_scene(of_scene.run.scene, of_scene.run.scene_library, of_scene.run.overrides);
-    scenes.push_back({.name = name, .distances = distances_of(of_scene)});
+    scenes.push_back(distances_over_scene(of_scene, name));
   }
   return scenes;
 }
@@ -436,8 +445,6 @@ std::vector<double> distances_of(const Experiment& experiment) {
 }
 
 void check_against_scenes(const Experiment& experiment) {
-  const bool varies = std::ranges::find(experiment.axes, "scene", &Axis::key) != experiment.axes.end();
-  if (!given_distances(experiment.run.view).empty() && !varies) return;  // known when the file was read
   const std::vector<SceneDistances> scenes = distances_by_scene(experiment);
   const auto check = [&](const Expression& expression) { check_at_distances(expression, experiment, scenes); };
   for (const Claim& claim : experiment.claims) {

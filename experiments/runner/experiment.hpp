@@ -81,6 +81,7 @@ struct Experiment {
   Coordinates coordinates;  ///< of a member of a matrix: where it stands
   std::string whole;        ///< of a member of a matrix: the matrix' name
   RunSettings run;          ///< what is compared
+  std::string scene_place;  ///< FILE:LINE of what names its scene, or scenes
   bool quick = false;       ///< `run` is cut short: no measurement
   std::vector<PublishedValue> published;
   std::vector<Claim> claims;
@@ -105,9 +106,9 @@ struct Experiment {
 /// not exist.
 [[nodiscard]] Experiment read_experiment(const std::filesystem::path& file);
 
-/// What only its scenes tell of an experiment, read where it gives no distances or a matrix varies them: that they are
-/// there, and that their zoom paths have every distance and frame that is asked for. Errors (usage) name the file and
-/// the call or the frame; those of read_scene.
+/// What only its scenes tell of an experiment: that they are there, and that their zoom paths have every distance and
+/// frame that is asked for. Errors (usage) name the file and the call or the frame; those of read_scene name the line
+/// that asks for the scene.
 void check_against_scenes(const Experiment& experiment);
 
 /// The distances of an experiment: those that it gives, or its scene's. Errors (usage): of its scene.

@@ -205,6 +205,7 @@ void read_matrix(const TomlTable& root, Experiment& experiment) {
     if (!matrix.has(key)) continue;
     experiment.axes.push_back(read_axis(matrix, key));
     set_value(experiment, key, experiment.axes.back().values.front());
+    if (key == "scene") experiment.scene_place = matrix.error_at(key, "", "").place();
     members *= experiment.axes.back().values.size();
     if (members > most_members)
       throw matrix.error_at(key, fmt::format("makes {} members, {} at most", members, most_members),

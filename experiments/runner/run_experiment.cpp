@@ -139,7 +139,11 @@ void make_quick(Experiment& experiment) {
   run.reference.spp = std::min(run.reference.spp, quick_spp);
   run.reference.fixed_spp = true;  // no noise is waited for
   run.timing.repeats = std::min(run.timing.repeats, quick_repeats);
-  run.view.size = run.view.size ? glm::max(*run.view.size / quick_divisor, glm::ivec2(1)) : glm::ivec2(quick_default);
+  if (!run.view.quick_size) {
+    run.view.quick_size =
+        run.view.size ? glm::max(*run.view.size / quick_divisor, glm::ivec2(1)) : glm::ivec2(quick_default);
+  }
+  run.view.size = run.view.quick_size;
 }
 
 Results run_experiment(const Experiment& experiment, const FurtherTimes& further_times,

@@ -69,8 +69,9 @@ struct PathSettings {
 
 /// What is seen of the scene.
 struct ViewSettings {
-  std::optional<glm::ivec2> size;    ///< pixels; none: the scene's own, or 512 wide in the camera's aspect
-  std::vector<double> distances;     ///< factors on the camera's distance; empty: the scene's zoom path
+  std::optional<glm::ivec2> size;        ///< pixels; none: the scene's own, or 512 wide in the camera's aspect
+  std::optional<glm::ivec2> quick_size;  ///< of a run that is cut short; none: a quarter of `size`
+  std::vector<double> distances;         ///< factors on the camera's distance; empty: the scene's zoom path
   ZoomSettings zoom;                 ///< in place of `distances`; consecutive frames, between which flicker is measured
   std::optional<Exposure> exposure;  ///< none: the scene's own, else automatic
   /// The error at the top of every error picture, for pictures of several runs on one scale; none: what the run calls

@@ -18,7 +18,7 @@ std::string number(double value) { return fmt::format("{}", value); }  // as man
 
 // What the scene is and how it is looked at, whatever is measured of it.
 std::string scene_content(const RunSettings& settings, const Scene& scene) {
-  const auto& [size, distances, zoom, exposure, error_scale] = settings.view;
+  const auto& [size, quick_size, distances, zoom, exposure, error_scale] = settings.view;
   const glm::ivec2 pixels = frame_size(scene, size);
   ContentHash hash;
   add_content(hash, scene);

@@ -29,7 +29,10 @@ bool covers_whole_pixel(std::span<const float> texel) { return !(texel[3] < 1.0F
 Rgb rgb_of(const Image& image, int x, int y, std::string_view which) {
   const std::span<const float> texel = image.at(x, y);
   if (!std::ranges::all_of(texel, [](float value) { return std::isfinite(value); })) {
-    throw Error(ErrorKind::usage, fmt::format("{}, pixel ({}, {})", which, x, y), "the value is not a finite number");
+    throw Error(
+        ErrorKind::usage, fmt::format("{}, pixel ({}, {})", which, x, y), "the value is not a finite number",
+        "a method that cannot sum all that a pixel covers leaves one (its README says where): take more pixels, or "
+        "come nearer");
   }
   if (texel[3] <= 0) return {};  // left uncovered: black
   return {texel[0], texel[1], texel[2]};

@@ -90,7 +90,7 @@ const std::vector<Case> experiment_cases{
     {.name = "WrongSceneOfAnExperiment",
      .arguments = {"check", "{}/mine.toml", "-o", "{}/out"},
      .exit_code = 2,
-     .errors_have = {"ribed_plane: no such scene", "did you mean `ribbed_plane`?"},
+     .errors_have = {"mine.toml:3, ribed_plane: no such scene", "did you mean `ribbed_plane`?"},
      .files = {{"mine.toml", "[experiment]\ntitle = \"t\"\nscene = \"ribed_plane\"\nmethods = [\"direct\"]\n"}}},
     {.name = "FigureOfAFrameThatTheSceneLacks",
      .arguments = {"run", "{}/mine.toml", "-o", "{}/out"},
@@ -167,7 +167,7 @@ const std::vector<Case> experiment_cases{
     {.name = "AMatrixWithASceneThatIsNotThere",
      .arguments = {"run", "{}/mine.toml", "-o", "{}/out"},
      .exit_code = 2,
-     .errors_have = {"bumbs: no such scene", "did you mean `bumps`"},
+     .errors_have = {"mine.toml:5, bumbs: no such scene", "did you mean `bumps`"},
      .files = {{"mine.toml",
                 "[experiment]\ntitle = \"t\"\nmethods = [\"direct\"]\n"
                 "[matrix]\nscene = [\"ribbed_plane\", \"bumbs\"]\n"}}},

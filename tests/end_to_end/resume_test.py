@@ -9,22 +9,23 @@ import shutil
 import time
 import unittest
 
-from kept_runs import DISTANCES, METHODS, NDF, ZOOM, KeptRunTest, finished, outcome
+from kept_runs import DISTANCES, MATRIX, METHODS, NDF, ZOOM, KeptRunTest, finished, outcome
 
 KILLS = int(os.environ.get("FOOTPRINT_KILLS", "3"))
 SEED = int(os.environ.get("FOOTPRINT_SEED", "1"))
 ALL_PARTS = 32  # two members of 3 distances, each with truth, pairs, times and 2 records; what both say of the scene; an NDF
 
 
-class Resumed(KeptRunTest):
+class WholeAndKilled(KeptRunTest):
+    """An experiment that was run whole once, and what it takes to kill it; a subclass says which (`written`)."""
+
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.distances = cls.write("distances", DISTANCES + NDF)
-        cls.group = cls.write_group("group", cls.distances, cls.write("zoom", ZOOM))
+        cls.experiment = cls.written()
         cls.whole = cls.folder / "whole"
         begin = time.monotonic()
-        code, errors = cls.execute("run", cls.group, "-q", "-o", cls.whole)
+        code, errors = cls.execute("run", cls.experiment, "-q", "-o", cls.whole)
         cls.seconds = time.monotonic() - begin
         assert code == 0, errors
         cls.expected = outcome(cls.whole)
@@ -36,7 +37,7 @@ class Resumed(KeptRunTest):
 
     def run_until(self, out, stop):
         """Starts the run and kills it as soon as `stop` says so; whether it was killed."""
-        process = self.start("run", self.group, "-q", "-o", out)
+        process = self.start("run", self.experiment, "-q", "-o", out)
         while process.poll() is None and not stop():
             time.sleep(0.002)
         killed = process.poll() is None
@@ -48,7 +49,7 @@ class Resumed(KeptRunTest):
 
     def assert_goes_on(self, out, before):
         """What was finished is as it was; the rest is done; nothing is left that no run would leave."""
-        self.must("run", self.group, "-q", "-o", out)
+        self.must("run", self.experiment, "-q", "-o", out)
         after = finished(out)
         self.assertEqual({key: after.get(key) for key in before}, before, "finished work was lost or done again")
         self.assertEqual(after.keys(), finished(self.whole).keys())
@@ -56,10 +57,7 @@ class Resumed(KeptRunTest):
         left = [p.name for p in [*out.iterdir(), *out.parent.glob(f".{out.name}*")] if ".partial-" in p.name]
         self.assertEqual(left, [], "the killed run's own folder stays")
 
-    def test_how_many_parts_there_are(self):
-        self.assertEqual(len(finished(self.whole)), ALL_PARTS)
-
-    def test_killed_at_random_moments(self):
+    def kill_at_random_moments(self):
         generator = random.Random(SEED)
         out, kills, before = self.folder / "random", 0, {}
         for attempt in range(20 * KILLS):
@@ -77,6 +75,28 @@ class Resumed(KeptRunTest):
         self.assertEqual(kills, KILLS)
         self.assert_goes_on(out, before)
 
+
+class ResumedMatrix(WholeAndKilled):
+    @classmethod
+    def written(cls):
+        return cls.write("matrix", MATRIX)
+
+    def test_killed_at_random_moments(self):
+        self.kill_at_random_moments()
+
+
+class Resumed(WholeAndKilled):
+    @classmethod
+    def written(cls):
+        cls.distances = cls.write("distances", DISTANCES + NDF)
+        return cls.write_group("group", cls.distances, cls.write("zoom", ZOOM))
+
+    def test_killed_at_random_moments(self):
+        self.kill_at_random_moments()
+
+    def test_how_many_parts_there_are(self):
+        self.assertEqual(len(finished(self.whole)), ALL_PARTS)
+
     def test_killed_after_a_few_parts(self):
         for count in (1, 9):
             out = self.folder / f"after_{count}"
@@ -88,7 +108,7 @@ class Resumed(KeptRunTest):
     def test_a_whole_run_is_reported_again_and_nothing_measured(self):
         out = self.copy("again")
         before = finished(out)
-        errors = self.must("run", self.group, "-o", out)
+        errors = self.must("run", self.experiment, "-o", out)
         self.assertIn("finished parts of an earlier run were taken from", errors)
         self.assertEqual(finished(out), before)
         self.assert_same_outcome(self.expected, outcome(out))
@@ -96,7 +116,7 @@ class Resumed(KeptRunTest):
     def test_fresh_measures_anew(self):
         out = self.copy("fresh")
         before = finished(out)
-        self.must("run", self.group, "-q", "--fresh", "-o", out)
+        self.must("run", self.experiment, "-q", "--fresh", "-o", out)
         after = finished(out)
         self.assertEqual(after.keys(), before.keys())
         self.assertFalse([key for key in after if after[key] == before[key]])
@@ -114,7 +134,7 @@ class Resumed(KeptRunTest):
         content = bytearray(part.read_bytes())
         content[len(content) // 2] ^= 1
         part.write_bytes(content)
-        self.must("run", self.group, "-q", "-o", out)
+        self.must("run", self.experiment, "-q", "-o", out)
         self.assert_done_again(out, before, ["record"])
         self.assert_same_outcome(self.expected, outcome(out))
 
@@ -126,7 +146,7 @@ class Resumed(KeptRunTest):
         for file in (out / "kept/files").glob("*/*"):
             if file.read_bytes() == of_direct:
                 file.write_bytes(of_direct[:-1] + b"?")
-        self.must("run", self.group, "-q", "-o", out)
+        self.must("run", self.experiment, "-q", "-o", out)
         self.assertTrue([key for key, when in finished(out).items() if when != before[key]])
         self.assert_same_outcome(self.expected, outcome(out))
 

@@ -18,8 +18,8 @@
 namespace footprint {
 namespace {
 
-constexpr int quick_spp = 32;
-constexpr int quick_repeats = 3;
+constexpr int quick_spp = 16;
+constexpr int quick_repeats = 1;
 constexpr int quick_divisor = 4;
 constexpr int quick_default = 128;  // pixels a side where the experiment gives no size
 

@@ -265,7 +265,7 @@ class AccuracyVsTime(InFolder):
         super().setUp()
         self.script = module(SOURCE / "scripts/accuracy_vs_time")
         for name in self.script.FILTERS:
-            for member in ("cost", "bumps"):
+            for member in ("cost", "flicker", "bumps"):
                 self.write(name, member)
 
     def write(self, name, member, factor=1.0, by_filter=0.02):
@@ -274,10 +274,12 @@ class AccuracyVsTime(InFolder):
             records.append({"method": method, "distance": 3.0, "pixels": {"object": 256},
                             "error": {"shading": factor * error, "shading_floor": 0.001, "filter": by_filter,
                                       "method": 0.5 * error},
-                            "precompute": {"bytes": 65536 * 16, "bytes_per_texel": 16.0},
+                            "precompute": {"bytes": 65536 * 16, "bytes_per_texel": 16.0, "seconds": 0.5 * time,
+                                           "cached": name != "trilinear"},
+                            "flicker": {"mean": 0.1 * error, "noise_floor": 0.002} if member == "flicker" else None,
                             "time": {"frame_ms": {"median": 2.0 * time}, "fetches": 1.0, "lobes": 1.0,
                                      "ratio_to_direct": {"median": time, "min": time, "max": time}}})
-        results = {"tool": {"version": "1"}, "backend": {"renderer": "r"}, "scene": {"materials": 1}, "reference": {"spp": 4},
+        results = {"tool": {"version": "1"}, "backend": {"renderer": "r"}, "scene": {"materials": 1, "name": "disk"}, "reference": {"spp": 4},
                    "supersampling": [{"spp": 64, "distance": 3.0, "ms": 64.0, "shading": 0.3, "normalized_color": 0.3}],
                    "records": records}
         folder = self.script.part_folder(self.folder, name, "accuracy_vs_time_" + member)
@@ -301,6 +303,10 @@ class AccuracyVsTime(InFolder):
         self.assertIn("`toksvig` under `shaded:2` costs 2 frames of `direct`", " ".join(page.split()))
         self.assertIn("Not run: `v_grooves` under any, `scales` under any", " ".join(page.split()))
         self.assertIn("take turns. It was busy. Means", " ".join(page.split()))
+        self.assertIn("| `cells` | 2 | 2 | 1 | 1, 1 | 1, 1 |", page, "seconds, MiB, lookups and lobes")
+        self.assertIn("| `cells` | 0.005 | 0.005 | 0.005 | 0.005 |", page, "flicker")
+        self.assertIn("noise makes 0.002 of it at most", " ".join(page.split()))
+        self.assertIn("| `bumps` | 3 | 16 | 0.001 |", page, "texels along a footprint, floor")
         self.assertIn("</svg>", (self.folder / "fronts.svg").read_text(encoding="utf-8"))
 
     def test_other_results_are_another_page(self):
@@ -318,6 +324,13 @@ class AccuracyVsTime(InFolder):
         page = self.run_script().stdout
         self.assertIn("| cells * | trilinear | 4 | 0.05 ×/÷ 1.00 |", page)
         self.assertIn("| `scales` | 3 |", page)
+
+    def test_flicker_is_of_its_own_part(self):
+        for name in self.script.FILTERS:
+            shutil.rmtree(self.script.part_folder(self.folder, name, "accuracy_vs_time_flicker"))
+        page = self.run_script().stdout
+        self.assertIn("## Flicker\n\nNot run: `flicker`.", page)
+        self.assertIn("| cells * | trilinear | 4 | 0.05 ×/÷ 1.00 |", page)
 
     def test_without_parts_there_is_no_page(self):
         shutil.rmtree(self.folder / "trilinear")

@@ -201,7 +201,7 @@ void add_run_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("run", "Run an experiment: measured beside published, and its claims");
   const auto arguments = std::make_shared<ExperimentArguments>(*command);
   add_options(*command, *arguments);
-  command->add_flag("--quick", arguments->quick, "A quarter of the size and few samples: no measurement");
+  command->add_flag("--quick", arguments->quick, "A quarter of the size, few samples and texels: no measurement");
   command->footer(std::string(experiment_words) + run_examples);
   command->add_option("--shard", arguments->shard, "Run part I of N into the output folder, for `footprint merge`")
       ->type_name("I/N");

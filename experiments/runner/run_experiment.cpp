@@ -21,6 +21,7 @@ namespace {
 constexpr int quick_spp = 16;
 constexpr int quick_repeats = 1;
 constexpr int quick_divisor = 4;
+constexpr int quick_texels = 512;   // a side of surfaces that are made: bakes grow with them
 constexpr int quick_default = 128;  // pixels a side where the experiment gives no size
 
 // Looks into one footprint, in a folder ndf/NAME of its own.
@@ -144,6 +145,7 @@ void make_quick(Experiment& experiment) {
         run.view.size ? glm::max(*run.view.size / quick_divisor, glm::ivec2(1)) : glm::ivec2(quick_default);
   }
   run.view.size = run.view.quick_size;
+  run.overrides.most_texels = quick_texels;
 }
 
 Results run_experiment(const Experiment& experiment, const FurtherTimes& further_times,

@@ -10,7 +10,7 @@
 
 namespace footprint {
 
-/// Cuts the run short, to see whether it works and how it looks: a quarter of the size, few samples.
+/// Cuts the run short, to see whether it works and how it looks: a quarter of the size, few samples and texels.
 void make_quick(Experiment& experiment);
 
 /// Runs it and writes its pictures into FOLDER/images; the results hold its report. `further_times` are those of other

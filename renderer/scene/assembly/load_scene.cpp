@@ -26,6 +26,18 @@ ModelSettings* model_of(PartSettings& part) {
   return std::get_if<ModelSettings>(&part.content);
 }
 
+SurfaceContent* surface_of(PartSettings& part) {
+  if (auto* dressed = std::get_if<DressedModel>(&part.content)) return &dressed->surface;
+  return std::get_if<SurfaceContent>(&part.content);
+}
+
+void limit_surfaces(int most_texels, SceneSettings& settings) {
+  for (PartSettings& part : settings.parts) {
+    if (SurfaceContent* surface = surface_of(part))
+      surface->settings.resolution = std::min(surface->settings.resolution, most_texels);
+  }
+}
+
 // What is asked for of the only model file.
 void select(const ModelSelection& wanted, const std::string& source, SceneSettings& settings) {
   if (wanted.empty()) return;
@@ -55,6 +67,7 @@ void apply(const SceneOverrides& overrides, SceneSource& source) {
   if (overrides.environment) {
     source.settings.environment.emplace().candidates = {*overrides.environment};
   }
+  if (overrides.most_texels) limit_surfaces(*overrides.most_texels, source.settings);
 }
 
 SceneSource settings_source(const fs::path& file, const std::string& source, std::span<const Surface> surfaces) {

@@ -25,6 +25,7 @@ struct SceneOverrides {
   CameraSettings camera;  ///< where it says anything
   ModelSelection model;   ///< of the scene's only model file; a camera of it goes before the scene's own
   std::optional<std::filesystem::path> environment;  ///< picture in place of the scene's own environment
+  std::optional<int> most_texels;  ///< a side, of surfaces that are made: those that ask for more have as many
 };
 
 /// What SCENE names, read but not assembled. Errors (usage) as of load_scene, but for those of assembling.

@@ -33,6 +33,21 @@ Scene load_parts(const std::string& settings) {
   return load_scene(test::write_file("parts/scene.toml", settings).string(), {.folder = {}, .surfaces = tiles()});
 }
 
+TEST(Parts, SurfacesThatAreMadeHaveNoMoreTexelsThanIsAsked) {
+  const auto file = test::write_file("parts/scene.toml",
+                                     "[[part]]\nsurface = { name = \"tiles\" }\n"
+                                     "[[part]]\nsurface = { name = \"tiles\", resolution = 2 }\n");
+  const SceneLibrary tiled{.folder = {}, .surfaces = tiles()};
+  const auto sides = [&](std::optional<int> most_texels) {
+    SceneOverrides overrides;
+    overrides.most_texels = most_texels;
+    const Scene scene = load_scene(file.string(), tiled, overrides);
+    return std::pair(scene.materials.at(0).normal_map->image.width(), scene.materials.at(1).normal_map->image.width());
+  };
+  EXPECT_EQ(sides({}), std::pair(4, 2));
+  EXPECT_EQ(sides(3), std::pair(3, 2));
+}
+
 void expect_part_error(const std::string& text, const std::vector<std::string>& wanted) {
   const std::string error = test::usage_error([&] { return load_parts(text); });
   for (const std::string& words : wanted) EXPECT_THAT(error, ::testing::HasSubstr(words));

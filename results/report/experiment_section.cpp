@@ -95,13 +95,17 @@ std::string claim_sentence(const ClaimOutcome& claim) {
                      claim.reason);
 }
 
+std::string outcome_in_words(std::size_t fell_short, std::size_t checks) {
+  if (checks == 0) return {};
+  if (fell_short > 0) return fmt::format("{} of {} claims and thresholds fell short.", fell_short, checks);
+  return fmt::format("All {} claims and thresholds came out as expected.", checks);
+}
+
 std::string summary(const ExperimentReport& report) {
-  const std::size_t fell_short = report.shortfalls().size();
-  const std::size_t checks = report.claims.size() + report.thresholds.size();
-  std::string text = fell_short == 0 ? fmt::format("All {} claims and thresholds came out as expected.", checks)
-                                     : fmt::format("{} of {} claims and thresholds fell short.", fell_short, checks);
-  if (report.quick) text += " Quick: smaller than the experiment says, so these figures are no measurement.";
-  return text;
+  std::string text = outcome_in_words(report.shortfalls().size(), report.claims.size() + report.thresholds.size());
+  if (!report.quick) return text;
+  if (!text.empty()) text += " ";
+  return text + "Quick: smaller than the experiment says, so these figures are no measurement.";
 }
 
 std::string html_table(const Table& table) {

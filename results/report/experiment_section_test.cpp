@@ -42,6 +42,7 @@ TEST(ExperimentSection, AnExperimentWithoutChecksSaysNothingOfThem) {
   report.name = report.title = "bare";
   EXPECT_TRUE(report.shortfalls().empty());
   EXPECT_FALSE(says(experiment_markdown(report), "###"));
+  EXPECT_FALSE(says(experiment_markdown(report), "claims and thresholds"));
   EXPECT_FALSE(says(experiment_html(report), "<table"));
 }
 

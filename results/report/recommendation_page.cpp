@@ -90,20 +90,48 @@ std::string line_svg(std::vector<Candidate> front, const Axis& x, const Axis& y)
   return fmt::format(R"(<polyline class="line" points="{}"/>)", points);
 }
 
-std::string dot_svg(const Candidate& candidate, bool is_front, bool is_chosen, const Axis& x, const Axis& y) {
+// Names beside their dots, moved away from those that are there.
+class Labels {
+ public:
+  std::string beside(double x, double y, const std::string& text) {
+    const double width = character_width * static_cast<double>(text.size());
+    Box box{.left = x + 9, .right = x + 9 + width, .baseline = y - 6};
+    for (const double step : {0.0, 22.0, -line_height, 22.0 + line_height, -2.0 * line_height}) {
+      box.baseline = y - 6 + step;
+      if (std::ranges::none_of(taken_, [&](const Box& other) { return overlap(box, other); })) break;
+    }
+    taken_.push_back(box);
+    return text_at(box.left, box.baseline, "start", html_escaped(text));
+  }
+
+ private:
+  struct Box {
+    double left, right, baseline;
+  };
+  static constexpr double character_width = 6.5, line_height = 13;
+
+  static bool overlap(const Box& a, const Box& b) {
+    return a.left < b.right && b.left < a.right && std::abs(a.baseline - b.baseline) < line_height;
+  }
+
+  std::vector<Box> taken_;
+};
+
+std::string dot_svg(const Candidate& candidate, bool is_front, bool is_chosen, const Axis& x, const Axis& y,
+                    Labels& labels) {
   const double at_x = x.at(candidate.cost.median), at_y = y.at(candidate.error);
   const double low = std::max(x.at(candidate.cost.minimum), x.from),
                high = std::min(x.at(candidate.cost.maximum), x.to);
-  const std::string name = html_escaped(fmt::format("{} · {}", candidate.method, candidate.footprint));
+  const std::string name = fmt::format("{} · {}", candidate.method, candidate.footprint);
   std::string svg = line_between("spread", low, at_y, high, at_y);
   svg += fmt::format(R"(<circle class="{}" cx="{:.1f}" cy="{:.1f}" r="{}">)",
                      is_chosen  ? "chosen"
                      : is_front ? "on-front"
                                 : "dot",
                      at_x, at_y, is_chosen ? 7 : 4);
-  svg += fmt::format("<title>{}: error {}, {} times direct</title></circle>", name, error_text(candidate.error),
-                     three_figures(candidate.cost.median));
-  if (is_front || is_chosen) svg += text_at(at_x + 9, at_y - 6, "start", name);
+  svg += fmt::format("<title>{}: error {}, {} times direct</title></circle>", html_escaped(name),
+                     error_text(candidate.error), three_figures(candidate.cost.median));
+  if (is_front || is_chosen) svg += labels.beside(at_x, at_y, name);
   return svg;
 }
 
@@ -123,9 +151,10 @@ std::string front_svg(const MaterialAdvice& advice, const Limits& limits) {
   std::ranges::copy_if(shown, std::back_inserter(front), [&](const Candidate& c) { return is_on_front(shown, c); });
   std::string svg = axes_svg(x, y) + limit_svg(limits, x, y) + line_svg(front, x, y);
   const Candidate* const chosen = advice.choice.chosen ? &advice.candidates[*advice.choice.chosen] : nullptr;
+  Labels labels;
   for (const Candidate& candidate : shown) {
     const bool is_chosen = chosen && chosen->method == candidate.method && chosen->footprint == candidate.footprint;
-    svg += dot_svg(candidate, is_on_front(shown, candidate), is_chosen, x, y);
+    svg += dot_svg(candidate, is_on_front(shown, candidate), is_chosen, x, y, labels);
   }
   const std::string label = "Error against cost; the table holds the same figures";
   return fmt::format(R"(<svg class="front" viewBox="0 0 {} {}" role="img" aria-label="{}">{}</svg>)", plot_width,

@@ -6,7 +6,7 @@
 #include "scenes/surfaces/texel_grid.hpp"
 #include "scenes/surfaces/wrapped_grid.hpp"
 
-namespace footprint {
+namespace footprint::surfaces::bumps {
 namespace {
 
 /// A bump of height top - sharpness r^2. Lengths along the map are in cells; heights are those of steepness 1.
@@ -65,7 +65,7 @@ Image normals(const SurfaceSettings& settings) {
 
 }  // namespace
 
-Surface bumps_surface() {
+Surface surface() {
   return {.name = "bumps",
           .summary = "round bumps of random place, width and height, close together",
           .parameters = {whole_option("count", 16, 1, 1024, "bumps along a side"),
@@ -75,4 +75,4 @@ Surface bumps_surface() {
           .mesh = square_mesh};
 }
 
-}  // namespace footprint
+}  // namespace footprint::surfaces::bumps

@@ -11,7 +11,7 @@
 #include "scenes/surfaces/texel_grid.hpp"
 #include "scenes/surfaces/wrapped_grid.hpp"
 
-namespace footprint {
+namespace footprint::surfaces::car_paint {
 namespace {
 
 /// A site of the cell structure, in single precision: there are millions.
@@ -96,7 +96,7 @@ Image alphas(const SurfaceSettings& settings) {
 
 }  // namespace
 
-Surface car_paint_surface() {
+Surface surface() {
   return {.name = "car_paint",
           .summary = "small flat flakes, each leaning its own way, in a coat of paint with a lobe of its own",
           .parameters = {whole_option("flakes", 1024, 1, 8192, "cells for flakes along the map's width"),
@@ -112,4 +112,4 @@ Surface car_paint_surface() {
           .mesh = square_mesh};
 }
 
-}  // namespace footprint
+}  // namespace footprint::surfaces::car_paint

@@ -13,7 +13,7 @@
 #include "scenes/surfaces/texel_grid.hpp"
 #include "scenes/surfaces/wrapped_grid.hpp"
 
-namespace footprint {
+namespace footprint::surfaces::carved_disk {
 namespace {
 
 constexpr double tau = 2.0 * std::numbers::pi;
@@ -204,7 +204,7 @@ Mesh mesh(const SurfaceSettings& settings) {
 
 }  // namespace
 
-Surface carved_disk_surface() {
+Surface surface() {
   return {.name = "carved_disk",
           .summary = "a dish carved in rings: petals, grooves, a plait, beads, gadroons and a rope",
           .parameters = {number_option("depth", 1.0, 0, 4, "factor on the carving's depth"),
@@ -216,4 +216,4 @@ Surface carved_disk_surface() {
           .mesh = mesh};
 }
 
-}  // namespace footprint
+}  // namespace footprint::surfaces::carved_disk

@@ -7,7 +7,7 @@
 #include "scenes/surfaces/octaves.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
 
-namespace footprint {
+namespace footprint::surfaces::cast_metal {
 namespace {
 
 /// The grain of the mould: cells along the map's width, and slope.
@@ -76,7 +76,7 @@ glm::vec2 stain_tiling(const SurfaceSettings& settings) {
 
 }  // namespace
 
-Surface cast_metal_surface() {
+Surface surface() {
   return {.name = "cast_metal",
           .summary = "grained bronze, with stains of patina on a smaller map that repeats (671 x 457 beside 2048)",
           .parameters = {number_option("steepness", 1.0, 0, 10, "factor on the slopes of the grain"),
@@ -92,4 +92,4 @@ Surface cast_metal_surface() {
           .mesh = square_mesh};
 }
 
-}  // namespace footprint
+}  // namespace footprint::surfaces::cast_metal

@@ -2,7 +2,7 @@
 #include "scenes/surfaces/meshes.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
 
-namespace footprint {
+namespace footprint::surfaces::checker {
 namespace {
 
 /// Whether a point lies on a glossy square; the others are dull.
@@ -42,7 +42,7 @@ Image exponents(const SurfaceSettings& settings) {
 
 }  // namespace
 
-Surface checker_surface() {
+Surface surface() {
   return {.name = "checker",
           .summary = "two base BRDFs in a checkerboard, without relief",
           .parameters = {whole_option("squares", 64, 1, 16384, "squares along the map's width; an even number tiles"),
@@ -57,4 +57,4 @@ Surface checker_surface() {
           .mesh = square_mesh};
 }
 
-}  // namespace footprint
+}  // namespace footprint::surfaces::checker

@@ -5,7 +5,7 @@
 #include "scenes/surfaces/texel_grid.hpp"
 #include "scenes/surfaces/turned.hpp"
 
-namespace footprint {
+namespace footprint::surfaces::chess_board {
 namespace {
 
 constexpr int squares = 8;
@@ -45,7 +45,7 @@ Mesh mesh(const SurfaceSettings& /*settings*/) {
 
 }  // namespace
 
-Surface chess_board_surface() {
+Surface surface() {
   return {.name = "chess_board",
           .summary = "a board of 8 x 8 squares of 57 mm, of walnut and maple, without relief; the field is at height 0",
           .parameters = {},
@@ -55,4 +55,4 @@ Surface chess_board_surface() {
           .mesh = mesh};
 }
 
-}  // namespace footprint
+}  // namespace footprint::surfaces::chess_board

@@ -14,7 +14,7 @@
 #include "scenes/surfaces/texel_grid.hpp"
 #include "scenes/surfaces/turned.hpp"
 
-namespace footprint {
+namespace footprint::surfaces::chess_piece {
 namespace {
 
 using std::numbers::pi;
@@ -212,7 +212,7 @@ Mesh mesh(const SurfaceSettings& settings) {
 
 }  // namespace
 
-Surface chess_piece_surface() {
+Surface surface() {
   std::vector<std::string> names;
   names.reserve(pieces.size());
   for (const auto& piece : pieces) names.emplace_back(piece.first);
@@ -224,4 +224,4 @@ Surface chess_piece_surface() {
           .mesh = mesh};
 }
 
-}  // namespace footprint
+}  // namespace footprint::surfaces::chess_piece

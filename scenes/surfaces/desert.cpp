@@ -8,7 +8,7 @@
 #include "scenes/surfaces/noise.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
 
-namespace footprint {
+namespace footprint::surfaces::desert {
 namespace {
 
 constexpr double tau = 2.0 * std::numbers::pi;
@@ -146,7 +146,7 @@ Mesh mesh(const SurfaceSettings& settings) {
 
 }  // namespace
 
-Surface desert_surface() {
+Surface surface() {
   return {.name = "desert",
           .summary = "dunes under wind ripples of several widths, down to grains",
           .parameters = {number_option("steepness", 1.0, 0, 10, "factor on the slopes of ripples and grains")},
@@ -156,4 +156,4 @@ Surface desert_surface() {
           .mesh = mesh};
 }
 
-}  // namespace footprint
+}  // namespace footprint::surfaces::desert

@@ -9,7 +9,7 @@
 #include "scenes/surfaces/texel_grid.hpp"
 #include "scenes/surfaces/wrapped_grid.hpp"
 
-namespace footprint {
+namespace footprint::surfaces::engine_turned {
 namespace {
 
 /// Lengths on the map are in discs: each is set down one from the next and covers this radius.
@@ -81,7 +81,7 @@ Image normals(const SurfaceSettings& settings) {
 
 }  // namespace
 
-Surface engine_turned_surface() {
+Surface surface() {
   return {.name = "engine_turned",
           .summary = "rows of overlapping discs of concentric V-shaped scratches",
           .parameters = {whole_option("count", 24, 1, 1024, "discs along the map's width, and as many rows"),
@@ -92,4 +92,4 @@ Surface engine_turned_surface() {
           .mesh = square_mesh};
 }
 
-}  // namespace footprint
+}  // namespace footprint::surfaces::engine_turned

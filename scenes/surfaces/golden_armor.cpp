@@ -9,7 +9,7 @@
 #include "scenes/surfaces/texel_grid.hpp"
 #include "scenes/surfaces/wrapped_grid.hpp"
 
-namespace footprint {
+namespace footprint::surfaces::golden_armor {
 namespace {
 
 /// Lengths on the map are in columns of scales: a scale is 1 wide, rows are half of that apart and every second one is
@@ -110,7 +110,7 @@ Mesh mesh(const SurfaceSettings& /*settings*/) {
 
 }  // namespace
 
-Surface golden_armor_surface() {
+Surface surface() {
   return {.name = "golden_armor",
           .summary = "a curved breast plate of overlapping domed scales",
           .parameters = {whole_option("count", 8, 1, 512, "columns of scales on the map; rows are twice as many"),
@@ -121,4 +121,4 @@ Surface golden_armor_surface() {
           .mesh = mesh};
 }
 
-}  // namespace footprint
+}  // namespace footprint::surfaces::golden_armor

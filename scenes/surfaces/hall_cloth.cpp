@@ -10,7 +10,7 @@
 #include "scenes/surfaces/noise.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
 
-namespace footprint {
+namespace footprint::surfaces::hall_cloth {
 namespace {
 
 const std::vector<std::string> dyes{"red", "green", "blue"};
@@ -81,7 +81,7 @@ Mesh mesh(const SurfaceSettings& settings) {
 
 }  // namespace
 
-Surface hall_cloth_surface() {
+Surface surface() {
   return {.name = "hall_cloth",
           .summary = "figured curtains in the arches of a hall, one of three colours that take turns",
           .parameters = {word_option("dye", dyes, "colour of the ground, and whose turn it is")},
@@ -93,4 +93,4 @@ Surface hall_cloth_surface() {
           .mesh = mesh};
 }
 
-}  // namespace footprint
+}  // namespace footprint::surfaces::hall_cloth

@@ -9,7 +9,7 @@
 #include "scenes/surfaces/texel_grid.hpp"
 #include "scenes/surfaces/wrapped_grid.hpp"
 
-namespace footprint {
+namespace footprint::surfaces::hall_floor {
 namespace {
 
 /// The map covers so many metres, of so many squares each way; an even number, so that they alternate.
@@ -104,7 +104,7 @@ Mesh mesh(const SurfaceSettings& /*settings*/) {
 
 }  // namespace
 
-Surface hall_floor_surface() {
+Surface surface() {
   return {.name = "hall_floor",
           .summary = "the floor of a hall: squares of polished and honed marble with inlaid lozenges",
           .parameters = {number_option("tilt_degrees", 0.7, 0, 30, "largest tilt of a square along x and y, degrees")},
@@ -116,4 +116,4 @@ Surface hall_floor_surface() {
           .mesh = mesh};
 }
 
-}  // namespace footprint
+}  // namespace footprint::surfaces::hall_floor

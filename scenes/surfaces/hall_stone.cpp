@@ -11,7 +11,7 @@
 #include "scenes/surfaces/texel_grid.hpp"
 #include "scenes/surfaces/wrapped_grid.hpp"
 
-namespace footprint {
+namespace footprint::surfaces::hall_stone {
 namespace {
 
 /// The map covers so many metres: four courses of two blocks.
@@ -174,7 +174,7 @@ Mesh mesh(const SurfaceSettings& /*settings*/) {
 
 }  // namespace
 
-Surface hall_stone_surface() {
+Surface surface() {
   return {.name = "hall_stone",
           .summary = "walls, columns, arches and vault of a hall, of weathered ashlar",
           .parameters = {},
@@ -186,4 +186,4 @@ Surface hall_stone_surface() {
           .mesh = mesh};
 }
 
-}  // namespace footprint
+}  // namespace footprint::surfaces::hall_stone

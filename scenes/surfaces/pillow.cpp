@@ -9,7 +9,7 @@
 #include "scenes/surfaces/noise.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
 
-namespace footprint {
+namespace footprint::surfaces::pillow {
 namespace {
 
 /// Metres. The map's upper half lies on the front, its lower half on the back.
@@ -107,7 +107,7 @@ Mesh mesh(const SurfaceSettings& settings) {
 
 }  // namespace
 
-Surface pillow_surface() {
+Surface surface() {
   return {.name = "pillow",
           .summary = "a stuffed pillow in figured silk: two threads that differ in colour and gloss, no relief",
           .parameters = {whole_option("threads", 320, 5, 8192,
@@ -121,4 +121,4 @@ Surface pillow_surface() {
           .mesh = mesh};
 }
 
-}  // namespace footprint
+}  // namespace footprint::surfaces::pillow

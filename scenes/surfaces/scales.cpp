@@ -6,7 +6,7 @@
 #include "scenes/surfaces/meshes.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
 
-namespace footprint {
+namespace footprint::surfaces::scales {
 namespace {
 
 Image normals(const SurfaceSettings& settings) {
@@ -22,7 +22,7 @@ Image normals(const SurfaceSettings& settings) {
 
 }  // namespace
 
-Surface scales_surface() {
+Surface surface() {
   return {
       .name = "scales",
       .summary = "hemispheres in staggered rows on a flat ground",
@@ -36,4 +36,4 @@ Surface scales_surface() {
       .mesh = square_mesh};
 }
 
-}  // namespace footprint
+}  // namespace footprint::surfaces::scales

@@ -11,7 +11,7 @@ namespace footprint {
 namespace {
 
 /// How deep and how steep a point is cut; a flat one is not.
-struct Cut {
+struct CutSlope {
   double depth = 0.0;
   glm::dvec2 slope{0.0};
 };
@@ -31,7 +31,7 @@ std::vector<Scratch> scatter(const ScratchSettings& settings, std::uint64_t seed
   return scratches;
 }
 
-Cut cut_at(const Scratch& scratch, const glm::dvec2& uv) {
+CutSlope cut_at(const Scratch& scratch, const glm::dvec2& uv) {
   const glm::dvec2 across_direction{-scratch.direction.y, scratch.direction.x};
   const glm::dvec2 offset = uv - scratch.centre;
   const double along = glm::dot(offset, scratch.direction) / scratch.half_length;
@@ -53,9 +53,9 @@ ScratchField::ScratchField(const ScratchSettings& settings, std::uint64_t seed) 
 }
 
 glm::dvec2 ScratchField::slope_at(const glm::dvec2& uv) const {
-  Cut deepest;
+  CutSlope deepest;
   for (const Scratch& scratch : cells_.at(static_cast<int>(uv.x * side), static_cast<int>(uv.y * side))) {
-    const Cut cut = cut_at(scratch, uv);
+    const CutSlope cut = cut_at(scratch, uv);
     if (cut.depth > deepest.depth) deepest = cut;
   }
   return deepest.slope;

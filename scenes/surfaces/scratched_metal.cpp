@@ -8,7 +8,7 @@
 #include "scenes/surfaces/scratch_field.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
 
-namespace footprint {
+namespace footprint::surfaces::scratched_metal {
 namespace {
 
 /// The ground: the finest grain, and one three times as coarse.
@@ -37,7 +37,7 @@ Image normals(const SurfaceSettings& settings) {
 
 }  // namespace
 
-Surface scratched_metal_surface() {
+Surface surface() {
   return {
       .name = "scratched_metal",
       .summary = "many thin scratches of all directions and depths over a slightly rough ground",
@@ -52,4 +52,4 @@ Surface scratched_metal_surface() {
       .mesh = square_mesh};
 }
 
-}  // namespace footprint
+}  // namespace footprint::surfaces::scratched_metal

@@ -5,7 +5,7 @@
 #include "scenes/surfaces/scratch_field.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
 
-namespace footprint {
+namespace footprint::surfaces::scratches {
 namespace {
 
 Image normals(const SurfaceSettings& settings) {
@@ -21,7 +21,7 @@ Image normals(const SurfaceSettings& settings) {
 
 }  // namespace
 
-Surface scratches_surface() {
+Surface surface() {
   return {
       .name = "scratches",
       .summary = "thin straight scratches in random directions on a flat ground",
@@ -33,4 +33,4 @@ Surface scratches_surface() {
       .mesh = square_mesh};
 }
 
-}  // namespace footprint
+}  // namespace footprint::surfaces::scratches

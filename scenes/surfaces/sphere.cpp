@@ -4,7 +4,7 @@
 #include "scenes/surfaces/texel_grid.hpp"
 #include "scenes/surfaces/turned.hpp"
 
-namespace footprint {
+namespace footprint::surfaces::sphere {
 namespace {
 
 Mesh mesh(const SurfaceSettings& /*settings*/) {
@@ -18,7 +18,7 @@ Mesh mesh(const SurfaceSettings& /*settings*/) {
 
 }  // namespace
 
-Surface sphere_surface() {
+Surface surface() {
   return {.name = "sphere",
           .summary = "a ball of radius 1 m without relief; the map runs around its upright axis",
           .parameters = {},
@@ -27,4 +27,4 @@ Surface sphere_surface() {
           .mesh = mesh};
 }
 
-}  // namespace footprint
+}  // namespace footprint::surfaces::sphere

@@ -6,7 +6,7 @@
 #include "scenes/surfaces/meshes.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
 
-namespace footprint {
+namespace footprint::surfaces::studs {
 namespace {
 
 /// What a point is made of.
@@ -64,7 +64,7 @@ Image exponents(const SurfaceSettings& settings) {
 
 }  // namespace
 
-Surface studs_surface() {
+Surface surface() {
   return {.name = "studs",
           .summary = "hemispherical metal studs, satin to polished, on a matt ground",
           .parameters = {whole_option("count", 48, 1, 1024, "studs along the map's width"),
@@ -80,4 +80,4 @@ Surface studs_surface() {
           .mesh = square_mesh};
 }
 
-}  // namespace footprint
+}  // namespace footprint::surfaces::studs

@@ -8,7 +8,7 @@
 #include "scenes/surfaces/octaves.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
 
-namespace footprint {
+namespace footprint::surfaces::tablecloth {
 namespace {
 
 /// Metres. The cloth's corners hang down to 0.3 above the floor.
@@ -81,7 +81,7 @@ Mesh mesh(const SurfaceSettings& settings) {
 
 }  // namespace
 
-Surface tablecloth_surface() {
+Surface surface() {
   return {.name = "tablecloth",
           .summary = "a square cloth draped over a round table, creased by noise of five octaves",
           .parameters = {number_option("steepness", 1.0, 0, 10, "factor on the slopes of the creases")},
@@ -90,4 +90,4 @@ Surface tablecloth_surface() {
           .mesh = mesh};
 }
 
-}  // namespace footprint
+}  // namespace footprint::surfaces::tablecloth

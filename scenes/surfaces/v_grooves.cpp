@@ -6,7 +6,7 @@
 #include "scenes/surfaces/meshes.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
 
-namespace footprint {
+namespace footprint::surfaces::v_grooves {
 namespace {
 
 /// Where the grooves end along x, rising to 1; widths within 1 - `variation` to 1 + `variation` of their mean.
@@ -37,7 +37,7 @@ Image normals(const SurfaceSettings& settings) {
 
 }  // namespace
 
-Surface v_grooves_surface() {
+Surface surface() {
   return {.name = "v_grooves",
           .summary = "parallel V-shaped grooves of random width: exactly two normals",
           .parameters = {whole_option("count", 16, 1, 4096, "grooves along the map's width"),
@@ -48,4 +48,4 @@ Surface v_grooves_surface() {
           .mesh = square_mesh};
 }
 
-}  // namespace footprint
+}  // namespace footprint::surfaces::v_grooves

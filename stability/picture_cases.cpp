@@ -197,7 +197,9 @@ std::span<const PictureCase> picture_cases() {
          .what = "Lambert's term of grooves whose sides lean by 80 degrees, far away and lit from above",
          .scene = steep_plaster,
          .mean = std::cos(steep_sides * std::numbers::pi / 180.0) / std::numbers::pi}};
-    for (const FootprintFilter filter : {FootprintFilter{FootprintFilterKind::box, 3},
+    for (const FootprintFilter filter : {FootprintFilter{FootprintFilterKind::trilinear, 1},
+                                         {FootprintFilterKind::hardware, 8},
+                                         {FootprintFilterKind::box, 3},
                                          {FootprintFilterKind::ewa, 8},
                                          {FootprintFilterKind::shaded, 2}}) {
       all.push_back(

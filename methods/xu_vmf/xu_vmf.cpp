@@ -95,7 +95,8 @@ int layers_of(const Material& material, const EffectSet& effects) {
   return has(effects, Effect::multi_lobe) ? xu_vmf::whole_layers(material) : 1;
 }
 
-// The maps that the frame build fills, for a finest level of `size`.
+// The maps that the frame build fills, for a finest level of `size`. The walk over the parts gathers texels of the whole
+// hemisphere's and looks parts up at levels of its own, neither of which is an anisotropic sampler's business.
 void declare_maps(Prefiltered& out, const glm::ivec2& size, const TextureCoordinates& coordinates, int layers,
                   const Options& options, const EffectSet& effects) {
   const int parts = xu_vmf::part_count(options);
@@ -110,6 +111,7 @@ void declare_maps(Prefiltered& out, const glm::ivec2& size, const TextureCoordin
                                                .storage = parse_storage(options.word("storage")),
                                                .whole_chain = whole_chain},
                                               coordinates));
+    if (parts > 0) out.textures.back().filter = TextureFilter::by_level;
   };
   declare(xu_vmf::whole_name, size, layers, 4, whole_is_averaged);
   if (guard) declare(xu_vmf::whole_guard_name, size, 1, 1, whole_is_averaged);

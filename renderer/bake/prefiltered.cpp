@@ -168,7 +168,9 @@ PrefilteredTexture make_level_texture(std::string name, Image level, Storage sto
                                       const TextureCoordinates& coordinates) {
   std::vector<Image> chain;  // a list in braces would copy it
   chain.push_back(std::move(level));
-  return make_texture(std::move(name), std::move(chain), storage, coordinates);
+  PrefilteredTexture texture = make_texture(std::move(name), std::move(chain), storage, coordinates);
+  texture.filter = TextureFilter::by_level;
+  return texture;
 }
 
 PrefilteredTexture make_array_texture(std::string name, std::span<const std::vector<Image>> layers, Storage storage,

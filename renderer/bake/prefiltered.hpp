@@ -24,8 +24,10 @@ enum class Storage { fp32, fp16, unorm8 };
 [[nodiscard]] Storage parse_storage(std::string_view word);
 
 /// Whether texels are blended: as the program looks maps up; never (a mixture's lobes that have no counterpart in the
-/// neighbour); always (a table that is no map: what it holds between texels is the same however the scene is sampled).
-enum class TextureFilter { trilinear, nearest, linear };
+/// neighbour); always (a table that is no map: what it holds between texels is the same however the scene is sampled);
+/// as the program looks maps up, but never by an anisotropic sampler (the module itself says which level it wants, and
+/// what such a sampler makes of that, OpenGL does not say).
+enum class TextureFilter { trilinear, nearest, linear, by_level };
 
 /// One level of a texture, encoded in the texture's storage: layer after layer, rows from v = 0.
 struct TextureLevel {
@@ -84,7 +86,7 @@ void free_texels(PrefilteredTexture& texture);
 [[nodiscard]] PrefilteredTexture make_texture(std::string name, std::vector<Image> chain, Storage storage,
                                               const TextureCoordinates& coordinates, bool signed_range = false);
 
-/// A texture of one level alone, likewise.
+/// A texture of one level alone, likewise, which modules look up as that (`fetchFinest`).
 [[nodiscard]] PrefilteredTexture make_level_texture(std::string name, Image level, Storage storage,
                                                     const TextureCoordinates& coordinates);
 

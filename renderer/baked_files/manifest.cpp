@@ -34,6 +34,7 @@ const char* filter_word(TextureFilter filter) {
     case TextureFilter::nearest:
       return "nearest";
     case TextureFilter::linear:
+    case TextureFilter::by_level:
       break;
   }
   return "linear";

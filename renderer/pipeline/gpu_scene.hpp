@@ -57,6 +57,7 @@ struct GpuTexture {
   /// The program's lookup, unless this texture says itself whether its texels are blended.
   [[nodiscard]] Lookup lookup(Lookup wanted) const {
     if (filter == TextureFilter::linear) return Lookup::trilinear;
+    if (filter == TextureFilter::by_level) return {.blends = wanted.blends, .probes = 1};
     return filter == TextureFilter::nearest ? Lookup::nearest : wanted;
   }
 };

@@ -22,6 +22,8 @@ double error_of(const Image& picture, const Image& truth) {
   return compare_images(picture, truth, 1.0F).value().relative_rmse;
 }
 
+bool has_hardware_filter() { return shared_context().info().max_anisotropy >= 8; }
+
 class FootprintFilters : public ::testing::TestWithParam<const Method*> {};
 
 TEST_P(FootprintFilters, OnePartIsTheWhole) {
@@ -52,10 +54,28 @@ TEST_P(FootprintFilters, HaveNothingToDoWhereNothingVaries) {
   const Image direct = renderer.frame(find_method("direct"));
   for (const char* const text : {"trilinear", "anisotropic:8", "box:3", "ewa:8", "shaded:3"})
     EXPECT_LT(error_of(renderer.frame(*GetParam(), {}, filter_of(text)), direct), 1e-3) << text;
+  if (!has_hardware_filter()) return;
+  EXPECT_LT(error_of(renderer.frame(*GetParam(), {}, filter_of("hardware:8")), direct), 1e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, FootprintFilters, ::testing::ValuesIn(all_methods().begin(), all_methods().end()),
                          [](const auto& tested) { return tested.param->info().name; });
+
+// What is looked up at a level of the module's own choice, the sampler of no filter changes: direct's finest, and the
+// parts of the hemisphere that a walk of Xu's method visits. Hardware is told the footprint by coordinates and picks
+// its own.
+TEST(FootprintFilter, LevelsThatAModuleNamesAreTheSameUnderEach) {
+  Scene scene = square_scene(random_normals(64, 64, 0.6F, 5), {.brdf = {}, .roughness = 0.4F});
+  scene.camera = receding_grooves().camera;
+  TestRenderer renderer(scene, {24, 24});
+  const Image finest = renderer.frame(find_method("direct"), {}, filter_of("trilinear"));
+  for (const char* const text : {"anisotropic:8", "box:3", "ewa:8"})
+    EXPECT_LT(largest_difference(renderer.frame(find_method("direct"), {}, filter_of(text)), finest), 1e-5) << text;
+  if (!has_hardware_filter()) return;
+  EXPECT_LT(largest_difference(renderer.frame(find_method("direct"), {}, filter_of("hardware:8")), finest), 1e-5);
+  const Image probed = renderer.frame(find_method("xu_vmf"), {}, filter_of("anisotropic:8"));
+  EXPECT_LT(largest_difference(renderer.frame(find_method("xu_vmf"), {}, filter_of("hardware:8")), probed), 1e-4);
+}
 
 // Lights that are found once a pixel are those that are found for each part: of each kind, with shadows.
 TEST(FootprintFilter, PartsSeeEveryLight) {

@@ -141,6 +141,7 @@ void free_texels(PrefilteredTexture& texture) {
 std::size_t finest_texels(const Prefiltered& prefiltered) {
   std::size_t most = 0;
   for (const PrefilteredTexture& texture : prefiltered.textures) {
+    if (texture.filter == TextureFilter::linear) continue;
     const TextureLevel& finest = texture.levels.front();
     most = std::max(most, static_cast<std::size_t>(finest.width) * static_cast<std::size_t>(finest.height));
   }

@@ -77,7 +77,8 @@ struct Prefiltered {
 /// Gives the texels back, for what lies on the GPU by now; name and sizes stay.
 void free_texels(PrefilteredTexture& texture);
 
-/// Texels of the finest level of its largest texture: what a figure per texel refers to. 0 without textures.
+/// Texels of the finest level of its largest map: what a figure per texel refers to. Tables that are no maps
+/// (TextureFilter::linear) do not count. 0 without maps.
 [[nodiscard]] std::size_t finest_texels(const Prefiltered& prefiltered);
 
 /// Encodes a mip chain: fp16 and unorm8 round to nearest; unorm8 maps [-1,1] to 0..255 where `signed_range` (a

@@ -55,12 +55,14 @@ TEST(ByteCount, IsWhatTheGpuHolds) {
   EXPECT_EQ(byte_count(p), (8U + 2U + 1U) * 3U * 2U + 4U);
 }
 
-TEST(FinestTexels, AreThoseOfTheLargestTexture) {
+TEST(FinestTexels, AreThoseOfTheLargestMap) {
   EXPECT_EQ(finest_texels({}), 0U);
-  const Prefiltered p{
-      .textures = {make_texture("a", {Image(4, 2, 1), Image(2, 1, 1), Image(1, 1, 1)}, Storage::fp32, {}),
-                   make_texture("b", {Image(3, 3, 1), Image(1, 1, 1)}, Storage::fp32, {})},
-      .scalars = {}};
+  Prefiltered p{.textures = {make_texture("a", {Image(4, 2, 1), Image(2, 1, 1), Image(1, 1, 1)}, Storage::fp32, {}),
+                             make_texture("b", {Image(3, 3, 1), Image(1, 1, 1)}, Storage::fp32, {})},
+                .scalars = {}};
+  EXPECT_EQ(finest_texels(p), 9U);
+  p.textures.push_back(make_level_texture("table", Image(50, 50, 1), Storage::fp32, {}));
+  p.textures.back().filter = TextureFilter::linear;
   EXPECT_EQ(finest_texels(p), 9U);
 }
 

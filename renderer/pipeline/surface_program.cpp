@@ -185,7 +185,8 @@ glm::ivec2 GpuMethod::texels(const GpuBatch& batch) const {
   const auto look_at = [&](std::span<const GpuTexture> textures) {
     for (const GpuTexture& map : textures) {
       const glm::ivec2 size(map.texture->width(), map.texture->height());
-      if (same_uv(map.coordinates, batch.coordinates) && size.x * size.y > largest.x * largest.y) largest = size;
+      const bool is_map = map.filter != TextureFilter::linear && same_uv(map.coordinates, batch.coordinates);
+      if (is_map && size.x * size.y > largest.x * largest.y) largest = size;
     }
   };
   look_at(batch.shared_textures);

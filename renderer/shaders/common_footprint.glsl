@@ -100,6 +100,8 @@ void countLookups(int count) {}
 void countLobes(int count) {}
 //? end
 
+const float any_level = 1e3;  // no level is as coarse
+
 //? if sampling_frame
 //? include footprint_probes.glsl
 //? if filter_hardware
@@ -132,6 +134,22 @@ vec4 fetch(sampler2DArray map, int layer, Footprint f) {
   return sum;
 }
 //? end
+//? end
+
+//? if texture_arrays
+// As `fetch`, but from no level above `coarsest`. The hardware's own filter knows no such limit: where there is one,
+// its probes are spelled out.
+vec4 fetchUpTo(sampler2DArray map, int layer, Footprint f, float coarsest) {
+//? if filter_hardware
+  if (coarsest >= any_level) return fetch(map, layer, f);
+//? end
+  Probes p = probesOf(vec2(textureSize(map, 0).xy), f);
+  countLookups(p.count);
+  float level = min(p.level, coarsest);
+  vec4 sum = vec4(0.0);
+  for (int i = 0; i < p.count; ++i) sum += probeWeight(p, i) * textureLod(map, vec3(probeUv(f, p, i), layer), level);
+  return sum;
+}
 //? end
 
 // The finest level, whatever the footprint: no filtering.
@@ -177,6 +195,7 @@ vec4 fetchFinest(sampler2DArray map, int layer, Footprint f) { return textureLod
 vec4 fetch(sampler2D map, Footprint f) { return fetchFinest(map, f); }
 //? if texture_arrays
 vec4 fetch(sampler2DArray map, int layer, Footprint f) { return fetchFinest(map, layer, f); }
+vec4 fetchUpTo(sampler2DArray map, int layer, Footprint f, float coarsest) { return fetchFinest(map, layer, f); }
 //? end
 //? end
 

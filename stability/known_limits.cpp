@@ -56,7 +56,7 @@ void add_slopes(Limits& limits) {
 
 void add_widths(Limits& limits) {
   limits.add({"direct", "naive_mip", "fixed_brdf", "roughness_bake", "specular_aa", "toksvig", "lean", "leadr",
-              "fournier", "cells", "tan_gmm", "xu_vmf", "atanasov_bins", "yan_gaussians"},
+              "fournier", "cells", "ndf_atlas", "tan_gmm", "xu_vmf", "atanasov_bins", "yan_gaussians"},
              {"alphas_0_05_and_1"}, "energy", 0.22,
              "one lobe for microfacet lobes of very different widths has the norm of neither");
   limits.add({"iwasaki_sg"}, {"alphas_0_05_and_1"}, "energy", 0.42, "it leaves `roughness_variation` out");
@@ -79,7 +79,7 @@ void add_means(Limits& limits) {
 }
 
 void add_pictures(Limits& limits) {
-  limits.add({"cells", "tan_gmm"}, {"mirrored_uvs"}, "twin", 0.11,
+  limits.add({"cells", "ndf_atlas", "tan_gmm"}, {"mirrored_uvs"}, "twin", 0.11,
              "what is learned of a map hangs on the order of its texels: mirrored, it leads to another minimum");
   limits.add({"naive_mip", "fixed_brdf", "roughness_bake", "specular_aa"}, {"steep_plaster"}, "mean", 6.0,
              "the mean of steep sides is level, and lit as a level surface");

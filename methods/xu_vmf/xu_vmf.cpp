@@ -95,8 +95,8 @@ int layers_of(const Material& material, const EffectSet& effects) {
   return has(effects, Effect::multi_lobe) ? xu_vmf::whole_layers(material) : 1;
 }
 
-// The maps that the frame build fills, for a finest level of `size`. The walk over the parts gathers texels of the whole
-// hemisphere's and looks parts up at levels of its own, neither of which is an anisotropic sampler's business.
+// The maps that the frame build fills, for a finest level of `size`. The walk over the parts gathers texels of the
+// whole hemisphere's and looks parts up at levels of its own, neither of which is an anisotropic sampler's business.
 void declare_maps(Prefiltered& out, const glm::ivec2& size, const TextureCoordinates& coordinates, int layers,
                   const Options& options, const EffectSet& effects) {
   const int parts = xu_vmf::part_count(options);

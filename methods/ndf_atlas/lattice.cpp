@@ -1,0 +1,101 @@
+// The map in closed form; reach by a sum over rings about the axis.
+#include "methods/ndf_atlas/lattice.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace footprint::ndf_atlas {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double horizon = std::numbers::sqrt2;
+constexpr double most_nodes = 1e6;
+
+// Half the edge of a square about plane_of(normal) that holds all directions within `reach` of the normal. Across the
+// tilt the plane is up to 1 / cos(tilt / 2) times as wide as the sphere.
+double half_edge(const glm::dvec3& normal, double reach) {
+  const double farthest = std::min(std::acos(std::clamp(normal.z, -1.0, 1.0)) + reach, 0.5 * pi);
+  return 2.0 * std::sin(0.5 * reach) / std::cos(0.5 * farthest);
+}
+
+// Half the width of a lobe's peak where it is as curved as a Gaussian of this deviation. GGX's is narrower than its
+// slope variance says: D = (1 + (1 / alpha^2 - 1) sin^2)^-2 of its peak, a curvature of 4 / alpha^2 for narrow lobes.
+double core_width(const Lobe& lobe) {
+  return lobe.distribution == NormalDistribution::ggx ? 0.5 * lobe.parameter : lobe_width(lobe);
+}
+
+struct Extremes {
+  Lobe narrowest, widest;
+};
+
+Extremes extremes_of(const Facets& facets) {
+  Extremes found{facets.lobe(0), facets.lobe(0)};
+  for (std::size_t i = 1; i < facets.parameters.size(); ++i) {
+    const Lobe lobe = facets.lobe(i);
+    if (lobe_width(lobe) < lobe_width(found.narrowest)) found.narrowest = lobe;
+    if (lobe_width(lobe) > lobe_width(found.widest)) found.widest = lobe;
+  }
+  return found;
+}
+
+}  // namespace
+
+glm::dvec2 plane_of(const glm::dvec3& direction) {
+  return glm::dvec2(direction) * std::sqrt(2.0 / std::max(1.0 + direction.z, 1e-9));
+}
+
+glm::dvec3 direction_over(const glm::dvec2& point) {
+  const double size = glm::length(point);
+  const glm::dvec2 inside = size > 2.0 ? point * (2.0 / size) : point;
+  const double quarter = std::min(0.25 * glm::dot(inside, inside), 1.0);
+  return {inside * std::sqrt(1.0 - quarter), 1.0 - 2.0 * quarter};
+}
+
+double lobe_reach(const Lobe& lobe, double outside) {
+  // Rings at u = 1 - cos evenly in its logarithm: solid angles are 2 pi du.
+  constexpr int rings = 2000;
+  const double log_least = std::log(1e-4 * lobe_width(lobe) * lobe_width(lobe));
+  const double log_ring = (std::log(2.0) - log_least) / rings;
+  std::array<double, rings> energy{};
+  double whole = 0.0;
+  for (int i = 0; i < rings; ++i) {
+    const double u = std::exp(log_least + (i + 0.5) * log_ring);
+    whole += energy[static_cast<std::size_t>(i)] = lobe_shape(lobe, u) * u;
+  }
+  double left = 0.0;
+  int i = rings;
+  while (i > 0 && (left += energy[static_cast<std::size_t>(i - 1)]) < outside * whole) --i;
+  return std::acos(1.0 - std::min(std::exp(log_least + i * log_ring), 2.0));
+}
+
+Lattice lattice_over(const Facets& facets, double step) {
+  const Extremes lobes = extremes_of(facets);
+  const double longest_step = step * core_width(lobes.narrowest);
+  const double limit = horizon + 2.0 * longest_step;
+  const double reach = lobe_reach(lobes.widest, energy_outside);
+  glm::dvec2 low(limit);
+  glm::dvec2 high(-limit);
+  for (std::size_t i = 0; i < facets.normals.size(); ++i) {
+    if (!facets.is_valid(i)) continue;
+    const glm::dvec3 normal(facets.normals[i]);
+    const double margin = half_edge(normal, reach);
+    low = glm::min(low, plane_of(normal) - margin);
+    high = glm::max(high, plane_of(normal) + margin);
+  }
+  low = glm::max(low, glm::dvec2(-limit));
+  high = glm::min(high, glm::dvec2(limit));
+  if (low.x >= high.x || low.y >= high.y) return {};
+  Lattice lattice{.nodes = {}, .origin = low, .step = {}};
+  for (int axis = 0; axis < 2; ++axis) {
+    const double edge = high[axis] - low[axis];
+    lattice.nodes[axis] = 1 + static_cast<int>(std::clamp(std::ceil(edge / longest_step), 3.0, most_nodes));
+    lattice.step[axis] = edge / (lattice.nodes[axis] - 1);
+  }
+  return lattice;
+}
+
+}  // namespace footprint::ndf_atlas

@@ -1,0 +1,184 @@
+// `ndf_atlas`: from a level on every texel keeps the density of its normals itself, on a small lattice over the half
+// vector; finer levels keep moments of a few parts of the normals, as `cells` does.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "methods/cells/cell_moments.hpp"
+#include "methods/ndf_atlas/atlas.hpp"
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/bake/method.hpp"
+#include "renderer/bake/normal_chain.hpp"
+#include "renderer/bake/slope_moments.hpp"
+#include "renderer/image/mipmap.hpp"
+
+namespace footprint {
+
+namespace embedded {
+extern const EmbeddedTexts ndf_atlas_glsl;
+}
+
+namespace {
+
+using namespace ndf_atlas;
+
+constexpr int most_parts = 4;
+
+std::vector<OptionSpec> option_table() {
+  return {whole_option("level", 2, 1, 10,
+                       "The first level whose texels have tables; below it, lobes. A finer one takes four times the "
+                       "memory."),
+          number_option("step", 0.73, 0.3, 1.2,
+                        "The distance of a table's nodes at most, over the deviation of the Gaussian that is as curved "
+                        "as the narrowest lobe's peak."),
+          whole_option("nodes", 64, 8, 256,
+                       "Nodes along an edge at most: a material whose lobes are too narrow for them has lobes alone."),
+          whole_option("megabytes", 400, 1, 480,
+                       "What the tables of a material may take: of a larger map they start at a coarser level."),
+          word_option("tables", {"unorm8", "fp16", "fp32"},
+                      "How tables are stored: in bytes whose rounding keeps the energy, 16-bit or 32-bit floats."),
+          whole_option("k", 3, 1, most_parts, "Parts of the normals, with a lobe each, where there are no tables."),
+          word_option("storage", {"fp32", "fp16"}, "How the moments of parts and the mean normals are stored.")};
+}
+
+// Lattice and layout of a material's tables, or the reason why it has none.
+struct Plan {
+  std::optional<Facets> facets{};
+  Lattice lattice{};
+  AtlasLayout layout{};
+  std::vector<std::string> notes{};
+};
+
+// The first level from `wanted` on whose tables take no more than is allowed; one table always does.
+int affordable_level(const Facets& facets, const Lattice& lattice, const Options& options, Storage storage) {
+  const int levels = mip_level_count(facets.width, facets.height);
+  int level = std::min(static_cast<int>(options.number("level")), levels - 1);
+  const double node_bytes = storage == Storage::unorm8 ? 1.0 : storage == Storage::fp16 ? 2.0 : 4.0;
+  const double most = options.number("megabytes") * 1e6 / node_bytes;
+  while (level + 1 < levels && node_count(facets.width, facets.height, lattice, level) > most) ++level;
+  return level;
+}
+
+Plan plan_tables(const Material& material, const Options& options, const EffectSet& effects) {
+  Plan plan;
+  plan.facets = facets_of(material, has(effects, Effect::roughness_variation));
+  if (!plan.facets) {
+    plan.notes.emplace_back(
+        "the roughness map does not lie on the normal map's texels: lobes at all levels, no tables");
+    return plan;
+  }
+  plan.lattice = lattice_over(*plan.facets, options.number("step"));
+  const int needed = std::max(plan.lattice.nodes.x, plan.lattice.nodes.y);
+  const auto most = static_cast<int>(options.number("nodes"));
+  if (needed > most) {
+    plan.notes.push_back(fmt::format(
+        "the narrowest lobe needs tables of {} nodes along an edge, and `nodes` allows {}: lobes at all levels", needed,
+        most));
+    plan.facets.reset();
+    plan.lattice = {};
+    return plan;
+  }
+  const Storage storage = parse_storage(options.word("tables"));
+  const int level = affordable_level(*plan.facets, plan.lattice, options, storage);
+  plan.layout = layout_for(plan.facets->width, plan.facets->height, plan.lattice, level);
+  if (level > static_cast<int>(options.number("level")))
+    plan.notes.push_back(fmt::format("tables start at level {}: `megabytes` allows no finer one", level));
+  return plan;
+}
+
+float wrap_number(Wrap wrap) {
+  if (wrap == Wrap::repeat) return 0.0F;
+  return wrap == Wrap::mirrored_repeat ? 1.0F : 2.0F;
+}
+
+// A material without tables has their textures, of one texel, for the program that it shares with others.
+void add_tables(Plan plan, const Material& material, const Options& options, const Progress& progress,
+                Prefiltered& out) {
+  const TextureCoordinates coordinates = normal_coordinates(material);
+  const Storage storage = parse_storage(options.word("tables"));
+  const bool tabulated = plan.facets.has_value();
+  LevelTables finest{.width = 1, .height = 1, .nodes = 4, .density = std::vector<float>(4), .coverage = {0.0F}};
+  if (tabulated) finest = tables_of(*plan.facets, plan.lattice, plan.layout.first_level, progress);
+  auto textures = atlas_textures(std::move(finest), plan.lattice, plan.layout, storage, coordinates.wrap);
+  std::ranges::move(textures, std::back_inserter(out.textures));
+  out.scalars["ndf_atlas_level"] = tabulated ? static_cast<float>(plan.layout.first_level) : 1e3F;
+  out.scalars["ndf_atlas_column_bits"] = std::log2(static_cast<float>(plan.layout.columns));
+  out.scalars["ndf_atlas_nodes_x"] = static_cast<float>(plan.lattice.nodes.x);
+  out.scalars["ndf_atlas_nodes_y"] = static_cast<float>(plan.lattice.nodes.y);
+  out.scalars["ndf_atlas_origin_x"] = static_cast<float>(plan.lattice.origin.x);
+  out.scalars["ndf_atlas_origin_y"] = static_cast<float>(plan.lattice.origin.y);
+  out.scalars["ndf_atlas_step_x"] = static_cast<float>(plan.lattice.step.x);
+  out.scalars["ndf_atlas_step_y"] = static_cast<float>(plan.lattice.step.y);
+  out.scalars["ndf_atlas_wrap_u"] = wrap_number(coordinates.wrap[0]);
+  out.scalars["ndf_atlas_wrap_v"] = wrap_number(coordinates.wrap[1]);
+  std::ranges::move(plan.notes, std::back_inserter(out.notes));
+}
+
+// The moments of `cells`, by its partition of the same name.
+void add_parts(const Material& material, const Options& options, const Progress& progress, Prefiltered& out) {
+  const Image normals = normal_map_of(material);
+  const auto points = cells::plane_points(normals, cells::Coordinates::stereographic, steepest_slope);
+  const cells::PartitionSettings settings{.parts = static_cast<int>(options.number("k")),
+                                          .variance = lobe_variance_chain(material).back().texels[0]};
+  const std::vector<float> shares = cells::partition(points, normals.width, normals.height, settings, progress);
+  const auto parts = static_cast<std::size_t>(settings.parts);
+  const auto centres = cells::part_centres(points, shares, parts);
+  for (std::size_t k = 0; k < most_parts; ++k) {
+    out.scalars[fmt::format("ndf_atlas_centre_x{}", k)] = static_cast<float>(centres[k].x);
+    out.scalars[fmt::format("ndf_atlas_centre_y{}", k)] = static_cast<float>(centres[k].y);
+  }
+  std::vector<std::vector<Image>> chains;
+  for (int layer = 0; layer < cells::layer_count(cells::part_channels * settings.parts); ++layer) {
+    chains.push_back(
+        mip_chain(cells::moment_layer(points, shares, parts, centres, normals.width, normals.height, layer)));
+  }
+  out.textures.push_back(make_array_texture("ndf_atlas_moments", chains, parse_storage(options.word("storage")),
+                                            normal_coordinates(material)));
+  out.textures.back().filter = TextureFilter::by_level;
+}
+
+class NdfAtlas final : public Method {
+ public:
+  [[nodiscard]] const MethodInfo& info() const override { return info_; }
+
+  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                                       const Progress& progress) const override {
+    const Storage storage = parse_storage(options.word("storage"));
+    Prefiltered out = bake_lobe_variance(material, storage, effects);
+    if (!has(effects, Effect::normal_variation)) return out;
+    std::ranges::move(bake_mean_normal(material, storage, effects).textures, std::back_inserter(out.textures));
+    add_parts(material, options, progress, out);
+    add_tables(plan_tables(material, options, effects), material, options, progress, out);
+    return out;
+  }
+
+  [[nodiscard]] int lobe_count(const Options& options) const override { return static_cast<int>(options.number("k")); }
+
+  [[nodiscard]] ShaderModule shader() const override {
+    return module_of(embedded::ndf_atlas_glsl, "ndf_atlas.glsl", {{"density_fast", true}, {"storage_unorm8", false}});
+  }
+
+ private:
+  MethodInfo info_{
+      .name = "ndf_atlas",
+      .summary =
+          "From a level on every texel keeps the density of its normals itself, on a small lattice over "
+          "the half vector; finer levels have a lobe for each of a few parts of the normals.",
+      .paper = "Footprint's own; histograms of normals as in Gamboa et al. 2018, with the base lobe in them",
+      .options = option_table(),
+      .honours = map_effects_but({Effect::multi_lobe, Effect::normal_layers}),
+      .slow_precompute = true};
+};
+
+}  // namespace
+
+const Method& ndf_atlas_method() {
+  static const NdfAtlas method;
+  return method;
+}
+
+}  // namespace footprint

@@ -132,9 +132,16 @@ class Composer {
                 "the scene's zoom path is shorter: give [zoom] distances, or show an earlier frame");
   }
 
+  // Where the noise asked for more than `spp`, tile by tile, the mean.
+  std::string samples_text() const {
+    const ReferenceInfo& reference = results_.reference;
+    if (reference.samples <= reference.spp) return fmt::format("{} spp", reference.spp);
+    return fmt::format("{:.0f} spp on average", reference.samples);
+  }
+
   std::string caption(const FigurePicture& picture, const Record& record) const {
     const std::string label = picture.label.empty() ? "" : picture.label + " ";
-    if (!picture.method) return fmt::format("{}reference, {} spp", label, results_.reference.spp);
+    if (!picture.method) return fmt::format("{}reference, {}", label, samples_text());
     const std::string error = record.error ? fmt::format(": {:.3f}", record.error->normalized_color) : "";
     return label + record.method + error;
   }

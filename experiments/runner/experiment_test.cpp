@@ -353,7 +353,7 @@ TEST_F(ExperimentFile, AQuickRunWaitsForNoNoise) {
   EXPECT_TRUE(experiment.quick);
   EXPECT_TRUE(experiment.run.reference.fixed_spp);
   EXPECT_EQ(experiment.run.reference.spp, 16);
-  EXPECT_EQ(experiment.run.overrides.most_texels, 512);
+  EXPECT_EQ(experiment.run.overrides.most_texels, 256);
   EXPECT_EQ(experiment.run.view.size, glm::ivec2(160, 120));
   Experiment with_its_own = read(std::string(head) + "size = [640, 480]\nquick_size = \"320x200\"\n");
   EXPECT_EQ(with_its_own.run.view.size, glm::ivec2(640, 480));

@@ -21,7 +21,7 @@ namespace {
 constexpr int quick_spp = 16;
 constexpr int quick_repeats = 1;
 constexpr int quick_divisor = 4;
-constexpr int quick_texels = 512;   // a side of surfaces that are made: bakes grow with them
+constexpr int quick_texels = 256;   // a side of surfaces that are made: bakes grow with them
 constexpr int quick_default = 128;  // pixels a side where the experiment gives no size
 
 // Looks into one footprint, in a folder ndf/NAME of its own.

@@ -136,8 +136,9 @@ void add_parts(const Material& material, const Options& options, const Progress&
     chains.push_back(
         mip_chain(cells::moment_layer(points, shares, parts, centres, normals.width, normals.height, layer)));
   }
+  // Read from no level that has tables.
   out.textures.push_back(make_array_texture("ndf_atlas_moments", chains, parse_storage(options.word("storage")),
-                                            normal_coordinates(material)));
+                                            normal_coordinates(material), TextureFilter::by_level));
   out.textures.back().filter = TextureFilter::by_level;
 }
 

@@ -5,7 +5,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <mutex>
 #include <numbers>
@@ -119,7 +118,7 @@ LevelTables tables_of(const Facets& facets, const Lattice& lattice, int level, c
                   .density = {},
                   .coverage = std::vector<float>(columns.size() * rows.size())};
   out.density.resize(out.coverage.size() * out.nodes);
-  std::atomic<int> done = 0;
+  int done = 0;
   std::mutex telling;
   tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t y) {
     std::vector<double> sums(out.nodes);
@@ -128,8 +127,8 @@ LevelTables tables_of(const Facets& facets, const Lattice& lattice, int level, c
       out.coverage[texel] = static_cast<float>(sum_texel(facets, nodes, columns[x], rows[y], sums));
       std::ranges::transform(sums, out.table(texel).begin(), [](double sum) { return static_cast<float>(sum); });
     }
+    const std::scoped_lock lock(telling);  // one after the other: nothing goes back
     const double part = static_cast<double>(++done) / static_cast<double>(rows.size());
-    const std::scoped_lock lock(telling);
     progress(fmt::format("tabulating densities, {} x {}", out.width, out.height), part);
   });
   return out;

@@ -152,8 +152,9 @@ class NdfAtlas final : public Method {
     Prefiltered out = bake_lobe_variance(material, storage, effects);
     if (!has(effects, Effect::normal_variation)) return out;
     std::ranges::move(bake_mean_normal(material, storage, effects).textures, std::back_inserter(out.textures));
-    add_parts(material, options, progress, out);
-    add_tables(plan_tables(material, options, effects), material, options, progress, out);
+    ProgressParts steps(progress, 2);
+    add_parts(material, options, steps.next(1, ""), out);
+    add_tables(plan_tables(material, options, effects), material, options, steps.next(1, ""), out);
     return out;
   }
 

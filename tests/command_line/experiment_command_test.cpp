@@ -156,7 +156,7 @@ const std::vector<Case> experiment_cases{
                 "out/ribbed_plane-seed1/index.html", "out/bumps-seed2/results.json"}},
     {.name = "SomeMembersOfAMatrix",
      .arguments = {"check", "{}/mine.toml", "--only", "^bumps-.*1$", "-o", "{}/out"},
-     .output_has = {"All 0 claims and thresholds", "Not judged", "of 1 members"},
+     .output_has = {"Not judged", "of 1 members"},
      .files = {{"mine.toml", matrix}},
      .leaves = {"out/matrix.json", "out/bumps-seed1/results.json"}},
     {.name = "NoMemberOfAMatrix",

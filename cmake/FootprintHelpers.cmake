@@ -47,7 +47,9 @@ function(footprint_add_library name)
   set_property(GLOBAL APPEND PROPERTY FOOTPRINT_LIBRARIES ${name})
 endfunction()
 
-# footprint_add_test(NAME SOURCES ... LIBRARIES ...): one GTest binary, one ctest entry.
+# footprint_add_test(NAME SOURCES ... LIBRARIES ...): one GTest binary, one ctest entry. It draws hundreds of programs
+# once each, so llvmpipe's compiler leaves its optimisation passes out, which takes a tenth to two fifths off where no
+# program is kept from an earlier run; other drivers do not know the word. The end-to-end tests draw as users do.
 function(footprint_add_test name)
   if(NOT FOOTPRINT_TESTS)
     return()
@@ -59,16 +61,7 @@ function(footprint_add_test name)
   footprint_reuse_headers(${name} footprint_precompiled_tests)
   footprint_unite(${name})
   add_test(NAME ${name} COMMAND ${name})
-  set_tests_properties(${name} PROPERTIES TIMEOUT 300)
-endfunction()
-
-# footprint_compile_shaders_fast(TEST): of a test that draws hundreds of programs once each. llvmpipe's compiler leaves
-# its optimisation passes out, which takes a fifth to two fifths off where no program is kept from an earlier run; other
-# drivers do not know the word. All other tests, and those that run whole jobs, draw as users do.
-function(footprint_compile_shaders_fast test)
-  if(FOOTPRINT_TESTS)
-    set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT GALLIVM_PERF=nopt)
-  endif()
+  set_tests_properties(${name} PROPERTIES TIMEOUT 300 ENVIRONMENT GALLIVM_PERF=nopt)
 endfunction()
 
 # footprint_embed(TARGET SYMBOL PATTERN ...): the texts of the files that match as `extern const EmbeddedTexts SYMBOL` in

@@ -126,32 +126,32 @@ void TruthFinder::choose_exposure(double first_distance) {
 }
 
 void TruthFinder::render_reference(Truth& truth, const std::string& prefix) {
-  const ReferenceSettings& asked = settings_.reference;
-  SharedTruth::AtDistance first = first_samples(truth, prefix);
-  truth.reference = std::move(first.reference);
-  truth.first = std::move(first.first);
-  const auto begin = std::chrono::steady_clock::now();
-  if (!known_exposure_ && truth.frame == 0) set_exposure(choose_exposure_(truth.reference.mean));
-  truth.samples = asked.by_noise && !asked.fixed_spp ? refine_reference(truth, prefix) : asked.spp;
-  truth.seconds = first.seconds + seconds_since(begin);
+  SharedTruth own;
+  SharedTruth::AtDistance& known = begun_reference(shared_ != nullptr ? *shared_ : own, truth, prefix);
+  if (!known_exposure_ && truth.frame == 0) set_exposure(choose_exposure_(known.begun));
+  refine_reference(known, truth.view, progress_.next(automatic_work * settings_.reference.spp, prefix + "reference, "));
+  truth.reference = known.reference;
+  truth.first = known.first;
+  truth.samples = known.samples;
+  truth.seconds = known.seconds;
 }
 
 // What does not depend on the methods: rendered, or taken from what is shared.
-SharedTruth::AtDistance TruthFinder::first_samples(const Truth& truth, const std::string& prefix) {
+SharedTruth::AtDistance& TruthFinder::begun_reference(SharedTruth& shared, const Truth& truth,
+                                                      const std::string& prefix) {
   const ReferenceSettings& asked = settings_.reference;
   const Progress reference = progress_.next(asked.spp, prefix + "reference, ");
   const Progress finest = progress_.next(finest_samples(asked), prefix + "reference, ");
-  if (shared_ != nullptr) {
-    const auto known = std::ranges::find(shared_->distances, truth.distance, &SharedTruth::AtDistance::distance);
-    if (known != shared_->distances.end()) return *known;
-  }
+  const auto known = std::ranges::find(shared.distances, truth.distance, &SharedTruth::AtDistance::distance);
+  if (known != shared.distances.end()) return *known;
   const auto begin = std::chrono::steady_clock::now();
-  SharedTruth::AtDistance first{.distance = truth.distance, .reference = {}, .first = {}, .seconds = 0};
-  first.reference = stage_.reference().render(truth.view, asked.spp, asked.seed, reference);
-  first.first = samples_of_finest_levels(truth, first.reference.mean, finest);
-  first.seconds = seconds_since(begin);
-  if (shared_ != nullptr) shared_->distances.push_back(first);
-  return first;
+  SharedTruth::AtDistance begun;
+  begun.distance = truth.distance;
+  begun.reference = stage_.reference().render(truth.view, asked.spp, asked.seed, reference);
+  begun.begun = begun.reference.mean;
+  begun.first = samples_of_finest_levels(truth, begun.begun, finest);
+  begun.seconds = seconds_since(begin);
+  return shared.distances.emplace_back(std::move(begun));
 }
 
 // The reference over the samples of finest levels, where those are drawn.
@@ -162,25 +162,29 @@ Image TruthFinder::samples_of_finest_levels(const Truth& truth, const Image& who
   return finest_mean(stage_.reference(), truth.view, asked, progress);
 }
 
-// Goes on with the reference until its noise is what was asked for; returns its mean samples a pixel.
-double TruthFinder::refine_reference(Truth& truth, const std::string& prefix) {
+// Goes on with the reference until its noise is what was asked for, where nobody has.
+void TruthFinder::refine_reference(SharedTruth::AtDistance& begun, const View& view, const Progress& progress) {
+  if (begun.samples > 0) return;
   const ReferenceSettings& asked = settings_.reference;
-  const Convergence wanted{.noise = asked.noise.value_or(noise_that_tells_apart(truth)),
+  begun.samples = asked.spp;
+  if (!asked.by_noise || asked.fixed_spp) return;
+  const auto begin = std::chrono::steady_clock::now();
+  const Convergence wanted{.noise = asked.noise ? *asked.noise : noise_that_tells_apart(begun.reference, view),
                            .exposure = exposure_,
                            .spp_max = asked.spp_max,
-                           .most_work = asked.noise ? unbounded_work : most_work(asked.spp, truth.view.size)};
-  return converge(stage_.reference(), truth.reference, truth.view, asked.seed, wanted,
-                  progress_.next(automatic_work * asked.spp, prefix + "reference, "));
+                           .most_work = asked.noise ? unbounded_work : most_work(asked.spp, view.size)};
+  begun.samples = converge(stage_.reference(), begun.reference, view, asked.seed, wanted, progress);
+  begun.seconds += seconds_since(begin);
 }
 
 // A fifth of the least difference between the methods' errors that the table prints, or of the least error. Methods
 // that agree to three figures are one to it.
-double TruthFinder::noise_that_tells_apart(const Truth& truth) const {
-  Supersampled counted = truth.reference;
+double TruthFinder::noise_that_tells_apart(const Supersampled& reference, const View& view) const {
+  Supersampled counted = reference;
   leave_out(counted, unresolved(counted, exposure_));
   std::vector<double> errors;
   for (const StagedMethod& method : std::span(stage_.methods()).subspan(1)) {
-    if (const auto error = normalized_color(method.frames().render(truth.view), counted.mean, exposure_))
+    if (const auto error = normalized_color(method.frames().render(view), counted.mean, exposure_))
       errors.push_back(*error);
   }
   if (errors.empty()) return least_noise;

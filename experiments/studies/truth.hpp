@@ -63,14 +63,17 @@ struct Truth {
   std::vector<std::string> warnings;
 };
 
-/// What several comparisons of one scene have in common, distance by distance: the reference's first samples, which
-/// depend neither on methods nor on the footprint filter.
+/// What several comparisons of one scene have in common, distance by distance: the reference, as far as the methods of
+/// the first comparison asked for. Its noise is a part of every error that is measured against it, so that errors of
+/// different comparisons can be ranked only against the very same one.
 struct SharedTruth {
   struct AtDistance {
     double distance = 1;
     Supersampled reference;
-    Image first;         ///< its mean over the samples of finest levels
-    double seconds = 0;  ///< that both took
+    Image begun;         ///< its mean over the samples that it begins with, by which the exposure is chosen
+    Image first;         ///< and over those of finest levels
+    double samples = 0;  ///< a pixel, mean over the picture; 0: it has those that it begins with, and may need more
+    double seconds = 0;  ///< that all of it took
   };
   std::vector<AtDistance> distances;
 };
@@ -102,10 +105,11 @@ class TruthFinder {
 
  private:
   void render_reference(Truth& truth, const std::string& prefix);
-  [[nodiscard]] SharedTruth::AtDistance first_samples(const Truth& truth, const std::string& prefix);
+  [[nodiscard]] SharedTruth::AtDistance& begun_reference(SharedTruth& shared, const Truth& truth,
+                                                         const std::string& prefix);
   [[nodiscard]] Image samples_of_finest_levels(const Truth& truth, const Image& whole, const Progress& progress);
-  [[nodiscard]] double refine_reference(Truth& truth, const std::string& prefix);
-  [[nodiscard]] double noise_that_tells_apart(const Truth& truth) const;
+  void refine_reference(SharedTruth::AtDistance& begun, const View& view, const Progress& progress);
+  [[nodiscard]] double noise_that_tells_apart(const Supersampled& reference, const View& view) const;
   void write_reference(Truth& truth) const;
   void leave_out_unresolved(Truth& truth) const;
   void find_parts(Truth& truth, const std::string& prefix);

@@ -31,48 +31,14 @@ using std::numbers::pi;
 const std::array<std::pair<NormalDistribution, float>, 4> lobes{
     {{blinn_phong, 64.0F}, {vmf, 30.0F}, {beckmann, 0.2F}, {ggx, 0.1F}}};
 
-Material material_of(const Image& normals, NormalDistribution distribution, float lobe) {
-  const BaseBrdf brdf{distribution, GeometryTerm::none, FresnelTerm::none, true};
-  Material material = square_scene(normals, {.brdf = brdf}).materials[0];
-  material.lobe_parameter = lobe;
-  return material;
-}
-
 ProbedMethod parted_method(const Material& material, const Words& options = {}) {
   return {.method = &cells_method(), .material = &material, .options = options};
-}
-
-glm::dvec3 normal_at(const Image& normals, std::size_t i) {
-  return glm::normalize(glm::dvec3(normals.texels[4 * i], normals.texels[4 * i + 1], normals.texels[4 * i + 2]));
-}
-
-// The sum that the method stands for: the mean of the base lobes about all valid texels.
-double sum_over_texels(const Material& material, const glm::dvec3& h) {
-  const Image normals = material.normal_map->image.decoded();
-  double sum = 0;
-  double weight = 0;
-  for (std::size_t i = 0; i < normals.texel_count(); ++i) {
-    if (normals.texels[4 * i + 3] <= 0.0F) continue;
-    sum += base_density(material.brdf.distribution, *material.lobe_parameter, normal_at(normals, i), h);
-    weight += 1.0;
-  }
-  return sum / weight;
-}
-
-double relative_l2(const std::vector<double>& density, const std::vector<double>& truth) {
-  double sum = 0;
-  double norm = 0;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    sum += (density[i] - truth[i]) * (density[i] - truth[i]);
-    norm += truth[i] * truth[i];
-  }
-  return std::sqrt(sum / norm);
 }
 
 std::vector<double> truth_of(const Material& material, const std::vector<glm::dvec3>& directions) {
   std::vector<double> truth;
   truth.reserve(directions.size());
-  for (const glm::dvec3& h : directions) truth.push_back(sum_over_texels(material, h));
+  for (const glm::dvec3& h : directions) truth.push_back(mean_facet_density(material, h));
   return truth;
 }
 
@@ -120,7 +86,7 @@ TEST(Cells, OnePartOverSlopesIsLean) {
   const Words one{{"k", "1"}, {"coordinates", "slopes"}, {"density", "exact"}};
   for (const auto& [distribution, lobe] : lobes) {
     for (const float tilt : {0.1F, 0.6F, 0.95F}) {
-      const Material material = material_of(random_normals(16, 16, tilt, 3), distribution, lobe);
+      const Material material = lobe_material(random_normals(16, 16, tilt, 3), distribution, lobe);
       const std::vector<double> lean = probe_ndf({.method = &lean_method(), .material = &material}, directions);
       const std::vector<double> own = probe_ndf(parted_method(material, one), directions);
       const double peak = std::ranges::max(lean);
@@ -141,7 +107,7 @@ TEST(Cells, GlslMeetsItsTwin) {
   const std::vector<glm::dvec3> directions = hemisphere_grid(10, 16);
   for (const auto& [distribution, lobe] : lobes) {
     for (const float tilt : {0.1F, 0.6F}) {
-      const Material material = material_of(random_normals(16, 16, tilt, 3), distribution, lobe);
+      const Material material = lobe_material(random_normals(16, 16, tilt, 3), distribution, lobe);
       const std::vector<PartTwin> twins = twins_of(material, 3);
       std::vector<double> expected;
       for (const glm::dvec3& h : directions) {
@@ -168,7 +134,7 @@ TEST(Cells, KeepsTheEnergyOfTheSumOverTexels) {
   };
   for (const auto& [distribution, lobe] : lobes) {
     for (const Image& normals : {random_normals(5, 3, 0.4F, 6), two_walls(8)}) {
-      const Material material = material_of(normals, distribution, lobe);
+      const Material material = lobe_material(normals, distribution, lobe);
       const double truth = energy(truth_of(material, directions));
       for (const Words& words : {Words{}, {{"k", "2"}, {"storage", "fp16"}}, {{"coordinates", "slopes"}}}) {
         EXPECT_NEAR(energy(probe_ndf(parted_method(material, words), directions)) / truth, 1.0, 0.01)
@@ -195,7 +161,7 @@ TEST(Cells, EveryFilterKeepsTheEnergy) {
 
 TEST(Cells, HalfFloatsAreCloseToFloats) {
   const std::vector<glm::dvec3> directions = hemisphere_grid(40, 40);
-  const Material material = material_of(two_walls(32), blinn_phong, 64.0F);
+  const Material material = lobe_material(two_walls(32), blinn_phong, 64.0F);
   const std::vector<double> floats = probe_ndf(parted_method(material), directions);
   EXPECT_LT(relative_l2(probe_ndf(parted_method(material, {{"storage", "fp16"}}), directions), floats), 0.01);
 }
@@ -203,7 +169,7 @@ TEST(Cells, HalfFloatsAreCloseToFloats) {
 // Two walls in two parts, where one lobe stands over the ridge between them.
 TEST(Cells, TellsTheWallsOfGroovesApart) {
   const std::vector<glm::dvec3> directions = hemisphere_grid(60, 120);
-  const Material material = material_of(two_walls(32), blinn_phong, 64.0F);
+  const Material material = lobe_material(two_walls(32), blinn_phong, 64.0F);
   const std::vector<double> truth = truth_of(material, directions);
   EXPECT_LT(relative_l2(probe_ndf(parted_method(material, {{"k", "2"}}), directions), truth), 0.1);
   EXPECT_GT(relative_l2(probe_ndf(parted_method(material, {{"k", "1"}}), directions), truth), 0.4) << "the gate";
@@ -213,7 +179,7 @@ TEST(Cells, TellsTheWallsOfGroovesApart) {
 TEST(Cells, FlatTiltedMapsAreTheBaseLobe) {
   for (const float slope : {0.0F, 0.5F, 3.0F}) {
     const glm::vec3 n = glm::normalize(glm::vec3(-slope, 0.0F, 1.0F));
-    const Material material = material_of(constant_normals(8, 8, n), blinn_phong, 1e5F);
+    const Material material = lobe_material(constant_normals(8, 8, n), blinn_phong, 1e5F);
     const std::array<std::array<glm::vec4, 3>, 1> input{{{glm::vec4(n, 0), {}, {}}}};
     for (const char* const storage : {"fp32", "fp16"}) {
       for (const char* const coordinates : {"stereographic", "slopes"}) {
@@ -239,7 +205,7 @@ TEST(Cells, EmptyPartsAndNormalsAtTheHorizonStayFinite) {
   for (std::size_t i = 3; i < invalid.texels.size(); i += 4) invalid.texels[i] = 0.0F;
   for (const Image& map : {horizon, constant_normals(4, 4, sideways), random_normals(2, 1, 0.5F, 8), invalid}) {
     for (const float lobe : {1.0F, 1e5F}) {
-      const Material material = material_of(map, blinn_phong, lobe);
+      const Material material = lobe_material(map, blinn_phong, lobe);
       for (const char* const coordinates : {"stereographic", "slopes"}) {
         for (const double d :
              probe_ndf(parted_method(material, {{"k", "8"}, {"coordinates", coordinates}}), hemisphere_grid(20, 20)))
@@ -255,7 +221,7 @@ TEST(Cells, OneSteepTexelDoesNotOutweighThousands) {
     Image normals = random_normals(128, 128, 0.1F, 4);
     const glm::vec3 steep(0.9999F, 0.0F, 0.0141F);
     if (spoilt) std::copy_n(&steep.x, 3, normals.at(40, 50).begin());
-    const Material material = material_of(normals, blinn_phong, 64.0F);
+    const Material material = lobe_material(normals, blinn_phong, 64.0F);
     return std::ranges::max(probe_ndf(parted_method(material, words), hemisphere_grid(40, 40)));
   };
   const double whole = peak(false, {{"k", "1"}});
@@ -267,7 +233,7 @@ TEST(Cells, OneSteepTexelDoesNotOutweighThousands) {
 // The base lobe by two instructions, within 2e-4 of its peak for every exponent.
 TEST(Cells, TheFastDensityIsWithinItsBound) {
   for (const float lobe : {1.0F, 64.0F, 999.0F, 1001.0F, 1e4F, 1e6F}) {
-    const Material material = material_of(constant_normals(2, 2, {0, 0, 1}), blinn_phong, lobe);
+    const Material material = lobe_material(constant_normals(2, 2, {0, 0, 1}), blinn_phong, lobe);
     std::vector<glm::dvec3> directions;
     for (int i = 0; i <= 200; ++i) {
       const double sine = std::min(0.03 * i / std::sqrt(static_cast<double>(lobe)), 1.0);
@@ -286,7 +252,7 @@ TEST(Cells, TheFastDensityIsWithinItsBound) {
 // Rough walls and smooth ones: a part has the roughness of its own texels.
 TEST(Cells, RoughnessGoesWithTheNormals) {
   const Image normals = two_walls(32);
-  Material material = material_of(normals, ggx, 0.0F);
+  Material material = lobe_material(normals, ggx, 0.0F);
   material.lobe_parameter.reset();
   Image roughness(32, 32, 2);
   for (int y = 0; y < 32; ++y) {
@@ -301,9 +267,11 @@ TEST(Cells, RoughnessGoesWithTheNormals) {
   std::vector<double> truth;
   for (const glm::dvec3& h : directions) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < normals.texel_count(); ++i) {
-      const double perceptual = (i % 32 / 4) % 2 == 0 ? 0.55 : 0.3;
-      sum += base_density(ggx, perceptual * perceptual, normal_at(normals, i), h);
+    for (int y = 0; y < 32; ++y) {
+      for (int x = 0; x < 32; ++x) {
+        const double perceptual = (x / 4) % 2 == 0 ? 0.55 : 0.3;
+        sum += base_density(ggx, perceptual * perceptual, normal_at(normals, x, y), h);
+      }
     }
     truth.push_back(sum / static_cast<double>(normals.texel_count()));
   }
@@ -325,7 +293,7 @@ TEST(Cells, ASmallPartOfPolishedFacetsStaysFinite) {
   Image normals = constant_normals(64, 32, {0, 0, 1});
   const glm::vec3 leans = glm::normalize(glm::vec3(0.5F, 0.0F, 1.0F));
   std::copy_n(&leans.x, 3, normals.at(5, 7).begin());
-  Material material = material_of(normals, ggx, 0.0F);
+  Material material = lobe_material(normals, ggx, 0.0F);
   material.lobe_parameter.reset();
   Image roughness(64, 32, 2);
   for (std::size_t i = 1; i < roughness.texels.size(); i += 2) roughness.texels[i] = 1.0F;
@@ -341,7 +309,7 @@ TEST(Cells, ASmallPartOfPolishedFacetsStaysFinite) {
 
 // What an effect does not need is not stored.
 TEST(Cells, StoresWhatIsCalledFor) {
-  const Material material = material_of(random_normals(4, 4, 0.5F, 8), ggx, 0.3F);
+  const Material material = lobe_material(random_normals(4, 4, 0.5F, 8), ggx, 0.3F);
   const auto layers = [&](const Words& words, std::initializer_list<Effect> effects) {
     EffectSet set;
     for (const Effect effect : effects) set.set(static_cast<std::size_t>(effect));

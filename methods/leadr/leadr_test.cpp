@@ -26,13 +26,6 @@ using Words = std::map<std::string, std::string>;
 using Inputs = std::vector<std::array<glm::vec4, 3>>;
 using std::numbers::pi;
 
-Material material_of(const Image& normals, NormalDistribution distribution, float lobe,
-                     GeometryTerm geometry = GeometryTerm::smith) {
-  Material material = square_scene(normals, {.brdf = {distribution, geometry, FresnelTerm::none, true}}).materials[0];
-  material.lobe_parameter = lobe;
-  return material;
-}
-
 ProbedMethod leadr(const Material& material, const Words& options = {}) {
   return {.method = &leadr_method(), .material = &material, .options = options};
 }
@@ -78,7 +71,7 @@ double masking_by_integration(const glm::dvec2& mean, const glm::dmat2& covarian
 
 TEST(Leadr, SmithTermMeetsItsIntegral) {
   for (const float spread : {0.1F, 0.4F, 1.0F}) {
-    const Material material = material_of(gaussian_slope_normals(16, spread), beckmann, 0.2F);
+    const Material material = lobe_material(gaussian_slope_normals(16, spread), beckmann, 0.2F, GeometryTerm::smith);
     const SlopeTwin twin = slope_twin_of(material);
     Inputs inputs;
     std::vector<double> expected;
@@ -155,7 +148,7 @@ TEST(Leadr, GlslMeetsItsTwin) {
   for (const auto& [distribution, lobe] :
        {std::pair{beckmann, 0.3F}, std::pair{ggx, 0.25F}, std::pair{blinn_phong, 40.0F}}) {
     for (const GeometryTerm geometry : {GeometryTerm::smith, GeometryTerm::none}) {
-      const Material material = material_of(gaussian_slope_normals(16, 0.3F), distribution, lobe, geometry);
+      const Material material = lobe_material(gaussian_slope_normals(16, 0.3F), distribution, lobe, geometry);
       for (const bool stretched : {true, false}) {
         for (const bool displaced : {true, false}) {
           const Twin twin{slope_twin_of(material), stretched, displaced, geometry};
@@ -190,7 +183,7 @@ TEST(Leadr, KeepsTheEnergyOfTheSumOverTexels) {
   for (const auto& [distribution, lobe] :
        {std::pair{blinn_phong, 64.0F}, std::pair{beckmann, 0.2F}, std::pair{ggx, 0.1F}}) {
     const Image normals = gaussian_slope_normals(6, 0.3F);
-    const Material material = material_of(normals, distribution, lobe);
+    const Material material = lobe_material(normals, distribution, lobe, GeometryTerm::smith);
     const double mean_z = slope_twin_of(material).axis().z;
     std::vector<double> bump;
     std::vector<double> displaced;
@@ -217,7 +210,7 @@ TEST(Leadr, KeepsTheEnergyOfTheSumOverTexels) {
 TEST(Leadr, DisplacementWeighsTexelsByTheirVisibleArea) {
   const Image normals = gaussian_slope_normals(128, 0.3F);
   const float exponent = 100.0F;
-  const Material material = material_of(normals, blinn_phong, exponent, GeometryTerm::none);
+  const Material material = lobe_material(normals, blinn_phong, exponent, GeometryTerm::none);
   Inputs inputs;
   std::vector<double> expected;
   for (const glm::dvec3& wo : {direction(0.0, 0.0), direction(0.7, 1.0), direction(1.1, 4.0)}) {
@@ -249,7 +242,7 @@ TEST(Leadr, DisplacementWeighsTexelsByTheirVisibleArea) {
 TEST(Leadr, MaskedSurfacesReflectNoMoreThanTheyGet) {
   const std::vector<glm::dvec3> lights = hemisphere_grid(100, 100);
   for (const float spread : {0.05F, 0.3F, 0.8F}) {
-    const Material material = material_of(gaussian_slope_normals(16, spread), beckmann, 0.3F);
+    const Material material = lobe_material(gaussian_slope_normals(16, spread), beckmann, 0.3F, GeometryTerm::smith);
     for (const double theta : {0.0, 0.7, 1.2, 1.5}) {
       Inputs inputs;
       for (const glm::dvec3& wi : lights)
@@ -269,7 +262,7 @@ TEST(Leadr, MaskedSurfacesReflectNoMoreThanTheyGet) {
 // Facets that face away from the light reflect none of it: the mean of max(n.l, 0), not the maximum of a mean.
 TEST(Leadr, DiffuseMeetsTheSumOverTexels) {
   const Image normals = gaussian_slope_normals(64, 0.4F);
-  const Material material = material_of(normals, beckmann, 0.3F, GeometryTerm::none);
+  const Material material = lobe_material(normals, beckmann, 0.3F, GeometryTerm::none);
   Inputs inputs;
   std::vector<double> bump;
   std::vector<double> displaced;
@@ -327,7 +320,7 @@ TEST(Leadr, StaysFiniteAtTheLimits) {
     for (const auto& [distribution, lobe] :
          {std::pair{ggx, 1e-3F}, std::pair{blinn_phong, 1e5F}, std::pair{beckmann, 1.0F}}) {
       for (const GeometryTerm geometry : {GeometryTerm::smith, GeometryTerm::tan}) {
-        const Material material = material_of(map, distribution, lobe, geometry);
+        const Material material = lobe_material(map, distribution, lobe, geometry);
         for (const Words& words : {Words{}, Words{{"weighting", "displacement"}, {"storage", "fp16"}},
                                    Words{{"roughness", "moments"}, {"weighting", "displacement"}}}) {
           const auto out = probe_method(
@@ -360,7 +353,9 @@ TEST(Leadr, SaysWhereItsDiffuseTermIsOff) {
     const Options options(leadr_method().info().options, {}, "test");
     std::string notes;
     for (const std::string& note :
-         leadr_method().precompute(material_of(map, ggx, 0.3F), options, effects, no_progress).notes)
+         leadr_method()
+             .precompute(lobe_material(map, ggx, 0.3F, GeometryTerm::smith), options, effects, no_progress)
+             .notes)
       notes += note;
     return notes;
   };

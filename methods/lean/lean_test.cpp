@@ -27,26 +27,8 @@ using enum NormalDistribution;
 using Words = std::map<std::string, std::string>;
 using std::numbers::pi;
 
-Material material_of(const Image& normals, NormalDistribution distribution, float lobe) {
-  const BaseBrdf brdf{distribution, GeometryTerm::none, FresnelTerm::none, true};
-  Material material = square_scene(normals, {.brdf = brdf}).materials[0];
-  material.lobe_parameter = lobe;
-  return material;
-}
-
 ProbedMethod lean(const Material& material, const Words& options = {}) {
   return {.method = &lean_method(), .material = &material, .options = options};
-}
-
-// The sum that the method stands for: the mean of the base lobes about all texels.
-double exact_density(const Material& material, const glm::dvec3& h) {
-  const Image normals = material.normal_map->image.decoded();
-  double sum = 0;
-  for (std::size_t i = 0; i < normals.texels.size(); i += 4) {
-    const glm::dvec3 n(normals.texels[i], normals.texels[i + 1], normals.texels[i + 2]);
-    sum += base_density(material.brdf.distribution, *material.lobe_parameter, glm::normalize(n), h);
-  }
-  return sum / static_cast<double>(normals.texel_count());
 }
 
 // Symmetric grooves along y with walls of slope +-`slope`.
@@ -65,7 +47,7 @@ Image v_grooves(float slope) {
 TEST(Lean, LongLobesAreRowsOfRoundOnes) {
   const std::array<std::array<glm::vec4, 3>, 1> input{};
   for (const auto& [slope, lobes] : {std::pair(0.05F, 1), {0.2F, 5}, {0.3F, 7}}) {
-    const Material material = material_of(v_grooves(slope), beckmann, 0.1F);
+    const Material material = lobe_material(v_grooves(slope), beckmann, 0.1F);
     ProbedMethod probed = lean(material);
     probed.effects.set(static_cast<std::size_t>(Effect::environment_light));
     const auto sums = probe_method(probed,
@@ -85,7 +67,7 @@ TEST(Lean, LongLobesAreRowsOfRoundOnes) {
 
 // Golden: B and Sigma + 1/s of four texels under exponent 100, roughness at shading time or in the moments.
 TEST(Lean, FourTexelsMeetTheGoldenVector) {
-  const Material material = material_of(four_texel_normals(), blinn_phong, 100);
+  const Material material = lobe_material(four_texel_normals(), blinn_phong, 100);
   const std::array<std::array<glm::vec4, 3>, 1> input{};
   for (const char* const roughness : {"shading", "moments"}) {
     const auto mean =
@@ -107,7 +89,7 @@ TEST(Lean, GlslMeetsItsTwin) {
   for (const auto& [distribution, lobe] :
        {std::pair{blinn_phong, 64.0F}, std::pair{vmf, 30.0F}, std::pair{beckmann, 0.3F}, std::pair{ggx, 0.25F}}) {
     for (const float tilt : {0.1F, 0.6F, 0.95F}) {
-      const Material material = material_of(random_normals(16, 16, tilt, 3), distribution, lobe);
+      const Material material = lobe_material(random_normals(16, 16, tilt, 3), distribution, lobe);
       const SlopeTwin twin = slope_twin_of(material);
       const double peak = std::max(twin.stretched(twin.axis()), twin.gaussian(twin.axis()));
       const auto stretched = probe_ndf(lean(material), directions);
@@ -133,10 +115,10 @@ TEST(Lean, KeepsTheEnergyOfTheSumOverTexels) {
   for (const auto& [distribution, lobe] : {std::pair{blinn_phong, 64.0F}, std::pair{blinn_phong, 512.0F},
                                            std::pair{vmf, 64.0F}, std::pair{beckmann, 0.2F}, std::pair{ggx, 0.1F}}) {
     for (const Image& normals : {random_normals(4, 4, 0.4F, 5), v_grooves(0.5F)}) {
-      const Material material = material_of(normals, distribution, lobe);
+      const Material material = lobe_material(normals, distribution, lobe);
       std::vector<double> exact;
       exact.reserve(directions.size());
-      for (const glm::dvec3& h : directions) exact.push_back(exact_density(material, h));
+      for (const glm::dvec3& h : directions) exact.push_back(mean_facet_density(material, h));
       const double truth = energy(exact);
       EXPECT_NEAR(energy(probe_ndf(lean(material), directions)) / truth, 1.0, 0.01) << lobe;
       EXPECT_NEAR(energy(probe_ndf(lean(material, {{"variant", "clean"}}), directions)) / truth, 1.0, 0.01) << lobe;
@@ -151,7 +133,7 @@ TEST(Lean, KeepsTheEnergyOfTheSumOverTexels) {
 TEST(Lean, FlatTiltedMapsHaveAFiniteLobe) {
   for (const float slope : {0.0F, 0.5F, 1.0F, 3.0F}) {
     const glm::vec3 n = glm::normalize(glm::vec3(-slope, 0.0F, 1.0F));
-    const Material material = material_of(constant_normals(8, 8, n), blinn_phong, 1e5F);
+    const Material material = lobe_material(constant_normals(8, 8, n), blinn_phong, 1e5F);
     for (const char* const storage : {"fp32", "fp16"}) {
       for (const char* const roughness : {"stretched", "shading", "moments"}) {
         const Words words{{"storage", storage}, {"roughness", roughness}};
@@ -174,7 +156,7 @@ TEST(Lean, NormalsAtTheHorizonStayFinite) {
   std::copy_n(&sideways.x, 3, normals.at(2, 1).begin());
   for (const Image& map : {normals, constant_normals(4, 4, sideways)}) {
     for (const float lobe : {1.0F, 64.0F, 1e5F}) {
-      const Material material = material_of(map, blinn_phong, lobe);
+      const Material material = lobe_material(map, blinn_phong, lobe);
       for (const char* const roughness : {"stretched", "shading", "moments"}) {
         for (const double d : probe_ndf(lean(material, {{"roughness", roughness}}), hemisphere_grid(20, 20)))
           EXPECT_TRUE(std::isfinite(d) && d >= 0.0) << lobe << " " << roughness;
@@ -189,7 +171,7 @@ TEST(Lean, OneSteepTexelDoesNotOutweighThousands) {
     Image normals = random_normals(128, 128, 0.1F, 4);
     const glm::vec3 steep(0.9999F, 0.0F, 0.0141F);
     if (spoilt) std::copy_n(&steep.x, 3, normals.at(40, 50).begin());
-    const Material material = material_of(normals, blinn_phong, 64.0F);
+    const Material material = lobe_material(normals, blinn_phong, 64.0F);
     return std::ranges::max(probe_ndf(lean(material, {{"steepest", steepest}}), hemisphere_grid(40, 40)));
   };
   const double whole = peak(false, "3");
@@ -199,14 +181,14 @@ TEST(Lean, OneSteepTexelDoesNotOutweighThousands) {
 
 // Grooves have spread across and none along: one slope variance for both axes blurs what two keep apart.
 TEST(Lean, IsNearerToGroovesThanItsScalarVariant) {
-  const Material material = material_of(v_grooves(0.3F), blinn_phong, 64);
+  const Material material = lobe_material(v_grooves(0.3F), blinn_phong, 64);
   const std::vector<glm::dvec3> directions = hemisphere_grid(60, 120);
   const auto error = [&](const Words& words) {
     const std::vector<double> density = probe_ndf(lean(material, words), directions);
     double sum = 0;
     double norm = 0;
     for (std::size_t i = 0; i < directions.size(); ++i) {
-      const double exact = exact_density(material, directions[i]);
+      const double exact = mean_facet_density(material, directions[i]);
       sum += (density[i] - exact) * (density[i] - exact);
       norm += exact * exact;
     }
@@ -241,7 +223,7 @@ TEST(Lean, ProbesSharpenAnObliqueView) {
 
 // A roughness that varies, in the moments or beside them: one Gaussian.
 TEST(Lean, RoughnessInTheMomentsIsThatAtShadingTime) {
-  Material material = material_of(random_normals(8, 8, 0.5F, 7), ggx, 0.0F);
+  Material material = lobe_material(random_normals(8, 8, 0.5F, 7), ggx, 0.0F);
   material.lobe_parameter.reset();
   Image roughness(8, 8, 2, 0.3F);
   for (std::size_t i = 0; i < roughness.texels.size(); i += 6) roughness.texels[i] = 0.7F;
@@ -259,7 +241,7 @@ TEST(Lean, RoughnessInTheMomentsIsThatAtShadingTime) {
 
 // What an effect or an option does not need is not stored.
 TEST(Lean, StoresWhatIsCalledFor) {
-  const Material material = material_of(random_normals(4, 4, 0.5F, 8), ggx, 0.3F);
+  const Material material = lobe_material(random_normals(4, 4, 0.5F, 8), ggx, 0.3F);
   const auto channels = [&](const Words& words, std::initializer_list<Effect> effects) {
     EffectSet set;
     for (const Effect effect : effects) set.set(static_cast<std::size_t>(effect));

@@ -33,14 +33,6 @@ using Words = std::map<std::string, std::string>;
 constexpr std::array<std::pair<NormalDistribution, float>, 4> lobes{
     {{blinn_phong, 64.0F}, {vmf, 30.0F}, {beckmann, 0.2F}, {ggx, 0.25F}}};
 
-Material material_of(const Image& normals, NormalDistribution distribution, float lobe,
-                     GeometryTerm geometry = GeometryTerm::none) {
-  const BaseBrdf brdf{distribution, geometry, FresnelTerm::none, true};
-  Material material = square_scene(normals, {.brdf = brdf}).materials[0];
-  material.lobe_parameter = lobe;
-  return material;
-}
-
 ProbedMethod tabulated(const Material& material, const Words& options = {}) {
   return {.method = &ndf_atlas_method(), .material = &material, .options = options};
 }
@@ -51,21 +43,6 @@ Prefiltered baked(const Material& material, const Words& words, EffectSet effect
 }
 
 bool has_tables(const Prefiltered& prefiltered) { return prefiltered.scalars.at("ndf_atlas_level") < 100.0F; }
-
-glm::dvec3 normal_at(const Image& normals, int x, int y) {
-  const auto n = normals.at(x, y);
-  return glm::normalize(glm::dvec3(n[0], n[1], n[2]));
-}
-
-double relative_l2(const std::vector<double>& density, const std::vector<double>& truth) {
-  double sum = 0;
-  double norm = 0;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    sum += (density[i] - truth[i]) * (density[i] - truth[i]);
-    norm += truth[i] * truth[i];
-  }
-  return std::sqrt(sum / norm);
-}
 
 double energy_of(const std::vector<double>& density) {
   double sum = 0.0;
@@ -143,7 +120,7 @@ class TableTwin {
 TEST(NdfAtlas, GlslMeetsItsTwin) {
   const std::vector<glm::dvec3> directions = hemisphere_grid(24, 40);
   for (const auto& [distribution, lobe] : lobes) {
-    const Material material = material_of(random_normals(16, 16, 0.6F, 3), distribution, lobe);
+    const Material material = lobe_material(random_normals(16, 16, 0.6F, 3), distribution, lobe);
     const TableTwin twin(material);
     std::vector<double> expected;
     for (const glm::dvec3& h : directions) expected.push_back(twin.density(h));
@@ -172,7 +149,7 @@ TEST(NdfAtlas, IsCloseToTheSumOverTexels) {
     const Image map = surface_normals(surface, settings);
     for (std::size_t k = 0; k < 3; ++k) {
       const Image square = square_of(map, 96, 160, std::array{4, 16, 64}[k]);
-      const Material material = material_of(square, blinn_phong, 64.0F);
+      const Material material = lobe_material(square, blinn_phong, 64.0F);
       EXPECT_LT(relative_l2(probe_ndf(tabulated(material), directions), truth_of(material, directions)), bound.error[k])
           << bound.surface << " " << square.width;
     }
@@ -245,7 +222,7 @@ class TrilinearSum {
 TEST(NdfAtlas, BlendsTheTexelsThatATrilinearLookupDoes) {
   const std::vector<glm::dvec3> directions = hemisphere_grid(40, 60);
   for (const Wrap wrap : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge}) {
-    Material material = material_of(random_normals(64, 64, 0.6F, 5), blinn_phong, 64.0F);
+    Material material = lobe_material(random_normals(64, 64, 0.6F, 5), blinn_phong, 64.0F);
     material.normal_map->coordinates.wrap = {wrap, wrap};
     const TrilinearSum sum(material, wrap);
     for (const glm::dvec2& centre : {glm::dvec2(0.33, 0.58), glm::dvec2(0.99, 0.02), glm::dvec2(-1.37, 1.21)}) {
@@ -265,7 +242,7 @@ TEST(NdfAtlas, BlendsTheTexelsThatATrilinearLookupDoes) {
 // A footprint four times as long as wide is that of four probes; with more of them than are kept from light to light.
 TEST(NdfAtlas, SumsTheProbesOfALongFootprint) {
   const std::vector<glm::dvec3> directions = hemisphere_grid(40, 60);
-  const Material material = material_of(random_normals(64, 64, 0.6F, 5), blinn_phong, 64.0F);
+  const Material material = lobe_material(random_normals(64, 64, 0.6F, 5), blinn_phong, 64.0F);
   const TrilinearSum sum(material, Wrap::repeat);
   const glm::dvec2 size = glm::dvec2(24.0, 6.0) / 64.0;
   const glm::dvec2 centre(0.4, 0.3);
@@ -289,7 +266,7 @@ TEST(NdfAtlas, KeepsTheEnergyOfTheSumOverTexels) {
   for (int x = 2; x < 9; ++x) holes.at(x, 3)[3] = 0.0F;
   for (const auto& [distribution, lobe] : lobes) {
     for (const Image& normals : {random_normals(16, 16, 0.4F, 6), holes}) {
-      const Material material = material_of(normals, distribution, lobe);
+      const Material material = lobe_material(normals, distribution, lobe);
       const double truth = energy_of(truth_of(material, directions));
       for (const char* const tables : {"unorm8", "fp16"}) {
         EXPECT_NEAR(energy_of(probe_ndf(tabulated(material, {{"tables", tables}}), directions)) / truth, 1.0, 0.01)
@@ -302,7 +279,7 @@ TEST(NdfAtlas, KeepsTheEnergyOfTheSumOverTexels) {
 // At every level, and half-way between two, a footprint's density has the base lobe's energy.
 TEST(NdfAtlas, EveryLevelKeepsTheEnergy) {
   const std::vector<glm::dvec3> directions = hemisphere_grid(120, 120);
-  const Material material = material_of(random_normals(64, 64, 0.5F, 9), blinn_phong, 64.0F);
+  const Material material = lobe_material(random_normals(64, 64, 0.5F, 9), blinn_phong, 64.0F);
   const double truth = energy_of(truth_of(material, directions));
   for (double level = 0.0; level <= 6.0; level += 0.5) {
     const glm::dvec2 half_edge(0.5 * std::exp2(level) / 64.0);
@@ -344,7 +321,7 @@ TEST(NdfAtlas, SupersampledIsTheReference) {
 // Rough texels and smooth ones: a table has each facet's own lobe.
 TEST(NdfAtlas, TabulatesEachFacetsOwnRoughness) {
   const Image normals = random_normals(32, 32, 0.5F, 4);
-  Material material = material_of(normals, ggx, 0.0F);
+  Material material = lobe_material(normals, ggx, 0.0F);
   material.lobe_parameter.reset();
   Image roughness(16, 16, 2, 1.0F);
   for (int y = 0; y < 16; ++y)
@@ -370,7 +347,7 @@ TEST(NdfAtlas, TabulatesEachFacetsOwnRoughness) {
 // F D G' of the mean of facets, each about its own normal.
 TEST(NdfAtlas, GeometryIsAboutTheNormalsThatReflect) {
   const Image normals = random_normals(32, 32, 0.6F, 12);
-  const Material material = material_of(normals, ggx, 0.2F, GeometryTerm::smith);
+  const Material material = lobe_material(normals, ggx, 0.2F, GeometryTerm::smith);
   std::vector<std::array<glm::vec4, 3>> inputs;
   const std::vector<glm::dvec3> grid = hemisphere_grid(6, 9);
   for (const glm::dvec3& wi : grid)
@@ -406,7 +383,7 @@ TEST(NdfAtlas, SaysWhereItHasNoTables) {
   const std::vector<glm::dvec3> directions = hemisphere_grid(30, 60);
   for (const auto& [distribution, lobe] :
        {std::pair(blinn_phong, 1e6F), {vmf, 1e5F}, {ggx, 1e-3F}, {beckmann, 0.01F}}) {
-    const Material material = material_of(normals, distribution, lobe);
+    const Material material = lobe_material(normals, distribution, lobe);
     const Prefiltered prefiltered = baked(material, {});
     EXPECT_FALSE(has_tables(prefiltered)) << lobe;
     ASSERT_EQ(prefiltered.notes.size(), 1U);
@@ -414,8 +391,8 @@ TEST(NdfAtlas, SaysWhereItHasNoTables) {
     for (const double d : probe_ndf(tabulated(material), directions)) EXPECT_TRUE(std::isfinite(d) && d >= 0.0);
   }
   // Normals that hardly lean let a narrower lobe in.
-  EXPECT_TRUE(has_tables(baked(material_of(random_normals(32, 32, 0.002F, 3), blinn_phong, 1e5F), {})));
-  Material rough = material_of(normals, ggx, 0.5F);
+  EXPECT_TRUE(has_tables(baked(lobe_material(random_normals(32, 32, 0.002F, 3), blinn_phong, 1e5F), {})));
+  Material rough = lobe_material(normals, ggx, 0.5F);
   rough.lobe_parameter.reset();
   Image roughness(4, 4, 2, 0.6F);
   roughness.at(1, 1)[0] = 0.8F;
@@ -429,7 +406,7 @@ TEST(NdfAtlas, SaysWhereItHasNoTables) {
 }
 
 TEST(NdfAtlas, StartsAtALevelThatMemoryHolds) {
-  const Material material = material_of(random_normals(128, 128, 0.6F, 3), blinn_phong, 64.0F);
+  const Material material = lobe_material(random_normals(128, 128, 0.6F, 3), blinn_phong, 64.0F);
   const Prefiltered whole = baked(material, {{"level", "1"}});
   const Prefiltered small = baked(material, {{"level", "1"}, {"megabytes", "2"}});
   EXPECT_EQ(whole.scalars.at("ndf_atlas_level"), 1.0F);
@@ -449,7 +426,7 @@ TEST(NdfAtlas, IsCloserThanAlignedMixturesFromAfar) {
   SurfaceSettings settings = surface_settings(surface, {});
   settings.resolution = 64;
   const Image map = surface_normals(surface, settings);
-  const Material material = material_of(map, blinn_phong, 64.0F);
+  const Material material = lobe_material(map, blinn_phong, 64.0F);
   const std::vector<glm::dvec3> directions = hemisphere_grid(30, 60);
   const std::vector<double> truth = truth_of(material, directions);
   const double error = relative_l2(probe_ndf(tabulated(material), directions), truth);

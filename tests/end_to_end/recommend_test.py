@@ -73,17 +73,34 @@ class RecommendTest(WholeRunTest):
             whole_document = document_of(whole)
             self.assertEqual(whole_document["measured"], whole_document["tried"])
 
-    def test_filters_share_their_reference_and_nothing_changes(self):
-        """Measured behind another footprint filter, whose reference it takes over, and alone."""
-        shots = ["v_grooves", "--methods", METHODS, "--distance", "1,4", "--size", "48x48", "--repeats", "1", "--quiet"]
+    SHOTS = ["v_grooves", "--distance", "1,4", "--size", "48x48", "--repeats", "1", "--quiet"]
+
+    def test_a_reference_that_is_taken_over_is_what_it_would_have_been(self):
+        """Measured behind another footprint filter, whose reference it takes over, and alone, by as many samples."""
         figures = {}
         for filters in ("box:2,anisotropic:8", "anisotropic:8", "box:2"):
             folder = self.folder / f"shared_{len(figures)}"
-            run("recommend", *shots, "--exhaustive", "--footprints", filters, "-o", folder)
+            asked = ["--methods", METHODS, "--spp", "64", "--exhaustive", "--footprints", filters]
+            run("recommend", *self.SHOTS, *asked, "-o", folder)
             records = results_of(folder / file_of(filters.split(",")[-1]))["records"]
             figures[filters] = [(r["method"], r["distance"], r["error"]) for r in records]
         self.assertEqual(figures["box:2,anisotropic:8"], figures["anisotropic:8"])
         self.assertNotEqual(figures["box:2"], figures["anisotropic:8"])
+
+    def test_all_filters_are_measured_against_one_reference(self):
+        """Its noise is a part of every error: against another one, drawn until two methods are told apart that lie
+        farther from one another, an error would be larger by nothing of the method's."""
+        together, alone = self.folder / "together", self.folder / "alone"
+        shots = [*self.SHOTS, "--exhaustive", "--spp-max", "256"]
+        run("recommend", *shots, "--methods", METHODS, "--footprints", "trilinear,shaded:2", "-o", together)
+        run("recommend", *shots, "--methods", "direct", "--footprints", "shaded:2", "-o", alone)
+
+        def reference_of(folder):
+            images = [folder / "images" / f"d{distance}_reference.exr" for distance in (1, 4)]
+            return results_of(folder)["reference"]["samples"], [image.read_bytes() for image in images]
+
+        self.assertEqual(reference_of(together / "trilinear"), reference_of(together / "shaded_2"))
+        self.assertNotEqual(reference_of(alone / "shaded_2"), reference_of(together / "shaded_2"), "the gate")
 
     def test_a_disagreement_is_found(self):
         def candidate(method, error, cost):

@@ -40,6 +40,7 @@ Environment uneven_environment() {
 
 constexpr BaseBrdf lambert{NormalDistribution::ggx, GeometryTerm::none, FresnelTerm::none, true};
 
+// What no method has a part in, a reference's picture, is drawn once for all of them.
 class UnderAnEnvironment : public ::testing::TestWithParam<const Method*> {
  protected:
   void SetUp() override {
@@ -70,7 +71,7 @@ TEST_P(UnderAnEnvironment, AllOfItsLightsMeetTheReferenceOnAConstantMap) {
   normals.at(0, 0)[0] += 2e-5F;
   const BaseBrdf brdf{NormalDistribution::ggx, GeometryTerm::smith, FresnelTerm::schlick, true};
   TestRenderer renderer(lit_square(normals, {.brdf = brdf, .roughness = 0.6F}, uneven_environment()), {6, 6});
-  const Image truth = renderer.reference(64, 1, ReferenceFilter::after_shading, 0, EnvironmentUse::dense).mean;
+  static const Image truth = renderer.reference(64, 1, ReferenceFilter::after_shading, 0, EnvironmentUse::dense).mean;
   const Image picture = renderer.frame(*GetParam(), {}, {}, 0, 1.0, EnvironmentUse::dense);
   if (std::ranges::none_of(picture.texels, [](float value) { return std::isfinite(value) && value != 1.0F; }))
     GTEST_SKIP() << "takes more rounds of loops than the software renderer has";
@@ -108,7 +109,7 @@ TEST_P(UnderAnEnvironment, StaysFiniteAtTheLimits) {
 TEST_P(UnderAnEnvironment, IsNearTheReference) {
   Scene scene = lit_square(random_normals(16, 16, 0.4F, 5), {.brdf = {}, .roughness = 0.5F}, uneven_environment());
   TestRenderer renderer(scene, {32, 32});
-  const Image truth = renderer.reference(256).mean;
+  static const Image truth = renderer.reference(256).mean;
   EXPECT_LT(compare_images(renderer.frame(*GetParam()), truth, 1.0F).value().relative_rmse, 0.25);
 }
 

@@ -15,8 +15,7 @@ namespace {
 
 class EveryMethod : public ::testing::TestWithParam<const Method*> {
  protected:
-  static double difference_from_direct(const Scene& scene, double distance) {
-    TestRenderer renderer(scene);
+  static double difference_from_direct(TestRenderer& renderer, double distance) {
     const Image direct = renderer.frame(find_method("direct"), {}, {}, 0, distance);
     const Image picture = renderer.frame(*GetParam(), {}, {}, 0, distance);
     return compare_images(picture, direct, 1.0F).value().relative_rmse;
@@ -36,9 +35,9 @@ TEST_P(EveryMethod, EqualsDirectOnAConstantMapAtAnyDistance) {
     for (const glm::vec3& normal : {glm::vec3(0, 0, 1), glm::vec3(0.28F, 0, 0.96F)}) {
       Image normals = constant_normals(64, 64, normal);
       normals.at(0, 0)[0] += 2e-5F;  // keeps a flat map from being left out, and is no bump to speak of
-      const Scene scene = square_scene(normals, {.brdf = brdf});
+      TestRenderer renderer(square_scene(normals, {.brdf = brdf}));
       for (const double distance : {0.05, 1.0, 4.0}) {
-        EXPECT_LT(difference_from_direct(scene, distance), 1e-3)
+        EXPECT_LT(difference_from_direct(renderer, distance), 1e-3)
             << "distribution " << static_cast<int>(brdf.distribution) << ", distance " << distance;
       }
     }
@@ -55,9 +54,10 @@ TEST_P(EveryMethod, KnowsLightFromBelowTheHorizonByTheScenesRule) {
     scene.lights = {DirectionalLight{.direction = {-0.985F, 0.0F, 0.174F}, .illuminance = glm::vec3(3.0F)}};
     EXPECT_EQ(covered_mean(TestRenderer(scene).frame(*GetParam())), 0.0);
     scene.horizon = Horizon::open;
-    EXPECT_GT(covered_mean(TestRenderer(scene).frame(find_method("direct"))), 0.05);
+    TestRenderer renderer(scene);
+    EXPECT_GT(covered_mean(renderer.frame(find_method("direct"))), 0.05);
     for (const double distance : {0.05, 1.0, 4.0}) {
-      EXPECT_LT(difference_from_direct(scene, distance), 1e-3)
+      EXPECT_LT(difference_from_direct(renderer, distance), 1e-3)
           << "distribution " << static_cast<int>(brdf.distribution) << ", distance " << distance;
     }
   }
@@ -73,16 +73,17 @@ TEST_P(EveryMethod, EqualsDirectAtMagnificationWhereTheMapIsFlat) {
       std::copy_n(&up.x, 3, normals.at(x, y).begin());
     }
   }
-  EXPECT_LT(difference_from_direct(square_scene(normals, {}), 0.05), 1e-3);
+  TestRenderer renderer(square_scene(normals, {}));
+  EXPECT_LT(difference_from_direct(renderer, 0.05), 1e-3);
 }
 
 TEST_P(EveryMethod, StaysFiniteAtTheLimits) {
   for (const BaseBrdf& brdf : brdfs) {
     for (const float roughness : {0.0F, 1.0F}) {
       for (const float tilt : {0.0F, 0.999F}) {
-        const Scene scene = square_scene(random_normals(33, 17, tilt, 3), {.brdf = brdf, .roughness = roughness});
+        TestRenderer renderer(square_scene(random_normals(33, 17, tilt, 3), {.brdf = brdf, .roughness = roughness}));
         for (const double distance : {0.05, 1.0, 20.0}) {
-          for (const float value : TestRenderer(scene).frame(*GetParam(), {}, {}, 0, distance).texels) {
+          for (const float value : renderer.frame(*GetParam(), {}, {}, 0, distance).texels) {
             ASSERT_TRUE(std::isfinite(value) && value >= 0.0F);
           }
         }
@@ -125,7 +126,7 @@ double mean_of_colours(const Image& picture) {
 // One that knows no texels has at least their mean.
 TEST_P(EveryMethod, RepresentsTheBaseBrdfAtItsFinestLevel) {
   TestRenderer renderer(square_scene(random_normals(64, 64, 0.5F, 5), {}));
-  const Image truth = renderer.reference(64).mean;
+  static const Image truth = renderer.reference(64).mean;  // the same for all methods
   const Image finest = renderer.supersampled(*GetParam(), 64).mean;
   if (GetParam()->info().resolves_texels) {
     EXPECT_LT(compare_images(finest, truth, 1.0F).value().relative_rmse, 0.05);

@@ -66,6 +66,16 @@ std::vector<double> probe_ndf(const ProbedMethod& probed, const std::vector<glm:
   return out;
 }
 
+double relative_l2(const std::vector<double>& density, const std::vector<double>& truth) {
+  double sum = 0;
+  double norm = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    sum += (density[i] - truth[i]) * (density[i] - truth[i]);
+    norm += truth[i] * truth[i];
+  }
+  return std::sqrt(sum / norm);
+}
+
 std::vector<glm::dvec3> hemisphere_grid(int rings, int sectors) {
   std::vector<glm::dvec3> out;
   for (int ring = 0; ring < rings; ++ring) {

@@ -51,6 +51,19 @@ double base_density(NormalDistribution distribution, double lobe, const glm::dve
   return c <= 0.0 ? 0.0 : lobe * lobe / (pi * width * width);
 }
 
+double mean_facet_density(const Material& material, const glm::dvec3& h) {
+  const Image normals = material.normal_map->image.decoded();
+  double sum = 0;
+  double weight = 0;
+  for (std::size_t i = 0; i < normals.texels.size(); i += 4) {
+    if (normals.texels[i + 3] <= 0.0F) continue;
+    const glm::dvec3 n(normals.texels[i], normals.texels[i + 1], normals.texels[i + 2]);
+    sum += base_density(material.brdf.distribution, *material.lobe_parameter, glm::normalize(n), h);
+    weight += 1.0;
+  }
+  return sum / weight;
+}
+
 glm::dvec3 SlopeTwin::axis() const { return glm::normalize(glm::dvec3(-mean, 1.0)); }
 
 double SlopeTwin::variance() const { return lobe_variance({distribution, lobe}); }

@@ -12,6 +12,9 @@ namespace footprint::testing {
 [[nodiscard]] double base_density(NormalDistribution distribution, double lobe, const glm::dvec3& n,
                                   const glm::dvec3& h);
 
+/// The mean of the base lobes about all valid texels of a material with one lobe.
+[[nodiscard]] double mean_facet_density(const Material& material, const glm::dvec3& h);
+
 /// Mean slope, covariance of the texels' slopes and the base lobe that stands on each of them.
 struct SlopeTwin {
   glm::dvec2 mean;

@@ -78,6 +78,18 @@ Scene square_scene(const Image& normals, const SquareMaterial& settings) {
   return scene;
 }
 
+Material lobe_material(const Image& normals, NormalDistribution distribution, float lobe, GeometryTerm geometry) {
+  const BaseBrdf brdf{distribution, geometry, FresnelTerm::none, true};
+  Material material = square_scene(normals, {.brdf = brdf}).materials[0];
+  material.lobe_parameter = lobe;
+  return material;
+}
+
+glm::dvec3 normal_at(const Image& normals, int x, int y) {
+  const auto n = normals.at(x, y);
+  return glm::normalize(glm::dvec3(n[0], n[1], n[2]));
+}
+
 Scene receding_grooves() {
   std::mt19937 random(4);
   std::uniform_real_distribution<float> slope(-0.4F, 0.4F);

@@ -33,6 +33,13 @@ struct SquareMaterial {
 /// `normals` is empty. Exposure 1.
 [[nodiscard]] Scene square_scene(const Image& normals, const SquareMaterial& settings);
 
+/// The material of that square where all comes from the normal map and one lobe: no Fresnel term, a diffuse one.
+[[nodiscard]] Material lobe_material(const Image& normals, NormalDistribution distribution, float lobe,
+                                     GeometryTerm geometry = GeometryTerm::none);
+
+/// The unit normal that a texel of a normal map stands for.
+[[nodiscard]] glm::dvec3 normal_at(const Image& normals, int x, int y);
+
 /// That square with random grooves along y, 64 across, seen obliquely along them: pixels are long where nothing
 /// changes.
 [[nodiscard]] Scene receding_grooves();

@@ -5,6 +5,7 @@ import json
 import sys
 import unittest
 
+from generated_model import model
 from recommendations import disagreement, disagreements
 from whole_runs import SOURCE, WholeRunTest, results_of, run
 
@@ -31,7 +32,7 @@ class RecommendTest(WholeRunTest):
         return folder, output
 
     def test_document_holds_to_its_schema(self):
-        folder, _ = self.recommend("schema", "bi_scale_spheres", "--distance", "1")
+        folder, _ = self.recommend("schema", model(self.folder / "model", 3, 3, 64), "--distance", "1")
         document = document_of(folder)
         schema = json.loads((SOURCE / "docs" / "recommend.schema.json").read_text(encoding="utf-8"))
         jsonschema.Draft7Validator.check_schema(schema)

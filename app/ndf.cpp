@@ -75,7 +75,7 @@ FootprintRect footprint_of(const NdfArguments& arguments, const Material& materi
                                 : glm::dvec2(1.0);
     rect = {rect.lower / size, rect.upper / size};
   }
-  check_footprint(rect, arguments.texels.empty() ? "--region" : "--texels");
+  check_footprint(rect, arguments.texels.empty() ? "--region" : "--texels " + arguments.texels);
   return rect;
 }
 

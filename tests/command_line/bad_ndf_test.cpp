@@ -25,7 +25,7 @@ std::vector<Case> footprints() {
       row("FootprintOfThreeNumbers", {"--region", "0,0,1"}, {"--region", "`0,0,1` is no rectangle", "0,0,0.5,0.5"}),
       row("FootprintOfFiveNumbers", {"--region", "0,0,1,1,1"}, {"--region", "is no rectangle"}),
       row("FootprintInWords", {"--region", "left"}, {"--region", "`left` is no rectangle"}),
-      row("EmptyTexels", {"--texels", "1,1,1,2"}, {"--texels", "is empty"}),
+      row("EmptyTexels", {"--texels", "1,1,1,2"}, {"--texels 1,1,1,2", "is empty"}),
       row("FootprintTwice", {"--texels", "0,0,1,1", "--region", "0,0,1,1"}, {"--texels", "--region"}),
   };
 }

@@ -21,6 +21,10 @@ std::uint64_t chain_bytes(std::uint64_t texels, std::uint64_t channels) {
 // What is made of a normal map while its chain is: a copy of it, its levels, and these as they are uploaded.
 constexpr std::uint64_t copies_in_a_bake = 3;
 
+// What a method keeps lies in memory twice before it is on the GPU: as it is baked, and as it is written to the cache
+// or handed to the driver.
+constexpr std::uint64_t copies_of_what_is_baked = 2;
+
 // Of normals: the moments of slope take five, the mean normal three (bake_slopes).
 constexpr int channels_kept_by_lean = 8;
 
@@ -47,6 +51,7 @@ class OnGpu {
     for (std::size_t i = 0; i < out.methods.size(); ++i) {
       const auto channels = static_cast<std::uint64_t>(normal_chain_channels_[i].value_or(channels_kept_by_lean));
       out.methods[i] += chain_bytes(texels_of(normals), channels) + chain_bytes(texels_of(widths), 1);
+      out.bake = std::max(out.bake, copies_of_what_is_baked * chain_bytes(texels_of(normals), channels));
     }
   }
 

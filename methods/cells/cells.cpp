@@ -152,7 +152,8 @@ class Cells final : public Method {
                    .paper = "Footprint's own; with one part Olano and Baker 2010, LEAN Mapping, I3D",
                    .options = option_table(),
                    .honours = map_effects_but({Effect::multi_lobe, Effect::normal_layers}),
-                   .slow_precompute = true};
+                   .slow_precompute = true,
+                   .normal_chain_channels = 24};
 };
 
 }  // namespace

@@ -48,7 +48,8 @@ class Exact final : public Method {
                                "of a larger one about as many are drawn, one from each cell.")},
       .honours = map_effects_but({}),
       .sums_environment = true,
-      .slow_frame = true};
+      .slow_frame = true,
+      .normal_chain_channels = 3};
 };
 
 }  // namespace

@@ -138,7 +138,8 @@ class RoughnessBake final : public Method {
                       number_option("cap", free_cap, 0.0, 1.0, "Of preset=free: the most that is added to alpha^2."),
                       "bake_cap"),
                   storage_option()},
-      .honours = map_effects_but({})};
+      .honours = map_effects_but({}),
+      .normal_chain_channels = 4};
 };
 
 }  // namespace

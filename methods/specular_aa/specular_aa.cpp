@@ -75,7 +75,8 @@ class SpecularAa final : public Method {
                               "bakes."),
                   storage_option()},
       .honours = map_effects_but({}),
-      .screen_derivatives = true};
+      .screen_derivatives = true,
+      .normal_chain_channels = 3};
 };
 
 }  // namespace

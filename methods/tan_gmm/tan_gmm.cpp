@@ -102,7 +102,8 @@ class TanGmm final : public Method {
       .paper = "Tan et al. 2005, Multiresolution Reflectance Filtering, Eurographics Symposium on Rendering",
       .options = option_table(),
       .honours = map_effects_but({Effect::normal_layers}),
-      .slow_precompute = true};
+      .slow_precompute = true,
+      .normal_chain_channels = 16};
 };
 
 }  // namespace

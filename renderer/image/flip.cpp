@@ -85,9 +85,9 @@ Plane filtered_rows(const Plane& plane, const Kernel& kernel) {
   tbb::parallel_for(0, plane.height, [&](int y) {
     for (int x = 0; x < plane.width; ++x) {
       double sum = 0;
-      for (int i = -radius; i <= radius; ++i) {
-        sum += kernel[static_cast<std::size_t>(i + radius)] *
-               plane.values[plane.index(std::clamp(x + i, 0, plane.width - 1), y)];
+      for (std::size_t i = 0; i < kernel.size(); ++i) {
+        const int at = x + static_cast<int>(i) - radius;
+        sum += kernel[i] * plane.values[plane.index(std::clamp(at, 0, plane.width - 1), y)];
       }
       out.values[out.index(x, y)] = sum;
     }
@@ -101,9 +101,9 @@ Plane filtered_columns(const Plane& plane, const Kernel& kernel) {
   tbb::parallel_for(0, plane.height, [&](int y) {
     for (int x = 0; x < plane.width; ++x) {
       double sum = 0;
-      for (int i = -radius; i <= radius; ++i) {
-        sum += kernel[static_cast<std::size_t>(i + radius)] *
-               plane.values[plane.index(x, std::clamp(y + i, 0, plane.height - 1))];
+      for (std::size_t i = 0; i < kernel.size(); ++i) {
+        const int at = y + static_cast<int>(i) - radius;
+        sum += kernel[i] * plane.values[plane.index(x, std::clamp(at, 0, plane.height - 1))];
       }
       out.values[out.index(x, y)] = sum;
     }
@@ -301,8 +301,7 @@ FlipExposures flip_exposures(const Image& reference) {
   }
   std::ranges::sort(luminances);
   if (luminances.empty() || luminances.back() <= 0.0) return {};
-  const std::size_t middle = luminances.size() / 2;
-  double median = luminances.size() % 2 == 1 ? luminances[middle] : (luminances[middle - 1] + luminances[middle]) / 2;
+  double median = luminances[luminances.size() / 2];
   if (median <= 0.0) median = *std::ranges::upper_bound(luminances, 0.0);
   const double white_at = tone_inverse(0.85);
   FlipExposures out{.start = std::log2(white_at / luminances.back()), .stop = std::log2(white_at / median)};

@@ -25,8 +25,10 @@ struct FlipExposures {
   int count = 2;     ///< evenly spaced, ends included: a stop apart at most, 2 at least
 };
 
-/// Those of a reference, linear radiance, by the ACES tone curve (Narkowicz 2015). A black reference: 0, 0. A median
-/// of 0 counts as the smallest luminance above it.
+/// Those of a reference, linear radiance, by the ACES tone curve (Narkowicz 2015). The median of an even count is the
+/// upper of the two in the middle, as in NVIDIA's own program (NVlabs/flip, src/cpp/FLIP.h, commit fa379684,
+/// computeExposures). A black reference: 0, 0. A median of 0 counts as the smallest luminance above it: there NVIDIA's
+/// stops are infinite, and a fixed least luminance would let HDR-FLIP depend on the unit of radiance.
 [[nodiscard]] FlipExposures flip_exposures(const Image& reference);
 
 /// HDR-FLIP of every pixel, one channel: of linear radiance, whatever its exposure. Negative radiance counts as none.

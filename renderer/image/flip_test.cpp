@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "renderer/core/error.hpp"
 
@@ -53,12 +54,12 @@ TEST(Flip, OfHighDynamicRangeIsThePapersFormulas) {
   const Image reference = flip_pattern(false, 4.0F, 20.0F), picture = flip_pattern(true, 4.0F, 20.0F);
   const FlipExposures exposures = flip_exposures(reference);
   EXPECT_NEAR(exposures.start, -3.137516952, 1e-6);
-  EXPECT_NEAR(exposures.stop, -0.333061634, 1e-6);
+  EXPECT_NEAR(exposures.stop, -0.333100665, 1e-6);
   EXPECT_EQ(exposures.count, 3);
   const Image map = hdr_flip(picture, reference, exposures);
-  EXPECT_NEAR(mean_flip(map), 0.205750313, 2e-6);
-  EXPECT_NEAR(map.at(12, 8)[0], 0.284888405, 2e-6);
-  EXPECT_NEAR(map.at(20, 8)[0], 0.358766298, 2e-6);
+  EXPECT_NEAR(mean_flip(map), 0.205749682, 2e-6);
+  EXPECT_NEAR(map.at(12, 8)[0], 0.284888663, 2e-6);
+  EXPECT_NEAR(map.at(20, 8)[0], 0.358766345, 2e-6);
 }
 
 // Without features: L* of 100 against 0 is 100^0.7 of the 41.27 between green and blue, the largest there is.
@@ -98,6 +99,32 @@ TEST(Flip, ExposuresOfBlackAndOfMostlyBlackAreFinite) {
   const FlipExposures exposures = flip_exposures(spark);
   EXPECT_TRUE(std::isfinite(exposures.start) && exposures.start == exposures.stop);
   EXPECT_GT(mean_flip(hdr_flip(plain(4, 4, {0, 0, 0}), spark, exposures)), 0.0);
+}
+
+// Grey in the order of a picture, not of its luminance.
+Image greys(const std::vector<float>& values) {
+  Image image(static_cast<int>(values.size()), 1, 3);
+  for (std::size_t i = 0; i < image.texels.size(); ++i) image.texels[i] = values[i / 3];
+  return image;
+}
+
+// The stops between the brightest pixel, 8, and the median: of 3, the mean of the middle two, they would be 1.415.
+TEST(Flip, TheMedianOfAnEvenCountIsTheUpperMiddle) {
+  const auto stops = [](const Image& reference) {
+    const FlipExposures exposures = flip_exposures(reference);
+    return exposures.stop - exposures.start;
+  };
+  EXPECT_NEAR(stops(greys({4, 1, 8, 2})), 1.0, 1e-6);
+  EXPECT_NEAR(stops(greys({4, 1, 8, 2, 0.5F})), 2.0, 1e-6);
+}
+
+// A least luminance that is the same for all pictures would cut the dimmer one's stops short.
+TEST(Flip, ExposuresOfMostlyBlackDependOnNoUnitOfRadiance) {
+  for (const float unit : {1.0F, 1e-6F, 1e6F}) {
+    const FlipExposures exposures = flip_exposures(greys({0, 8 * unit, 0, unit / 8, 0, 0}));
+    EXPECT_NEAR(exposures.stop - exposures.start, 6.0, 1e-6) << unit;
+    EXPECT_EQ(exposures.count, 6) << unit;
+  }
 }
 
 TEST(Flip, RefusesWhatCannotBeCompared) {

@@ -106,8 +106,7 @@ std::optional<KeptWork::Item> KeptWork::read(const std::string& key) const {
     file.hash = reader->get_text();
     if (!is_within(file.name) || !is_word(file.hash)) return {};
   }
-  const std::span<const std::uint8_t> value = reader->get_block();
-  item.value.assign(value.begin(), value.end());
+  item.value = reader->get_block();
   if (!reader->finished()) return {};
   return item;
 }
@@ -134,18 +133,19 @@ bool KeptWork::put_files(const Item& item, const fs::path& run_folder) const {
 void KeptWork::write(const std::string& key, std::span<const std::uint8_t> value, const fs::path& run_folder,
                      const std::vector<std::string>& files) const {
   make_folder(item_path(key).parent_path());
-  SealedWriter writer(form);
-  writer.add_text(key);
-  writer.add<std::uint64_t>(files.size());
-  for (const std::string& name : files) {
-    const std::vector<std::uint8_t> bytes = read_file_bytes(run_folder / name, largest_file);
-    const std::string hash = hash_of(bytes);
-    if (!is_whole({name, hash})) put(run_folder / name, bytes, file_path(hash));
-    writer.add_text(name);
-    writer.add_text(hash);
-  }
-  writer.add_block(value);
-  write_file_atomically(item_path(key), std::move(writer).seal());
+  const std::vector<std::uint8_t> item = sealed(form, [&](SealedWriter& writer) {
+    writer.add_text(key);
+    writer.add<std::uint64_t>(files.size());
+    for (const std::string& name : files) {
+      const std::vector<std::uint8_t> bytes = read_file_bytes(run_folder / name, largest_file);
+      const std::string hash = hash_of(bytes);
+      if (!is_whole({name, hash})) put(run_folder / name, bytes, file_path(hash));
+      writer.add_text(name);
+      writer.add_text(hash);
+    }
+    writer.add_block(value);
+  });
+  write_file_atomically(item_path(key), item);
   used_.insert(key);
 }
 

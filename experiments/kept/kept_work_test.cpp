@@ -159,13 +159,13 @@ TEST_F(KeptWorkTest, NoFileIsPutOutsideOfTheRunsFolder) {
                                                         {"", hash},
                                                         {"images/", hash},
                                                         {"images/a.png", "../" + hash.substr(0, 2) + "/" + hash}}) {
-    SealedWriter writer("footprint-kept/1");
-    writer.add_text(key_);
-    writer.add<std::uint64_t>(1);
-    writer.add_text(name);
-    writer.add_text(named_hash);
-    writer.add_block(packed(figures, key_));
-    const std::vector<std::uint8_t> bytes = std::move(writer).seal();
+    const std::vector<std::uint8_t> bytes = sealed("footprint-kept/1", [&](SealedWriter& writer) {
+      writer.add_text(key_);
+      writer.add<std::uint64_t>(1);
+      writer.add_text(name);
+      writer.add_text(named_hash);
+      writer.add_block(packed(figures, key_));
+    });
     write(item(), std::string(bytes.begin(), bytes.end()));
     EXPECT_EQ(found().has_value(), name == "images/a.png" && named_hash == hash) << name;
     EXPECT_FALSE(fs::exists(folder_ / "outside.png"));

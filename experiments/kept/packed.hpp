@@ -123,10 +123,10 @@ class Unpacker {
 /// The value as bytes with a checksum; `form` names what it is.
 template <class T>
 [[nodiscard]] std::vector<std::uint8_t> packed(T value, std::string_view form) {
-  SealedWriter writer(form);
-  Packer pack(writer);
-  pack(value);
-  return std::move(writer).seal();
+  return sealed(form, [&](SealedWriter& writer) {
+    Packer pack(writer);
+    pack(value);
+  });
 }
 
 /// None where the bytes are damaged, of another form, or hold something else.

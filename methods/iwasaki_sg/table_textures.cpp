@@ -76,7 +76,7 @@ PrefilteredTexture amplitude_texture(const Amplitudes& table, const TableSetting
   std::vector<std::vector<Image>> layers;
   layers.reserve(values.size());
   for (Image& value : values) layers.push_back({std::move(value)});
-  return make_array_texture("iwasaki_amplitudes", layers, storage, {}, TextureFilter::linear);
+  return make_array_texture("iwasaki_amplitudes", std::move(layers), storage, {}, TextureFilter::linear);
 }
 
 // For each direction to the viewer, the share of a constant environment that the diffuse term reflects, in colour, and
@@ -104,8 +104,8 @@ PrefilteredTexture diffuse_texture(const Amplitudes& table, int side) {
     std::copy_n(&texel.x, 4, share.texels.begin() + static_cast<std::ptrdiff_t>(4 * wo));
     std::copy_n(&leaning.x, 4, normal.texels.begin() + static_cast<std::ptrdiff_t>(4 * wo));
   }
-  const std::vector<std::vector<Image>> layers{{std::move(share)}, {std::move(normal)}};
-  return make_array_texture("iwasaki_diffuse", layers, Storage::fp32, {}, TextureFilter::linear);
+  return make_array_texture("iwasaki_diffuse", {{std::move(share)}, {std::move(normal)}}, Storage::fp32, {},
+                            TextureFilter::linear);
 }
 
 PrefilteredTexture brdf_texture(const Material& material) {

@@ -16,8 +16,6 @@ namespace {
 
 constexpr int most_texels_across = 16384;
 
-std::size_t node_bytes(Storage storage) { return storage == Storage::unorm8 ? 1 : storage == Storage::fp16 ? 2 : 4; }
-
 // A table in its storage, over the scale that makes its greatest node 1.
 struct StoredTable {
   std::vector<std::uint8_t> bytes;
@@ -30,7 +28,7 @@ StoredTable stored(std::span<const float> table, int width, Storage storage) {
     out.bytes = bytes_of(table, width, out.scale, Rounding::diffused);
     return out;
   }
-  out.bytes.resize(table.size() * node_bytes(storage));
+  out.bytes.resize(table.size() * channel_bytes(storage));
   for (std::size_t i = 0; i < table.size(); ++i) {
     const float value = table[i] / out.scale;
     const std::uint16_t half_value = half(value).bits();
@@ -103,7 +101,7 @@ class Packing {
     const std::size_t row = block / columns;
     const auto nodes_x = static_cast<std::size_t>(layout_.nodes.x);
     const auto nodes_y = static_cast<std::size_t>(layout_.nodes.y);
-    const std::size_t size = node_bytes(storage_);
+    const std::size_t size = channel_bytes(storage_);
     for (std::size_t j = 0; j < nodes_y; ++j) {
       const std::size_t texel = (row * nodes_y + j) * columns * nodes_x + column * nodes_x;
       std::uint8_t* out = &densities_.bytes[(4 * texel + channel) * size];
@@ -142,7 +140,7 @@ std::vector<std::uint8_t> bytes_of(std::span<const float> table, int width, floa
 std::size_t AtlasLayout::byte_count(Storage storage) const {
   const auto width = static_cast<std::size_t>(columns) * static_cast<std::size_t>(nodes.x);
   const auto height = static_cast<std::size_t>(rows) * static_cast<std::size_t>(nodes.y);
-  return 4 * node_bytes(storage) * width * height;
+  return 4 * channel_bytes(storage) * width * height;
 }
 
 namespace {

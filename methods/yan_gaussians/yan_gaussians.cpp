@@ -70,14 +70,14 @@ PrefilteredTexture order_texture(const ElementTree& tree) {
 // Bounds of each node: the low ends in one layer, the high ones in another.
 PrefilteredTexture nodes_texture(const ElementTree& tree) {
   const int rows = rows_for(tree.nodes.size(), nodes_width);
-  std::array<std::vector<Image>, 2> layers;
+  std::vector<std::vector<Image>> layers(2);
   for (std::size_t layer = 0; layer < 2; ++layer) {
     Image& image = layers[layer].emplace_back(nodes_width, rows, 4);
     for (std::size_t i = 0; i < tree.nodes.size(); ++i)
       std::ranges::copy(layer == 0 ? tree.nodes[i].low : tree.nodes[i].high,
                         image.texels.begin() + 4 * static_cast<std::ptrdiff_t>(i));
   }
-  return make_array_texture("yan_nodes", layers, Storage::fp32, {}, TextureFilter::nearest);
+  return make_array_texture("yan_nodes", std::move(layers), Storage::fp32, {}, TextureFilter::nearest);
 }
 
 PrefilteredTexture jacobian_texture(const Elements& elements) {

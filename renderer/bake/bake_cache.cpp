@@ -26,10 +26,13 @@ std::string BakeCache::key(const std::string& method, const Material& material, 
   return fmt::format("{}-{}", method, hash.hex());
 }
 
-std::optional<Prefiltered> BakeCache::find(const std::string& key) const { return from_bytes(files_.find(key)); }
+std::optional<Prefiltered> BakeCache::find(const std::string& key) const {
+  const std::optional<StoredBytes> kept = files_.find(key);
+  return kept ? from_bytes(*kept) : std::nullopt;
+}
 
 void BakeCache::keep(const std::string& key, const Prefiltered& prefiltered) const {
-  files_.keep(key, to_bytes(prefiltered));
+  files_.keep(key, byte_count(prefiltered), [&](const ByteSink& out) { write_bytes(prefiltered, out); });
 }
 
 }  // namespace footprint

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "renderer/bake/baked_method.hpp"
 #include "renderer/bake/prefiltered_file.hpp"
+#include "renderer/image/mipmap.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint {
@@ -28,7 +30,26 @@ Prefiltered example(float value = 1.0F) {
           .notes = {"one fit of three stopped early"}};
 }
 
+std::vector<std::uint8_t> to_bytes(const Prefiltered& prefiltered) {
+  std::vector<std::uint8_t> bytes;
+  write_bytes(prefiltered, appending_to(bytes));
+  return bytes;
+}
+
 TEST(PrefilteredFile, ComesBackAsItWas) { EXPECT_EQ(from_bytes(to_bytes(example())), example()); }
+
+// What it is written for: at no time a second copy of it.
+TEST(PrefilteredFile, IsWrittenLevelByLevel) {
+  const Prefiltered large{.textures = {make_texture("map", mip_chain(Image(64, 64, 4, 0.5F)), Storage::fp32, {})},
+                          .scalars = {}};
+  std::size_t largest = 0, whole = 0;
+  write_bytes(large, [&](std::span<const std::uint8_t> piece) {
+    largest = std::max(largest, piece.size());
+    whole += piece.size();
+  });
+  EXPECT_EQ(largest, large.textures[0].levels[0].bytes.size());
+  EXPECT_EQ(whole, to_bytes(large).size());
+}
 
 TEST(PrefilteredFile, EveryCutAndEveryFlippedBitIsNoticed) {
   const std::vector<std::uint8_t> whole = to_bytes(example());

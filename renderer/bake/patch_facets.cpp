@@ -162,7 +162,7 @@ PrefilteredTexture tabulated_brdf_texture(const Material& material) {
   } else {
     layers.push_back({Image(1, 1, 3)});
   }
-  return make_array_texture("base_table", layers, Storage::fp32, {});
+  return make_array_texture("base_table", std::move(layers), Storage::fp32, {});
 }
 
 }  // namespace footprint

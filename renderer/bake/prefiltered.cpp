@@ -23,18 +23,6 @@ constexpr std::array<Word<Storage>, 3> storages{
     {{Storage::fp32, "fp32"}, {Storage::fp16, "fp16"}, {Storage::unorm8, "unorm8"}}};
 constexpr float largest_half = 65504.0F;
 
-std::size_t channel_bytes(Storage storage) {
-  switch (storage) {
-    case Storage::fp32:
-      return 4;
-    case Storage::fp16:
-      return 2;
-    case Storage::unorm8:
-      return 1;
-  }
-  return 0;
-}
-
 // The driver's own conversion truncates; ours rounds to nearest, so that storage costs what it must and no more.
 std::uint16_t half_bits(float value) { return half(std::clamp(value, -largest_half, largest_half)).bits(); }
 
@@ -80,20 +68,22 @@ TextureLevel encode_level(const std::string& name, const Image& image, Storage s
   return level;
 }
 
-// All levels of all layers, finest first.
-std::vector<TextureLevel> encode_levels(const std::string& name, std::span<const std::vector<Image>> layers,
+// All levels of all layers, finest first. Each is given back once it is encoded.
+std::vector<TextureLevel> encode_levels(const std::string& name, std::vector<std::vector<Image>>& layers,
                                         Storage storage) {
   std::vector<TextureLevel> levels;
   for (std::size_t i = 0; i < layers.front().size(); ++i) {
     const Image& first = layers.front()[i];
-    TextureLevel level{.width = first.width, .height = first.height, .bytes = {}};
+    const int width = first.width, height = first.height, channels = first.channels;
+    TextureLevel level{.width = width, .height = height, .bytes = {}};
     level.bytes.reserve(first.texels.size() * channel_bytes(storage) * layers.size());
-    for (const std::vector<Image>& layer : layers) {
-      const Image& image = layer.at(i);
-      if (image.width != first.width || image.height != first.height || image.channels != first.channels)
+    for (std::vector<Image>& layer : layers) {
+      Image& image = layer.at(i);
+      if (image.width != width || image.height != height || image.channels != channels)
         throw std::logic_error("the layers of texture " + name + " differ in size");
       require_finite(name, image);
       encode(image, storage, false, level.bytes);
+      image = {};
     }
     levels.push_back(std::move(level));
   }
@@ -103,6 +93,18 @@ std::vector<TextureLevel> encode_levels(const std::string& name, std::span<const
 }  // namespace
 
 std::string_view storage_name(Storage storage) { return word_for(storages, storage); }
+
+std::size_t channel_bytes(Storage storage) {
+  switch (storage) {
+    case Storage::fp32:
+      return 4;
+    case Storage::fp16:
+      return 2;
+    case Storage::unorm8:
+      return 1;
+  }
+  return 0;
+}
 
 Storage parse_storage(std::string_view word) { return word_value(storages, word, "storage", "storage"); }
 
@@ -174,12 +176,13 @@ PrefilteredTexture make_level_texture(std::string name, Image level, Storage sto
   return texture;
 }
 
-PrefilteredTexture make_array_texture(std::string name, std::span<const std::vector<Image>> layers, Storage storage,
+PrefilteredTexture make_array_texture(std::string name, std::vector<std::vector<Image>> layers, Storage storage,
                                       const TextureCoordinates& coordinates, TextureFilter filter) {
+  const int channels = layers.front().front().channels;
   std::vector<TextureLevel> levels = encode_levels(name, layers, storage);
   return {.name = std::move(name),
           .storage = storage,
-          .channels = layers.front().front().channels,
+          .channels = channels,
           .layers = static_cast<int>(layers.size()),
           .filter = filter,
           .coordinates = coordinates,

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +27,9 @@ enum class Storage { fp32, fp16, unorm8 };
 /// as the program looks maps up, but never by an anisotropic sampler (the module itself says which level it wants, and
 /// what such a sampler makes of that, OpenGL does not say).
 enum class TextureFilter { trilinear, nearest, linear, by_level };
+
+/// Bytes of a channel.
+[[nodiscard]] std::size_t channel_bytes(Storage storage);
 
 /// One level of a texture, encoded in the texture's storage: layer after layer, rows from v = 0.
 struct TextureLevel {
@@ -91,8 +93,9 @@ void free_texels(PrefilteredTexture& texture);
 [[nodiscard]] PrefilteredTexture make_level_texture(std::string name, Image level, Storage storage,
                                                     const TextureCoordinates& coordinates);
 
-/// Encodes an array texture from one mip chain a layer, all of the same sizes and channels; otherwise as make_texture.
-[[nodiscard]] PrefilteredTexture make_array_texture(std::string name, std::span<const std::vector<Image>> layers,
+/// Encodes an array texture from one mip chain a layer, all of the same sizes and channels; otherwise as make_texture:
+/// levels are given back too.
+[[nodiscard]] PrefilteredTexture make_array_texture(std::string name, std::vector<std::vector<Image>> layers,
                                                     Storage storage, const TextureCoordinates& coordinates,
                                                     TextureFilter filter = TextureFilter::trilinear);
 

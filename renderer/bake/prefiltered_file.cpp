@@ -45,8 +45,7 @@ PrefilteredTexture get_texture(SealedReader& in) {
     TextureLevel level;
     level.width = in.get<int>();
     level.height = in.get<int>();
-    const std::span<const std::uint8_t> block = in.get_block();
-    level.bytes.assign(block.begin(), block.end());
+    level.bytes = in.get_block();
     texture.levels.push_back(std::move(level));
   }
   return texture;
@@ -54,9 +53,8 @@ PrefilteredTexture get_texture(SealedReader& in) {
 
 }  // namespace
 
-std::vector<std::uint8_t> to_bytes(const Prefiltered& prefiltered) {
-  SealedWriter out(form);
-  out.reserve(byte_count(prefiltered) + (std::size_t{1} << 16U));
+void write_bytes(const Prefiltered& prefiltered, const ByteSink& sink) {
+  SealedWriter out(form, sink);
   out.add<std::uint64_t>(prefiltered.textures.size());
   for (const PrefilteredTexture& texture : prefiltered.textures) add_texture(out, texture);
   out.add<std::uint64_t>(prefiltered.scalars.size());
@@ -68,10 +66,10 @@ std::vector<std::uint8_t> to_bytes(const Prefiltered& prefiltered) {
   for (const std::string& note : prefiltered.notes) out.add_text(note);
   out.add(prefiltered.surface_coordinates.has_value());
   if (prefiltered.surface_coordinates) out.add_values(*prefiltered.surface_coordinates);
-  return std::move(out).seal();
+  std::move(out).seal();
 }
 
-std::optional<Prefiltered> from_bytes(std::span<const std::uint8_t> bytes) {
+std::optional<Prefiltered> from_bytes(const StoredBytes& bytes) {
   std::optional<SealedReader> opened = SealedReader::open(bytes, form);
   if (!opened) return {};
   SealedReader& in = *opened;

@@ -1,19 +1,19 @@
-// Prefiltered as bytes and back: what the disk keeps of a bake.
+// Prefiltered as bytes and back: what the disk keeps of a bake. Texture by texture, so that no second copy of it lies
+// in memory.
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <span>
-#include <vector>
 
 #include "renderer/bake/prefiltered.hpp"
+#include "renderer/core/byte_sink.hpp"
+#include "renderer/core/stored_bytes.hpp"
 
 namespace footprint {
 
-/// The value with a checksum, in this machine's byte order. Equal values give equal bytes.
-[[nodiscard]] std::vector<std::uint8_t> to_bytes(const Prefiltered& prefiltered);
+/// Writes the value with a checksum, in this machine's byte order. Equal values give equal bytes.
+void write_bytes(const Prefiltered& prefiltered, const ByteSink& sink);
 
-/// The value that `to_bytes` wrote; none where the bytes are cut short, overlong, damaged or of another form.
-[[nodiscard]] std::optional<Prefiltered> from_bytes(std::span<const std::uint8_t> bytes);
+/// The value that `write_bytes` wrote; none where the bytes are cut short, overlong, damaged or of another form.
+[[nodiscard]] std::optional<Prefiltered> from_bytes(const StoredBytes& bytes);
 
 }  // namespace footprint

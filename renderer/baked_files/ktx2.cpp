@@ -37,20 +37,8 @@ class Bytes {
   std::vector<std::uint8_t> bytes_;
 };
 
-std::uint32_t channel_bits(Storage storage) {
-  switch (storage) {
-    case Storage::fp32:
-      return 32;
-    case Storage::fp16:
-      return 16;
-    case Storage::unorm8:
-      break;
-  }
-  return 8;
-}
-
 std::size_t texel_size(const PrefilteredTexture& texture) {
-  return channel_bits(texture.storage) / 8 * static_cast<std::size_t>(texture.channels);
+  return channel_bytes(texture.storage) * static_cast<std::size_t>(texture.channels);
 }
 
 std::size_t rounded_up(std::size_t size, std::size_t step) { return (size + step - 1) / step * step; }
@@ -58,7 +46,7 @@ std::size_t rounded_up(std::size_t size, std::size_t step) { return (size + step
 // KDFS 1.3, section 5: one block, one sample a channel.
 std::vector<std::uint8_t> format_descriptor(const PrefilteredTexture& texture) {
   const bool is_float = texture.storage != Storage::unorm8;
-  const std::uint32_t bits = channel_bits(texture.storage);
+  const auto bits = static_cast<std::uint32_t>(8 * channel_bytes(texture.storage));
   const auto channels = static_cast<std::uint32_t>(texture.channels);
   const std::uint32_t block_size = 24 + 16 * channels;
   Bytes out;
@@ -122,7 +110,7 @@ std::vector<std::uint8_t> ktx2_bytes(const PrefilteredTexture& texture) {
   Bytes out;
   out.block({identifier.begin(), identifier.end()});
   out.word(vk_format(texture.storage, texture.channels));
-  out.word(channel_bits(texture.storage) / 8);  // typeSize: what a swap of byte orders swaps
+  out.word(static_cast<std::uint32_t>(channel_bytes(texture.storage)));  // typeSize: what a swap of byte orders swaps
   out.word(static_cast<std::uint32_t>(texture.levels.front().width));
   out.word(static_cast<std::uint32_t>(texture.levels.front().height));
   out.word(0);  // no depth

@@ -30,20 +30,18 @@ std::vector<std::uint8_t> content_of(const fs::path& file) {
 }
 
 // Behind the bytes a file has its own key: one that was renamed, or copied over another, is none of this name.
-std::vector<std::uint8_t> with_key(std::span<const std::uint8_t> bytes, const std::string& key) {
-  std::vector<std::uint8_t> out;
-  out.reserve(bytes.size() + key.size());
-  out.assign(bytes.begin(), bytes.end());
-  out.insert(out.end(), key.begin(), key.end());
-  return out;
+void write_with_key(const ByteSink& out, const ByteWriter& write, const std::string& key) {
+  write(out);
+  out({reinterpret_cast<const std::uint8_t*>(key.data()), key.size()});
 }
 
 // The bytes before the key; none where the file ends in another.
-std::vector<std::uint8_t> without_key(std::vector<std::uint8_t> bytes, const std::string& key) {
-  const auto last = bytes.size() < key.size() ? bytes.begin() : bytes.end() - static_cast<std::ptrdiff_t>(key.size());
-  if (!std::ranges::equal(last, bytes.end(), key.begin(), key.end())) return {};
-  bytes.erase(last, bytes.end());
-  return bytes;
+std::optional<StoredBytes> without_key(const StoredBytes& bytes, const std::string& key) {
+  if (bytes.size() <= key.size()) return {};
+  StoredBytes before = bytes.first(bytes.size() - key.size());
+  std::string last(key.size(), '\0');
+  if (!bytes.read(before.size(), {reinterpret_cast<std::uint8_t*>(last.data()), last.size()}) || last != key) return {};
+  return before;
 }
 
 struct KeptFile {
@@ -67,21 +65,26 @@ std::vector<KeptFile> kept_files(const fs::path& folder) {
 
 DiskCache::DiskCache(fs::path folder, std::uint64_t most_bytes) : folder_(std::move(folder)), most_bytes_(most_bytes) {}
 
-std::vector<std::uint8_t> DiskCache::find(const std::string& key) const {
-  std::vector<std::uint8_t> bytes = without_key(content_of(file(key)), key);
+std::optional<StoredBytes> DiskCache::find(const std::string& key) const {
+  const std::optional<StoredBytes> whole = StoredBytes::of_file(file(key));
+  std::optional<StoredBytes> bytes = whole ? without_key(*whole, key) : std::nullopt;
   std::error_code ignored;  // a folder that cannot be written loses only the order of use
-  if (!bytes.empty()) fs::last_write_time(file(key), fs::file_time_type::clock::now(), ignored);
+  if (bytes) fs::last_write_time(file(key), fs::file_time_type::clock::now(), ignored);
   return bytes;
 }
 
 void DiskCache::keep(const std::string& key, std::span<const std::uint8_t> bytes) const {
-  if (bytes.size() > most_bytes_) return;
+  keep(key, bytes.size(), [&](const ByteSink& out) { out(bytes); });
+}
+
+void DiskCache::keep(const std::string& key, std::uint64_t bytes, const ByteWriter& write) const {
+  if (bytes > most_bytes_) return;
   std::error_code failed;
   fs::create_directories(folder_, failed);
   if (failed) return;
-  make_room(bytes.size());
+  make_room(bytes);
   try {
-    write_file_atomically(file(key), with_key(bytes, key));
+    write_file_atomically(file(key), [&](const ByteSink& out) { write_with_key(out, write, key); });
   } catch (const Error&) {
     return;  // a full disk or a closed folder: what was made is at hand all the same
   }

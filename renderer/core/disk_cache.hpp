@@ -6,9 +6,10 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
+#include "renderer/core/byte_sink.hpp"
 #include "renderer/core/hash.hpp"
+#include "renderer/core/stored_bytes.hpp"
 
 namespace footprint {
 
@@ -18,10 +19,12 @@ class DiskCache {
  public:
   explicit DiskCache(std::filesystem::path folder, std::uint64_t most_bytes = std::uint64_t{8} << 30U);
 
-  /// The bytes kept under `key` (letters, digits, `-` and `_`), now the most recently used; empty where there are none,
-  /// or those in the file were kept under another.
-  [[nodiscard]] std::vector<std::uint8_t> find(const std::string& key) const;
+  /// The bytes kept under `key` (letters, digits, `-` and `_`), now the most recently used, to be read from the disk;
+  /// none where there are none, or those in the file were kept under another.
+  [[nodiscard]] std::optional<StoredBytes> find(const std::string& key) const;
   void keep(const std::string& key, std::span<const std::uint8_t> bytes) const;
+  /// Keeps what `write` hands over, about so many bytes, without holding it in memory.
+  void keep(const std::string& key, std::uint64_t bytes, const ByteWriter& write) const;
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 

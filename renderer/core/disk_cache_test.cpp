@@ -3,12 +3,14 @@
 #include "renderer/core/disk_cache.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <optional>
 
+#include "renderer/core/error.hpp"
 #include "renderer/core/sealed_bytes.hpp"
 
 namespace footprint {
@@ -40,12 +42,21 @@ fs::path fresh_folder(const std::string& name) {
 
 const std::vector<std::uint8_t> some_bytes{1, 2, 3, 0, 255};
 
+// What is kept there, whole; empty where nothing is.
+std::vector<std::uint8_t> found(const DiskCache& cache, const std::string& key) {
+  const std::optional<StoredBytes> kept = cache.find(key);
+  if (!kept) return {};
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(kept->size()));
+  EXPECT_TRUE(kept->read(0, bytes));
+  return bytes;
+}
+
 TEST(DiskCache, FindsWhatItKeptAndNothingElse) {
   const DiskCache cache(fresh_folder("find"));
-  EXPECT_TRUE(cache.find("a").empty());
+  EXPECT_FALSE(cache.find("a"));
   cache.keep("a", some_bytes);
-  EXPECT_EQ(cache.find("a"), some_bytes);
-  EXPECT_TRUE(cache.find("b").empty());
+  EXPECT_EQ(found(cache, "a"), some_bytes);
+  EXPECT_FALSE(cache.find("b"));
 }
 
 TEST(DiskCache, AFileUnderAnothersNameIsNone) {
@@ -54,9 +65,9 @@ TEST(DiskCache, AFileUnderAnothersNameIsNone) {
   cache.keep("two", std::vector<std::uint8_t>{9});
   fs::copy_file(cache.folder() / "one.bake", cache.folder() / "two.bake", fs::copy_options::overwrite_existing);
   fs::copy_file(cache.folder() / "one.bake", cache.folder() / "three.bake");
-  EXPECT_TRUE(cache.find("two").empty());
-  EXPECT_TRUE(cache.find("three").empty());
-  EXPECT_EQ(cache.find("one"), some_bytes);
+  EXPECT_FALSE(cache.find("two"));
+  EXPECT_FALSE(cache.find("three"));
+  EXPECT_EQ(found(cache, "one"), some_bytes);
 }
 
 TEST(DiskCache, RelativeHomesAreNone) {
@@ -71,7 +82,7 @@ TEST(DiskCache, FolderThatIsAFileCostsNoError) {
   std::ofstream(file) << "a file";
   const DiskCache cache(file);
   EXPECT_NO_THROW(cache.keep("a", some_bytes));
-  EXPECT_TRUE(cache.find("a").empty());
+  EXPECT_FALSE(cache.find("a"));
 }
 
 TEST(DiskCache, TheLeastRecentlyUsedGoes) {
@@ -81,25 +92,73 @@ TEST(DiskCache, TheLeastRecentlyUsedGoes) {
   const auto earlier = fs::file_time_type::clock::now() - std::chrono::hours(1);
   fs::last_write_time(cache.folder() / "old.bake", earlier);
   fs::last_write_time(cache.folder() / "new.bake", earlier - std::chrono::hours(1));
-  EXPECT_FALSE(cache.find("new").empty());  // used just now
+  EXPECT_TRUE(cache.find("new"));  // used just now
   cache.keep("third", some_bytes);
-  EXPECT_TRUE(cache.find("old").empty());
-  EXPECT_FALSE(cache.find("new").empty());
-  EXPECT_FALSE(cache.find("third").empty());
+  EXPECT_FALSE(cache.find("old"));
+  EXPECT_TRUE(cache.find("new"));
+  EXPECT_TRUE(cache.find("third"));
 }
 
 TEST(DiskCache, WhatIsLargerThanTheFolderMayBeIsNotKept) {
   const DiskCache cache(fresh_folder("large"), some_bytes.size() - 1);
   cache.keep("a", some_bytes);
-  EXPECT_TRUE(cache.find("a").empty());
+  EXPECT_FALSE(cache.find("a"));
+}
+
+TEST(DiskCache, WhatIsHandedOverInPiecesComesBackInPieces) {
+  const DiskCache cache(fresh_folder("pieces"));
+  cache.keep("a", 3, [](const ByteSink& out) {
+    out(std::vector<std::uint8_t>{7, 8});
+    out(std::vector<std::uint8_t>{9});
+  });
+  EXPECT_EQ(found(cache, "a"), (std::vector<std::uint8_t>{7, 8, 9}));
+  const std::optional<StoredBytes> kept = cache.find("a");
+  ASSERT_TRUE(kept);
+  std::vector<std::uint8_t> piece(2);
+  EXPECT_TRUE(kept->read(1, piece));
+  EXPECT_EQ(piece, (std::vector<std::uint8_t>{8, 9}));
+  EXPECT_FALSE(kept->read(2, piece)) << "the key behind the bytes is none of them";
+  cache.keep("a", some_bytes);
+  EXPECT_TRUE(kept->read(0, piece)) << "replaced: what was opened stays";
+  EXPECT_EQ(piece, (std::vector<std::uint8_t>{7, 8}));
+}
+
+TEST(DiskCache, WhatFailsHalfWayLeavesNothing) {
+  const DiskCache cache(fresh_folder("half"));
+  cache.keep("a", 3, [](const ByteSink& out) {
+    out(some_bytes);
+    throw Error(ErrorKind::machine, "", "no space left");
+  });
+  EXPECT_FALSE(cache.find("a"));
+  EXPECT_TRUE(fs::is_empty(cache.folder()));
+}
+
+TEST(StoredBytes, OnlyRegularFilesAreRead) {
+  const fs::path folder = fresh_folder("kinds");
+  fs::create_directories(folder);
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_FALSE(StoredBytes::of_file(folder / "pipe")) << "nor waited for";
+  EXPECT_FALSE(StoredBytes::of_file(folder));
+  EXPECT_FALSE(StoredBytes::of_file(folder / "nothing"));
+}
+
+TEST(StoredBytes, AFileThatWasCutMeanwhileIsNotRead) {
+  const fs::path file = fresh_folder("cut");
+  std::ofstream(file) << "0123456789";
+  const std::optional<StoredBytes> bytes = StoredBytes::of_file(file);
+  ASSERT_TRUE(bytes);
+  fs::resize_file(file, 4);
+  std::vector<std::uint8_t> out(10);
+  EXPECT_FALSE(bytes->read(0, out));
+  EXPECT_TRUE(bytes->read(0, std::span(out).first(4)));
 }
 
 TEST(SealedBytes, ValuesComeBackAndNothingIsLeft) {
-  SealedWriter out("numbers 1");
-  out.add(7);
-  out.add_text("seven");
-  out.add_values(std::vector<float>{1.5F, -2.0F});
-  const std::vector<std::uint8_t> bytes = std::move(out).seal();
+  const std::vector<std::uint8_t> bytes = sealed("numbers 1", [](SealedWriter& out) {
+    out.add(7);
+    out.add_text("seven");
+    out.add_values(std::vector<float>{1.5F, -2.0F});
+  });
   std::optional<SealedReader> in = SealedReader::open(bytes, "numbers 1");
   ASSERT_TRUE(in);
   EXPECT_EQ(in->get<int>(), 7);
@@ -115,9 +174,8 @@ TEST(SealedBytes, ValuesComeBackAndNothingIsLeft) {
 // Found by scripts/fuzz: any byte was taken for a bool.
 TEST(SealedBytes, AByteThatIsNeither0Nor1IsNoBool) {
   for (const int byte : {0, 1, 2, 115, 255}) {
-    SealedWriter out("bools 1");
-    out.add(static_cast<std::uint8_t>(byte));
-    const std::vector<std::uint8_t> bytes = std::move(out).seal();
+    const std::vector<std::uint8_t> bytes =
+        sealed("bools 1", [&](SealedWriter& out) { out.add(static_cast<std::uint8_t>(byte)); });
     std::optional<SealedReader> in = SealedReader::open(bytes, "bools 1");
     ASSERT_TRUE(in);
     EXPECT_EQ(in->get<bool>(), byte == 1) << byte;

@@ -197,11 +197,15 @@ void merge_folder(const fs::path& staging, const fs::path& target, const std::ve
 
 }  // namespace
 
-void write_file_atomically(const fs::path& file, std::span<const std::uint8_t> content) {
+void write_file_atomically(const fs::path& file, const ByteWriter& write) {
   require_regular_or_absent(file);
   TemporaryNeighbour neighbour(file);
-  neighbour.write(content);
+  write([&](std::span<const std::uint8_t> piece) { neighbour.write(piece); });
   neighbour.close_and_rename();
+}
+
+void write_file_atomically(const fs::path& file, std::span<const std::uint8_t> content) {
+  write_file_atomically(file, [&](const ByteSink& out) { out(content); });
 }
 
 void write_file_atomically(const fs::path& file, std::string_view content) {

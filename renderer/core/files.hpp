@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "renderer/core/byte_sink.hpp"
+
 namespace footprint {
 
 /// Writes `content` to `file`, replacing what is there: into a temporary neighbour first, which is then renamed, so
@@ -15,6 +17,8 @@ namespace footprint {
 /// Errors (machine): the folder cannot be written, the disk is full; (usage): `file` is there and is no regular file.
 void write_file_atomically(const std::filesystem::path& file, std::span<const std::uint8_t> content);
 void write_file_atomically(const std::filesystem::path& file, std::string_view content);
+/// Likewise, of content that is made while it is written. What `write` throws counts as a failure.
+void write_file_atomically(const std::filesystem::path& file, const ByteWriter& write);
 
 /// An output folder that is filled out of sight and moved to its place by `commit`; without a commit nothing is left
 /// of it. What already lies in the final folder stays, but for files that are written again.

@@ -31,7 +31,7 @@ GpuVisibility::GpuVisibility(const Scene& scene, const Environment& environment,
       sampler_(gl::trilinear_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE)) {
   std::vector<std::vector<Image>> chains;
   for (const Image& layer : field_.layers) chains.push_back({layer});
-  const PrefilteredTexture maps = make_array_texture("visibility_maps", chains, Storage::fp32, {});
+  const PrefilteredTexture maps = make_array_texture("visibility_maps", std::move(chains), Storage::fp32, {});
   maps_ = upload_texels(maps);
   for (const Mesh& mesh : scene.meshes) vertex_count_ += mesh.vertices.size();
   bytes_ = byte_count(maps) + vertex_count_ * vectors_a_vertex * sizeof(glm::vec4);

@@ -72,21 +72,21 @@ std::string visibility_key(const Scene& scene, const Environment& environment) {
 }
 
 std::vector<std::uint8_t> to_bytes(const VisibilityField& field) {
-  SealedWriter out(form);
-  out.add<std::uint64_t>(field.layers.size());
-  for (const Image& layer : field.layers) {
-    out.add(layer.width);
-    out.add(layer.height);
-    out.add(layer.channels);
-    out.add_values(layer.texels);
-  }
-  out.add<std::uint64_t>(field.meshes.size());
-  for (const std::vector<VertexVisibility>& mesh : field.meshes) out.add_values(mesh);
-  out.add(field.error);
-  return std::move(out).seal();
+  return sealed(form, [&](SealedWriter& out) {
+    out.add<std::uint64_t>(field.layers.size());
+    for (const Image& layer : field.layers) {
+      out.add(layer.width);
+      out.add(layer.height);
+      out.add(layer.channels);
+      out.add_values(layer.texels);
+    }
+    out.add<std::uint64_t>(field.meshes.size());
+    for (const std::vector<VertexVisibility>& mesh : field.meshes) out.add_values(mesh);
+    out.add(field.error);
+  });
 }
 
-std::optional<VisibilityField> visibility_from_bytes(std::span<const std::uint8_t> bytes, const Scene& scene) {
+std::optional<VisibilityField> visibility_from_bytes(const StoredBytes& bytes, const Scene& scene) {
   std::optional<SealedReader> in = SealedReader::open(bytes, form);
   if (!in) return {};
   VisibilityField field;
@@ -109,7 +109,8 @@ VisibilityField kept_visibility_field(const Scene& scene, const Environment& env
                                       const Progress& progress) {
   if (cache == nullptr) return visibility_field(scene, Occluders(scene), environment, progress);
   const std::string key = visibility_key(scene, environment);
-  if (std::optional<VisibilityField> kept = visibility_from_bytes(cache->find(key), scene)) return *std::move(kept);
+  const std::optional<StoredBytes> bytes = cache->find(key);
+  if (auto kept = bytes ? visibility_from_bytes(*bytes, scene) : std::nullopt) return *std::move(kept);
   VisibilityField field = visibility_field(scene, Occluders(scene), environment, progress);
   cache->keep(key, to_bytes(field));
   return field;

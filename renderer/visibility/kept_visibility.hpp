@@ -21,8 +21,7 @@ namespace footprint {
 
 /// The field that `to_bytes` wrote; none where the bytes are cut short, overlong, damaged, of another form, or do not
 /// have a value for each vertex of `scene`.
-[[nodiscard]] std::optional<VisibilityField> visibility_from_bytes(std::span<const std::uint8_t> bytes,
-                                                                   const Scene& scene);
+[[nodiscard]] std::optional<VisibilityField> visibility_from_bytes(const StoredBytes& bytes, const Scene& scene);
 
 /// From `cache`, or asked of the scene and then kept there; without a cache asked. Errors: those of visibility_field.
 [[nodiscard]] VisibilityField kept_visibility_field(const Scene& scene, const Environment& environment,

@@ -18,6 +18,7 @@ Scene load_bench_model() {
   Scene scene = load_scene(FOOTPRINT_BENCH_MODEL, scene_library());
   scene.environment.reset();
   scene.horizon = Horizon::cut;
+  for (Material& material : scene.materials) material.coat.reset();
   return scene;
 }
 

@@ -15,7 +15,7 @@ inline constexpr glm::ivec2 frame_pixels{512, 512};
 inline constexpr int reference_spp = 64;
 inline constexpr std::uint64_t reference_seed = 1;
 
-/// ClearCoatTest under the supplied lamps alone, as it has always been timed; the file must exist.
+/// ClearCoatTest without its coats under the supplied lamps alone, as it has always been timed; the file must exist.
 [[nodiscard]] Scene load_bench_model();
 
 /// The scene of a name or path; ClearCoatTest where `name` is empty: none where its package (assimp-testmodels) is not

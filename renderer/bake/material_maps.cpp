@@ -21,6 +21,11 @@ Image normals_or_flat(const std::optional<TextureMap>& map) {
   return flat;
 }
 
+TextureCoordinates coordinates_of_coat(const Material& material, std::optional<TextureMap> ClearCoat::*map) {
+  if (!material.coat || !((*material.coat).*map)) return {};
+  return ((*material.coat).*map)->coordinates;
+}
+
 }  // namespace
 
 Image normal_map_of(const Material& material) { return normals_or_flat(material.normal_map); }
@@ -69,6 +74,32 @@ Image specular_map_of(const Material& material) {
   return material.specular_map ? material.specular_map->image.decoded() : Image(1, 1, 3, 1.0F);
 }
 
+Image coat_weight_map_of(const Material& material) {
+  if (!material.coat) return Image(1, 1, 1, 0.0F);
+  return material.coat->weight_map ? material.coat->weight_map->image.decoded() : Image(1, 1, 1, material.coat->weight);
+}
+
+Image coat_width_map_of(const Material& material) {
+  const ClearCoat coat = material.coat.value_or(ClearCoat{});
+  Image widths = coat.roughness_map ? coat.roughness_map->image.decoded() : Image(1, 1, 1, coat.roughness);
+  std::ranges::transform(widths.texels, widths.texels.begin(), [](float roughness) {
+    const float alpha = std::max(roughness * roughness, smallest_coat_alpha);
+    return alpha * alpha;
+  });
+  return widths;
+}
+
+Image coat_normal_map_of(const Material& material) {
+  const Image map = normals_or_flat(material.coat ? material.coat->normal_map : std::nullopt);
+  Image normals(map.width, map.height, 3);
+  for (std::size_t i = 0; i < map.texels.size() / 4; ++i) {
+    const bool valid = map.texels[4 * i + 3] > 0.5F;
+    for (std::size_t c = 0; c < 3; ++c)
+      normals.texels[3 * i + c] = valid ? map.texels[4 * i + c] : (c == 2 ? 1.0F : 0.0F);
+  }
+  return normals;
+}
+
 TextureCoordinates normal_coordinates(const Material& material) {
   return material.normal_map ? material.normal_map->coordinates : TextureCoordinates{};
 }
@@ -88,6 +119,18 @@ TextureCoordinates base_color_coordinates(const Material& material) {
 
 TextureCoordinates specular_coordinates(const Material& material) {
   return material.specular_map ? material.specular_map->coordinates : TextureCoordinates{};
+}
+
+TextureCoordinates coat_weight_coordinates(const Material& material) {
+  return coordinates_of_coat(material, &ClearCoat::weight_map);
+}
+
+TextureCoordinates coat_width_coordinates(const Material& material) {
+  return coordinates_of_coat(material, &ClearCoat::roughness_map);
+}
+
+TextureCoordinates coat_normal_coordinates(const Material& material) {
+  return coordinates_of_coat(material, &ClearCoat::normal_map);
 }
 
 TextureCoordinates share_coordinates(const Material& material) {

@@ -31,12 +31,28 @@ namespace footprint {
 /// The factor on the dielectric specular colour, 3 channels; white, 1 x 1, where it has no such map.
 [[nodiscard]] Image specular_map_of(const Material& material);
 
+/// The weight of a material's coat, 1 channel; 0, 1 x 1, where it has none.
+[[nodiscard]] Image coat_weight_map_of(const Material& material);
+
+/// GGX's alpha squared of the coat, 1 channel: linear in the slope variance, so that means over texels are those of the
+/// facets. `smallest_coat_alpha` bounds it.
+[[nodiscard]] Image coat_width_map_of(const Material& material);
+
+/// The coat's unit normals, 3 channels; flat, 1 x 1, where it has no map, and where a texel of it is invalid.
+[[nodiscard]] Image coat_normal_map_of(const Material& material);
+
+/// The narrowest coat: that of every base lobe (smallest_alpha in common_lobes.glsl).
+inline constexpr float smallest_coat_alpha = 1e-3F;
+
 /// Where the maps are looked up; the defaults where a material has none.
 [[nodiscard]] TextureCoordinates normal_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates layer_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates roughness_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates base_color_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates specular_coordinates(const Material& material);
+[[nodiscard]] TextureCoordinates coat_weight_coordinates(const Material& material);
+[[nodiscard]] TextureCoordinates coat_width_coordinates(const Material& material);
+[[nodiscard]] TextureCoordinates coat_normal_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates share_coordinates(const Material& material);
 
 }  // namespace footprint

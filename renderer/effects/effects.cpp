@@ -26,6 +26,10 @@ constexpr std::array<std::string_view, effect_count> names{"diffuse",
                                                            "vertex_color",
                                                            "metallic_variation",
                                                            "specular_variation",
+                                                           "clear_coat",
+                                                           "coat_weight_variation",
+                                                           "coat_width_variation",
+                                                           "coat_normal_variation",
                                                            "material_index",
                                                            "alpha_mask",
                                                            "double_sided",
@@ -186,6 +190,25 @@ std::vector<EffectDecision> map_effects(const Scene& scene) {
                  "the specular colour is constant over each material")};
 }
 
+std::vector<EffectDecision> coat_effects(const Scene& scene) {
+  const auto coated = [](const Material& m) { return m.coat.has_value(); };
+  const auto varies = [](const std::optional<TextureMap>& map) {
+    return map && channel_varies(map->image.decoded(), 0);
+  };
+  const auto weight_varies = [&](const Material& m) { return m.coat && varies(m.coat->weight_map); };
+  const auto width_varies = [&](const Material& m) { return m.coat && varies(m.coat->roughness_map); };
+  const auto rough = [](const Material& m) {
+    return m.coat && m.coat->normal_map && !is_flat(m.coat->normal_map->image.decoded());
+  };
+  return {decide(Effect::clear_coat, scene, coated, "a clear coat", "no material has a clear coat"),
+          decide(Effect::coat_weight_variation, scene, weight_varies, "a map of the coat's weight that varies",
+                 "the coat's weight is constant over each material"),
+          decide(Effect::coat_width_variation, scene, width_varies, "a map of the coat's roughness that varies",
+                 "the coat's roughness is constant over each material"),
+          decide(Effect::coat_normal_variation, scene, rough, "a normal map of the coat that is not flat",
+                 "every coat lies on the mesh's own normals")};
+}
+
 std::vector<EffectDecision> coverage_effects(const Scene& scene) {
   const auto shared = [](const Material& m) { return m.share.has_value(); };
   const auto cut_out = [](const Material& m) { return m.alpha_cutoff.has_value(); };
@@ -220,7 +243,8 @@ std::string_view effect_name(Effect effect) { return names.at(static_cast<std::s
 
 std::vector<EffectDecision> derive_effects(const Scene& scene) {
   std::vector<EffectDecision> decisions;
-  for (const auto effects : {base_brdf_effects, map_effects, coverage_effects, light_effects, microgeometry_effects})
+  for (const auto effects :
+       {base_brdf_effects, map_effects, coat_effects, coverage_effects, light_effects, microgeometry_effects})
     std::ranges::move(effects(scene), std::back_inserter(decisions));
   return decisions;
 }

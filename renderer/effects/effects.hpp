@@ -15,20 +15,24 @@ namespace footprint {
 
 /// Something that the renderer can simulate and a scene may lack.
 enum class Effect : std::size_t {
-  diffuse,               ///< a facet's Lambert term
-  fresnel,               ///< Schlick's term over F0
-  masking_shadowing,     ///< the geometry term of the base BRDF
-  normal_variation,      ///< a normal map that is not flat
-  normal_layers,         ///< a detail layer over the normal map
-  roughness_variation,   ///< a map of roughness or of lobe parameters that is not constant
-  multi_lobe,            ///< facets with several lobes, or one whose axis is not their normal
-  base_color_variation,  ///< a base-colour map
-  vertex_color,          ///< colours at the vertices, that multiply the base colour
-  metallic_variation,    ///< a metallic map that is not constant
-  specular_variation,    ///< a map of reflectance at normal incidence that is not constant
-  material_index,        ///< several materials on one surface, chosen by a map of indices
-  alpha_mask,            ///< parts cut out by alpha
-  double_sided,          ///< surfaces seen from behind
+  diffuse,                ///< a facet's Lambert term
+  fresnel,                ///< Schlick's term over F0
+  masking_shadowing,      ///< the geometry term of the base BRDF
+  normal_variation,       ///< a normal map that is not flat
+  normal_layers,          ///< a detail layer over the normal map
+  roughness_variation,    ///< a map of roughness or of lobe parameters that is not constant
+  multi_lobe,             ///< facets with several lobes, or one whose axis is not their normal
+  base_color_variation,   ///< a base-colour map
+  vertex_color,           ///< colours at the vertices, that multiply the base colour
+  metallic_variation,     ///< a metallic map that is not constant
+  specular_variation,     ///< a map of reflectance at normal incidence that is not constant
+  clear_coat,             ///< a clear layer over the material
+  coat_weight_variation,  ///< a map of where the coat is, or how much of it, that is not constant
+  coat_width_variation,   ///< a map of the coat's roughness that is not constant
+  coat_normal_variation,  ///< a normal map of the coat that is not flat
+  material_index,         ///< several materials on one surface, chosen by a map of indices
+  alpha_mask,             ///< parts cut out by alpha
+  double_sided,           ///< surfaces seen from behind
   point_light,
   spot_light,
   directional_light,

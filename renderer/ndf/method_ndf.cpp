@@ -63,6 +63,7 @@ Scene scene_of_facets(const Material& material) {
   bare.base_color_map.reset();
   bare.layer_map.reset();
   bare.specular_map.reset();
+  bare.coat.reset();
   bare.alpha_cutoff.reset();
   bare.double_sided = false;
   scene.meshes.push_back(make_plane({1.0F, 1.0F}, {1.0F, 1.0F}));

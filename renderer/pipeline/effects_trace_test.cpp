@@ -43,6 +43,12 @@ std::shared_ptr<const Microgeometry> microgeometry(const std::string& kind,
   return std::make_shared<const Microgeometry>(Microgeometry{std::move(patch), mean});
 }
 
+ClearCoat rough_coat() {
+  ClearCoat coat;
+  coat.roughness = 0.5F;
+  return coat;
+}
+
 // An effect, text that its code leaves in the shader, and what makes a scene call for it.
 struct EffectCase {
   Effect effect;
@@ -91,6 +97,22 @@ const auto cases = std::to_array<EffectCase>({
      }},
     {Effect::specular_variation, "specular_map",
      [](Scene& s) { s.materials[0].specular_map = map_of(halves(3, 1.0F, 0.25F)); }},
+    {Effect::clear_coat, "coatReflectance", [](Scene& s) { s.materials[0].coat = rough_coat(); }},
+    {Effect::coat_weight_variation, "coat_weight_map",
+     [](Scene& s) {
+       s.materials[0].coat = rough_coat();
+       s.materials[0].coat->weight_map = map_of(halves(1, 1.0F, 0.0F));
+     }},
+    {Effect::coat_width_variation, "coat_width_map",
+     [](Scene& s) {
+       s.materials[0].coat = ClearCoat{};
+       s.materials[0].coat->roughness_map = map_of(halves(1, 0.9F, 0.5F));
+     }},
+    {Effect::coat_normal_variation, "coat_normal_map",
+     [](Scene& s) {
+       s.materials[0].coat = rough_coat();
+       s.materials[0].coat->normal_map = map_of(constant_normals(2, 2, {0.6F, 0.0F, 0.8F}));
+     }},
     {Effect::material_index, "material_share",
      [](Scene& s) {
        s.materials.push_back(s.materials[0]);

@@ -73,6 +73,17 @@ std::vector<glm::vec4> material_block(const Material& material, const EffectSet&
     block.push_back(linear_part(specular_coordinates(material)));
     block.push_back(offset_and_set(specular_coordinates(material)));
   }
+  if (has(effects, Effect::clear_coat)) {
+    // Where a map varies it is read in their place, and need not be decoded for a number.
+    const bool weight_varies = has(effects, Effect::coat_weight_variation);
+    const bool width_varies = has(effects, Effect::coat_width_variation);
+    block.emplace_back(weight_varies ? 0.0F : coat_weight_map_of(material).texels.front(),
+                       width_varies ? 0.0F : coat_width_map_of(material).texels.front(), 0.0F, 0.0F);
+    const std::array maps{coat_weight_coordinates(material), coat_width_coordinates(material),
+                          coat_normal_coordinates(material)};
+    for (const TextureCoordinates& map : maps) block.push_back(linear_part(map));
+    for (const TextureCoordinates& map : maps) block.push_back(offset_and_set(map));
+  }
   if (has(effects, Effect::material_index)) {
     block.push_back(linear_part(share_coordinates(material)));
     block.push_back(offset_and_set(share_coordinates(material)));

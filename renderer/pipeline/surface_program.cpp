@@ -17,11 +17,12 @@ namespace footprint {
 namespace {
 
 // What the program simulates: what the method honours, the maps that the pipeline reads itself, whose units come
-// first, vertex colours, and visibility, which is the same for every method.
+// first, vertex colours, clear coats, and visibility, which is the same for every method.
 EffectSet effects_of(const GpuScene& scene, const Method& method) {
   EffectSet shared;
   for (const SharedMap& map : shared_maps()) shared.set(static_cast<std::size_t>(map.effect));
   shared.set(static_cast<std::size_t>(Effect::vertex_color));
+  shared.set(static_cast<std::size_t>(Effect::clear_coat));
   shared.set(static_cast<std::size_t>(Effect::cast_shadow));
   return scene.effects() & (method.info().honours | shared);
 }

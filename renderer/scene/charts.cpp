@@ -15,11 +15,7 @@ namespace {
 // Which of the two sets of texture coordinates the maps of a material read.
 std::array<bool, 2> sets_read_by(const Material& material) {
   std::array<bool, 2> read{};
-  for (const std::optional<TextureMap>* map :
-       {&material.base_color_map, &material.metallic_roughness_map, &material.lobe_parameter_map,
-        &material.specular_map, &material.normal_map, &material.layer_map}) {
-    if (*map) read.at(static_cast<std::size_t>((*map)->coordinates.set)) = true;
-  }
+  for (const TextureMap* map : maps_of(material)) read.at(static_cast<std::size_t>(map->coordinates.set)) = true;
   if (material.share) read.at(static_cast<std::size_t>(material.share->map.coordinates.set)) = true;
   return read;
 }

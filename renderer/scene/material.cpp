@@ -16,7 +16,32 @@ float variance_about_normal(const Material& material) {
   return variance / weight;
 }
 
+// Of a constant material or another.
+template <class Map, class AnyMaterial>
+std::vector<Map*> maps_in(AnyMaterial& material) {
+  std::vector<Map*> maps;
+  const auto add = [&](auto& map) {
+    if (map) maps.push_back(&*map);
+  };
+  add(material.base_color_map);
+  add(material.metallic_roughness_map);
+  add(material.lobe_parameter_map);
+  add(material.specular_map);
+  add(material.normal_map);
+  add(material.layer_map);
+  if (material.coat) {
+    add(material.coat->weight_map);
+    add(material.coat->roughness_map);
+    add(material.coat->normal_map);
+  }
+  return maps;
+}
+
 }  // namespace
+
+std::vector<TextureMap*> maps_of(Material& material) { return maps_in<TextureMap>(material); }
+
+std::vector<const TextureMap*> maps_of(const Material& material) { return maps_in<const TextureMap>(material); }
 
 Lobe lobe_of(const Material& material) {
   const NormalDistribution distribution = material.brdf.distribution;

@@ -59,6 +59,16 @@ struct FacetLobe {
 /// The most lobes of a facet.
 inline constexpr std::size_t most_facet_lobes = 8;
 
+/// A clear layer over a material: facets of their own, always GGX ones (KHR_materials_clearcoat; docs/base-brdf.md).
+/// Without a map the factor alone counts; a map holds what is left of the factor already.
+struct ClearCoat {
+  float weight = 1.0F;                      ///< 0..1: the share of the surface that is coated
+  float roughness = 0.0F;                   ///< perceptual, 0..1; alpha = roughness^2
+  std::optional<TextureMap> weight_map;     ///< 1 channel, 0..1, already times the factor
+  std::optional<TextureMap> roughness_map;  ///< 1 channel, 0..1, likewise
+  std::optional<TextureMap> normal_map;     ///< as Material::normal_map; none: the mesh's own normals
+};
+
 /// Where a material is on a surface that has several, chosen by a map of indices.
 struct SurfaceShare {
   TextureMap map;     ///< 1 channel: 1 where the map of indices names this material, 0 elsewhere; they sum to 1
@@ -87,6 +97,8 @@ struct Material {
   std::optional<TextureMap> normal_map;    ///< 4 channels: unit normal xyz (z > 0 out of the surface), weight 0 or 1
   std::optional<TextureMap> layer_map;     ///< detail over the normal map, of the same kind: their slopes add
 
+  std::optional<ClearCoat> coat;  ///< over all that the rest says; none: bare
+
   std::optional<SurfaceShare> share;  ///< none: all of its surface
 
   std::optional<float> alpha_cutoff;  ///< MASK: a point with alpha below it is not there
@@ -96,6 +108,11 @@ struct Material {
   /// changed.
   std::shared_ptr<const Microgeometry> microgeometry;
 };
+
+/// The maps that a material has, its coat's among them and but for its share's: what is done to all of them goes
+/// through here.
+[[nodiscard]] std::vector<TextureMap*> maps_of(Material& material);
+[[nodiscard]] std::vector<const TextureMap*> maps_of(const Material& material);
 
 /// The map that a material's lobe widens and narrows by: of lobe parameters, or of roughness in its first channel. Null
 /// where the width is constant.

@@ -88,6 +88,11 @@ class Counter {
     add_all(axis, parameter, weight);
   }
 
+  void add(const ClearCoat& coat) {
+    const auto& [weight, roughness, weight_map, roughness_map, normal_map] = coat;
+    add_all(weight, roughness, weight_map, roughness_map, normal_map);
+  }
+
   void add(const SurfaceShare& share) {
     const auto& [map, first] = share;
     add_all(map, first);
@@ -110,11 +115,11 @@ class Counter {
 
   void add(const Material& material) {
     const auto& [name, brdf, base_color, dielectric_specular, metallic, roughness, lobe_parameter, lobes,
-                 base_color_map, metallic_roughness_map, lobe_parameter_map, specular_map, normal_map, layer_map, share,
-                 alpha_cutoff, double_sided, microgeometry] = material;
+                 base_color_map, metallic_roughness_map, lobe_parameter_map, specular_map, normal_map, layer_map, coat,
+                 share, alpha_cutoff, double_sided, microgeometry] = material;
     add_all(brdf, base_color, dielectric_specular, metallic, roughness, lobe_parameter, lobes);
-    add_all(base_color_map, metallic_roughness_map, lobe_parameter_map, specular_map, normal_map, layer_map, share);
-    add_all(alpha_cutoff, double_sided, microgeometry);
+    add_all(base_color_map, metallic_roughness_map, lobe_parameter_map, specular_map, normal_map, layer_map, coat);
+    add_all(share, alpha_cutoff, double_sided, microgeometry);
   }
 
   void add(const Mesh& mesh) {

@@ -33,6 +33,9 @@ Material whole_material() {
   for (auto* const map : {&material.base_color_map, &material.metallic_roughness_map, &material.lobe_parameter_map,
                           &material.specular_map, &material.normal_map, &material.layer_map})
     *map = map_of(0.5F);
+  material.coat = ClearCoat{};
+  for (auto* const map : {&material.coat->weight_map, &material.coat->roughness_map, &material.coat->normal_map})
+    *map = map_of(0.5F);
   material.share = {map_of(0.5F)};
   material.alpha_cutoff = 0.5F;
   material.microgeometry = std::make_shared<const Microgeometry>(small);
@@ -65,6 +68,12 @@ std::vector<Change> changes() {
                           [](Material& m) { m.lobes[1].axis.x = 0.5F; },
                           [](Material& m) { m.lobes[1].parameter = 0.5F; },
                           [](Material& m) { m.lobes[1].weight = 0.5F; },
+                          [](Material& m) { m.coat.reset(); },
+                          [](Material& m) { m.coat->weight = 0.5F; },
+                          [](Material& m) { m.coat->roughness = 0.5F; },
+                          [](Material& m) { m.coat->weight_map = map_of(0.25F); },
+                          [](Material& m) { m.coat->roughness_map = map_of(0.25F); },
+                          [](Material& m) { m.coat->normal_map = map_of(0.25F); },
                           [](Material& m) { m.share.reset(); },
                           [](Material& m) { m.share->map = map_of(0.25F); },
                           [](Material& m) { m.share->first = false; },

@@ -41,15 +41,8 @@ vec3 transmitted(vec3 f0, vec3 wi, vec3 wo) { return vec3(1.0); }
 // The geometry factor of f * cos = F * D * factor, for facets about n with a lobe. Where the surface's horizon cuts no
 // light off, the facets' own does, also under terms that know none.
 //? if masking_shadowing and geometry_smith and distribution_ggx
-// G2 / (4 n.v) with the height-correlated Smith term of GGX (Heitz 2014, equation 99; glTF 2.0, appendix B).
-float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
-  float nl = dot(n, wi);
-  if (nl <= 0.0) return 0.0;
-  float nv = max(dot(n, wo), 1e-4);
-  float a2 = lobe * lobe;
-  float masked = nl * sqrt(a2 + (1.0 - a2) * nv * nv) + nv * sqrt(a2 + (1.0 - a2) * nl * nl);
-  return 0.5 * nl / max(masked, 1e-12);
-}
+//? include ggx_geometry.glsl
+float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) { return ggxGeometry(lobe * lobe, n, wi, wo); }
 //? elif masking_shadowing and geometry_smith
 //? include beckmann_lambda.glsl
 // Blinn-Phong and vMF lobes take the alpha of the same width (Walter 2007, section 5.2).

@@ -21,6 +21,15 @@ struct Footprints {
 //? if normal_layers
   Footprint layer;
 //? end
+//? if clear_coat and coat_weight_variation
+  Footprint coat_weight;
+//? end
+//? if clear_coat and coat_width_variation
+  Footprint coat_width;
+//? end
+//? if clear_coat and coat_normal_variation
+  Footprint coat_normal;
+//? end
 //? if material_index
   Footprint share;
 //? end
@@ -67,6 +76,15 @@ Footprints partOf(Footprints f, int i) {
 //? end
 //? if normal_layers
   part.layer = partOf(f.layer, i);
+//? end
+//? if clear_coat and coat_weight_variation
+  part.coat_weight = partOf(f.coat_weight, i);
+//? end
+//? if clear_coat and coat_width_variation
+  part.coat_width = partOf(f.coat_width, i);
+//? end
+//? if clear_coat and coat_normal_variation
+  part.coat_normal = partOf(f.coat_normal, i);
 //? end
 //? if material_index
   part.share = partOf(f.share, i);

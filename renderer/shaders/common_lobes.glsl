@@ -82,15 +82,10 @@ float lobeEnergy(float alpha) {
 //? end
 
 //? if distribution_ggx
-// alpha^2 / (pi (alpha^2 cos^2 + sin^2)^2) (Trowbridge and Reitz 1975; Walter 2007, equation 33).
+//? include ggx_density.glsl
 float lobeDensity(float alpha, vec3 n, vec3 h) {
   countLobes(1);
-  float c = dot(n, h);
-  if (c <= 0.0) return 0.0;
-  vec3 s = cross(n, h);  // |s| = sin, exact where 1 - c^2 cancels
-  float a2 = alpha * alpha;
-  float d = a2 * c * c + dot(s, s);
-  return a2 / (pi * d * d);
+  return ggxDensity(alpha * alpha, n, h);
 }
 float lobeFromAlpha(float alpha) { return max(alpha, smallest_alpha); }
 float lobeVariance(float alpha) { return 0.5 * alpha * alpha; }

@@ -55,8 +55,47 @@ vec4 environmentTexel(vec3 d) {
   return texelFetch(environment_radiance, texel, 0);
 }
 
+//? if clear_coat
+const float coat_draws = 0.25;  // of the directions that lobes draw, where there is a coat
+
+// The mirror image of wo about a normal drawn from the coat's facets.
+vec3 coatDirection(Coat coat, vec3 wo, vec2 u) {
+  float tilt = tiltOf(coat.alpha2 * u.x / max(1.0 - u.x, 1e-7));
+  float sine = sqrt(max(tilt * (2.0 - tilt), 0.0));
+  float azimuth = 2.0 * pi * u.y;
+  vec3 h = frameAbout(coat.normal) * vec3(sine * cos(azimuth), sine * sin(azimuth), 1.0 - tilt);
+  float cosine = dot(h, wo);
+  return cosine > 0.0 ? 2.0 * cosine * h - wo : vec3(0.0);
+}
+
+float coatDirectionDensity(Coat coat, vec3 wi, vec3 wo) {
+  if (!halfVectorIsDefined(wi, wo)) return 0.0;
+  vec3 h = halfVector(wi, wo);
+  return ggxDensity(coat.alpha2, coat.normal, h) * max(dot(coat.normal, h), 0.0) / (4.0 * max(dot(h, wo), 1e-6));
+}
+//? end
+
+// A direction from the lobes of the point, and the density of drawing it.
+vec3 lobeDirection(SurfacePoint p, vec3 u) {
+//? if clear_coat
+  if (p.coat.share > 0.0) {
+    if (u.z < coat_draws) return coatDirection(p.coat, p.wo, u.xy);
+    u.z = (u.z - coat_draws) / (1.0 - coat_draws);
+  }
+//? end
+  return drawDirection(p.effective, p.wo, u);
+}
+
+float lobeDirectionDensity(SurfacePoint p, vec3 wi) {
+  float density = directionDensity(p.effective, wi, p.wo);
+//? if clear_coat
+  if (p.coat.share > 0.0) density = mix(density, coatDirectionDensity(p.coat, wi, p.wo), coat_draws);
+//? end
+  return density;
+}
+
 // The texels of a sample share its directions.
-vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame) {
+vec3 environmentIntegral(SurfacePoint p) {
   vec3 radiance = vec3(0.0);
   uvec3 seed = hashed(sample_pixel);
   uvec3 lobe_seed = hashed(seed);
@@ -66,16 +105,16 @@ vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame) {
   for (int i = first; i < first + count; ++i) {
     uvec4 digits = sample_directions[i];
     DrawnDirection light = drawFromEnvironment(scrambledPair(digits.xy, seed.xy));
-    vec3 wi = light.direction * frame;
+    vec3 wi = light.direction * p.frame;
     if (reachesFacets(wi) && light.density > 0.0 && arrives(light.direction)) {
-      radiance += reflectance(e, s, wi, wo) * light.radiance / (light.density + directionDensity(e, wi, wo));
+      radiance += reflectance(p, wi) * light.radiance / (light.density + lobeDirectionDensity(p, wi));
     }
     float choice = unitInterval(scrambled(sample_choices[i], seed.z));
-    wi = drawDirection(e, wo, vec3(scrambledPair(digits.zw, lobe_seed.xy), choice));
-    float density = reachesFacets(wi) ? directionDensity(e, wi, wo) : 0.0;
-    if (density > 0.0 && arrives(frame * wi)) {
-      vec4 held = environmentTexel(frame * wi);
-      radiance += reflectance(e, s, wi, wo) * held.rgb / (held.a + density);
+    wi = lobeDirection(p, vec3(scrambledPair(digits.zw, lobe_seed.xy), choice));
+    float density = reachesFacets(wi) ? lobeDirectionDensity(p, wi) : 0.0;
+    if (density > 0.0 && arrives(p.frame * wi)) {
+      vec4 held = environmentTexel(p.frame * wi);
+      radiance += reflectance(p, wi) * held.rgb / (held.a + density);
     }
   }
   return radiance / float(count);

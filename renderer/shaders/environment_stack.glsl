@@ -122,7 +122,18 @@ struct Beside {
   vec3 color;
 };
 
+//? if clear_coat
+// In place of a lobe's number in the module: the coat's, whose weight, share and spread then stand for f0.
+const int coat_lobe = -1;
+//? end
+
 Beside besideDensity(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 h, vec3 wi, vec3 wo, float sharpness) {
+//? if clear_coat
+  if (i == coat_lobe) {
+    Coat coat = Coat(lobe.normal, 2.0 / lobe.sharpness, f0.x, f0.y, f0.z);
+    return Beside(ggxGeometry(coat.alpha2, coat.normal, wi, wo), vec3(coatShare(coat, h, wo)));
+  }
+//? end
 //? if microgeometry_visibility
   vec3 all = lobeReflectance(e, i, f0, h, wi, wo, sharpness);
   float mean = dot(all, vec3(1.0 / 3.0));
@@ -149,7 +160,7 @@ vec3 lobeRadiance(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wo, mat3 fr
   return beside.color * reflected * stackRadiance(frame * above.axis, above.sharpness);
 }
 
-//? if distribution_ggx
+//? if distribution_ggx or clear_coat
 // GGX has a tail that no Gaussian has, and wide facets of it reflect below the horizon, where masking is strongest: the
 // centre of a lobe says little of it. So its visible normals are sampled, as quadrature: once slopes are divided by
 // alpha, wo reflected by them fills a spherical cap evenly (Dupuy and Benyoub 2023). Rings of the cap, by the part of
@@ -299,3 +310,14 @@ vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame) {
 //? end
   return radiance;
 }
+
+//? if clear_coat
+// What the coat reflects of the environment, its share included.
+vec3 coatLit(SurfacePoint p) {
+  if (p.coat.share <= 0.0) return vec3(0.0);
+  countLobes(1);
+  NormalLobe lobe = NormalLobe(p.coat.normal, 2.0 / p.coat.alpha2, 1.0, 0.0, true, p.coat.normal);
+  vec3 shares = vec3(p.coat.weight, p.coat.share, p.coat.spread);
+  return tailedRadiance(p.effective, coat_lobe, lobe, shares, p.wo, p.frame);
+}
+//? end

@@ -53,6 +53,15 @@ Footprints pixelFootprints() {
 //? if normal_layers
   f.layer = footprintOf(uv_linear[3], uv_offset_set[3]);
 //? end
+//? if clear_coat and coat_weight_variation
+  f.coat_weight = footprintOf(coat_uv_linear[0], coat_uv_offset_set[0]);
+//? end
+//? if clear_coat and coat_width_variation
+  f.coat_width = footprintOf(coat_uv_linear[1], coat_uv_offset_set[1]);
+//? end
+//? if clear_coat and coat_normal_variation
+  f.coat_normal = footprintOf(coat_uv_linear[2], coat_uv_offset_set[2]);
+//? end
 //? if material_index
   f.share = footprintOf(share_uv_linear, share_uv_offset_set);
 //? end
@@ -76,26 +85,36 @@ vec3 seen_facet;  // of the pixel
 //? include neighbour_pixels.glsl
 
 //? end
+//? if clear_coat
+//? include clear_coat.glsl
+
+//? end
 // What is seen through a pixel, or a part of it.
 struct SurfacePoint {
   Effective effective;
   Surface surface;
   mat3 frame;
   vec3 wo;  // tangent frame
+//? if clear_coat
+  Coat coat;
+//? end
 };
 
-vec3 bothTerms(Reflected r) {
+// Both terms together, and the coat over them: f * cos.
+vec3 layered(SurfacePoint p, Reflected r, vec3 wi) {
 //? if diffuse
-  return r.specular + r.diffuse;
+  vec3 base = r.specular + r.diffuse;
 //? else
-  return r.specular;
+  vec3 base = r.specular;
+//? end
+//? if clear_coat
+  return (1.0 - p.coat.share) * base + coatReflectance(p.coat, wi, p.wo);
+//? else
+  return base;
 //? end
 }
 
-// f * cos of both terms together.
-vec3 reflectance(Effective e, Surface s, vec3 wi, vec3 wo) {
-  return bothTerms(shade(e, s, wi, wo));
-}
+vec3 reflectance(SurfacePoint p, vec3 wi) { return layered(p, shade(p.effective, p.surface, wi, p.wo), wi); }
 
 // One light's share.
 vec3 reflected(SurfacePoint p, Incident light) {
@@ -105,7 +124,7 @@ vec3 reflected(SurfacePoint p, Incident light) {
 //? else
   Reflected r = shade(p.effective, p.surface, light.wi, p.wo);
 //? end
-  return bothTerms(r) * light.irradiance_at_normal;
+  return layered(p, r, light.wi) * light.irradiance_at_normal;
 }
 
 //? if environment_sampled
@@ -136,6 +155,22 @@ void findLight(mat3 frame) {
 }
 //? end
 
+//? if environment_light and not environment_sampled
+// The environment's light by lobes.
+vec3 skyLit(SurfacePoint p) {
+//? if environment_summed
+  vec3 base = environmentSum(p.effective, p.surface, p.wo, p.frame);
+//? else
+  vec3 base = environmentLit(p.effective, p.surface, p.wo, p.frame);
+//? end
+//? if clear_coat
+  return (1.0 - p.coat.share) * base + coatLit(p);
+//? else
+  return base;
+//? end
+}
+
+//? end
 vec3 lit(SurfacePoint p) {
   vec3 radiance = vec3(0.0);
 //? if filter_shaded
@@ -151,10 +186,10 @@ vec3 lit(SurfacePoint p) {
   for (int i = 0; i < directional_light_count; ++i) radiance += reflected(p, incidentDirectional(i, p.frame));
 //? end
 //? end
-//? if environment_summed
-  radiance += environmentSum(p.effective, p.surface, p.wo, p.frame);
+//? if environment_sampled
+  radiance += environmentIntegral(p);
 //? elif environment_light
-  radiance += environmentLit(p.effective, p.surface, p.wo, p.frame);
+  radiance += skyLit(p);
 //? end
 //? if environment_sun
   radiance += sunLit(p);
@@ -207,7 +242,11 @@ vec3 reflectedBy(Footprints f, mat3 frame, vec3 wo) {
   float share = fetch(material_share, f.share).r;
   if (share <= 0.0) return vec3(0.0);
 //? end
+//? if clear_coat
+  SurfacePoint p = SurfacePoint(effective(f), surfaceUnder(f, baseColor(f).rgb), frame, wo, coatUnder(f, wo));
+//? else
   SurfacePoint p = SurfacePoint(effective(f), surfaceUnder(f, baseColor(f).rgb), frame, wo);
+//? end
 //? if material_index
   return share * lit(p);
 //? else

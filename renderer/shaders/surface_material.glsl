@@ -17,6 +17,11 @@ layout(std140, binding = 0) uniform MaterialBlock {
   vec4 specular_uv_linear;
   vec4 specular_uv_offset_set;
 //? end
+//? if clear_coat
+  vec4 coat_weight_width;  // weight, alpha squared
+  vec4 coat_uv_linear[3];  // slots weight, width, normal
+  vec4 coat_uv_offset_set[3];
+//? end
 //? if material_index
   vec4 share_uv_linear;
   vec4 share_uv_offset_set;  // w: 1 for the first material of a surface, 0 for those that add to it

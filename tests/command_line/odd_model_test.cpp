@@ -76,7 +76,7 @@ const std::vector<Case> frames{
      .leaves = {"out/results.json"}},
 };
 
-// Two scenes, of which the second has two cameras and a coat that is left out.
+// Two scenes, of which the second has two cameras and a sheen that is left out.
 Case of_two_scenes(const std::string& name, std::vector<std::string> arguments) {
   GltfBuilder quad = make_bumpy_quad();
   quad.json["scenes"] = {{{"name", "bare"}, {"nodes", {0}}}, {{"name", "seen"}, {"nodes", {1, 2, 3}}}};
@@ -85,8 +85,8 @@ Case of_two_scenes(const std::string& name, std::vector<std::string> arguments) 
                         {{"camera", 0}, {"translation", {0, 0, 3}}},
                         {{"camera", 0}, {"name", "near"}, {"translation", {0, 0, 2}}}};
   quad.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.6}, {"znear", 1e-9}}}}};
-  quad.json["extensionsUsed"] = {"KHR_materials_clearcoat"};
-  quad.json["extensionsRequired"] = {"KHR_materials_clearcoat"};
+  quad.json["extensionsUsed"] = {"KHR_materials_sheen"};
+  quad.json["extensionsRequired"] = {"KHR_materials_sheen"};
   arguments.insert(arguments.begin() + 1, "{}/quad.gltf");
   return {.name = name,
           .arguments = std::move(arguments),
@@ -99,7 +99,7 @@ std::vector<Case> choices() {
                        "0 `bare`, *1 `seen`",
                        "*0 `camera 0`, 1 `near`",
                        "the first of 2 cameras is used",
-                       "KHR_materials_clearcoat is left out: the clear coat",
+                       "KHR_materials_sheen is left out: sheen",
                        "memory for maps, estimated"};
   Case in_json = of_two_scenes("ListedInJson", {"explain", "--camera", "near", "--model-scene", "1", "--json"});
   in_json.output_has = {"\"taken\": 1", "\"warnings\"", "\"estimated_peak\""};

@@ -198,10 +198,8 @@ void apply(const BrdfSettings& settings, const MapSettings& maps, Material& mate
 }
 
 void tile(glm::vec2 tiling, Material& material) {
-  for (auto* map : {&material.base_color_map, &material.metallic_roughness_map, &material.normal_map,
-                    &material.lobe_parameter_map, &material.specular_map}) {
-    if (!map->has_value()) continue;
-    glm::mat3x2& transform = (*map)->coordinates.transform;
+  for (TextureMap* map : maps_of(material)) {
+    glm::mat3x2& transform = map->coordinates.transform;
     for (int column = 0; column < 3; ++column) transform[column] *= tiling;
   }
 }
@@ -264,6 +262,18 @@ void lay(const LaidMaps& maps, const BrdfSettings& settings, Material& material)
     material.base_color_map = maps.diffuse;
     material.base_color = {settings.base_color.value_or(glm::vec3(1.0F)), material.base_color.a};
   }
+}
+
+std::optional<ClearCoat> load_coat(const CoatSettings& settings, std::vector<std::string>& warnings) {
+  if (settings.weight == 0.0F) return std::nullopt;
+  ClearCoat coat;
+  coat.weight = settings.weight;
+  coat.roughness = settings.roughness;
+  if (settings.normal_map) {
+    const auto& file = *settings.normal_map;
+    coat.normal_map = make_map(file, read_normal_map(file, 1.0, NormalChannels::xyz, warnings));
+  }
+  return coat;
 }
 
 // The shares of several materials of a surface. An 8-bit picture holds a number in the 255 steps of its red channel.
@@ -373,6 +383,10 @@ Model load_part(const PartSettings& settings) {
   if (settings.layer) layer = load_layer(*settings.layer, model.warnings);
   const LaidMaps maps = load_maps(settings);
   for (Material& material : model.materials) apply(settings.brdf, settings.maps, material);
+  if (settings.coat) {
+    const std::optional<ClearCoat> coat = load_coat(*settings.coat, model.warnings);
+    for (Material& material : model.materials) material.coat = coat;
+  }
   lay_patches(settings, model);
   for (Material& material : model.materials) {
     tile(settings.tiling, material);

@@ -88,6 +88,33 @@ scale = 3
   EXPECT_NEAR(scene.bounds.upper.x, 10.0F, 1e-5F);
 }
 
+TEST(Parts, HaveCoatsOfTheirOwn) {
+  const Scene scene = load_parts(R"([[part]]
+plane = {}
+clear_coat = { weight = 0.5, roughness = 0.25 }
+[[part]]
+plane = {}
+clear_coat = {}
+[[part]]
+plane = {}
+clear_coat = { weight = 0 }
+[[part]]
+plane = {}
+)");
+  ASSERT_EQ(scene.materials.size(), 4U);
+  ASSERT_TRUE(scene.materials[0].coat && scene.materials[1].coat);
+  EXPECT_EQ(scene.materials[0].coat->weight, 0.5F);
+  EXPECT_EQ(scene.materials[0].coat->roughness, 0.25F);
+  EXPECT_EQ(scene.materials[1].coat->weight, 1.0F);
+  EXPECT_EQ(scene.materials[1].coat->roughness, 0.0F);
+  EXPECT_FALSE(scene.materials[2].coat);
+  EXPECT_FALSE(scene.materials[3].coat);
+  expect_part_error("[[part]]\nplane = {}\nclear_coat = { weight = 2 }\n", {"weight", "0", "1"});
+  expect_part_error("[[part]]\nplane = {}\nclear_coat = { wieght = 1 }\n", {"wieght", "weight"});
+  expect_part_error("[[part]]\nplane = {}\nclear_coat = { normal_map = 'missing.png' }\n", {"missing.png"});
+  expect_part_error("[clear_coat]\n[[part]]\nplane = {}\n", {"clear_coat", "excludes [[part]]"});
+}
+
 TEST(Parts, TurnAboutXThenYThenZ) {
   const Scene scene = load_parts("[[part]]\nplane = {}\nplace = { rotate_degrees = [90, 0, 90] }\n");
   // About x the normal +z goes to -y, about z on to +x.

@@ -190,6 +190,15 @@ Image decode_metallic_roughness(const Image& stored, float roughness_factor, flo
   return map;
 }
 
+Image decode_factor(const Image& stored, int channel, float factor) {
+  const auto from = static_cast<std::size_t>(stored.channels >= 3 ? channel : 0);
+  Image map(stored.width, stored.height, 1);
+  for (int y = 0; y < stored.height; ++y) {
+    for (int x = 0; x < stored.width; ++x) map.at(x, y)[0] = factor * unit_range(stored.at(x, y)[from]);
+  }
+  return map;
+}
+
 Image decode_lobe_parameter(const Image& stored, double least, double most) {
   // As a map of 32-bit floats holds the bounds: 0.001 is below the double of that name.
   const auto lowest = static_cast<float>(least), highest = static_cast<float>(most);

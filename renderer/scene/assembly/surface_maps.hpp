@@ -56,6 +56,9 @@ void scale_slopes(Image& normals, double strength);
 /// two stored channels count as grey.
 [[nodiscard]] Image decode_metallic_roughness(const Image& stored, float roughness_factor, float metallic_factor);
 
+/// One channel of a stored image within 0 to 1, times a factor; that of a grey image, whichever is asked for.
+[[nodiscard]] Image decode_factor(const Image& stored, int channel, float factor);
+
 /// One channel, the lobe parameter as stored in the first one. Errors (usage), which name the texel: a value that is
 /// not within `least` to `most`.
 [[nodiscard]] Image decode_lobe_parameter(const Image& stored, double least, double most);

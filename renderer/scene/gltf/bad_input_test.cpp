@@ -226,6 +226,25 @@ TEST(GltfBadInput, MaterialFactorsOutOfRange) {
   });
 }
 
+TEST(GltfBadInput, ClearCoats) {
+  const auto with_coat = [](const json& coat) {
+    return [coat](GltfBuilder& quad) {
+      quad.json["materials"] = {{{"extensions", {{"KHR_materials_clearcoat", coat}}}}};
+      primitive(quad)["material"] = 0;
+    };
+  };
+  expect_error("materials[0].extensions.KHR_materials_clearcoat: must be an object", with_coat(1));
+  expect_error("clearcoatFactor: must be a number", with_coat({{"clearcoatFactor", "thick"}}));
+  expect_error("clearcoatFactor: 2 is not within 0 to 1", with_coat({{"clearcoatFactor", 2.0}}));
+  expect_error("clearcoatRoughnessFactor", with_coat({{"clearcoatFactor", 1.0}, {"clearcoatRoughnessFactor", -1.0}}));
+  for (const char* texture : {"clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"}) {
+    expect_error(std::string(texture) + ".index: index 7 is out of range",
+                 with_coat({{"clearcoatFactor", 1.0}, {texture, {{"index", 7}}}}));
+    expect_error(std::string(texture) + ".index: is missing", with_coat({{texture, json::object()}}));
+    expect_error(std::string(texture) + ": must be an object", with_coat({{texture, json::array()}}));
+  }
+}
+
 TEST(GltfBadInput, GlbContainers) {
   const std::string whole = make_quad().glb();
   const auto changed = [&](std::size_t offset, char value) {

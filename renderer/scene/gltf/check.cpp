@@ -137,6 +137,9 @@ constexpr auto rules = std::to_array<Rule>({
     {"materials[].extensions", JsonKind::object},
     {"materials[].extensions.*", JsonKind::object},
     {"materials[].extensions.KHR_materials_ior.ior", JsonKind::number},
+    {"materials[].extensions.KHR_materials_clearcoat.clearcoatFactor", JsonKind::number},
+    {"materials[].extensions.KHR_materials_clearcoat.clearcoatRoughnessFactor", JsonKind::number},
+    {"materials[].extensions.KHR_materials_clearcoat.clearcoatNormalTexture.scale", JsonKind::number},
     {"materials[].pbrMetallicRoughness", JsonKind::object},
     {"materials[].pbrMetallicRoughness.baseColorFactor", JsonKind::numbers, Need::optional, "", 4},
     {"materials[].pbrMetallicRoughness.metallicFactor", JsonKind::number},
@@ -175,6 +178,9 @@ constexpr auto texture_paths = std::to_array<std::string_view>({
     "materials[].normalTexture",
     "materials[].occlusionTexture",
     "materials[].emissiveTexture",
+    "materials[].extensions.KHR_materials_clearcoat.clearcoatTexture",
+    "materials[].extensions.KHR_materials_clearcoat.clearcoatRoughnessTexture",
+    "materials[].extensions.KHR_materials_clearcoat.clearcoatNormalTexture",
 });
 
 /// What stands under each of `texture_paths`.
@@ -191,8 +197,8 @@ constexpr auto texture_rules = std::to_array<Rule>({
 });
 
 constexpr auto supported = std::to_array<std::string_view>(
-    {"EXT_meshopt_compression", "KHR_draco_mesh_compression", "KHR_lights_punctual", "KHR_materials_ior",
-     "KHR_materials_variants", "KHR_mesh_quantization", "KHR_texture_transform"});
+    {"EXT_meshopt_compression", "KHR_draco_mesh_compression", "KHR_lights_punctual", "KHR_materials_clearcoat",
+     "KHR_materials_ior", "KHR_materials_variants", "KHR_mesh_quantization", "KHR_texture_transform"});
 
 /// An extension, and what it is in words.
 struct ExtensionWord {
@@ -202,7 +208,6 @@ struct ExtensionWord {
 /// Those that add something to a surface which is whole without it.
 constexpr auto layers = std::to_array<ExtensionWord>({
     {"KHR_materials_anisotropy", "anisotropy"},
-    {"KHR_materials_clearcoat", "the clear coat"},
     {"KHR_materials_diffuse_transmission", "diffuse transmission"},
     {"KHR_materials_dispersion", "dispersion"},
     {"KHR_materials_emissive_strength", "the strength of emissive light"},

@@ -26,6 +26,12 @@ bool mentions(const std::vector<std::string>& lines, const std::string& words) {
   return std::ranges::any_of(lines, [&](const std::string& line) { return line.find(words) != std::string::npos; });
 }
 
+Image one_colour(const glm::vec3& bytes) {
+  Image image(2, 2, 3);
+  for (std::size_t i = 0; i < image.texels.size(); ++i) image.texels[i] = bytes[static_cast<int>(i % 3)] / 255.0F;
+  return image;
+}
+
 TEST(Gltf, QuadComesAsItIs) {
   const Model model = load_gltf(make_quad().write());
   ASSERT_EQ(model.meshes.size(), 1U);
@@ -347,6 +353,43 @@ TEST(Gltf, MapsAreDecodedAndShared) {
   // (0.0039, 1, 1) normalised.
   EXPECT_NEAR(material.normal_map->image.decoded().at(0, 0)[2], std::sqrt(0.5), 1e-5);
   EXPECT_EQ(material.normal_map->image, model.materials.at(1).normal_map->image);
+}
+
+TEST(Gltf, ClearCoatsHaveFactorsAndMapsOfTheirOwn) {
+  GltfBuilder quad = make_quad();
+  const int texture = quad.add_texture(one_colour({51.0F, 102.0F, 255.0F}));
+  const json shifted = {{"index", texture},
+                        {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0.0}}, {"texCoord", 0}}}}}};
+  const json coat = {{"clearcoatFactor", 0.5},
+                     {"clearcoatTexture", {{"index", texture}}},
+                     {"clearcoatRoughnessFactor", 0.25},
+                     {"clearcoatRoughnessTexture", shifted},
+                     {"clearcoatNormalTexture", {{"index", texture}, {"scale", 2.0}}}};
+  quad.json["materials"] = {{{"extensions", {{"KHR_materials_clearcoat", coat}}}},
+                            {{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 0.75}}}}}},
+                            {{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatRoughnessFactor", 0.5}}}}}}};
+  quad.json["extensionsUsed"] = {"KHR_materials_clearcoat"};
+  auto& primitives = quad.json["meshes"][0]["primitives"];
+  for (int i = 0; i < 3; ++i) {
+    if (i > 0) primitives.push_back(primitives[0]);
+    primitives[static_cast<std::size_t>(i)]["material"] = i;
+  }
+  const Model model = load_gltf(quad.write());
+  EXPECT_TRUE(model.warnings.empty());
+  const std::optional<ClearCoat>& mapped = model.materials.at(0).coat;
+  ASSERT_TRUE(mapped && mapped->weight_map && mapped->roughness_map && mapped->normal_map);
+  EXPECT_FLOAT_EQ(mapped->weight_map->image.decoded().at(0, 0)[0], 0.5F * 51.0F / 255.0F);       // red
+  EXPECT_FLOAT_EQ(mapped->roughness_map->image.decoded().at(0, 0)[0], 0.25F * 102.0F / 255.0F);  // green
+  EXPECT_EQ(mapped->roughness_map->coordinates.transform[2], glm::vec2(0.5F, 0.0F));
+  const glm::vec3 leaning = glm::normalize(glm::vec3(2.0F * -0.6F, 2.0F * -0.2F, 1.0F));
+  const Image normals = mapped->normal_map->image.decoded();
+  expect_near({normals.at(0, 0)[0], normals.at(0, 0)[1], normals.at(0, 0)[2]}, leaning);
+  const std::optional<ClearCoat>& constant = model.materials.at(1).coat;
+  ASSERT_TRUE(constant);
+  EXPECT_EQ(constant->weight, 0.75F);
+  EXPECT_EQ(constant->roughness, 0.0F);
+  EXPECT_FALSE(constant->weight_map || constant->roughness_map || constant->normal_map);
+  EXPECT_FALSE(model.materials.at(2).coat) << "a weight of 0, the default, is no coat";
 }
 
 /// The example of KHR_texture_transform: the lower left quadrant of the image, turned clockwise by 90 degrees.

@@ -67,7 +67,32 @@ std::string image_name(const tinygltf::Image& image, int index) {
   return image.name.empty() ? fmt::format("images[{}]", index) : image.name;
 }
 
-enum class MapUse { color, rough, normal };
+enum class MapUse { color, rough, normal, coat_weight, coat_roughness };
+
+// A texture reference that stands in an extension. check_gltf_json has seen to its members' kinds.
+struct TextureReference {
+  int index = -1, set = 0;
+  double scale = 1.0;  // of a normal map
+  tinygltf::ExtensionMap extensions;
+};
+
+TextureReference texture_in(const tinygltf::Value& extension, const char* key) {
+  if (!extension.Has(key)) return {};
+  const tinygltf::Value& texture = extension.Get(key);
+  TextureReference out{.index = texture.Get("index").GetNumberAsInt(),
+                       .set = static_cast<int>(number(texture, "texCoord", 0.0)),
+                       .scale = number(texture, "scale", 1.0),
+                       .extensions = {}};
+  if (!texture.Has("extensions")) return out;
+  const tinygltf::Value& extensions = texture.Get("extensions");
+  for (const std::string& name : extensions.Keys()) out.extensions.emplace(name, extensions.Get(name));
+  return out;
+}
+
+const tinygltf::Value* coat_of(const tinygltf::Material& material) {
+  const auto coat = material.extensions.find("KHR_materials_clearcoat");
+  return coat == material.extensions.end() ? nullptr : &coat->second;
+}
 
 }  // namespace
 
@@ -87,6 +112,11 @@ std::uint64_t decoded_map_bytes(const GltfDocument& document) {
     count(material.pbrMetallicRoughness.baseColorTexture.index, MapUse::color, 4);
     count(material.pbrMetallicRoughness.metallicRoughnessTexture.index, MapUse::rough, 2);
     count(material.normalTexture.index, MapUse::normal, 4);
+    if (const tinygltf::Value* coat = coat_of(material)) {
+      count(texture_in(*coat, "clearcoatTexture").index, MapUse::coat_weight, 1);
+      count(texture_in(*coat, "clearcoatRoughnessTexture").index, MapUse::coat_roughness, 1);
+      count(texture_in(*coat, "clearcoatNormalTexture").index, MapUse::normal, 4);
+    }
   }
   return bytes;
 }
@@ -132,6 +162,7 @@ Material GltfMaterials::convert_named(int gltf_index) {
   material.double_sided = source.doubleSided;
   convert_alpha(source, material);
   convert_maps(source, material);
+  convert_coat(source, material);
   warn_left_out(source);
   return material;
 }
@@ -152,6 +183,29 @@ void GltfMaterials::convert_maps(const tinygltf::Material& source, Material& mat
     material.normal_map->image =
         normals(image_of(normal.index), checked(normal.scale, -1e4, 1e4, "normalTexture.scale"));
   }
+}
+
+// KHR_materials_clearcoat: weight 0, the default, is no coat at all.
+void GltfMaterials::convert_coat(const tinygltf::Material& source, Material& material) {
+  const tinygltf::Value* const extension = coat_of(source);
+  if (extension == nullptr) return;
+  ClearCoat coat;
+  coat.weight = checked(number(*extension, "clearcoatFactor", 0.0), 0.0, 1.0, "clearcoatFactor");
+  coat.roughness = checked(number(*extension, "clearcoatRoughnessFactor", 0.0), 0.0, 1.0, "clearcoatRoughnessFactor");
+  if (coat.weight == 0.0F) return;
+  const auto image_of = [&](int texture) { return document_.model.textures[static_cast<std::size_t>(texture)].source; };
+  const TextureReference weight = texture_in(*extension, "clearcoatTexture");
+  if ((coat.weight_map = find_map(weight.index, weight.set, weight.extensions)))
+    coat.weight_map->image = factor(image_of(weight.index), 0, coat.weight);
+  const TextureReference roughness = texture_in(*extension, "clearcoatRoughnessTexture");
+  if ((coat.roughness_map = find_map(roughness.index, roughness.set, roughness.extensions)))
+    coat.roughness_map->image = factor(image_of(roughness.index), 1, coat.roughness);
+  const TextureReference normal = texture_in(*extension, "clearcoatNormalTexture");
+  if ((coat.normal_map = find_map(normal.index, normal.set, normal.extensions))) {
+    coat.normal_map->image =
+        normals(image_of(normal.index), checked(normal.scale, -1e4, 1e4, "clearcoatNormalTexture.scale"));
+  }
+  material.coat = std::move(coat);
 }
 
 void GltfMaterials::convert_alpha(const tinygltf::Material& source, Material& material) {
@@ -220,6 +274,12 @@ MapTexels GltfMaterials::metallic_roughness(int image, const Material& material)
     map = MapTexels::packed(
         decode_metallic_roughness(stored(image, Transfer::linear), material.roughness, material.metallic));
   }
+  return map;
+}
+
+MapTexels GltfMaterials::factor(int image, int channel, float factor) {
+  auto& map = maps_[fmt::format("{} channel {} {}", image, channel, factor)];
+  if (!map) map = MapTexels::packed(decode_factor(stored(image, Transfer::linear), channel, factor));
   return map;
 }
 

@@ -32,12 +32,14 @@ class GltfMaterials {
   [[nodiscard]] Material convert(int gltf_index);
   [[nodiscard]] Material convert_named(int gltf_index);
   void convert_maps(const tinygltf::Material& source, Material& material);
+  void convert_coat(const tinygltf::Material& source, Material& material);
   void convert_alpha(const tinygltf::Material& source, Material& material);
   void warn_left_out(const tinygltf::Material& source);
   [[nodiscard]] std::optional<TextureMap> find_map(int texture, int set, const tinygltf::ExtensionMap& extensions);
   [[nodiscard]] Image stored(int index, Transfer transfer) const;
   [[nodiscard]] MapTexels base_color(int image);
   [[nodiscard]] MapTexels metallic_roughness(int image, const Material& material);
+  [[nodiscard]] MapTexels factor(int image, int channel, float factor);
   [[nodiscard]] MapTexels normals(int image, double scale);
 
   const GltfDocument& document_;

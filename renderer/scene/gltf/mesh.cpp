@@ -114,9 +114,8 @@ void read_colors(Builder& builder) {
 }
 
 void check_map_coordinates(const Builder& builder, const Material& material, bool has_set0, bool has_set1) {
-  for (const auto* map : {&material.base_color_map, &material.metallic_roughness_map, &material.normal_map}) {
-    if (!map->has_value()) continue;
-    const int set = (*map)->coordinates.set;
+  for (const TextureMap* map : maps_of(material)) {
+    const int set = map->coordinates.set;
     if (set == 0 ? has_set0 : has_set1) continue;
     add_once(builder.warnings, fmt::format("{}: no TEXCOORD_{} for the maps of `{}`, its maps show one texel",
                                            builder.place, set, material.name));
@@ -177,6 +176,12 @@ void transform(Builder& builder, const glm::dmat4& world) {
   }
 }
 
+// Those of the normal map; where only the coat has one, of the coat's.
+TextureCoordinates tangent_coordinates(const Material& material) {
+  if (material.normal_map) return material.normal_map->coordinates;
+  return material.coat && material.coat->normal_map ? material.coat->normal_map->coordinates : TextureCoordinates{};
+}
+
 void complete_frames(Builder& builder, const Material& material) {
   if (builder.has_normals) {
     builder.warn(repair_normals(builder.vertices, builder.indices),
@@ -187,8 +192,7 @@ void complete_frames(Builder& builder, const Material& material) {
   if (builder.has_tangents) {
     builder.warn(repair_tangents(builder.vertices), "tangents without a direction were replaced");
   } else {
-    compute_tangents(builder.vertices, builder.indices,
-                     material.normal_map ? material.normal_map->coordinates : TextureCoordinates{});
+    compute_tangents(builder.vertices, builder.indices, tangent_coordinates(material));
   }
 }
 

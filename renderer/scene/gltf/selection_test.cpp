@@ -149,11 +149,11 @@ TEST(GltfSelection, ALibrarySceneTakesThemToo) {
 
 TEST(GltfExtensions, LayersAreLeftOutWithAWarningEvenWhereRequired) {
   GltfBuilder file = make_quad();
-  file.json["extensionsUsed"] = {"KHR_materials_sheen", "KHR_materials_clearcoat", "EXT_other"};
+  file.json["extensionsUsed"] = {"KHR_materials_sheen", "KHR_materials_iridescence", "EXT_other"};
   file.json["extensionsRequired"] = {"KHR_materials_sheen"};
   EXPECT_EQ(load(file).warnings, (std::vector<std::string>{
                                      "extension KHR_materials_sheen is left out: sheen",
-                                     "extension KHR_materials_clearcoat is left out: the clear coat",
+                                     "extension KHR_materials_iridescence is left out: iridescence",
                                      "extension EXT_other is left out",
                                  }));
   file.json["extensionsRequired"] = {"EXT_other"};

@@ -333,7 +333,15 @@ LayerSettings read_layer(const TomlTable& table, const std::filesystem::path& fo
   return layer;
 }
 
-/// A part's content, layer, maps and tiling, with a BRDF that is read already.
+CoatSettings read_coat(const TomlTable& table, const std::filesystem::path& folder) {
+  CoatSettings coat;
+  coat.weight = static_cast<float>(table.number("weight", unit_range).value_or(coat.weight));
+  coat.roughness = static_cast<float>(table.number("roughness", unit_range).value_or(coat.roughness));
+  if (const auto name = table.word("normal_map")) coat.normal_map = folder / *name;
+  return coat;
+}
+
+/// A part's content, layer, maps, coat and tiling, with a BRDF that is read already.
 PartSettings read_part(const TomlTable& table, const BrdfSettings& brdf, const std::filesystem::path& folder,
                        std::span<const Surface> surfaces) {
   PartSettings part;
@@ -346,6 +354,8 @@ PartSettings read_part(const TomlTable& table, const BrdfSettings& brdf, const s
           table.table("maps", {"roughness", "exponent", "alpha", "kappa", "specular", "diffuse", "material"})) {
     part.maps = read_maps(*maps, part.brdf, folder);
   }
+  if (const auto coat = table.table("clear_coat", {"weight", "roughness", "normal_map"}))
+    part.coat = read_coat(*coat, folder);
   part.microgeometry = read_patches(table, part.maps, folder);
   if (const auto tiling = table.table("tiling", {"uv"})) {
     if (const auto uv = tiling->numbers("uv", 2, repeats)) part.tiling = {(*uv)[0], (*uv)[1]};
@@ -369,22 +379,22 @@ NumberRange lobe_range(NormalDistribution distribution) {
 }
 
 const std::vector<std::string>& part_root_keys() {
-  static const std::vector<std::string> keys{"part", "model", "plane",         "surface", "layer",
-                                             "brdf", "maps",  "microgeometry", "tiling"};
+  static const std::vector<std::string> keys{"part", "model", "plane",      "surface",       "layer",
+                                             "brdf", "maps",  "clear_coat", "microgeometry", "tiling"};
   return keys;
 }
 
 std::vector<PartSettings> read_parts(const TomlTable& root, const std::filesystem::path& folder,
                                      std::span<const Surface> surfaces) {
   if (!root.has("part")) return {read_only_part(root, folder, surfaces)};
-  for (const char* key : {"model", "plane", "surface", "layer", "maps", "microgeometry", "tiling"}) {
+  for (const char* key : {"model", "plane", "surface", "layer", "maps", "clear_coat", "microgeometry", "tiling"}) {
     if (root.has(key)) throw root.error_at(key, "excludes [[part]]", "move it into a [[part]]");
   }
   const auto common_table = root.table("brdf", common_brdf_keys);
   const BrdfSettings common = common_table ? read_common_brdf(*common_table) : BrdfSettings{};
   std::vector<PartSettings> parts;
   for (const TomlTable& table : root.tables("part", {"name", "model", "plane", "surface", "layer", "brdf", "maps",
-                                                     "microgeometry", "tiling", "place"})) {
+                                                     "clear_coat", "microgeometry", "tiling", "place"})) {
     const auto own = table.table("brdf", own_brdf_keys);
     PartSettings& part =
         parts.emplace_back(read_part(table, own ? read_own_brdf(*own, common) : common, folder, surfaces));

@@ -79,6 +79,12 @@ struct MapSettings {
   std::optional<MapFile> material;  ///< whole numbers that choose among several patches; there where there are several
 };
 
+/// A clear coat in place of what the materials have: weight 0 takes it off.
+struct CoatSettings {
+  float weight = 1.0F, roughness = 0.0F;
+  std::optional<std::filesystem::path> normal_map;  ///< none: the mesh's own normals
+};
+
 /// Ward's isotropic BRDF (1992).
 struct WardSettings {
   double alpha = 0.1;
@@ -120,6 +126,7 @@ struct PartSettings {
   std::optional<LayerSettings> layer;
   BrdfSettings brdf;
   MapSettings maps;
+  std::optional<CoatSettings> coat;                  ///< none: the materials' own
   std::vector<MicrogeometrySettings> microgeometry;  ///< none, one, or several that a map chooses among
   glm::vec2 tiling{1.0F};  ///< on the texture coordinates of all maps but those that say their own
   Placement placement;

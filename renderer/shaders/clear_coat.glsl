@@ -1,0 +1,69 @@
+// The clear coat over what a point reflects (KHR_materials_clearcoat; docs/base-brdf.md, Clear coat): the same for every
+// method and for the reference, which takes each texel's own coat.
+//? include ggx_density.glsl
+//? include ggx_geometry.glsl
+
+struct Coat {
+  vec3 normal;  // unit, tangent frame
+  float alpha2;
+  float weight;
+  float share;   // of what is seen: weight times Fresnel's term, of which the rest is the base's
+  float spread;  // the part of alpha2 that is the normals' own variance
+};
+
+// Schlick's term of an index of refraction of 1.5 about the coat's normal, as the extension has it, not about the half
+// vector: what it takes from the base is then the same for all light.
+float coatFresnel(float cosine) {
+  float x = 1.0 - min(abs(cosine), 1.0);
+  float x2 = x * x;
+  return 0.04 + 0.96 * (x2 * x2 * x);
+}
+
+Coat coatUnder(Footprints f, vec3 wo) {
+//? if coat_weight_variation
+  float weight = fetch(coat_weight_map, f.coat_weight).r;
+//? else
+  float weight = coat_weight_width.x;
+//? end
+//? if coat_width_variation
+  float alpha2 = fetch(coat_width_map, f.coat_width).r;
+//? else
+  float alpha2 = coat_weight_width.y;
+//? end
+//? if coat_normal_variation
+  vec3 mean = fetch(coat_normal_map, f.coat_normal).xyz;
+  float size = max(length(mean), 1e-3);
+  vec3 normal = dot(mean, mean) > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0);  // some that cancel have no mean
+//? else
+  vec3 normal = vec3(0.0, 0.0, 1.0);
+//? end
+  float spread = 0.0;
+//? if coat_normal_variation and sampling_frame
+  // The slopes' variance on each axis, (1 - r) / r (Toksvig 2005), beside GGX's alpha^2 / 2.
+  float added = 2.0 * max(1.0 - size, 0.0) / size;
+  spread = added / (alpha2 + added);
+  alpha2 = min(alpha2 + added, 1.0);
+//? end
+  return Coat(normal, alpha2, weight, weight * coatFresnel(dot(normal, wo)), spread);
+}
+
+// The share of the normals that mirror light by h, where they are spread: of Gaussian slopes about a mean, each with a
+// lobe of its own, the mean of those that have h in their lobe lies between the two, as far towards h as their spread is
+// of the whole. At grazing views, of normals that few mirror by, it is far less than the mean normal's.
+float coatShare(Coat coat, vec3 h, vec3 wo) {
+//? if coat_normal_variation and sampling_frame
+  return coat.weight * coatFresnel(dot(normalize(mix(coat.normal, h, coat.spread)), wo));
+//? else
+  return coat.share;
+//? end
+}
+
+// f * cos of the coat alone, its share included.
+float coatReflectance(Coat coat, vec3 wi, vec3 wo) {
+  if (coat.share <= 0.0 || !halfVectorIsDefined(wi, wo)) return 0.0;
+  countLobes(1);
+  vec3 h = halfVector(wi, wo);
+  if (dot(coat.normal, h) <= 0.0) return 0.0;  // and no mean of the two where they are opposite
+  return coatShare(coat, h, wo) * ggxDensity(coat.alpha2, coat.normal, h) *
+         ggxGeometry(coat.alpha2, coat.normal, wi, wo);
+}

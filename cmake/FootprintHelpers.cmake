@@ -47,6 +47,12 @@ function(footprint_add_library name)
   set_property(GLOBAL APPEND PROPERTY FOOTPRINT_LIBRARIES ${name})
 endfunction()
 
+# What a test program may take: instrumented bakes run ten times slower.
+set(FOOTPRINT_TEST_SECONDS 300)
+if(FOOTPRINT_SANITIZE)
+  set(FOOTPRINT_TEST_SECONDS 3000)
+endif()
+
 # footprint_add_test(NAME SOURCES ... LIBRARIES ...): one GTest binary, one ctest entry. It draws hundreds of programs
 # once each, so llvmpipe's compiler leaves its optimisation passes out, which takes a tenth to two fifths off where no
 # program is kept from an earlier run; other drivers do not know the word. The end-to-end tests draw as users do.
@@ -61,7 +67,7 @@ function(footprint_add_test name)
   footprint_reuse_headers(${name} footprint_precompiled_tests)
   footprint_unite(${name})
   add_test(NAME ${name} COMMAND ${name})
-  set_tests_properties(${name} PROPERTIES TIMEOUT 300 ENVIRONMENT GALLIVM_PERF=nopt)
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${FOOTPRINT_TEST_SECONDS} ENVIRONMENT GALLIVM_PERF=nopt)
 endfunction()
 
 # footprint_embed(TARGET SYMBOL PATTERN ...): the texts of the files that match as `extern const EmbeddedTexts SYMBOL` in

@@ -21,6 +21,7 @@
 #include "renderer/baked_files/bumpslopes.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
+#include "renderer/pipeline/built_maps.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 
 namespace footprint {
@@ -165,6 +166,7 @@ void run_bake(const BakeArguments& arguments) {
     const EffectSet effects = effects_on(derive_effects(scene));
     BakedMethod baked = bake_settings(run, scene, effects, display.callback());
     if (slopes) take_slopes(*slopes, baked);
+    if (waits_for_build(baked)) take_built_maps(gl::Context(run.backend.context), scene, effects, baked);
     const BakeToFiles bake{.scene = scene,
                            .baked = baked,
                            .effects = effects,

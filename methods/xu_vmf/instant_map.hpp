@@ -40,6 +40,7 @@ class InstantMap final : public FrameBuild {
   InstantMap(const ShaderVariant& variant, const Options& options);
 
   void run(const FrameBuildJob& job) const override;
+  [[nodiscard]] bool looks_from_view() const override { return join_surface_.has_value(); }
   [[nodiscard]] std::optional<BuildInputs> kept_until_change_of() const override;
 
  private:

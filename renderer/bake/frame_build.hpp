@@ -26,6 +26,9 @@ class FrameBuild {
   /// Issues the passes for one material. Whoever calls it puts memory barriers before and behind it.
   virtual void run(const FrameBuildJob& job) const = 0;
 
+  /// Whether what is built differs from one view to another, so that it is no map of the material.
+  [[nodiscard]] virtual bool looks_from_view() const { return true; }
+
   /// What a build may be kept for: as long as none of these changes, what was built serves the next frame too. None: it
   /// is built for every frame, whatever moved.
   [[nodiscard]] virtual std::optional<BuildInputs> kept_until_change_of() const { return {}; }

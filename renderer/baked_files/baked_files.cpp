@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 
 #include "renderer/baked_files/bumpslopes.hpp"
 #include "renderer/baked_files/ktx2.hpp"
@@ -138,14 +139,8 @@ void require_files(const BakeToFiles& bake) {
   std::size_t count = 0;
   for (const Prefiltered& prefiltered : bake.baked.materials) {
     count += prefiltered.textures.size();
-    const bool is_built = prefiltered.surface_coordinates.has_value() ||
-                          std::ranges::any_of(prefiltered.textures, &PrefilteredTexture::built);
-    if (is_built) {
-      throw Error(
-          ErrorKind::usage, fmt::format("method {}", bake.baked.spec.text),
-          "joins normal map and base BRDF on the GPU anew for each frame: there is nothing that a file could hold",
-          "bake cells, tan_gmm or lean, whose lobes are made beforehand");
-    }
+    if (std::ranges::any_of(prefiltered.textures, &PrefilteredTexture::built))
+      throw std::logic_error("a texture waits for its frame build");
   }
   if (count > 0 || bake.baked.method->info().screen_derivatives) return;  // the screen tells of curvature, too
   throw Error(ErrorKind::usage, fmt::format("{}, method {}", bake.scene.source, bake.baked.spec.text),

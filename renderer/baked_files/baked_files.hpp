@@ -49,7 +49,7 @@ struct BakeListing {
 [[nodiscard]] BakeListing list_bake(const BakeToFiles& bake);
 
 /// Refuses, before anything is written, what would leave no files that another program could draw by. Errors (usage):
-/// the method rebuilds its textures each frame, asks for screen derivatives, or has no texture for this scene.
+/// the method has no texture for this scene. What a frame build fills must have been taken (built_maps.hpp).
 void require_files(const BakeToFiles& bake);
 
 /// Writes all of them and manifest.json into `folder`, which exists. Equal bakes give equal bytes. Errors: those of

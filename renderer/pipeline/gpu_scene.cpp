@@ -228,6 +228,21 @@ gl::Texture upload_texels(const PrefilteredTexture& texture) {
   return out;
 }
 
+void read_texels(const gl::Texture& from, PrefilteredTexture& into) {
+  const GlFormat format = gl_format(into.storage, into.channels);
+  gl::api().PixelStorei(GL_PACK_ALIGNMENT, 1);
+  const int texel_layers = into.channels * std::max(into.layers, 1);
+  for (std::size_t i = 0; i < into.levels.size(); ++i) {
+    TextureLevel& level = into.levels[i];
+    std::vector<std::uint8_t>& bytes = level.bytes;
+    bytes.resize(channel_bytes(into.storage) * static_cast<std::size_t>(texel_layers) *
+                 static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height));
+    gl::api().GetTextureImage(from.name(), static_cast<GLint>(i), format.format, format.type,
+                              static_cast<GLsizei>(bytes.size()), bytes.data());
+  }
+  into.built = false;
+}
+
 GpuTexture upload(const PrefilteredTexture& texture) {
   return {std::make_shared<const gl::Texture>(upload_texels(texture)), texture.coordinates, texture.filter};
 }

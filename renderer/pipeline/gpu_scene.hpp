@@ -70,6 +70,9 @@ struct GpuTexture {
 [[nodiscard]] gl::Texture upload_texels(const PrefilteredTexture& texture);
 [[nodiscard]] GpuTexture upload(const PrefilteredTexture& texture);
 
+/// Takes the texels of `from`, which has the sizes of `into`'s levels, into it: a built texture counts as baked then.
+void read_texels(const gl::Texture& from, PrefilteredTexture& into);
+
 /// Uploads textures, those of the same texels once. What a frame build writes is never shared.
 class SharedUploads {
  public:

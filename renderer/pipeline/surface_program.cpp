@@ -176,6 +176,13 @@ const GpuMethod::PerBatch& GpuMethod::part_of(const GpuBatch& batch) const {
   return batches_.at(static_cast<std::size_t>(&batch - scene_->batches().data()));
 }
 
+std::span<const GpuTexture> GpuMethod::textures(std::size_t material) const {
+  const std::vector<GpuBatch>& batches = scene_->batches();
+  const auto found = std::ranges::find(batches, material, &GpuBatch::material);
+  if (found == batches.end()) return {};
+  return part_of(*found).textures;
+}
+
 GLuint GpuMethod::vertex_array(const GpuBatch& batch) const {
   const gl::VertexArray& own = part_of(batch).vertex_array;
   return own ? own.name() : batch.vertex_array.name();

@@ -30,6 +30,10 @@ class GpuMethod {
   /// Whether the method has a frame build, and whether a frame in which nothing moved keeps what was built before.
   [[nodiscard]] bool has_frame_build() const { return build_ != nullptr; }
   [[nodiscard]] bool keeps_builds() const { return build_ && build_->kept_until_change_of(); }
+  /// Whether what is built depends on where the scene is seen from.
+  [[nodiscard]] bool looks_from_view() const { return build_ && build_->looks_from_view(); }
+  /// The textures of a material, in the order of what was baked; none where it has no triangle.
+  [[nodiscard]] std::span<const GpuTexture> textures(std::size_t material) const;
   /// Runs the frame build of every material for a view, if there is one and what was last built does not serve it too.
   /// Leaves framebuffers, viewport, vertex array, depth test, culling and blending as they are.
   void build_frame(const View& view) const;

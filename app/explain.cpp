@@ -102,7 +102,7 @@ Explanation explain(const ExplainArguments& arguments, const Progress& progress)
   out.warnings = stage.scene().warnings;
   out.supplied = stage.scene().defaults;
   out.effects = stage.decisions();
-  out.memory = estimate_memory(stage.scene(), stage.effects(), normal_chain_channels_of(run.methods));
+  out.memory = estimate_memory(stage.scene(), stage.effects(), normal_memory_of(run.methods, stage.effects()));
   out.method = run.methods.front().text;
   out.left_out = effect_names(stage.effects() & ~method.baked().method->info().honours);
   out.draws = stage.gpu_scene().batches().size();
@@ -182,7 +182,7 @@ std::string text_of(const Explanation& explanation) {
                       "as 32-bit floats", readable_bytes(explanation.memory.maps), "kept, at their own depth",
                       readable_bytes(explanation.memory.kept), "peak with this method",
                       readable_bytes(explanation.memory.peak()), "each further method",
-                      readable_bytes(explanation.memory.methods.front()));
+                      readable_bytes(explanation.memory.methods.front().kept));
   if (explanation.costs.empty()) return text;
   text += fmt::format("\n{:<23} {:>10} {:>12} {:>10}\n", "cost, ms a frame", "with", "without", "adds");
   for (const EffectCost& cost : explanation.costs) {
@@ -228,7 +228,7 @@ std::string json_of(const Explanation& explanation) {
   json["memory"] = {{"decoded_maps", explanation.memory.maps},
                     {"kept_maps", explanation.memory.kept},
                     {"estimated_peak", explanation.memory.peak()},
-                    {"each_further_method", explanation.memory.methods.front()}};
+                    {"each_further_method", explanation.memory.methods.front().kept}};
   json["shared_bytes"] = explanation.shared_bytes;
   json["method_bytes"] = explanation.method_bytes;
   json["textures"] = Json::array();

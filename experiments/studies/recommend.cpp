@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "experiments/studies/compare.hpp"
+#include "experiments/studies/stage.hpp"
 #include "experiments/studies/truth.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/file_names.hpp"
@@ -200,23 +201,56 @@ class Advisor {
         parts_(progress, (settings.exhaustive ? 0.0 : 1.0) + 3.0) {}
 
   Recommendation run() {
-    std::vector<std::vector<MethodSpec>> methods;
+    MethodsByFilter methods;
     for (const FootprintFilter& filter : settings_.filters)
       methods.push_back(with_plain(settings_.run.methods, filter));
-    std::size_t tried = 0;
-    for (const auto& own : methods) tried += own.size();
-    if (!settings_.exhaustive) methods = still_in_question(run_all(methods, true), methods);
-    std::size_t measured = 0;
-    for (const auto& own : methods) measured += own.size();
+    std::optional<std::size_t> tried;
+    if (!settings_.exhaustive) {
+      const std::vector<FilterRun> coarse = run_all(methods, true);
+      tried = count_of(methods);
+      methods = still_in_question(coarse, methods);
+    }
     const std::vector<FilterRun> runs = run_all(methods, false);
     Recommendation result = described(runs);
-    result.tried = tried;
-    result.measured = measured;
+    result.measured = count_of(methods);
+    result.tried = tried.value_or(result.measured);
+    result.left_out = left_out_;
     return result;
   }
 
  private:
-  std::vector<FilterRun> run_all(const std::vector<std::vector<MethodSpec>>& methods, bool coarse) {
+  // Methods of each footprint filter.
+  using MethodsByFilter = std::vector<std::vector<MethodSpec>>;
+
+  static std::size_t count_of(const MethodsByFilter& methods) {
+    std::size_t count = 0;
+    for (const auto& own : methods) count += own.size();
+    return count;
+  }
+
+  // The comparison under filter `f` of the methods that the machine takes: one that it refuses goes from every
+  // filter's. None: none is left. Without plain `direct`, which all is held against, there is nothing to say.
+  std::optional<Results> compared(MethodsByFilter& methods, std::size_t f, bool coarse,
+                                  const std::filesystem::path& own, const Progress& progress, SharedTruth& truth) {
+    double most = 0;  // what is begun again is no step back
+    const Progress onward = [&](std::string_view what, double fraction) {
+      most = std::max(most, fraction);
+      progress(what, most);
+    };
+    while (!methods[f].empty()) {
+      try {
+        return run_compare(settings_of(settings_, settings_.filters[f], methods[f], coarse), own, {}, onward, &truth);
+      } catch (const RefusedMethod& refused) {
+        const std::string& text = refused.spec().text;
+        if (text == "direct") throw;
+        left_out_.push_back({.method = text, .reason = fmt::format("{} ({})", refused.message(), refused.hint())});
+        for (auto& left : methods) std::erase_if(left, [&](const MethodSpec& method) { return method.text == text; });
+      }
+    }
+    return {};
+  }
+
+  std::vector<FilterRun> run_all(MethodsByFilter& methods, bool coarse) {
     std::vector<FilterRun> runs;
     SharedTruth truth;  // under every filter the same
     ProgressParts parts(parts_.next(coarse ? 1.0 : 3.0, coarse ? "coarse, " : ""), static_cast<double>(methods.size()));
@@ -226,20 +260,24 @@ class Advisor {
       if (methods[f].empty()) continue;
       FilterRun run{.filter = filter, .results = {}, .folder = file_stem(footprint_filter_text(filter))};
       const std::filesystem::path own = folder_ / (coarse ? "coarse" : run.folder);
-      const RunSettings run_settings = settings_of(settings_, filter, methods[f], coarse);
       std::filesystem::create_directories(own);
-      run.results = run_compare(run_settings, own, {}, part, &truth);
-      if (coarse) std::filesystem::remove_all(own);
+      std::optional<Results> results = compared(methods, f, coarse, own, part, truth);
+      if (coarse || !results) std::filesystem::remove_all(own);
+      if (!results) continue;
+      run.results = *std::move(results);
       if (!coarse) keep_results_(run.results, own);
       runs.push_back(std::move(run));
     }
+    if (runs.empty())
+      throw Error(ErrorKind::machine, settings_.run.scene, "this machine takes none of the methods",
+                  left_out_.empty() ? "" : left_out_.back().reason);
     return runs;
   }
 
   // Of each filter the methods that some material may yet take.
-  [[nodiscard]] std::vector<std::vector<MethodSpec>> still_in_question(
-      const std::vector<FilterRun>& runs, const std::vector<std::vector<MethodSpec>>& methods) const {
-    std::vector<std::vector<MethodSpec>> kept(methods.size());
+  [[nodiscard]] MethodsByFilter still_in_question(const std::vector<FilterRun>& runs,
+                                                  const MethodsByFilter& methods) const {
+    MethodsByFilter kept(methods.size());
     for (std::size_t f = 0; f < methods.size(); ++f) {
       const std::string filter = footprint_filter_text(settings_.filters[f]);
       std::ranges::copy_if(methods[f], std::back_inserter(kept[f]),
@@ -306,6 +344,7 @@ class Advisor {
   std::filesystem::path folder_;
   const std::function<void(Results&, const std::filesystem::path&)>& keep_results_;
   ProgressParts parts_;
+  std::vector<LeftOutMethod> left_out_;
 };
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <tuple>
 #include <utility>
 
-#include "experiments/studies/memory_estimate.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
@@ -55,10 +54,15 @@ void require_maps(const MemoryEstimate& estimate) {
 
 }  // namespace
 
-std::vector<std::optional<int>> normal_chain_channels_of(std::span<const MethodSpec> methods) {
-  std::vector<std::optional<int>> channels;
-  for (const MethodSpec& method : methods) channels.push_back(find_method(method.name).info().normal_chain_channels);
-  return channels;
+std::vector<NormalMemory> normal_memory_of(std::span<const MethodSpec> methods, const EffectSet& effects) {
+  std::vector<NormalMemory> memory;
+  for (const MethodSpec& spec : methods) {
+    const Method& method = find_method(spec.name);
+    const BakedMethod unmade = unbaked(method, spec);
+    memory.emplace_back([&method, options = unmade.options, on = effects & method.info().honours](
+                            const Material& material) { return method.normal_memory(material, options, on); });
+  }
+  return memory;
 }
 
 glm::ivec2 frame_size(const Scene& scene, const std::optional<glm::ivec2>& wanted) {
@@ -108,7 +112,8 @@ Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress,
       decisions_(derive_effects(scene_)),
       effects_(effects_on(decisions_) & ~settings.without) {
   require_pictures(size_, pictures);
-  require_maps(estimate_memory(scene_, effects_, normal_chain_channels_of(settings.methods)));
+  const MemoryEstimate memory = estimate_memory(scene_, effects_, normal_memory_of(settings.methods, effects_));
+  require_maps(memory);
   scene_ = refined_for_visibility(std::move(scene_), effects_);
   const std::optional<DiskCache> cache = cache_of(settings);
   const auto bakes = static_cast<double>(settings.methods.size() + 1);
@@ -116,11 +121,18 @@ Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress,
   ProgressParts parts(progress, upload + bakes);
   gpu_scene_ =
       std::make_unique<GpuScene>(context_.info(), scene_, effects_, parts.next(upload, ""), cache ? &*cache : nullptr);
-  for (const MethodSpec& spec : settings.methods) {
-    const FootprintFilter all = footprint_filter_of(settings, scene_);
-    methods_.emplace_back(context_.info(), *gpu_scene_, scene_, effects_, spec,
-                          methods_.empty() ? first_filter.value_or(all) : all, size_, settings, parts.next(1, "bake "));
+  const FootprintFilter all = footprint_filter_of(settings, scene_);
+  std::vector<std::optional<StagedMethod>> staged(settings.methods.size());
+  for (const std::size_t i : memory.bake_order()) {
+    try {
+      staged[i].emplace(context_.info(), *gpu_scene_, scene_, effects_, settings.methods[i],
+                        i == 0 ? first_filter.value_or(all) : all, size_, settings, parts.next(1, "bake "));
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::machine) throw;
+      throw RefusedMethod(error, settings.methods[i]);
+    }
   }
+  for (std::optional<StagedMethod>& method : staged) methods_.push_back(*std::move(method));
   std::tie(base_, gpu_base_) =
       bake_and_upload(*gpu_scene_, scene_, effects_, base_surface(),
                       {.text = "reference", .name = "reference", .options = {}}, nullptr, parts.next(1, "bake "));

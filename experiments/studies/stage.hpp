@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "experiments/settings/run_settings.hpp"
+#include "experiments/studies/memory_estimate.hpp"
 #include "renderer/core/disk_cache.hpp"
+#include "renderer/core/error.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/pipeline/frame.hpp"
 #include "renderer/pipeline/interior.hpp"
@@ -25,11 +27,22 @@ inline constexpr int pictures_of_a_frame = 3;
 /// The footprint filter: the settings', else the scene's, else default_footprint_filter.
 [[nodiscard]] FootprintFilter footprint_filter_of(const RunSettings& settings, const Scene& scene);
 
+/// A method that this machine has no room for, or whose textures or program its OpenGL refuses.
+class RefusedMethod : public Error {
+ public:
+  RefusedMethod(const Error& why, const MethodSpec& spec) : Error(why.within("method " + spec.text)), spec_(spec) {}
+  [[nodiscard]] const MethodSpec& spec() const { return spec_; }
+
+ private:
+  MethodSpec spec_;
+};
+
 /// Where slow work is kept between runs; none where the settings name no folder.
 [[nodiscard]] std::optional<DiskCache> cache_of(const RunSettings& settings);
 
-/// What each method keeps of a normal map, for estimate_memory. Errors (usage): there is no such method.
-[[nodiscard]] std::vector<std::optional<int>> normal_chain_channels_of(std::span<const MethodSpec> methods);
+/// What each method takes for a normal map in a scene with `effects`, for estimate_memory. Errors (usage): there is no
+/// such method, or it has no such option.
+[[nodiscard]] std::vector<NormalMemory> normal_memory_of(std::span<const MethodSpec> methods, const EffectSet& effects);
 
 /// Errors (machine): so many pictures (RGBA, 32-bit floats) of this size are more than memory holds.
 void require_pictures(const glm::ivec2& size, int count);
@@ -51,7 +64,8 @@ class StagedMethod {
   std::unique_ptr<FrameRenderer> frames_;
 };
 
-/// A scene with its methods and its reference on one context. Everything is made in the constructor.
+/// A scene with its methods and its reference on one context. Everything is made in the constructor, the methods in the
+/// order that takes the least memory.
 class Stage {
  public:
   /// The settings' methods over `scene`, which need not be the settings' own. `pictures` as large as the frame are held

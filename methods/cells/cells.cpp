@@ -68,8 +68,9 @@ template <typename Finest>
 PrefilteredTexture layered_texture(const std::string& name, int layers, Storage storage,
                                    const TextureCoordinates& coordinates, const Finest& finest) {
   std::vector<std::vector<Image>> chains;
+  chains.reserve(static_cast<std::size_t>(layers));
   for (int layer = 0; layer < layers; ++layer) chains.push_back(mip_chain(finest(layer)));
-  return make_array_texture(name, chains, storage, coordinates);
+  return make_array_texture(name, std::move(chains), storage, coordinates);
 }
 
 void add_moments(const PartedNormals& normals, Storage storage, const TextureCoordinates& coordinates,
@@ -86,14 +87,24 @@ void add_moments(const PartedNormals& normals, Storage storage, const TextureCoo
   }));
 }
 
+glm::ivec2 size_of(const TextureMap* map) {
+  return map == nullptr ? glm::ivec2(1) : glm::ivec2(map->image.width(), map->image.height());
+}
+
+bool roughness_lies_on_normals(const Material& material) {
+  const glm::ivec2 roughness = size_of(width_map(material));
+  const glm::ivec2 normals = size_of(material.normal_map ? &*material.normal_map : nullptr);
+  return roughness_coordinates(material) == normal_coordinates(material) && roughness.x <= normals.x &&
+         roughness.y <= normals.y;
+}
+
 // A texel of the roughness map can be counted with the part of the normal above it where the maps lie on each other and
 // nothing finer than a normal is lost. Else, as with `separate`, it has a chain of its own; a texture that a material
 // has no use for is one texel.
 void add_roughness(const Material& material, const Options& options, const PartedNormals& normals, Storage storage,
                    const EffectSet& effects, Prefiltered& out) {
   Image variance = lobe_variance_map(material);
-  const bool joint = roughness_coordinates(material) == normal_coordinates(material) &&
-                     variance.width <= normals.width && variance.height <= normals.height;
+  const bool joint = roughness_lies_on_normals(material);
   out.scalars["cells_joint"] = joint ? 1.0F : 0.0F;
   for (float& v : variance.texels) v = std::min(v, 1.0F) / stored_lobe_variance;
   const int layers = cells::layer_count(static_cast<int>(normals.parts));
@@ -110,7 +121,7 @@ void add_roughness(const Material& material, const Options& options, const Parte
   }
   std::ranges::move(separate.textures, std::back_inserter(out.textures));
   if (!joint && options.word("roughness") == "joint" && normals.parts > 1)
-    out.notes.push_back("the roughness map does not lie on the normal map's texels: all parts have one variance");
+    out.notes.emplace_back("the roughness map does not lie on the normal map's texels: all parts have one variance");
 }
 
 class Cells final : public Method {
@@ -138,6 +149,27 @@ class Cells final : public Method {
 
   [[nodiscard]] int lobe_count(const Options& options) const override { return static_cast<int>(options.number("k")); }
 
+  // Points and shares stay throughout; beside them the decoded map and the blocks that labels are asked of, or all
+  // that is baked and what the last of it is made from.
+  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
+                                                        const EffectSet& effects) const override {
+    const int parts = static_cast<int>(options.number("k"));
+    const auto channel = static_cast<double>(channel_bytes(parse_storage(options.word("storage"))));
+    double channels = 4.0 * cells::layer_count(cells::part_channels * parts);
+    if (has(effects, Effect::diffuse)) channels += 3.0;
+    if (has(effects, Effect::roughness_variation) && options.word("roughness") == "joint" &&
+        roughness_lies_on_normals(material))
+      channels += 4.0 * cells::layer_count(parts);
+    const double kept = channels * channel * mip_chain_share;
+    const double points = sizeof(PlanePoint) + sizeof(float) * static_cast<double>(parts);
+    const double labelling = decoded_normal + cells::label_block_bytes(parts);
+    // Layers of moments are all there as floats before the first is encoded.
+    const double moments = 4.0 * cells::layer_count(cells::part_channels * parts) * sizeof(float) * mip_chain_share;
+    const double baking = std::max(moments + decoded_normal, kept + mean_normals_in_the_making);
+    return bake_memory(normal_texels(material) * kept,
+                       normal_texels(material) * (points + std::max(labelling, baking)));
+  }
+
   // The flags are lean's, which common_slopes.glsl asks for.
   [[nodiscard]] ShaderModule shader() const override {
     return module_of(embedded::cells_glsl, "cells.glsl",
@@ -152,8 +184,7 @@ class Cells final : public Method {
                    .paper = "Footprint's own; with one part Olano and Baker 2010, LEAN Mapping, I3D",
                    .options = option_table(),
                    .honours = map_effects_but({Effect::multi_lobe, Effect::normal_layers}),
-                   .slow_precompute = true,
-                   .normal_chain_channels = 24};
+                   .slow_precompute = true};
 };
 
 }  // namespace

@@ -14,6 +14,11 @@ class Direct final : public Method {
     return base_surface().precompute(material, options, effects, progress);
   }
 
+  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
+                                                        const EffectSet& effects) const override {
+    return base_surface().normal_memory(material, options, effects);
+  }
+
   [[nodiscard]] ShaderModule shader() const override { return base_surface().shader(); }
 
  private:
@@ -21,8 +26,7 @@ class Direct final : public Method {
                    .summary = "The finest level of every map at the pixel's centre: no filtering.",
                    .paper = "",
                    .options = {},
-                   .honours = map_effects_but({}),
-                   .normal_chain_channels = 3};
+                   .honours = map_effects_but({})};
 };
 
 }  // namespace

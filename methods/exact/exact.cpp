@@ -32,6 +32,11 @@ class Exact final : public Method {
     return out;
   }
 
+  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
+                                                        const EffectSet& effects) const override {
+    return base_surface().normal_memory(material, options, effects);
+  }
+
   [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::exact_glsl, "exact.glsl"); }
 
  private:
@@ -48,8 +53,7 @@ class Exact final : public Method {
                                "of a larger one about as many are drawn, one from each cell.")},
       .honours = map_effects_but({}),
       .sums_environment = true,
-      .slow_frame = true,
-      .normal_chain_channels = 3};
+      .slow_frame = true};
 };
 
 }  // namespace

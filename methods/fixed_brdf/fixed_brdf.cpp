@@ -28,6 +28,11 @@ class FixedBrdf final : public Method {
     return out;
   }
 
+  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
+                                                        const EffectSet& /*effects*/) const override {
+    return mean_normal_memory(material, channel_bytes(parse_storage(options.word("storage"))));
+  }
+
   [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::fixed_brdf_glsl, "fixed_brdf.glsl"); }
 
  private:
@@ -36,8 +41,7 @@ class FixedBrdf final : public Method {
       .summary = "The finest level's reflectance at any distance, over geometry that is filtered.",
       .paper = "Tan, Lin, Quan, Guo, Shum 2005, Multiresolution Reflectance Filtering, EGSR (its comparison, figure 8)",
       .options = {storage_option()},
-      .honours = map_effects_but({Effect::normal_layers}),
-      .normal_chain_channels = 3};
+      .honours = map_effects_but({Effect::normal_layers})};
 };
 
 }  // namespace

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <iterator>
-#include <span>
+#include <utility>
+#include <vector>
 
+#include "methods/fournier/normal_bins.hpp"
 #include "methods/fournier/peak_chain.hpp"
 #include "renderer/bake/facet_lobes.hpp"
 #include "renderer/bake/material_maps.hpp"
@@ -64,21 +66,36 @@ class Fournier final : public Method {
     return 8 * static_cast<int>(options.number("peaks"));
   }
 
+  // Above the finest level a texel has bins for its normals until the next level is done, at worst one a normal.
+  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
+                                                        const EffectSet& effects) const override {
+    const double rest = std::max(options.number("peaks"), 2.0) - 1.0;
+    const double channels = 4.0 * mip_chain_share * (1.0 + rest / 4.0);
+    const double diffuse = has(effects, Effect::diffuse) ? 3.0 * mip_chain_share : 0.0;
+    const auto channel = static_cast<double>(channel_bytes(parse_storage(options.word("storage"))));
+    const double bins = 2.0 * sizeof(fournier::NormalBin);
+    const double texels = normal_texels(material);
+    return bake_memory(texels * (channels + diffuse) * channel,
+                       texels * (decoded_normal + channels * sizeof(float) + bins));
+  }
+
   [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::fournier_glsl, "fournier.glsl"); }
 
  private:
   static void add_peaks(const Material& material, const Options& options, const Progress& progress, Prefiltered& out) {
     const Storage storage = parse_storage(options.word("storage"));
     const auto start = options.word("starts") == "own" ? fournier::Start::own : fournier::Start::inherited;
-    const fournier::PeakChain chain =
+    fournier::PeakChain chain =
         fournier::fit_peak_chain(normal_map_of(material), base_variance(material),
                                  static_cast<std::size_t>(options.number("peaks")), start, progress);
     if (chain.statistics.not_converged > 0) out.notes.push_back(note_on(chain.statistics));
     const TextureCoordinates coordinates = normal_coordinates(material);
+    std::vector<std::vector<Image>> first;  // a list in braces would copy it
+    first.push_back(std::move(chain.first));
     out.textures.push_back(
-        make_array_texture("fournier_first", std::span(&chain.first, 1), storage, coordinates, TextureFilter::nearest));
+        make_array_texture("fournier_first", std::move(first), storage, coordinates, TextureFilter::nearest));
     out.textures.push_back(
-        make_array_texture("fournier_rest", chain.rest, storage, coordinates, TextureFilter::nearest));
+        make_array_texture("fournier_rest", std::move(chain.rest), storage, coordinates, TextureFilter::nearest));
   }
 
   MethodInfo info_{

@@ -78,6 +78,11 @@ class Leadr final : public Method {
     return out;
   }
 
+  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
+                                                        const EffectSet& /*effects*/) const override {
+    return slope_memory(material, options, SlopeVariant::full);
+  }
+
   // `variant` is an option of lean's, which common_slopes.glsl asks for.
   [[nodiscard]] ShaderModule shader() const override {
     return module_of(embedded::leadr_glsl, "leadr.glsl", {{"variant_clean", false}});

@@ -34,6 +34,11 @@ class NaiveMip final : public Method {
     return out;
   }
 
+  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
+                                                        const EffectSet& /*effects*/) const override {
+    return mean_normal_memory(material, channel_bytes(parse_storage(options.word("storage"))));
+  }
+
   [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::naive_mip_glsl, "naive_mip.glsl"); }
 
  private:
@@ -45,8 +50,7 @@ class NaiveMip final : public Method {
                   word_option("averages", {"roughness", "lobe"},
                               "What of a varying lobe is averaged: the perceptual roughness, as a texture stores it, "
                               "or the lobe's own parameter (exponent, alpha, kappa), as Xu 2017 does.")},
-      .honours = map_effects_but({}),
-      .normal_chain_channels = 3};
+      .honours = map_effects_but({})};
 };
 
 }  // namespace

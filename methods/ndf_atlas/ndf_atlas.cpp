@@ -57,8 +57,7 @@ struct Plan {
 int affordable_level(const Facets& facets, const Lattice& lattice, const Options& options, Storage storage) {
   const int levels = mip_level_count(facets.width, facets.height);
   int level = std::min(static_cast<int>(options.number("level")), levels - 1);
-  const double node_bytes = storage == Storage::unorm8 ? 1.0 : storage == Storage::fp16 ? 2.0 : 4.0;
-  const double most = options.number("megabytes") * 1e6 / node_bytes;
+  const double most = options.number("megabytes") * 1e6 / static_cast<double>(channel_bytes(storage));
   while (level + 1 < levels && node_count(facets.width, facets.height, lattice, level) > most) ++level;
   return level;
 }
@@ -131,14 +130,17 @@ void add_parts(const Material& material, const Options& options, const Progress&
     out.scalars[fmt::format("ndf_atlas_centre_x{}", k)] = static_cast<float>(centres[k].x);
     out.scalars[fmt::format("ndf_atlas_centre_y{}", k)] = static_cast<float>(centres[k].y);
   }
+  const int layers = cells::layer_count(cells::part_channels * settings.parts);
   std::vector<std::vector<Image>> chains;
-  for (int layer = 0; layer < cells::layer_count(cells::part_channels * settings.parts); ++layer) {
+  chains.reserve(static_cast<std::size_t>(layers));
+  for (int layer = 0; layer < layers; ++layer) {
     chains.push_back(
         mip_chain(cells::moment_layer(points, shares, parts, centres, normals.width, normals.height, layer)));
   }
   // Read from no level that has tables.
-  out.textures.push_back(make_array_texture("ndf_atlas_moments", chains, parse_storage(options.word("storage")),
-                                            normal_coordinates(material), TextureFilter::by_level));
+  out.textures.push_back(make_array_texture("ndf_atlas_moments", std::move(chains),
+                                            parse_storage(options.word("storage")), normal_coordinates(material),
+                                            TextureFilter::by_level));
   out.textures.back().filter = TextureFilter::by_level;
 }
 
@@ -159,6 +161,28 @@ class NdfAtlas final : public Method {
   }
 
   [[nodiscard]] int lobe_count(const Options& options) const override { return static_cast<int>(options.number("k")); }
+
+  // First the mean normals and, of the parts, what labels are asked of or the moments of all of them; then the tables,
+  // which are there as floats too.
+  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
+                                                        const EffectSet& effects) const override {
+    const int parts = static_cast<int>(options.number("k"));
+    const auto channel = static_cast<double>(channel_bytes(parse_storage(options.word("storage"))));
+    const double layers = cells::layer_count(cells::part_channels * parts);
+    const double mean = 3.0 * channel * mip_chain_share;
+    const double moments = 4.0 * layers * mip_chain_share;
+    const double points = decoded_normal + sizeof(cells::PlanePoint) + sizeof(float) * static_cast<double>(parts);
+    const double parted =
+        mean + points + std::max(cells::label_block_bytes(parts), moments * sizeof(float) + 4.0 * sizeof(float));
+    const Plan plan = plan_tables(material, options, effects);
+    const Storage storage = parse_storage(options.word("tables"));
+    const double tables = plan.facets ? static_cast<double>(plan.layout.byte_count(storage)) : 0.0;
+    const double blocks = plan.facets ? 2.0 * 4.0 * sizeof(float) * plan.layout.columns * plan.layout.rows : 0.0;
+    const double texels = normal_texels(material);
+    const double kept = texels * (mean + moments * channel) + tables + blocks;
+    const double floats = tables / static_cast<double>(channel_bytes(storage)) + texels * sizeof(glm::vec3);
+    return bake_memory(kept, std::max(texels * parted, kept + floats));
+  }
 
   [[nodiscard]] ShaderModule shader() const override {
     return module_of(embedded::ndf_atlas_glsl, "ndf_atlas.glsl", {{"density_fast", true}, {"storage_unorm8", false}});

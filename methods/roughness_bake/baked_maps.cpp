@@ -2,16 +2,23 @@
 #include "methods/roughness_bake/baked_maps.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/normal_chain.hpp"
 #include "renderer/image/mipmap.hpp"
 
 namespace footprint::roughness_bake {
+namespace {
 
-std::vector<Image> spread_chain(const Image& normals, Preset preset) {
+// Bytes hold no sum of variances.
+Storage spread_storage(Storage storage) { return storage == Storage::unorm8 ? Storage::fp16 : storage; }
+
+}  // namespace
+
+std::vector<Image> spread_chain(Image normals, Preset preset) {
   std::vector<Image> chain;
-  for (const Image& level : mean_normal_chain(normals)) {
+  for (const Image& level : mean_normal_chain(std::move(normals))) {
     Image& out = chain.emplace_back(level.width, level.height, 1);
     for (std::size_t i = 0; i < level.texel_count(); ++i) {
       const float* const n = &level.texels[3 * i];
@@ -32,7 +39,7 @@ Prefiltered bake_mean_roughness(const Material& material, Storage storage, const
 }
 
 Prefiltered bake_roughness(const Material& material, Preset preset, Storage storage, const EffectSet& effects) {
-  const Storage wide = storage == Storage::unorm8 ? Storage::fp16 : storage;
+  const Storage wide = spread_storage(storage);
   Prefiltered out = bake_mean_normal(material, storage, effects);
   if (has(effects, Effect::normal_variation)) {
     out.textures.push_back(make_texture("normal_spread", spread_chain(normal_map_of(material), preset), wide,
@@ -45,6 +52,14 @@ Prefiltered bake_roughness(const Material& material, Preset preset, Storage stor
   for (PrefilteredTexture& texture : bake_mean_roughness(material, storage, effects).textures)
     out.textures.push_back(std::move(texture));
   return out;
+}
+
+BakeMemory roughness_memory(const Material& material, Storage storage) {
+  const BakeMemory normals = mean_normal_memory(material, channel_bytes(storage));
+  const double texels = normal_texels(material);
+  const auto mean = static_cast<double>(normals.kept);
+  const double spread = texels * static_cast<double>(channel_bytes(spread_storage(storage))) * mip_chain_share;
+  return bake_memory(mean + spread, mean + texels * mean_normals_in_the_making);
 }
 
 }  // namespace footprint::roughness_bake

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "methods/roughness_bake/presets.hpp"
+#include "renderer/bake/bake_memory.hpp"
 #include "renderer/bake/prefiltered.hpp"
 #include "renderer/effects/effects.hpp"
 #include "renderer/scene/material.hpp"
@@ -12,7 +13,7 @@ namespace footprint::roughness_bake {
 
 /// What the preset stores of the spread under every texel of every level of a normal map's mip chain (as
 /// Material::normal_map), one channel, from the finest level's normals.
-[[nodiscard]] std::vector<Image> spread_chain(const Image& normals, Preset preset);
+[[nodiscard]] std::vector<Image> spread_chain(Image normals, Preset preset);
 
 /// The mean roughness: the texture `baked_roughness`; none where the roughness does not vary.
 [[nodiscard]] Prefiltered bake_mean_roughness(const Material& material, Storage storage, const EffectSet& effects);
@@ -22,5 +23,8 @@ namespace footprint::roughness_bake {
 /// in bytes, which hold no sum of variances.
 [[nodiscard]] Prefiltered bake_roughness(const Material& material, Preset preset, Storage storage,
                                          const EffectSet& effects);
+
+/// What that takes for the normals.
+[[nodiscard]] BakeMemory roughness_memory(const Material& material, Storage storage);
 
 }  // namespace footprint::roughness_bake

@@ -117,6 +117,11 @@ class RoughnessBake final : public Method {
     return joined_chain(formula, material, *fine_rough, *fine_spread);
   }
 
+  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
+                                                        const EffectSet& /*effects*/) const override {
+    return roughness_memory(material, parse_storage(options.word("storage")));
+  }
+
   [[nodiscard]] ShaderModule shader() const override {
     return module_of(embedded::roughness_bake_glsl, "roughness_bake.glsl");
   }
@@ -138,8 +143,7 @@ class RoughnessBake final : public Method {
                       number_option("cap", free_cap, 0.0, 1.0, "Of preset=free: the most that is added to alpha^2."),
                       "bake_cap"),
                   storage_option()},
-      .honours = map_effects_but({}),
-      .normal_chain_channels = 4};
+      .honours = map_effects_but({})};
 };
 
 }  // namespace

@@ -78,16 +78,28 @@ class TanGmm final : public Method {
     if (has(effects, Effect::normal_variation)) {
       const auto moment =
           options.word("moment") == "corrected" ? tan_gmm::Moment::corrected : tan_gmm::Moment::published;
-      const tan_gmm::MixtureChain chain = tan_gmm::mixture_chain(tan_gmm::NormalField(normal_map_of(material)),
-                                                                 fit_settings(options), moment, progress);
+      const tan_gmm::NormalField normals(normal_map_of(material));  // the decoded map is gone from here on
+      tan_gmm::MixtureChain chain = tan_gmm::mixture_chain(normals, fit_settings(options), moment, progress);
       const char* const name = options.word("covariance") == "full" ? "tan_gmm_moments" : "tan_gmm_mixture";
-      out.textures.push_back(make_array_texture(name, chain, storage, normal_coordinates(material)));
+      out.textures.push_back(make_array_texture(name, std::move(chain), storage, normal_coordinates(material)));
     }
     std::ranges::move(bake_lobe_variance(material, storage, effects).textures, std::back_inserter(out.textures));
     return out;
   }
 
   [[nodiscard]] int lobe_count(const Options& options) const override { return static_cast<int>(options.number("n")); }
+
+  // While the finest level is fitted: normals, samples of tiles, the mixtures of two levels, and what is stored of all.
+  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
+                                                        const EffectSet& /*effects*/) const override {
+    const tan_gmm::FitSettings settings = fit_settings(options);
+    const double texels = normal_texels(material);
+    const double channels = 4.0 * static_cast<double>(tan_gmm::layers_of(settings)) * mip_chain_share;
+    const double mixtures = 1.25 * static_cast<double>(settings.components * sizeof(tan_gmm::Gaussian));
+    const double normals = 3.0 * sizeof(float), samples = 4.0 * sizeof(float);
+    const auto channel = static_cast<double>(channel_bytes(parse_storage(options.word("storage"))));
+    return bake_memory(texels * channels * channel, texels * (normals + samples + mixtures + channels * sizeof(float)));
+  }
 
   [[nodiscard]] ShaderModule shader() const override {
     return module_of(embedded::tan_gmm_glsl, "tan_gmm.glsl", {{"density_fast", true}});
@@ -102,8 +114,7 @@ class TanGmm final : public Method {
       .paper = "Tan et al. 2005, Multiresolution Reflectance Filtering, Eurographics Symposium on Rendering",
       .options = option_table(),
       .honours = map_effects_but({Effect::normal_layers}),
-      .slow_precompute = true,
-      .normal_chain_channels = 16};
+      .slow_precompute = true};
 };
 
 }  // namespace

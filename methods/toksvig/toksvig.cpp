@@ -26,6 +26,11 @@ class Toksvig final : public Method {
     return out;
   }
 
+  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
+                                                        const EffectSet& /*effects*/) const override {
+    return mean_normal_memory(material, channel_bytes(parse_storage(options.word("storage"))));
+  }
+
   [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::toksvig_glsl, "toksvig.glsl"); }
 
  private:
@@ -42,8 +47,7 @@ class Toksvig final : public Method {
                       "diffuse", {"mean", "normalized"},
                       "The diffuse term's normal: the mean normal, whose dot product is the mean of the facets' "
                       "own while all face the light, or the renormalised one.")},
-      .honours = map_effects_but({}),
-      .normal_chain_channels = 3};
+      .honours = map_effects_but({})};
 };
 
 }  // namespace

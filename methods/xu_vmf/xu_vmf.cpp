@@ -121,14 +121,19 @@ void declare_maps(Prefiltered& out, const glm::ivec2& size, const TextureCoordin
   if (guard) declare(xu_vmf::parts_guard_name, half, parts, 1, true);
 }
 
-void add_inputs(Prefiltered& out, const Inputs& inputs, const Material& material, const Options& options) {
+// Takes the maps out of `inputs`: in memory they are there once.
+void add_inputs(Prefiltered& out, Inputs& inputs, const Material& material, const Options& options) {
   const auto add = [&](std::string_view name, std::vector<Image> levels, const TextureCoordinates& coordinates) {
     out.textures.push_back(make_texture(std::string(name), std::move(levels), Storage::fp32, coordinates));
   };
-  if (inputs.normals_vary) add(xu_vmf::normals_name, {inputs.normals}, normal_coordinates(material));
+  if (inputs.normals_vary) {
+    std::vector<Image> finest;  // a list in braces would copy it
+    finest.push_back(std::move(inputs.normals));
+    add(xu_vmf::normals_name, std::move(finest), normal_coordinates(material));
+  }
   // Its further levels are for shading, which asks what of a lobe's width is the facets' own.
   if (inputs.roughness_varies)
-    add(xu_vmf::variances_name, mip_chain(inputs.variances), roughness_coordinates(material));
+    add(xu_vmf::variances_name, mip_chain(std::move(inputs.variances)), roughness_coordinates(material));
   if (options.word("conversion") == "table") add(xu_vmf::table_name, {shortfall_table()}, {});
 }
 
@@ -151,14 +156,14 @@ class XuVmf final : public Method {
   /// The frame build does the filtering: what is baked are its inputs, and the coordinates of its map.
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                                        const Progress& /*progress*/) const override {
-    const Inputs inputs(material, effects);
-    return inputs.anything() ? in_tangent_space(inputs, material, options, effects) : Prefiltered{};
+    Inputs inputs(material, effects);
+    return inputs.anything() ? in_tangent_space(std::move(inputs), material, options, effects) : Prefiltered{};
   }
 
   [[nodiscard]] Prefiltered precompute_on(const Scene& scene, std::size_t index, const Options& options,
                                           const EffectSet& effects, const Progress& progress) const override {
     const Material& material = scene.materials.at(index);
-    const Inputs inputs(material, effects);
+    Inputs inputs(material, effects);
     if (options.word("space") == "tangent" || !inputs.anything())
       return precompute(material, options, effects, progress);
     xu_vmf::SurfaceLayout layout = xu_vmf::lay_out(triangles_of(scene, index), inputs.coordinates, inputs.size());
@@ -174,12 +179,25 @@ class XuVmf final : public Method {
       declare_maps(out, layout.size, coordinates, layers_of(material, effects), options, effects);
       add_inputs(out, inputs, material, options);
     } else {
-      out = in_tangent_space(inputs, material, options, effects);
+      out = in_tangent_space(std::move(inputs), material, options, effects);
     }
     if (!layout.note.empty()) out.notes.push_back(std::move(layout.note));
     out.scalars.emplace(xu_vmf::camera_space_name, layout.unique ? 1.0F : 0.0F);
     out.surface_coordinates = std::move(layout.coordinates);
     return out;
+  }
+
+  // The maps that are built, and what they are built from, on the GPU and, for the build, in memory. For
+  // space=camera as many texels as the normal map has stand for those of the mesh's own layout.
+  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
+                                                        const EffectSet& effects) const override {
+    if (!material.normal_map) return BakeMemory{};
+    const MapTexels& map = material.normal_map->image;
+    Prefiltered built;
+    declare_maps(built, {map.width(), map.height()}, {}, layers_of(material, effects), options, effects);
+    const auto input = static_cast<std::uint64_t>(normal_texels(material) * decoded_normal);
+    const std::uint64_t kept = byte_count(built) + 2 * input;
+    return BakeMemory{.kept = kept, .baking = kept};
   }
 
   [[nodiscard]] const MethodInfo& info() const override { return info_; }

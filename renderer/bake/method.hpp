@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/bake/bake_memory.hpp"
 #include "renderer/bake/frame_build.hpp"
 #include "renderer/bake/prefiltered.hpp"
 #include "renderer/bake/shader_module.hpp"
@@ -39,9 +40,6 @@ struct MethodInfo {
   /// Whether it shows a map's texels where they are large on screen. Not so: one effective BRDF for the whole material,
   /// which is right where the whole map lies in a pixel.
   bool resolves_texels = true;
-  /// Channels of 32 bits that it keeps by default of each texel of a normal map and of its coarser levels: what the
-  /// estimate of memory goes by (memory_estimate.hpp), which takes LEAN's where a method says nothing.
-  std::optional<int> normal_chain_channels{};
 };
 
 /// A prefiltering method: a pure precompute, a GLSL module and, where it has one, a frame build
@@ -67,6 +65,14 @@ class Method {
   [[nodiscard]] virtual Prefiltered precompute_on(const Scene& scene, std::size_t material, const Options& options,
                                                   const EffectSet& effects, const Progress& progress) const {
     return precompute(scene.materials.at(material), options, effects, progress);
+  }
+
+  /// What `precompute` takes of memory for the normal map of a material that varies: what the estimate of memory goes
+  /// by (memory_estimate.hpp), which takes LEAN's where a method says nothing. Maps of widths count apart.
+  [[nodiscard]] virtual std::optional<BakeMemory> normal_memory(const Material& /*material*/,
+                                                                const Options& /*options*/,
+                                                                const EffectSet& /*effects*/) const {
+    return {};
   }
 
   /// The passes that are repeated each frame, for a scene whose effects (those that the method honours) and base BRDF

@@ -153,6 +153,17 @@ OptionSpec steepest_slope_option() {
                        "has the second moment of 10000 of slope 0.5.");
 }
 
+BakeMemory slope_memory(const Material& material, const Options& options, SlopeVariant variant) {
+  const auto channel = static_cast<double>(channel_bytes(parse_storage(options.word("storage"))));
+  const double kept = (variant == SlopeVariant::scalar ? 3.0 : 5.0) * channel * mip_chain_share;
+  // Normals, moments of all texels with their weights, and these without; then normals, moments, those of one texture,
+  // and its finest level encoded.
+  const double moments = moment_channels * sizeof(float) * mip_chain_share;
+  const double chain = decoded_normal + (moment_channels + 1) * sizeof(float) * mip_chain_share + moments;
+  const double encoding = decoded_normal + moments + 4.0 * sizeof(float) * mip_chain_share + 4.0 * channel;
+  return bake_memory(normal_texels(material) * kept, normal_texels(material) * std::max(chain, encoding));
+}
+
 Prefiltered bake_slopes(const Material& material, const Options& options, const EffectSet& effects,
                         SlopeVariant variant) {
   const Storage storage = parse_storage(options.word("storage"));

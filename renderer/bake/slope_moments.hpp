@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <vector>
 
+#include "renderer/bake/bake_memory.hpp"
 #include "renderer/bake/prefiltered.hpp"
 #include "renderer/core/options.hpp"
 #include "renderer/effects/effects.hpp"
@@ -66,5 +67,8 @@ enum class SlopeVariant { full, scalar };
 /// `steepest` are counted in a note.
 [[nodiscard]] Prefiltered bake_slopes(const Material& material, const Options& options, const EffectSet& effects,
                                       SlopeVariant variant);
+
+/// What that takes for the normals.
+[[nodiscard]] BakeMemory slope_memory(const Material& material, const Options& options, SlopeVariant variant);
 
 }  // namespace footprint

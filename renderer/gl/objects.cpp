@@ -5,6 +5,7 @@
 
 #include <array>
 #include <stdexcept>
+#include <string_view>
 
 #include "renderer/core/error.hpp"
 #include "renderer/gl/debug_log.hpp"
@@ -27,10 +28,17 @@ GLenum error_of(const Allocation& allocate) {
   return error;
 }
 
-[[noreturn]] void throw_no_memory(const std::string& place, const std::string& what, GLenum error) {
-  throw Error(
-      ErrorKind::machine, place, fmt::format("{} cannot be allocated ({})", what, gl_error_name(error)),
-      error == GL_CONTEXT_LOST ? "run it again" : "use smaller frames or textures, or a machine with more memory");
+constexpr std::string_view no_memory_hint = "use smaller frames or textures, or a machine with more memory";
+
+// Whatever memory there is.
+constexpr std::string_view no_texture_hint =
+    "use smaller frames or textures, a method that keeps less in one of them, or a machine with more memory: drivers "
+    "bound what one texture takes, Mesa's llvmpipe below 2 GiB";
+
+[[noreturn]] void throw_no_memory(const std::string& place, const std::string& what, GLenum error,
+                                  std::string_view hint) {
+  throw Error(ErrorKind::machine, place, fmt::format("{} cannot be allocated ({})", what, gl_error_name(error)),
+              error == GL_CONTEXT_LOST ? "run it again" : std::string(hint));
 }
 
 GLenum read_format(int channels) {
@@ -117,7 +125,7 @@ Buffer::Buffer(std::span<const std::byte> bytes, Content use)
   const GLbitfield flags = use == Content::changing ? GL_DYNAMIC_STORAGE_BIT : 0;
   const GLenum error =
       error_of([&] { api().NamedBufferStorage(name, static_cast<GLsizeiptr>(content.size()), content.data(), flags); });
-  if (error != GL_NO_ERROR) throw_no_memory("buffer", fmt::format("{} bytes", content.size()), error);
+  if (error != GL_NO_ERROR) throw_no_memory("buffer", fmt::format("{} bytes", content.size()), error, no_memory_hint);
 }
 
 void Buffer::write(std::span<const std::byte> bytes) const {
@@ -150,7 +158,7 @@ Texture::Texture(GLenum internal_format, int width, int height, int levels, int 
       api().TextureStorage2D(name, levels, internal_format, width, height);
     }
   });
-  if (error != GL_NO_ERROR) throw_no_memory("texture", what, error);
+  if (error != GL_NO_ERROR) throw_no_memory("texture", what, error, no_texture_hint);
 }
 
 void Texture::upload(int level, int width, int height, GLenum format, GLenum type, const void* texels) {

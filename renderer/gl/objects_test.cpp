@@ -128,6 +128,14 @@ TEST_F(Objects, ATextureOfAnImpossibleSizeIsAMachineError) {
   EXPECT_EQ(error_of([&] { const RenderTarget target(limit + 1, 8, rgba32f, true); }).kind(), ErrorKind::machine);
 }
 
+// 128 GiB.
+TEST_F(Objects, ATextureThatTheDriverDoesNotHoldIsToldFromTooLittleMemory) {
+  const Error error = error_of([] { const Texture texture(GL_RGBA32F, 8192, 8192, 1, 128); });
+  EXPECT_EQ(error.kind(), ErrorKind::machine);
+  EXPECT_THAT(error.what(), HasSubstr("8192x8192x128"));
+  EXPECT_THAT(error.what(), HasSubstr("what one texture takes"));
+}
+
 TEST_F(Objects, AFailedAllocationIsReportedOnceAndLeavesDebugOutputOn) {
   // More levels than 4x4 texels have.
   EXPECT_EQ(error_of([] { const Texture texture(GL_RGBA32F, 4, 4, 9); }).kind(), ErrorKind::machine);

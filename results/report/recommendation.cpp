@@ -199,6 +199,7 @@ std::vector<std::string> advice_sentences(const MaterialAdvice& advice, const Li
 std::string recommendation_text(const Recommendation& recommendation) {
   std::string text = fmt::format("{}, {}: {} of {} candidates measured in full\n", recommendation.scene.name,
                                  limits_text(recommendation.limits), recommendation.measured, recommendation.tried);
+  for (const auto& [method, reason] : recommendation.left_out) text += fmt::format("left out {}: {}\n", method, reason);
   for (const MaterialAdvice& advice : recommendation.materials) {
     text += fmt::format("\n{}\n", advice.material);
     for (const std::string& sentence : advice_sentences(advice, recommendation.limits))

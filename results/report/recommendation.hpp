@@ -80,6 +80,12 @@ struct AdvicePicture {
 };
 
 /// A whole recommendation.
+/// A method that was to be tried and that this machine refused.
+struct LeftOutMethod {
+  std::string method;
+  std::string reason;  ///< as the error says it
+};
+
 struct Recommendation {
   ToolInfo tool;
   BackendInfo backend;
@@ -91,6 +97,7 @@ struct Recommendation {
   bool exhaustive = false;   ///< every candidate was measured in full
   std::size_t tried = 0;     ///< candidates, before any was dropped
   std::size_t measured = 0;  ///< in full
+  std::vector<LeftOutMethod> left_out;
   std::vector<MaterialAdvice> materials;
   std::vector<AdvicePicture> pictures;
   std::vector<std::string> reports;  ///< pages of the full runs, as paths from the output folder

@@ -54,6 +54,9 @@ std::string recommendation_json(const Recommendation& recommendation) {
   Json materials = Json::array();
   for (const MaterialAdvice& advice : recommendation.materials)
     materials.push_back(advice_json(advice, recommendation.limits));
+  Json left_out = Json::array();
+  for (const auto& [method, reason] : recommendation.left_out)
+    left_out.push_back({{"method", method}, {"reason", reason}});
   const Json document{{"schema", "footprint-recommend/1"},
                       {"tool", tool_json(recommendation.tool)},
                       {"backend", backend_json(recommendation.backend)},
@@ -68,6 +71,7 @@ std::string recommendation_json(const Recommendation& recommendation) {
                       {"exhaustive", recommendation.exhaustive},
                       {"tried", recommendation.tried},
                       {"measured", recommendation.measured},
+                      {"left_out", std::move(left_out)},
                       {"reports", recommendation.reports},
                       {"materials", std::move(materials)}};
   return json_text(document, 2) + "\n";

@@ -227,7 +227,9 @@ std::string recommendation_page(const Recommendation& recommendation) {
   for (const MaterialAdvice& advice : recommendation.materials) body += advice_html(advice, recommendation.limits);
   body += pictures_html(recommendation) + provenance_html(recommendation);
   const std::string title = html_escaped(recommendation.scene.name);
-  const std::string lede = html_escaped("Asked for: " + limits_text(recommendation.limits) + ".");
+  std::string lede = html_escaped("Asked for: " + limits_text(recommendation.limits) + ".");
+  for (const auto& [method, reason] : recommendation.left_out)
+    lede += html_escaped(fmt::format(" {} is left out, which this machine refuses: {}.", method, reason));
   return fill_page(
       {.file = "recommendation.html", .title = recommendation.scene.name + " – which method?", .scripts = false},
       {{"title", title}, {"lede", lede}, {"body", body}});

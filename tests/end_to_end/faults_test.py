@@ -1,5 +1,6 @@
 """What machines do to programs: no thread to be had, Ctrl-C before main, a folder that takes nothing, two at once."""
 
+import json
 import os
 import resource
 import subprocess
@@ -39,6 +40,31 @@ class Faults(WholeRunTest):
         done = self.with_fault("no_gl_memory", "render", *SETTINGS[:3], *sizes)
         self.assert_fails(done, 3, "512x512 texels of format", "cannot be allocated (GL_OUT_OF_MEMORY)")
         self.assertFalse((self.folder / "none.exr").exists())
+
+    def small_grooves(self):
+        """A map of 256 x 256: the normals take 1 MiB, tan_gmm's lobes 5."""
+        scene = self.folder / "scene.toml"
+        scene.write_text('[surface]\nname = "v_grooves"\nresolution = 256\n[[light]]\ntype = "directional"\ndirection = [0, 0, -1]\n')
+        return scene
+
+    def test_recommend_leaves_out_what_opengl_refuses(self):
+        out = self.folder / "advice"
+        done = self.with_fault("no_gl_memory", "recommend", self.small_grooves(), "--size", "32x32", "--distance", "2",
+                               "--methods", "direct,toksvig,tan_gmm", "--repeats", "1", "--exhaustive", "-q", "--no-cache", "-o", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("left out tan_gmm: ", done.stdout)
+        advice = json.loads((out / "recommend.json").read_text())
+        self.assertEqual([left["method"] for left in advice["left_out"]], ["tan_gmm"])
+        self.assertIn("cannot be allocated (GL_OUT_OF_MEMORY)", advice["left_out"][0]["reason"])
+        methods = {candidate["method"] for candidate in advice["materials"][0]["candidates"]}
+        self.assertEqual(methods, {"direct", "toksvig"})
+        self.assertEqual(advice["tried"], 6, "two methods under three filters")
+        self.assertIn("tan_gmm is left out, which this machine refuses", (out / "index.html").read_text())
+
+    def test_refused_methods_end_a_comparison(self):
+        done = self.with_fault("no_gl_memory", "compare", self.small_grooves(), "--size", "32x32", "--methods", "direct,tan_gmm", "-q", "--no-cache", "-o", self.folder / "none")
+        self.assert_fails(done, 3, "method tan_gmm", "cannot be allocated (GL_OUT_OF_MEMORY)")
+        self.assertFalse((self.folder / "none").exists())
 
     def test_a_lost_context(self):
         done = self.with_fault("lost_context", "render", *SETTINGS, "-q", "-o", self.folder / "none.exr")

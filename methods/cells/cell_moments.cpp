@@ -1,33 +1,44 @@
 // Moments of each texel in 64 bits, stored as 32-bit floats of what was stored before.
 #include "methods/cells/cell_moments.hpp"
 
+#include <cmath>
+
 #include "methods/cells/gaussian.hpp"
 
 namespace footprint::cells {
 namespace {
 
-using Channels = std::array<float, part_channels>;
+using Channels = std::array<float, part_channels(Covariance::full)>;
 
 // Second moments are of the rounded first ones, so that the covariance of one texel is as near to 0 as rounding allows.
-Channels channels_of(const PlanePoint& point, float share, const glm::dvec2& centre) {
+Channels channels_of(const PlanePoint& point, float share, const PartFrame& frame, Covariance covariance) {
   const double w = point.weight * static_cast<double>(share);
   if (w <= 0.0) return {};
-  const glm::dvec2 d = point.at - centre;
+  const glm::dvec2 from_centre = point.at - frame.centre;
+  const glm::dvec2 d(glm::dot(from_centre, frame.axis), glm::dot(from_centre, glm::dvec2(-frame.axis.y, frame.axis.x)));
   const auto weight = static_cast<float>(w);
   const glm::vec2 first(w * d);
   const glm::dvec2 rounded = glm::dvec2(first) / static_cast<double>(weight);
-  return {weight,
-          first.x,
-          first.y,
-          static_cast<float>(weight * rounded.x * rounded.x),
-          static_cast<float>(weight * rounded.x * rounded.y),
-          static_cast<float>(weight * rounded.y * rounded.y)};
+  const auto along = static_cast<float>(weight * rounded.x * rounded.x);
+  const auto across = static_cast<float>(weight * rounded.y * rounded.y);
+  if (covariance == Covariance::axes) return {weight, first.x, first.y, along, across, 0.0F};
+  return {weight, first.x, first.y, along, static_cast<float>(weight * rounded.x * rounded.y), across};
+}
+
+// The eigenvector of the larger eigenvalue.
+glm::dvec2 principal_axis(const PlaneSums& sums) {
+  const glm::dvec2 mean = sums.first / sums.weight;
+  const double xx = sums.second.x / sums.weight - mean.x * mean.x;
+  const double xy = sums.second.y / sums.weight - mean.x * mean.y;
+  const double yy = sums.second.z / sums.weight - mean.y * mean.y;
+  const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  return {std::cos(angle), std::sin(angle)};
 }
 
 }  // namespace
 
-std::array<glm::dvec2, most_parts> part_centres(std::span<const PlanePoint> points, std::span<const float> shares,
-                                                std::size_t parts) {
+std::array<PartFrame, most_parts> part_frames(std::span<const PlanePoint> points, std::span<const float> shares,
+                                              std::size_t parts, Covariance covariance) {
   std::array<PlaneSums, most_parts> sums{};
   PlaneSums all;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -35,23 +46,27 @@ std::array<glm::dvec2, most_parts> part_centres(std::span<const PlanePoint> poin
     for (std::size_t k = 0; k < parts; ++k)
       sums[k].add(points[i].at, points[i].weight * static_cast<double>(shares[i * parts + k]));
   }
-  std::array<glm::dvec2, most_parts> centres{};
+  std::array<PartFrame, most_parts> frames{};
   for (std::size_t k = 0; k < parts; ++k) {
     const PlaneSums& own = sums[k].weight > 1e-9 * all.weight ? sums[k] : all;
-    if (own.weight > 0.0) centres[k] = own.first / own.weight;
+    if (own.weight <= 0.0) continue;
+    frames[k].centre = own.first / own.weight;
+    if (covariance == Covariance::axes) frames[k].axis = principal_axis(own);
   }
-  return centres;
+  return frames;
 }
 
-Image moment_layer(std::span<const PlanePoint> points, std::span<const float> shares, std::size_t parts,
-                   const std::array<glm::dvec2, most_parts>& centres, int width, int height, int layer) {
-  Image out(width, height, 4);
-  for (std::size_t i = 0; i < points.size(); ++i) {
+Image moment_layer(const PartedPoints& map, const std::array<PartFrame, most_parts>& frames, Covariance covariance,
+                   int layer) {
+  Image out(map.width, map.height, 4);
+  const auto of_a_part = static_cast<std::size_t>(part_channels(covariance));
+  for (std::size_t i = 0; i < map.points.size(); ++i) {
     for (std::size_t c = 0; c < 4; ++c) {
       const std::size_t channel = 4 * static_cast<std::size_t>(layer) + c;
-      const std::size_t part = channel / part_channels;
-      if (part >= parts) break;
-      out.texels[4 * i + c] = channels_of(points[i], shares[i * parts + part], centres[part])[channel % part_channels];
+      const std::size_t part = channel / of_a_part;
+      if (part >= map.parts) break;
+      const float share = map.shares[i * map.parts + part];
+      out.texels[4 * i + c] = channels_of(map.points[i], share, frames[part], covariance)[channel % of_a_part];
     }
   }
   return out;

@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "renderer/image/mipmap.hpp"
 
@@ -33,47 +35,63 @@ struct Map {
   }
 };
 
-// Channel j of part k over the whole map, by the definition.
-double expected(const Map& map, const std::array<glm::dvec2, most_parts>& centres, std::size_t k, std::size_t j) {
-  double sum = 0.0;
+// Part k over the whole map, by the definition: w, w x, w y, w x^2, w x y, w y^2 along the frame's axes.
+std::array<double, 6> expected(const Map& map, const PartFrame& frame, std::size_t k) {
+  std::array<double, 6> sums{};
   for (std::size_t i = 0; i < map.points.size(); ++i) {
     const double w = map.points[i].weight * static_cast<double>(map.shares[i * part_count + k]);
-    const double x = map.points[i].at.x - centres[k].x;
-    const double y = map.points[i].at.y - centres[k].y;
-    sum += w * std::array{1.0, x, y, x * x, x * y, y * y}[j];
+    const glm::dvec2 d = map.points[i].at - frame.centre;
+    const double x = d.x * frame.axis.x + d.y * frame.axis.y;
+    const double y = d.y * frame.axis.x - d.x * frame.axis.y;
+    const std::array terms{1.0, x, y, x * x, x * y, y * y};
+    for (std::size_t j = 0; j < sums.size(); ++j) sums[j] += w * terms[j] / (width * height);
   }
-  return sum / (width * height);
+  return sums;
 }
+
+PartedPoints parted(const Map& map) { return {map.points, map.shares, part_count, width, height}; }
 
 TEST(CellMoments, TheCoarsestLevelHasTheSumsOverAllTexels) {
   const Map map;
-  const auto centres = part_centres(map.points, map.shares, part_count);
-  for (int layer = 0; layer < layer_count(part_channels * static_cast<int>(part_count)); ++layer) {
-    const Image top = mip_chain(moment_layer(map.points, map.shares, part_count, centres, width, height, layer)).back();
-    ASSERT_EQ(top.texel_count(), 1U);
-    for (std::size_t c = 0; c < 4; ++c) {
-      const std::size_t channel = 4 * static_cast<std::size_t>(layer) + c;
-      const std::size_t part = channel / part_channels;
-      const double sum = part < part_count ? expected(map, centres, part, channel % part_channels) : 0.0;
-      EXPECT_NEAR(top.texels[c], sum, 1e-7) << "part " << part << ", channel " << channel % part_channels;
+  for (const auto& [covariance, kept] :
+       {std::pair{Covariance::full, std::vector<std::size_t>{0, 1, 2, 3, 4, 5}}, {Covariance::axes, {0, 1, 2, 3, 5}}}) {
+    const auto frames = part_frames(map.points, map.shares, part_count, covariance);
+    ASSERT_EQ(part_channels(covariance), static_cast<int>(kept.size()));
+    for (int layer = 0; layer < layer_count(part_channels(covariance) * static_cast<int>(part_count)); ++layer) {
+      const Image top = mip_chain(moment_layer(parted(map), frames, covariance, layer)).back();
+      ASSERT_EQ(top.texel_count(), 1U);
+      for (std::size_t c = 0; c < 4; ++c) {
+        const std::size_t channel = 4 * static_cast<std::size_t>(layer) + c;
+        const std::size_t part = channel / kept.size();
+        const double sum = part < part_count ? expected(map, frames[part], part)[kept[channel % kept.size()]] : 0.0;
+        EXPECT_NEAR(top.texels[c], sum, 1e-7) << "part " << part << ", channel " << channel % kept.size();
+      }
     }
   }
 }
 
-TEST(CellMoments, CentresAreTheMeansOfTheParts) {
+// About the means nothing is left of the first moments, and along a part's own axes nothing of the mixed second one: no
+// spread is lost at the coarsest level.
+TEST(CellMoments, FramesAreTheMeansAndAxesOfTheParts) {
   const Map map;
-  const auto centres = part_centres(map.points, map.shares, part_count);
+  const auto frames = part_frames(map.points, map.shares, part_count, Covariance::axes);
+  const auto upright = part_frames(map.points, map.shares, part_count, Covariance::full);
   for (std::size_t k = 0; k < part_count; ++k) {
-    EXPECT_NEAR(expected(map, centres, k, 1), 0.0, 1e-12);
-    EXPECT_NEAR(expected(map, centres, k, 2), 0.0, 1e-12);
+    const auto sums = expected(map, frames[k], k);
+    EXPECT_NEAR(sums[1], 0.0, 1e-12);
+    EXPECT_NEAR(sums[2], 0.0, 1e-12);
+    EXPECT_NEAR(sums[4], 0.0, 1e-12);
+    EXPECT_GE(sums[3], sums[5]) << "the first axis is the longer one";
+    EXPECT_NEAR(glm::length(frames[k].axis), 1.0, 1e-12);
+    EXPECT_GT(std::abs(expected(map, upright[k], k)[4]), 1e-5) << "the gate: along the plane's axes there is some";
   }
   std::vector<float> empty_second;
   for (std::size_t i = 0; i < map.points.size(); ++i) {
     empty_second.push_back(1.0F);
     empty_second.push_back(0.0F);
   }
-  const auto of_two = part_centres(map.points, empty_second, 2);
-  EXPECT_EQ(of_two[0], of_two[1]) << "a part without texels has the mean of all";
+  const auto of_two = part_frames(map.points, empty_second, 2, Covariance::axes);
+  EXPECT_EQ(of_two[0], of_two[1]) << "a part without texels has the mean and the axes of all";
 }
 
 // A texel has one normal: its own covariance is zero but for rounding, however small its share.
@@ -81,8 +99,7 @@ TEST(CellMoments, OneTexelHasNoSpread) {
   const std::vector<PlanePoint> points{{.at = {0.4, -0.3}, .weight = 1.0}};
   for (const float share : {1.0F, 0.3F, 1e-3F}) {
     const std::vector<float> shares{share, 1.0F - share};
-    const std::array<glm::dvec2, most_parts> centres{};
-    const Image first = moment_layer(points, shares, 2, centres, 1, 1, 0);
+    const Image first = moment_layer({points, shares, 2, 1, 1}, {}, Covariance::full, 0);
     const double w = first.texels[0];
     const double x = first.texels[1] / w;
     EXPECT_NEAR(x, 0.4, 1e-7);

@@ -21,6 +21,7 @@ extern const EmbeddedTexts cells_glsl;
 
 namespace {
 
+using cells::Covariance;
 using cells::PlanePoint;
 
 std::vector<OptionSpec> option_table() {
@@ -29,6 +30,8 @@ std::vector<OptionSpec> option_table() {
                       "How texels are given to parts: so that blocks of all sizes are well described by one Gaussian "
                       "a part, or by one mixture over the whole map."),
           word_option("storage", {"fp32", "fp16"}, "How moments are stored: 32-bit or 16-bit floats."),
+          word_option("covariance", {"axes", "full"},
+                      "What a texel keeps of a part's covariance: along the part's own axes, or whole."),
           word_option("coordinates", {"stereographic", "slopes"},
                       "What moments are of: the stereographic projection of normals, or their slopes, as LEAN has "
                       "them."),
@@ -73,18 +76,35 @@ PrefilteredTexture layered_texture(const std::string& name, int layers, Storage 
   return make_array_texture(name, std::move(chains), storage, coordinates);
 }
 
-void add_moments(const PartedNormals& normals, Storage storage, const TextureCoordinates& coordinates,
+Covariance covariance_of(const Options& options) {
+  return options.word("covariance") == "axes" ? Covariance::axes : Covariance::full;
+}
+
+int moment_layer_count(const Options& options) {
+  return cells::layer_count(cells::part_channels(covariance_of(options)) * static_cast<int>(options.number("k")));
+}
+
+// Of the mean of the unit normals: over the stereographic plane the moments tell it.
+bool keeps_mean_normals(const Options& options, const EffectSet& effects) {
+  return has(effects, Effect::diffuse) && options.word("coordinates") == "slopes";
+}
+
+void add_moments(const PartedNormals& normals, const Options& options, const TextureCoordinates& coordinates,
                  Prefiltered& out) {
-  const auto centres = cells::part_centres(normals.points, normals.shares, normals.parts);
-  for (std::size_t k = 0; k < centres.size(); ++k) {
-    out.scalars[fmt::format("cells_centre_x{}", k)] = static_cast<float>(centres[k].x);
-    out.scalars[fmt::format("cells_centre_y{}", k)] = static_cast<float>(centres[k].y);
+  const Covariance covariance = covariance_of(options);
+  const auto frames = cells::part_frames(normals.points, normals.shares, normals.parts, covariance);
+  const auto add = [&](const char* name, std::size_t k, const glm::dvec2& value) {
+    out.scalars[fmt::format("cells_{}_x{}", name, k)] = static_cast<float>(value.x);
+    out.scalars[fmt::format("cells_{}_y{}", name, k)] = static_cast<float>(value.y);
+  };
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    add("centre", k, frames[k].centre);
+    if (covariance == Covariance::axes) add("axis", k, frames[k].axis);
   }
-  const int layers = cells::layer_count(cells::part_channels * static_cast<int>(normals.parts));
-  out.textures.push_back(layered_texture("cells_moments", layers, storage, coordinates, [&](int layer) {
-    return cells::moment_layer(normals.points, normals.shares, normals.parts, centres, normals.width, normals.height,
-                               layer);
-  }));
+  const cells::PartedPoints map{normals.points, normals.shares, normals.parts, normals.width, normals.height};
+  out.textures.push_back(
+      layered_texture("cells_moments", moment_layer_count(options), parse_storage(options.word("storage")), coordinates,
+                      [&](int layer) { return cells::moment_layer(map, frames, covariance, layer); }));
 }
 
 glm::ivec2 size_of(const TextureMap* map) {
@@ -134,8 +154,8 @@ class Cells final : public Method {
     if (!has(effects, Effect::normal_variation)) return bake_lobe_variance(material, storage, effects);
     Prefiltered out;
     const PartedNormals normals = parted(material, options, progress);
-    add_moments(normals, storage, normal_coordinates(material), out);
-    if (has(effects, Effect::diffuse))
+    add_moments(normals, options, normal_coordinates(material), out);
+    if (keeps_mean_normals(options, effects))
       out.textures.push_back(
           make_texture("cells_normal", mean_normal_chain(material), storage, normal_coordinates(material)));
     if (!has(effects, Effect::roughness_variation)) return out;
@@ -155,8 +175,8 @@ class Cells final : public Method {
                                                         const EffectSet& effects) const override {
     const int parts = static_cast<int>(options.number("k"));
     const auto channel = static_cast<double>(channel_bytes(parse_storage(options.word("storage"))));
-    double channels = 4.0 * cells::layer_count(cells::part_channels * parts);
-    if (has(effects, Effect::diffuse)) channels += 3.0;
+    double channels = 4.0 * moment_layer_count(options);
+    if (keeps_mean_normals(options, effects)) channels += 3.0;
     if (has(effects, Effect::roughness_variation) && options.word("roughness") == "joint" &&
         roughness_lies_on_normals(material))
       channels += 4.0 * cells::layer_count(parts);
@@ -164,8 +184,9 @@ class Cells final : public Method {
     const double points = sizeof(PlanePoint) + sizeof(float) * static_cast<double>(parts);
     const double labelling = decoded_normal + cells::label_block_bytes(parts);
     // Layers of moments are all there as floats before the first is encoded.
-    const double moments = 4.0 * cells::layer_count(cells::part_channels * parts) * sizeof(float) * mip_chain_share;
-    const double baking = std::max(moments + decoded_normal, kept + mean_normals_in_the_making);
+    const double moments = 4.0 * moment_layer_count(options) * sizeof(float) * mip_chain_share;
+    const double means = keeps_mean_normals(options, effects) ? kept + mean_normals_in_the_making : 0.0;
+    const double baking = std::max(moments + decoded_normal, means);
     return bake_memory(normal_texels(material) * kept,
                        normal_texels(material) * (points + std::max(labelling, baking)));
   }

@@ -11,6 +11,11 @@ const int parts = int(option_k);
 //? else
 const int parts = 1;
 //? end
+//? if covariance_axes
+const int part_channels = 5;
+//? else
+const int part_channels = 6;
+//? end
 
 //? include parts_module.glsl
 
@@ -23,14 +28,42 @@ vec2 centreOf(int i) {
   return centres[i];
 }
 
+//? if covariance_axes
+vec2 axisOf(int i) {
+  vec2 axes[8] =
+      vec2[8](vec2(cells_axis_x0, cells_axis_y0), vec2(cells_axis_x1, cells_axis_y1), vec2(cells_axis_x2, cells_axis_y2),
+              vec2(cells_axis_x3, cells_axis_y3), vec2(cells_axis_x4, cells_axis_y4), vec2(cells_axis_x5, cells_axis_y5),
+              vec2(cells_axis_x6, cells_axis_y6), vec2(cells_axis_x7, cells_axis_y7));
+  return axes[i];
+}
+
+// From the part's own axes to the plane's.
+vec2 meanOf(int i, vec2 own) {
+  vec2 a = axisOf(i);
+  return centreOf(i) + own.x * a + own.y * vec2(-a.y, a.x);
+}
+vec3 spreadOf(int i, vec2 own_mean, vec3 second) {
+  vec2 a = axisOf(i);
+  vec2 own = max(second.xz - own_mean * own_mean, 0.0);
+  return vec3(own.x * a.x * a.x + own.y * a.y * a.y, (own.x - own.y) * a.x * a.y, own.x * a.y * a.y + own.y * a.x * a.x);
+}
+//? else
+vec2 meanOf(int i, vec2 own) { return centreOf(i) + own; }
+vec3 spreadOf(int i, vec2 own_mean, vec3 second) { return covarianceOf(own_mean, second); }
+//? end
+
+// What covers less than `least_share` is not there; it is worked out like the others, without a branch.
 void setPart(inout Effective e, int i, float covered, Moments m, BaseLobe base) {
-  if (m.first.x < least_share * covered) {
-    e.part[i] = absentPart();
-    return;
-  }
-  vec2 mean = m.first.yz / m.first.x;
-  vec3 spread = covarianceOf(mean, m.second / m.first.x);
-  e.part[i] = stretchedPart(m.first.x / covered, centreOf(i) + mean, spread, base.parameter, base.variance);
+  float least = least_share * covered;
+  float per_weight = 1.0 / max(m.first.x, least);
+  vec2 own_mean = m.first.yz * per_weight;
+  vec2 mean = meanOf(i, own_mean);
+  vec3 spread = spreadOf(i, own_mean, m.second * per_weight);
+  float share = m.first.x < least ? 0.0 : m.first.x / covered;
+  e.part[i] = stretchedPart(share, mean, spread, base.parameter, base.variance);
+//? if diffuse and not coordinates_slopes
+  e.mean_normal += share * meanNormalOf(mean, spread);
+//? end
 }
 
 // That of the smallest alpha of a material, 0.001. In 16 bits the weighted variance of a small part of polished facets
@@ -48,12 +81,22 @@ BaseLobe lobeOfPart(BaseLobe shared_lobe, float weight, float weighted_variance)
   return shared_lobe;
 }
 
+// Of a part that is the surface's own normal, where no texel has a valid one.
+Moments flatMoments() {
+  vec2 own = -centreOf(0);
+//? if covariance_axes
+  vec2 a = axisOf(0);
+  own = vec2(dot(own, a), dot(own, vec2(-a.y, a.x)));
+//? end
+  return Moments(vec3(1.0, own), vec3(0.0));
+}
+
 void fillParts(inout Effective e, Footprints f) {
   Moments moments[parts];  // about the part's centre
   float covered = fetchMoments(cells_moments, f.normal, moments);
   BaseLobe base = baseLobe(f);
   if (covered <= 0.0) {
-    moments[0] = Moments(vec3(1.0, -centreOf(0)), vec3(0.0));
+    moments[0] = flatMoments();
     covered = 1.0;
   }
 //? if roughness_variation and roughness_joint
@@ -72,13 +115,20 @@ void fillParts(inout Effective e, Footprints f) {
 
 Effective effective(Footprints f) {
   Effective e;
-  e.mean_normal = vec3(0.0, 0.0, 1.0);
 //? if normal_variation
+//? if diffuse and not coordinates_slopes
+  e.mean_normal = vec3(0.0);
+  fillParts(e, f);
+//? else
   fillParts(e, f);
 //? if diffuse
   e.mean_normal = fetch(cells_normal, f.normal).xyz;
+//? else
+  e.mean_normal = vec3(0.0, 0.0, 1.0);
+//? end
 //? end
 //? else
+  e.mean_normal = vec3(0.0, 0.0, 1.0);
   BaseLobe base = baseLobe(f);
   e.part[0] = stretchedPart(1.0, vec2(0.0), vec3(0.0), base.parameter, base.variance);
 //? end

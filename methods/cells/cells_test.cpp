@@ -83,7 +83,7 @@ std::vector<PartTwin> twins_of(const Material& material, std::size_t parts) {
 // One part over slopes is LEAN mapping: its density to rounding, and its picture.
 TEST(Cells, OnePartOverSlopesIsLean) {
   const std::vector<glm::dvec3> directions = hemisphere_grid(12, 24);
-  const Words one{{"k", "1"}, {"coordinates", "slopes"}, {"density", "exact"}};
+  const Words one{{"k", "1"}, {"covariance", "full"}, {"coordinates", "slopes"}, {"density", "exact"}};
   for (const auto& [distribution, lobe] : lobes) {
     for (const float tilt : {0.1F, 0.6F, 0.95F}) {
       const Material material = lobe_material(random_normals(16, 16, tilt, 3), distribution, lobe);
@@ -98,7 +98,8 @@ TEST(Cells, OnePartOverSlopesIsLean) {
   for (const char* const filter : {"trilinear", "box:2"}) {
     const FootprintFilter parsed = parse_footprint_filter(filter, "");
     const Image lean = renderer.frame(lean_method(), {}, parsed);
-    const Image own = renderer.frame(cells_method(), "cells:k=1:coordinates=slopes:density=exact", parsed);
+    const Image own =
+        renderer.frame(cells_method(), "cells:k=1:covariance=full:coordinates=slopes:density=exact", parsed);
     EXPECT_LT(compare_images(own, lean, 1.0F).value().relative_rmse, 1e-4) << filter;
   }
 }
@@ -115,10 +116,14 @@ TEST(Cells, GlslMeetsItsTwin) {
         for (const PartTwin& twin : twins) sum += twin.density(distribution, lobe, h);
         expected.push_back(sum);
       }
-      const std::vector<double> density = probe_ndf(parted_method(material, {{"k", "3"}}), directions);
       const double peak = std::ranges::max(expected);
-      for (std::size_t i = 0; i < directions.size(); ++i)
-        EXPECT_NEAR(density[i], expected[i], 2e-4 * peak) << lobe << " " << tilt << " " << i;
+      // Over the whole map the axes are those of the covariance: nothing is left out.
+      for (const char* const covariance : {"axes", "full"}) {
+        const std::vector<double> density =
+            probe_ndf(parted_method(material, {{"k", "3"}, {"covariance", covariance}}), directions);
+        for (std::size_t i = 0; i < directions.size(); ++i)
+          EXPECT_NEAR(density[i], expected[i], 2e-4 * peak) << lobe << " " << tilt << " " << i << " " << covariance;
+      }
     }
   }
 }
@@ -136,7 +141,8 @@ TEST(Cells, KeepsTheEnergyOfTheSumOverTexels) {
     for (const Image& normals : {random_normals(5, 3, 0.4F, 6), two_walls(8)}) {
       const Material material = lobe_material(normals, distribution, lobe);
       const double truth = energy(truth_of(material, directions));
-      for (const Words& words : {Words{}, {{"k", "2"}, {"storage", "fp16"}}, {{"coordinates", "slopes"}}}) {
+      for (const Words& words :
+           {Words{}, {{"k", "2"}, {"storage", "fp16"}}, {{"covariance", "full"}}, {{"coordinates", "slopes"}}}) {
         EXPECT_NEAR(energy(probe_ndf(parted_method(material, words), directions)) / truth, 1.0, 0.01)
             << lobe << " " << normals.width << " " << words.size() << (words.contains("k") ? " k" : "");
       }
@@ -152,7 +158,7 @@ TEST(Cells, EveryFilterKeepsTheEnergy) {
   TestRenderer renderer(scene, {32, 32});
   const double truth = covered_mean(renderer.reference(256).mean);
   for (const char* const filter : {"trilinear", "anisotropic:8", "box:3", "ewa:8", "shaded:2"}) {
-    for (const char* const text : {"cells", "cells:k=2:storage=fp16"})
+    for (const char* const text : {"cells", "cells:covariance=full", "cells:k=2:storage=fp16"})
       EXPECT_NEAR(covered_mean(renderer.frame(cells_method(), text, parse_footprint_filter(filter, ""))) / truth, 1.0,
                   0.01)
           << filter << " " << text;
@@ -164,6 +170,37 @@ TEST(Cells, HalfFloatsAreCloseToFloats) {
   const Material material = lobe_material(two_walls(32), blinn_phong, 64.0F);
   const std::vector<double> floats = probe_ndf(parted_method(material), directions);
   EXPECT_LT(relative_l2(probe_ndf(parted_method(material, {{"storage", "fp16"}}), directions), floats), 0.01);
+}
+
+// The mean of the unit normals out of the moments, against that of the texels. Walls that face each other are exact for
+// one part already; where a part leans the second order is what counts.
+TEST(Cells, MomentsTellTheMeanNormal) {
+  const std::array<std::array<glm::vec4, 3>, 1> input{};
+  const auto error = [&](const Image& normals, const Words& words, const char* found) {
+    const Material material = lobe_material(normals, blinn_phong, 16.0F);
+    ProbedMethod probed = parted_method(material, words);
+    probed.effects.set(static_cast<std::size_t>(Effect::diffuse));
+    const glm::vec3 mean(probe_method(probed, found, input)[0]);
+    glm::dvec3 truth(0.0);
+    for (int y = 0; y < normals.height; ++y) {
+      for (int x = 0; x < normals.width; ++x) truth += normal_at(normals, x, y);
+    }
+    return glm::length(glm::dvec3(mean) - truth / static_cast<double>(normals.texel_count()));
+  };
+  const char* const whole = "return vec4(e.mean_normal, 0.0);";
+  Image facing(2, 1, 4);
+  for (const float tilt : {0.2F, 0.8F, 0.985F}) {
+    const float height = std::sqrt(1.0F - tilt * tilt);
+    facing.texels = {tilt, 0.0F, height, 1.0F, -tilt, 0.0F, height, 1.0F};
+    EXPECT_LT(error(facing, {{"k", "1"}}, whole), 1e-6) << tilt;
+  }
+  for (const char* const covariance : {"axes", "full"}) {
+    EXPECT_LT(error(two_walls(32), {{"covariance", covariance}}, whole), 1e-4);
+    EXPECT_LT(error(two_walls(32), {{"k", "1"}, {"covariance", covariance}}, whole), 4e-3);
+    EXPECT_LT(error(random_normals(32, 32, 0.9F, 5), {{"covariance", covariance}}, whole), 4e-3);
+  }
+  EXPECT_GT(error(two_walls(32), {{"k", "1"}}, "return vec4(e.part[0].axis, 0.0);"), 0.05)
+      << "the gate: the part's axis";
 }
 
 // Two walls in two parts, where one lobe stands over the ridge between them.
@@ -320,10 +357,12 @@ TEST(Cells, StoresWhatIsCalledFor) {
     return count;
   };
   EXPECT_EQ(layers({}, {}), 0);
-  EXPECT_EQ(layers({}, {Effect::normal_variation}), 6);
+  EXPECT_EQ(layers({}, {Effect::normal_variation}), 5);
+  EXPECT_EQ(layers({{"covariance", "full"}}, {Effect::normal_variation}), 6);
   EXPECT_EQ(layers({{"k", "1"}}, {Effect::normal_variation}), 2);
-  EXPECT_EQ(layers({{"k", "3"}}, {Effect::normal_variation, Effect::diffuse}), 6);
-  EXPECT_EQ(layers({}, {Effect::normal_variation, Effect::roughness_variation}), 8);
+  EXPECT_EQ(layers({{"k", "3"}}, {Effect::normal_variation, Effect::diffuse}), 4);
+  EXPECT_EQ(layers({{"coordinates", "slopes"}}, {Effect::normal_variation, Effect::diffuse}), 6);
+  EXPECT_EQ(layers({}, {Effect::normal_variation, Effect::roughness_variation}), 7);
 }
 
 }  // namespace

@@ -117,6 +117,8 @@ void add_tables(Plan plan, const Material& material, const Options& options, con
   std::ranges::move(plan.notes, std::back_inserter(out.notes));
 }
 
+constexpr cells::Covariance kept_moments = cells::Covariance::full;
+
 // The moments of `cells`, by its partition of the same name.
 void add_parts(const Material& material, const Options& options, const Progress& progress, Prefiltered& out) {
   const Image normals = normal_map_of(material);
@@ -125,18 +127,17 @@ void add_parts(const Material& material, const Options& options, const Progress&
                                           .variance = lobe_variance_chain(material).back().texels[0]};
   const std::vector<float> shares = cells::partition(points, normals.width, normals.height, settings, progress);
   const auto parts = static_cast<std::size_t>(settings.parts);
-  const auto centres = cells::part_centres(points, shares, parts);
+  const auto frames = cells::part_frames(points, shares, parts, kept_moments);
   for (std::size_t k = 0; k < most_parts; ++k) {
-    out.scalars[fmt::format("ndf_atlas_centre_x{}", k)] = static_cast<float>(centres[k].x);
-    out.scalars[fmt::format("ndf_atlas_centre_y{}", k)] = static_cast<float>(centres[k].y);
+    out.scalars[fmt::format("ndf_atlas_centre_x{}", k)] = static_cast<float>(frames[k].centre.x);
+    out.scalars[fmt::format("ndf_atlas_centre_y{}", k)] = static_cast<float>(frames[k].centre.y);
   }
-  const int layers = cells::layer_count(cells::part_channels * settings.parts);
+  const int layers = cells::layer_count(cells::part_channels(kept_moments) * settings.parts);
   std::vector<std::vector<Image>> chains;
   chains.reserve(static_cast<std::size_t>(layers));
-  for (int layer = 0; layer < layers; ++layer) {
-    chains.push_back(
-        mip_chain(cells::moment_layer(points, shares, parts, centres, normals.width, normals.height, layer)));
-  }
+  const cells::PartedPoints map{points, shares, parts, normals.width, normals.height};
+  for (int layer = 0; layer < layers; ++layer)
+    chains.push_back(mip_chain(cells::moment_layer(map, frames, kept_moments, layer)));
   // Read from no level that has tables.
   out.textures.push_back(make_array_texture("ndf_atlas_moments", std::move(chains),
                                             parse_storage(options.word("storage")), normal_coordinates(material),
@@ -168,7 +169,7 @@ class NdfAtlas final : public Method {
                                                         const EffectSet& effects) const override {
     const int parts = static_cast<int>(options.number("k"));
     const auto channel = static_cast<double>(channel_bytes(parse_storage(options.word("storage"))));
-    const double layers = cells::layer_count(cells::part_channels * parts);
+    const double layers = cells::layer_count(cells::part_channels(kept_moments) * parts);
     const double mean = 3.0 * channel * mip_chain_share;
     const double moments = 4.0 * layers * mip_chain_share;
     const double points = decoded_normal + sizeof(cells::PlanePoint) + sizeof(float) * static_cast<double>(parts);

@@ -5,6 +5,7 @@ const int parts = int(option_n);
 //? else
 const int parts = 1;
 //? end
+const int part_channels = 6;
 //? include stretched_part.glsl
 //? include parts_module.glsl
 

@@ -1,8 +1,9 @@
 // The moments of some parts of the normals under a footprint, from array textures that the filter may average, and a
-// facet's lobe. Who takes it in has `const int parts`.
+// facet's lobe. Who takes it in has `const int parts`, and `const int part_channels`: 6, or 5 where a part keeps no
+// mixed second moment.
 //? include lobe_variance.glsl
 
-// Of a part of weight w: w, w x, w y, w x^2, w x y, w y^2.
+// Of a part of weight w: w, w x, w y; w x^2, w x y (0 where it is not kept), w y^2.
 struct Moments {
   vec3 first;
   vec3 second;
@@ -35,30 +36,39 @@ BaseLobe baseLobe(Footprints f) {
 }
 
 //? if normal_variation
-// Parts i and i + 1, from three layers. It is called for each pair by itself: a loop over fetches, which are loops
-// themselves, is not unrolled, and arrays that it writes cost llvmpipe more than the fetches.
-void fetchPair(sampler2DArray map, Footprint f, float coarsest, int i, inout Moments moments[parts],
-               inout float covered) {
-  int layer = 3 * (i / 2);
-  vec4 first = fetchUpTo(map, layer, f, coarsest);
-  vec4 middle = fetchUpTo(map, layer + 1, f, coarsest);
-  moments[i] = Moments(first.xyz, vec3(first.w, middle.xy));
-  covered += first.x;
-  if (i + 1 < parts) {
-    vec4 last = fetchUpTo(map, layer + 2, f, coarsest);
-    moments[i + 1] = Moments(vec3(middle.zw, last.x), last.yzw);
-    covered += middle.z;
+const int moment_layers = (parts * part_channels + 3) / 4;
+
+// As `fetchUpTo`, of all layers. In a frame one loop over the probes reads them together: their places and their level
+// are those of all, and a loop of its own for each would find them again.
+void fetchLayers(sampler2DArray map, Footprint f, float coarsest, out vec4 layers[moment_layers]) {
+//? if sampling_frame and not filter_hardware
+  Probes p = probesOf(vec2(textureSize(map, 0).xy), f);
+  countLookups(moment_layers * p.count);
+  float level = min(p.level, coarsest);
+  for (int l = 0; l < moment_layers; ++l) layers[l] = vec4(0.0);
+  for (int i = 0; i < p.count; ++i) {
+    vec2 uv = probeUv(f, p, i);
+    float weight = probeWeight(p, i);
+    for (int l = 0; l < moment_layers; ++l) layers[l] += weight * textureLod(map, vec3(uv, l), level);
   }
+//? else
+  for (int l = 0; l < moment_layers; ++l) layers[l] = fetchUpTo(map, l, f, coarsest);
+//? end
 }
 
 // The moments of all parts, from no level above `coarsest`, and what they cover of the footprint: the part of it with
 // valid normals.
 float fetchMoments(sampler2DArray map, Footprint f, float coarsest, out Moments moments[parts]) {
+  vec4 layers[moment_layers];
+  fetchLayers(map, f, coarsest, layers);
   float covered = 0.0;
-  fetchPair(map, f, coarsest, 0, moments, covered);
-  if (parts > 2) fetchPair(map, f, coarsest, 2, moments, covered);
-  if (parts > 4) fetchPair(map, f, coarsest, 4, moments, covered);
-  if (parts > 6) fetchPair(map, f, coarsest, 6, moments, covered);
+  for (int i = 0; i < parts; ++i) {
+    float own[part_channels];
+    for (int j = 0; j < part_channels; ++j) own[j] = layers[(i * part_channels + j) / 4][(i * part_channels + j) % 4];
+    moments[i].first = vec3(own[0], own[1], own[2]);
+    moments[i].second = vec3(own[3], part_channels > 5 ? own[4] : 0.0, own[part_channels - 1]);
+    covered += moments[i].first.x;
+  }
   return covered;
 }
 

@@ -67,14 +67,14 @@ void setPart(inout Effective e, int i, float covered, Moments m, BaseLobe base) 
 }
 
 // That of the smallest alpha of a material, 0.001. In 16 bits the weighted variance of a small part of polished facets
-// rounds to 0, which no lobe has.
+// rounds to 0, as that of a part that is not there is, and no lobe has that.
 const float least_variance = 5e-7;
 
 // The base lobe over a part: where the roughness map lies on the normals, the mean of the part's own texels.
 BaseLobe lobeOfPart(BaseLobe shared_lobe, float weight, float weighted_variance) {
 //? if roughness_variation and roughness_joint
-  if (cells_joint > 0.5 && weight > 0.0) {
-    float variance = max(weighted_variance / weight * stored_lobe_variance, least_variance);
+  if (cells_joint > 0.5) {
+    float variance = max(weighted_variance / max(weight, 1e-12) * stored_lobe_variance, least_variance);
     return BaseLobe(lobeFromVariance(variance), variance);
   }
 //? end

@@ -344,6 +344,30 @@ TEST(Cells, ASmallPartOfPolishedFacetsStaysFinite) {
   for (const double density : probe_ndf(probed, directions)) EXPECT_TRUE(std::isfinite(density) && density >= 0.0);
 }
 
+// Two polished walls, each with a roughness that varies: where the one is seen, the other's part weighs nothing at all.
+TEST(Cells, PartsThatAreNotThereHaveNoRoughness) {
+  Image normals(32, 32, 4), roughness(32, 32, 2);
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 32; ++x) {
+      const glm::vec3 n = glm::normalize(glm::vec3(x < 16 ? 0.5F : -0.5F, 0.0F, 1.0F));
+      std::copy_n(&n.x, 3, normals.at(x, y).data());
+      normals.at(x, y)[3] = 1.0F;
+      roughness.at(x, y)[0] = x % 2 == 0 ? 0.1F : 0.05F;
+      roughness.at(x, y)[1] = 1.0F;
+    }
+  }
+  const BaseBrdf brdf{ggx, GeometryTerm::none, FresnelTerm::none, true};
+  Scene scene = square_scene(normals, {.brdf = brdf});
+  Material& material = scene.materials[0];
+  material.lobe_parameter.reset();
+  material.metallic_roughness_map =
+      TextureMap{"roughness", std::make_shared<const Image>(roughness), material.normal_map->coordinates};
+  TestRenderer renderer(scene, {32, 32});
+  const Image frame = renderer.frame(cells_method(), "cells:k=2", parse_footprint_filter("trilinear", ""));
+  EXPECT_TRUE(std::ranges::all_of(frame.texels, [](float v) { return std::isfinite(v) && v >= 0.0F; }));
+  EXPECT_GT(covered_mean(frame), 0.0);
+}
+
 // What an effect does not need is not stored.
 TEST(Cells, StoresWhatIsCalledFor) {
   const Material material = lobe_material(random_normals(4, 4, 0.5F, 8), ggx, 0.3F);

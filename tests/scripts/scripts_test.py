@@ -265,7 +265,7 @@ class AccuracyVsTime(InFolder):
         super().setUp()
         self.script = module(SOURCE / "scripts/accuracy_vs_time")
         for name in self.script.FILTERS:
-            for member in ("cost", "flicker", "bumps"):
+            for member in ("cost", "flicker", "bound", "bumps"):
                 self.write(name, member)
 
     def write(self, name, member, factor=1.0, by_filter=0.02):
@@ -318,6 +318,20 @@ class AccuracyVsTime(InFolder):
         self.assertIn("`tan_gmm` under `trilinear` does not stay ahead of `toksvig` under `shaded:2` from any width",
                       " ".join(page.split()))
         self.assertIn("that it beats it is confirmed", " ".join(page.split()))
+
+    def test_exact_filtering_stands_beside_all_others(self):
+        self.assertIn("### How far from exact?\n\nNot run: `bound`.", self.run_script().stdout)
+        self.METHODS = {**self.METHODS, self.script.EXACT: (500.0, 0.01)}
+        for name in self.script.FILTERS:
+            self.write(name, "bound", by_filter=0.03)
+        page = " ".join(self.run_script().stdout.split())
+        self.assertIn("| `trilinear` | 0.03 | 3 | `cells`, 4 | 0.05 | 5 |", page)
+        self.assertIn("the closest is 5 times as far off as exact filtering", page)
+        self.assertIn("their kernels alone are 3 times off", page)
+        self.assertIn("| cells * | trilinear | 4 | 0.05 ×/÷ 1.00 |", page, "it is no scene of the study")
+        for name in self.script.FILTERS:
+            self.write(name, "bound", by_filter=0.015)
+        self.assertNotIn("their kernels alone", self.run_script().stdout)
 
     def test_a_scene_without_all_filters_is_in_no_mean(self):
         self.write("trilinear", "scales", factor=0.1)

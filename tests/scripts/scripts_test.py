@@ -297,6 +297,7 @@ class AccuracyVsTime(InFolder):
         self.assertIn("| cells * | trilinear | 4 | 0.05 ×/÷ 1.00 |", page)
         self.assertNotIn("| tan_gmm | trilinear | 4 |", page, "cells costs the same and errs less")
         self.assertIn("| `cells` | `trilinear` | 0.5 ×/÷ 1.00 | 1 |", page)
+        self.assertIn("Both aims are met by `cells` under `trilinear`,", " ".join(page.split()))
         self.assertIn("refuted: not for `tan_gmm`", " ".join(page.split()))
         self.assertIn("`tan_gmm` under `trilinear` is ahead of `toksvig` under `shaded:2` at every width", page)
         self.assertIn("| 16 to 32 | 1 |", page, "256 texels along 16 pixels")
@@ -318,6 +319,12 @@ class AccuracyVsTime(InFolder):
         self.assertIn("`tan_gmm` under `trilinear` does not stay ahead of `toksvig` under `shaded:2` from any width",
                       " ".join(page.split()))
         self.assertIn("that it beats it is confirmed", " ".join(page.split()))
+
+    def test_an_aim_that_is_missed_is_not_called_met(self):
+        self.METHODS = {**self.METHODS, "cells": (4.4, 0.05)}
+        for name in self.script.FILTERS:
+            self.write(name, "cost")
+        self.assertIn("- Both aims are met by none.", self.run_script().stdout)
 
     def test_exact_filtering_stands_beside_all_others(self):
         self.assertIn("### How far from exact?\n\nNot run: `bound`.", self.run_script().stdout)

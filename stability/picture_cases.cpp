@@ -145,6 +145,21 @@ Scene varying_roughness() {
   return scene;
 }
 
+// Where a method tells normals apart, the one wall's lobe has no share of the other wall.
+Scene polished_walls() {
+  Image normals = tilted(30.0), map(8, 8, 2, 1.0F);
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      if (x < 4) normals.at(x, y)[0] *= -1.0F;
+      map.at(x, y)[0] = x % 2 == 0 ? 0.1F : 0.05F;
+    }
+  }
+  Scene scene = square(std::move(normals), 1.0F);
+  scene.materials.front().metallic_roughness_map =
+      TextureMap{"roughness", std::make_shared<const Image>(std::move(map)), {}};
+  return scene;
+}
+
 }  // namespace
 
 std::span<const PictureCase> picture_cases() {
@@ -154,6 +169,7 @@ std::span<const PictureCase> picture_cases() {
         {"roughness_1", "roughness 1 over noise up to the horizon",
          [] { return square(noise(16, 16, 0.999, 9), 1.0F); }},
         {"roughness_0_and_1", "roughness 0 and 1 in turn", varying_roughness},
+        {"polished_walls", "two walls, each of roughness 0.05 and 0.1 in turn", polished_walls},
         {"constant_tilt", "one normal everywhere: nothing to filter", [] { return square(tilted(17.0), 0.5F); }, true},
         {"grazing_view", "seen from a degree above the surface",
          [] {

@@ -15,10 +15,6 @@ struct Direction {
 
 Direction directionOf(vec3 h) { return Direction(h); }
 
-Part absentPart() {
-  return Part(slopeLobe(vec2(0.0), mat2(0.0), 1.0), vec3(0.0, 0.0, 1.0), 0.0, lobe_cutoff.x, 1.0);
-}
-
 Part stretchedPart(float share, vec2 mean, vec3 spread, float lobe, float variance) {
   SlopeLobe slopes = slopeLobe(mean, mat2(spread.x, spread.y, spread.y, spread.z), variance);
   return Part(slopes, slopes.axis, share, lobe, slopes.breadth);

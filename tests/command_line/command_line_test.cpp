@@ -279,7 +279,7 @@ const std::vector<Case> good_cases{
      .arguments = {"explain", model, "--size", "64x64"},
      .output_has = {"normal_variation", "a normal map that is not flat", "base_normal"}},
     {.name = "ExplainCost",
-     .arguments = {"explain", model, "--size", "64x64", "--cost", "--repeats", "1", "--json"},
+     .arguments = {"explain", "ribbed_plane", "--size", "64x64", "--cost", "--repeats", "1", "--json"},
      .output_has = {"\"cost\"", "\"added_ms\""}},
     {.name = "CompareInTwoProcesses",
      .arguments = {"compare", "ribbed_plane", "--size", "64x64", "--spp", "4", "--repeats", "1", "--processes", "2",

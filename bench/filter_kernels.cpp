@@ -17,8 +17,9 @@ namespace {
 
 constexpr int edge = 64;    // texels of the map that a kernel is drawn on
 constexpr int phases = 64;  // places of a footprint that figures are means over
-constexpr std::array<const char*, 9> filters{"trilinear", "anisotropic:8", "anisotropic:16", "box:2", "box:3",
-                                             "box:4",     "box:8",         "ewa:8",          "ewa:16"};
+constexpr std::array<const char*, 12> filters{"trilinear", "anisotropic:8", "anisotropic:16", "box:2",
+                                              "box:3",     "box:4",         "box:8",          "area:2",
+                                              "area:3",    "area:4",        "ewa:8",          "ewa:16"};
 
 struct Case {
   const char* name;

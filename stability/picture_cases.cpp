@@ -216,6 +216,7 @@ std::span<const PictureCase> picture_cases() {
     for (const FootprintFilter filter : {FootprintFilter{FootprintFilterKind::trilinear, 1},
                                          {FootprintFilterKind::hardware, 8},
                                          {FootprintFilterKind::box, 3},
+                                         {FootprintFilterKind::area, 3},
                                          {FootprintFilterKind::ewa, 8},
                                          {FootprintFilterKind::shaded, 2}}) {
       all.push_back(

@@ -157,7 +157,7 @@ TEST(Cells, EveryFilterKeepsTheEnergy) {
   scene.materials[0].lobe_parameter = 8.0F;
   TestRenderer renderer(scene, {32, 32});
   const double truth = covered_mean(renderer.reference(256).mean);
-  for (const char* const filter : {"trilinear", "anisotropic:8", "box:3", "ewa:8", "shaded:2"}) {
+  for (const char* const filter : {"trilinear", "anisotropic:8", "box:3", "area:3", "ewa:8", "shaded:2"}) {
     for (const char* const text : {"cells", "cells:covariance=full", "cells:k=2:storage=fp16"})
       EXPECT_NEAR(covered_mean(renderer.frame(cells_method(), text, parse_footprint_filter(filter, ""))) / truth, 1.0,
                   0.01)

@@ -303,7 +303,8 @@ TEST(NdfAtlas, EveryFilterKeepsTheEnergy) {
   scene.materials[0].lobe_parameter = 8.0F;
   TestRenderer renderer(scene, {32, 32});
   const double truth = covered_mean(renderer.reference(256).mean);
-  for (const char* const filter : {"trilinear", "anisotropic:8", "box:3", "ewa:8", "shaded:2", "hardware:4"}) {
+  for (const char* const filter :
+       {"trilinear", "anisotropic:8", "box:3", "area:3", "ewa:8", "shaded:2", "hardware:4"}) {
     for (const char* const text : {"ndf_atlas:level=1", "ndf_atlas:level=2:tables=fp16"})
       EXPECT_NEAR(covered_mean(renderer.frame(ndf_atlas_method(), text, parse_footprint_filter(filter, ""))) / truth,
                   1.0, 0.01)

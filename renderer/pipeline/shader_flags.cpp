@@ -73,6 +73,7 @@ constexpr auto rows = std::to_array<FlagRow>({
     {"random_draws", draws},
     {"filter_anisotropic", is_filter<FootprintFilterKind::anisotropic>},
     {"filter_box", is_filter<FootprintFilterKind::box>},
+    {"filter_area", is_filter<FootprintFilterKind::area>},
     {"filter_ewa", is_filter<FootprintFilterKind::ewa>},
     {"filter_hardware", is_filter<FootprintFilterKind::hardware>},
     {"filter_shaded", is_filter<FootprintFilterKind::shaded>},

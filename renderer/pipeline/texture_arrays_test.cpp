@@ -60,7 +60,7 @@ std::vector<std::array<glm::vec4, 3>> some_footprints() {
 }
 
 TEST(TextureArrays, TexelsOfAFootprintSumToWhatTheSamplerBlends) {
-  for (const char* const text : {"trilinear", "anisotropic:4", "box:3", "ewa:6"}) {
+  for (const char* const text : {"trilinear", "anisotropic:4", "box:3", "area:2", "ewa:6"}) {
     const FootprintFilter filter = parse_footprint_filter(text, "");
     for (int layer = 0; layer < 3; ++layer) {
       const auto expected =

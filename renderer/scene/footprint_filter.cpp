@@ -24,6 +24,7 @@ constexpr auto words = std::to_array<FootprintFilterWord>({
     {Kind::trilinear, "trilinear", 1, 1},
     {Kind::anisotropic, "anisotropic", 1, 16},
     {Kind::box, "box", 1, 8},
+    {Kind::area, "area", 1, 8},
     {Kind::ewa, "ewa", 1, 16},
     {Kind::shaded, "shaded", 1, 8},
     {Kind::hardware, "hardware", 1, 16},

@@ -12,6 +12,7 @@ enum class FootprintFilterKind {
   trilinear,    ///< one lookup at the level of the footprint's longer edge
   anisotropic,  ///< up to N lookups along that edge, by the formulas of EXT_texture_filter_anisotropic
   box,          ///< N x N lookups that tile the footprint
+  area,         ///< some N x N bilinear lookups: the texels of one level, each by its share of the footprint
   ewa,          ///< up to N weighted lookups along the ellipse's longer axis (Heckbert 1989, McCormack et al. 1999)
   shaded,       ///< N x N parts, each prefiltered and shaded for itself, and what they reflect averaged
   hardware,     ///< the sampler's own anisotropic filter of up to N probes

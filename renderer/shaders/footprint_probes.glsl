@@ -1,6 +1,9 @@
 // The footprint filters (docs/filters.md): the trilinear lookups that stand for a footprint, their places, their one
 // level and their weights, which sum to one.
 
+//? if filter_area
+//? include footprint_area.glsl
+//? else
 struct Probes {
   int count;
   float level;
@@ -93,4 +96,5 @@ vec2 probeUv(Footprint f, Probes p, int i) { return f.uv + p.axis * probeAxis(p,
 Probes probesOf(vec2 size, Footprint f) { return Probes(1, levelOf(size, f, 1.0)); }
 vec2 probeUv(Footprint f, Probes p, int i) { return f.uv; }
 float probeWeight(Probes p, int i) { return 1.0; }
+//? end
 //? end

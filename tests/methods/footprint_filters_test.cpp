@@ -52,7 +52,7 @@ TEST_P(FootprintFilters, HaveNothingToDoWhereNothingVaries) {
   normals.at(0, 0)[0] += 2e-5F;  // keeps a flat map from being left out, and is no bump to speak of
   TestRenderer renderer(square_scene(normals, {}));
   const Image direct = renderer.frame(find_method("direct"));
-  for (const char* const text : {"trilinear", "anisotropic:8", "box:3", "ewa:8", "shaded:3"})
+  for (const char* const text : {"trilinear", "anisotropic:8", "box:3", "area:3", "ewa:8", "shaded:3"})
     EXPECT_LT(error_of(renderer.frame(*GetParam(), {}, filter_of(text)), direct), 1e-3) << text;
   if (!has_hardware_filter()) return;
   EXPECT_LT(error_of(renderer.frame(*GetParam(), {}, filter_of("hardware:8")), direct), 1e-3);
@@ -69,7 +69,7 @@ TEST(FootprintFilter, LevelsThatAModuleNamesAreTheSameUnderEach) {
   scene.camera = receding_grooves().camera;
   TestRenderer renderer(scene, {24, 24});
   const Image finest = renderer.frame(find_method("direct"), {}, filter_of("trilinear"));
-  for (const char* const text : {"anisotropic:8", "box:3", "ewa:8"})
+  for (const char* const text : {"anisotropic:8", "box:3", "area:3", "ewa:8"})
     EXPECT_LT(largest_difference(renderer.frame(find_method("direct"), {}, filter_of(text)), finest), 1e-5) << text;
   if (!has_hardware_filter()) return;
   EXPECT_LT(largest_difference(renderer.frame(find_method("direct"), {}, filter_of("hardware:8")), finest), 1e-5);
@@ -139,6 +139,7 @@ TEST(FootprintFilter, LookupsAndLobesAreCounted) {
   expect_work("naive_mip", "trilinear", 1, 1);
   expect_work("naive_mip", "anisotropic:8", 1, 1);  // the footprint is even
   expect_work("naive_mip", "box:3", 9, 1);
+  expect_work("naive_mip", "area:3", 9, 1);
   expect_work("naive_mip", "shaded:3", 9, 9);
   if (shared_context().info().max_anisotropy >= 4) expect_work("naive_mip", "hardware:4", 1, 1);
   expect_work("lean", "box:2", 12, 1);   // three textures

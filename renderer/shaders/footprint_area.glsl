@@ -1,0 +1,183 @@
+// Area weights: the texels of one level that a footprint touches, each by how much of the footprint lies in it
+// (docs/filters.md), two by two: a bilinear lookup between four texels has the weight of all, and their shares by where
+// it is.
+//
+// The footprint P is spread by the tent of bilinear filtering at the finest level: of a texel of level l that leaves
+// the integral over its square of P convolved with a box of 2^-l of its width. Strip by strip of two rows that is a
+// product: the share of a row, of which P's extent across rows is two boxes convolved, and within the strip the share
+// of a column, of which the section of P halfway up the strip is one. Boxes of widths u and v that are small beside a
+// third are taken as one of the width sqrt(u^2 + v^2), which has their variance. Shares sum to one as differences of a
+// distribution function do; the outermost ones have what lies beyond them.
+
+// A point's place along an axis: two boxes convolved about 0.
+struct Boxes {
+  float reach;    // to either side
+  float plateau;  // to where the density is even
+  float density;  // there
+  float tail;     // of what is left to the end, squared, the share that lies there
+};
+
+// No box is narrower: of one that is, rounding would leave little. Bilinear weights change by less than half of it over
+// its width.
+const float narrowest_box = 1.0 / 1024.0;
+
+Boxes boxesOf(float a, float b) {
+  float u = max(a, narrowest_box);
+  float v = max(b, narrowest_box);
+  return Boxes(0.5 * (u + v), 0.5 * abs(u - v), 1.0 / max(u, v), 0.5 / (u * v));
+}
+
+// The distribution function. Tails are squares of what is left of them, so that nothing cancels.
+float boxesBelow(Boxes b, float x) {
+  float t = abs(x);
+  float rest = max(b.reach - t, 0.0);
+  float beyond = t < b.plateau ? 0.5 - t * b.density : rest * rest * b.tail;
+  return x < 0.0 ? beyond : 1.0 - beyond;
+}
+
+// A pair of texels about `middle`: what is theirs, and the second one's part of it.
+struct PairShare {
+  float whole;
+  float second;
+};
+
+PairShare pairShare(Boxes b, float middle, bool first, bool last) {
+  float low = first ? 0.0 : boxesBelow(b, middle - 1.0);
+  float high = last ? 1.0 : boxesBelow(b, middle + 1.0);
+  float whole = max(high - low, 0.0);
+  return PairShare(whole, whole > 1e-6 ? clamp((high - boxesBelow(b, middle)) / whole, 0.0, 1.0) : 0.5);
+}
+
+// Of a box, what is left to the outermost texels at each end, in texels: without it one more would have next to
+// nothing. Next to none of a narrow one, whose texels blend as those of a bilinear lookup do.
+const float widest_hem = 0.35;
+float hemOf(float extent) { return max(widest_hem * min(0.5 * extent, 1.0), 2.0 * narrowest_box); }
+
+// Pairs of texels that hold so much of an axis, wherever it begins.
+float pairsOf(float extent) { return ceil(0.5 * (ceil(extent) + 1.0)); }
+
+// Lookups by strips of two rows and, in a strip, pairs of columns, across the axis along which the footprint reaches
+// farther. What is the same for all of them is worked out once: Mesa's llvmpipe moves nothing out of a loop.
+struct Probes {
+  int count;
+  float level;
+  vec2 texel;   // of the level: its sides, in texture coordinates
+  bool turned;  // rows run along v
+  vec2 centre;  // of the footprint, (column, row), the first texel's being 0
+  float strips;
+  float pairs;      // of columns, in a strip
+  float per_pairs;  // 1 over them
+  float first_row;  // from the centre
+  Boxes rows;       // the footprint's extent across rows
+  float reach;      // half of it, without what the finest level's tent adds
+  float lean;       // columns to a row
+  float across;     // columns that the other edge crosses within a row
+  float half_edge;  // of the edge that crosses more rows, half its rows
+  float per_rise;   // 1 over the rows that the other edge crosses
+  float smear;      // what the finest level's tent leaves, in columns
+  float hem;        // of columns
+};
+
+// The edge of a footprint that crosses more rows and the other one, both upwards.
+struct RowEdges {
+  vec2 edge;
+  vec2 other;
+};
+
+vec2 upwards(vec2 edge) { return edge.y < 0.0 ? -edge : edge; }
+
+RowEdges rowEdges(vec2 a, vec2 b) {
+  bool first = abs(a.y) >= abs(b.y);
+  RowEdges e = RowEdges(upwards(first ? a : b), upwards(first ? b : a));
+  e.edge.y = max(e.edge.y, narrowest_box);
+  return e;
+}
+
+float leanOf(RowEdges e) { return e.edge.x / e.edge.y; }
+
+// The widest section of a row.
+float widestOf(RowEdges e) {
+  return abs(e.other.x - e.other.y * leanOf(e)) * min(e.edge.y / max(e.other.y, 1e-12 * e.edge.y), 1.0);
+}
+
+// s, the finest level's texels over those of which 2N x 2N hold a footprint h high and w wide: (h + 1) s - 2 hems + 1
+// rows, the 1 in the brackets being the tent's, times as many columns of w, which lean over two rows. Of the roots, the
+// form that does not cancel.
+float areaScale(RowEdges e) {
+  const float rim = 1.0 - 2.0 * widest_hem;
+  float high = e.edge.y + e.other.y + 1.0;
+  float wide = widestOf(e) + 1.0;
+  float slanted = rim + 2.0 * abs(leanOf(e));
+  float linear = high * slanted + wide * rim;
+  float missing = 4.0 * float(most_probes * most_probes) - rim * slanted;
+  return 2.0 * missing / (linear + sqrt(linear * linear + 4.0 * high * wide * missing));
+}
+
+Probes probesOf(vec2 size, Footprint f) {
+  const float most = 1e8;  // of a footprint that is none: edges whose squares are numbers
+  vec2 edge_x = clamp(f.dx * size, -most, most);
+  vec2 edge_y = clamp(f.dy * size, -most, most);
+  Probes p;
+  p.turned = abs(edge_x.x) + abs(edge_y.x) > abs(edge_x.y) + abs(edge_y.y);
+  RowEdges e = p.turned ? rowEdges(edge_x.yx, edge_y.yx) : rowEdges(edge_x, edge_y);
+  float s = areaScale(e);
+  ivec2 finest = ivec2(size);
+  p.level = clamp(ceil(-log2(s)), 0.0, float(findMSB(max(finest.x, finest.y))));
+  vec2 texels = levelSize(finest, int(p.level));
+  p.texel = 1.0 / texels;
+  vec2 centre = f.uv * texels - 0.5;
+  vec2 smear = texels / size;  // a finest texel's sides
+  p.centre = p.turned ? centre.yx : centre;
+  if (p.turned) smear = smear.yx;
+  // A footprint that is wider than 2N texels of the coarsest level sees them all alike.
+  vec2 scale = smear * min(s * exp2(p.level), 1.0);
+  e.edge *= scale;
+  e.other *= scale;
+  p.reach = 0.5 * (e.edge.y + e.other.y);
+  p.lean = leanOf(e);
+  p.across = e.other.x - e.other.y * p.lean;
+  p.half_edge = 0.5 * e.edge.y;
+  p.per_rise = 1.0 / max(e.other.y, 1e-6 * e.edge.y);
+  p.smear = smear.x;
+  p.rows = boxesOf(e.edge.y, length(vec2(e.other.y, smear.y)));
+  float row_hem = hemOf(2.0 * p.reach);
+  p.first_row = floor(p.centre.y - p.rows.reach + row_hem + 0.5) - p.centre.y;
+  p.strips = pairsOf(2.0 * (p.rows.reach - row_hem));
+  float wide = widestOf(e);
+  p.hem = hemOf(wide);
+  p.pairs = pairsOf(wide + length(vec2(p.lean * min(2.0 * p.reach, 2.0), smear.x)) - 2.0 * p.hem);
+  p.per_pairs = 1.0 / p.pairs;
+  p.count = int(p.strips * p.pairs);
+  return p;
+}
+
+// A lookup: (column, row) from the footprint's centre, and the share of the footprint.
+struct AreaLookup {
+  vec2 place;
+  float share;
+};
+
+AreaLookup areaLookup(Probes p, int i) {
+  float strip = floor((float(i) + 0.5) * p.per_pairs);
+  float row = p.first_row + 2.0 * strip;
+  PairShare rows = pairShare(p.rows, row + 0.5, strip<0.5, strip> p.strips - 1.5);
+  float low = max(row - 0.5, -p.reach);
+  float high = min(row + 1.5, p.reach);
+  float halfway = clamp(0.5 * (low + high), -p.reach, p.reach);
+  // On the footprint's point edge u + other v, at that height: v between the ends that u in [-1/2, 1/2] leaves it.
+  float from = max((halfway - p.half_edge) * p.per_rise, -0.5);
+  float to = min((halfway + p.half_edge) * p.per_rise, 0.5);
+  float middle = p.lean * halfway + p.across * 0.5 * (from + to);
+  Boxes section = boxesOf(abs(p.across) * (to - from), length(vec2(p.lean * max(high - low, 0.0), p.smear)));
+  float pair = float(i) - strip * p.pairs;
+  float column = floor(p.centre.x + middle - section.reach + p.hem + 0.5) - p.centre.x + 2.0 * pair;
+  PairShare columns = pairShare(section, column + 0.5 - middle, pair<0.5, pair> p.pairs - 1.5);
+  return AreaLookup(vec2(column + columns.second, row + rows.second), rows.whole * columns.whole);
+}
+
+vec2 probeUv(Footprint f, Probes p, int i) {
+  vec2 at = p.centre + areaLookup(p, i).place;
+  return ((p.turned ? at.yx : at) + 0.5) * p.texel;
+}
+
+float probeWeight(Probes p, int i) { return areaLookup(p, i).share; }

@@ -8,6 +8,8 @@
 
 //? if normal_variation
 const int components = int(option_n);
+const int fetched_layers = components;
+//? include fetch_layers.glsl
 //? else
 const int components = 1;
 //? end
@@ -206,9 +208,11 @@ Effective effective(Footprints f) {
   e.lobe = baseLobe(f);
 //? if normal_variation
   Component parts[components];
+  vec4 layers[components];
+  fetchLayers(tan_gmm_mixture, f.normal, any_level, layers);
   float covered = 0.0;  // the part of the footprint with valid normals
   for (int i = 0; i < components; ++i) {
-    parts[i] = recovered(fetch(tan_gmm_mixture, i, f.normal));
+    parts[i] = recovered(layers[i]);
     covered += parts[i].share;
   }
   if (covered <= 0.0) {

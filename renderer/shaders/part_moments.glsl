@@ -36,30 +36,13 @@ BaseLobe baseLobe(Footprints f) {
 }
 
 //? if normal_variation
-const int moment_layers = (parts * part_channels + 3) / 4;
-
-// As `fetchUpTo`, of all layers. In a frame one loop over the probes reads them together: their places and their level
-// are those of all, and a loop of its own for each would find them again.
-void fetchLayers(sampler2DArray map, Footprint f, float coarsest, out vec4 layers[moment_layers]) {
-//? if sampling_frame and not filter_hardware
-  Probes p = probesOf(vec2(textureSize(map, 0).xy), f);
-  countLookups(moment_layers * p.count);
-  float level = min(p.level, coarsest);
-  for (int l = 0; l < moment_layers; ++l) layers[l] = vec4(0.0);
-  for (int i = 0; i < p.count; ++i) {
-    vec2 uv = probeUv(f, p, i);
-    float weight = probeWeight(p, i);
-    for (int l = 0; l < moment_layers; ++l) layers[l] += weight * textureLod(map, vec3(uv, l), level);
-  }
-//? else
-  for (int l = 0; l < moment_layers; ++l) layers[l] = fetchUpTo(map, l, f, coarsest);
-//? end
-}
+const int fetched_layers = (parts * part_channels + 3) / 4;
+//? include fetch_layers.glsl
 
 // The moments of all parts, from no level above `coarsest`, and what they cover of the footprint: the part of it with
 // valid normals.
 float fetchMoments(sampler2DArray map, Footprint f, float coarsest, out Moments moments[parts]) {
-  vec4 layers[moment_layers];
+  vec4 layers[fetched_layers];
   fetchLayers(map, f, coarsest, layers);
   float covered = 0.0;
   for (int i = 0; i < parts; ++i) {

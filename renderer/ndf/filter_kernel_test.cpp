@@ -78,6 +78,16 @@ TEST(FilterKernel, AProbeThatCountsTwiceIsSeen) {
   EXPECT_GT(glm::length(kernel_moments(kernel, footprint).mean - footprint.centre), 0.1);
 }
 
+// So does the wider bound of areas close: on a kernel that is off by a sixteenth of the footprint's edge.
+TEST(FilterKernel, AnAreaBesideItsPlaceIsSeen) {
+  for (const TexelFootprint& footprint : some_footprints()) {
+    const TexelFootprint beside{footprint.centre + footprint.dx / 16.0 + footprint.dy / 16.0, footprint.dx,
+                                footprint.dy};
+    const Image kernel = filter_kernel(filter_of("area:2"), beside, map_edge);
+    EXPECT_GT(glm::length(kernel_moments(kernel, footprint).mean - footprint.centre), place_bound("area:2", footprint));
+  }
+}
+
 TEST(FilterKernel, BoxesApproachTheParallelogram) {
   for (const TexelFootprint& footprint : {TexelFootprint{{31.3, 30.1}, {14.0, 3.0}, {6.0, 12.0}},
                                           TexelFootprint{{31.3, 30.1}, {20.0, -4.0}, {1.0, 5.0}}}) {

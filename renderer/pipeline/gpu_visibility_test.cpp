@@ -125,11 +125,11 @@ TEST(GpuVisibility, ABallDarkensTheFloorAsRaysSay) {
     }
   }
   EXPECT_LT(std::sqrt(squares / count), 0.02);
-  EXPECT_LT(std::sqrt(reference_squares / count), 0.07);  // with its noise
-  EXPECT_LT(relative_rmse(picture, truth), 0.06);
+  EXPECT_LT(std::sqrt(reference_squares / count), 0.02);  // with its noise
+  EXPECT_LT(relative_rmse(picture, truth), 0.03);
   for (const float value : picture.texels) EXPECT_LE(value, 1.002F);
   scene.shadows.cast = false;
-  EXPECT_GT(relative_rmse(TestRenderer(scene, {picture_size, picture_size}).frame(base_surface()), truth), 0.1);
+  EXPECT_GT(relative_rmse(TestRenderer(scene, {picture_size, picture_size}).frame(base_surface()), truth), 0.08);
 }
 
 // A low sun behind the wall, and little else: the shadow lies where the reference has it.
@@ -147,7 +147,7 @@ TEST(GpuVisibility, AWallHidesASmallSun) {
   const Image truth = renderer.reference(64).mean;
   const float lit = picture.at(picture_size - 2, picture_size / 2)[0], hidden = picture.at(4, picture_size / 2)[0];
   EXPECT_LT(hidden, 0.2F * lit);
-  EXPECT_LT(relative_rmse(picture, truth), 0.06);
+  EXPECT_LT(relative_rmse(picture, truth), 0.03);
   scene.shadows.cast = false;
   EXPECT_GT(relative_rmse(TestRenderer(scene, {picture_size, picture_size}).frame(base_surface()), truth), 0.5);
 }

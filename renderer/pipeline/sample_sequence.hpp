@@ -23,7 +23,8 @@ struct SampleDigits {
 
 /// Dimensions 0 and 1 of Sobol's sequence (1967) at the point that `pair` numbers `index`: each pair mixes the digits
 /// of the index by a triangular matrix of its own, which keeps its elementary intervals and makes pairs differ, so that
-/// they fill four dimensions together.
+/// they fill four dimensions together. Linear over the field of two: the digits of i ^ j are those of i and j, added
+/// without carry.
 [[nodiscard]] SampleDigits sample_digits(SamplePair pair, std::uint32_t index);
 
 /// Owen's scrambling (1995) by hashing (Laine and Karras 2011; Burley 2020), with the constants of Vegdahl (2021): each

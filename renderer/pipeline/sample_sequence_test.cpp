@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "renderer/pipeline/shader_source.hpp"
@@ -78,6 +79,26 @@ TEST(SampleSequence, PixelsFollowSobolsTable) {
   for (std::uint32_t i = 0; i < 8; ++i) {
     EXPECT_EQ(value(sample_digits(SamplePair::pixel, i).x), x.at(i));
     EXPECT_EQ(value(sample_digits(SamplePair::pixel, i).y), y.at(i));
+  }
+}
+
+// What a draw hands to the shaders rests on it: the points of an aligned block are its first one's with those of the
+// first block, added without carry. Of a block that is not aligned they are others.
+TEST(SampleSequence, AnAlignedBlockIsTheFirstOneAdded) {
+  const auto added = [](SamplePair pair, std::uint32_t block, std::uint32_t step) {
+    const SampleDigits a = sample_digits(pair, block), b = sample_digits(pair, step);
+    return std::pair(a.x ^ b.x, a.y ^ b.y);
+  };
+  const auto whole = [](SamplePair pair, std::uint32_t index) {
+    const SampleDigits digits = sample_digits(pair, index);
+    return std::pair(digits.x, digits.y);
+  };
+  for (const SamplePair pair : pairs) {
+    for (const std::uint32_t block : {0U, 16U, 48U, 4080U, 4096U, 65520U}) {
+      for (std::uint32_t step = 0; step < 16; ++step)
+        EXPECT_EQ(added(pair, block, step), whole(pair, block + step)) << static_cast<int>(pair) << ", " << block;
+    }
+    EXPECT_NE(added(pair, 8, 8), whole(pair, 16)) << static_cast<int>(pair);
   }
 }
 

@@ -79,9 +79,9 @@ void bind_texture(GLuint unit, const GpuTexture& texture, GpuScene& scene, Looku
   gl::api().BindSampler(unit, scene.samplers().sampler(texture.coordinates, texture.lookup(lookup)));
 }
 
-// Directions of each kind that a sample draws from an environment, its texels together (docs/base-brdf.md). One that
-// sums over a patch's facets costs far more.
-constexpr std::uint32_t directions_a_sample = 4;
+// Directions of each kind that a sample draws from an environment, its texels together: powers of two. docs/metrics.md
+// has what they are worth. One that sums over a patch's facets costs far more.
+constexpr std::uint32_t directions_a_sample = 16;
 constexpr std::uint32_t directions_of_a_patch = 2;
 
 bool has_patches(const EffectSet& effects) { return has(effects, Effect::microgeometry_visibility); }
@@ -276,25 +276,37 @@ void SurfaceProgram::set_samples(const SampleDraw& samples) {
   if (program_.uniform("directions_a_sample") >= 0) set_directions(samples);
 }
 
-// Sample i takes the directions of the points n i to n i + n - 1.
+// Sample i takes the directions of the points n i to n i + n - 1, n a power of two: an aligned block, whose digits are
+// its first one's with those of the points 0 to n - 1 added without carry.
 void SurfaceProgram::set_directions(const SampleDraw& samples) const {
   const std::uint32_t count = has_patches(effects_) ? directions_of_a_patch : directions_a_sample;
-  std::vector<glm::uvec4> directions;
-  std::vector<std::uint32_t> choices;
-  for (int cell = 0; cell < samples.grid * samples.grid; ++cell) {
-    const std::uint32_t sample =
-        samples.first + sample_in_cell(samples.grid, {cell % samples.grid, cell / samples.grid});
-    for (std::uint32_t i = count * sample; i < count * sample + count; ++i) {
-      const SampleDigits light = sample_digits(SamplePair::light, i), lobe = sample_digits(SamplePair::lobe, i);
-      directions.emplace_back(light.x, light.y, lobe.x, lobe.y);
-      choices.push_back(sample_digits(SamplePair::choice, i).x);
-    }
+  const int cells = samples.grid * samples.grid;
+  std::vector<std::uint32_t> cell_firsts;
+  for (int cell = 0; cell < cells; ++cell) {
+    cell_firsts.push_back(
+        count * (samples.first + sample_in_cell(samples.grid, {cell % samples.grid, cell / samples.grid})));
+  }
+  std::vector<std::uint32_t> steps(count);
+  std::iota(steps.begin(), steps.end(), 0U);
+  set_digits("cell_directions", "cell_choices", cell_firsts);
+  set_digits("direction_steps", "choice_steps", steps);
+  gl::api().ProgramUniform1i(program_.name(), program_.uniform("directions_a_sample"), static_cast<GLint>(count));
+}
+
+// The digits of the points `indices`.
+void SurfaceProgram::set_digits(const char* directions, const char* choices,
+                                std::span<const std::uint32_t> indices) const {
+  std::vector<glm::uvec4> pairs;
+  std::vector<std::uint32_t> single;
+  for (const std::uint32_t i : indices) {
+    const SampleDigits light = sample_digits(SamplePair::light, i), lobe = sample_digits(SamplePair::lobe, i);
+    pairs.emplace_back(light.x, light.y, lobe.x, lobe.y);
+    single.push_back(sample_digits(SamplePair::choice, i).x);
   }
   const GLuint name = program_.name();
-  const auto size = static_cast<GLsizei>(choices.size());
-  gl::api().ProgramUniform1i(name, program_.uniform("directions_a_sample"), static_cast<GLint>(count));
-  gl::api().ProgramUniform4uiv(name, program_.uniform("sample_directions"), size, glm::value_ptr(directions.front()));
-  gl::api().ProgramUniform1uiv(name, program_.uniform("sample_choices"), size, choices.data());
+  const auto size = static_cast<GLsizei>(indices.size());
+  gl::api().ProgramUniform4uiv(name, program_.uniform(directions), size, glm::value_ptr(pairs.front()));
+  gl::api().ProgramUniform1uiv(name, program_.uniform(choices), size, single.data());
 }
 
 // The size of the map whose texels a sample of this batch tells apart, and how many it shades.

@@ -116,6 +116,7 @@ class SurfaceProgram {
 
  private:
   void set_directions(const SampleDraw& samples) const;
+  void set_digits(const char* directions, const char* choices, std::span<const std::uint32_t> indices) const;
   [[nodiscard]] glm::vec3 drawn_texels(const GpuMethod& method, const GpuBatch& batch) const;
 
   ProgramSettings settings_;

@@ -5,8 +5,10 @@ layout(std140, binding = 5) uniform EnvironmentBlock {
 };
 
 uniform int directions_a_sample;
-uniform uvec4 sample_directions[64];  // digits for each cell and direction: out of the environment, out of the lobe
-uniform uint sample_choices[64];
+// Digits of each cell's first direction, and of directions by their number in the sample: those of any direction are
+// the two added without carry. Out of the environment, out of the lobe; choices are among lobes.
+uniform uvec4 cell_directions[16], direction_steps[16];
+uniform uint cell_choices[16], choice_steps[16];
 
 struct DrawnDirection {
   vec3 direction;  // world
@@ -101,15 +103,15 @@ vec3 environmentIntegral(SurfacePoint p) {
   uvec3 lobe_seed = hashed(seed);
   int texels = int(drawn_texels.z);
   int count = max(directions_a_sample / texels, 1);
-  int first = sample_cell * directions_a_sample + sample_texel * count;
+  int first = sample_texel * count;
   for (int i = first; i < first + count; ++i) {
-    uvec4 digits = sample_directions[i];
+    uvec4 digits = cell_directions[sample_cell] ^ direction_steps[i];
     DrawnDirection light = drawFromEnvironment(scrambledPair(digits.xy, seed.xy));
     vec3 wi = light.direction * p.frame;
     if (reachesFacets(wi) && light.density > 0.0 && arrives(light.direction)) {
       radiance += reflectance(p, wi) * light.radiance / (light.density + lobeDirectionDensity(p, wi));
     }
-    float choice = unitInterval(scrambled(sample_choices[i], seed.z));
+    float choice = unitInterval(scrambled(cell_choices[sample_cell] ^ choice_steps[i], seed.z));
     wi = lobeDirection(p, vec3(scrambledPair(digits.zw, lobe_seed.xy), choice));
     float density = reachesFacets(wi) ? lobeDirectionDensity(p, wi) : 0.0;
     if (density > 0.0 && arrives(p.frame * wi)) {

@@ -283,8 +283,8 @@ void SurfaceProgram::set_directions(const SampleDraw& samples) const {
   const int cells = samples.grid * samples.grid;
   std::vector<std::uint32_t> cell_firsts;
   for (int cell = 0; cell < cells; ++cell) {
-    cell_firsts.push_back(
-        count * (samples.first + sample_in_cell(samples.grid, {cell % samples.grid, cell / samples.grid})));
+    cell_firsts.push_back(count *
+                          (samples.first + sample_in_cell(samples.grid, {cell % samples.grid, cell / samples.grid})));
   }
   std::vector<std::uint32_t> steps(count);
   std::iota(steps.begin(), steps.end(), 0U);

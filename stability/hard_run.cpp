@@ -20,6 +20,7 @@
 #include "renderer/ndf/method_ndf.hpp"
 #include "renderer/pipeline/frame.hpp"
 #include "stability/ndf_bench.hpp"
+#include "stability/worst.hpp"
 
 namespace footprint::stability {
 namespace {
@@ -39,11 +40,7 @@ double bad_numbers(std::span<const float> values) {
 
 double largest_difference(std::span<const float> values, std::span<const double> truth) {
   double most = 0.0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double difference = std::abs(values[i] - truth[i]);
-    if (!(difference <= most)) most = difference;
-    if (std::isnan(difference)) return difference;
-  }
+  for (std::size_t i = 0; i < values.size(); ++i) keep_worst(most, std::abs(values[i] - truth[i]));
   return most / *std::ranges::max_element(truth);
 }
 
@@ -198,12 +195,8 @@ class Run {
       for (std::size_t m = 0; m < methods.size(); ++m) {
         progress(fmt::format("{}, {}", sweep.name, methods[m].text), 0.0);
         std::vector<float> values = bench.densities(methods[m], directions);
-        const double lost = energy_error(directions, values);
-        if (!(lost <= most_lost[m])) most_lost[m] = lost;
-        if (before[m]) {
-          const double step = step_between(directions.grid, *before[m], values);
-          if (!(step <= largest[m])) largest[m] = step;
-        }
+        keep_worst(most_lost[m], energy_error(directions, values));
+        if (before[m]) keep_worst(largest[m], step_between(directions.grid, *before[m], values));
         before[m] = std::move(values);
       }
     }

@@ -1,9 +1,11 @@
 // Verdicts: a bound that is met, one that is not, what is known of a method, and what the page makes of them.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "stability/hard_report.hpp"
+#include "stability/worst.hpp"
 
 namespace footprint::stability {
 namespace {
@@ -44,6 +46,15 @@ TEST(Judge, KnowsHowFarALimitReaches) {
 TEST(Judge, ALimitThatHoldsAfterAllFalls) {
   EXPECT_EQ(judged("wide", 0.05).verdict, Verdict::fell);
   EXPECT_EQ(judged("wide:storage=fp16", 0.05).verdict, Verdict::held) << "the method's own is still out of range";
+}
+
+TEST(KeepWorst, NothingHidesANaN) {
+  double worst = 0.0;
+  for (const double value : {0.2, 0.3, 0.1}) keep_worst(worst, value);
+  EXPECT_EQ(worst, 0.3);
+  keep_worst(worst, std::numeric_limits<double>::quiet_NaN());
+  keep_worst(worst, 0.1);
+  EXPECT_TRUE(std::isnan(worst));
 }
 
 TEST(StabilityPage, SaysOfNothingThatItHeldUntested) {

@@ -20,7 +20,7 @@ namespace footprint {
 [[nodiscard]] std::vector<Image> mean_normal_chain(const Material& material);
 
 /// 1 - |Na| of a mean of that chain, without what its 32 bits make of the length where all normals agree: the twin of
-/// shortfallOfLength in mean_normal.glsl.
+/// shortfallOfLength in length_shortfall.glsl.
 [[nodiscard]] double shortfall_of_length(double length);
 
 /// The texture `mean_normal` that mean_normal.glsl reads, of that chain; none where normals do not vary.

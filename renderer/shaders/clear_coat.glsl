@@ -2,6 +2,7 @@
 // method and for the reference, which takes each texel's own coat.
 //? include ggx_density.glsl
 //? include ggx_geometry.glsl
+//? include length_shortfall.glsl
 
 struct Coat {
   vec3 normal;  // unit, tangent frame
@@ -19,6 +20,20 @@ float coatFresnel(float cosine) {
   return 0.04 + 0.96 * (x2 * x2 * x);
 }
 
+// The coat of normals with that mean.
+Coat coatOf(vec3 mean, float alpha2, float weight, vec3 wo) {
+  float size = max(length(mean), 1e-3);
+  vec3 normal = dot(mean, mean) > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0);  // some that cancel have no mean
+  float spread = 0.0;
+//? if sampling_frame
+  // The slopes' variance on each axis, (1 - r) / r (Toksvig 2005), beside GGX's alpha^2 / 2.
+  float added = 2.0 * shortfallOfLength(size, rounding_of_floats) / size;
+  spread = added / (alpha2 + added);
+  alpha2 = min(alpha2 + added, 1.0);
+//? end
+  return Coat(normal, alpha2, weight, weight * coatFresnel(dot(normal, wo)), spread);
+}
+
 Coat coatUnder(Footprints f, vec3 wo) {
 //? if coat_weight_variation
   float weight = fetch(coat_weight_map, f.coat_weight).r;
@@ -31,20 +46,10 @@ Coat coatUnder(Footprints f, vec3 wo) {
   float alpha2 = coat_weight_width.y;
 //? end
 //? if coat_normal_variation
-  vec3 mean = fetch(coat_normal_map, f.coat_normal).xyz;
-  float size = max(length(mean), 1e-3);
-  vec3 normal = dot(mean, mean) > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0);  // some that cancel have no mean
+  return coatOf(fetch(coat_normal_map, f.coat_normal).xyz, alpha2, weight, wo);
 //? else
-  vec3 normal = vec3(0.0, 0.0, 1.0);
+  return coatOf(vec3(0.0, 0.0, 1.0), alpha2, weight, wo);
 //? end
-  float spread = 0.0;
-//? if coat_normal_variation and sampling_frame
-  // The slopes' variance on each axis, (1 - r) / r (Toksvig 2005), beside GGX's alpha^2 / 2.
-  float added = 2.0 * max(1.0 - size, 0.0) / size;
-  spread = added / (alpha2 + added);
-  alpha2 = min(alpha2 + added, 1.0);
-//? end
-  return Coat(normal, alpha2, weight, weight * coatFresnel(dot(normal, wo)), spread);
 }
 
 // The share of the normals that mirror light by h, where they are spread: of Gaussian slopes about a mean, each with a

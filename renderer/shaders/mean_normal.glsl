@@ -4,30 +4,23 @@
 //? include normal_layers.glsl
 //? end
 
-// What rounding of the components, in the texture and between its texels, takes of the length of a mean of equal
-// normals: three last places of 32 bits, half of one of 16. Bytes lose more than a guard could give back.
+//? include length_shortfall.glsl
+
+// Of 16 bits half a last place. Bytes lose more than a guard could give back.
 //? if storage_fp16
 const float length_rounding = 1.0 / 2048.0;
 //? elif storage_unorm8
 const float length_rounding = 0.0;
 //? else
-const float length_rounding = 1.8e-7;
+const float length_rounding = rounding_of_floats;
 //? end
-
-// 1 - |Na| without what rounding makes of it, which a lobe of exponent 1e6 would take for spread: nothing below
-// `length_rounding`, and far above it as it is.
-float shortfallOfLength(float size) {
-  float shortfall = 1.0 - size;
-  if (shortfall <= length_rounding) return 0.0;
-  return shortfall - length_rounding * (length_rounding / shortfall);
-}
 
 vec4 storedMeanNormal(vec3 mean) {
 //? if storage_unorm8
   mean = 2.0 * mean - 1.0;
 //? end
   float size = length(mean);
-  return vec4(size > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0), 1.0 - shortfallOfLength(size));
+  return vec4(size > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0), 1.0 - shortfallOfLength(size, length_rounding));
 }
 
 vec4 meanNormal(Footprints f) {

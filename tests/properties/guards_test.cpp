@@ -10,12 +10,14 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/packing.hpp>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <string_view>
 #include <vector>
 
 #include "methods/iwasaki_sg/spherical_gaussian.hpp"
 #include "methods/tan_gmm/em.hpp"
+#include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/slope_moments.hpp"
 #include "renderer/image/mipmap.hpp"
 #include "renderer/lobes/lobe.hpp"
@@ -194,6 +196,30 @@ double no_slope_at_the_horizon(const std::function<glm::dvec2(const glm::dvec3&)
   return std::isfinite(glm::length(slope({1.0, 0.0, 0.0}))) ? 0.0 : infinite;
 }
 
+// A clear coat that is a mirror, and one whose map has a texel without a normal.
+Material coated(float roughness, const glm::vec4& texel) {
+  Image normals(1, 1, 4);
+  for (int c = 0; c < 4; ++c) normals.texels[static_cast<std::size_t>(c)] = texel[c];
+  Material material;
+  material.coat = ClearCoat{};
+  material.coat->roughness = roughness;
+  material.coat->normal_map = TextureMap{"normals", std::make_shared<const Image>(std::move(normals)), {}};
+  return material;
+}
+using TexelsOf = std::function<Image(const Material&)>;
+// GGX's peak, alpha^2 / (pi alpha^4).
+double off_at_a_mirrors_peak(const TexelsOf& widths) {
+  const double alpha2 = widths(coated(0.0F, {0, 0, 1, 1})).texels.front();
+  return off(alpha2 / (pi * alpha2 * alpha2), 1e6 / pi);
+}
+Image plain_widths(const Material& material) {
+  return Image(1, 1, 1, std::pow(material.coat.value_or(ClearCoat{}).roughness, 4.0F));
+}
+double off_without_a_normal(const TexelsOf& normals) { return off(normals(coated(0.0F, {0, 0, 0, 0})).texels[2], 1.0); }
+Image plain_normals(const Material& material) {
+  return material.coat.value_or(ClearCoat{}).normal_map.value_or(TextureMap{}).image.decoded();
+}
+
 struct Guard {
   std::string_view hard_case, guard;
   double bound, with, without;  // of the figure; what it is with the project's function and with the guard left out
@@ -227,6 +253,10 @@ std::vector<Guard> guards() {
       {"slope at the horizon", "steepest slope", 0.0,
        no_slope_at_the_horizon([](const glm::dvec3& n) { return slope_of(n); }),
        no_slope_at_the_horizon([](const glm::dvec3& n) { return -glm::dvec2(n) / n.z; })},
+      {"a coat of roughness 0, 0 / 0", "alpha of at least 1e-3", 1e-5, off_at_a_mirrors_peak(coat_width_map_of),
+       off_at_a_mirrors_peak(plain_widths)},
+      {"a coat's texel without a normal", "the surface's own", 0.0, off_without_a_normal(coat_normal_map_of),
+       off_without_a_normal(plain_normals)},
   };
 }
 

@@ -198,11 +198,10 @@ std::vector<ShaderGuard> term_guards() {
            no_input, 1.0, 0.0},
           {"equal normals' length in 32 bits",
            "three last places are no spread",
-           functions_with("//? include mean_normal.glsl\n"),
-           "if (shortfall <= length_rounding) return 0.0;\n  return shortfall - length_rounding * (length_rounding / "
-           "shortfall);",
+           functions_with("//? include length_shortfall.glsl\n"),
+           "if (shortfall <= rounding) return 0.0;\n  return shortfall - rounding * (rounding / shortfall);",
            "return shortfall;",
-           "return vec4(shortfallOfLength(a.x));",
+           "return vec4(shortfallOfLength(a.x, rounding_of_floats));",
            {glm::vec4(1.0F - 1.5e-7F), up, up},
            0.0,
            0.0}};
@@ -306,9 +305,90 @@ std::vector<ShaderGuard> method_guards() {
            0.0}};
 }
 
+// clear_coat.glsl, with all that it reads but its maps' texels.
+std::string coat_functions() {
+  ShaderVariant variant;
+  variant.brdf = {blinn_phong, GeometryTerm::none, FresnelTerm::none, false};
+  for (const Effect effect : {Effect::clear_coat, Effect::coat_normal_variation})
+    variant.effects.set(static_cast<std::size_t>(effect));
+  const ShaderModule module{"test.glsl",
+                            "vec4 coat_weight_width;\nuniform sampler2D coat_normal_map;\n"
+                            "//? include clear_coat.glsl\n"};
+  return "vec4 lobe_cutoff;\n" + shared_functions(shader_flags(variant, Options({}, {}, "test")), module);
+}
+
+std::vector<ShaderGuard> coat_guards() {
+  const std::string coat = coat_functions();
+  constexpr double alpha2 = 0.04F;
+  const glm::vec4 grazing(5e-6F, 0.0F, 1.0F, 0.0F);
+  return {{"a coat's normals cancel, no direction",
+           "the surface's own",
+           coat,
+           "dot(mean, mean) > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0)",
+           "mean / size",
+           "return vec4(coatOf(a.xyz, 0.04, 1.0, b.xyz).normal.z);",
+           {no_input[0], up, up},
+           1.0,
+           0.0},
+          {"a coat's normals cancel, inf / inf",
+           "length of at least 1e-3",
+           coat,
+           "max(length(mean), 1e-3)",
+           "length(mean)",
+           "return vec4(coatOf(a.xyz, 0.04, 1.0, b.xyz).spread);",
+           {no_input[0], up, up},
+           1998.0 / (1998.0 + alpha2),
+           1e-6},
+          {"a coat's normals cancel, too wide",
+           "alpha of at most 1",
+           coat,
+           "min(alpha2 + added, 1.0)",
+           "alpha2 + added",
+           "return vec4(coatReflectance(coatOf(a.xyz, 0.04, 1.0, b.xyz), b.xyz, b.xyz));",
+           {no_input[0], up, up},
+           0.04 / (4.0 * pi),
+           1e-5},
+          {"a mirror's equal normals in 32 bits",
+           "three last places are no spread",
+           coat,
+           "shortfallOfLength(size, rounding_of_floats)",
+           "max(1.0 - size, 0.0)",
+           "return vec4(coatOf(a.xyz, 1e-6, 1.0, b.xyz).alpha2);",
+           {glm::vec4(0.0F, 0.0F, 1.0F - 1.2e-7F, 0.0F), up, up},
+           1e-6,
+           1e-3},
+          {"a coat facing away, share above 1",
+           "|n.v|",
+           coat,
+           "min(abs(cosine), 1.0)",
+           "cosine",
+           "return vec4(coatFresnel(-b.z));",
+           {no_input[0], up, up},
+           0.04,
+           1e-6},
+          {"a coat facing away, light below 0",
+           "n.v of at least 1e-4",
+           coat,
+           "float nv = max(dot(n, wo), 1e-4);",
+           "float nv = dot(n, wo);",
+           "return vec4(ggxGeometry(0.04, b.xyz, b.xyz, -b.xyz));",
+           {no_input[0], up, up},
+           0.5 / (std::sqrt(alpha2 + (1.0 - alpha2) * 1e-8) + 1e-4),
+           1e-5},
+          {"a half vector that is rounding alone",
+           "no light from wi = -wo",
+           coat,
+           "|| !halfVectorIsDefined(wi, wo)",
+           "",
+           "return vec4(coatReflectance(Coat(vec3(1.0, 0.0, 0.0), 0.04, 1.0, 0.04, 0.0), b.xyz, c.xyz));",
+           {no_input[0], grazing, grazing * glm::vec4(1.0F, 1.0F, -1.0F, 1.0F)},
+           0.0,
+           0.0}};
+}
+
 TEST(ShaderGuards, EachHoldsAndFallsWhereItIsTakenOut) {
   fmt::print("{:38} {:46} {:>8} {:>10} {:>10}\n", "hard case", "guard in a shader", "bound", "with it", "without");
-  for (const auto& guards : {lobe_guards(), term_guards(), slope_guards(), method_guards()}) {
+  for (const auto& guards : {lobe_guards(), term_guards(), slope_guards(), method_guards(), coat_guards()}) {
     for (const ShaderGuard& guard : guards) {
       const double with = off_with(guard, guard.functions), without = off_with(guard, taken_out(guard));
       fmt::print("{:38} {:46} {:8.0e} {:10.2g} {:10.2g}\n", guard.hard_case, guard.guard, guard.bound, with, without);

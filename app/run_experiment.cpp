@@ -66,7 +66,7 @@ struct ExperimentArguments {
   bool all = false;      // in the place of one experiment
   bool quick = false;
   bool fresh = false;
-  bool wide = false;          // hard_cases: every storage in every case
+  bool wide = false;          // hard_cases: every storage in every case, and those that take long
   std::string timing_file;    // not empty: this is a process that only takes times
   std::string timing_member;  // and of this experiment alone
   bool quiet = false;
@@ -212,7 +212,8 @@ void add_check_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("check", "Run an experiment and hold its claims and thresholds");
   const auto arguments = std::make_shared<ExperimentArguments>(*command);
   add_options(*command, *arguments);
-  command->add_flag("--wide", arguments->wide, "hard_cases: every storage in every case, not over single lobes alone");
+  command->add_flag("--wide", arguments->wide,
+                    "hard_cases: every storage in every case, not over single lobes alone; cases that take long");
   command->add_option("--junit", arguments->reports.junit, "Also write every claim and threshold as JUnit XML")
       ->type_name("FILE");
   command->add_flag("--github", arguments->reports.github,

@@ -30,6 +30,14 @@ struct NdfCase {
   std::optional<Effect> asks{};  ///< only for methods that honour it
 };
 
+/// How a picture under a clear coat is held against the coat's formula over what the method itself draws without the
+/// coat (coat_sum.hpp).
+struct CoatCheck {
+  int points = 1;      ///< across a pixel: 1 where each sees one coat alone, and each is held; else their mean is
+  double most = 1e-3;  ///< the difference, relative
+  bool steps = false;  ///< the pixels are steps of a parameter: none is more than four of the formula's own
+};
+
 /// A scene as a whole, drawn in one frame: every number finite, none below 0.
 struct PictureCase {
   std::string name;
@@ -40,6 +48,8 @@ struct PictureCase {
   std::optional<double> mean{};   ///< of the first channel over the surface, in closed form; held to 0.05
   FootprintFilter filter = default_footprint_filter;
   std::string group = "pictures";
+  std::optional<CoatCheck> coat{};
+  bool wide = false;  ///< only where every storage is asked for: its programs take long to compile
 };
 
 /// A parameter that goes through a hard value in small steps: a step of the distribution is no larger than `most` of
@@ -58,6 +68,7 @@ struct Sweep {
 
 [[nodiscard]] std::span<const NdfCase> ndf_cases();
 [[nodiscard]] std::span<const PictureCase> picture_cases();
+[[nodiscard]] std::span<const PictureCase> coat_cases();  ///< those of clear coats
 [[nodiscard]] std::span<const Sweep> sweeps();
 
 }  // namespace footprint::stability

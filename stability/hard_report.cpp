@@ -92,13 +92,16 @@ in the tables of [`stability/`](../stability); a new one is one entry, and a new
 | direct | relative error of the picture against `direct`, where there is nothing to filter | 0.001 |
 | twin | relative error of the picture against that of another scene which must look the same | 0.001 |
 | mean | mean over the surface against its closed form, relative | 0.05 |
+| coat | largest difference of a pixel from the coat's formula over the method's own picture without it, relative | the case's |
 | step | largest change of the distribution from one step of a parameter to the next, of the whole | four times the sum's own, or the case's |
 | threads | materials that one thread bakes to other bytes than two | 0 |
 | backends | numbers that differ between EGL, by all threads, and OSMesa, by one | 0 |
 
-The sum over texels is in double precision and shares no code with the shaders (`renderer/ndf/true_ndf.hpp`). *Guarded*:
-a guard bites there, and the figure is its cost. *Out of range*: known not to hold, the method's README gives the range;
-each figure has a bound of its own, and a run fails where it is passed, or where the case holds after all.
+The sum over texels is in double precision and shares no code with the shaders (`renderer/ndf/true_ndf.hpp`), nor does
+that over a pixel's coats (`stability/coat_sum.hpp`). Under a coat, energy is that of the picture, and a step is that of
+one pixel to the next. *Guarded*: a guard bites there, and the figure is its cost. *Out of range*: known not to hold, the
+method's README gives the range, of coats [base-brdf.md](base-brdf.md#clear-coat); each figure has a bound of its own,
+and a run fails where it is passed, or where the case holds after all.
 
 )";
 

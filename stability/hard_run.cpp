@@ -19,6 +19,8 @@
 #include "renderer/image/metrics.hpp"
 #include "renderer/ndf/method_ndf.hpp"
 #include "renderer/pipeline/frame.hpp"
+#include "stability/coat_sum.hpp"
+#include "stability/hard_scenes.hpp"
 #include "stability/ndf_bench.hpp"
 #include "stability/worst.hpp"
 
@@ -30,7 +32,7 @@ namespace fs = std::filesystem;
 constexpr int rings = 96;  // of directions over the hemisphere
 constexpr int sweep_rings = 48;
 constexpr int disc = 96;  // side of the pictures of distributions
-constexpr glm::ivec2 frame{24, 24};
+constexpr glm::ivec2 frame{picture_edge, picture_edge};
 
 // Numbers that are not finite, or below 0. Before any clamp.
 double bad_numbers(std::span<const float> values) {
@@ -101,6 +103,33 @@ class Drawing {
   GpuScene gpu_;
 };
 
+// What a picture under a coat should be: by the coat's formula, over the method's own picture without it.
+class CoatedPicture {
+ public:
+  CoatedPicture(const gl::Context& context, const PictureCase& hard) : check_(*hard.coat) {
+    Scene scene = hard.scene();
+    sum_ = coat_sum(scene, frame, check_.points);
+    for (Material& material : scene.materials) material.coat.reset();
+    bare_.emplace(context, std::move(scene), hard.filter);
+  }
+
+  /// add(figure, value, bound)
+  void judge(const MethodSpec& spec, const Image& picture, auto add) {
+    const CoatError error = coat_error(sum_, bare_->draw(spec), picture);
+    if (check_.points == 1) {
+      add("coat", error.each, check_.most);
+    } else {
+      add("energy", error.mean, check_.most);
+    }
+    if (check_.steps) add("step", error.step, 4.0 * error.true_step);
+  }
+
+ private:
+  CoatCheck check_;
+  std::vector<CoatedPixel> sum_;
+  std::optional<Drawing> bare_;
+};
+
 // An environment variable while a library reads it.
 class Variable {
  public:
@@ -155,12 +184,15 @@ class Run {
   }
 
   void run(const PictureCase& hard, const Progress& progress) {
+    if (hard.wide && !settings_.wide) return;
     context_.make_current();
     Drawing drawing(context_, hard.scene(), hard.filter);
     std::optional<Drawing> twin;
     if (hard.twin) twin.emplace(context_, hard.twin(), hard.filter);
     std::optional<Image> direct;
     if (hard.equals_direct) direct = drawing.draw(parse_methods("direct").front());
+    std::optional<CoatedPicture> coated;
+    if (hard.coat) coated.emplace(context_, hard);
     for (const MethodSpec& spec : settings_.wide ? with_storages() : methods_) {
       progress(fmt::format("{}, {}", hard.name, spec.text), 0.0);
       const Image picture = drawing.draw(spec);
@@ -175,6 +207,7 @@ class Run {
       if (direct) add("direct", compare_images(picture, *direct, 1.0F).value().relative_rmse, 1e-3);
       if (twin) add("twin", compare_images(twin->draw(spec), picture, 1.0F).value().relative_rmse, 1e-3);
       if (hard.mean) add("mean", std::abs(surface_mean(picture) / *hard.mean - 1.0), 0.05);
+      if (coated) coated->judge(spec, picture, add);
     }
   }
 
@@ -312,10 +345,12 @@ class Run {
 std::vector<HardRow> run_hard_cases(const HardSettings& settings, const fs::path& folder, const Progress& progress) {
   fs::create_directories(folder / "images");
   Run run(settings, folder);
-  ProgressParts parts(progress,
-                      static_cast<double>(ndf_cases().size() + picture_cases().size() + 7 * sweeps().size() + 3));
+  ProgressParts parts(progress, static_cast<double>(ndf_cases().size() + picture_cases().size() + coat_cases().size() +
+                                                    7 * sweeps().size() + 3));
   for (const NdfCase& hard : ndf_cases()) run.run(hard, parts.next(1.0, ""));
-  for (const PictureCase& hard : picture_cases()) run.run(hard, parts.next(1.0, ""));
+  for (const std::span<const PictureCase> pictures : {picture_cases(), coat_cases()}) {
+    for (const PictureCase& hard : pictures) run.run(hard, parts.next(1.0, ""));
+  }
   for (const Sweep& sweep : sweeps()) run.run(sweep, parts.next(7.0, ""));
   const auto plain = std::ranges::find(ndf_cases(), "noise_0_5", &NdfCase::name);
   run.compare_threads(*plain, parts.next(1.0, ""));

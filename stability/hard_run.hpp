@@ -25,7 +25,7 @@ struct HardRow {
   std::string hard_case;  ///< by its name
   std::string group;      ///< column of the table
   std::string what;       ///< the case in words
-  std::string figure;     ///< finite, energy, limit, direct, twin, mean, step, threads or backends
+  std::string figure;     ///< finite, energy, limit, direct, twin, mean, coat, step, threads or backends
   double value = 0.0, bound = 0.0;
   Verdict verdict = Verdict::held;
   std::string why{};      ///< of a known limit, or what fell
@@ -35,7 +35,7 @@ struct HardRow {
 struct HardSettings {
   gl::ContextRequest context;
   std::vector<MethodSpec> methods;  ///< empty: all of the registry
-  bool wide = false;                ///< every storage in every case, not in those of single lobes alone
+  bool wide = false;  ///< every storage in every case, not in those of single lobes alone; and cases that cost much
 };
 
 /// The rows in the order of methods and cases. Errors: those of contexts and bakes; those of `progress`.

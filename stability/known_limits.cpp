@@ -88,6 +88,15 @@ void add_pictures(Limits& limits) {
              "the diffuse term takes slopes for a Gaussian about their mean; two sides of a groove are none");
 }
 
+// Of the coat's filter, which is one for all methods: docs/base-brdf.md, Clear coat.
+void add_coats(Limits& limits) {
+  limits.add(
+      {"direct", "exact", "naive_mip", "fixed_brdf", "toksvig", "roughness_bake", "specular_aa", "lean", "leadr",
+       "fournier", "cells", "ndf_atlas", "tan_gmm", "xu_vmf", "iwasaki_sg", "atanasov_bins", "yan_gaussians"},
+      {"bumpy_coat_seen_along_the_surface"}, "energy", 0.78,
+      "few of a bumpy coat's normals face the viewer there, and reflect nearly all: their lobes' tails are missing");
+}
+
 }  // namespace
 
 std::span<const KnownLimit> known_limits() {
@@ -98,6 +107,7 @@ std::span<const KnownLimit> known_limits() {
     add_widths(all);
     add_means(all);
     add_pictures(all);
+    add_coats(all);
     return all.take();
   }();
   return limits;

@@ -11,7 +11,7 @@ namespace footprint::stability {
 struct KnownLimit {
   std::string_view method;     ///< with its options, or its name alone: whatever its options
   std::string_view hard_case;  ///< by its name
-  std::string_view figure;     ///< energy, limit, twin, mean or step
+  std::string_view figure;     ///< energy, limit, twin, mean, coat or step
   double most = 0.0;           ///< the most that the figure may be
   bool guarded = false;        ///< a guard bites there, and the figure is what it costs; else it is out of range
   std::string_view why;        ///< the range, as the method's README has it

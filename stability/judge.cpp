@@ -9,7 +9,7 @@ namespace footprint::stability {
 namespace {
 
 bool names(std::string_view limit, std::string_view method) {
-  return limit == method || limit == method.substr(0, method.find(':'));
+  return limit.empty() || limit == method || limit == method.substr(0, method.find(':'));
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ constexpr KnownLimit limits[] = {
      .figure = "energy",
      .most = 0.3,
      .guarded = true,
-     .why = "clamp"}};
+     .why = "clamp"},
+    {.method = "", .hard_case = "groove", .figure = "twin", .most = 0.2, .why = "what all share"}};
 
 HardRow judged(const std::string& method, double value, const std::string& figure = "energy") {
   HardRow row{method, "groove", "bumps", "a groove", figure, value, 0.1};
@@ -46,6 +47,12 @@ TEST(Judge, KnowsHowFarALimitReaches) {
 TEST(Judge, ALimitThatHoldsAfterAllFalls) {
   EXPECT_EQ(judged("wide", 0.05).verdict, Verdict::fell);
   EXPECT_EQ(judged("wide:storage=fp16", 0.05).verdict, Verdict::held) << "the method's own is still out of range";
+}
+
+TEST(Judge, KnowsOfLimitsOfEveryMethod) {
+  EXPECT_EQ(judged("other:storage=fp16", 0.15, "twin").verdict, Verdict::out_of_range);
+  EXPECT_EQ(judged("new", 0.25, "twin").verdict, Verdict::fell);
+  EXPECT_EQ(judged("new", 0.15).verdict, Verdict::fell) << "of another figure";
 }
 
 TEST(KeepWorst, NothingHidesANaN) {

@@ -9,7 +9,7 @@ namespace footprint::stability {
 
 /// A case that a method does not hold.
 struct KnownLimit {
-  std::string_view method;     ///< with its options, or its name alone: whatever its options
+  std::string_view method;     ///< with its options, or its name alone: whatever its options; empty: every method
   std::string_view hard_case;  ///< by its name
   std::string_view figure;     ///< energy, limit, twin, mean, coat or step
   double most = 0.0;           ///< the most that the figure may be

@@ -70,7 +70,7 @@ class Leadr final : public Method {
 
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                                        const Progress& /*progress*/) const override {
-    Prefiltered out = bake_slopes(material, options, effects, SlopeVariant::full);
+    Prefiltered out = bake_slopes(material, options, effects, {});
     if (has(effects, Effect::diffuse) && has(effects, Effect::normal_variation)) {
       if (auto note = diffuse_range_note(normal_map_of(material), options.number("steepest")))
         out.notes.push_back(*std::move(note));
@@ -80,12 +80,12 @@ class Leadr final : public Method {
 
   [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
                                                         const EffectSet& /*effects*/) const override {
-    return slope_memory(material, options, SlopeVariant::full);
+    return slope_memory(material, options, {});
   }
 
-  // `variant` is an option of lean's, which common_slopes.glsl asks for.
+  // `variant` is an option of lean's, and a mean normal its diffuse term's: footprint_slopes.glsl asks for both.
   [[nodiscard]] ShaderModule shader() const override {
-    return module_of(embedded::leadr_glsl, "leadr.glsl", {{"variant_clean", false}});
+    return module_of(embedded::leadr_glsl, "leadr.glsl", {{"variant_clean", false}, {"mean_normal_kept", false}});
   }
 
  private:

@@ -20,7 +20,7 @@ struct Effective {
 
 Effective effective(Footprints f) {
   Effective e;
-  e.lobe = footprintLobe(f);
+  e.lobe = footprintLobe(f, filteredSlopes(f));
   e.round_lobe = lobeFromVariance(e.lobe.breadth);
 //? if environment_light
   e.row = lobeRow(e.lobe);

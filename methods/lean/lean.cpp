@@ -1,10 +1,6 @@
 // `lean`: first and second moments of slope filter linearly and give a footprint's mean slope and covariance; one
 // anisotropic lobe stands over them. Olano and Baker 2010, "LEAN Mapping"; CLEAN is its scalar variant.
-#include <algorithm>
-
-#include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
-#include "renderer/bake/normal_chain.hpp"
 #include "renderer/bake/slope_moments.hpp"
 
 namespace footprint {
@@ -15,13 +11,10 @@ extern const EmbeddedTexts lean_glsl;
 
 namespace {
 
-SlopeVariant variant_of(const Options& options) {
-  return options.word("variant") == "clean" ? SlopeVariant::scalar : SlopeVariant::full;
-}
-
-// What the diffuse term goes by; of layers it has the slopes alone.
-bool keeps_mean_normal(const EffectSet& effects) {
-  return has(effects, Effect::diffuse) && !has(effects, Effect::normal_layers);
+// The mean normal is what the diffuse term goes by; of layers it has the slopes alone.
+KeptSlopes kept_slopes(const Options& options, const EffectSet& effects) {
+  return {.variant = options.word("variant") == "clean" ? SlopeVariant::scalar : SlopeVariant::full,
+          .mean_normal = has(effects, Effect::diffuse) && !has(effects, Effect::normal_layers)};
 }
 
 class Lean final : public Method {
@@ -30,24 +23,18 @@ class Lean final : public Method {
 
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                                        const Progress& /*progress*/) const override {
-    Prefiltered out = bake_slopes(material, options, effects, variant_of(options));
-    if (has(effects, Effect::normal_variation) && keeps_mean_normal(effects)) {
-      out.textures.push_back(make_texture("lean_normal", mean_normal_chain(material),
-                                          parse_storage(options.word("storage")), normal_coordinates(material)));
-    }
-    return out;
+    return bake_slopes(material, options, effects, kept_slopes(options, effects));
   }
 
   [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
                                                         const EffectSet& effects) const override {
-    const BakeMemory slopes = slope_memory(material, options, variant_of(options));
-    if (!keeps_mean_normal(effects)) return slopes;
-    const BakeMemory normals = mean_normal_memory(material, channel_bytes(parse_storage(options.word("storage"))));
-    return BakeMemory{.kept = slopes.kept + normals.kept,
-                      .baking = std::max(slopes.baking, slopes.kept + normals.baking)};
+    return slope_memory(material, options, kept_slopes(options, effects));
   }
 
-  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::lean_glsl, "lean.glsl"); }
+  // footprint_slopes.glsl asks which of the two methods' textures there are.
+  [[nodiscard]] ShaderModule shader() const override {
+    return module_of(embedded::lean_glsl, "lean.glsl", {{"mean_normal_kept", true}});
+  }
 
  private:
   MethodInfo info_{.name = "lean",

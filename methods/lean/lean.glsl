@@ -29,7 +29,8 @@ vec3 meanNormal(SlopeLobe lobe) {
 
 Effective effective(Footprints f) {
   Effective e;
-  e.lobe = footprintLobe(f);
+  FilteredSlopes slopes = filteredSlopes(f);
+  e.lobe = footprintLobe(f, slopes);
   e.round_lobe = lobeFromVariance(e.lobe.breadth);
 //? if environment_light
   e.row = lobeRow(e.lobe);
@@ -38,7 +39,7 @@ Effective effective(Footprints f) {
 //? if diffuse and normal_layers
   e.mean_normal = meanNormal(e.lobe);
 //? elif diffuse and normal_variation
-  e.mean_normal = fetch(lean_normal, f.normal).xyz;
+  e.mean_normal = slopes.mean_normal;
 //? end
   return e;
 }

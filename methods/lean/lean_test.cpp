@@ -255,6 +255,7 @@ TEST(Lean, StoresWhatIsCalledFor) {
   EXPECT_EQ(channels({}, {Effect::normal_variation}), 5);
   EXPECT_EQ(channels({}, {Effect::normal_variation, Effect::diffuse}), 8);
   EXPECT_EQ(channels({{"variant", "clean"}}, {Effect::normal_variation}), 3);
+  EXPECT_EQ(channels({{"variant", "clean"}}, {Effect::normal_variation, Effect::diffuse}), 6);
   EXPECT_EQ(channels({}, {Effect::normal_variation, Effect::roughness_variation}), 6);
   EXPECT_EQ(channels({{"roughness", "moments"}}, {Effect::normal_variation, Effect::roughness_variation}), 5);
 }

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string>
+#include <utility>
 
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/normal_chain.hpp"
@@ -41,7 +43,7 @@ Image texel_moments(const Image& normals, const Image& variance, double steepest
 }
 
 // One texel stands for any number of equal ones.
-Image spread_over(const Image& image, int width, int height) {
+Image spread_over(Image image, int width, int height) {
   if (image.texel_count() != 1) return image;
   Image out(width, height, image.channels);
   for (std::size_t i = 0; i < out.texels.size(); ++i)
@@ -49,15 +51,15 @@ Image spread_over(const Image& image, int width, int height) {
   return out;
 }
 
-// Normals and base roughness in one set of moments: a texel of one map must lie over a texel of the other.
-std::vector<Image> rough_moment_chain(const Material& material, double steepest) {
-  const Image variance = lobe_variance_map(material);
+// The base roughness that joins the moments: a texel of one map must lie over a texel of the other.
+Image variance_for_moments(const Material& material) {
+  Image variance = lobe_variance_map(material);
   if (variance.texel_count() > 1 && roughness_coordinates(material) != normal_coordinates(material)) {
     throw Error(ErrorKind::usage, fmt::format("material `{}`, roughness=moments", material.name),
                 "its normal and roughness maps have different texture coordinates",
                 "use roughness=stretched or roughness=shading");
   }
-  return slope_moment_chain(spread_over(normal_map_of(material), variance.width, variance.height), variance, steepest);
+  return variance;
 }
 
 // Says so where texels were made less steep than they are; the mend changes them, and a reader should know.
@@ -84,6 +86,35 @@ std::vector<Image> with_trace(const std::vector<Image>& chain) {
       out[level].texels[3 * i + 2] += chain[level].texels[moment_channels * i + slope_yy];
   }
   return out;
+}
+
+// Mxy and the mean normal.
+std::vector<Image> cross_and_normal(const std::vector<Image>& moments, const std::vector<Image>& normals) {
+  std::vector<Image> out;
+  for (std::size_t level = 0; level < moments.size(); ++level) {
+    const Image& from = moments[level];
+    Image& to = out.emplace_back(from.width, from.height, 4);
+    for (std::size_t i = 0; i < from.texel_count(); ++i) {
+      to.texels[4 * i] = from.texels[moment_channels * i + slope_xy];
+      std::copy_n(&normals[level].texels[3 * i], 3, &to.texels[4 * i + 1]);
+    }
+  }
+  return out;
+}
+
+// Two textures of one map: a shader reads them in one loop.
+void add_textures(const std::string& map, std::vector<Image> moments, std::vector<Image> normals, SlopeVariant variant,
+                  Storage storage, const TextureCoordinates& coordinates, Prefiltered& out) {
+  const auto add = [&](const char* name, std::vector<Image> chain) {
+    out.textures.push_back(make_texture(map + name, std::move(chain), storage, coordinates));
+  };
+  if (variant == SlopeVariant::scalar) {
+    add("_moments", with_trace(moments));
+    if (!normals.empty()) add("_rest", std::move(normals));
+    return;
+  }
+  add("_moments", channels_of(moments, {slope_x, slope_y, slope_xx, slope_yy}));
+  add("_rest", normals.empty() ? channels_of(moments, {slope_xy}) : cross_and_normal(moments, normals));
 }
 
 }  // namespace
@@ -153,45 +184,41 @@ OptionSpec steepest_slope_option() {
                        "has the second moment of 10000 of slope 0.5.");
 }
 
-BakeMemory slope_memory(const Material& material, const Options& options, SlopeVariant variant) {
+BakeMemory slope_memory(const Material& material, const Options& options, const KeptSlopes& kept) {
   const auto channel = static_cast<double>(channel_bytes(parse_storage(options.word("storage"))));
-  const double kept = (variant == SlopeVariant::scalar ? 3.0 : 5.0) * channel * mip_chain_share;
-  // Normals, moments of all texels with their weights, and these without; then normals, moments, those of one texture,
-  // and its finest level encoded.
+  const double channels = (kept.variant == SlopeVariant::scalar ? 3.0 : 5.0) + (kept.mean_normal ? 3.0 : 0.0);
+  // Normals, moments of all texels with their weights, and these without. Later the normals are a chain of mean normals
+  // and there are the channels of one texture, and no weights.
   const double moments = moment_channels * sizeof(float) * mip_chain_share;
   const double chain = decoded_normal + (moment_channels + 1) * sizeof(float) * mip_chain_share + moments;
-  const double encoding = decoded_normal + moments + 4.0 * sizeof(float) * mip_chain_share + 4.0 * channel;
-  return bake_memory(normal_texels(material) * kept, normal_texels(material) * std::max(chain, encoding));
+  const double normals = kept.mean_normal ? 3.0 * sizeof(float) * mip_chain_share : decoded_normal;
+  const double encoding =
+      normals + moments + 4.0 * sizeof(float) * mip_chain_share + channels * channel * mip_chain_share;
+  return bake_memory(normal_texels(material) * channels * channel * mip_chain_share,
+                     normal_texels(material) * std::max(chain, encoding));
 }
 
 Prefiltered bake_slopes(const Material& material, const Options& options, const EffectSet& effects,
-                        SlopeVariant variant) {
+                        const KeptSlopes& kept) {
   const Storage storage = parse_storage(options.word("storage"));
   const bool in_moments = options.word("roughness") == "moments" && has(effects, Effect::normal_variation);
   const double steepest = options.number("steepest");
   const Image no_variance(1, 1, 1, 0.0F);
   Prefiltered out;
-  const auto add = [&](const std::string& name, const std::vector<Image>& chain,
-                       const TextureCoordinates& coordinates) {
-    if (variant == SlopeVariant::scalar) {
-      out.textures.push_back(make_texture(name + "_moments", with_trace(chain), storage, coordinates));
-      return;
-    }
-    out.textures.push_back(make_texture(name + "_moments", channels_of(chain, {slope_x, slope_y, slope_xx, slope_yy}),
-                                        storage, coordinates));
-    out.textures.push_back(make_texture(name + "_cross", channels_of(chain, {slope_xy}), storage, coordinates));
-  };
   if (has(effects, Effect::normal_variation)) {
-    const Image normals = normal_map_of(material);
-    add("slope",
-        in_moments ? rough_moment_chain(material, steepest) : slope_moment_chain(normals, no_variance, steepest),
-        normal_coordinates(material));
+    const Image variance = in_moments ? variance_for_moments(material) : no_variance;
+    Image normals = spread_over(normal_map_of(material), variance.width, variance.height);
     note_steep_texels(normals, "normal map", steepest, out);
+    std::vector<Image> moments = slope_moment_chain(normals, variance, steepest);
+    add_textures("slope", std::move(moments),
+                 kept.mean_normal ? mean_normal_chain(std::move(normals)) : std::vector<Image>(), kept.variant, storage,
+                 normal_coordinates(material), out);
   }
   if (has(effects, Effect::normal_layers)) {
     const Image layer = layer_map_of(material);
-    add("layer", slope_moment_chain(layer, no_variance, steepest), layer_coordinates(material));
     note_steep_texels(layer, "layer", steepest, out);
+    add_textures("layer", slope_moment_chain(layer, no_variance, steepest), {}, kept.variant, storage,
+                 layer_coordinates(material), out);
   }
   if (!in_moments)
     std::ranges::move(bake_lobe_variance(material, storage, effects).textures, std::back_inserter(out.textures));

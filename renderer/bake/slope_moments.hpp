@@ -60,15 +60,22 @@ inline constexpr int slope_x = 0, slope_y = 1, slope_xx = 2, slope_xy = 3, slope
 /// Whether the whole covariance is kept or, as CLEAN has it, its trace alone.
 enum class SlopeVariant { full, scalar };
 
-/// The textures that common_slopes.glsl reads, for options with the three specs above:
-/// `slope_moments` (Bx, By, Mxx, Myy; scalar: Bx, By, Mxx + Myy) and `slope_cross` (Mxy; not scalar) where normals
-/// vary; `lobe_variance` (bake_lobe_variance) where the roughness varies and the moments do not hold it. Errors
-/// (usage): roughness in the moments of maps that differ in size or coordinates. Texels that are steeper than
-/// `steepest` are counted in a note.
+/// What a method keeps of a normal map. `mean_normal`: the mean of the unit normals too, not renormalised.
+struct KeptSlopes {
+  SlopeVariant variant = SlopeVariant::full;
+  bool mean_normal = false;
+};
+
+/// The textures that footprint_slopes.glsl reads, for options with the three specs above, where normals vary:
+/// `slope_moments` (Bx, By, Mxx, Myy; scalar: Bx, By, Mxx + Myy) and, of the same size, `slope_rest`, what that has no
+/// room for: Mxy (not scalar), then the mean normal where it is kept; neither: there is no such texture. Likewise
+/// `layer_moments` and `layer_rest` of a bump layer, without a normal. `lobe_variance` (bake_lobe_variance) where the
+/// roughness varies and the moments do not hold it. Errors (usage): roughness in the moments of maps that differ in
+/// size or coordinates. Texels that are steeper than `steepest` are counted in a note.
 [[nodiscard]] Prefiltered bake_slopes(const Material& material, const Options& options, const EffectSet& effects,
-                                      SlopeVariant variant);
+                                      const KeptSlopes& kept);
 
 /// What that takes for the normals.
-[[nodiscard]] BakeMemory slope_memory(const Material& material, const Options& options, SlopeVariant variant);
+[[nodiscard]] BakeMemory slope_memory(const Material& material, const Options& options, const KeptSlopes& kept);
 
 }  // namespace footprint

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "renderer/core/error.hpp"
 #include "renderer/image/mipmap.hpp"
@@ -19,9 +20,9 @@ enum Channel : std::size_t { height, along_u, along_v, square_u, square_v, produ
 
 constexpr float of_a_normal_map = -1.0F;  // what OpenImageIO writes as the height where there is none
 
-const PrefilteredTexture* find_texture(const Prefiltered& prefiltered, const char* name, int channels) {
+const PrefilteredTexture* find_texture(const Prefiltered& prefiltered, const char* name) {
   const auto found = std::ranges::find(prefiltered.textures, name, &PrefilteredTexture::name);
-  return found != prefiltered.textures.end() && found->channels == channels ? &*found : nullptr;
+  return found != prefiltered.textures.end() ? &*found : nullptr;
 }
 
 bool is_of_heights(const Image& finest) {
@@ -65,24 +66,24 @@ std::vector<Image> upward(const ExrChain& chain) {
   return levels;
 }
 
-std::vector<Image> picked(const std::vector<Image>& levels, const std::vector<std::size_t>& channels) {
-  std::vector<Image> out;
-  for (const Image& level : levels) {
-    Image& to = out.emplace_back(level.width, level.height, static_cast<int>(channels.size()));
-    for (std::size_t i = 0; i < level.texel_count(); ++i) {
-      for (std::size_t c = 0; c < channels.size(); ++c)
-        to.texels[channels.size() * i + c] = level.texels[channel_count * i + channels[c]];
-    }
-  }
-  return out;
-}
-
-void replace(Prefiltered& prefiltered, const char* name, const std::vector<Image>& chain) {
+// Puts channels of the chain into a texture's first ones; what it holds behind them stays.
+void replace(Prefiltered& prefiltered, const char* name, const std::vector<Image>& chain,
+             const std::vector<std::size_t>& channels) {
   const auto found = std::ranges::find(prefiltered.textures, name, &PrefilteredTexture::name);
   if (found == prefiltered.textures.end() || found->levels.size() != chain.size() ||
-      found->levels.front().width != chain.front().width || found->channels != chain.front().channels)
+      found->levels.front().width != chain.front().width || found->levels.front().height != chain.front().height ||
+      found->channels < static_cast<int>(channels.size()))
     throw std::logic_error(fmt::format("the bake has no texture {} of that size", name));
-  *found = make_texture(found->name, chain, found->storage, found->coordinates);
+  std::vector<Image> levels;
+  for (std::size_t level = 0; level < chain.size(); ++level) {
+    Image& to = levels.emplace_back(decode_level(*found, level));
+    const auto step = static_cast<std::size_t>(to.channels);
+    for (std::size_t i = 0; i < to.texel_count(); ++i) {
+      for (std::size_t c = 0; c < channels.size(); ++c)
+        to.texels[step * i + c] = chain[level].texels[channel_count * i + channels[c]];
+    }
+  }
+  *found = make_texture(found->name, std::move(levels), found->storage, found->coordinates);
 }
 
 }  // namespace
@@ -93,23 +94,24 @@ const std::vector<std::string>& bumpslopes_channels() {
 }
 
 bool holds_slope_moments(const Prefiltered& prefiltered) {
-  return find_texture(prefiltered, "slope_moments", 4) != nullptr &&
-         find_texture(prefiltered, "slope_cross", 1) != nullptr;
+  const PrefilteredTexture* const moments = find_texture(prefiltered, "slope_moments");
+  return moments != nullptr && moments->channels == 4 && find_texture(prefiltered, "slope_rest") != nullptr;
 }
 
 std::optional<ExrChain> bumpslopes_of(const Prefiltered& prefiltered) {
   if (!holds_slope_moments(prefiltered)) return {};
-  const PrefilteredTexture& moments = *find_texture(prefiltered, "slope_moments", 4);
-  const PrefilteredTexture& cross = *find_texture(prefiltered, "slope_cross", 1);
+  const PrefilteredTexture& moments = *find_texture(prefiltered, "slope_moments");
+  const PrefilteredTexture& rest = *find_texture(prefiltered, "slope_rest");
+  const auto rest_step = static_cast<std::size_t>(rest.channels);
   ExrChain chain{.levels = {}, .channels = bumpslopes_channels()};
   for (std::size_t level = 0; level < moments.levels.size(); ++level) {
-    const Image four = decode_level(moments, level), one = decode_level(cross, level);
+    const Image four = decode_level(moments, level), others = decode_level(rest, level);
     Image& to = chain.levels.emplace_back(four.width, four.height, static_cast<int>(channel_count));
     for (std::size_t i = 0; i < four.texel_count(); ++i) {
       float* const texel = &to.texels[channel_count * i];
       texel[height] = of_a_normal_map;
       std::copy_n(&four.texels[4 * i], 4, texel + along_u);
-      texel[product] = one.texels[i];
+      texel[product] = others.texels[rest_step * i];
     }
   }
   return chain;
@@ -129,8 +131,8 @@ Image normals_of_bumpslopes(const ExrChain& chain, const std::string& file) {
 
 void replace_moments(const ExrChain& chain, Prefiltered& prefiltered) {
   const std::vector<Image> levels = upward(chain);
-  replace(prefiltered, "slope_moments", picked(levels, {along_u, along_v, square_u, square_v}));
-  replace(prefiltered, "slope_cross", picked(levels, {product}));
+  replace(prefiltered, "slope_moments", levels, {along_u, along_v, square_u, square_v});
+  replace(prefiltered, "slope_rest", levels, {product});
 }
 
 }  // namespace footprint

@@ -15,7 +15,8 @@ namespace footprint {
 /// and the means of their products.
 [[nodiscard]] const std::vector<std::string>& bumpslopes_channels();
 
-/// The moments in a bake's `slope_moments` and `slope_cross` (bake_slopes) in that layout. None where it has not both.
+/// The moments in a bake's `slope_moments` and `slope_rest` (bake_slopes) in that layout. None where it has not both,
+/// or no whole covariance.
 [[nodiscard]] std::optional<ExrChain> bumpslopes_of(const Prefiltered& prefiltered);
 
 /// The normals that the finest level's slopes stand for: 4 channels, as Material::normal_map. `file` is for messages.
@@ -25,8 +26,8 @@ namespace footprint {
 [[nodiscard]] Image normals_of_bumpslopes(const ExrChain& chain, const std::string& file);
 
 /// Puts the chain's moments in the place of those that were baked from its finest level's normals, so that what its
-/// coarser levels hold beyond them counts. Storage and coordinates stay. Errors: std::logic_error where the bake has no
-/// such textures, of that size.
+/// coarser levels hold beyond them counts. Storage, coordinates and a mean normal stay. Errors: std::logic_error where
+/// the bake has no such textures, of that size.
 void replace_moments(const ExrChain& chain, Prefiltered& prefiltered);
 
 /// Whether a bake has such textures.

@@ -40,12 +40,12 @@ Image without_weight(const Image& normals) {
   return out;
 }
 
-Prefiltered lean_of(const Image& normals) {
+Prefiltered lean_of(const Image& normals, const KeptSlopes& kept = {}) {
   const Material material = square_scene(normals, {}).materials.front();
   const Options options({slope_storage_option(), slope_roughness_option(), steepest_slope_option()}, {}, "lean");
   EffectSet effects;
   effects.set(static_cast<std::size_t>(Effect::normal_variation));
-  return bake_slopes(material, options, effects, SlopeVariant::full);
+  return bake_slopes(material, options, effects, kept);
 }
 
 void expect_alike(const std::vector<Image>& a, const std::vector<Image>& b) {
@@ -78,6 +78,20 @@ TEST(Bumpslopes, OfOpenImageIOBecomeLeansMaps) {
     for (std::size_t level = 0; level < expected.textures[t].levels.size(); ++level)
       expect_alike({decode_level(taken.textures[t], level)}, {decode_level(expected.textures[t], level)});
   }
+}
+
+// The mean normal lies behind the mixed moment, and is nothing that the layout has.
+TEST(Bumpslopes, LeaveTheMeanNormal) {
+  const KeptSlopes with_normal{.variant = SlopeVariant::full, .mean_normal = true};
+  const Prefiltered own = lean_of(random_normals(16, 16, 0.5F, 1), with_normal);
+  const Prefiltered other = lean_of(random_normals(16, 16, 0.5F, 2), with_normal);
+  Prefiltered taken = own;
+  replace_moments(bumpslopes_of(other).value(), taken);
+  EXPECT_EQ(taken.textures[0], other.textures[0]);
+  const Image rest = decode_level(taken.textures[1], 0);
+  const Image expected_cross = decode_level(other.textures[1], 0), expected_normal = decode_level(own.textures[1], 0);
+  for (std::size_t i = 0; i < rest.texels.size(); ++i)
+    ASSERT_EQ(rest.texels[i], (i % 4 == 0 ? expected_cross : expected_normal).texels[i]) << i;
 }
 
 // A ramp that falls along u and rises down the rows: its normal leans to +u and, green up, to +v.

@@ -1,9 +1,61 @@
 // The slopes under a pixel's footprint: the lobe of common_slopes.glsl from the textures of `bake_slopes`
-// (renderer/bake/slope_moments.hpp), a bump layer's added.
+// (renderer/bake/slope_moments.hpp), a bump layer's added. Who takes it in has the flag `mean_normal_kept`: whether
+// these hold, for a diffuse term over one map alone, the mean normal too.
 //? include common_slopes.glsl
+//? include fetch_pair.glsl
 //? if not normal_variation or not roughness_moments
 //? include lobe_variance.glsl
 //? end
+
+struct FilteredSlopes {
+  vec2 mean;
+  mat2 spread;  // covariance
+//? if mean_normal_kept and diffuse and normal_variation and not normal_layers
+  vec3 mean_normal;  // not renormalised
+//? end
+};
+
+//? if variant_clean
+mat2 spreadOf(vec4 moments, vec4 rest) { return mat2(scalarCovariance(moments.xy, moments.z)); }
+//? else
+mat2 spreadOf(vec4 moments, vec4 rest) { return slopeCovariance(moments.xy, vec3(moments.z, rest.x, moments.w)); }
+//? end
+
+FilteredSlopes filteredSlopes(Footprints f) {
+  FilteredSlopes s;
+  s.mean = vec2(0.0);
+  s.spread = mat2(0.0);
+  vec4 moments = vec4(0.0);
+  vec4 rest = vec4(0.0);
+//? if normal_variation
+//? if variant_clean and (normal_layers or not diffuse or not mean_normal_kept)
+  moments = fetch(slope_moments, f.normal);
+//? else
+  fetchPair(slope_moments, slope_rest, f.normal, moments, rest);
+//? end
+  s.mean = moments.xy;
+  s.spread = spreadOf(moments, rest);
+//? if mean_normal_kept and diffuse and not normal_layers
+//? if variant_clean
+  s.mean_normal = rest.xyz;
+//? else
+  s.mean_normal = rest.yzw;
+//? end
+//? end
+//? end
+//? if normal_layers
+  // Slopes of independent layers add, and so do their means and covariances: M = M1 + M2 + B1 B2^T + B2 B1^T less
+  // (B1 + B2)(B1 + B2)^T is (M1 - B1 B1^T) + (M2 - B2 B2^T), in the order that cancels least.
+//? if variant_clean
+  moments = fetch(layer_moments, f.layer);
+//? else
+  fetchPair(layer_moments, layer_rest, f.layer, moments, rest);
+//? end
+  s.mean += moments.xy;
+  s.spread += spreadOf(moments, rest);
+//? end
+  return s;
+}
 
 // The base lobe's slope variance, but for what the moments hold already.
 float addedVariance(Footprints f) {
@@ -15,28 +67,4 @@ float addedVariance(Footprints f) {
 }
 
 // The lobe over a pixel's footprint.
-SlopeLobe footprintLobe(Footprints f) {
-  vec2 mean = vec2(0.0);
-  mat2 spread = mat2(0.0);
-//? if normal_variation
-  vec4 moments = fetch(slope_moments, f.normal);
-  mean = moments.xy;
-//? if variant_clean
-  spread = mat2(scalarCovariance(mean, moments.z));
-//? else
-  spread = slopeCovariance(mean, vec3(moments.z, fetch(slope_cross, f.normal).r, moments.w));
-//? end
-//? end
-//? if normal_layers
-  // Slopes of independent layers add, and so do their means and covariances: M = M1 + M2 + B1 B2^T + B2 B1^T less
-  // (B1 + B2)(B1 + B2)^T is (M1 - B1 B1^T) + (M2 - B2 B2^T), in the order that cancels least.
-  vec4 layer = fetch(layer_moments, f.layer);
-//? if variant_clean
-  spread += mat2(scalarCovariance(layer.xy, layer.z));
-//? else
-  spread += slopeCovariance(layer.xy, vec3(layer.z, fetch(layer_cross, f.layer).r, layer.w));
-//? end
-  mean += layer.xy;
-//? end
-  return slopeLobe(mean, spread, addedVariance(f));
-}
+SlopeLobe footprintLobe(Footprints f, FilteredSlopes s) { return slopeLobe(s.mean, s.spread, addedVariance(f)); }

@@ -1,0 +1,21 @@
+// Two textures of one map under a footprint. In a frame one loop over the probes reads both: their places, their
+// weights and their level are those of either, and a loop of its own for each would find them again.
+
+// As `fetch`, of textures of one size.
+void fetchPair(sampler2D first, sampler2D second, Footprint f, out vec4 of_first, out vec4 of_second) {
+//? if sampling_frame and not filter_hardware
+  Probes p = probesOf(vec2(textureSize(first, 0)), f);
+  countLookups(2 * p.count);
+  of_first = vec4(0.0);
+  of_second = vec4(0.0);
+  for (int i = 0; i < p.count; ++i) {
+    vec2 uv = probeUv(f, p, i);
+    float weight = probeWeight(p, i);
+    of_first += weight * textureLod(first, uv, p.level);
+    of_second += weight * textureLod(second, uv, p.level);
+  }
+//? else
+  of_first = fetch(first, f);
+  of_second = fetch(second, f);
+//? end
+}

@@ -216,7 +216,8 @@ float meanValue(Effective e, Query q) {
   Sum sum = Sum(0.0, 0.0);
   Lists lists = listsFor(e, q);
   int count = regionCount(e.footprint);
-  for (int i = 0; i < count; ++i) {
+  int i = 0;
+  do {
     Region r = regionAt(e.footprint, i);
     if (r.weight <= 0.0) continue;
     Sum part;
@@ -228,7 +229,7 @@ float meanValue(Effective e, Query q) {
     float weight = r.weight / areaOf(r);
     sum.value += weight * part.value;
     sum.area += weight * part.area;
-  }
+  } while (++i < count);
   if (sum.area == 0.0) {
 //? if roughness_bin
     sum = Sum(q.bin == binOfPacked(up_code) ? 1.0 / binSolidAngle() : 0.0, 1.0);

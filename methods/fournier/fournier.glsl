@@ -55,18 +55,21 @@ float sumOfPeaks(Effective e, vec3 h, bool with_geometry, vec3 wi, vec3 wo) {
   float sum = 0.0;
   float total = 0.0;  // below 1 where texels have no normal
   int texels = footprintTexelCount(fournier_first, e.footprint);
-  for (int t = 0; t < texels; ++t) {
+  int t = 0;
+  do {
     FootprintTexel texel = footprintTexel(fournier_first, e.footprint, t);
-    int peaks = texel.weight <= 0.0 ? 0 : texel.level < 0.5 ? 1 : int(option_peaks);
-    for (int i = 0; i < peaks; ++i) {
+    if (texel.weight <= 0.0) continue;
+    int peaks = texel.level < 0.5 ? 1 : int(option_peaks);
+    int i = 0;
+    do {
       vec4 peak = peakOf(texel, i);
       if (peak.w <= 0.0) break;  // heaviest first: the others have none either
       float weight = texel.weight * peak.w;
       Facets facets = spreadFacets(directionFromDisc(peak.xy), e.variance, peak.z * peak.z);
       sum += weight * reflectedDensity(facets, h, with_geometry, wi, wo);
       total += weight;
-    }
-  }
+    } while (++i < peaks);
+  } while (++t < texels);
   if (total > 0.0) return sum / total;
 //? end
   return reflectedDensity(spreadFacets(vec3(0.0, 0.0, 1.0), e.variance, 0.0), h, with_geometry, wi, wo);
@@ -101,10 +104,11 @@ vec4 peakOrNone(FootprintTexel texel, int number) {
 float weightOfPeaks(Footprint f) {
   float total = 0.0;
   int texels = footprintTexelCount(fournier_first, f);
-  for (int t = 0; t < texels; ++t) {
+  int t = 0;
+  do {
     FootprintTexel texel = footprintTexel(fournier_first, f, t);
     for (int i = 0; i < int(option_peaks); ++i) total += texel.weight * max(peakOrNone(texel, i).w, 0.0);
-  }
+  } while (++t < texels);
   return total;
 }
 

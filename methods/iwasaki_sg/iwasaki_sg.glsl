@@ -82,14 +82,15 @@ float convolved(vec4 lobe, vec3 h) {
   int count = textureSize(iwasaki_brdf, 0).x;
   countLookups(count);
   countLobes(count);
-  for (int s = 0; s < count; ++s) {
+  int s = 0;
+  do {
     vec2 brdf = texelFetch(iwasaki_brdf, ivec2(s, 0), 0).xy;  // sharpness, amplitude
 //? if convolution_exact
     sum += brdf.y * sgConvolution(lobe.xyz, lobe.w, h, brdf.x);
 //? else
     sum += brdf.y * sgApproximateConvolution(lobe.xyz, lobe.w, h, brdf.x);
 //? end
-  }
+  } while (++s < count);
   return sum / sgIntegral(lobe.w);
 //? end
 }
@@ -130,7 +131,8 @@ vec3 tabulatedReflection(Effective e, vec3 wi, vec3 wo) {
   int count = textureSize(iwasaki_table, 0).x;
   vec3 shine = vec3(0.0), matte = vec3(0.0);
   vec4 layer = vec4(0.0);
-  for (int j = 0; j < e.count; ++j) {
+  int j = 0;
+  do {
     if (j % values_per_layer == 0) layer = tableLayer(j / values_per_layer, texels);
     vec4 lobe = lobeOf(j);
     vec3 reflected = vec3(0.0);
@@ -140,7 +142,7 @@ vec3 tabulatedReflection(Effective e, vec3 wi, vec3 wo) {
     }
     shine += valueIn(layer, j) * reflected / sgIntegral(lobe.w);
     matte += valueIn(layer, j);
-  }
+  } while (++j < e.count);
   return (shine * riseOf(h, wi) + matte * texelFetch(iwasaki_table, ivec2(0), 0).yzw) * max(wi.z, 0.0);
 }
 //? end
@@ -154,7 +156,8 @@ vec3 lobesReflect(Effective e, vec3 f0, vec3 wi, vec3 wo) {
   vec4 layer = vec4(0.0);
 //? end
   vec3 sum = vec3(0.0);
-  for (int j = 0; j < e.count; ++j) {
+  int j = 0;
+  do {
     vec4 lobe = lobeOf(j);
     float reflected = convolved(lobe, h) * smoothFactor(lobe, h, wi, wo);
 //? if microgeometry_visibility
@@ -163,7 +166,7 @@ vec3 lobesReflect(Effective e, vec3 f0, vec3 wi, vec3 wo) {
 //? else
     sum += shareOf(j) * reflected;
 //? end
-  }
+  } while (++j < e.count);
   return fresnelTerm(f0, wi, wo) * sum;
 }
 
@@ -174,10 +177,11 @@ vec3 meanDiffuse(Effective e, Surface s, vec3 wi, vec3 wo) {
   return diffuse(vec3(0.0, 0.0, 1.0), s, wi, wo) * tableAt(e.count, tableTexels(wi, wo));
 //? else
   vec3 sum = vec3(0.0);
-  for (int j = 0; j < e.count; ++j) {
+  int j = 0;
+  do {
     vec4 lobe = lobeOf(j);
     sum += shareOf(j) * meanCosine(lobe.w) * diffuse(lobe.xyz, s, wi, wo);
-  }
+  } while (++j < e.count);
   return sum;
 //? end
 }

@@ -91,11 +91,12 @@ Part partUnder(Walk walk, int part) {
   Probes p = probesOf(vec2(textureSize(xu_vmf_whole, 0).xy), f);
   vec4 r = vec4(0.0);
   float least = 0.0;
-  for (int i = 0; i < p.count; ++i) {
+  int i = 0;
+  do {
     Part one = partAt(probeAt(walk.own, probeUv(f, p, i), p.level), walk.facet_shortfall, part);
     r += probeWeight(p, i) * one.r;
     least += probeWeight(p, i) * one.least;
-  }
+  } while (++i < p.count);
   return Part(r, least);
 }
 //? end

@@ -108,9 +108,10 @@ float facetDensity(Facets f, vec3 h) {
   if (facet_lobe_count > 0) {
     vec3 own = inFacetFrame(h, f.normal);
     float sum = 0.0;
-    for (int k = 0; k < facet_lobe_count; ++k) {
+    int k = 0;
+    do {
       sum += facet_lobes[k].weight * lobeDensity(widenedLobe(k, f.spread), facet_lobes[k].axis, own);
-    }
+    } while (++k < facet_lobe_count);
     return sum;
   }
 //? end
@@ -124,11 +125,12 @@ float facetReflectance(Facets f, vec3 h, vec3 wi, vec3 wo) {
   if (facet_lobe_count > 0) {
     vec3 own = inFacetFrame(h, f.normal);
     float sum = 0.0;
-    for (int k = 0; k < facet_lobe_count; ++k) {
+    int k = 0;
+    do {
       float lobe = widenedLobe(k, f.spread);
       sum += facet_lobes[k].weight * lobeDensity(lobe, facet_lobes[k].axis, own) *
              geometryFactor(lobe, f.normal, h, wi, wo);
-    }
+    } while (++k < facet_lobe_count);
     return sum;
   }
 //? end

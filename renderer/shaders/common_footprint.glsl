@@ -139,7 +139,10 @@ vec4 fetch(sampler2D map, Footprint f) {
   Probes p = probesOf(vec2(textureSize(map, 0)), f);
   countLookups(p.count);
   vec4 sum = vec4(0.0);
-  for (int i = 0; i < p.count; ++i) sum += probeWeight(p, i) * textureLod(map, probeUv(f, p, i), p.level);
+  int i = 0;
+  do {
+    sum += probeWeight(p, i) * textureLod(map, probeUv(f, p, i), p.level);
+  } while (++i < p.count);
   return sum;
 }
 
@@ -148,7 +151,10 @@ vec4 fetch(sampler2DArray map, int layer, Footprint f) {
   Probes p = probesOf(vec2(textureSize(map, 0).xy), f);
   countLookups(p.count);
   vec4 sum = vec4(0.0);
-  for (int i = 0; i < p.count; ++i) sum += probeWeight(p, i) * textureLod(map, vec3(probeUv(f, p, i), layer), p.level);
+  int i = 0;
+  do {
+    sum += probeWeight(p, i) * textureLod(map, vec3(probeUv(f, p, i), layer), p.level);
+  } while (++i < p.count);
   return sum;
 }
 //? end
@@ -165,7 +171,10 @@ vec4 fetchUpTo(sampler2DArray map, int layer, Footprint f, float coarsest) {
   countLookups(p.count);
   float level = min(p.level, coarsest);
   vec4 sum = vec4(0.0);
-  for (int i = 0; i < p.count; ++i) sum += probeWeight(p, i) * textureLod(map, vec3(probeUv(f, p, i), layer), level);
+  int i = 0;
+  do {
+    sum += probeWeight(p, i) * textureLod(map, vec3(probeUv(f, p, i), layer), level);
+  } while (++i < p.count);
   return sum;
 }
 //? end

@@ -103,8 +103,9 @@ vec3 environmentIntegral(SurfacePoint p) {
   uvec3 lobe_seed = hashed(seed);
   int texels = int(drawn_texels.z);
   int count = max(directions_a_sample / texels, 1);
-  int first = sample_texel * count;
-  for (int i = first; i < first + count; ++i) {
+  int i = sample_texel * count;
+  int end = i + count;
+  do {
     uvec4 digits = cell_directions[sample_cell] ^ direction_steps[i];
     DrawnDirection light = drawFromEnvironment(scrambledPair(digits.xy, seed.xy));
     vec3 wi = light.direction * p.frame;
@@ -118,6 +119,6 @@ vec3 environmentIntegral(SurfacePoint p) {
       vec4 held = environmentTexel(p.frame * wi);
       radiance += reflectance(p, wi) * held.rgb / (held.a + density);
     }
-  }
+  } while (++i < end);
   return radiance / float(count);
 }

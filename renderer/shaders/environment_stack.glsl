@@ -228,8 +228,14 @@ vec3 tailedRadiance(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wo, mat3 
   NodeSum core = NodeSum(vec3(0.0), vec3(0.0), 0.0);
   NodeSum tail = core;
   int around = int(environment_stack_range.z);  // no constant: unrolled, the loop takes compilers seconds
-  for (int k = 0; k < around; ++k) addNode(core, e, i, lobe, ggx_rings[0], k, f0, wo, axes);
-  for (int k = 0; k < 2 * around; ++k) addNode(tail, e, i, lobe, ggx_rings[1 + k / around], k % around, f0, wo, axes);
+  int k = 0;
+  do {
+    addNode(core, e, i, lobe, ggx_rings[0], k, f0, wo, axes);
+  } while (++k < around);
+  k = 0;
+  do {
+    addNode(tail, e, i, lobe, ggx_rings[1 + k / around], k % around, f0, wo, axes);
+  } while (++k < 2 * around);
   vec3 n = horizonNormal(lobe);
   return nodesRadiance(core, ggx_spread.x, n, frame) + nodesRadiance(tail, ggx_spread.y, n, frame);
 }
@@ -238,7 +244,8 @@ vec3 tailedRadiance(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wo, mat3 
 vec3 environmentSpecular(Effective e, vec3 f0, vec3 wo, mat3 frame) {
   vec3 radiance = vec3(0.0);
   int count = lobeCount(e);
-  for (int i = 0; i < count; ++i) {
+  int i = 0;
+  do {
     NormalLobe lobe = normalLobe(e, i);
     if (lobe.weight <= 0.0) continue;
     countLobes(1);
@@ -249,7 +256,7 @@ vec3 environmentSpecular(Effective e, vec3 f0, vec3 wo, mat3 frame) {
     }
 //? end
     radiance += lobeRadiance(e, i, lobe, f0, wo, frame);
-  }
+  } while (++i < count);
   return radiance;
 }
 

@@ -9,11 +9,12 @@ void fetchLayers(sampler2DArray map, Footprint f, float coarsest, out vec4 layer
   countLookups(fetched_layers * p.count);
   float level = min(p.level, coarsest);
   for (int l = 0; l < fetched_layers; ++l) layers[l] = vec4(0.0);
-  for (int i = 0; i < p.count; ++i) {
+  int i = 0;
+  do {
     vec2 uv = probeUv(f, p, i);
     float weight = probeWeight(p, i);
     for (int l = 0; l < fetched_layers; ++l) layers[l] += weight * textureLod(map, vec3(uv, l), level);
-  }
+  } while (++i < p.count);
 //? else
   for (int l = 0; l < fetched_layers; ++l) layers[l] = fetchUpTo(map, l, f, coarsest);
 //? end

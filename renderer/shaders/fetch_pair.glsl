@@ -8,12 +8,13 @@ void fetchPair(sampler2D first, sampler2D second, Footprint f, out vec4 of_first
   countLookups(2 * p.count);
   of_first = vec4(0.0);
   of_second = vec4(0.0);
-  for (int i = 0; i < p.count; ++i) {
+  int i = 0;
+  do {
     vec2 uv = probeUv(f, p, i);
     float weight = probeWeight(p, i);
     of_first += weight * textureLod(first, uv, p.level);
     of_second += weight * textureLod(second, uv, p.level);
-  }
+  } while (++i < p.count);
 //? else
   of_first = fetch(first, f);
   of_second = fetch(second, f);

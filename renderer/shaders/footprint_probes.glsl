@@ -1,5 +1,6 @@
 // The footprint filters (docs/filters.md): the trilinear lookups that stand for a footprint, their places, their one
-// level and their weights, which sum to one.
+// level and their weights, which sum to one. There is one at least, so that a loop over them may test at its end: Mesa's
+// llvmpipe goes through all of a body once more, for no pixel, where a loop tests at its head.
 
 //? if filter_area
 //? include footprint_area.glsl
@@ -7,10 +8,12 @@
 struct Probes {
   int count;
   float level;
-//? if filter_anisotropic or filter_ewa or filter_hardware
-  vec2 axis;  // in texture coordinates: the longer one
+//? if filter_anisotropic or filter_hardware
+  vec2 step;     // from probe to probe, in texture coordinates
+  float weight;  // of each
 //? end
 //? if filter_ewa
+  vec2 axis;      // in texture coordinates: the longer one
   float falloff;  // the weight of the probe at axis t is exp(-falloff t^2) of the middle's
   float whole;    // their sum
 //? end
@@ -34,11 +37,12 @@ Probes probesOf(vec2 size, Footprint f) {
   float major = max(max(along_x, along_y), 1e-12);
   float minor = min(along_x, along_y);
   int count = int(ceil(min(0.999 * major / max(minor, 1e-12), float(most_probes))));
-  return Probes(count, log2(major / float(count)), along_x > along_y ? f.dx : f.dy);
+  vec2 axis = along_x > along_y ? f.dx : f.dy;
+  return Probes(count, log2(major / float(count)), axis / float(count + 1), 1.0 / float(count));
 }
 
-vec2 probeUv(Footprint f, Probes p, int i) { return f.uv + p.axis * (float(i + 1) / float(p.count + 1) - 0.5); }
-float probeWeight(Probes p, int i) { return 1.0 / float(p.count); }
+vec2 probeUv(Footprint f, Probes p, int i) { return f.uv + p.step * (float(i) - 0.5 * float(p.count - 1)); }
+float probeWeight(Probes p, int i) { return p.weight; }
 //? elif filter_box
 // n x n equal probes in the middles of the parts that tile the footprint.
 Probes probesOf(vec2 size, Footprint f) {

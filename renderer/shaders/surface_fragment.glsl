@@ -177,13 +177,22 @@ vec3 lit(SurfacePoint p) {
   for (int i = 0; i < arriving_count; ++i) radiance += reflected(p, arriving[i]);
 //? else
 //? if point_light
-  for (int i = 0; i < point_light_count; ++i) radiance += reflected(p, incidentPoint(i, p.frame));
+  int point = 0;
+  do {
+    radiance += reflected(p, incidentPoint(point, p.frame));
+  } while (++point < point_light_count);
 //? end
 //? if spot_light
-  for (int i = 0; i < spot_light_count; ++i) radiance += reflected(p, incidentSpot(i, p.frame));
+  int spot = 0;
+  do {
+    radiance += reflected(p, incidentSpot(spot, p.frame));
+  } while (++spot < spot_light_count);
 //? end
 //? if directional_light
-  for (int i = 0; i < directional_light_count; ++i) radiance += reflected(p, incidentDirectional(i, p.frame));
+  int directional = 0;
+  do {
+    radiance += reflected(p, incidentDirectional(directional, p.frame));
+  } while (++directional < directional_light_count);
 //? end
 //? end
 //? if environment_sampled
@@ -260,7 +269,10 @@ vec3 meanReflected(Footprints f, mat3 frame, vec3 wo) {
   findLight(frame);
   vec3 sum = vec3(0.0);
   int parts = footprint_parts * footprint_parts;
-  for (int i = 0; i < parts; ++i) sum += reflectedBy(partOf(f, i), frame, wo);
+  int i = 0;
+  do {
+    sum += reflectedBy(partOf(f, i), frame, wo);
+  } while (++i < parts);
   return sum / float(parts);
 //? else
   return reflectedBy(f, frame, wo);
@@ -273,7 +285,8 @@ vec3 meanReflected(Footprints f, mat3 frame, vec3 wo) {
 vec4 meanOverTexels(Footprints f, mat3 frame, vec3 wo) {
   vec3 radiance = vec3(0.0);
   float invalid = 0.0;
-  for (int i = 0; i < int(drawn_texels.z); ++i) {
+  int i = 0;
+  do {
     float weight = drawTexel(f.normal, i);
     if (weight <= 0.0) continue;
     nothing_to_shade = false;
@@ -283,7 +296,7 @@ vec4 meanOverTexels(Footprints f, mat3 frame, vec3 wo) {
     } else {
       radiance += weight * own;
     }
-  }
+  } while (++i < int(drawn_texels.z));
   return vec4(radiance / max(1.0 - invalid, 1e-6), 1.0 + invalid);
 }
 

@@ -105,10 +105,11 @@ std::vector<CoatedPixel> coat_sum(const Scene& scene, const glm::ivec2& size, in
   for (std::size_t i = 0; i < sum.size(); ++i) {
     sum[i].whole = true;
     const auto index = static_cast<int>(i);
+    const glm::ivec2 pixel(index % size.x, index / size.x);
     for (int k = 0; k < points * points; ++k) {
-      const glm::dvec2 pixel(index % size.x + (k % points + 0.5) / points,
-                             index / size.x + (k / points + 0.5) / points);
-      const Point point = seen_at(scene.camera, pixel, size);
+      const glm::ivec2 cell(k % points, k / points);
+      const glm::dvec2 place = glm::dvec2(pixel) + (glm::dvec2(cell) + 0.5) / static_cast<double>(points);
+      const Point point = seen_at(scene.camera, place, size);
       if (std::max(std::abs(point.at.x), std::abs(point.at.y)) > 1.0) sum[i].whole = false;
       const glm::dvec2 uv(0.5 + 0.5 * point.at.x, 0.5 - 0.5 * point.at.y);
       const dvec3 normal = coating.normal(uv), to_light = dvec3(lamp.position) - point.at;

@@ -177,22 +177,13 @@ vec3 lit(SurfacePoint p) {
   for (int i = 0; i < arriving_count; ++i) radiance += reflected(p, arriving[i]);
 //? else
 //? if point_light
-  int point = 0;
-  do {
-    radiance += reflected(p, incidentPoint(point, p.frame));
-  } while (++point < point_light_count);
+  for (int i = 0; i < point_light_count; ++i) radiance += reflected(p, incidentPoint(i, p.frame));
 //? end
 //? if spot_light
-  int spot = 0;
-  do {
-    radiance += reflected(p, incidentSpot(spot, p.frame));
-  } while (++spot < spot_light_count);
+  for (int i = 0; i < spot_light_count; ++i) radiance += reflected(p, incidentSpot(i, p.frame));
 //? end
 //? if directional_light
-  int directional = 0;
-  do {
-    radiance += reflected(p, incidentDirectional(directional, p.frame));
-  } while (++directional < directional_light_count);
+  for (int i = 0; i < directional_light_count; ++i) radiance += reflected(p, incidentDirectional(i, p.frame));
 //? end
 //? end
 //? if environment_sampled

@@ -177,13 +177,22 @@ vec3 lit(SurfacePoint p) {
   for (int i = 0; i < arriving_count; ++i) radiance += reflected(p, arriving[i]);
 //? else
 //? if point_light
-  for (int i = 0; i < point_light_count; ++i) radiance += reflected(p, incidentPoint(i, p.frame));
+  int point = 0;
+  do {
+    radiance += reflected(p, incidentPoint(point, p.frame));
+  } while (point++ < point_light_count - 1);
 //? end
 //? if spot_light
-  for (int i = 0; i < spot_light_count; ++i) radiance += reflected(p, incidentSpot(i, p.frame));
+  int spot = 0;
+  do {
+    radiance += reflected(p, incidentSpot(spot, p.frame));
+  } while (spot++ < spot_light_count - 1);
 //? end
 //? if directional_light
-  for (int i = 0; i < directional_light_count; ++i) radiance += reflected(p, incidentDirectional(i, p.frame));
+  int directional = 0;
+  do {
+    radiance += reflected(p, incidentDirectional(directional, p.frame));
+  } while (directional++ < directional_light_count - 1);
 //? end
 //? end
 //? if environment_sampled
@@ -287,7 +296,7 @@ vec4 meanOverTexels(Footprints f, mat3 frame, vec3 wo) {
     } else {
       radiance += weight * own;
     }
-  } while (++i < int(drawn_texels.z));
+  } while (i++ < int(drawn_texels.z) - 1);
   return vec4(radiance / max(1.0 - invalid, 1e-6), 1.0 + invalid);
 }
 

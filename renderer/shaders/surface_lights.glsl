@@ -1,5 +1,5 @@
-// Punctual lights in the units of KHR_lights_punctual: candela and lux. Loop bounds are uniforms, so that the software
-// rasteriser does not unroll them and timings of different programs compare.
+// Punctual lights in the units of KHR_lights_punctual: candela and lux. Their counts are uniforms: one program serves any
+// number of lights. llvmpipe knows their values when it compiles, and unrolls loops over few lights and little else.
 
 //? if point_light
 struct PointLight {

@@ -120,14 +120,23 @@ EffectDecision lights(Effect effect, const Scene& scene, std::string_view word) 
           n > 0 ? fmt::format("{} {} light{}", n, word, n == 1 ? "" : "s") : fmt::format("no {} light", word)};
 }
 
+std::string small_suns(const Environment& environment) {
+  const std::vector<SmallSun> suns = suns_apart(environment).suns;
+  if (suns.empty()) return {};
+  double share = 0.0;
+  for (const SmallSun& sun : suns) share += sun.share;
+  if (suns.size() == 1)
+    return fmt::format(", whose small sun, {:.0f}% of its light, methods take as a directional light", 100.0 * share);
+  return fmt::format(", whose {} small suns, {:.0f}% of its light, methods take as directional lights", suns.size(),
+                     100.0 * share);
+}
+
 EffectDecision environment_light(const Scene& scene) {
   if (!scene.environment) return {Effect::environment_light, false, "no environment"};
   const Image& map = *scene.environment->radiance;
   const bool lit = std::ranges::any_of(map.texels, [](float value) { return value > 0.0F; });
   std::string text = fmt::format("the environment {}, {} x {}", scene.environment->name, map.width, map.height);
-  if (const auto apart = sun_apart(*scene.environment))
-    text += fmt::format(", whose small sun, {:.0f}% of its light, methods take as a directional light",
-                        100.0 * apart->sun.share);
+  text += small_suns(*scene.environment);
   return {Effect::environment_light, lit, lit ? text : text + ", is black"};
 }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include <algorithm>
 #include <set>
 
@@ -140,6 +142,21 @@ TEST(Effects, ABlackEnvironmentIsNone) {
   EXPECT_FALSE(on(scene, Effect::environment_light));
   scene.environment = constant_environment(glm::vec3(0.0F, 1e-6F, 0.0F));
   EXPECT_TRUE(on(scene, Effect::environment_light));
+}
+
+TEST(Effects, SmallSunsAreCounted) {
+  Scene scene = plain_scene();
+  Image map(512, 256, 3, 0.0F);
+  for (float& channel : map.at(100, 60)) channel = 3e4F;
+  const auto reason = [&] {
+    scene.environment = Environment{.name = "lamps", .radiance = std::make_shared<const Image>(map)};
+    return decision(scene, Effect::environment_light).reason;
+  };
+  EXPECT_TRUE(reason().ends_with("whose small sun, 100% of its light, methods take as a directional light"))
+      << reason();
+  for (float& channel : map.at(300, 70)) channel = 1e4F;
+  EXPECT_TRUE(reason().ends_with("whose 2 small suns, 100% of its light, methods take as directional lights"))
+      << reason();
 }
 
 // A square facing +z, under `height` of which another hovers.

@@ -245,11 +245,11 @@ TEST(MaterialIndex, SharesAddUpAndCoverOnce) {
 TEST(EffectTrace, ASunOfAnEnvironmentIsInTheShaderWhereThereIsOne) {
   Scene scene = least_scene();
   scene.environment = constant_environment(glm::vec3(1.0F));
-  EXPECT_EQ(TestRenderer(scene).fragment_text(base_surface()).find("environment_sun"), std::string::npos);
+  EXPECT_EQ(TestRenderer(scene).fragment_text(base_surface()).find("environment_suns"), std::string::npos);
   Image map(512, 256, 3, 1.0F);
   for (float& channel : map.at(100, 30)) channel = 1e5F;
   scene.environment->radiance = std::make_shared<const Image>(std::move(map));
-  EXPECT_NE(TestRenderer(scene).fragment_text(base_surface()).find("environment_sun"), std::string::npos);
+  EXPECT_NE(TestRenderer(scene).fragment_text(base_surface()).find("environment_suns"), std::string::npos);
 }
 
 TEST(EffectTrace, EveryEffectHasACase) { EXPECT_EQ(std::size(cases), effect_count); }

@@ -34,9 +34,9 @@ GpuEnvironment::Part GpuEnvironment::stack_part() const {
   std::vector<glm::vec4> values{
       glm::vec4(stack.mean, 0.0F),
       glm::vec4(stack.finest_sharpness, static_cast<float>(stack.map_count()), nodes_around, 0.0F)};
-  if (apart_) {
-    values.emplace_back(apart_->sun.direction, 0.0F);
-    values.emplace_back(apart_->sun.irradiance, 0.0F);
+  for (const SmallSun& sun : apart_.suns) {
+    values.emplace_back(sun.direction, 0.0F);
+    values.emplace_back(sun.irradiance, 0.0F);
   }
   part.block = block_of(values);
   part.bytes = byte_count(maps) + stack.irradiance.texels.size() * sizeof(float);

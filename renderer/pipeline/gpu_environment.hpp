@@ -19,7 +19,7 @@ class TextureUnits;
 class GpuEnvironment {
  public:
   explicit GpuEnvironment(Environment environment)
-      : environment_(std::move(environment)), apart_(sun_apart(environment_)) {}
+      : environment_(std::move(environment)), apart_(suns_apart(environment_)) {}
 
   /// Makes what a program needs, if it is not there yet. Errors (machine): over the GL limits, out of memory.
   void prepare(EnvironmentUse use);
@@ -27,10 +27,10 @@ class GpuEnvironment {
   /// Binds it: two textures at their `units`, and the block.
   void bind(const TextureUnits& units, EnvironmentUse use) const;
 
-  /// Whether methods light by a sun of it as by a directional light (environment_stack.glsl).
-  [[nodiscard]] bool has_sun() const { return apart_.has_value(); }
-  /// What methods look up: all of it, but for that sun.
-  [[nodiscard]] const Environment& looked_up() const { return apart_ ? apart_->rest : environment_; }
+  /// How many suns of it methods light by as by directional lights (environment_stack.glsl).
+  [[nodiscard]] std::size_t sun_count() const { return apart_.suns.size(); }
+  /// What methods look up: all of it, but for those.
+  [[nodiscard]] const Environment& looked_up() const { return apart_.rest; }
 
   /// Bytes of the prefiltered maps, 0 before they are made. The reference's tables are no part of any method's cost.
   [[nodiscard]] std::size_t stack_bytes() const { return parts_[0] ? parts_[0]->bytes : 0; }
@@ -47,7 +47,7 @@ class GpuEnvironment {
   [[nodiscard]] Part light_part() const;
 
   Environment environment_;
-  std::optional<SunApart> apart_;
+  SunsApart apart_;
   std::array<std::optional<Part>, 3> parts_;  // in the order of EnvironmentUse
 };
 

@@ -142,7 +142,7 @@ TEST(GpuVisibility, AWallHidesASmallSun) {
   environment.radiance = std::make_shared<const Image>(std::move(map));
   scene.environment = environment;
   TestRenderer renderer(scene, {picture_size, picture_size});
-  ASSERT_TRUE(renderer.gpu_scene().environment()->has_sun());
+  ASSERT_EQ(renderer.gpu_scene().environment()->sun_count(), 1U);
   const Image picture = renderer.frame(base_surface());
   const Image truth = renderer.reference(64).mean;
   const float lit = picture.at(picture_size - 2, picture_size / 2)[0], hidden = picture.at(4, picture_size / 2)[0];

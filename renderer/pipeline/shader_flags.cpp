@@ -90,9 +90,9 @@ constexpr auto rows = std::to_array<FlagRow>({
      [](const Variant& v) {
        return v.sums_environment && has(v.effects, Effect::environment_light) && !samples_environment(v);
      }},
-    {"environment_sun",
+    {"environment_suns",
      [](const Variant& v) {
-       return v.environment_sun && has(v.effects, Effect::environment_light) &&
+       return v.environment_suns > 0 && has(v.effects, Effect::environment_light) &&
               v.environment == EnvironmentUse::prefiltered;
      }},
     {"environment_diffuse", reflects_diffusely},

@@ -34,7 +34,7 @@ struct ShaderVariant {
   bool screen_derivatives = false;   ///< a frame whose module asks how the next pixels lie (MethodInfo)
   EnvironmentUse environment = EnvironmentUse::prefiltered;  ///< sampled: of a module with `draws_directions`
   bool sums_environment = false;                             ///< the method's (MethodInfo)
-  bool environment_sun = false;                              ///< the environment has one apart (small_sun.hpp)
+  std::size_t environment_suns = 0;                          ///< what of the environment is told apart (small_sun.hpp)
   std::size_t facet_lobes = most_facet_lobes;  ///< room for so many a material: what has less compiles faster
   std::size_t point_lights = 0, spot_lights = 0, directional_lights = 0;
   std::size_t shadow_maps = 0;

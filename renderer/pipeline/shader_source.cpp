@@ -26,6 +26,7 @@ std::string light_capacities(const ShaderVariant& v) {
   capacity(Effect::spot_light, "spot_light", v.spot_lights);
   capacity(Effect::directional_light, "directional_light", v.directional_lights);
   text += fmt::format("const int light_capacity = {};\n", v.point_lights + v.spot_lights + v.directional_lights);
+  if (v.environment_suns > 0) text += fmt::format("const int environment_sun_count = {};\n", v.environment_suns);
   if (calls_for_shadow_maps(v.effects)) capacity(Effect::cast_shadow, "shadow_view", v.shadow_maps);
   return text;
 }

@@ -48,7 +48,7 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
           .screen_derivatives = baked.method->info().screen_derivatives && settings.sampling == Sampling::frame,
           .environment = environment_of(*baked.method, settings),
           .sums_environment = baked.method->info().sums_environment,
-          .environment_sun = scene.environment() != nullptr && scene.environment()->has_sun(),
+          .environment_suns = scene.environment() != nullptr ? scene.environment()->sun_count() : 0,
           .facet_lobes = scene.facet_lobes(),
           .point_lights = scene.light_counts().point,
           .spot_lights = scene.light_counts().spot,

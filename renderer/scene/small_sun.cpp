@@ -1,9 +1,12 @@
-// The brightest texel, then sums over a disc about it and over the ring around that.
+// The brightest texel, then sums over a disc about it and over the ring around that; and once more, without them.
 #include "renderer/scene/small_sun.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 namespace footprint {
 namespace {
@@ -22,12 +25,12 @@ glm::dvec3 radiance_at(const Image& map, int x, int y) {
 
 double all_channels(const glm::dvec3& color) { return color.r + color.g + color.b; }
 
-// An environment's texels with their solid angles and directions.
+// An environment's texels, as they are in `map`, with their solid angles and directions.
 class Sky {
  public:
-  explicit Sky(const Environment& environment)
+  Sky(const Environment& environment, const Image& map)
       : environment_(&environment),
-        map_(environment.radiance.get()),
+        map_(&map),
         solid_angles_(row_solid_angles(map_->width, map_->height)),
         disc_(std::max(smallest_disc, texels_in_disc * 2.0 * pi / map_->width)) {}
 
@@ -47,6 +50,8 @@ class Sky {
     }
     return at;
   }
+
+  [[nodiscard]] glm::dvec3 radiance(const glm::ivec2& texel) const { return radiance_at(*map_, texel.x, texel.y); }
 
   [[nodiscard]] glm::dvec3 direction(int x, int y) const {
     return environment_direction(*environment_, (x + 0.5) / map_->width, (y + 0.5) / map_->height);
@@ -79,8 +84,8 @@ class Sky {
     return sum / all;
   }
 
-  /// What of the disc about `centre` is brighter than `level`: its light, and where that comes from.
-  [[nodiscard]] SmallSun above(const glm::dvec3& level, const glm::dvec3& centre) const {
+  /// What of the disc about `centre` is brighter than `level`: its light, of `all` there is, and where it comes from.
+  [[nodiscard]] SmallSun above(const glm::dvec3& level, const glm::dvec3& centre, double all) const {
     SmallSun sun;
     look_around(centre, 0.0, 1.0, [&](const glm::ivec2& texel, const glm::dvec3& radiance, double solid_angle) {
       const glm::dvec3 light = glm::max(radiance - level, glm::dvec3(0.0)) * solid_angle;
@@ -89,7 +94,7 @@ class Sky {
     });
     const double length = glm::length(sun.direction);
     sun.direction = length > 0.0 ? sun.direction / length : centre;
-    sun.share = all_channels(sun.irradiance) / all_channels(4.0 * pi * mean_radiance(*map_));
+    sun.share = all_channels(sun.irradiance) / all;
     return sun;
   }
 
@@ -100,27 +105,45 @@ class Sky {
   double disc_;  // its radius, radians
 };
 
-}  // namespace
+// One sun, and what is left of its texels.
+struct Found {
+  SmallSun sun;
+  std::vector<std::pair<glm::ivec2, glm::vec3>> dimmed;
+};
 
-std::optional<SunApart> sun_apart(const Environment& environment) {
-  const Sky sky(environment);
-  if (!sky.has_small_texels()) return {};
-  const Image& map = *environment.radiance;
+// Of a sky in which there is light at all: `all` of it, as it was at first.
+std::optional<Found> brightest_sun(const Sky& sky, double all) {
   const glm::ivec2 brightest = sky.brightest();
-  const double most = all_channels(radiance_at(map, brightest.x, brightest.y));
-  if (!(most > 0.0)) return {};
   // A sun's middle may lie between texels: about the middle of what the brightest texel's disc has, once more.
   const glm::dvec3 first = sky.direction(brightest.x, brightest.y);
-  const glm::dvec3 centre = sky.above(sky.around(first), first).direction;
+  const glm::dvec3 centre = sky.above(sky.around(first), first, all).direction;
   const glm::dvec3 level = sky.around(centre);
-  const SmallSun sun = sky.above(level, centre);
-  if (sun.share < least_share || most < least_contrast * all_channels(level)) return {};
-  Image rest = map;
+  Found found{.sun = sky.above(level, centre, all), .dimmed = {}};
+  const double contrast = all_channels(sky.radiance(brightest)) / all_channels(level);  // infinite in a black sky
+  if (found.sun.share < least_share || contrast < least_contrast) return {};
   sky.look_around(centre, 0.0, 1.0, [&](const glm::ivec2& texel, const glm::dvec3& radiance, double) {
-    for (int c = 0; c < 3; ++c)
-      rest.at(texel.x, texel.y)[static_cast<std::size_t>(c)] = static_cast<float>(std::min(radiance[c], level[c]));
+    found.dimmed.emplace_back(texel, glm::min(radiance, level));
   });
-  return SunApart{sun, {environment.name, std::make_shared<const Image>(std::move(rest)), environment.rotation}};
+  return found;
+}
+
+}  // namespace
+
+SunsApart suns_apart(const Environment& environment) {
+  SunsApart apart{.suns = {}, .rest = environment};
+  const double all = all_channels(4.0 * pi * mean_radiance(*environment.radiance));
+  if (!(all > 0.0) || !Sky(environment, *environment.radiance).has_small_texels()) return apart;
+  std::shared_ptr<Image> rest;
+  while (apart.suns.size() < most_small_suns) {
+    const std::optional<Found> found = brightest_sun(Sky(environment, *apart.rest.radiance), all);
+    if (!found) break;
+    if (!rest) apart.rest.radiance = rest = std::make_shared<Image>(*environment.radiance);
+    for (const auto& [texel, radiance] : found->dimmed) {
+      for (int c = 0; c < 3; ++c) rest->at(texel.x, texel.y)[static_cast<std::size_t>(c)] = radiance[c];
+    }
+    apart.suns.push_back(found->sun);
+  }
+  return apart;
 }
 
 }  // namespace footprint

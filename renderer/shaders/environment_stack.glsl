@@ -3,9 +3,8 @@
 layout(std140, binding = 5) uniform EnvironmentBlock {
   vec4 environment_mean;         // radiance over all directions
   vec4 environment_stack_range;  // sharpness of the finest map's lobe, number of maps: two a level; nodes around a ring
-//? if environment_sun
-  vec4 environment_sun_direction;   // towards it, world space
-  vec4 environment_sun_irradiance;  // on what faces it
+//? if environment_suns
+  vec4 environment_suns[2 * environment_sun_count];  // each: towards it, world space; irradiance on what faces it
 //? end
 };
 
@@ -68,15 +67,23 @@ VisibleLobe visibleLobe(NormalLobe lobe, vec3 wo) {
 float visibleElevation(vec3 direction, float elevation) { return elevation; }
 //? end
 
-//? if environment_sun
+//? if environment_suns
 // A sun that is too small for any lookup, and that the maps are without: one more directional light, hidden where the
 // environment is.
-vec3 sunLit(SurfacePoint p) {
-  vec3 direction = environment_sun_direction.xyz;
+vec3 sunLit(SurfacePoint p, vec3 direction, vec3 irradiance) {
 //? if environment_visibility
   if (!isVisible(direction)) return vec3(0.0);
 //? end
-  return reflected(p, incident(direction * p.frame, environment_sun_irradiance.rgb, vec4(direction, 0.0)));
+  return reflected(p, incident(direction * p.frame, irradiance, vec4(direction, 0.0)));
+}
+
+vec3 sunsLit(SurfacePoint p) {
+  vec3 radiance = vec3(0.0);
+  int i = 0;
+  do {
+    radiance += sunLit(p, environment_suns[2 * i].xyz, environment_suns[2 * i + 1].rgb);
+  } while (++i < environment_sun_count);
+  return radiance;
 }
 //? end
 

@@ -200,8 +200,8 @@ vec3 lit(SurfacePoint p) {
 //? elif environment_light
   radiance += skyLit(p);
 //? end
-//? if environment_sun
-  radiance += sunLit(p);
+//? if environment_suns
+  radiance += sunsLit(p);
 //? end
   return radiance;
 }

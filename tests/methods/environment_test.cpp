@@ -161,12 +161,33 @@ TEST(SmallSunInAnEnvironment, IsWhatTheReferenceSeesOfItAtEveryRoughness) {
 TEST(SmallSunInAnEnvironment, IsMissedWhereItIsLostAndWhereItCountsTwice) {
   const Scene scene = sunny_square(0.5F);
   const Image truth = TestRenderer(scene, sunny_size).reference(32).mean;
-  const SunApart apart = sun_apart(*scene.environment).value();
+  const SunsApart apart = suns_apart(*scene.environment);
+  const SmallSun sun = apart.suns.at(0);
   Scene lost = scene, twice = scene;
   lost.environment = apart.rest;
-  twice.lights = {DirectionalLight{glm::vec3(-apart.sun.direction), glm::vec3(apart.sun.irradiance)}};
+  twice.lights = {DirectionalLight{glm::vec3(-sun.direction), glm::vec3(sun.irradiance)}};
   for (const Scene& wrong : {lost, twice})
     EXPECT_FALSE(errors_of(TestRenderer(wrong, sunny_size).frame(find_method("direct")), truth).hold(0.25));
+}
+
+// Two lamps of a texel each, one of them seen in the square.
+TEST(SmallSunInAnEnvironment, IsOneOfTwo) {
+  Scene scene = sunny_square(0.5F);
+  Image map = *scene.environment->radiance;
+  const glm::dvec2 at = environment_uv(*scene.environment, glm::normalize(glm::dvec3(-0.7, -0.3, 1.0)));
+  for (float& channel : map.at(static_cast<int>(at.x * map.width), static_cast<int>(at.y * map.height))) channel = 6e4F;
+  scene.environment->radiance = std::make_shared<const Image>(std::move(map));
+  TestRenderer renderer(scene, sunny_size);
+  ASSERT_EQ(renderer.gpu_scene().environment()->sun_count(), 2U);
+  const Image truth = renderer.reference(128).mean;
+  EXPECT_TRUE(errors_of(renderer.frame(find_method("direct")), truth).hold(0.04));
+  const SunsApart apart = suns_apart(*scene.environment);
+  for (const SmallSun& only : apart.suns) {
+    Scene wrong = scene;
+    wrong.environment = apart.rest;
+    wrong.lights = {DirectionalLight{glm::vec3(-only.direction), glm::vec3(only.irradiance)}};
+    EXPECT_FALSE(errors_of(TestRenderer(wrong, sunny_size).frame(find_method("direct")), truth).hold(0.25));
+  }
 }
 
 // Modules that sum over texels, and that look at their neighbours, among them.

@@ -23,6 +23,7 @@ constexpr double least_noise = 1e-5;         // that is asked for unasked
 constexpr double printed_difference = 1e-3;  // of an error, in three figures
 constexpr double automatic_work = 1.0;       // samples beyond the first, in multiples of those
 constexpr double automatic_samples = 16e6;   // likewise, of all pixels: a second or two
+constexpr double surrounded_share = 0.25;  // of that under an environment: its samples draw directions, and take longer
 constexpr double unbounded_work = 1e9;
 constexpr double pixels_lit_by_all = 512;  // by each of some 6000 directional lights: about a second a method
 constexpr double interior_weight = 16;     // of progress, in samples of the reference
@@ -33,9 +34,9 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 }
 
 // Unasked: as many samples as the picture has, and more where that is little.
-double most_work(int spp, const glm::ivec2& size) {
+double most_work(int spp, const glm::ivec2& size, bool surrounded) {
   const double first = static_cast<double>(spp) * size.x * size.y;
-  return std::max(automatic_work, automatic_samples / first);
+  return (surrounded ? surrounded_share : 1.0) * std::max(automatic_work, automatic_samples / first);
 }
 
 // The least rectangle that holds the object.
@@ -169,10 +170,11 @@ void TruthFinder::refine_reference(SharedTruth::AtDistance& begun, const View& v
   begun.samples = asked.spp;
   if (!asked.by_noise || asked.fixed_spp) return;
   const auto begin = std::chrono::steady_clock::now();
+  const bool surrounded = has(stage_.effects(), Effect::environment_light);
   const Convergence wanted{.noise = asked.noise ? *asked.noise : noise_that_tells_apart(begun.reference, view),
                            .exposure = exposure_,
                            .spp_max = asked.spp_max,
-                           .most_work = asked.noise ? unbounded_work : most_work(asked.spp, view.size)};
+                           .most_work = asked.noise ? unbounded_work : most_work(asked.spp, view.size, surrounded)};
   begun.samples = converge(stage_.reference(), begun.reference, view, asked.seed, wanted, progress);
   begun.seconds += seconds_since(begin);
 }

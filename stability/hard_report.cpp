@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -13,7 +14,7 @@
 namespace footprint::stability {
 namespace {
 
-constexpr std::string_view verdict_words[] = {"held", "guarded", "out of range", "fell"};
+constexpr std::array<std::string_view, 4> verdict_words{"held", "guarded", "out of range", "fell"};
 
 std::string_view word_of(Verdict verdict) { return verdict_words[static_cast<std::size_t>(verdict)]; }
 

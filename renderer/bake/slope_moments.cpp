@@ -103,8 +103,8 @@ std::vector<Image> cross_and_normal(const std::vector<Image>& moments, const std
 }
 
 // Two textures of one map: a shader reads them in one loop.
-void add_textures(const std::string& map, std::vector<Image> moments, std::vector<Image> normals, SlopeVariant variant,
-                  Storage storage, const TextureCoordinates& coordinates, Prefiltered& out) {
+void add_textures(const std::string& map, const std::vector<Image>& moments, std::vector<Image> normals,
+                  SlopeVariant variant, Storage storage, const TextureCoordinates& coordinates, Prefiltered& out) {
   const auto add = [&](const char* name, std::vector<Image> chain) {
     out.textures.push_back(make_texture(map + name, std::move(chain), storage, coordinates));
   };
@@ -209,10 +209,9 @@ Prefiltered bake_slopes(const Material& material, const Options& options, const 
     const Image variance = in_moments ? variance_for_moments(material) : no_variance;
     Image normals = spread_over(normal_map_of(material), variance.width, variance.height);
     note_steep_texels(normals, "normal map", steepest, out);
-    std::vector<Image> moments = slope_moment_chain(normals, variance, steepest);
-    add_textures("slope", std::move(moments),
-                 kept.mean_normal ? mean_normal_chain(std::move(normals)) : std::vector<Image>(), kept.variant, storage,
-                 normal_coordinates(material), out);
+    const std::vector<Image> moments = slope_moment_chain(normals, variance, steepest);
+    add_textures("slope", moments, kept.mean_normal ? mean_normal_chain(std::move(normals)) : std::vector<Image>(),
+                 kept.variant, storage, normal_coordinates(material), out);
   }
   if (has(effects, Effect::normal_layers)) {
     const Image layer = layer_map_of(material);

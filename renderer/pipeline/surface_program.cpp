@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/gtc/type_ptr.hpp>
+#include <numeric>
 
 #include "renderer/bake/shared_maps.hpp"
 #include "renderer/core/error.hpp"
@@ -282,6 +283,7 @@ void SurfaceProgram::set_directions(const SampleDraw& samples) const {
   const std::uint32_t count = has_patches(effects_) ? directions_of_a_patch : directions_a_sample;
   const int cells = samples.grid * samples.grid;
   std::vector<std::uint32_t> cell_firsts;
+  cell_firsts.reserve(static_cast<std::size_t>(cells));
   for (int cell = 0; cell < cells; ++cell) {
     cell_firsts.push_back(count *
                           (samples.first + sample_in_cell(samples.grid, {cell % samples.grid, cell / samples.grid})));

@@ -105,7 +105,7 @@ double irradiance_by_rays(const Occluders& occluders, const glm::vec3& point) {
 // points that the camera sees.
 TEST(GpuVisibility, ABallDarkensTheFloorAsRaysSay) {
   Scene scene = under_white_sky(white_floor());
-  scene.meshes.push_back(sphere_mesh({0.1F, 0.0F, 0.35F}, 0.35F, 24));
+  scene.meshes.push_back(sphere_mesh({0.1F, 0.0F, 0.4F}, 0.4F, 24));
   fit_bounds(scene);
   TestRenderer renderer(scene, {picture_size, picture_size});
   const Image picture = renderer.frame(base_surface());
@@ -129,7 +129,7 @@ TEST(GpuVisibility, ABallDarkensTheFloorAsRaysSay) {
   EXPECT_LT(relative_rmse(picture, truth), 0.03);
   for (const float value : picture.texels) EXPECT_LE(value, 1.002F);
   scene.shadows.cast = false;
-  EXPECT_GT(relative_rmse(TestRenderer(scene, {picture_size, picture_size}).frame(base_surface()), truth), 0.08);
+  EXPECT_GT(relative_rmse(TestRenderer(scene, {picture_size, picture_size}).frame(base_surface()), truth), 0.1);
 }
 
 // A low sun behind the wall, and little else: the shadow lies where the reference has it.

@@ -65,6 +65,7 @@ void run_compare_command(const CompareArguments& arguments) {
       arguments.output, [&](OutputFolder& folder) { return compare_into(folder, settings, display.callback()); });
   display.finish();
   print_results(results, path);
+  if (const auto failed = row_failures(results)) throw *failed;
 }
 
 }  // namespace

@@ -133,7 +133,11 @@ void merge(const MergeArguments& arguments) {
   const AskedExperiments asked = asked_by(parts.front(), arguments.run);
   const KeptWork kept(kept_folder(arguments.output), parts.front().file.maker, true);
   take_over(parts, kept);
-  run_and_print(asked, arguments.output, kept, arguments.quiet, {});
+  std::optional<Error> failed;
+  run_and_print(asked, arguments.output, kept, arguments.quiet, {.experiment = [&](const Results& results) {
+                  if (!failed) failed = row_failures(results);
+                }});
+  if (failed) throw *failed;
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/cpu_info.hpp"
 #include "app/standard_output.hpp"
 #include "renderer/core/interrupt.hpp"
@@ -29,6 +31,16 @@ void keep(OutputFolder& folder) {
 
 void print_results(const Results& results, const std::filesystem::path& folder) {
   write_output(fmt::format("{}\npage: {}\n", results_table(results), (folder / "index.html").string()));
+}
+
+std::optional<Error> row_failures(const Results& results) {
+  const auto is_failed = [](const Record& record) { return record.failure.has_value(); };
+  const auto first = std::ranges::find_if(results.records, is_failed);
+  if (first == results.records.end()) return {};
+  return Error(ErrorKind::check, results.scene.name,
+               fmt::format("{} of {} rows failed; the first, at distance {:g}: {}",
+                           std::ranges::count_if(results.records, is_failed), results.records.size(), first->distance,
+                           *first->failure));
 }
 
 }  // namespace footprint

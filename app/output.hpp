@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -24,6 +25,10 @@ void keep(OutputFolder& folder);
 
 /// Prints the table of `results` and where their page lies, in `folder`.
 void print_results(const Results& results, const std::filesystem::path& folder);
+
+/// The error (check) that ends the program after a run in which rows failed, once everything else is written; none
+/// where no row failed.
+[[nodiscard]] std::optional<Error> row_failures(const Results& results);
 
 /// What `write` makes of the folder (it commits) and where that is. Nothing is left of a folder that was not committed.
 template <typename Write>

@@ -157,7 +157,11 @@ void run_shard(const ExperimentArguments& arguments) {
 void run(const ExperimentArguments& arguments) {
   if (!arguments.timing_file.empty()) return take_times(arguments);
   if (!arguments.shard.empty()) return run_shard(arguments);
-  run_all(arguments, {});
+  std::optional<Error> failed;
+  run_all(arguments, {.experiment = [&](const Results& results) {
+            if (!failed) failed = row_failures(results);
+          }});
+  if (failed) throw *failed;
 }
 
 // Errors (usage): a report is asked for that only experiments have.
@@ -181,10 +185,15 @@ void check(const ExperimentArguments& arguments) {
   }
   if (!arguments.timing_file.empty()) return take_times(arguments);
   CheckBook book(arguments.reports);
-  run_all(arguments, {.experiment = [&](const Results& results) { book.add(results); },
-                      .matrix = [&](const ExperimentReport& report) { book.add(report); }});
+  std::optional<Error> failed;
+  const auto add = [&](const Results& results) {
+    book.add(results);
+    if (!failed) failed = row_failures(results);
+  };
+  run_all(arguments, {.experiment = add, .matrix = [&](const ExperimentReport& report) { book.add(report); }});
   book.report();
   const std::vector<std::string> shortfalls = book.shortfalls();
+  if (shortfalls.empty() && failed) throw *failed;
   if (shortfalls.empty()) return;
   std::string list;
   for (const std::string& line : shortfalls) list += "fell short: " + line + "\n";

@@ -114,7 +114,7 @@ class Comparison {
     if (!stage_) {
       if (kept_ != nullptr) kept_->require_more_allowed(settings_.scene);
       stage_ = std::make_unique<Stage>(std::move(scene_), with_direct(settings_), stage_progress_, pictures_of_a_frame,
-                                       filter_of_the_unit);
+                                       filter_of_the_unit, Refusal::keeps_a_row);
       measurer_.emplace(*stage_);
     }
     return *stage_;
@@ -253,7 +253,7 @@ class Comparison {
 
   Draft kept_draft(const Truth& truth, std::size_t i, std::size_t m) {
     Draft draft = compare_method(truth, m);
-    if (keys_)
+    if (keys_ && !draft.record.failure)
       kept_->keep(keys_->record(i, m), KeptRecord{draft.record, draft.stem, draft.name}, folder_,
                   exposable_files(draft.record.images.color));
     return draft;
@@ -261,22 +261,32 @@ class Comparison {
 
   Draft compare_method(const Truth& truth, std::size_t index) {
     const StagedMethod& staged = method(index);
+    Draft draft{.record = {}, .exhibit = {}, .stem = {}, .name = method_stem(settings_.methods, index)};
+    draft.stem = distance_stem(truth.distance, draft.name);
+    std::optional<Error> failure = staged.refusal();
+    if (!failure)
+      failure = failure_of(stage().context(), settings_.methods[index], [&] { measure(draft, truth, staged, index); });
+    if (failure) {
+      draft.record = measurer_->failed(staged, truth, *failure);
+      draft.exhibit = {};
+      return draft;
+    }
+    draft.record.images.color = write_exposable_picture(folder_, draft.stem, draft.exhibit.picture, exposure_->factor);
+    return draft;
+  }
+
+  // Renders a method and compares it with the reference.
+  void measure(Draft& draft, const Truth& truth, const StagedMethod& staged, std::size_t index) {
     const std::string& text = settings_.methods[index].text;
     const std::string prefix = fmt::format("distance {:g}: {}, ", truth.distance, text);
     MethodPictures pictures{.frame = staged.frames().render(truth.view), .finest = {}};
     pictures.finest = settings_.reference.finest_levels ? finest_level(truth, staged, prefix) : pictures.frame;
     stage().context().check("rendering " + text);
-    Draft draft{.record = measurer_->measure(staged, pictures, truth, exposure_->factor),
-                .exhibit = {},
-                .stem = {},
-                .name = method_stem(settings_.methods, index)};
-    draft.stem = distance_stem(truth.distance, draft.name);
+    draft.record = measurer_->measure(staged, pictures, truth, exposure_->factor);
     draft.record.work = measurer_->work_of(staged, truth.view);
     set_flicker(draft.record, truth, pictures.frame, index);
-    draft.record.images.color = write_exposable_picture(folder_, draft.stem, pictures.frame, exposure_->factor);
     Image error = error_map(pictures.frame, truth.reference.mean, exposure_->factor);
     draft.exhibit = {.caption = text, .picture = std::move(pictures.frame), .error = std::move(error)};
-    return draft;
   }
 
   Image finest_level(const Truth& truth, const StagedMethod& staged, const std::string& prefix) {
@@ -288,7 +298,9 @@ class Comparison {
   // Against the frame before: the picture of the same method, one round of drafts earlier.
   void set_flicker(Record& record, const Truth& truth, const Image& picture, std::size_t index) {
     if (settings_.view.zoom.frames == 0 || truth.frame == 0) return;
-    const Image& before = drafts_[(truth.frame - 1) * settings_.methods.size() + index].exhibit.picture;
+    const Draft& frame_before = drafts_[(truth.frame - 1) * settings_.methods.size() + index];
+    if (frame_before.record.failure) return;
+    const Image& before = frame_before.exhibit.picture;
     record.flicker =
         flicker_between(before, picture, reference_before(truth.frame), truth.reference, exposure_->factor);
   }
@@ -331,6 +343,11 @@ class Comparison {
       records.emplace_back(draft->record);
     }
     set_times(records, work.times->builds, work.times->processes);
+    for (const Record& record : records) {
+      if (record.failure)
+        results_.scene.warnings.push_back(
+            fmt::format("distance {:g}: {} failed: {}", record.distance, record.method, *record.failure));
+    }
     for (std::optional<Draft>& draft : work.drafts) drafts_.push_back(std::move(*draft));
     std::ranges::move(*work.pairs, std::back_inserter(results_.pairs));
     if (i == 0) results_.reference.standard_error = work.truth->standard_error;

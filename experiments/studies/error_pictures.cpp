@@ -30,6 +30,7 @@ double error_scale(std::span<const Draft> drafts, const std::optional<double>& a
 
 void write_error_pictures(const std::filesystem::path& folder, std::span<Draft> drafts, double scale, double shared) {
   for (Draft& draft : drafts) {
+    if (draft.record.failure) continue;
     const auto write = [&](const std::string& end, double top) {
       return write_error_picture(folder, draft.stem + end, draft.exhibit.error, static_cast<float>(top));
     };
@@ -42,7 +43,9 @@ void write_error_pictures(const std::filesystem::path& folder, std::span<Draft> 
 void write_distance_strips(const std::filesystem::path& folder, Exhibit reference, std::span<const Draft> drafts,
                            float exposure, double scale) {
   std::vector<Exhibit> exhibits{std::move(reference)};
-  for (const Draft& draft : drafts) exhibits.push_back(draft.exhibit);
+  for (const Draft& draft : drafts) {
+    if (!draft.record.failure) exhibits.push_back(draft.exhibit);
+  }
   write_strips(folder, distance_stem(drafts.front().record.distance, "all"), exhibits, exposure,
                static_cast<float>(scale));
 }

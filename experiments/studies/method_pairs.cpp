@@ -34,6 +34,7 @@ std::vector<MethodPair> compare_pairs(const std::filesystem::path& folder, std::
   std::vector<MethodPair> pairs;
   for (std::size_t i = 0; i < drafts.size(); ++i) {
     for (std::size_t j = i + 1; j < drafts.size(); ++j) {
+      if (drafts[i].record.failure || drafts[j].record.failure) continue;
       const std::optional<Image> verdicts =
           closer_beyond_noise(drafts[i].exhibit.picture, drafts[j].exhibit.picture, truth.reference, exposure);
       const auto shares = verdicts ? closer_shares(*verdicts, truth.parts.interior) : std::nullopt;

@@ -58,21 +58,28 @@ void set_error(Record& record, const Truth& truth, const MethodPictures& picture
   record.other_references = errors_against_others(truth, pictures.frame, exposure);
 }
 
+void name_reference(Record& record, const Truth& truth) {
+  record.images.reference = truth.files.reference;
+  record.images.standard_error = truth.files.standard_error;
+  record.images.interior = truth.files.interior;
+}
+
 }  // namespace
+
+Record MethodMeasurer::failed(const StagedMethod& method, const Truth& truth, const Error& why) const {
+  Record record = described(method, truth);
+  record.failure = why.what();
+  name_reference(record, truth);
+  return record;
+}
 
 Record MethodMeasurer::measure(const StagedMethod& method, const MethodPictures& pictures, const Truth& truth,
                                float exposure) {
   Record record = described(method, truth);
-  try {
-    set_error(record, truth, pictures, exposure);
-    set_light_error(record, truth, pictures.frame, method, exposure);
-    set_material_errors(record, truth, pictures.frame, method, exposure);
-  } catch (const Error& error) {
-    throw error.within("method " + method.baked().spec.text);
-  }
-  record.images.reference = truth.files.reference;
-  record.images.standard_error = truth.files.standard_error;
-  record.images.interior = truth.files.interior;
+  set_error(record, truth, pictures, exposure);
+  set_light_error(record, truth, pictures.frame, method, exposure);
+  set_material_errors(record, truth, pictures.frame, method, exposure);
+  name_reference(record, truth);
   return record;
 }
 

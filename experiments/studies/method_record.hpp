@@ -21,6 +21,9 @@ class MethodMeasurer {
   /// Keeps the stage's address.
   explicit MethodMeasurer(const Stage& stage) : stage_(stage) {}
 
+  /// The row of a method that has no figures, for the reason given.
+  [[nodiscard]] Record failed(const StagedMethod& method, const Truth& truth, const Error& why) const;
+
   /// What is known of the method before it is timed or held against other frames. Errors (usage): a pixel of a picture
   /// that is no finite number, named.
   [[nodiscard]] Record measure(const StagedMethod& method, const MethodPictures& pictures, const Truth& truth,

@@ -52,7 +52,7 @@ std::vector<std::size_t> telling_distances(const std::vector<FilterRun>& runs, s
     const double distance = distances_of(runs.front().results)[d];
     const bool tells = std::ranges::all_of(runs, [&](const FilterRun& run) {
       const DistanceRecords records = records_at(run.results, distance);
-      return std::ranges::all_of(records, [&](const Record& r) { return has_pixels(r, material); });
+      return std::ranges::all_of(records, [&](const Record& r) { return r.failure || has_pixels(r, material); });
     });
     if (tells) telling.push_back(d);
   }
@@ -98,6 +98,9 @@ std::vector<std::string> methods_of(const Results& results) {
   std::vector<std::string> methods;
   for (const Record& record : results.records) {
     if (std::ranges::find(methods, record.method) == methods.end()) methods.push_back(record.method);
+  }
+  for (const Record& record : results.records) {
+    if (record.failure) std::erase(methods, record.method);
   }
   return methods;
 }
@@ -228,26 +231,16 @@ class Advisor {
     return count;
   }
 
-  // The comparison under filter `f` of the methods that the machine takes: one that it refuses goes from every
-  // filter's. None: none is left. Without plain `direct`, which all is held against, there is nothing to say.
-  std::optional<Results> compared(MethodsByFilter& methods, std::size_t f, bool coarse,
-                                  const std::filesystem::path& own, const Progress& progress, SharedTruth& truth) {
-    double most = 0;  // what is begun again is no step back
-    const Progress onward = [&](std::string_view what, double fraction) {
-      most = std::max(most, fraction);
-      progress(what, most);
-    };
-    while (!methods[f].empty()) {
-      try {
-        return run_compare(settings_of(settings_, settings_.filters[f], methods[f], coarse), own, {}, onward, &truth);
-      } catch (const RefusedMethod& refused) {
-        const std::string& text = refused.spec().text;
-        if (text == "direct") throw;
-        left_out_.push_back({.method = text, .reason = fmt::format("{} ({})", refused.message(), refused.hint())});
-        for (auto& left : methods) std::erase_if(left, [&](const MethodSpec& method) { return method.text == text; });
-      }
+  // Leaves out the methods that failed at any distance, under this filter and those that follow.
+  void leave_out_failed(const Results& results, MethodsByFilter& methods) {
+    for (const Record& record : results.records) {
+      if (!record.failure) continue;
+      const auto is_it = [&](const auto& method) { return method.method == record.method; };
+      if (std::ranges::any_of(left_out_, is_it)) continue;
+      left_out_.push_back({.method = record.method, .reason = *record.failure});
+      for (auto& left : methods)
+        std::erase_if(left, [&](const MethodSpec& method) { return method.text == record.method; });
     }
-    return {};
   }
 
   std::vector<FilterRun> run_all(MethodsByFilter& methods, bool coarse) {
@@ -261,10 +254,11 @@ class Advisor {
       FilterRun run{.filter = filter, .results = {}, .folder = file_stem(footprint_filter_text(filter))};
       const std::filesystem::path own = folder_ / (coarse ? "coarse" : run.folder);
       std::filesystem::create_directories(own);
-      std::optional<Results> results = compared(methods, f, coarse, own, part, truth);
-      if (coarse || !results) std::filesystem::remove_all(own);
-      if (!results) continue;
-      run.results = *std::move(results);
+      run.results = run_compare(settings_of(settings_, filter, methods[f], coarse), own, {}, part, &truth);
+      leave_out_failed(run.results, methods);
+      const bool is_of_use = !methods_of(run.results).empty();
+      if (coarse || !is_of_use) std::filesystem::remove_all(own);
+      if (!is_of_use) continue;
       if (!coarse) keep_results_(run.results, own);
       runs.push_back(std::move(run));
     }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <new>
 #include <tuple>
 #include <utility>
 
@@ -52,6 +53,12 @@ void require_maps(const MemoryEstimate& estimate) {
                  "compare fewer methods at once, use smaller textures, or free memory");
 }
 
+// Whether the context is lost.
+bool clear_errors(const gl::Context& context) {
+  const std::vector<std::string> errors = context.take_debug_errors();
+  return std::ranges::any_of(errors, [](const std::string& e) { return e.find("CONTEXT_LOST") != std::string::npos; });
+}
+
 }  // namespace
 
 std::vector<NormalMemory> normal_memory_of(std::span<const MethodSpec> methods, const EffectSet& effects) {
@@ -93,6 +100,25 @@ void require_pictures(const glm::ivec2& size, int count) {
   require_memory(bytes, fmt::format("{} pictures of {}x{}", count, size.x, size.y));
 }
 
+std::optional<Error> failure_of(const gl::Context& context, const MethodSpec& method,
+                                const std::function<void()>& action) {
+  const std::string place = "method " + method.text;
+  std::optional<Error> failure;
+  try {
+    action();
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::interrupted) throw;
+    failure = error.within(place);
+  } catch (const std::bad_alloc&) {
+    failure.emplace(ErrorKind::machine, place, "out of memory", "use smaller textures or images, or free memory");
+  }
+  if (failure && clear_errors(context)) throw *failure;
+  return failure;
+}
+
+StagedMethod::StagedMethod(const MethodSpec& spec, const Error& refusal)
+    : baked_(std::make_unique<BakedMethod>(unbaked(find_method(spec.name), spec))), refusal_(refusal) {}
+
 StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& scene, const Scene& values,
                            const EffectSet& effects, const MethodSpec& spec, const FootprintFilter& filter,
                            const glm::ivec2& size, const RunSettings& settings, const Progress& progress) {
@@ -104,7 +130,7 @@ StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& scene, cons
 }
 
 Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress, int pictures,
-             const std::optional<FootprintFilter>& first_filter)
+             const std::optional<FootprintFilter>& first_filter, Refusal refusal)
     : context_(settings.backend.context),
       scene_(std::move(scene)),
       settings_(settings),
@@ -124,13 +150,14 @@ Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress,
   const FootprintFilter all = footprint_filter_of(settings, scene_);
   std::vector<std::optional<StagedMethod>> staged(settings.methods.size());
   for (const std::size_t i : memory.bake_order()) {
-    try {
-      staged[i].emplace(context_.info(), *gpu_scene_, scene_, effects_, settings.methods[i],
-                        i == 0 ? first_filter.value_or(all) : all, size_, settings, parts.next(1, "bake "));
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::machine) throw;
-      throw RefusedMethod(error, settings.methods[i]);
-    }
+    const MethodSpec& spec = settings.methods[i];
+    const auto failure = failure_of(context_, spec, [&] {
+      staged[i].emplace(context_.info(), *gpu_scene_, scene_, effects_, spec, i == 0 ? first_filter.value_or(all) : all,
+                        size_, settings, parts.next(1, "bake "));
+    });
+    if (!failure) continue;
+    if (i == 0 || refusal == Refusal::ends_the_run) throw *failure;
+    staged[i].emplace(spec, *failure);
   }
   for (std::optional<StagedMethod>& method : staged) methods_.push_back(*std::move(method));
   std::tie(base_, gpu_base_) =

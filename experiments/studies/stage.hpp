@@ -1,6 +1,7 @@
 // Everything that a run over one scene holds on the GPU: context, scene, and the methods ready to draw.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -27,15 +28,16 @@ inline constexpr int pictures_of_a_frame = 3;
 /// The footprint filter: the settings', else the scene's, else default_footprint_filter.
 [[nodiscard]] FootprintFilter footprint_filter_of(const RunSettings& settings, const Scene& scene);
 
-/// A method that this machine has no room for, or whose textures or program its OpenGL refuses.
-class RefusedMethod : public Error {
- public:
-  RefusedMethod(const Error& why, const MethodSpec& spec) : Error(why.within("method " + spec.text)), spec_(spec) {}
-  [[nodiscard]] const MethodSpec& spec() const { return spec_; }
-
- private:
-  MethodSpec spec_;
+/// What becomes of a method that this machine has no memory for, or whose textures or program its OpenGL refuses.
+enum class Refusal {
+  ends_the_run,  ///< an error
+  keeps_a_row    ///< the method is staged without maps or frames, and says why (StagedMethod::refusal)
 };
+
+/// The error of `action`, with its place within the method; none where it succeeds. GL errors that it leaves are
+/// cleared. Errors: an interrupt, or a lost context, after which nothing else draws.
+[[nodiscard]] std::optional<Error> failure_of(const gl::Context& context, const MethodSpec& method,
+                                              const std::function<void()>& action);
 
 /// Where slow work is kept between runs; none where the settings name no folder.
 [[nodiscard]] std::optional<DiskCache> cache_of(const RunSettings& settings);
@@ -54,6 +56,12 @@ class StagedMethod {
                const MethodSpec& spec, const FootprintFilter& filter, const glm::ivec2& size,
                const RunSettings& settings, const Progress& progress);
 
+  /// A method that cannot be drawn, for the reason given: it has options, but no maps and no frames.
+  StagedMethod(const MethodSpec& spec, const Error& refusal);
+
+  /// Why the method cannot be drawn; none where it can.
+  [[nodiscard]] const std::optional<Error>& refusal() const { return refusal_; }
+
   [[nodiscard]] const BakedMethod& baked() const { return *baked_; }
   [[nodiscard]] const GpuMethod& gpu() const { return *gpu_; }
   [[nodiscard]] const FrameRenderer& frames() const { return *frames_; }
@@ -62,6 +70,7 @@ class StagedMethod {
   std::unique_ptr<BakedMethod> baked_;
   std::unique_ptr<GpuMethod> gpu_;
   std::unique_ptr<FrameRenderer> frames_;
+  std::optional<Error> refusal_;
 };
 
 /// A scene with its methods and its reference on one context. Everything is made in the constructor, the methods in the
@@ -69,10 +78,10 @@ class StagedMethod {
 class Stage {
  public:
   /// The settings' methods over `scene`, which need not be the settings' own. `pictures` as large as the frame are held
-  /// at once. `first_filter` is the footprint filter of the first method alone; none: that of all. Errors of the parts:
-  /// usage (scene, method, option), machine (no GL, limits, memory).
+  /// at once. `first_filter` is the footprint filter of the first method alone; none: that of all. `refusal` is about
+  /// every method but the first. Errors of the parts: usage (scene, method, option), machine (no GL, limits, memory).
   Stage(Scene scene, const RunSettings& settings, const Progress& progress, int pictures = pictures_of_a_frame,
-        const std::optional<FootprintFilter>& first_filter = {});
+        const std::optional<FootprintFilter>& first_filter = {}, Refusal refusal = Refusal::ends_the_run);
 
   [[nodiscard]] const gl::Context& context() const { return context_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }

@@ -1,13 +1,17 @@
 // In which order a stage makes its methods, and in which it has them.
 #include "experiments/studies/stage.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
+#include <new>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "renderer/image/metrics.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint {
@@ -33,6 +37,25 @@ TEST(Stage, BakesFirstWhatTakesTheMostAndHasMethodsAsTheyWereNamed) {
   EXPECT_EQ(stage.methods()[0].baked().spec.text, "direct");
   EXPECT_EQ(stage.methods()[1].baked().spec.text, "toksvig");
   EXPECT_EQ(stage.methods()[2].baked().spec.text, "tan_gmm:n=2");
+}
+
+// An image that is not finite, or memory that is not there, is the method's own failure; an interrupt is not.
+TEST(Stage, FailuresOfAMethodAreNamedAndInterruptsPass) {
+  const gl::Context context(gl::ContextRequest{});
+  const MethodSpec spec = parse_methods("toksvig:storage=fp16").front();
+  const auto nan = std::numeric_limits<float>::quiet_NaN();
+  Image reference(1, 1, 4), picture(1, 1, 4);
+  reference.texels = {1, 1, 1, 1};
+  picture.texels = {1, nan, 1, 1};
+  const auto failure = failure_of(context, spec, [&] { (void)normalized_color(picture, reference, 1.0F); });
+  ASSERT_TRUE(failure.has_value());
+  EXPECT_THAT(failure->what(), ::testing::HasSubstr("method toksvig:storage=fp16"));
+  EXPECT_THAT(failure->what(), ::testing::HasSubstr("pixel (0, 0): the value is not a finite number"));
+  const auto memory = failure_of(context, spec, [] { throw std::bad_alloc(); });
+  ASSERT_TRUE(memory.has_value());
+  EXPECT_THAT(memory->what(), ::testing::HasSubstr("method toksvig:storage=fp16: out of memory"));
+  EXPECT_FALSE(failure_of(context, spec, [] {}).has_value());
+  EXPECT_THROW((void)failure_of(context, spec, [] { throw Error(ErrorKind::interrupted, "", "interrupted"); }), Error);
 }
 
 }  // namespace

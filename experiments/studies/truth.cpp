@@ -186,8 +186,13 @@ double TruthFinder::noise_that_tells_apart(const Supersampled& reference, const 
   leave_out(counted, unresolved(counted, exposure_));
   std::vector<double> errors;
   for (const StagedMethod& method : std::span(stage_.methods()).subspan(1)) {
-    if (const auto error = normalized_color(method.frames().render(view), counted.mean, exposure_))
-      errors.push_back(*error);
+    if (method.refusal()) continue;
+    const auto add = [&] {
+      if (const auto error = normalized_color(method.frames().render(view), counted.mean, exposure_))
+        errors.push_back(*error);
+    };
+    (void)failure_of(stage_.context(), method.baked().spec,
+                     add);  // it shows again, and is reported, where the method is measured
   }
   if (errors.empty()) return least_noise;
   std::ranges::sort(errors);

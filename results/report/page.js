@@ -620,7 +620,7 @@ function card(record) {
 }
 
 function showCards() {
-  byId('cards').replaceChildren(...shown().map(card));
+  byId('cards').replaceChildren(...shown().filter((r) => !r.failure).map(card));
 }
 
 function setZoom(factor) {

@@ -82,12 +82,12 @@ void fields(Archive& archive, MaterialError& value) {
 
 template <class Archive>
 void fields(Archive& archive, Record& value) {
-  auto& [scene, method, options, distance, frame, width, height, pixels, error, equivalent, other_references, flicker,
-         node, frame_ms, frame_build, fps, ratio_to_direct, work, materials, precompute_seconds, precompute_bytes,
-         precompute_bytes_per_texel, precompute_cached, effects_on, effects_left_out, images] = value;
-  archive(scene, method, options, distance, frame, width, height, pixels, error, equivalent, other_references, flicker,
-          node, frame_ms, frame_build, fps, ratio_to_direct, work, materials, precompute_seconds, precompute_bytes,
-          precompute_bytes_per_texel, precompute_cached, effects_on, effects_left_out, images);
+  auto& [scene, method, options, distance, frame, width, height, failure, pixels, error, equivalent, other_references,
+         flicker, node, frame_ms, frame_build, fps, ratio_to_direct, work, materials, precompute_seconds,
+         precompute_bytes, precompute_bytes_per_texel, precompute_cached, effects_on, effects_left_out, images] = value;
+  archive(scene, method, options, distance, frame, width, height, failure, pixels, error, equivalent, other_references,
+          flicker, node, frame_ms, frame_build, fps, ratio_to_direct, work, materials, precompute_seconds,
+          precompute_bytes, precompute_bytes_per_texel, precompute_cached, effects_on, effects_left_out, images);
 }
 
 template <class Archive>

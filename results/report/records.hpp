@@ -134,8 +134,9 @@ struct Record {
   double distance = 1;
   int frame = 0;
   int width = 0, height = 0;
+  std::optional<std::string> failure = {};  ///< why the method has no figures here; none: it was drawn and measured
   PixelCounts pixels;
-  std::optional<RecordError> error;              ///< none: the object covers no whole pixel
+  std::optional<RecordError> error;              ///< none: the object covers no whole pixel, or there is a failure
   std::optional<EquivalentSamples> equivalent;   ///< none: there is no error, or no curve
   std::vector<OtherReference> other_references;  ///< none where there is no error
   std::optional<Flicker> flicker;                ///< none: no frame of a zoom, or its first

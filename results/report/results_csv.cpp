@@ -68,7 +68,8 @@ constexpr std::array csv_columns{"scene",
                                  "image_error",
                                  "image_error_shared",
                                  "image_interior",
-                                 "image_standard_error"};
+                                 "image_standard_error",
+                                 "failure"};
 
 /// "name=value;name=value", every option in the order of its name.
 std::string options_text(const Record& record) {
@@ -145,7 +146,8 @@ std::string csv_line(const Record& record) {
       csv_field(record.images.error),
       csv_field(record.images.error_shared),
       csv_field(record.images.interior),
-      csv_field(record.images.standard_error)};
+      csv_field(record.images.standard_error),
+      csv_field(record.failure.value_or(""))};
   return fmt::format("{},{},{},{},{},{},{},{},{},{}", csv_field(record.scene), csv_field(record.method),
                      csv_field(options_text(record)), csv_field(record.distance), record.frame, record.width,
                      record.height, fmt::join(error_fields(record.error), ","),

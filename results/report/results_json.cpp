@@ -87,6 +87,7 @@ Json record_json(const Record& record) {
           {"distance", json_number(record.distance)},
           {"frame", record.frame},
           {"size", Json::array({record.width, record.height})},
+          {"failure", record.failure ? Json(*record.failure) : Json()},
           {"pixels", pixels_json(record.pixels)},
           {"error", error_json(record.error)},
           {"equivalent_spp", json_number(equivalent_spp(record))},

@@ -61,9 +61,30 @@ class Faults(WholeRunTest):
         self.assertEqual(advice["tried"], 6, "two methods under three filters")
         self.assertIn("tan_gmm is left out, which this machine refuses", (out / "index.html").read_text())
 
-    def test_refused_methods_end_a_comparison(self):
-        done = self.with_fault("no_gl_memory", "compare", self.small_grooves(), "--size", "32x32", "--methods", "direct,tan_gmm", "-q", "--no-cache", "-o", self.folder / "none")
-        self.assert_fails(done, 3, "method tan_gmm", "cannot be allocated (GL_OUT_OF_MEMORY)")
+    def test_a_refused_method_loses_its_row(self):
+        """The image of every other method, and the report, are there."""
+        out = self.folder / "compared"
+        done = self.with_fault("no_gl_memory", "compare", self.small_grooves(), "--size", "32x32", "--distance", "1,2",
+                               "--methods", "direct,tan_gmm,toksvig", "--repeats", "1", "-q", "--no-cache", "-o", out)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("2 of 6 rows failed; the first, at distance 1: method tan_gmm", done.stderr)
+        self.assertIn("cannot be allocated (GL_OUT_OF_MEMORY)", done.stderr)
+        records = json.loads((out / "results.json").read_text())["records"]
+        failed = [record for record in records if record["failure"]]
+        self.assertEqual([record["method"] for record in failed], ["tan_gmm"] * 2)
+        for record in failed:
+            self.assertIn("GL_OUT_OF_MEMORY", record["failure"])
+            self.assertEqual((record["error"], record["time"]["frame_ms"]["median"], record["images"]["color"]), (None, None, ""))
+        for record in (record for record in records if not record["failure"]):
+            self.assertTrue((out / record["images"]["color"]).is_file())
+            self.assertIsNotNone(record["error"])
+            self.assertGreater(record["time"]["frame_ms"]["median"], 0)
+        for document in ("index.html", "table.md"):
+            self.assertIn("distance 1: tan_gmm failed: method tan_gmm", (out / document).read_text().replace("\n  ", " "))
+
+    def test_a_lost_context_ends_a_comparison(self):
+        done = self.with_fault("lost_context", "compare", SETTINGS[0], "--methods", "direct,toksvig", *SETTINGS[3:], "-q", "-o", self.folder / "none")
+        self.assert_fails(done, 3, "GL_CONTEXT_LOST: the driver was reset")
         self.assertFalse((self.folder / "none").exists())
 
     def test_a_lost_context(self):

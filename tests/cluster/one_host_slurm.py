@@ -40,6 +40,9 @@ ReturnToService=2
 NodeName={host} NodeAddr=127.0.0.1 CPUs={cpus} State=UNKNOWN
 PartitionName=all Nodes=ALL Default=YES MaxTime=60 State=UP
 """
+# Names the version of control groups, which slurmd otherwise detects by what is mounted at /sys/fs/cgroup: containers and
+# chroots often have nothing there. No plugin above uses them.
+CGROUP_CONFIGURATION = "CgroupPlugin=cgroup/v1\n"
 
 
 def find(program):
@@ -76,6 +79,7 @@ class OneHostSlurm:
             (self.folder / name).mkdir(parents=True)
         self.folder.chmod(0o755)
         (self.folder / "slurm.conf").write_text(self.configuration, encoding="utf-8")
+        (self.folder / "cgroup.conf").write_text(CGROUP_CONFIGURATION, encoding="utf-8")
         key = self.folder / "munge.key"
         key.write_bytes(secrets.token_bytes(1024))
         key.chmod(0o400)

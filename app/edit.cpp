@@ -60,7 +60,7 @@ EditSettings settings_from(const EditArguments& arguments) {
 
 EditRun edit_into(OutputFolder& folder, const EditSettings& settings, const Progress& progress) {
   EditRun run = run_edit(settings, folder.path(), progress);
-  keep_results(run, folder, write_edit);
+  keep_results(run, folder, write_edit, "edit.json");
   return run;
 }
 

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +28,7 @@
 #include "renderer/image/false_color.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
+#include "results/report/listed_files.hpp"
 #include "results/report/markdown_table.hpp"
 #include "results/report/results_document.hpp"
 
@@ -44,8 +46,9 @@ constexpr const char* score_examples =
     "  footprint score engine.exr --reference model.gltf --spp 256\n"
     "  footprint score engine.exr --reference reference.exr\n"
     "  footprint score before.png after.png --reference reference.exr --exposure 0.5 -o score\n"
-    "  footprint score a.exr b.exr --reference out/images/d1_reference.exr\n"
-    "      --standard-error out/images/d1_reference_standard_error.exr --mask object.png -o score";
+    "  footprint score a.exr b.exr --reference out/images/d1_reference.exr --mask object.png -o score\n"
+    "\n"
+    "For a reference that `footprint compare` wrote, exposure and standard error are those of that comparison.";
 
 constexpr int scoring_pictures = 6;  // mean, squares, two halves, error, and one to spare
 
@@ -94,36 +97,49 @@ Reference drawn_reference(const ScoreArguments& arguments) {
   return {std::move(drawn.mean), drawn.halves ? std::move(drawn.standard_error) : Image(), exposure};
 }
 
+Image read_standard_error(const std::string& file) {
+  Image error = read_image(file, Transfer::linear);
+  if (error.channels >= 3) return error;
+  throw Error(ErrorKind::usage, file, fmt::format("it has {} channels", error.channels),
+              "give the RGB standard error that `footprint compare` writes beside its reference");
+}
+
+// An image. Beside the results of a comparison that wrote it, exposure and standard error are those of the comparison
+// unless they are given, so that equal images have equal errors there and here.
 Reference given_reference(const ScoreArguments& arguments) {
   for (const std::string& option : arguments.run.given_of("reference")) {
     throw Error(ErrorKind::usage, option, fmt::format("{} is a picture, and drawn already", arguments.reference),
                 "give it with a scene for the reference");
   }
-  if (arguments.run.settings().view.distances.front() != 1.0) {
+  const RunSettings run = arguments.run.settings();
+  if (run.view.distances.front() != 1.0) {
     throw Error(ErrorKind::usage, "--distance", fmt::format("{} is a picture, and has its view", arguments.reference),
                 "give it with a scene for the reference");
   }
   Reference out{read_reference(arguments.reference), {}, 1.0F};
-  out.exposure = choose_exposure(arguments.run.settings().view.exposure, Scene{}, out.picture).factor;
-  if (arguments.standard_error.empty()) return out;
-  out.standard_error = read_image(arguments.standard_error, Transfer::linear);
-  if (out.standard_error.channels >= 3) return out;
-  throw Error(ErrorKind::usage, arguments.standard_error,
-              fmt::format("it has {} channels", out.standard_error.channels),
-              "give the RGB standard error that `footprint compare` writes beside its reference");
+  const std::optional<ListedReference> listed = listed_reference(arguments.reference);
+  Scene scene;
+  if (listed) scene.exposure = listed->exposure;
+  out.exposure = choose_exposure(run.view.exposure, scene, out.picture).factor;
+  std::string standard_error = arguments.standard_error;
+  if (standard_error.empty() && listed) standard_error = listed->standard_error.string();
+  if (!standard_error.empty()) out.standard_error = read_standard_error(standard_error);
+  return out;
 }
 
 struct Scores {
   std::vector<PictureScore> pictures;
   std::optional<PairScore> pair;
   float exposure = 1.0F;
-  std::size_t pixels = 0;
+  std::size_t pixels = 0, unresolved = 0;
 };
 
 Scores take_scores(const ScoreArguments& arguments) {
   Reference reference = names_a_scene(arguments.reference) ? drawn_reference(arguments) : given_reference(arguments);
   Scores out;
   out.exposure = reference.exposure;
+  if (!reference.standard_error.empty())
+    out.unresolved = leave_out_unresolved(reference.picture, reference.standard_error, reference.exposure);
   if (!arguments.mask.empty()) {
     reference.picture =
         masked(std::move(reference.picture), read_image(arguments.mask, Transfer::linear), arguments.mask);
@@ -167,6 +183,7 @@ std::string scores_json(const ScoreArguments& arguments, const Scores& scores) {
             {"exposure", json_number(scores.exposure)},
             {"pixels_per_degree", json_number(arguments.pixels_per_degree)},
             {"pixels", scores.pixels},
+            {"unresolved", scores.unresolved},
             {"pictures", std::move(pictures)}};
   if (scores.pair) {
     json["closer"] = {{"shares", {json_number(scores.pair->shares.a), json_number(scores.pair->shares.b)}},
@@ -214,7 +231,9 @@ void write_pictures(const std::filesystem::path& folder, const Scores& scores) {
 void run_score(const ScoreArguments& arguments) {
   const Scores scores = take_scores(arguments);
   std::string text =
-      fmt::format("{} pixels, exposure {:.4g}\n\n{}", scores.pixels, scores.exposure, scores_table(scores));
+      fmt::format("{} pixels{}, exposure {:.4g}\n\n{}", scores.pixels,
+                  scores.unresolved == 0 ? "" : fmt::format(" ({} unresolved left out)", scores.unresolved),
+                  scores.exposure, scores_table(scores));
   if (!arguments.output.empty()) {
     const auto [made, folder] = write_whole(arguments.output, [&](OutputFolder& out) {
       write_file_atomically(out.path() / "score.json", scores_json(arguments, scores));

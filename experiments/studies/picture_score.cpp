@@ -8,6 +8,7 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/image/image_io.hpp"
+#include "renderer/pipeline/unresolved.hpp"
 
 namespace footprint {
 namespace {
@@ -69,6 +70,12 @@ void require_size(const Image& image, const Image& reference, const std::string&
       "give pictures of one size and view");
 }
 
+// The object has covered pixels alone; what is shown of this one stays.
+void exclude(Image& reference, std::size_t pixel) {
+  float& coverage = reference.texels[4 * pixel + 3];
+  coverage = std::min(coverage, 0.5F);
+}
+
 }  // namespace
 
 ScoredPicture read_scored(const std::string& file, float exposure) {
@@ -86,6 +93,19 @@ Image read_reference(const std::string& file) {
               "give an EXR, as `footprint render SCENE --method reference -o reference.exr` writes it");
 }
 
+std::size_t leave_out_unresolved(Image& reference, const Image& standard_error, float exposure) {
+  require_size(standard_error, reference, "the standard error");
+  Supersampled whole;
+  whole.mean = reference;
+  whole.standard_error = standard_error;
+  const Image mask = unresolved(whole, exposure);
+  const std::size_t before = object_pixel_count(reference);
+  for (std::size_t i = 0; i < mask.texels.size(); ++i) {
+    if (mask.texels[i] > 0.0F) exclude(reference, i);
+  }
+  return before - object_pixel_count(reference);
+}
+
 Image masked(Image reference, const Image& mask, const std::string& mask_name) {
   require_size(mask, reference, mask_name);
   for (std::size_t i = 0; i < reference.texel_count(); ++i) {
@@ -93,7 +113,7 @@ Image masked(Image reference, const Image& mask, const std::string& mask_name) {
         std::span(mask.texels)
             .subspan(i * static_cast<std::size_t>(mask.channels), static_cast<std::size_t>(std::min(mask.channels, 3)));
     const bool counts = std::ranges::any_of(texel, [](float value) { return value > 0.0F; });
-    if (!counts) reference.texels[4 * i + 3] = std::min(reference.texels[4 * i + 3], 0.5F);  // no object pixel
+    if (!counts) exclude(reference, i);
   }
   if (object_pixel_count(reference) > 0) return reference;
   throw Error(ErrorKind::usage, mask_name, "it leaves no pixel that the reference covers whole",

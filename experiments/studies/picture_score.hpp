@@ -33,6 +33,11 @@ struct ScoredPicture {
 /// object. Errors (usage): sizes differ; no object pixel is left.
 [[nodiscard]] Image masked(Image reference, const Image& mask, const std::string& mask_name);
 
+/// Takes the pixels that the reference does not resolve (renderer/pipeline/unresolved.hpp) out of the object, as a
+/// comparison does. Gives by how many pixels the object is smaller. `standard_error`: RGB. Errors (usage): sizes
+/// differ.
+std::size_t leave_out_unresolved(Image& reference, const Image& standard_error, float exposure);
+
 struct PictureScore {
   std::string name;
   bool displayed = false;

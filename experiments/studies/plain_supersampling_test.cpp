@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <span>
 
 #include "methods/registry.hpp"
+#include "renderer/image/metrics.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/test_scenes.hpp"
@@ -16,19 +19,23 @@
 namespace footprint::testing {
 namespace {
 
-// The mean of frames of `direct` at the offsets, of a square with random normals.
-Image mean_at(int texels, int edge, std::span<const glm::dvec2> offsets) {
+// The mean of frames of a method at the offsets.
+Image mean_of(const Scene& scene, const char* method, int edge, std::span<const glm::dvec2> offsets) {
   (void)shared_context();
-  const Scene scene = square_scene(random_normals(texels, texels, 0.5F, 1), {});
   const EffectSet effects = effects_on(derive_effects(scene));
   GpuScene gpu_scene(shared_context().info(), scene, effects);
-  const BakedMethod baked = bake(find_method("direct"), parse_methods("direct").front(), scene, effects, no_progress);
+  const BakedMethod baked = bake(find_method(method), parse_methods(method).front(), scene, effects, no_progress);
   const GpuMethod gpu(gpu_scene, baked);
   const FrameRenderer frames(shared_context().info(), gpu_scene, gpu, {edge, edge}, {});
   FrameMean mean({edge, edge});
   for (const glm::dvec2& offset : offsets)
     mean.add(frames.render({.size = {edge, edge}, .camera = scene.camera}, offset));
   return mean.mean();
+}
+
+// Of `direct`, over a square with random normals.
+Image mean_at(int texels, int edge, std::span<const glm::dvec2> offsets) {
+  return mean_of(square_scene(random_normals(texels, texels, 0.5F, 1), {}), "direct", edge, offsets);
 }
 
 TEST(FrameOffsets, LieInThePixelAboutItsCentre) {
@@ -79,6 +86,39 @@ TEST(MeanOfFrames, MovesSamplesByPixels) {
     for (int x = 0; x < 15; ++x) EXPECT_NEAR(moved.at(x, y)[0], frame.at(x + 1, y)[0], 1e-3F) << x << ", " << y;
     EXPECT_EQ(moved.at(15, y)[3], 0.0F) << "beside the square";
   }
+}
+
+// Ripples of a pixel's width, of so many texels that interpolating their normals changes little.
+Image ripples(int pixels) {
+  constexpr int texels_per_ripple = 32;
+  Image normals(pixels * texels_per_ripple, 1, 4);
+  for (int x = 0; x < normals.width; ++x) {
+    const double slope = 0.3 * std::sin(2.0 * std::numbers::pi * (x + 0.5) / texels_per_ripple);
+    const glm::vec3 normal(glm::normalize(glm::dvec3(-slope, 0.0, 1.0)));
+    std::ranges::copy(std::array{normal.x, normal.y, normal.z, 1.0F}, normals.at(x, 0).begin());
+  }
+  return normals;
+}
+
+// `direct` reads the coat's finest level, so its frames converge. A method that filters coats keeps the error of that
+// filter.
+TEST(MeanOfFrames, ConvergesUnderAClearCoat) {
+  Scene scene =
+      square_scene({}, {.brdf = {}, .roughness = 0.5F, .base_color = glm::vec3(0.2F), .specular = glm::vec3(0.04F)});
+  ClearCoat& coat = scene.materials.front().coat.emplace();
+  coat.weight = 1.0F;
+  coat.roughness = 0.3F;
+  constexpr int edge = 16;
+  coat.normal_map = {"coat", std::make_shared<const Image>(ripples(edge)), {}};
+  const std::vector<glm::dvec2> offsets = frame_offsets(256, 1);
+  TestRenderer renderer(scene, {edge, edge});
+  const Image reference = renderer.reference(1024, 1).mean;
+  const auto error = [&](const char* method, std::size_t frames) {
+    return normalized_color(mean_of(scene, method, edge, std::span(offsets).first(frames)), reference, 1.0F).value();
+  };
+  const double least = error("direct", 256);
+  EXPECT_LT(least, 0.3 * error("direct", 16));
+  EXPECT_LT(least, 0.1 * error("toksvig", 256)) << "whose coat is filtered";
 }
 
 TEST(MeanOfFrames, IsTheMeanOverWhatIsCovered) {

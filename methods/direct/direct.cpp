@@ -26,7 +26,8 @@ class Direct final : public Method {
                    .summary = "The finest level of every map at the pixel's centre: no filtering.",
                    .paper = "",
                    .options = {},
-                   .honours = map_effects_but({})};
+                   .honours = map_effects_but({}),
+                   .reads_finest_level = true};
 };
 
 }  // namespace

@@ -29,9 +29,10 @@ struct MethodInfo {
   /// The module is told how frame and half vector change to the next pixels (renderer/shaders/README.md). Others pay
   /// nothing for it.
   bool screen_derivatives = false;
-  bool draws_directions = false;  ///< the module integrates an environment itself where many samples are taken
-  bool sums_environment = false;  ///< a frame's environment light is summed by the module (`environmentSum`)
-  bool slow_precompute = false;   ///< seconds, not milliseconds: kept on disk between runs (bake_cache.hpp)
+  bool reads_finest_level = false;  ///< a frame filters nothing: clear coats are read at their finest level, too
+  bool draws_directions = false;    ///< the module integrates an environment itself where many samples are taken
+  bool sums_environment = false;    ///< a frame's environment light is summed by the module (`environmentSum`)
+  bool slow_precompute = false;     ///< seconds, not milliseconds: kept on disk between runs (bake_cache.hpp)
   /// What is baked into a texel of a level depends, of the normal map, on the texels under it alone: of a map of which
   /// one part is looked at, that part may be baked for itself (renderer/ndf/footprint_part.hpp).
   bool bakes_by_texel = false;

@@ -9,6 +9,8 @@
 #include <cerrno>
 #include <charconv>
 #include <csignal>
+#include <cstdio>
+#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -162,8 +164,40 @@ std::vector<fs::path> relative_entries(const fs::path& folder) {
 // What lies on top of a folder tells what is below it, a page or a list of pictures.
 bool lies_on_top(const fs::path& entry) { return !entry.has_parent_path(); }
 
+// Links everything of `target` into `staging` that is not there and not stale, so that the two can be exchanged.
+// Whether all of it could be linked: a file system may have no links.
+bool link_what_stays(const fs::path& target, const fs::path& staging, const std::set<fs::path>& stale) {
+  for (const fs::path& entry : relative_entries(target)) {
+    if (stale.contains(entry) || fs::exists(fs::symlink_status(staging / entry))) continue;
+    std::error_code status;
+    if (fs::is_directory(fs::symlink_status(target / entry))) {
+      fs::create_directory(staging / entry, status);
+    } else if (::link((target / entry).c_str(), (staging / entry).c_str()) != 0) {
+      return false;
+    }
+    if (status) return false;
+  }
+  return true;
+}
+
+// Puts each folder of `staging` in the place of the one that `target` has, in one step. What cannot be exchanged stays,
+// for merge_folder to move file by file.
+void exchange_folders(const fs::path& staging, const fs::path& target, const std::vector<fs::path>& stale) {
+  for (const auto& entry : fs::directory_iterator(staging)) {
+    const fs::path name = entry.path().filename();
+    if (!entry.is_directory() || !fs::is_directory(fs::symlink_status(target / name))) continue;
+    std::set<fs::path> own_stale;
+    for (const fs::path& file : stale) {
+      if (*file.begin() == name) own_stale.insert(file.lexically_relative(name));
+    }
+    if (link_what_stays(target / name, staging / name, own_stale) &&
+        ::renameat2(AT_FDCWD, (staging / name).c_str(), AT_FDCWD, (target / name).c_str(), RENAME_EXCHANGE) == 0)
+      fs::remove_all(staging / name);
+  }
+}
+
 // Moves all files of `staging` into the existing `target`, so that no moment has a list of one run over files of
-// another: old files on top go first, new ones come last. `stale` goes between them.
+// another: old files on top go first, new ones come last. Between them folders are exchanged, and `stale` goes.
 void merge_folder(const fs::path& staging, const fs::path& target, const std::vector<fs::path>& stale) {
   const std::vector<fs::path> sorted = relative_entries(staging);
   std::vector<fs::path> entries = sorted;
@@ -180,10 +214,12 @@ void merge_folder(const fs::path& staging, const fs::path& target, const std::ve
   for (const fs::path& entry : entries) {
     if (lies_on_top(entry) && !fs::is_directory(target / entry)) fs::remove(target / entry, ignored);
   }
+  exchange_folders(staging, target, stale);
   for (const fs::path& file : stale) {
     if (!std::ranges::binary_search(sorted, file)) fs::remove(target / file, ignored);
   }
   for (const fs::path& entry : entries) {
+    if (!fs::exists(fs::symlink_status(staging / entry))) continue;  // it was exchanged
     std::error_code status;
     if (fs::is_directory(staging / entry)) {
       fs::create_directory(target / entry, status);

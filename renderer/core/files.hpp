@@ -44,11 +44,11 @@ class OutputFolder {
   /// those that this one does not write again. What is no regular file inside of the folder stays.
   void replaces(const std::vector<std::filesystem::path>& files);
 
-  /// Moves everything to the final place: in one step where no folder is there, else file by file, each by one rename.
-  /// The files on top of the folder, which tell what is in it, are taken away before the first is moved and come back
-  /// last: a process killed meanwhile leaves none of them over a mixture of two runs.
-  /// Errors (machine): a rename fails, or a file would replace a folder or a folder a file; the latter is found before
-  /// anything is moved.
+  /// Moves everything to the final place: in one step where no folder is there, else each subfolder in one step (file
+  /// by file where the file system cannot exchange folders) and then each file on top by one rename. The files on top
+  /// of the folder, which tell what is in it, are taken away before the first is moved and come back last: a process
+  /// killed meanwhile leaves none of them over a mixture of two runs. Errors (machine): a rename fails, or a file would
+  /// replace a folder or a folder a file; the latter is found before anything is moved.
   void commit();
 
  private:

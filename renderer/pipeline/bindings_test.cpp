@@ -120,7 +120,8 @@ TEST(TextureUnits, EveryMapOfTheSharedShadersHasARow) {
   const EffectSet all = EffectSet{}.set();
   const std::string text =
       fragment_shader({.effects = all, .brdf = {}}, base_surface().shader(), Options({}, {}, "test"), {}).text();
-  const std::regex lookup(R"(\b(?:texture|textureGrad|textureLod|texelFetch|fetch)\((\w*_map|material_share),)");
+  const std::regex lookup(
+      R"(\b(?:texture|textureGrad|textureLod|texelFetch|fetch|fetchCoat)\((\w*_map|material_share),)");
   std::size_t found = 0;
   for (auto i = std::sregex_iterator(text.begin(), text.end(), lookup); i != std::sregex_iterator(); ++i, ++found) {
     EXPECT_TRUE(test::says(text, "sampler2D " + (*i)[1].str() + ";"));

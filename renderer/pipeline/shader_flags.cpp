@@ -84,6 +84,7 @@ constexpr auto rows = std::to_array<FlagRow>({
     {"shared_coordinates", [](const Variant& v) { return v.shared_coordinates; }},
     {"surface_coordinates", [](const Variant& v) { return v.surface_coordinates; }},
     {"screen_derivatives", [](const Variant& v) { return v.screen_derivatives; }},
+    {"finest_coat", [](const Variant& v) { return v.finest_coat; }},
     {"environment_sampled", samples_environment},
     {"environment_dense", [](const Variant& v) { return v.environment == EnvironmentUse::dense; }},
     {"environment_summed",

@@ -32,6 +32,7 @@ struct ShaderVariant {
   bool shared_coordinates = false;   ///< every map of the scene is looked up at one uv
   bool surface_coordinates = false;  ///< the method has coordinates of its own (Prefiltered::surface_coordinates)
   bool screen_derivatives = false;   ///< a frame whose module asks how the next pixels lie (MethodInfo)
+  bool finest_coat = false;          ///< a frame of a method that filters nothing (MethodInfo::reads_finest_level)
   EnvironmentUse environment = EnvironmentUse::prefiltered;  ///< sampled: of a module with `draws_directions`
   bool sums_environment = false;                             ///< the method's (MethodInfo)
   std::size_t environment_suns = 0;                          ///< what of the environment is told apart (small_sun.hpp)

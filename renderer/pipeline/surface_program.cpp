@@ -47,6 +47,7 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
           .shared_coordinates = scene.shared_coordinates(),
           .surface_coordinates = baked.materials.front().surface_coordinates.has_value(),
           .screen_derivatives = baked.method->info().screen_derivatives && settings.sampling == Sampling::frame,
+          .finest_coat = baked.method->info().reads_finest_level && settings.sampling == Sampling::frame,
           .environment = environment_of(*baked.method, settings),
           .sums_environment = baked.method->info().sums_environment,
           .environment_suns = scene.environment() != nullptr ? scene.environment()->sun_count() : 0,

@@ -1,5 +1,5 @@
-// The clear coat over what a point reflects (KHR_materials_clearcoat; docs/base-brdf.md, Clear coat): the same for every
-// method and for the reference, which takes each texel's own coat.
+// The clear coat over what a point reflects (KHR_materials_clearcoat; docs/base-brdf.md, Clear coat): one filter for every
+// method that filters. The reference, and a method that filters nothing, read the finest level.
 //? include ggx_density.glsl
 //? include ggx_geometry.glsl
 //? include length_shortfall.glsl
@@ -25,7 +25,7 @@ Coat coatOf(vec3 mean, float alpha2, float weight, vec3 wo) {
   float size = max(length(mean), 1e-3);
   vec3 normal = dot(mean, mean) > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0);  // some that cancel have no mean
   float spread = 0.0;
-//? if sampling_frame
+//? if sampling_frame and not finest_coat
   // The slopes' variance on each axis, (1 - r) / r (Toksvig 2005), beside GGX's alpha^2 / 2.
   float added = 2.0 * shortfallOfLength(size, rounding_of_floats) / size;
   spread = added / (alpha2 + added);
@@ -34,19 +34,25 @@ Coat coatOf(vec3 mean, float alpha2, float weight, vec3 wo) {
   return Coat(normal, alpha2, weight, weight * coatFresnel(dot(normal, wo)), spread);
 }
 
+//? if finest_coat
+vec4 fetchCoat(sampler2D map, Footprint f) { return fetchFinest(map, f); }
+//? else
+vec4 fetchCoat(sampler2D map, Footprint f) { return fetch(map, f); }
+//? end
+
 Coat coatUnder(Footprints f, vec3 wo) {
 //? if coat_weight_variation
-  float weight = fetch(coat_weight_map, f.coat_weight).r;
+  float weight = fetchCoat(coat_weight_map, f.coat_weight).r;
 //? else
   float weight = coat_weight_width.x;
 //? end
 //? if coat_width_variation
-  float alpha2 = fetch(coat_width_map, f.coat_width).r;
+  float alpha2 = fetchCoat(coat_width_map, f.coat_width).r;
 //? else
   float alpha2 = coat_weight_width.y;
 //? end
 //? if coat_normal_variation
-  return coatOf(fetch(coat_normal_map, f.coat_normal).xyz, alpha2, weight, wo);
+  return coatOf(fetchCoat(coat_normal_map, f.coat_normal).xyz, alpha2, weight, wo);
 //? else
   return coatOf(vec3(0.0, 0.0, 1.0), alpha2, weight, wo);
 //? end
@@ -56,7 +62,7 @@ Coat coatUnder(Footprints f, vec3 wo) {
 // lobe of its own, the mean of those that have h in their lobe lies between the two, as far towards h as their spread is
 // of the whole. At grazing views, of normals that few mirror by, it is far less than the mean normal's.
 float coatShare(Coat coat, vec3 h, vec3 wo) {
-//? if coat_normal_variation and sampling_frame
+//? if coat_normal_variation and sampling_frame and not finest_coat
   return coat.weight * coatFresnel(dot(normalize(mix(coat.normal, h, coat.spread)), wo));
 //? else
   return coat.share;

@@ -1,9 +1,12 @@
 // Every text in the document that names a file below images/, and the PNG beside each EXR.
 #include "results/report/listed_files.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+
+#include "results/report/results_document.hpp"
 
 namespace footprint {
 namespace {
@@ -20,17 +23,52 @@ void collect(const nlohmann::json& value, std::vector<std::filesystem::path>& fi
   for (const nlohmann::json& inner : value) collect(inner, files);
 }
 
+// Null where it cannot be read.
+nlohmann::json document_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return nlohmann::json::parse(stream, nullptr, false);
+}
+
+// Empty where there is no such text.
+std::string text_in(const nlohmann::json& object, const char* key) {
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
 }  // namespace
 
-std::vector<std::filesystem::path> listed_files(const std::filesystem::path& results_json) {
-  std::ifstream stream(results_json, std::ios::binary);
-  const nlohmann::json document = nlohmann::json::parse(stream, nullptr, false);
-  std::vector<std::filesystem::path> files;
-  const auto schema = document.is_object() ? document.find("schema") : document.end();
-  const bool ours = schema != document.end() && schema->is_string() &&
-                    schema->get_ref<const std::string&>().starts_with("footprint-");
-  if (ours) collect(document, files);
+std::vector<std::string> images_in(const std::filesystem::path& folder) {
+  std::vector<std::string> files;
+  if (!std::filesystem::is_directory(folder / pictures)) return files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / pictures)) {
+    if (entry.is_regular_file()) files.push_back(entry.path().lexically_relative(folder).generic_string());
+  }
+  std::ranges::sort(files);
   return files;
+}
+
+std::vector<std::filesystem::path> listed_files(const std::filesystem::path& results_json) {
+  const nlohmann::json document = document_of(results_json);
+  std::vector<std::filesystem::path> files;
+  if (text_in(document, "schema").starts_with("footprint-")) collect(document, files);
+  return files;
+}
+
+std::optional<ListedReference> listed_reference(const std::filesystem::path& reference) {
+  const std::filesystem::path folder = std::filesystem::absolute(reference).parent_path().parent_path();
+  const nlohmann::json document = document_of(folder / "results.json");
+  if (text_in(document, "schema") != results_schema) return {};
+  const std::string name = pictures + reference.filename().string();
+  const nlohmann::json exposure = document.value(nlohmann::json::json_pointer("/scene/exposure"), nlohmann::json());
+  const nlohmann::json records = document.value("records", nlohmann::json::array());
+  if (!exposure.is_number() || !records.is_array()) return {};
+  for (const nlohmann::json& record : records) {
+    const nlohmann::json images = record.is_object() ? record.value("images", nlohmann::json()) : nlohmann::json();
+    if (text_in(images, "reference") != name) continue;
+    return ListedReference{.exposure = exposure.get<float>(),
+                           .standard_error = folder / text_in(images, "standard_error")};
+  }
+  return {};
 }
 
 }  // namespace footprint

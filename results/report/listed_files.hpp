@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace footprint {
@@ -9,5 +11,18 @@ namespace footprint {
 /// The pictures that a results.json of this program lists, relative to its folder; none where the file is not there, is
 /// another program's, or cannot be read.
 [[nodiscard]] std::vector<std::filesystem::path> listed_files(const std::filesystem::path& results_json);
+
+/// A reference that an earlier comparison wrote.
+struct ListedReference {
+  float exposure = 1.0F;                 ///< of that comparison
+  std::filesystem::path standard_error;  ///< EXR
+};
+
+/// What the results.json of FOLDER says of its reference FOLDER/images/NAME.exr; none where there is no such document,
+/// or it does not list that image as a reference.
+[[nodiscard]] std::optional<ListedReference> listed_reference(const std::filesystem::path& reference);
+
+/// The files below images/ in an output folder, as paths from it, sorted.
+[[nodiscard]] std::vector<std::string> images_in(const std::filesystem::path& folder);
 
 }  // namespace footprint

@@ -260,6 +260,7 @@ struct Results {
   Coordinates coordinates{};                   ///< in the matrix that it is a member of; empty: of none
   double error_scale = 0;                      ///< at the top of the false-colour pictures on the shared scale
   std::vector<ErrorScale> error_scales;        ///< of the pictures on the scale of their distance
+  std::vector<std::string> files{};            ///< every image that was written, from the output folder, sorted
 };
 
 }  // namespace footprint

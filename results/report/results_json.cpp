@@ -212,7 +212,8 @@ nlohmann::ordered_json results_document(const Results& results) {
           {"records", std::move(records)},
           {"pairs", std::move(pairs)},
           {"ndf", std::move(ndf)},
-          {"quantities", std::move(quantities)}};
+          {"quantities", std::move(quantities)},
+          {"files", results.files}};
 }
 
 std::string json_text(const nlohmann::ordered_json& document, int indent) {

@@ -2,13 +2,14 @@
 
 import csv
 import html.parser
+import json
 import math
 import re
 import subprocess
 import sys
 import unittest
 
-from whole_runs import SOURCE, WholeRunTest, picture_facts, results_of
+from whole_runs import SOURCE, WholeRunTest, picture_facts, results_of, run
 
 METHODS = ["direct", "naive_mip", "toksvig"]
 NEAR, FAR = 1, 6
@@ -144,6 +145,30 @@ class Report(WholeRunTest):
         one = results_of(self.compare("one", "ribbed_plane", "--size", "16x16", "--spp", "1", "--distance", "1"))
         self.assertIsNone(one["reference"]["standard_error"])
         self.assertEqual([record["error"]["noise_floor"] for record in one["records"]], [None] * len(METHODS))
+
+    def test_a_folder_that_is_used_again_keeps_no_image_of_the_earlier_run(self):
+        settings = ["ribbed_plane", "--methods", "direct,toksvig", "--size", "24x20", "--spp", "8"]
+        out = self.compare("used_again", *settings, "--distance", "1,2")
+        (out / "images/notes.png").write_bytes(b"mine")
+        self.compare("used_again", *settings, "--distance", "3")
+        images = sorted(str(path.relative_to(out)) for path in out.glob("images/*"))
+        self.assertEqual(results_of(out)["files"], [image for image in images if image != "images/notes.png"])
+        self.assertTrue(all(image.startswith("images/d3_") for image in results_of(out)["files"]))
+        self.assertIn("images/d3_all_errors.png", images)
+        self.assertIn("images/notes.png", images, "a file of somebody else")
+
+    def test_score_agrees_with_compare(self):
+        """On images that `compare` wrote: the error, the exposure, and the pixels that count."""
+        out = self.compare("clear", "clear_coat", "--distance", "4", "--size", "128x128", "--methods", "direct", "--spp", "64")
+        record = results_of(out)["records"][0]
+        self.assertGreater(record["pixels"]["unresolved"], 0, "a scene with unresolved pixels")
+        score = self.folder / "scored"
+        run("score", out / record["images"]["color"], "--reference", out / record["images"]["reference"], "-o", score)
+        document = json.loads((score / "score.json").read_text(encoding="utf-8"))
+        self.assertEqual(document["unresolved"], record["pixels"]["unresolved"])
+        self.assertEqual(document["pixels"], record["pixels"]["object"])
+        self.assertAlmostEqual(document["exposure"], results_of(out)["scene"]["exposure"], places=6)
+        self.assertAlmostEqual(document["pictures"][0]["normalized_color"], record["error"]["normalized_color"], places=7)
 
     def test_an_effect_can_be_left_out(self):
         flat = results_of(

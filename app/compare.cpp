@@ -1,10 +1,13 @@
 // `footprint compare`: methods against the supersampled reference on one scene, the error and fps table and the page.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "app/commands.hpp"
+#include "app/messages.hpp"
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
@@ -43,14 +46,24 @@ void add_options(CLI::App& command, CompareArguments& arguments) {
   add_quiet_flag(command, arguments.quiet);
 }
 
-// Everything is written out of sight and moved to its place at the end.
-Results compare_into(OutputFolder& folder, const RunSettings& settings, const Progress& progress) {
+// Everything is written to a hidden folder and moved to its place at the end. The hidden folder has a page after the
+// first distance.
+Results compare_into(OutputFolder& folder, const RunSettings& settings, bool quiet, const Progress& progress) {
   constexpr double weight = 10;  // of the main process's work, where a further process's is 1
   const int others = settings.timing.processes - 1;
   ProgressParts parts(progress, weight + others);
   const Progress of_others = parts.next(others, "");
   const FurtherTimes further = [&] { return times_of_processes(others, {}, folder.path(), of_others); };
-  Results results = run_compare(settings, folder.path(), further, parts.next(weight, ""));
+  bool is_told = false;
+  const ResultsWatch so_far = [&](Results results) {
+    sign(results.tool, results.backend);
+    results.scene.warnings.insert(results.scene.warnings.begin(), "the run is not finished: more distances follow");
+    write_report(results, folder.path());
+    if (!quiet && !std::exchange(is_told, true))
+      write_message(fmt::format("page of the distances that are done, until the run ends: {}",
+                                (folder.path() / "index.html").string()));
+  };
+  Results results = run_compare(settings, folder.path(), further, parts.next(weight, ""), nullptr, nullptr, {}, so_far);
   keep_results(results, folder, write_report);
   return results;
 }
@@ -61,8 +74,9 @@ void run_compare_command(const CompareArguments& arguments) {
   if (!arguments.timing_file.empty()) {
     return write_frame_times(arguments.timing_file, time_frames(settings, display.callback()));
   }
-  const auto [results, path] = write_whole(
-      arguments.output, [&](OutputFolder& folder) { return compare_into(folder, settings, display.callback()); });
+  const auto [results, path] = write_whole(arguments.output, [&](OutputFolder& folder) {
+    return compare_into(folder, settings, arguments.quiet, display.callback());
+  });
   display.finish();
   print_results(results, path);
   if (const auto failed = row_failures(results)) throw *failed;

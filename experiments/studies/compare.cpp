@@ -41,10 +41,10 @@ RunSettings with_direct(RunSettings settings) {
   return settings;
 }
 
-// Kept of each distance until the end: the reference, and of each method the picture and its error (a quarter as
-// large). Beside them what is worked on: most of all the strips of one distance, made of all its pictures in 5 steps.
+// Kept of each distance until the end: of each method the image and its error (a quarter as large). Beside them what is
+// worked on: most of all the strips of one distance, made of all its pictures in 5 steps.
 int pictures_held(std::size_t methods, std::size_t distances) {
-  const double kept = static_cast<double>(distances) * (1.0 + 1.25 * static_cast<double>(methods));
+  const double kept = static_cast<double>(distances) * 1.25 * static_cast<double>(methods);
   constexpr double own_of_the_reference = 10;  // with its masks and the bound
   return static_cast<int>(std::ceil(kept + 5.0 * static_cast<double>(methods + 1) + own_of_the_reference));
 }
@@ -84,14 +84,19 @@ class Comparison {
     if (kept_ != nullptr) keys_.emplace(*kept_, settings_, scene_, distances_);
   }
 
-  Results run(const FurtherTimes& further_times, SharedTruth* shared) {
+  Results run(const FurtherTimes& further_times, SharedTruth* shared, const ResultsWatch& so_far) {
     further_ = &further_times;
     shared_ = shared;
     std::filesystem::create_directories(folder_ / "images");
-    for (std::size_t i = 0; i < distances_.size(); ++i) add(i, measured(i));
-    finish_error_pictures();
-    describe();
-    return std::move(results_);
+    for (std::size_t i = 0; i < distances_.size(); ++i) {
+      DistanceWork work = measured(i);
+      const KeptTruth truth = *work.truth;
+      add(i, std::move(work));
+      write_pictures(i, truth);
+      if (so_far && i + 1 < distances_.size()) so_far(results());
+    }
+    write_shared_pictures();
+    return results();
   }
 
   void measure(std::span<const std::size_t> wanted, const FurtherTimes& further_times) {
@@ -351,14 +356,24 @@ class Comparison {
     for (std::optional<Draft>& draft : work.drafts) drafts_.push_back(std::move(*draft));
     std::ranges::move(*work.pairs, std::back_inserter(results_.pairs));
     if (i == 0) results_.reference.standard_error = work.truth->standard_error;
-    results_.reference.samples += work.truth->samples / static_cast<double>(distances_.size());
+    results_.reference.samples += work.truth->samples;
     results_.reference.seconds += work.truth->seconds;
     std::ranges::move(work.truth->curve, std::back_inserter(results_.supersampling));
     std::ranges::move(work.truth->warnings, std::back_inserter(results_.scene.warnings));
-    references_.push_back({.caption = fmt::format("reference, {} spp", settings_.reference.spp),
-                           .picture = whole_reference(*work.truth),
-                           .error = {}});
     processes_ = static_cast<int>(work.times->processes.size());
+  }
+
+  // What does not wait for the other distances.
+  void write_pictures(std::size_t i, const KeptTruth& truth) {
+    const std::span<Draft> drafts = drafts_at(i);
+    const double scale = error_scale(drafts, settings_.view.error_scale);
+    results_.error_scales.push_back({.distance = distances_[i], .error = scale});
+    write_distance_strips(folder_,
+                          {.caption = fmt::format("reference, {:.0f} spp", truth.samples),
+                           .picture = whole_reference(truth),
+                           .error = {}},
+                          drafts, exposure_->factor, scale);
+    write_error_pictures(folder_, drafts, scale);
   }
 
   // The drafts stand in the order of the distances, as many for each as there are methods.
@@ -366,38 +381,42 @@ class Comparison {
     return std::span(drafts_).subspan(distance * settings_.methods.size(), settings_.methods.size());
   }
 
-  void finish_error_pictures() {
-    const std::optional<double>& asked = settings_.view.error_scale;
-    results_.error_scale = error_scale(drafts_, asked);
+  void write_shared_pictures() {
+    const double shared = error_scale(drafts_, settings_.view.error_scale);
     for (std::size_t i = 0; i < distances_.size(); ++i) {
-      const std::span<Draft> drafts = drafts_at(i);
-      const double scale = error_scale(drafts, asked);
-      results_.error_scales.push_back({.distance = distances_[i], .error = scale});
-      write_distance_strips(folder_, std::move(references_[i]), drafts, exposure_->factor, scale);
-      write_error_pictures(folder_, drafts, scale, results_.error_scale);
-      for (Draft& draft : drafts) results_.records.push_back(std::move(draft.record));
+      if (results_.error_scales[i].error != shared) write_shared_error_pictures(folder_, drafts_at(i), shared);
     }
   }
 
-  void describe() {
+  // Of the distances that are done.
+  Results results() {
+    Results results = results_;
+    results.error_scale = error_scale(drafts_, settings_.view.error_scale);
+    for (const Draft& draft : drafts_) results.records.push_back(draft.record);
+    results.reference.samples /= static_cast<double>(results_.error_scales.size());
+    describe(results);
+    return results;
+  }
+
+  void describe(Results& results) {
     KeptHead said = head();
-    results_.backend = std::move(said.backend);
-    results_.reference.spp = settings_.reference.spp;
-    results_.reference.filter = word_for(reference_filters, settings_.reference.filter);
-    results_.reference.seed = settings_.reference.seed;
-    results_.footprint = std::move(said.footprint);
-    results_.timing = {.frames = settings_.timing.repeats, .processes = processes_};
+    results.backend = std::move(said.backend);
+    results.reference.spp = settings_.reference.spp;
+    results.reference.filter = word_for(reference_filters, settings_.reference.filter);
+    results.reference.seed = settings_.reference.seed;
+    results.footprint = std::move(said.footprint);
+    results.timing = {.frames = settings_.timing.repeats, .processes = processes_};
     if (said.lit_by_environment)
-      results_.reference.environment = word_for(reference_integrals, settings_.reference.environment);
+      results.reference.environment = word_for(reference_integrals, settings_.reference.environment);
     std::vector<std::string> notes = std::move(said.first_warnings);
-    std::ranges::move(results_.scene.warnings, std::back_inserter(notes));
-    results_.scene = std::move(said.scene);
-    results_.scene.exposure = exposure_->factor;
-    results_.scene.exposure_source = word_for(exposure_sources, exposure_->source);
-    std::ranges::move(notes, std::back_inserter(results_.scene.warnings));
-    if (auto warning = linear_measures_warning(results_.reference))
-      results_.scene.warnings.push_back(std::move(*warning));
-    std::ranges::move(said.last_warnings, std::back_inserter(results_.scene.warnings));
+    std::ranges::move(results.scene.warnings, std::back_inserter(notes));
+    results.scene = std::move(said.scene);
+    results.scene.exposure = exposure_->factor;
+    results.scene.exposure_source = word_for(exposure_sources, exposure_->source);
+    std::ranges::move(notes, std::back_inserter(results.scene.warnings));
+    if (auto warning = linear_measures_warning(results.reference))
+      results.scene.warnings.push_back(std::move(*warning));
+    std::ranges::move(said.last_warnings, std::back_inserter(results.scene.warnings));
   }
 
   KeptHead head() {
@@ -451,10 +470,9 @@ class Comparison {
   std::optional<std::vector<FrameTimes>> further_known_;
   std::optional<Exposure> exposure_;
   std::vector<Draft> drafts_;
-  std::vector<Exhibit> references_;                // one a distance, for the strips
   std::pair<std::size_t, Supersampled> before_{};  // a frame and its reference
   int processes_ = 1;
-  Results results_;
+  Results results_;  // without records; the reference's samples are a sum over the distances that are done
 };
 
 }  // namespace
@@ -464,8 +482,9 @@ FrameTimes time_frames(const RunSettings& settings, const Progress& progress) {
 }
 
 Results run_compare(const RunSettings& settings, const std::filesystem::path& folder, const FurtherTimes& further_times,
-                    const Progress& progress, SharedTruth* shared, const KeptWork* kept, const RecordWatch& watch) {
-  return Comparison(settings, folder, progress, kept, watch).run(further_times, shared);
+                    const Progress& progress, SharedTruth* shared, const KeptWork* kept, const RecordWatch& watch,
+                    const ResultsWatch& so_far) {
+  return Comparison(settings, folder, progress, kept, watch).run(further_times, shared, so_far);
 }
 
 void measure_distances(const RunSettings& settings, std::span<const std::size_t> distances,

@@ -29,6 +29,9 @@ using FurtherTimes = std::function<std::vector<FrameTimes>()>;
 /// the run.
 using RecordWatch = std::function<void(std::span<const Record> records)>;
 
+/// Sees the results over the distances that are done, whose images are written, after each distance but the last.
+using ResultsWatch = std::function<void(const Results& results)>;
+
 /// Runs the comparison and writes its pictures into FOLDER/images (made here). The figures are over this process and
 /// `further_times`. Results lacks tool and backend.cpu, which the program knows.
 /// What `shared` has of the truth is not rendered again (truth.hpp). What `kept` has is not done again, and what is
@@ -37,7 +40,7 @@ using RecordWatch = std::function<void(std::span<const Record> records)>;
 [[nodiscard]] Results run_compare(const RunSettings& settings, const std::filesystem::path& folder,
                                   const FurtherTimes& further_times, const Progress& progress,
                                   SharedTruth* shared = nullptr, const KeptWork* kept = nullptr,
-                                  const RecordWatch& watch = {});
+                                  const RecordWatch& watch = {}, const ResultsWatch& so_far = {});
 
 /// Of the comparison only what belongs to some of its distances, by their index, into `kept`; FOLDER is for pictures on
 /// their way. In a zoom, the frame before each must be among them or kept.

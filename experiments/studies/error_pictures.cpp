@@ -14,6 +14,11 @@ namespace {
 constexpr double scale_quantile = 0.99;
 constexpr double smallest_error_scale = 0.01;
 
+std::string write_on_scale(const std::filesystem::path& folder, const Draft& draft, const std::string& end,
+                           double top) {
+  return write_error_picture(folder, draft.stem + end, draft.exhibit.error, static_cast<float>(top));
+}
+
 }  // namespace
 
 double error_scale(std::span<const Draft> drafts, const std::optional<double>& asked) {
@@ -28,15 +33,19 @@ double error_scale(std::span<const Draft> drafts, const std::optional<double>& a
   return std::ceil(scale / step) * step;
 }
 
-void write_error_pictures(const std::filesystem::path& folder, std::span<Draft> drafts, double scale, double shared) {
+void write_error_pictures(const std::filesystem::path& folder, std::span<Draft> drafts, double scale) {
   for (Draft& draft : drafts) {
     if (draft.record.failure) continue;
-    const auto write = [&](const std::string& end, double top) {
-      return write_error_picture(folder, draft.stem + end, draft.exhibit.error, static_cast<float>(top));
-    };
     RecordImages& images = draft.record.images;
-    images.error = write("_error", scale);
-    images.error_shared = scale == shared ? images.error : write("_error_shared", shared);
+    images.error = write_on_scale(folder, draft, "_error", scale);
+    images.error_shared = images.error;
+  }
+}
+
+void write_shared_error_pictures(const std::filesystem::path& folder, std::span<Draft> drafts, double shared) {
+  for (Draft& draft : drafts) {
+    if (!draft.record.failure)
+      draft.record.images.error_shared = write_on_scale(folder, draft, "_error_shared", shared);
   }
 }
 

@@ -24,9 +24,12 @@ struct Draft {
 /// digits, 0.01 at least.
 [[nodiscard]] double error_scale(std::span<const Draft> drafts, const std::optional<double>& asked);
 
-/// Writes the error pictures of the drafts of one distance, on its own scale and on the shared one, and names them in
-/// the records.
-void write_error_pictures(const std::filesystem::path& folder, std::span<Draft> drafts, double scale, double shared);
+/// Writes the error pictures of the drafts of one distance on its own scale, and names them in the records; until
+/// write_shared_error_pictures they are those on the shared scale, too.
+void write_error_pictures(const std::filesystem::path& folder, std::span<Draft> drafts, double scale);
+
+/// Writes the error pictures of some drafts on the scale that all distances share, and names them in the records.
+void write_shared_error_pictures(const std::filesystem::path& folder, std::span<Draft> drafts, double shared);
 
 /// Writes the strips of a distance, the reference first.
 void write_distance_strips(const std::filesystem::path& folder, Exhibit reference, std::span<const Draft> drafts,

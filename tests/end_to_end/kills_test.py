@@ -13,7 +13,7 @@ import time
 import unittest
 
 from kept_runs import outcome
-from whole_runs import PROGRAM, WholeRunTest
+from whole_runs import PROGRAM, WholeRunTest, results_of
 
 KILLS = int(os.environ.get("FOOTPRINT_KILLS", "2"))
 SEED = int(os.environ.get("FOOTPRINT_SEED", "1"))
@@ -91,6 +91,29 @@ class Killed(WholeRunTest):
 
     def test_interrupted(self):
         self.stop_many_times(signal.SIGINT, 130)
+
+    def test_a_run_in_progress_has_a_page(self):
+        out = self.folder / "going"
+        process = subprocess.Popen([PROGRAM, "compare", *SETTINGS[:-2], "--distance", "1,2,3,4", "--repeats", "400", "-o", out], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.kill)
+        end = time.monotonic() + 60
+        while not (pages := list(self.folder.glob(".going*/index.html"))):
+            self.assertLess(time.monotonic(), end)
+            self.assertIsNone(process.poll())
+            time.sleep(0.01)
+        results = results_of(pages[0].parent)
+        distances = sorted({record["distance"] for record in results["records"]})
+        self.assertEqual(distances, [1, 2, 3, 4][: len(distances)])
+        self.assertLess(len(distances), 4)
+        self.assertIn("the run is not finished: more distances follow", results["scene"]["warnings"])
+        for record in results["records"]:
+            for image in (record["images"]["color"], record["images"]["error"]):
+                self.assertTrue((pages[0].parent / image).is_file(), image)
+        process.send_signal(signal.SIGINT)
+        self.assertIn(f"page of the distances that are done, until the run ends: {pages[0]}", process.communicate()[1])
+        self.assertEqual(process.returncode, 130)
+        self.assertFalse(out.exists() or self.left_beside(out))
 
     def test_a_mixture_is_found_out(self):
         mixed = self.folder / "mixed"

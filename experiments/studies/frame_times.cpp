@@ -23,8 +23,8 @@ void set_frame_times(Record& record, const std::vector<double>& times, const std
   const std::vector<double> ratios = paired_ratios(times, direct);
   record.frame_ms = {.median = quantile(times, 0.5), .minimum = std::ranges::min(times), .p90 = quantile(times, 0.9)};
   record.fps = 1000.0 / record.frame_ms.median;
-  record.ratio_to_direct = {
-      .median = quantile(ratios, 0.5), .minimum = std::ranges::min(ratios), .maximum = std::ranges::max(ratios)};
+  const auto [low, high] = median_interval(ratios);
+  record.ratio_to_direct = {.median = quantile(ratios, 0.5), .low = low, .high = high};
 }
 
 void set_no_times(Record& record) {

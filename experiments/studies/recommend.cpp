@@ -87,8 +87,8 @@ Candidate candidate_of(const FilterRun& run, const std::string& method, const st
   candidate.worst = std::ranges::max(candidate.errors);
   candidate.noise = noise_of(records, at, material);
   candidate.cost = {.median = mean_of(records, at, [](const Record& r) { return r.ratio_to_direct.median; }),
-                    .minimum = mean_of(records, at, [](const Record& r) { return r.ratio_to_direct.minimum; }),
-                    .maximum = mean_of(records, at, [](const Record& r) { return r.ratio_to_direct.maximum; })};
+                    .low = mean_of(records, at, [](const Record& r) { return r.ratio_to_direct.low; }),
+                    .high = mean_of(records, at, [](const Record& r) { return r.ratio_to_direct.high; })};
   candidate.bytes = records.front()->materials[material].bytes;
   candidate.bake_seconds = records.front()->precompute_seconds;
   return candidate;

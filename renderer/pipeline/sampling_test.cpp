@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 #include <span>
 
@@ -154,6 +156,25 @@ TEST(Quantile, InterpolatesOrderStatistics) {
   EXPECT_DOUBLE_EQ(quantile({1, 2}, 0.5), 1.5);
   EXPECT_DOUBLE_EQ(quantile({5}, 0.9), 5);
   EXPECT_DOUBLE_EQ(quantile({0, 10}, 0.9), 9);
+}
+
+// The ranks are those of a table of the binomial distribution: n = 6, 9, 15, 25 (Conover, Practical Nonparametric
+// Statistics, table A3).
+TEST(MedianInterval, IsBetweenTheRanksOfTheBinomialTable) {
+  const std::array<std::array<int, 3>, 4> ranks = {{{6, 1, 6}, {9, 2, 8}, {15, 4, 12}, {25, 8, 18}}};
+  for (const auto& [count, low, high] : ranks) {
+    std::vector<double> values(static_cast<std::size_t>(count));
+    std::iota(values.rbegin(), values.rend(), 1.0);
+    const MedianInterval interval = median_interval(values);
+    EXPECT_EQ(interval.low, low) << count;
+    EXPECT_EQ(interval.high, high) << count;
+  }
+}
+
+TEST(MedianInterval, OfTooFewValuesIsTheirExtremes) {
+  EXPECT_EQ(median_interval({3, 1, 2}).low, 1);
+  EXPECT_EQ(median_interval({3, 1, 2}).high, 3);
+  EXPECT_EQ(median_interval({4}).low, 4);
 }
 
 TEST(PairedRatios, DivideRepeatByRepeat) {

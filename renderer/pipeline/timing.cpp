@@ -48,6 +48,22 @@ double quantile(std::vector<double> values, double q) {
   return std::lerp(values[below], values[above], rank - static_cast<double>(below));
 }
 
+MedianInterval median_interval(std::vector<double> values) {
+  std::ranges::sort(values);
+  const std::size_t count = values.size();
+  constexpr double one_side = 0.025;
+  // P(fewer than k + 1 of the values lie below the median), for k = 0, 1, ...; each lies there with probability 1/2.
+  double term = std::pow(0.5, static_cast<double>(count)), below = term;
+  std::size_t k = 0;
+  while (k + 1 < count - k && below <= one_side) {
+    ++k;
+    term *= static_cast<double>(count - k + 1) / static_cast<double>(k);
+    below += term;
+  }
+  const std::size_t first = k > 0 ? k - 1 : 0;
+  return {.low = values[first], .high = values[count - 1 - first]};
+}
+
 std::vector<double> paired_ratios(std::span<const double> a, std::span<const double> b) {
   std::vector<double> ratios(a.size());
   std::ranges::transform(a, b, ratios.begin(), [](double x, double y) { return x / y; });

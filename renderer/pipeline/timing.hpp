@@ -28,6 +28,16 @@ using DrawFrame = std::function<void()>;
 /// The q-quantile, 0 to 1, of a sample by linear interpolation between order statistics. `values` must not be empty.
 [[nodiscard]] double quantile(std::vector<double> values, double q);
 
+/// An interval of a sample, by two of its order statistics.
+struct MedianInterval {
+  double low = 0, high = 0;
+};
+
+/// The interval that has the population's median with a probability of at least 95%, whatever the distribution: from
+/// the k-th smallest to the k-th largest value, k by the binomial distribution (of 9 the 2nd to the 8th). Fewer than 6
+/// values have none: their least and most. `values` must not be empty.
+[[nodiscard]] MedianInterval median_interval(std::vector<double> values);
+
 /// a[i] / b[i] for frames drawn in the same repeat.
 [[nodiscard]] std::vector<double> paired_ratios(std::span<const double> a, std::span<const double> b);
 

@@ -34,7 +34,7 @@ const columns = [
    meaning: 'The same over the object’s other pixels, which no method filters.'},
   {title: 'Filter', text: 'filter', value: (r) => r.error?.filter,
    meaning: 'What the true distribution of normals is off by under the same footprint filter: the filter’s share.'},
-  {title: 'Method', text: 'method', value: (r) => r.error?.method,
+  {title: 'Own error', text: 'method', value: (r) => r.error?.method,
    meaning: 'What the method’s picture differs from that by: its own share.'},
   {title: 'Light', text: 'light', value: (r) => r.error?.light, only: () => records.some((r) => Number.isFinite(r.error?.light)),
    meaning: 'What the lookup of an environment by lobes costs.'},
@@ -50,7 +50,7 @@ const columns = [
   {title: 'Frame ms', text: 'frame', value: (r) => r.time.frame_ms.median, best: 'is_fastest',
    meaning: 'Time of one frame: median (least–90th percentile of the repeats).'},
   {title: '× direct', text: 'ratio', value: (r) => r.time.ratio_to_direct.median,
-   meaning: 'Frame time over that of direct beside it: median (least–most); about 1 where that spread covers it.'},
+   meaning: 'Frame time over that of direct under trilinear lookups: median, and the 95% interval of that median.'},
   {title: 'fps', text: 'fps', value: (r) => r.time.fps, meaning: 'Frames a second at the median frame time.'},
   {title: 'Fetches', text: 'fetches', value: (r) => r.time.fetches, meaning: 'Texture lookups a pixel, counted; – of methods whose frames take seconds.'},
   {title: 'Lobes', text: 'lobes', value: (r) => r.time.lobes, meaning: 'Lobes evaluated a pixel over all lights, counted likewise.'},
@@ -129,7 +129,7 @@ function count(number, noun) {
 function showHead() {
   byId('lede').textContent = `${count(methods.length, 'method')} at ${count(distances.length, 'distance')}` +
     `${runs.length > 1 ? ` in ${count(runs.length, 'member')} of a matrix, ${count(records.length, 'record')}` : ''}, held ` +
-    `against a reference of ${count(runs[0].results.reference.spp, 'sample')} a pixel.`;
+    `against a reference of ${count(Math.round(runs[0].results.reference.samples), 'sample')} per pixel.`;
   for (const {title, meaning} of columns) byId('meanings').append(element('dt', '', title), element('dd', '', meaning));
 }
 

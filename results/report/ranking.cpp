@@ -100,7 +100,6 @@ std::string price_text(const Record& record) {
   const TimeRatio& ratio = record.ratio_to_direct;
   if (!std::isfinite(ratio.median)) return fmt::format("takes {} ms a frame", three_figures(record.frame_ms.median));
   if (record.method == "direct") return "is direct itself";
-  if (is_about_one(ratio)) return "costs about what direct does";
   return fmt::format("costs {} times what direct does", ratio_text(ratio));
 }
 
@@ -204,12 +203,7 @@ std::optional<int> rank(const Record& record, const DistanceRecords& records) {
                  std::ranges::count_if(records, [&](const Record& other) { return is_better(other, record); }));
 }
 
-bool is_about_one(const TimeRatio& ratio) { return ratio.minimum <= 1.0 && ratio.maximum >= 1.0; }
-
-std::string ratio_text(const TimeRatio& ratio) {
-  if (!is_about_one(ratio)) return spread_text(ratio.median, ratio.minimum, ratio.maximum);  // n/a too
-  return fmt::format("about 1 ({}-{})", three_figures(ratio.minimum), three_figures(ratio.maximum));
-}
+std::string ratio_text(const TimeRatio& ratio) { return spread_text(ratio.median, ratio.low, ratio.high); }
 
 std::optional<std::string> linear_measures_warning(const ReferenceInfo& reference) {
   if (!reference.standard_error || *reference.standard_error <= converged_standard_error) return {};

@@ -28,10 +28,7 @@ using DistanceRecords = std::vector<std::reference_wrapper<const Record>>;
 /// may share one. None where it is not ranked.
 [[nodiscard]] std::optional<int> rank(const Record& record, const DistanceRecords& records);
 
-/// Whether the ratio's spread over the repeats covers 1: the method costs about what `direct` does.
-[[nodiscard]] bool is_about_one(const TimeRatio& ratio);
-
-/// "1.31 (1.25-1.40)", or "about 1 (0.95-1.08)".
+/// "1.31 (1.25-1.40)": the median, and the interval of the median.
 [[nodiscard]] std::string ratio_text(const TimeRatio& ratio);
 
 /// That measures of linear radiance rest on a few bright pixels, where the reference's standard error is as large as

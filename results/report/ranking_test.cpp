@@ -91,7 +91,7 @@ TEST(Ranking, NeedsTheNoise) {
 }
 
 TEST(RatioText, SaysAboutOneWhereTheSpreadCoversIt) {
-  EXPECT_EQ(ratio_text({1.02, 0.95, 1.08}), "about 1 (0.950-1.08)");
+  EXPECT_EQ(ratio_text({1.02, 0.95, 1.08}), "1.02 (0.950-1.08)");
   EXPECT_EQ(ratio_text({1.31, 1.25, 1.4}), "1.31 (1.25-1.40)");
   EXPECT_EQ(ratio_text({0.8, 0.7, 0.9}), "0.800 (0.700-0.900)");
   EXPECT_EQ(ratio_text({std::nan(""), std::nan(""), std::nan("")}), "n/a");
@@ -164,9 +164,10 @@ TEST(Findings, SayWhatTheCheapestOfTheBestCosts) {
                    "as the mean of 41 frames of direct."));
   results.records[0].ratio_to_direct = {1.02, 0.9, 1.1};
   results.records[0].equivalent = EquivalentSamples{64, CurveSide::above};
-  EXPECT_TRUE(says(said(results),
-                   "lean costs about what direct does, and is as close to the reference as the mean of "
-                   "more than 64 frames of direct."));
+  EXPECT_TRUE(
+      says(said(results),
+           "lean costs 1.02 (0.900-1.10) times what direct does, and is as close to the reference as the mean of "
+           "more than 64 frames of direct."));
   results.records[0].equivalent = EquivalentSamples{1, CurveSide::below};
   EXPECT_TRUE(says(said(results), "one frame of direct is closer"));
 }

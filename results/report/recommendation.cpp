@@ -55,10 +55,7 @@ std::string named(const Candidate& candidate) {
 
 std::string cost_text(const Candidate& candidate) {
   if (is_plain(candidate)) return "what direct costs";
-  const TimeRatio& cost = candidate.cost;
-  return is_about_one(cost) ? fmt::format("about what direct costs ({}-{} times)", three_figures(cost.minimum),
-                                          three_figures(cost.maximum))
-                            : fmt::format("{} times direct", ratio_text(cost));
+  return fmt::format("{} times direct", ratio_text(candidate.cost));
 }
 
 std::string figures_of(const Candidate& candidate) {
@@ -125,9 +122,7 @@ bool is_closer(const Candidate& a, const Candidate& b) {
 }
 
 bool cost_as_much(const Candidate& a, const Candidate& b) {
-  const auto within = [](double value, const TimeRatio& range) {
-    return value >= range.minimum && value <= range.maximum;
-  };
+  const auto within = [](double value, const TimeRatio& range) { return value >= range.low && value <= range.high; };
   return within(a.cost.median, b.cost) || within(b.cost.median, a.cost);
 }
 

@@ -23,8 +23,8 @@ Json candidate_json(const Candidate& candidate) {
           {"noise", json_number(candidate.noise)},
           {"cost",
            {{"median", json_number(candidate.cost.median)},
-            {"min", json_number(candidate.cost.minimum)},
-            {"max", json_number(candidate.cost.maximum)}}},
+            {"low", json_number(candidate.cost.low)},
+            {"high", json_number(candidate.cost.high)}}},
           {"bytes", candidate.bytes},
           {"bake_seconds", json_number(candidate.bake_seconds)}};
 }

@@ -120,10 +120,9 @@ class Labels {
 std::string dot_svg(const Candidate& candidate, bool is_front, bool is_chosen, const Axis& x, const Axis& y,
                     Labels& labels) {
   const double at_x = x.at(candidate.cost.median), at_y = y.at(candidate.error);
-  const double low = std::max(x.at(candidate.cost.minimum), x.from),
-               high = std::min(x.at(candidate.cost.maximum), x.to);
+  const double left = std::max(x.at(candidate.cost.low), x.from), right = std::min(x.at(candidate.cost.high), x.to);
   const std::string name = fmt::format("{} · {}", candidate.method, candidate.footprint);
-  std::string svg = line_between("spread", low, at_y, high, at_y);
+  std::string svg = line_between("spread", left, at_y, right, at_y);
   svg += fmt::format(R"(<circle class="{}" cx="{:.1f}" cy="{:.1f}" r="{}">)",
                      is_chosen  ? "chosen"
                      : is_front ? "on-front"

@@ -16,7 +16,7 @@ Candidate candidate(const std::string& method, double error, double cost, double
           .error = error,
           .worst = error,
           .noise = noise,
-          .cost = {.median = cost, .minimum = 0.95 * cost, .maximum = 1.05 * cost},
+          .cost = {.median = cost, .low = 0.95 * cost, .high = 1.05 * cost},
           .bytes = bytes,
           .bake_seconds = 0};
 }
@@ -67,7 +67,7 @@ TEST(Choice, OfErrorsWithinNoiseIsTheCheapest) {
 
 TEST(Choice, OfCostsWithinTheirSpreadIsTheBest) {
   std::vector<Candidate> candidates = front;
-  candidates[3].cost = {.median = 1.62, .minimum = 1.5, .maximum = 1.7};
+  candidates[3].cost = {.median = 1.62, .low = 1.5, .high = 1.7};
   EXPECT_EQ(chosen_of(candidates, {.max_error = 0.12, .max_cost = {}, .max_bytes = {}}), "lean");
 }
 

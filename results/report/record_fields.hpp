@@ -32,8 +32,8 @@ void fields(Archive& archive, FrameTime& value) {
 
 template <class Archive>
 void fields(Archive& archive, TimeRatio& value) {
-  auto& [median, minimum, maximum] = value;
-  archive(median, minimum, maximum);
+  auto& [median, low, high] = value;
+  archive(median, low, high);
 }
 
 template <class Archive>

@@ -50,9 +50,9 @@ struct FrameTime {
   double median = 0, minimum = 0, p90 = 0;  ///< milliseconds
 };
 
-/// frame time over `direct`'s, pair by pair.
+/// Frame time over `direct`'s, pair by pair: the median, and the 95% interval of that median (median_interval).
 struct TimeRatio {
-  double median = 0, minimum = 0, maximum = 0;
+  double median = 0, low = 0, high = 0;
 };
 
 /// What an error is made of: normalised colour errors over parts of the object's pixels; docs/metrics.md. None: no such

@@ -76,8 +76,8 @@ Json time_json(const Record& record) {
           {"lobes", record.work ? json_number(record.work->lobes) : Json(nullptr)},
           {"ratio_to_direct",
            {{"median", json_number(record.ratio_to_direct.median)},
-            {"min", json_number(record.ratio_to_direct.minimum)},
-            {"max", json_number(record.ratio_to_direct.maximum)}}}};
+            {"low", json_number(record.ratio_to_direct.low)},
+            {"high", json_number(record.ratio_to_direct.high)}}}};
 }
 
 Json record_json(const Record& record) {

@@ -287,7 +287,7 @@ Method: what the method's picture differs from that by. Light: what its lookup o
 all of that light. Repr.: the error of the method's finest level, supersampled. Worth spp: the frames of `direct`,
 averaged, that have the same shading error. % of pixels closer than: interior pixels in which the row's method is closer
 to the reference than the column's, by more than the reference's noise explains. Frame ms: median (least-90th
-percentile). x direct: frame time over that of `direct`, median (least-most); about 1 where that spread covers it.
+percentile). x direct: frame time over that of `direct`, median (95% interval of the median).
 Fetches, Lobes: texture lookups and lobes a pixel, counted.
 )";
 }

@@ -25,7 +25,7 @@ def file_of(footprint):
 
 
 def candidate(method, cost, error=0.05):
-    spread = {"median": cost, "min": 0.95 * cost, "max": 1.05 * cost}
+    spread = {"median": cost, "low": 0.95 * cost, "high": 1.05 * cost}
     return {"method": method, "footprint": "trilinear", "error": error, "worst": error, "noise": 0.001, "cost": spread}
 
 

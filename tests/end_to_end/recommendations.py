@@ -14,8 +14,8 @@ def find(candidates, wanted):
 def cost_as_much(a, b):
     """Whether one's median lies within the other's spread."""
     return (
-        b["cost"]["min"] <= a["cost"]["median"] <= b["cost"]["max"]
-        or a["cost"]["min"] <= b["cost"]["median"] <= a["cost"]["max"]
+        b["cost"]["low"] <= a["cost"]["median"] <= b["cost"]["high"]
+        or a["cost"]["low"] <= b["cost"]["median"] <= a["cost"]["high"]
     )
 
 

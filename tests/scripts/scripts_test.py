@@ -142,7 +142,7 @@ class CheckRecommendations(InFolder):
         self.choose("whole", 0)
 
     def choose(self, run, index):
-        costs = lambda median: {"min": 0.9 * median, "median": median, "max": 1.1 * median}
+        costs = lambda median: {"low": 0.9 * median, "median": median, "high": 1.1 * median}
         candidates = [{"method": "direct", "footprint": "trilinear", "error": 0.2, "noise": 0.001, "cost": costs(1.0)},
                       {"method": "lean", "footprint": "trilinear", "error": 0.1, "noise": 0.001, "cost": costs(3.0)}]
         advice = {"material": "stone", "candidates": candidates, "chosen": index, "nearest": None}
@@ -278,7 +278,7 @@ class AccuracyVsTime(InFolder):
                                            "cached": name != "trilinear"},
                             "flicker": {"mean": 0.1 * error, "noise_floor": 0.002} if member == "flicker" else None,
                             "time": {"frame_ms": {"median": 2.0 * time}, "fetches": 1.0, "lobes": 1.0,
-                                     "ratio_to_direct": {"median": time, "min": time, "max": time}}})
+                                     "ratio_to_direct": {"median": time, "low": time, "high": time}}})
         results = {"tool": {"version": "1"}, "backend": {"renderer": "r"}, "scene": {"materials": 1, "name": "disk"}, "reference": {"spp": 4},
                    "supersampling": [{"spp": 64, "distance": 3.0, "ms": 64.0, "shading": 0.3, "normalized_color": 0.3}],
                    "records": records}
@@ -334,7 +334,7 @@ class AccuracyVsTime(InFolder):
         folder = self.script.part_folder(self.folder, "trilinear", "accuracy_vs_time_cost")
         results = json.loads((folder / "results.json").read_text(encoding="utf-8"))
         for r in [r for r in results["records"] if r["method"] == "cells"]:
-            ratio = {"median": 9.0, "min": 3.0, "max": 10.0}
+            ratio = {"median": 9.0, "low": 3.0, "high": 10.0}
             results["records"].append({**r, "distance": 4.0, "time": {**r["time"], "ratio_to_direct": ratio}})
         (folder / "results.json").write_text(json.dumps(results), encoding="utf-8")
         self.assertIn("| `cells` | 6 (3 to 10), 0.05 ×/÷ 1.00 | 4 (4 to 4)", self.run_script().stdout)

@@ -113,8 +113,9 @@ struct ReferenceSettings {
 
 /// How frame times are taken.
 struct TimingSettings {
-  int repeats = 9;    ///< timed frames of each method and distance in each process
-  int processes = 1;  ///< one after the other
+  int repeats = 9;                      ///< timed frames of each method and distance in each process
+  int processes = 1;                    ///< one after the other
+  std::optional<FootprintFilter> unit;  ///< of the `direct` that ratios are taken to; none: that of the methods
 };
 
 /// Where a run is drawn.

@@ -32,15 +32,6 @@
 namespace footprint {
 namespace {
 
-// `direct` is what every ratio is taken to: it is staged first, also where it is not asked for, and looks its maps up
-// by one trilinear lookup whatever the footprint filter, so that ratios of several filters compare.
-constexpr FootprintFilter filter_of_the_unit{FootprintFilterKind::trilinear, 1};
-
-RunSettings with_direct(RunSettings settings) {
-  settings.methods.insert(settings.methods.begin(), {.text = "direct", .name = "direct", .options = {}});
-  return settings;
-}
-
 // Kept of each distance until the end: of each method the image and its error (a quarter as large). Beside them what is
 // worked on: most of all the strips of one distance, made of all its pictures in 5 steps.
 int pictures_held(std::size_t methods, std::size_t distances) {
@@ -118,8 +109,8 @@ class Comparison {
   const Stage& stage() {
     if (!stage_) {
       if (kept_ != nullptr) kept_->require_more_allowed(settings_.scene);
-      stage_ = std::make_unique<Stage>(std::move(scene_), with_direct(settings_), stage_progress_, pictures_of_a_frame,
-                                       filter_of_the_unit, Refusal::keeps_a_row);
+      stage_ = std::make_unique<Stage>(std::move(scene_), settings_, stage_progress_, pictures_of_a_frame, Unit::direct,
+                                       Refusal::keeps_a_row);
       measurer_.emplace(*stage_);
     }
     return *stage_;
@@ -135,7 +126,7 @@ class Comparison {
     return *finder_;
   }
 
-  const StagedMethod& method(std::size_t index) { return stage().methods()[index + 1]; }
+  const StagedMethod& method(std::size_t index) { return stage().methods()[index]; }
 
   float choose(const Image& first_reference) {
     exposure_ = choose_exposure(settings_.view.exposure, scene(), first_reference);
@@ -327,7 +318,7 @@ class Comparison {
 
   KeptTimes take_times(std::size_t i) {
     if (!further_known_) further_known_ = *further_ ? (*further_)() : std::vector<FrameTimes>{};
-    KeptTimes times{.processes = {}, .builds = build_timings(stage()), .node = host_name()};
+    KeptTimes times{.processes = {}, .builds = build_timings(stage()), .unit = stage().unit(), .node = host_name()};
     for (const FrameTimes& process : *further_known_) times.processes.push_back(process.at(i));
     times.processes.push_back(time_distance(distances_[i]));
     return times;
@@ -347,7 +338,7 @@ class Comparison {
       draft->record.node = work.times->node;
       records.emplace_back(draft->record);
     }
-    set_times(records, work.times->builds, work.times->processes);
+    set_times(records, work.times->builds, work.times->processes, work.times->unit);
     for (const Record& record : records) {
       if (record.failure)
         results_.scene.warnings.push_back(
@@ -355,11 +346,13 @@ class Comparison {
     }
     for (std::optional<Draft>& draft : work.drafts) drafts_.push_back(std::move(*draft));
     std::ranges::move(*work.pairs, std::back_inserter(results_.pairs));
-    if (i == 0) results_.reference.standard_error = work.truth->standard_error;
+    results_.reference.standard_errors.push_back(work.truth->standard_error);
     results_.reference.samples += work.truth->samples;
     results_.reference.seconds += work.truth->seconds;
     std::ranges::move(work.truth->curve, std::back_inserter(results_.supersampling));
     std::ranges::move(work.truth->warnings, std::back_inserter(results_.scene.warnings));
+    if (auto warning = linear_measures_warning(distances_[i], work.truth->standard_error))
+      results_.scene.warnings.push_back(std::move(*warning));
     processes_ = static_cast<int>(work.times->processes.size());
   }
 
@@ -414,8 +407,6 @@ class Comparison {
     results.scene.exposure = exposure_->factor;
     results.scene.exposure_source = word_for(exposure_sources, exposure_->source);
     std::ranges::move(notes, std::back_inserter(results.scene.warnings));
-    if (auto warning = linear_measures_warning(results.reference))
-      results.scene.warnings.push_back(std::move(*warning));
     std::ranges::move(said.last_warnings, std::back_inserter(results.scene.warnings));
   }
 

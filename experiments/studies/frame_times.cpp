@@ -19,19 +19,24 @@ std::vector<double> pooled(std::span<const DistanceTimes> processes, std::size_t
   return times;
 }
 
-void set_frame_times(Record& record, const std::vector<double>& times, const std::vector<double>& direct) {
-  const std::vector<double> ratios = paired_ratios(times, direct);
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr TimeRatio unknown_ratio{unknown, unknown, unknown};
+
+TimeRatio ratio_between(const std::vector<double>& times, const std::vector<double>& unit) {
+  const std::vector<double> ratios = paired_ratios(times, unit);
+  const auto [low, high] = median_interval(ratios);
+  return {.median = quantile(ratios, 0.5), .low = low, .high = high};
+}
+
+void set_frame_times(Record& record, const std::vector<double>& times) {
   record.frame_ms = {.median = quantile(times, 0.5), .minimum = std::ranges::min(times), .p90 = quantile(times, 0.9)};
   record.fps = 1000.0 / record.frame_ms.median;
-  const auto [low, high] = median_interval(ratios);
-  record.ratio_to_direct = {.median = quantile(ratios, 0.5), .low = low, .high = high};
 }
 
 void set_no_times(Record& record) {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   record.frame_ms = {unknown, unknown, unknown};
   record.fps = unknown;
-  record.ratio_to_direct = {unknown, unknown, unknown};
+  record.ratio_to_direct = unknown_ratio;
 }
 
 }  // namespace
@@ -52,7 +57,7 @@ DistanceTimes time_methods(const Stage& stage, const View& view, int repeats, co
 
 std::vector<std::optional<BuildTiming>> build_timings(const Stage& stage) {
   std::vector<std::optional<BuildTiming>> builds;
-  for (const StagedMethod& staged : std::span(stage.methods()).subspan(1)) {
+  for (const StagedMethod& staged : stage.methods()) {
     builds.emplace_back();
     if (staged.refusal()) continue;
     const GpuMethod& gpu = staged.gpu();
@@ -62,9 +67,11 @@ std::vector<std::optional<BuildTiming>> build_timings(const Stage& stage) {
 }
 
 void set_times(std::span<const std::reference_wrapper<Record>> records,
-               std::span<const std::optional<BuildTiming>> builds, std::span<const DistanceTimes> processes) {
-  const std::vector<double> direct = pooled(processes, 0);
-  std::size_t build = records.size() + 1;  // the candidate that is the next method's frame build
+               std::span<const std::optional<BuildTiming>> builds, std::span<const DistanceTimes> processes,
+               std::size_t unit) {
+  const bool has_unit = unit >= records.size() || !records[unit].get().failure;
+  const std::vector<double> unit_times = pooled(processes, unit);
+  std::size_t build = builds.size();  // the candidate that is the next method's frame build
   for (std::size_t m = 0; m < records.size(); ++m) {
     Record& record = records[m];
     const std::size_t own_build = builds[m] ? build++ : 0;
@@ -72,7 +79,9 @@ void set_times(std::span<const std::reference_wrapper<Record>> records,
       set_no_times(record);
       continue;
     }
-    set_frame_times(record, pooled(processes, m + 1), direct);
+    const std::vector<double> times = pooled(processes, m);
+    set_frame_times(record, times);
+    record.ratio_to_direct = has_unit ? ratio_between(times, unit_times) : unknown_ratio;
     if (builds[m])
       record.frame_build = FrameBuildTime{.ms = quantile(pooled(processes, own_build), 0.5), .timing = *builds[m]};
   }

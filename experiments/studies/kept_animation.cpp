@@ -113,10 +113,10 @@ Animation joined_animation(const KeptWork& kept, const std::string& head, const 
                       .frames = {},
                       .records = {}};
   for (auto& [number, frame] : frames) {
+    animation.reference.standard_errors.push_back(frame.frame.standard_error);
     animation.frames.push_back(std::move(frame.frame));
     std::ranges::move(frame.records, std::back_inserter(animation.records));
   }
-  animation.reference.standard_error = animation.frames.front().standard_error;
   add_noise_warning(animation);
   return animation;
 }

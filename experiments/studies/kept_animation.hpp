@@ -32,8 +32,8 @@ struct KeptFrame {
 
 template <class Archive>
 void fields(Archive& archive, ReferenceInfo& value) {
-  auto& [spp, filter, seed, standard_error, environment, samples, seconds] = value;
-  archive(spp, filter, seed, standard_error, environment, samples, seconds);
+  auto& [spp, filter, seed, standard_errors, environment, samples, seconds] = value;
+  archive(spp, filter, seed, standard_errors, environment, samples, seconds);
 }
 
 template <class Archive>

@@ -30,6 +30,11 @@ std::string scene_content(const RunSettings& settings, const Scene& scene) {
   return hash.hex();
 }
 
+// Empty: that of the methods.
+std::string unit_text(const RunSettings& settings) {
+  return settings.timing.unit ? footprint_filter_text(*settings.timing.unit) : "";
+}
+
 // Everything that errors are measured against, but for the distance. An automatic exposure is that of the first one.
 std::string reference_content(const RunSettings& settings, const Scene& scene, double first_distance) {
   const auto& [spp, by_noise, fixed_spp, noise, spp_max, other_spp, supersampling, seed, filter, environment, bound,
@@ -38,6 +43,7 @@ std::string reference_content(const RunSettings& settings, const Scene& scene, d
   const bool adapts = by_noise && !fixed_spp;
   hash.add(fmt::format("{} {} {} {}", spp, adapts, noise ? number(*noise) : "auto", spp_max));
   hash.add(fmt::format("{} / {}", fmt::join(other_spp, " "), fmt::join(supersampling, " ")));
+  hash.add(unit_text(settings));
   hash.add(fmt::format("{} {} {} {} {}", seed, static_cast<int>(filter), static_cast<int>(environment),
                        static_cast<int>(bound), finest_levels));
   if (adapts && !noise) {
@@ -81,7 +87,7 @@ std::string ComparisonKeys::pairs(std::size_t distance) const {
 
 std::string ComparisonKeys::times(std::size_t distance) const {
   return work_->key("times",
-                    with_methods({scene_, number(distances_[distance]),
+                    with_methods({scene_, number(distances_[distance]), unit_text(*settings_),
                                   fmt::format("{} {}", settings_->timing.repeats, settings_->timing.processes)}));
 }
 

@@ -38,6 +38,7 @@ struct KeptRecord {
 struct KeptTimes {
   std::vector<DistanceTimes> processes;
   std::vector<std::optional<BuildTiming>> builds;  ///< of each method; none: it rebuilds nothing
+  std::size_t unit = 0;                            ///< the method that ratios are to
   std::string node;                                ///< that they were taken on
 };
 
@@ -76,8 +77,8 @@ void fields(Archive& archive, KeptRecord& value) {
 
 template <class Archive>
 void fields(Archive& archive, KeptTimes& value) {
-  auto& [processes, builds, node] = value;
-  archive(processes, builds, node);
+  auto& [processes, builds, unit, node] = value;
+  archive(processes, builds, unit, node);
 }
 
 template <class Archive>

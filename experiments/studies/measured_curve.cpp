@@ -40,7 +40,7 @@ double timing_weight(std::span<const int> counts) {
 // Median milliseconds by the count of frames.
 std::map<int, double> measured_ms(const Stage& stage, const View& view, std::span<const int> counts,
                                   std::span<const glm::dvec2> offsets, const Progress& progress) {
-  const FrameRenderer& direct = stage.methods().front().frames();
+  const FrameRenderer& direct = stage.methods()[stage.unit()].frames();
   std::map<int, double> ms;
   for (const int spp : timed_counts(counts)) {
     const DrawFrame draw = [&] {
@@ -56,7 +56,7 @@ int most_frames(std::span<const int> counts) { return counts.empty() ? 0 : std::
 // The means of the first so many frames, for each count: one pass over the longest.
 std::map<int, Image> pictures_of(const Stage& stage, const View& view, std::span<const int> counts,
                                  std::span<const glm::dvec2> offsets, const Progress& progress) {
-  const FrameRenderer& direct = stage.methods().front().frames();
+  const FrameRenderer& direct = stage.methods()[stage.unit()].frames();
   std::map<int, Image> pictures;
   FrameMean mean(view.size);
   for (const glm::dvec2& offset : offsets) {
@@ -72,7 +72,7 @@ std::map<int, Image> pictures_of(const Stage& stage, const View& view, std::span
 
 std::vector<SupersamplingPoint> measured_curve(const Stage& stage, const ReferenceSettings& settings, double distance,
                                                const ErrorTarget& target, ProgressParts& progress) {
-  if (settings.supersampling.empty()) return {};
+  if (settings.supersampling.empty() || stage.methods()[stage.unit()].refusal()) return {};
   const View view = stage.view(distance);
   const std::string prefix = fmt::format("distance {:g}: ", distance);
   const std::span<const int> counts = settings.supersampling;

@@ -77,6 +77,8 @@ Record MethodMeasurer::measure(const StagedMethod& method, const MethodPictures&
                                float exposure) {
   Record record = described(method, truth);
   set_error(record, truth, pictures, exposure);
+  if (record.equivalent && &method == &stage_.methods()[stage_.unit()])
+    record.equivalent = EquivalentSamples{.spp = 1, .side = CurveSide::within};  // a sample is one of its frames
   set_light_error(record, truth, pictures.frame, method, exposure);
   set_material_errors(record, truth, pictures.frame, method, exposure);
   name_reference(record, truth);

@@ -123,6 +123,7 @@ RunSettings settings_of(const RecommendSettings& settings, const FootprintFilter
   RunSettings run = settings.run;
   run.methods = std::move(methods);
   run.footprint = filter;
+  run.timing.unit = plain_filter;
   run.by_material = true;
   run.reference.bound = BoundUse::off;
   run.reference.supersampling = {1};

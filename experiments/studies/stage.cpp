@@ -53,6 +53,31 @@ void require_maps(const MemoryEstimate& estimate) {
                  "compare fewer methods at once, use smaller textures, or free memory");
 }
 
+// A method that is to be staged.
+struct WantedMethod {
+  MethodSpec spec;
+  FootprintFilter filter;
+};
+
+std::vector<WantedMethod> wanted_methods(const RunSettings& settings, const FootprintFilter& filter) {
+  std::vector<WantedMethod> wanted;
+  for (const MethodSpec& spec : settings.methods) wanted.push_back({.spec = spec, .filter = filter});
+  return wanted;
+}
+
+// Of `direct` under the filter of the unit, added where it is not there yet. `direct:option=...` is another method.
+std::size_t place_of_unit(const RunSettings& settings, std::vector<WantedMethod>& wanted, const FootprintFilter& own) {
+  const FootprintFilter filter = settings.timing.unit.value_or(own);
+  const auto is_unit = [&](const WantedMethod& method) {
+    return method.spec.text == "direct" && method.filter == filter;
+  };
+  const auto found = std::ranges::find_if(wanted, is_unit);
+  const auto place = static_cast<std::size_t>(found - wanted.begin());
+  if (found == wanted.end())
+    wanted.push_back({.spec = {.text = "direct", .name = "direct", .options = {}}, .filter = filter});
+  return place;
+}
+
 // Whether the context is lost.
 bool clear_errors(const gl::Context& context) {
   const std::vector<std::string> errors = context.take_debug_errors();
@@ -129,8 +154,8 @@ StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& scene, cons
       settings.backend.tile);
 }
 
-Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress, int pictures,
-             const std::optional<FootprintFilter>& first_filter, Refusal refusal)
+Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress, int pictures, Unit unit,
+             Refusal refusal)
     : context_(settings.backend.context),
       scene_(std::move(scene)),
       settings_(settings),
@@ -138,26 +163,30 @@ Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress,
       decisions_(derive_effects(scene_)),
       effects_(effects_on(decisions_) & ~settings.without) {
   require_pictures(size_, pictures);
-  const MemoryEstimate memory = estimate_memory(scene_, effects_, normal_memory_of(settings.methods, effects_));
+  const FootprintFilter filter = footprint_filter_of(settings, scene_);
+  std::vector<WantedMethod> wanted = wanted_methods(settings, filter);
+  if (unit == Unit::direct) unit_ = place_of_unit(settings, wanted, filter);
+  std::vector<MethodSpec> specs;
+  for (const WantedMethod& method : wanted) specs.push_back(method.spec);
+  const MemoryEstimate memory = estimate_memory(scene_, effects_, normal_memory_of(specs, effects_));
   require_maps(memory);
   scene_ = refined_for_visibility(std::move(scene_), effects_);
   const std::optional<DiskCache> cache = cache_of(settings);
-  const auto bakes = static_cast<double>(settings.methods.size() + 1);
+  const auto bakes = static_cast<double>(wanted.size() + 1);
   const double upload = hides_environment(effects_) ? bakes : 1.0;  // visibility takes as long as all bakes, or longer
   ProgressParts parts(progress, upload + bakes);
   gpu_scene_ =
       std::make_unique<GpuScene>(context_.info(), scene_, effects_, parts.next(upload, ""), cache ? &*cache : nullptr);
-  const FootprintFilter all = footprint_filter_of(settings, scene_);
-  std::vector<std::optional<StagedMethod>> staged(settings.methods.size());
+  std::vector<std::optional<StagedMethod>> staged(wanted.size());
   for (const std::size_t i : memory.bake_order()) {
-    const MethodSpec& spec = settings.methods[i];
-    const auto failure = failure_of(context_, spec, [&] {
-      staged[i].emplace(context_.info(), *gpu_scene_, scene_, effects_, spec, i == 0 ? first_filter.value_or(all) : all,
-                        size_, settings, parts.next(1, "bake "));
+    const WantedMethod& method = wanted[i];
+    const auto failure = failure_of(context_, method.spec, [&] {
+      staged[i].emplace(context_.info(), *gpu_scene_, scene_, effects_, method.spec, method.filter, size_, settings,
+                        parts.next(1, "bake "));
     });
     if (!failure) continue;
-    if (i == 0 || refusal == Refusal::ends_the_run) throw *failure;
-    staged[i].emplace(spec, *failure);
+    if (i >= settings.methods.size() || refusal == Refusal::ends_the_run) throw *failure;
+    staged[i].emplace(method.spec, *failure);
   }
   for (std::optional<StagedMethod>& method : staged) methods_.push_back(*std::move(method));
   std::tie(base_, gpu_base_) =

@@ -34,6 +34,12 @@ enum class Refusal {
   keeps_a_row    ///< the method is staged without maps or frames, and says why (StagedMethod::refusal)
 };
 
+/// Whether the stage has `direct` as the unit that frame times and samples are counted in.
+enum class Unit {
+  none,
+  direct  ///< the settings' own `direct`, or one more where they have none under the filter of TimingSettings::unit
+};
+
 /// The error of `action`, with its place within the method; none where it succeeds. GL errors that it leaves are
 /// cleared. Errors: an interrupt, or a lost context, after which nothing else draws.
 [[nodiscard]] std::optional<Error> failure_of(const gl::Context& context, const MethodSpec& method,
@@ -77,18 +83,21 @@ class StagedMethod {
 /// order that takes the least memory.
 class Stage {
  public:
-  /// The settings' methods over `scene`, which need not be the settings' own. `pictures` as large as the frame are held
-  /// at once. `first_filter` is the footprint filter of the first method alone; none: that of all. `refusal` is about
-  /// every method but the first. Errors of the parts: usage (scene, method, option), machine (no GL, limits, memory).
+  /// The settings' methods over `scene`, which need not be the settings' own. `pictures` as large as the frame are in
+  /// memory at once. `refusal` is about every method but a unit that the settings do not have themselves.
+  /// Errors of the parts: usage (scene, method, option), machine (no GL, limits, memory).
   Stage(Scene scene, const RunSettings& settings, const Progress& progress, int pictures = pictures_of_a_frame,
-        const std::optional<FootprintFilter>& first_filter = {}, Refusal refusal = Refusal::ends_the_run);
+        Unit unit = Unit::none, Refusal refusal = Refusal::ends_the_run);
 
   [[nodiscard]] const gl::Context& context() const { return context_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const std::vector<EffectDecision>& decisions() const { return decisions_; }
   [[nodiscard]] const EffectSet& effects() const { return effects_; }
   [[nodiscard]] const GpuScene& gpu_scene() const { return *gpu_scene_; }
+  /// In the order of the settings; last a unit that they do not have themselves.
   [[nodiscard]] const std::vector<StagedMethod>& methods() const { return methods_; }
+  /// The place of the unit among them. Only of a stage that has one.
+  [[nodiscard]] std::size_t unit() const { return unit_.value(); }
   [[nodiscard]] const Supersampler& reference() const { return *reference_; }
   [[nodiscard]] View view(double distance) const;
 
@@ -121,6 +130,7 @@ class Stage {
   EffectSet effects_;
   std::unique_ptr<GpuScene> gpu_scene_;
   std::vector<StagedMethod> methods_;
+  std::optional<std::size_t> unit_;
   std::unique_ptr<BakedMethod> base_;
   std::unique_ptr<GpuMethod> gpu_base_;
   std::unique_ptr<Supersampler> reference_;

@@ -185,7 +185,7 @@ double TruthFinder::noise_that_tells_apart(const Supersampled& reference, const 
   Supersampled counted = reference;
   leave_out(counted, unresolved(counted, exposure_));
   std::vector<double> errors;
-  for (const StagedMethod& method : std::span(stage_.methods()).subspan(1)) {
+  for (const StagedMethod& method : std::span(stage_.methods()).first(settings_.methods.size())) {
     if (method.refusal()) continue;
     const auto add = [&] {
       if (const auto error = normalized_color(method.frames().render(view), counted.mean, exposure_))

@@ -32,7 +32,7 @@ Animation example_animation() {
   animation.scene.name = "plane";
   animation.scene.source = "plane";
   animation.scene.exposure_source = "scene";
-  animation.reference = {.spp = 16, .filter = "after_shading", .seed = 1, .standard_error = {}};
+  animation.reference = {.spp = 16, .filter = "after_shading", .seed = 1, .standard_errors = {0.02, 0.02, 0.02}};
   animation.footprint = "anisotropic:8";
   animation.way = {.path = "orbit", .axis = std::array{0.0, 1.0, 0.0}};
   animation.width = 64;

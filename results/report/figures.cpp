@@ -23,7 +23,14 @@ std::string reference_text(const ReferenceInfo& reference) {
         fmt::format(" to begin with, {} on average where the noise asked for more", three_figures(reference.samples));
   text += fmt::format(", {} s, filter {}, seed {}", three_figures(reference.seconds), reference.filter, reference.seed);
   if (!reference.environment.empty()) text += fmt::format(", environment {}", reference.environment);
-  if (reference.standard_error) text += fmt::format(", standard error {}", error_text(*reference.standard_error));
+  std::vector<double> known;
+  for (const std::optional<double>& error : reference.standard_errors) {
+    if (error) known.push_back(*error);
+  }
+  if (!known.empty()) {
+    const auto [least, most] = std::ranges::minmax(known);
+    text += fmt::format(", standard error {}", range_text(least, most));
+  }
   return text;
 }
 
@@ -39,6 +46,11 @@ std::string scene_text(const SceneInfo& scene) {
 }
 
 }  // namespace
+
+std::string range_text(double low, double high) {
+  const std::string a = error_text(low), b = error_text(high);
+  return a == b ? a : fmt::format("{} to {}", a, b);
+}
 
 std::string error_text(double error) {
   if (!std::isfinite(error)) return "n/a";

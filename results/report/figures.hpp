@@ -17,6 +17,9 @@ namespace footprint {
 /// The same of an error that there may not be: "n/a" without one.
 [[nodiscard]] std::string error_text(const std::optional<double>& error);
 
+/// "0.01200 to 0.03400", or one of them where both read alike.
+[[nodiscard]] std::string range_text(double low, double high);
+
 /// Three figures, never an exponent up to a million: "0.0123", "1.31", "41.2", "1234".
 [[nodiscard]] std::string three_figures(double value);
 

@@ -50,7 +50,7 @@ const columns = [
   {title: 'Frame ms', text: 'frame', value: (r) => r.time.frame_ms.median, best: 'is_fastest',
    meaning: 'Time of one frame: median (least–90th percentile of the repeats).'},
   {title: '× direct', text: 'ratio', value: (r) => r.time.ratio_to_direct.median,
-   meaning: 'Frame time over that of direct under trilinear lookups: median, and the 95% interval of that median.'},
+   meaning: 'Frame time over that of direct under the same footprint filter: median, and the 95% interval of that median.'},
   {title: 'fps', text: 'fps', value: (r) => r.time.fps, meaning: 'Frames a second at the median frame time.'},
   {title: 'Fetches', text: 'fetches', value: (r) => r.time.fetches, meaning: 'Texture lookups a pixel, counted; – of methods whose frames take seconds.'},
   {title: 'Lobes', text: 'lobes', value: (r) => r.time.lobes, meaning: 'Lobes evaluated a pixel over all lights, counted likewise.'},

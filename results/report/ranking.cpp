@@ -23,11 +23,6 @@ std::string enumerated(const std::vector<std::string>& parts) {
   return fmt::format("{} and {}", fmt::join(parts.begin(), parts.end() - 1, ", "), parts.back());
 }
 
-std::string range_text(double low, double high) {
-  const std::string a = error_text(low), b = error_text(high);
-  return a == b ? a : fmt::format("{} to {}", a, b);
-}
-
 // The standard error of the difference of two records' errors. Both are against one reference, so that their noise is
 // alike and the true one is less.
 std::optional<double> difference_noise(const Record& a, const Record& b) {
@@ -205,12 +200,12 @@ std::optional<int> rank(const Record& record, const DistanceRecords& records) {
 
 std::string ratio_text(const TimeRatio& ratio) { return spread_text(ratio.median, ratio.low, ratio.high); }
 
-std::optional<std::string> linear_measures_warning(const ReferenceInfo& reference) {
-  if (!reference.standard_error || *reference.standard_error <= converged_standard_error) return {};
+std::optional<std::string> linear_measures_warning(double distance, const std::optional<double>& standard_error) {
+  if (!standard_error || *standard_error <= converged_standard_error) return {};
   return fmt::format(
-      "measures of linear radiance (relative RMSE, relMSE, energy bias) rest on a few very bright pixels: the "
-      "reference's standard error is {:.2g} of the mean radiance",
-      *reference.standard_error);
+      "distance {:g}: measures of linear radiance (relative RMSE, relMSE, energy bias) rest on a few very bright "
+      "pixels: the reference's standard error is {:.2g} of the mean radiance",
+      distance, *standard_error);
 }
 
 bool is_mostly_noise(double least_error, const std::optional<double>& noise_floor) {

@@ -31,9 +31,10 @@ using DistanceRecords = std::vector<std::reference_wrapper<const Record>>;
 /// "1.31 (1.25-1.40)": the median, and the interval of the median.
 [[nodiscard]] std::string ratio_text(const TimeRatio& ratio);
 
-/// That measures of linear radiance rest on a few bright pixels, where the reference's standard error is as large as
-/// that. Errors of clamped values, which methods are ranked by, do not.
-[[nodiscard]] std::optional<std::string> linear_measures_warning(const ReferenceInfo& reference);
+/// That measures of linear radiance rest on a few bright pixels at a distance, where the reference's standard error
+/// there (over mean radiance) is as large as that. Errors of clamped values, which methods are ranked by, do not.
+[[nodiscard]] std::optional<std::string> linear_measures_warning(double distance,
+                                                                 const std::optional<double>& standard_error);
 
 /// Whether the reference's noise floor is more than half of the least error measured against it.
 [[nodiscard]] bool is_mostly_noise(double least_error, const std::optional<double>& noise_floor);

@@ -133,11 +133,13 @@ TEST(RankingWarnings, TellAReferenceThatHasNotConverged) {
 // A few mirrors under small lights hold most of the radiance; what is clamped for display knows nothing of them.
 TEST(RankingWarnings, LeaveVeryBrightPixelsToMeasuresOfLinearRadiance) {
   Results results = run_of({method("a", 0.02), method("b", 0.04)});
-  results.reference.standard_error = 11;
+  results.reference.standard_errors = {11.0};
   EXPECT_EQ(warned(results), "");
-  EXPECT_TRUE(says(linear_measures_warning(results.reference).value(), "standard error is 11 of the mean radiance"));
-  results.reference.standard_error = 0.4;
-  EXPECT_FALSE(linear_measures_warning(results.reference).has_value());
+  const std::string warning = linear_measures_warning(4, 11.0).value();
+  EXPECT_TRUE(says(warning, "distance 4: measures of linear radiance"));
+  EXPECT_TRUE(says(warning, "standard error is 11 of the mean radiance"));
+  EXPECT_FALSE(linear_measures_warning(4, 0.4).has_value());
+  EXPECT_FALSE(linear_measures_warning(4, {}).has_value());
 }
 
 TEST(Findings, NameTheBestAndThoseThatAreWorse) {

@@ -227,8 +227,8 @@ struct ReferenceInfo {
   int spp = 0;
   std::string filter;  ///< after_shading, nearest, bilinear
   std::uint64_t seed = 0;
-  std::optional<double>
-      standard_error;  ///< root mean square of the per-pixel standard error over mean radiance, first distance
+  /// At each distance or frame: root mean square of the per-pixel standard error over mean radiance; none: unknown.
+  std::vector<std::optional<double>> standard_errors = {};
   std::string environment = {};  ///< sampled or dense; empty without one
   double samples = 0;  ///< mean samples a pixel over all distances: `spp`, and more where the noise asked for it
   double seconds = 0;  ///< that its pictures took, all distances together

@@ -172,10 +172,12 @@ Json scene_json(const SceneInfo& scene) {
 }
 
 Json reference_json(const ReferenceInfo& reference) {
+  Json standard_errors = Json::array();
+  for (const std::optional<double>& error : reference.standard_errors) standard_errors.push_back(json_number(error));
   return {{"spp", reference.spp},
           {"filter", reference.filter},
           {"seed", reference.seed},
-          {"standard_error", json_number(reference.standard_error)},
+          {"standard_errors", std::move(standard_errors)},
           {"samples", json_number(reference.samples)},
           {"seconds", json_number(reference.seconds)},
           {"environment", reference.environment.empty() ? Json(nullptr) : Json(reference.environment)}};

@@ -19,7 +19,7 @@ TEST(ResultsJson, HasThePublishedFields) {
                             "/scene/exposure",
                             "/reference/spp",
                             "/reference/filter",
-                            "/reference/standard_error",
+                            "/reference/standard_errors/0",
                             "/reference/samples",
                             "/reference/seconds",
                             "/footprint",
@@ -128,7 +128,7 @@ TEST(ResultsJson, WhatIsAbsentOrNotFiniteIsNull) {
   const Results results = hostile_results();
   const json document = json::parse(results_json(results));
   for (const char* place :
-       {"/reference/standard_error", "/records/2/error", "/records/2/equivalent_spp", "/records/3/error/psnr",
+       {"/reference/standard_errors/0", "/records/2/error", "/records/2/equivalent_spp", "/records/3/error/psnr",
         "/records/3/error/relmse", "/records/3/error/energy_bias", "/records/3/error/noise_floor",
         "/records/3/time/ratio_to_direct/median", "/records/5/flicker/noise_floor", "/records/0/flicker",
         "/supersampling/3/normalized_color", "/experiment/thresholds/2/measured"}) {

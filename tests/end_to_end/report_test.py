@@ -133,6 +133,23 @@ class Report(WholeRunTest):
                 self.assertAlmostEqual(point["normalized_color"], self.error("direct", point["distance"]), 9)
                 self.assertAlmostEqual(point["shading"], self.error("direct", point["distance"], "shading"), 9)
 
+    def test_direct_is_the_unit_of_time_and_of_samples(self):
+        for distance in (NEAR, FAR):
+            direct = self.records["direct", distance]
+            self.assertEqual(direct["time"]["ratio_to_direct"], {"median": 1.0, "low": 1.0, "high": 1.0})
+            self.assertEqual(direct["equivalent_spp"], 1.0)
+
+    def test_the_unit_is_of_the_footprint_filter_that_is_named(self):
+        settings = ["carved_disk", "--methods", "direct", "--size", "64x64", "--spp", "4", "--distance", "2"]
+        for unit, is_own in {"trilinear": False, "anisotropic:8": True}.items():
+            (record,) = results_of(self.compare(unit[:3], *settings, "--time-unit", unit))["records"]
+            self.assertEqual(record["time"]["ratio_to_direct"]["median"] == 1.0, is_own)
+
+    def test_each_distance_has_its_standard_error(self):
+        errors = self.results["reference"]["standard_errors"]
+        self.assertEqual(len(errors), 2)
+        self.assertEqual(len(set(errors)), len(errors), "each reference has its own")
+
     def test_times_add_up(self):
         for record in self.records.values():
             time = record["time"]
@@ -143,7 +160,7 @@ class Report(WholeRunTest):
 
     def test_one_sample_has_no_noise_floor(self):
         one = results_of(self.compare("one", "ribbed_plane", "--size", "16x16", "--spp", "1", "--distance", "1"))
-        self.assertIsNone(one["reference"]["standard_error"])
+        self.assertEqual(one["reference"]["standard_errors"], [None])
         self.assertEqual([record["error"]["noise_floor"] for record in one["records"]], [None] * len(METHODS))
 
     def test_a_folder_that_is_used_again_keeps_no_image_of_the_earlier_run(self):

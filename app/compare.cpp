@@ -34,7 +34,7 @@ struct CompareArguments {
   RunOptions run;
   std::string output = "out";
   std::string timing_file;  // not empty: this is a process that only takes times
-  bool quiet = false;
+  bool quiet = false, verbose = false;
 };
 
 void add_options(CLI::App& command, CompareArguments& arguments) {
@@ -44,6 +44,8 @@ void add_options(CLI::App& command, CompareArguments& arguments) {
       ->capture_default_str();
   command.add_option(timing_file_option, arguments.timing_file)->group("");  // no part of the help
   add_quiet_flag(command, arguments.quiet);
+  command.add_flag("-v,--verbose", arguments.verbose,
+                   "Print every figure (table.md): errors by cause, pairs of methods, supersampling, precompute");
 }
 
 // Everything is written to a hidden folder and moved to its place at the end. The hidden folder has a page after the
@@ -78,7 +80,7 @@ void run_compare_command(const CompareArguments& arguments) {
     return compare_into(folder, settings, arguments.quiet, display.callback());
   });
   display.finish();
-  print_results(results, path);
+  print_results(results, path, arguments.verbose);
   if (const auto failed = row_failures(results)) throw *failed;
 }
 

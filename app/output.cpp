@@ -9,6 +9,7 @@
 #include "app/standard_output.hpp"
 #include "renderer/core/interrupt.hpp"
 #include "results/report/report.hpp"
+#include "results/report/results_summary.hpp"
 
 namespace footprint {
 
@@ -29,8 +30,10 @@ void keep(OutputFolder& folder) {
   folder.commit();
 }
 
-void print_results(const Results& results, const std::filesystem::path& folder) {
-  write_output(fmt::format("{}\npage: {}\n", results_table(results), (folder / "index.html").string()));
+void print_results(const Results& results, const std::filesystem::path& folder, bool verbose) {
+  write_output(verbose ? fmt::format("{}\npage: {}\n", results_table(results), (folder / "index.html").string())
+                       : fmt::format("{}\n  page: {}\n  every figure: {}\n", results_summary(results),
+                                     (folder / "index.html").string(), (folder / "table.md").string()));
 }
 
 std::optional<Error> row_failures(const Results& results) {

@@ -23,8 +23,8 @@ void sign(ToolInfo& tool, BackendInfo& backend);
 /// Moves the folder to its place. Errors (interrupted): where the run was interrupted, it is not moved.
 void keep(OutputFolder& folder);
 
-/// Prints the table of `results` and where their page lies, in `folder`.
-void print_results(const Results& results, const std::filesystem::path& folder);
+/// Prints the summary of `results`, or with `verbose` all of table.md, and the path of their page in `folder`.
+void print_results(const Results& results, const std::filesystem::path& folder, bool verbose = false);
 
 /// The error (check) that ends the program after a run in which rows failed, once everything else is written; none
 /// where no row failed.

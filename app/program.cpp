@@ -9,6 +9,7 @@
 #include <new>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "app/commands.hpp"
 #include "app/messages.hpp"
@@ -26,9 +27,9 @@ constexpr const char* program_description =
 
 constexpr const char* program_examples =
     "Examples:\n"
-    "  footprint compare model.gltf -o out          the error and fps table, pictures and a page\n"
+    "  footprint compare model.gltf -o out          error, cost and memory of each method, images and a page\n"
     "  footprint render model.gltf --method toksvig -o out.exr\n"
-    "  footprint check quick -o out                 an experiment with its claims held\n"
+    "  footprint check quick -o out                 an experiment, and whether its claims are met\n"
     "  footprint recommend model.gltf -o advice     which method to take for each material\n"
     "  footprint bake model.gltf --method lean -o maps\n"
     "  footprint score engine.exr --reference reference.exr    another renderer's picture\n"
@@ -37,30 +38,30 @@ constexpr const char* program_examples =
     "Exit codes: 0 fine, 1 a check fell short, 2 the command line or an input is wrong, 3 the machine cannot,\n"
     "130 interrupted.";
 
+// Subcommands under the heading of what they are for.
+void add_subcommands(CLI::App& app) {
+  const auto add = [&app](const std::string& heading, const std::vector<void (*)(CLI::App&)>& commands) {
+    const std::size_t before = app.get_subcommands({}).size();
+    for (const auto& command : commands) command(app);
+    const std::vector<CLI::App*> all = app.get_subcommands({});
+    for (std::size_t i = before; i < all.size(); ++i) all[i]->group(heading);
+  };
+  add("Compare", {add_compare_command, add_recommend_command, add_score_command, add_animate_command});
+  add("Look inside", {add_explain_command, add_ndf_command, add_render_command, add_edit_command});
+  add("Export", {add_bake_command, add_surface_command});
+  add("Reproduce and guard", {add_run_command, add_check_command, add_merge_command});
+  add("This program", {add_list_command, add_info_command, add_completions_command, add_manual_command});
+}
+
 void run_subcommand(int argc, const char* const* argv) {
   CLI::App app(program_description, "footprint");
   app.footer(program_examples);
   app.set_version_flag("--version", "footprint " FOOTPRINT_VERSION);
-  app.require_subcommand(1);
-  add_compare_command(app);
-  add_recommend_command(app);
-  add_render_command(app);
-  add_animate_command(app);
-  add_edit_command(app);
-  add_run_command(app);
-  add_check_command(app);
-  add_merge_command(app);
-  add_bake_command(app);
-  add_explain_command(app);
-  add_ndf_command(app);
-  add_score_command(app);
-  add_list_command(app);
-  add_surface_command(app);
-  add_info_command(app);
-  add_completions_command(app);
-  add_manual_command(app);
+  app.require_subcommand(0, 1);
+  add_subcommands(app);
   try {
     app.parse(argc, argv);
+    if (app.get_subcommands().empty()) write_output(app.help());
   } catch (const CLI::CallForHelp&) {
     write_output(app.help());  // of the subcommand, where one is named
   } catch (const CLI::CallForVersion& version) {

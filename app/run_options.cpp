@@ -24,8 +24,10 @@ std::string help_text(const Setting& setting) {
 
 const CLI::Option* add_option(CLI::App& command, const Setting& setting) {
   const std::string names(setting.option), help = help_text(setting);
-  if (setting.type.word.empty()) return command.add_flag(names, help);
+  const std::string group(setting.group);
+  if (setting.type.word.empty()) return command.add_flag(names, help)->group(group);
   CLI::Option* option = command.add_option(names, help)->type_name(setting.type.word)->required(setting.required);
+  if (names.starts_with('-')) option->group(group);
   return option->default_str(default_text(setting));
 }
 

@@ -36,6 +36,7 @@ struct Setting {
   std::string_view start{};      ///< value where none is given, as an option takes it; empty: RunSettings' own
   std::string_view otherwise{};  ///< what counts without a value, in words: "the scene's"
   bool required = false;
+  std::string_view group{};  ///< heading in the help
 };
 
 /// Every setting, in the order of the help and of the docs.

@@ -333,8 +333,14 @@ std::vector<Setting> how_it_runs() {
 std::span<const Setting> run_settings() {
   static const std::vector<Setting> settings = [] {
     std::vector<Setting> all;
-    for (const auto& part : {what_is_drawn(), what_is_seen(), what_errors_are_measured_against(), how_it_runs()})
+    const auto add = [&](std::string_view group, std::vector<Setting> part) {
+      for (Setting& setting : part) setting.group = group;
       all.insert(all.end(), part.begin(), part.end());
+    };
+    add("Scene and methods", what_is_drawn());
+    add("View", what_is_seen());
+    add("Reference", what_errors_are_measured_against());
+    add("Timing and OpenGL", how_it_runs());
     return all;
   }();
   return settings;

@@ -34,11 +34,6 @@ std::string reference_text(const ReferenceInfo& reference) {
   return text;
 }
 
-std::string timing_text(const TimingInfo& timing) {
-  return fmt::format("{} {} of each method in {}, in turn", timing.frames, timing.frames == 1 ? "frame" : "frames",
-                     timing.processes == 1 ? "one process" : fmt::format("each of {} processes", timing.processes));
-}
-
 std::string scene_text(const SceneInfo& scene) {
   return fmt::format("{} ({}, {}, {}) from {}", scene.name, plural(std::to_string(scene.triangles), "triangle"),
                      plural(std::to_string(scene.materials), "material"), plural(std::to_string(scene.lights), "light"),
@@ -46,6 +41,11 @@ std::string scene_text(const SceneInfo& scene) {
 }
 
 }  // namespace
+
+std::string timing_text(const TimingInfo& timing) {
+  return fmt::format("{} {} of each method in {}, in turn", timing.frames, timing.frames == 1 ? "frame" : "frames",
+                     timing.processes == 1 ? "one process" : fmt::format("each of {} processes", timing.processes));
+}
 
 std::string range_text(double low, double high) {
   const std::string a = error_text(low), b = error_text(high);

@@ -59,10 +59,11 @@ class Documents(unittest.TestCase):
                                  "CHANGELOG.md:1: version none, where CMakeLists.txt has 1.2.3"])
 
     def test_a_word_that_has_a_plainer_one_is_reported_with_it(self):
-        code, lines = self.told(**{"README.md": "A test\nholds 64 Samples a pixel.\n", "docs/page.md": "Likewise.\n"})
+        code, lines = self.told(**{"README.md": "A test\nholds 64 Samples a pixel.\n", "docs/page.md": "Likewise, lobes a\npixel.\n"})
         self.assertEqual(code, 1)
         self.assertEqual(lines, ["README.md:2: `holds`: better check, compare, contain, store, pass or fit",
-                                 "README.md:2: `Samples a pixel`: better per", "docs/page.md:1: `Likewise`: better also"])
+                                 "README.md:2: `Samples a pixel`: better per", "docs/page.md:1: `Likewise`: better also",
+                                 "docs/page.md:1: `lobes a pixel`: better per"])
 
     def test_words_of_strings_count_and_those_of_code_do_not(self):
         code, lines = self.told(**{"app/a.cpp": '// held\n#include "told.hpp"\nconst char* held = "bakes \\"anew\\"";\n',

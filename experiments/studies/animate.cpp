@@ -196,7 +196,7 @@ class Animator {
     (void)exposure();
     KeptAnimation head;
     head.backend = backend_info(drawing.stage.context().info());
-    head.scene = scene_info(drawing.stage.scene(), *exposure_);
+    head.scene = drawing.stage.info(*exposure_);
     head.scene.warnings.insert(head.scene.warnings.end(), drawing.warnings.begin(), drawing.warnings.end());
     const ReferenceSettings& reference = settings_.reference;
     head.reference.spp = reference.spp;

@@ -414,7 +414,7 @@ class Comparison {
     const std::string key = keys_ ? keys_->head() : "";
     if (auto known = keys_ ? kept_->find<KeptHead>(key, folder_) : std::nullopt) return std::move(*known);
     KeptHead head{.backend = backend_info(stage().context().info()),
-                  .scene = scene_info(scene(), {}),
+                  .scene = stage().info({}),
                   .footprint = footprint_filter_text(footprint_filter_of(settings_, scene())),
                   .lit_by_environment = has(stage().effects(), Effect::environment_light),
                   .first_warnings = finder().warnings(),

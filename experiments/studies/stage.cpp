@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "experiments/studies/run_info.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
@@ -158,6 +159,7 @@ Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress,
              Refusal refusal)
     : context_(settings.backend.context),
       scene_(std::move(scene)),
+      triangles_(scene_info(scene_, {}).triangles),
       settings_(settings),
       size_(frame_size(scene_, settings.view.size)),
       decisions_(derive_effects(scene_)),
@@ -196,6 +198,12 @@ Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress,
       std::make_unique<Supersampler>(context_.info(), *gpu_scene_, *gpu_base_, settings.reference.filter,
                                      scene_.camera.orthographic, settings.backend.tile, settings.reference.environment);
   context_.check("setting up the scene");
+}
+
+SceneInfo Stage::info(const Exposure& exposure) const {
+  SceneInfo info = scene_info(scene_, exposure);
+  info.triangles = triangles_;
+  return info;
 }
 
 View Stage::view(double distance) const { return {.size = size_, .camera = camera_at_distance(scene_, distance)}; }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiments/settings/run_settings.hpp"
+#include "experiments/studies/exposure.hpp"
 #include "experiments/studies/memory_estimate.hpp"
 #include "renderer/core/disk_cache.hpp"
 #include "renderer/core/error.hpp"
@@ -15,6 +16,7 @@
 #include "renderer/pipeline/frame.hpp"
 #include "renderer/pipeline/interior.hpp"
 #include "renderer/pipeline/supersample.hpp"
+#include "results/report/records.hpp"
 
 namespace footprint {
 
@@ -91,6 +93,8 @@ class Stage {
 
   [[nodiscard]] const gl::Context& context() const { return context_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
+  /// The scene for the head of a report: its triangles as they were given, not as visibility at vertices cuts them.
+  [[nodiscard]] SceneInfo info(const Exposure& exposure) const;
   [[nodiscard]] const std::vector<EffectDecision>& decisions() const { return decisions_; }
   [[nodiscard]] const EffectSet& effects() const { return effects_; }
   [[nodiscard]] const GpuScene& gpu_scene() const { return *gpu_scene_; }
@@ -124,6 +128,7 @@ class Stage {
  private:
   gl::Context context_;
   Scene scene_;
+  std::size_t triangles_;  // that were given
   RunSettings settings_;
   glm::ivec2 size_;
   std::vector<EffectDecision> decisions_;

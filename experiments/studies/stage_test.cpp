@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "renderer/image/metrics.hpp"
+#include "tests/support/shadow_scenes.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint {
@@ -37,6 +38,19 @@ TEST(Stage, BakesFirstWhatTakesTheMostAndHasMethodsAsTheyWereNamed) {
   EXPECT_EQ(stage.methods()[0].baked().spec.text, "direct");
   EXPECT_EQ(stage.methods()[1].baked().spec.text, "toksvig");
   EXPECT_EQ(stage.methods()[2].baked().spec.text, "tan_gmm:n=2");
+}
+
+TEST(Stage, InfoCountsTheTrianglesThatTheSceneHasAndNotTheirPartsForVisibility) {
+  Scene scene = testing::box_over_floor();
+  scene.environment = constant_environment(glm::vec3(1.0F));
+  std::size_t given = 0;
+  for (const Mesh& mesh : scene.meshes) given += mesh.indices.size() / 3;
+  RunSettings settings;
+  settings.view.size = {8, 8};
+  settings.cache.reset();
+  const Stage stage(std::move(scene), settings, no_progress);
+  EXPECT_GT(stage.scene().meshes.front().indices.size() / 3, given);
+  EXPECT_EQ(stage.info({}).triangles, given);
 }
 
 // An image that is not finite, or memory that is not there, is the method's own failure; an interrupt is not.

@@ -9,11 +9,10 @@
 
 namespace footprint {
 
-std::vector<std::vector<double>> interleaved_times(const gl::ContextInfo& context,
-                                                   std::span<const DrawFrame> candidates, int repeats,
-                                                   const Progress& progress) {
+RepeatedTimes interleaved_times(const gl::ContextInfo& context, std::span<const DrawFrame> candidates, int repeats,
+                                const Progress& progress, const std::function<bool(const RepeatedTimes&)>& is_enough) {
   gl::FrameTimer timer(context);
-  std::vector<std::vector<double>> times(candidates.size());
+  RepeatedTimes times(candidates.size());
   for (int repeat = -1; repeat < repeats; ++repeat) {
     progress("timing frames", static_cast<double>(repeat + 1) / (repeats + 1));
     for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -23,6 +22,7 @@ std::vector<std::vector<double>> interleaved_times(const gl::ContextInfo& contex
       const double ms = timer.end_ms();
       if (repeat >= 0) times[candidate].push_back(ms);
     }
+    if (repeat >= 0 && is_enough && is_enough(times)) break;
   }
   return times;
 }

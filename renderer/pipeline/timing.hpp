@@ -14,11 +14,15 @@ namespace footprint {
 /// Draws one frame, without waiting for it and without reading it.
 using DrawFrame = std::function<void()>;
 
-/// times[candidate][repeat], milliseconds. One untimed round warms up; then each repeat draws one frame of every
-/// candidate, starting each time with another one. Software renderers: wall clock around glFinish; GPUs: timer queries.
-[[nodiscard]] std::vector<std::vector<double>> interleaved_times(const gl::ContextInfo& context,
-                                                                 std::span<const DrawFrame> candidates, int repeats,
-                                                                 const Progress& progress);
+/// Times by candidate and repeat, milliseconds.
+using RepeatedTimes = std::vector<std::vector<double>>;
+
+/// One untimed round warms up; then each repeat draws one frame of every candidate, starting each time with another
+/// one, until there are `repeats` or `is_enough` says so after one. Software renderers: wall clock around glFinish;
+/// GPUs: timer queries.
+[[nodiscard]] RepeatedTimes interleaved_times(const gl::ContextInfo& context, std::span<const DrawFrame> candidates,
+                                              int repeats, const Progress& progress,
+                                              const std::function<bool(const RepeatedTimes&)>& is_enough = {});
 
 /// Milliseconds of each of `repeats` draws of one candidate that has been drawn before: no warming up, nothing
 /// interleaved.

@@ -43,7 +43,8 @@ std::string scene_text(const SceneInfo& scene) {
 }  // namespace
 
 std::string timing_text(const TimingInfo& timing) {
-  return fmt::format("{} {} of each method in {}, in turn", timing.frames, timing.frames == 1 ? "frame" : "frames",
+  return fmt::format("at most {} {} of each method in {}, in turn", timing.frames,
+                     timing.frames == 1 ? "frame" : "frames",
                      timing.processes == 1 ? "one process" : fmt::format("each of {} processes", timing.processes));
 }
 

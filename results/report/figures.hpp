@@ -17,7 +17,7 @@ namespace footprint {
 /// The same of an error that there may not be: "n/a" without one.
 [[nodiscard]] std::string error_text(const std::optional<double>& error);
 
-/// "9 frames of each method in one process, in turn"
+/// "at most 9 frames of each method in one process, in turn"
 [[nodiscard]] std::string timing_text(const TimingInfo& timing);
 
 /// "0.01200 to 0.03400", or one of them where both read alike.

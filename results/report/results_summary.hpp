@@ -7,8 +7,9 @@
 
 namespace footprint {
 
-/// Plain text, at most about 110 columns wide while names are short: for each distance which method is the most accurate
-/// and which is the cheapest that improves on `direct`; then a row for each method and distance, the least error first.
+/// Plain text, at most about 110 columns wide while names are short: for each distance which method is the most
+/// accurate and which is the cheapest that improves on `direct`; then a row for each method and distance, the least
+/// error first.
 [[nodiscard]] std::string results_summary(const Results& results);
 
 }  // namespace footprint

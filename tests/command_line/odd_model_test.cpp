@@ -95,7 +95,7 @@ Case of_two_scenes(const std::string& name, std::vector<std::string> arguments) 
 
 std::vector<Case> choices() {
   Case listed = of_two_scenes("Listed", {"explain", "--model-scene", "seen", "--size", "16x16"});
-  listed.output_has = {"to choose from",
+  listed.output_has = {"choices (* = selected)",
                        "0 `bare`, *1 `seen`",
                        "*0 `camera 0`, 1 `near`",
                        "the first of 2 cameras is used",

@@ -124,8 +124,7 @@ TEST(RankingWarnings, TellWhereNothingIsToBeFiltered) {
 TEST(RankingWarnings, TellAReferenceThatHasNotConverged) {
   Results results = run_of({method("a", 0.02), method("b", 0.04)});
   for (Record& record : results.records) record.error->causes.shading_floor = 0.0101;
-  EXPECT_TRUE(
-      says(warned(results), "At distance 1 the reference has not converged: its noise floor exceeds half"));
+  EXPECT_TRUE(says(warned(results), "At distance 1 the reference has not converged: its noise floor exceeds half"));
   for (Record& record : results.records) record.error->causes.shading_floor = 0.0099;
   EXPECT_EQ(warned(results), "");
 }

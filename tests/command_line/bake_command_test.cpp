@@ -58,7 +58,7 @@ std::vector<Case> wrong_bakes() {
       nothing,
       row("BakeAMissingScene", {"{}/missing.gltf", "--method", "toksvig"}, {"missing.gltf"}),
       row("CopyOfNoGltf", {"v_grooves", "--method", "roughness_bake", "--gltf"},
-          {"--gltf", "v_grooves", "no glTF file"}),
+          {"--gltf", "v_grooves", "not a glTF file"}),
       row("LevelWithoutACopy", {"v_grooves", "--method", "roughness_bake", "--gltf-level", "2"}, {"--gltf"}),
       row("LevelOfTheCopyOutOfRange", {"a.gltf", "--method", "roughness_bake", "--gltf", "--gltf-level", "-1"},
           {"--gltf-level"}),

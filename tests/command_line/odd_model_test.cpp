@@ -67,7 +67,7 @@ const std::vector<Case> frames{
     comparison("OnePixel", {"--size", "1x1", "--spp", "4", "--distance", "1"}, {"direct"}),
     comparison("OneSample", {"--size", "16x16", "--spp", "1", "--distance", "1"}, {"direct"}),
     comparison("NoWholePixelCovered", {"--size", "16x16", "--spp", "4", "--distance", "1000"},
-               {"n/a", "the object covers no whole pixel"}),
+               {"n/a", "the object does not cover a whole pixel"}),
     comparison("TilesOfOnePixel", {"--size", "4x4", "--spp", "2", "--distance", "1", "--tile", "1"}, {"direct"}),
     {.name = "NoLightFromTheFront",
      .arguments = {"compare", "{}/scene.toml", "--size", "16x16", "--spp", "2", "--repeats", "1", "-o", "{}/out"},

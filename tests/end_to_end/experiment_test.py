@@ -308,7 +308,7 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
         refused([parts[0], parts[0]], "name each part once")
         other = self.folder / "other"
         run("animate", *light, "--seed", 2, "--shard", "2/2", "-o", other)
-        refused([parts[0], other], "of other options")
+        refused([parts[0], other], "other options")
 
     def film(self, name, script, **options):
         """Runs with a program of that script as ffmpeg."""

@@ -88,7 +88,7 @@ def commands_of(block):
     if block["kind"] == "console":
         parts = [part.split("\n") for part in re.split(r"^\$ ", text, flags=re.MULTILINE)[1:]]
         return [(lines[0], lines[1:]) for lines in parts]
-    return [(line, []) for line in text.split("\n") if re.match(r"footprint [a-z]", line)]
+    return [(line, []) for line in text.split("\n") if block["kind"] == "sh" and line.startswith("footprint ")]
 
 
 def methods_fault(words):
@@ -105,7 +105,7 @@ def methods_fault(words):
 
 def command_fault(command):
     """Why the program would not take the command; None if it knows subcommand, options, methods and scene."""
-    words = [word for word in shlex.split(command.partition(" | ")[0].partition(" > ")[0], comments=True)][1:]
+    words = shlex.split(command.partition(" | ")[0].partition(" > ")[0], comments=True)[1:]
     if not words or not re.fullmatch("[a-z]+", words[0]):
         return None
     text = help_of(words[0])
@@ -137,7 +137,7 @@ def faults_of(name, text, run_examples):
                 if fault := command_fault(command):
                     yield f"{name}:{line}: {command}: {fault}"
                 elif run_examples and block["kind"] == "console" and not block["slow"] and command.startswith("footprint "):
-                    printed = run(*shlex.split(command)[1:], folder=folder)
+                    printed = run(*shlex.split(command)[1:], folder=folder).replace(folder, "/work")
                     if fault := first_difference(trimmed(shown), trimmed(printed.split("\n"))):
                         yield f"{name}:{line}: {command}: {fault}"
 
@@ -147,7 +147,7 @@ def faults_of(name, text, run_examples):
 def table_below(text, heads):
     """Rows of every table whose head starts with these cells, as lists of cells."""
     rows = []
-    for table in re.finditer(r"(?:^\|.*\n)+", text, re.MULTILINE):
+    for table in re.finditer(r"^\|.*\n\|[-:| ]+\|\n(?:\|.*\n)*", text, re.MULTILINE):
         head, _, *lines = [[cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]] for line in table.group().splitlines()]
         if head[:len(heads)] == heads:
             rows += lines
@@ -163,11 +163,10 @@ def option_fault(option, default, values):
     own_default = option["default"] if isinstance(option["default"], str) else f"{option['default']:g}"
     if own_default not in (code(default) or default.split(" ")):
         return f"{option['name']}: default {own_default}, shown {default}"
-    words = code(values)
-    if "choices" in option and len(words) > 1 and words != option["choices"]:
-        return f"{option['name']}: choices {option['choices']}, shown {words}"
-    numbers = NUMBER.findall(values)
-    if "minimum" in option and len(numbers) == 2 and [float(n) for n in numbers] != [option["minimum"], option["maximum"]]:
+    if "choices" in option and re.fullmatch(r"`\w+`(, `\w+`)+", values) and code(values) != option["choices"]:
+        return f"{option['name']}: choices {option['choices']}, shown {values}"
+    bounds = re.fullmatch(f"({N}) to ({N})", values)
+    if "minimum" in option and bounds and [float(n) for n in bounds.groups()] != [option["minimum"], option["maximum"]]:
         return f"{option['name']}: {option['minimum']:g} to {option['maximum']:g}, shown {values}"
     return None
 
@@ -195,7 +194,7 @@ def subcommand_faults(subcommand, text):
     section = next((part for part in re.split(r"^## ", text, flags=re.MULTILINE)
                     if subcommand in re.split(r", | and |\n", part.split("\n")[0])), "")
     shown = set(re.findall(r"(?<![\w-])--[a-z-]+", section))
-    missing = help_options(subcommand) - settings - shown
+    missing = help_options(subcommand) - settings - shown - ({"--output"} if " -o " in section else set())
     if missing:
         yield f"{subcommand}: {sorted(missing)} are not in command-line.md"
     rows = {option for row in table_below(section, ["option"]) for option in re.findall("--[a-z-]+", row[0])}

@@ -19,7 +19,7 @@ FENCE = re.compile(r"(?P<slow>^<!-- slow -->\n)?^```(?P<kind>\w*)\n(?P<text>.*?)
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 N = r"[-+]?\d+(?:\.\d+)?"
 # What a clock measured: "1.6 (1.5-1.7)", "1.6 times", "0.3 s", "12 ms".
-TIMES = re.compile(rf"{N} \({N}-{N}\)|{N}(?= (?:times|s|ms)\b)")
+TIMES = re.compile(rf"{N} \({N}-{N}\)|<?{N}(?= (?:times|s|ms)\b)")
 TOLERANCE = 0.02  # between kinds of processors
 ROUNDING = 1e-6
 

@@ -340,6 +340,21 @@ def check_filters(browser, folder):
     assert browser.run(rows) == 4, "words of another page are passed over"
 
 
+def check_equal_titles(browser):
+    """The address keeps the column of the order, though another one has its title."""
+    sort = "return [document.querySelector('#table th[aria-sort]').cellIndex, document.querySelector('#table th[aria-sort]').textContent]"
+    browser.run("location.hash = ''; columns.find((column) => column.text === 'edges').title = 'Method'")
+    browser.wait_for("new Promise((done) => setTimeout(done, 200))")
+    browser.click("#table thead th:nth-child(5) button")
+    seen, address = browser.run(sort), browser.run("return location.hash")
+    assert seen == [4, "Method"], seen
+    browser.run("location.hash = ''")
+    browser.wait_for("new Promise((done) => setTimeout(done, 200))")
+    browser.run("location.hash = arguments[0]", address)
+    browser.wait_for("new Promise((done) => setTimeout(done, 200))")
+    assert browser.run(sort) == seen, (browser.run(sort), address)
+
+
 def check_print(browser, folder):
     """On paper there are no controls, and it is light though the reader's system is dark."""
     browser.send("POST", "/goog/cdp/execute", {"cmd": "Emulation.setEmulatedMedia", "params": {
@@ -369,6 +384,7 @@ def check_example(browser, folder):
     check_zoom_and_layout(browser)
     check_table(browser)
     check_filters(browser, folder)
+    check_equal_titles(browser)
     check_looks(browser, folder)
     check_print(browser, folder)
     assert not (messages := browser.complaints()), messages

@@ -38,7 +38,7 @@ const std::vector<Case> recommendations{
     {.name = "Recommend",
      .arguments = {"recommend", "v_grooves", "--methods", "direct,toksvig", "--footprints", "trilinear", "--size",
                    "48x48", "--distance", "4", "--spp", "16", "--repeats", "1", "-o", "{}/out"},
-     .output_has = {"v_grooves, the least error", "Take ", "interior pixels at distance 4", "work/out/index.html"},
+     .output_has = {"v_grooves, the smallest error", "Use ", "at distance 4", "work/out/index.html"},
      .leaves = {"out/index.html", "out/recommend.json", "out/trilinear/index.html", "out/trilinear/results.json"}},
     {.name = "RecommendInterrupted",
      .arguments = {"recommend", "v_grooves", "--methods", "direct,toksvig", "--footprints", "trilinear", "--size",

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "methods/registry.hpp"
 #include "stability/hard_report.hpp"
+#include "stability/known_limits.hpp"
 #include "stability/worst.hpp"
 
 namespace footprint::stability {
@@ -74,6 +76,18 @@ TEST(StabilityPage, SaysOfNothingThatItHeldUntested) {
   EXPECT_NE(page.find("| `wide` | `groove` | energy | 0.4 | 0.1 | one lobe |"), std::string::npos) << page;
   ASSERT_EQ(what_fell(rows).size(), 1U);
   EXPECT_EQ(what_fell(rows).front(), "worse, groove, energy: 0.9 is over 0.1");
+}
+
+// What a method claims of its storages, runs of the hard cases have not refuted: no narrow lobe is off under fp16.
+TEST(KnownLimits, HaveNoStorageThatLeavesLobesAsGiven) {
+  std::size_t claims = 0;
+  for (const Method* const method : all_methods()) {
+    if (!method->info().lobes_as_given) continue;
+    ++claims;
+    const std::string text = method->info().name + ":storage=";
+    for (const KnownLimit& limit : known_limits()) EXPECT_FALSE(limit.method.starts_with(text)) << limit.method;
+  }
+  EXPECT_GT(claims, 0U);
 }
 
 }  // namespace

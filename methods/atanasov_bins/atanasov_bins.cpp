@@ -162,6 +162,7 @@ class AtanasovBins final : public Method {
                        "What the means of normals of 4 x 4 texels and more are kept in, the only numbers that are no "
                        "integers, or are one to a bin: what diffuse light is reflected about over wide footprints.")},
       .honours = map_effects_but({Effect::normal_layers}),
+      .lobes_as_given = true,
       .slow_precompute = true,
       .slow_frame = true};
 };

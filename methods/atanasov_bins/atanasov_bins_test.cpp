@@ -261,6 +261,22 @@ TEST(AtanasovBins, StorageRoundsWhatDiffuseLightIsReflectedAboutAndNothingElse) 
   }
 }
 
+// So fp16 puts no highlight off, however narrow the lobe, and nothing warns of it.
+TEST(AtanasovBins, StorageLeavesHighlightsAsTheyAre) {
+  const BaseBrdf brdf{NormalDistribution::beckmann, GeometryTerm::smith, FresnelTerm::schlick, false};
+  const Scene scene = square_scene(random_normals(512, 512, 0.5F, 5), {.brdf = brdf, .roughness = 0.1F});
+  TestRenderer renderer(scene, {24, 24});
+  for (const std::string roughness : {"bin", "lobe", "flakes"}) {
+    const std::string text = "atanasov_bins:roughness=" + roughness + ":storage=";
+    EXPECT_TRUE(renderer.frame(atanasov_bins_method(), text + "fp16") ==
+                renderer.frame(atanasov_bins_method(), text + "fp32"))
+        << roughness;
+    const BakedMethod baked = bake(atanasov_bins_method(), parse_methods(text + "fp16").front(), scene,
+                                   effects_on(derive_effects(scene)), no_progress);
+    EXPECT_TRUE(baked.materials.front().notes.empty()) << baked.materials.front().notes.front();
+  }
+}
+
 // llvmpipe ends loops after 65535 rounds. A pixel of which that leaves texels out must not pass for the sum of all.
 TEST(AtanasovBins, IsNeverAPartOfTheSum) {
   const Scene scene = square_scene(random_normals(1024, 1024, 0.5F, 13), {.brdf = {}, .roughness = 0.2F});

@@ -39,6 +39,7 @@ class IwasakiSg final : public Method {
                        "ACM Transactions on Graphics 31(6)",
                    .options = option_table(),
                    .honours = all_effects_but({Effect::normal_layers, Effect::roughness_variation, Effect::multi_lobe}),
+                   .lobes_as_given = true,
                    .resolves_texels = false};
 };
 

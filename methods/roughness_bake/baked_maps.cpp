@@ -19,11 +19,14 @@ Storage spread_storage(Storage storage) { return storage == Storage::unorm8 ? St
 std::vector<Image> spread_chain(Image normals, Preset preset) {
   std::vector<Image> chain;
   for (const Image& level : mean_normal_chain(std::move(normals))) {
+    const bool finest = chain.empty();
     Image& out = chain.emplace_back(level.width, level.height, 1);
     for (std::size_t i = 0; i < level.texel_count(); ++i) {
       const float* const n = &level.texels[3 * i];
       const double length = std::hypot(double{n[0]}, double{n[1]}, double{n[2]});
-      out.texels[i] = static_cast<float>(stored_spread(preset, shortfall_of_length(length)));
+      const double shortfall = shortfall_of_length(length);
+      if (finest && shortfall == 0.0) continue;  // Filament's finest level is the roughness as given
+      out.texels[i] = static_cast<float>(stored_spread(preset, shortfall));
     }
   }
   return chain;

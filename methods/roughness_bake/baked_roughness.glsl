@@ -55,10 +55,10 @@ float chan(float alpha2, float q) {
 float widened(float alpha2, float stored) {
 //? if bake_fit
   return alpha2 + fitConstant(sqrt(alpha2)) * stored;
-//? elif bake_filament
-  return alpha2 + 2.0 * max(stored, 1e-4);
+//? elif bake_filament or bake_mjp_vmf
+  return alpha2 + 2.0 * stored;
 //? elif bake_filament_rho
-  float alpha = sqrt(alpha2) + 2.0 * max(stored, 1e-4);
+  float alpha = sqrt(alpha2) + 2.0 * stored;
   return alpha * alpha;
 //? elif bake_unity
   return alpha2 + min(0.5 * stored, 0.04);
@@ -77,8 +77,6 @@ float widened(float alpha2, float stored) {
   return alpha * alpha;
 //? elif bake_three_removed
   return alpha2 + 0.56 * stored;
-//? elif bake_mjp_vmf
-  return alpha2 + 2.0 * stored;
 //? elif bake_karis
   float kappa = 2.0 / alpha2;
   float own = kappa > 20.0 ? 1.0 / kappa : 1.0 - meanCosine(kappa);  // coth kappa is 1 there

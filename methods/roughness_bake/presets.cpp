@@ -11,7 +11,7 @@
 namespace footprint::roughness_bake {
 namespace {
 
-constexpr double filament_least = 1e-4;     // kappa = 1e4 where all normals agree
+constexpr double filament_flat = 1e-4;      // kappa = 1e4 where all normals agree, and only there
 constexpr double unity_cap = 0.2 * 0.2;     // of variance, the default threshold squared
 constexpr double hdrp_cap = 2.0 * 0.03125;  // two of the largest variance that its texture holds
 constexpr double unreal_offset = 4e-5;
@@ -107,6 +107,7 @@ double stored_spread(Preset preset, double shortfall) {
     case Stored::inverse_kappa:
       break;
   }
+  if (q == 0.0 && (preset == Preset::filament || preset == Preset::filament_rho)) return filament_flat;
   return std::min(inverse_kappa(q), largest_stored);
 }
 
@@ -116,9 +117,10 @@ double widened_alpha2(const Formula& formula, NormalDistribution distribution, d
     case Preset::fit:
       return alpha2 + fit_constant(distribution, alpha) * stored;
     case Preset::filament:
-      return alpha2 + 2.0 * std::max(stored, filament_least);
+    case Preset::mjp_vmf:
+      return alpha2 + 2.0 * stored;
     case Preset::filament_rho:  // on rho^2 = alpha
-      return squared(alpha + 2.0 * std::max(stored, filament_least));
+      return squared(alpha + 2.0 * stored);
     case Preset::unity:
       return alpha2 + std::min(0.5 * stored, unity_cap);
     case Preset::unity_projected:
@@ -131,8 +133,6 @@ double widened_alpha2(const Formula& formula, NormalDistribution distribution, d
       return squared(alpha + std::min(0.75 * stored, godot_cap));
     case Preset::three_removed:
       return alpha2 + three_factor * stored;
-    case Preset::mjp_vmf:
-      return alpha2 + 2.0 * stored;
     case Preset::karis:
       return karis(alpha2, stored);
     case Preset::order1886:

@@ -45,7 +45,7 @@ struct Formula {
 /// What is stored of a texel, of which mip maps and texture filters take means: of normals whose mean is short of
 /// length 1 by `shortfall` (0 to 1).
 enum class Stored {
-  inverse_kappa,  ///< (1 - r^2) / (3 r - r^3), at most largest_stored
+  inverse_kappa,  ///< (1 - r^2) / (3 r - r^3), at most largest_stored; of Filament 1e-4 where all normals agree
   toksvig,        ///< (1 - r) / r, likewise
   shortfall       ///< 1 - r
 };

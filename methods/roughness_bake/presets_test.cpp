@@ -9,14 +9,19 @@
 #include <numbers>
 #include <vector>
 
+#include "methods/roughness_bake/baked_maps.hpp"
+
 namespace footprint::roughness_bake {
 namespace {
 
 constexpr NormalDistribution ggx = NormalDistribution::ggx;
-const std::vector<double> lengths{0.3, 0.7, 0.9, 0.97, 0.995, 0.9995, 0.99999};
+const std::vector<double> lengths{0.3, 0.7, 0.9, 0.97, 0.995, 0.9995, 1 - 1.3e-5, 0.99999, 1.0};
 const std::vector<double> alphas{0.02, 0.1, 0.3, 0.6, 0.69};
 
 double kappa_of(double r) { return (3 * r - r * r * r) / (1 - r * r); }
+
+// solveVMF of roughness-prefilter: 10000 stands only for lengths that no kappa fits.
+double filament_kappa(double r) { return r < 1 ? kappa_of(r) : 1e4; }
 
 // The mean cosine of GGX's normals, each by its share of the surface's area: an integral over tan^2.
 double ggx_mean_length(double alpha) {
@@ -37,11 +42,11 @@ double ggx_mean_length(double alpha) {
 using Printed = std::function<double(double alpha2, double r)>;
 const std::map<Preset, Printed>& printed_formulas() {
   static const std::map<Preset, Printed> formulas{
-      {Preset::filament, [](double a2, double r) { return a2 + 2 / kappa_of(r); }},
+      {Preset::filament, [](double a2, double r) { return a2 + 2 / filament_kappa(r); }},
       {Preset::filament_rho,
        [](double a2, double r) {
          const double rho = std::pow(a2, 0.25);
-         return std::pow(rho * rho + 2 / kappa_of(r), 2);
+         return std::pow(rho * rho + 2 / filament_kappa(r), 2);
        }},
       {Preset::unity, [](double a2, double r) { return a2 + std::min(2 * 0.25 / kappa_of(r), 0.2 * 0.2); }},
       {Preset::unity_projected,
@@ -80,14 +85,23 @@ TEST(RoughnessPresets, AreTheFormulasAsPrinted) {
   for (const auto& [preset, printed] : printed_formulas()) {
     for (const double alpha : alphas) {
       for (const double r : lengths) {
-        if (preset == Preset::filament && kappa_of(r) > 1e4) continue;
-        if (preset == Preset::filament_rho && kappa_of(r) > 1e4) continue;
         const double expected = printed(alpha * alpha, r);
         EXPECT_NEAR(widened(preset, alpha * alpha, r) / expected, 1.0, 1e-9)
             << preset_names[static_cast<std::size_t>(preset)] << ", alpha " << alpha << ", r " << r;
       }
     }
   }
+}
+
+// Filament copies the roughness to the finest level (main.cpp, i == 0), and prefilters the others.
+TEST(RoughnessPresets, FilamentWidensFlatTexelsOfEveryLevelButTheFinest) {
+  Image flat(4, 4, 4, 0.0F);
+  for (std::size_t i = 2; i < flat.texels.size(); i += 4) flat.texels[i] = flat.texels[i + 1] = 1.0F;
+  const std::vector<Image> chain = spread_chain(flat, Preset::filament);
+  ASSERT_EQ(chain.size(), 3U);
+  EXPECT_EQ(chain[0].texels.front(), 0.0F);
+  EXPECT_FLOAT_EQ(chain[1].texels.front(), 1e-4F);
+  EXPECT_FLOAT_EQ(chain[2].texels.front(), 1e-4F);
 }
 
 TEST(RoughnessPresets, ChanWidensTheLobeToTheMeanLengthOfBoth) {

@@ -80,7 +80,7 @@ void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& eff
     try {
       auto [prefiltered, from_disk] =
           prefilter(method, scene, i, baked.options, effects & method.info().honours, part, cache);
-      if (auto note = storage_range_note(material, baked.options, effects & method.info().honours))
+      if (auto note = storage_range_note(material, method.info(), baked.options, effects & method.info().honours))
         prefiltered.notes.push_back(*std::move(note));
       baked.materials.push_back(std::move(prefiltered));
       baked.cached = baked.cached && from_disk;

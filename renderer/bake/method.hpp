@@ -31,6 +31,7 @@ struct MethodInfo {
   bool screen_derivatives = false;
   bool reads_finest_level = false;  ///< a frame filters nothing: clear coats are read at their finest level, too
   bool draws_directions = false;    ///< the module integrates an environment itself where many samples are taken
+  bool lobes_as_given = false;      ///< its option `storage` rounds nothing that lobes are made of (storage_range.hpp)
   bool sums_environment = false;    ///< a frame's environment light is summed by the module (`environmentSum`)
   bool slow_precompute = false;     ///< seconds, not milliseconds: kept on disk between runs (bake_cache.hpp)
   /// What is baked into a texel of a level depends, of the normal map, on the texels under it alone: of a map of which

@@ -23,9 +23,9 @@ double narrowest_variance(const Material& material) {
 
 }  // namespace
 
-std::optional<std::string> storage_range_note(const Material& material, const Options& options,
+std::optional<std::string> storage_range_note(const Material& material, const MethodInfo& info, const Options& options,
                                               const EffectSet& effects) {
-  if (!has(effects, Effect::normal_variation) || !options.all().contains("storage")) return {};
+  if (info.lobes_as_given || !has(effects, Effect::normal_variation) || !options.all().contains("storage")) return {};
   const std::string& storage = options.word("storage");
   const double least = storage == "unorm8" ? least_in_bytes : storage == "fp16" ? least_in_half_floats : 0.0;
   if (least == 0.0) return {};

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "renderer/pipeline/shader_source.hpp"
+
 namespace footprint {
 namespace {
 
@@ -50,6 +52,24 @@ TEST(ShaderFlags, FollowTextures) {
   textures.textures.push_back(make_array_texture("maps", layers, Storage::fp32, {}, TextureFilter::nearest));
   EXPECT_TRUE(shader_flags({}, options, textures).at("texture_arrays"));
   EXPECT_TRUE(shader_flags({}, options, textures).at("texel_lookups"));
+}
+
+// Modules divide by it what llvmpipe allows a pixel.
+TEST(ShaderSource, CountsTheCallsOfAPixel) {
+  ShaderVariant variant;
+  const auto has_calls = [&](int count) {
+    const std::string text = fragment_shader(variant, {"m.glsl", "\n"}, Options({}, {}, "t"), {}).text();
+    return text.find("const int shade_calls = " + std::to_string(count) + ";") != std::string::npos;
+  };
+  EXPECT_TRUE(has_calls(1)) << "no light";
+  variant.point_lights = 2;
+  variant.directional_lights = 1;
+  variant.environment_suns = 2;
+  EXPECT_TRUE(has_calls(5));
+  variant.footprint = {FootprintFilterKind::anisotropic, 8};
+  EXPECT_TRUE(has_calls(5));
+  variant.footprint = {FootprintFilterKind::shaded, 3};
+  EXPECT_TRUE(has_calls(45));
 }
 
 }  // namespace

@@ -72,7 +72,15 @@ void add_material_block(ShaderText& text, const ShaderFlags& flags, std::size_t 
   text.include("surface_material.glsl");
 }
 
-void add_shared_functions(ShaderText& text, const ShaderFlags& flags) {
+// How often a pixel calls a module's `shade` at most: for every light, in every part of a `shaded` footprint.
+int shade_calls(const ShaderVariant& v) {
+  const std::size_t lights = v.point_lights + v.spot_lights + v.directional_lights + v.environment_suns;
+  const int parts = v.footprint.kind == FootprintFilterKind::shaded ? v.footprint.count * v.footprint.count : 1;
+  return parts * static_cast<int>(std::max<std::size_t>(lights, 1));
+}
+
+void add_shared_functions(ShaderText& text, const ShaderFlags& flags, int calls = 1) {
+  text.add(fmt::format("const int shade_calls = {};\n", calls));
   text.include("common_footprint.glsl");
   text.include("common_lobes.glsl");
   text.include("common_base_brdf.glsl");
@@ -92,7 +100,7 @@ void add_method_pass(ShaderText& text, const ShaderVariant& variant, const Shade
                      const Prefiltered& prefiltered, std::string_view pass) {
   text.add(footprint_constants(variant.footprint) + number_options(options) + scalar_declarations(prefiltered));
   add_material_block(text, flags, variant.facet_lobes);
-  add_shared_functions(text, flags);
+  add_shared_functions(text, flags, shade_calls(variant));
   text.include(pass);
 }
 
@@ -141,7 +149,7 @@ std::string bare_module(const ShaderVariant& variant, const ShaderModule& module
   text.add(plain_declarations(prefiltered) + footprint_constants(variant.footprint) + number_options(options));
   if (flags.at("multi_lobe")) text.add(fmt::format("const int most_facet_lobes = {};\n", variant.facet_lobes));
   text.include("bare_material.glsl");
-  add_shared_functions(text, flags);
+  add_shared_functions(text, flags, shade_calls(variant));
   text.include("bare_module.glsl");
   return without_line_numbers(text.text());
 }

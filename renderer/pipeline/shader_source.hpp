@@ -13,7 +13,7 @@ namespace footprint {
 [[nodiscard]] std::string material_block(const ShaderFlags& flags);
 
 /// The lobes, base BRDF terms and footprint functions, and behind them a module's own where one is given: for programs
-/// that evaluate them outside of a frame.
+/// that evaluate them outside of a frame. `shade_calls` is 1.
 [[nodiscard]] std::string shared_functions(const ShaderFlags& flags, const ShaderModule& module = {});
 
 /// The numbers of a footprint filter, in front of the shared functions where it is not trilinear.

@@ -170,12 +170,22 @@ std::vector<std::size_t> contenders(const std::vector<Candidate>& candidates, co
     return a.error * (1.0 + error_share) + noise < b.error && a.worst * (1.0 + error_share) + noise < b.worst &&
            a.cost.median * (1.0 + cost_share) < b.cost.median && (!limits.max_bytes || a.bytes <= b.bytes);
   };
-  std::vector<std::size_t> kept;
+  const auto is_over = [&](const Candidate& c) {
+    return limits.max_cost && c.cost.median * (1.0 - cost_share) > *limits.max_cost;
+  };
+  Indices kept, over;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& candidate = candidates[i];
     const bool beaten = std::ranges::any_of(candidates, [&](const Candidate& c) { return beats(c, candidate); });
-    if (!beaten || is_plain(candidate)) kept.push_back(i);
+    if (is_plain(candidate) || (!beaten && !is_over(candidate))) kept.push_back(i);
+    if (!is_plain(candidate) && !beaten && is_over(candidate)) over.push_back(i);
   }
+  // Of those over the limit of cost the cheapest that is more accurate than all within it: what a lower error costs.
+  const auto error_of = [&](std::size_t i) { return candidates[i].error; };
+  const double least = kept.empty() ? INFINITY : error_of(*std::ranges::min_element(kept, {}, error_of));
+  std::erase_if(over, [&](std::size_t i) { return error_of(i) >= least; });
+  if (!over.empty())
+    kept.push_back(*std::ranges::min_element(over, {}, [&](std::size_t i) { return candidates[i].cost.median; }));
   return kept;
 }
 

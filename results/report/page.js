@@ -40,7 +40,7 @@ const columns = [
    meaning: 'Error of the environment lookup, compared with the whole environment.'},
   {title: 'Lobe fit', text: 'representation', value: (r) => r.error?.representation,
    meaning: 'Error of the method’s finest level, supersampled. It remains without any filtering.'},
-  {title: '= spp', text: 'equivalent', value: worth, best: 'is_best',
+  {title: '=\u00a0spp', text: 'equivalent', value: worth, best: 'is_best',
    meaning: 'Samples per pixel of plain supersampling with the same shading error.'},
   {title: 'Pixels', text: 'pixels', value: (r) => r.pixels.interior,
    meaning: 'Number of interior pixels; ! marks fewer than 100.'},
@@ -67,6 +67,11 @@ const columns = [
 const nameColumn = {title: 'Method', key: 'name', words: true, value: (r) => r.method};
 const axisColumns = axes.map((axis) => ({title: axis, key: `axis ${axis}`, words: true, show: (r) => r.run.coordinates[axis],
   value: (r) => r.run.coordinates[axis], meaning: 'Axis of the matrix.'}));
+
+/** Whether any record has a figure in the column. */
+const blank = new Set(['n/a', 'none', '–']);
+const isUsed = (column) => (!column.only || column.only()) &&
+  (!column.text || records.some((r) => !blank.has(String(r.display[column.text]))));
 
 /** What the address calls a column: titles may be equal. */
 const keyOf = (column) => column.key ?? column.text;
@@ -133,7 +138,7 @@ function showHead() {
   byId('lede').textContent = `${count(methods.length, 'method')} at ${count(distances.length, 'distance')}` +
     `${runs.length > 1 ? ` in ${count(runs.length, 'member')} of a matrix, ${count(records.length, 'record')}` : ''}, compared ` +
     `with a reference of ${count(Math.round(runs[0].results.reference.samples), 'sample')} per pixel.`;
-  for (const {title, meaning} of columns) byId('meanings').append(element('dt', '', title), element('dd', '', meaning));
+  for (const {title, meaning} of columns.filter(isUsed)) byId('meanings').append(element('dt', '', title), element('dd', '', meaning));
 }
 
 /** Which member the parts below are of, where there are several, and where its figures come from. */
@@ -215,7 +220,7 @@ function showRows(rows, visible) {
 
 function showTable() {
   const rows = sorted(filtered().filter((record) => state.all || record.distance === state.distance));
-  const visible = [...(runs.length > 1 ? axisColumns : []), ...columns.filter((column) => !column.only || column.only())];
+  const visible = [...(runs.length > 1 ? axisColumns : []), ...columns.filter(isUsed)];
   byId('rows').textContent = `${count(rows.length, 'record')} of ${records.length}`;
   byId('table').tHead.replaceChildren(element('tr', '', headCell(nameColumn), ...visible.map(headCell)));
   showRows(rows, visible);
@@ -408,6 +413,28 @@ function logAxis(title, range) {
   };
 }
 
+/** Its ticks are the distances. */
+function distanceAxis(range) {
+  const axis = logAxis('Distance', range);
+  return {...axis, afterBuildTicks: (scale) => { scale.ticks = [...distances].sort((a, b) => a - b).map((value) => ({value})); },
+    ticks: {...axis.ticks, autoSkip: true, callback: (value) => figure(value)}};
+}
+
+/** An entry for each name, with a word for its dashes, which are too long for a legend. */
+function legend(width) {
+  const entries = (plot) => {
+    const sets = plot.data.datasets;
+    return Chart.defaults.plugins.legend.labels.generateLabels(plot)
+      .filter(({datasetIndex: i}) => sets.findIndex((set) => set.label === sets[i].label) === i)
+      .map((entry) => {
+        const dash = sets[entry.datasetIndex].borderDash;
+        return {...entry, text: dash?.length ? `${entry.text} (${dash[0] < 3 ? 'dotted' : 'dashed'})` : entry.text};
+      });
+  };
+  return {position: 'bottom', labels: {usePointStyle: true, boxWidth: width, boxHeight: 9, padding: 16,
+    color: styleValue('--ink'), generateLabels: entries}};
+}
+
 function tooltipText(item) {
   const set = item.dataset;
   const {x, y} = item.raw;
@@ -458,11 +485,7 @@ function showPlot() {
       maintainAspectRatio: false,
       scales: {x: logAxis('Frame time (ms)', x), y: logAxis('Shading error', y)},
       plugins: {
-        legend: {
-          position: 'bottom',
-          labels: {usePointStyle: true, boxWidth: 9, boxHeight: 9, padding: 16, color: styleValue('--ink'),
-            filter: (entry, {datasets: all}) => all.findIndex((set) => set.label === entry.text) === entry.datasetIndex},
-        },
+        legend: legend(9),
         tooltip: {callbacks: {label: tooltipText}, displayColors: false},
       },
     },
@@ -502,10 +525,10 @@ function showTrend(id, title, value) {
     options: {
       animation: false,
       maintainAspectRatio: false,
-      scales: {x: logAxis('Distance', padded(points.map((p) => p.x), 1.15, 1.15)),
+      scales: {x: distanceAxis(padded(points.map((p) => p.x), 1.15, 1.15)),
         y: logAxis(title, padded(points.map((p) => p.y), 1.4, 1.5))},
       plugins: {
-        legend: {position: 'bottom', labels: {usePointStyle: true, boxWidth: 9, boxHeight: 9, padding: 16, color: styleValue('--ink')}},
+        legend: legend(9),
         tooltip: {callbacks: {label: trendText}, displayColors: false},
       },
     },
@@ -566,10 +589,7 @@ function showSparkle() {
         y: logAxis('Share of pixels', padded(shares, 1, 1.5)),
       },
       plugins: {
-        legend: {
-          position: 'bottom',
-          labels: {usePointStyle: true, boxWidth: 18, padding: 16, color: styleValue('--ink')},
-        },
+        legend: legend(18),
         tooltip: {callbacks: {label: sparkleText}, displayColors: false},
       },
     },

@@ -199,7 +199,6 @@ std::string limits_text(const Limits& limits) {
 std::vector<std::string> advice_sentences(const MaterialAdvice& advice, const Limits& limits) {
   std::vector<std::string> sentences{what_is_chosen(advice, limits), what_is_tied(advice), how_sure(advice),
                                      against_plain(advice), what_better_costs(advice)};
-  if (!advice.command.empty()) sentences.push_back("Bake it: " + advice.command);
   std::erase(sentences, std::string());
   return sentences;
 }
@@ -212,6 +211,7 @@ std::string recommendation_text(const Recommendation& recommendation) {
     text += fmt::format("\n{}\n", advice.material);
     for (const std::string& sentence : advice_sentences(advice, recommendation.limits))
       text += fmt::format("  {}\n", sentence);
+    if (!advice.command.empty()) text += fmt::format("  Bake it: {}\n", advice.command);
   }
   return text;
 }

@@ -17,6 +17,7 @@ namespace footprint {
 
 namespace {
 
+constexpr std::string_view words_cell = "class=\"words-column\"";  // left-aligned, as in page.css
 constexpr double plot_width = 860, plot_height = 380, margin_left = 70, margin_right = 150, margin_top = 26,
                  margin_bottom = 46;
 
@@ -156,20 +157,24 @@ std::string front_svg(const MaterialAdvice& advice, const Limits& limits) {
     svg += dot_svg(candidate, is_on_front(shown, candidate), is_chosen, x, y, labels);
   }
   const std::string label = "Error against cost; the table shows the same values";
-  return fmt::format(R"(<svg class="front" viewBox="0 0 {} {}" role="img" aria-label="{}">{}</svg>)", plot_width,
-                     plot_height, label, svg);
+  return fmt::format(
+      R"(<div class="scroll"><svg class="front" viewBox="0 0 {} {}" role="img" aria-label="{}">{}</svg></div>)",
+      plot_width, plot_height, label, svg);
 }
 
 std::string table_html(const MaterialAdvice& advice) {
   std::string rows;
   for (std::size_t i = 0; i < advice.candidates.size(); ++i) {
     const Candidate& c = advice.candidates[i];
-    rows += fmt::format("<tr{}><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                        advice.choice.chosen == i ? R"( class="chosen-row")" : "", html_escaped(c.method),
-                        html_escaped(c.footprint), error_text(c.error), error_text(c.worst),
-                        c.noise ? error_text(*c.noise) : "n/a", ratio_text(c.cost), readable_bytes(c.bytes));
+    rows += fmt::format(
+        "<tr{0}><td {8}>{1}</td><td {8}>{2}</td><td>{3}</td><td>{4}</td><td>{5}</td><td>{6}</td><td>{7}</td></tr>\n",
+        advice.choice.chosen == i ? R"( class="chosen-row")" : "", html_escaped(c.method), html_escaped(c.footprint),
+        error_text(c.error), error_text(c.worst), c.noise ? error_text(*c.noise) : "n/a", ratio_text(c.cost),
+        readable_bytes(c.bytes), words_cell);
   }
-  return "<div class=\"scroll\"><table><thead><tr><th>Method</th><th>Footprint filter</th><th>Error</th><th>Worst "
+  return fmt::format("<div class=\"scroll\"><table><thead><tr><th {0}>Method</th><th {0}>Footprint filter</th>",
+                     words_cell) +
+         "<th>Error</th><th>Worst "
          "error</th>"
          "<th>Noise</th><th>Cost</th><th>Memory</th></tr></thead><tbody>\n" +
          rows + "</tbody></table></div>\n";
@@ -179,8 +184,10 @@ std::string advice_html(const MaterialAdvice& advice, const Limits& limits) {
   std::string words;
   for (const std::string& sentence : advice_sentences(advice, limits))
     words += fmt::format("<li>{}</li>\n", html_escaped(sentence));
-  return fmt::format("<section><h2>{}</h2>\n<ul class=\"words\">\n{}</ul>\n{}{}</section>\n",
-                     html_escaped(advice.material), words, front_svg(advice, limits), table_html(advice));
+  const std::string command =
+      advice.command.empty() ? "" : fmt::format("<pre class=\"scroll\">{}</pre>\n", html_escaped(advice.command));
+  return fmt::format("<section><h2>{}</h2>\n<ul class=\"words\">\n{}</ul>\n{}{}{}</section>\n",
+                     html_escaped(advice.material), words, command, front_svg(advice, limits), table_html(advice));
 }
 
 std::string display_picture(const std::string& exr) { return exr.substr(0, exr.rfind('.')) + ".png"; }

@@ -9,7 +9,6 @@
 namespace footprint {
 namespace {
 
-constexpr float edges_in_radius = 24.0F;
 constexpr std::size_t vectors_a_vertex = 5;
 
 }  // namespace
@@ -19,7 +18,7 @@ bool hides_environment(const EffectSet& effects) {
 }
 
 Scene refined_for_visibility(Scene scene, const EffectSet& effects) {
-  const float longest = scene.bounds.radius() / edges_in_radius;
+  const float longest = scene.bounds.radius() / visibility_edges_in_radius;
   if (!hides_environment(effects) || !(longest > 0.0F)) return scene;
   for (Mesh& mesh : scene.meshes) mesh = subdivided(mesh, longest);
   return scene;

@@ -9,12 +9,14 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/environment/cell_light.hpp"
 #include "renderer/environment/octahedral.hpp"
+#include "renderer/visibility/vertex_samples.hpp"
 
 namespace footprint {
 namespace {
@@ -61,20 +63,20 @@ glm::vec3 diffuse_share(const SphereVisibility& visible, const glm::vec3& normal
   return share;
 }
 
-// What is known of all vertices before the compression.
+// What is known of all samples before the compression.
 struct Measured {
   Distances distances;
   std::vector<glm::vec3> diffuse_shares;
 };
 
-void require_room(std::size_t vertices, const std::string& source) {
+void require_room(std::size_t vertices, std::size_t samples, const std::string& source) {
   constexpr const char* hint = "set `cast = false` in [shadows] of a scene.toml, or use a coarser model";
   const std::string what = fmt::format("visibility at {} vertices", vertices);
   if (vertices > most_visibility_vertices) {
     throw Error(ErrorKind::machine, source,
                 fmt::format("{} of the environment: the most is {}", what, most_visibility_vertices), hint);
   }
-  require_memory(vertices * (map_texels * sizeof(float) + sizeof(VertexVisibility)), what, hint);
+  require_memory(vertices * sizeof(VertexVisibility) + 2 * samples * map_texels * sizeof(float), what, hint);
 }
 
 Measured measure(const std::vector<const Vertex*>& vertices, const Occluders& occluders, Horizon horizon,
@@ -97,6 +99,23 @@ Measured measure(const std::vector<const Vertex*>& vertices, const Occluders& oc
     });
   }
   return measured;
+}
+
+// Half of the longest edge of a refined mesh: between vertices so far apart the rasteriser interpolates.
+float sample_spacing(const Scene& scene) {
+  return std::max(0.5F * scene.bounds.radius() / visibility_edges_in_radius, std::numeric_limits<float>::min());
+}
+
+VertexVisibility interpolated(const VertexSamples& samples, const Vertex& vertex, const Eigen::MatrixXf& weights,
+                              const std::vector<glm::vec3>& diffuse_shares) {
+  VertexVisibility value{.weights = {}, .diffuse_share = glm::vec3(0.0F)};
+  samples.interpolate(vertex, [&](std::size_t sample, float share) {
+    for (std::size_t k = 0; k < visibility_components; ++k) {
+      value.weights.at(k) += share * weights(static_cast<Eigen::Index>(sample), static_cast<Eigen::Index>(k));
+    }
+    value.diffuse_share += share * diffuse_shares[sample];
+  });
+  return value;
 }
 
 // The directions of greatest variance, the greatest first.
@@ -136,22 +155,19 @@ std::vector<glm::dvec3> visibility_light(const Environment& environment) {
 VisibilityField visibility_field(const Scene& scene, const Occluders& occluders, const Environment& environment,
                                  const Progress& progress) {
   const std::vector<const Vertex*> vertices = all_vertices(scene);
-  require_room(vertices.size(), scene.source);
-  Measured measured = measure(vertices, occluders, scene.horizon, visibility_light(environment), progress);
+  const VertexSamples samples(vertices, sample_spacing(scene));
+  require_room(vertices.size(), samples.samples().size(), scene.source);
+  Measured measured = measure(samples.samples(), occluders, scene.horizon, visibility_light(environment), progress);
   const Eigen::RowVectorXf mean = measured.distances.colwise().mean();
   measured.distances.rowwise() -= mean;
   const Eigen::MatrixXf components = principal_components(measured.distances);
   const Eigen::MatrixXf weights = measured.distances * components;
   VisibilityField field{.layers = make_layers(mean, components), .meshes = {}};
-  std::size_t vertex = 0;
   for (const Mesh& mesh : scene.meshes) {
     std::vector<VertexVisibility>& values = field.meshes.emplace_back(mesh.vertices.size());
-    for (VertexVisibility& value : values) {
-      for (std::size_t k = 0; k < visibility_components; ++k) {
-        value.weights.at(k) = weights(static_cast<Eigen::Index>(vertex), static_cast<Eigen::Index>(k));
-      }
-      value.diffuse_share = measured.diffuse_shares[vertex++];
-    }
+    tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t i) {
+      values[i] = interpolated(samples, mesh.vertices[i], weights, measured.diffuse_shares);
+    });
   }
   const double left_out = (measured.distances - weights * components.transpose()).squaredNorm();
   field.error = std::sqrt(left_out / static_cast<double>(measured.distances.size()));

@@ -17,7 +17,10 @@ inline constexpr std::size_t visibility_components = 15;
 /// Texels a side of the maps of mean and components, without their border.
 inline constexpr int visibility_map_edge = 16;
 
-/// The most vertices of a scene: ten minutes of two cores.
+/// Edges of refined meshes are at most the bounds' radius over this.
+inline constexpr float visibility_edges_in_radius = 24.0F;
+
+/// The most vertices of a scene.
 inline constexpr std::size_t most_visibility_vertices = std::size_t{1} << 22U;
 
 /// Light from each cell of the visibility grid: radiance integrated over its solid angle, in the order of
@@ -37,10 +40,10 @@ struct VisibilityField {
   double error = 0.0;                                 ///< what the components leave out, root mean square, radians
 };
 
-/// Asks the visibility of every vertex (1024 rays each, TBB and Embree) and compresses the distances by principal
-/// components. Equal scenes give equal fields at any number of threads. Errors: (machine) more vertices than
-/// that, or than memory holds; those
-/// of `progress`.
+/// Asks the visibility of vertices at least half a refined mesh's edge apart (VertexSamples; 1024 rays each, TBB and
+/// Embree), compresses the distances by principal components and interpolates them at the other vertices. Equal scenes
+/// give equal fields at any number of threads. Errors: (machine) too many vertices, or too little memory for them;
+/// those of `progress`.
 [[nodiscard]] VisibilityField visibility_field(const Scene& scene, const Occluders& occluders,
                                                const Environment& environment, const Progress& progress);
 

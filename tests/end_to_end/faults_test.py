@@ -82,6 +82,17 @@ class Faults(WholeRunTest):
         for document in ("index.html", "table.md"):
             self.assertIn("distance 1: tan_gmm failed: method tan_gmm", (out / document).read_text().replace("\n  ", " "))
 
+    def test_a_comparison_without_any_row(self):
+        out = self.folder / "without_rows"
+        done = self.with_fault("no_gl_memory", "compare", self.small_grooves(), "--size", "32x32", "--distance", "1",
+                               "--methods", "tan_gmm", "--repeats", "1", "-q", "-o", out)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("1 of 1 rows failed; the first, at distance 1: method tan_gmm", done.stderr)
+        self.assertNotIn("strip", done.stderr)
+        records = json.loads((out / "results.json").read_text())["records"]
+        self.assertIn("GL_OUT_OF_MEMORY", records[0]["failure"])
+        self.assertIn("tan_gmm", (out / "index.html").read_text())
+
     def test_a_lost_context_ends_a_comparison(self):
         done = self.with_fault("lost_context", "compare", SETTINGS[0], "--methods", "direct,toksvig", *SETTINGS[3:], "-q", "-o", self.folder / "none")
         self.assert_fails(done, 3, "GL_CONTEXT_LOST: the driver was reset")

@@ -155,9 +155,11 @@ SharedTruth::AtDistance& TruthFinder::begun_reference(SharedTruth& shared, const
   return shared.distances.emplace_back(std::move(begun));
 }
 
-// The reference over the samples of finest levels, where those are drawn.
+// The reference over the samples of finest levels. Where its samples draw directions from an environment, their noise
+// is its own: methods look the environment up, and a difference of the two would only add it.
 Image TruthFinder::samples_of_finest_levels(const Truth& truth, const Image& whole, const Progress& progress) {
   const ReferenceSettings& asked = settings_.reference;
+  if (has(stage_.effects(), Effect::environment_light) && asked.environment == EnvironmentUse::sampled) return {};
   const int spp = finest_samples(asked);
   if (spp == asked.spp || !asked.finest_levels) return whole;
   return finest_mean(stage_.reference(), truth.view, asked, progress);
@@ -216,7 +218,7 @@ void TruthFinder::leave_out_unresolved(Truth& truth) const {
   truth.whole = truth.reference.mean;
   truth.unresolved = unresolved(truth.reference, exposure_);
   leave_out(truth.reference, truth.unresolved);
-  uncover(truth.first, truth.unresolved);
+  if (!truth.first.texels.empty()) uncover(truth.first, truth.unresolved);
   const std::size_t whole = object_pixel_count(truth.whole);
   const std::size_t left_out = whole - object_pixel_count(truth.reference.mean);
   truth.parts.counts.unresolved = left_out;

@@ -48,7 +48,7 @@ struct Truth {
   View view;
   Supersampled reference;  ///< its unresolved pixels uncovered
   Image whole;             ///< its mean with them
-  Image first;             ///< its mean over the samples that finest levels are drawn with, without them
+  Image first;             ///< its mean over the samples that finest levels are drawn with, without them; or empty
   Image unresolved;        ///< a mask of them
   double samples = 0;      ///< a pixel, mean over the picture
   double seconds = 0;      ///< that the reference took

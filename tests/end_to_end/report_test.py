@@ -37,6 +37,12 @@ class Report(WholeRunTest):
     def error(self, method, distance, key="normalized_color"):
         return self.records[method, distance]["error"][key]
 
+    def test_a_finest_level_has_no_noise_of_the_environments_directions(self):
+        """Over a smooth sphere it is what many frames average to."""
+        out = self.compare("lit", "glossy_sphere", "--size", "48x48", "--distance", "1", "--methods", "direct")
+        found = results_of(out)
+        self.assertLess(found["records"][0]["error"]["representation"], 1.25 * found["supersampling"][-1]["normalized_color"])
+
     # The files.
 
     def test_the_results_hold_to_their_schema(self):

@@ -54,7 +54,7 @@ Effective effective(Footprints f) {
     do {
       weights[i] *= own.weight / vec2(amountsOf(e.covered), e.covered);
 //? if environment_light
-      shares[i] *= own.weight / amountsOf(e.covered);
+      shares[i].x *= own.weight / amountsOf(e.covered);
 //? end
     } while (++i < e.count);
     e.covered = 1.0;
@@ -116,15 +116,21 @@ float ndf(Effective e, vec3 h) {
 //? if environment_light
 int lobeCount(Effective e) { return e.count; }
 
-// What its facets cover, seen along their own normals, is what they reflect: the share, which is no integral of the
-// density.
+// A lobe reflects what its facets cover, seen along their own normals, and masks as they do: the density's integral is
+// another, and the wide lobe that stands for them masks more.
 NormalLobe normalLobe(Effective e, int i) {
   Lobe lobe = lobeOf(lobes[i], weights[i]);
-  float share = shares[i] / amountsOf(e.covered);
+  float share = shares[i].x / amountsOf(e.covered);
 //? if lobe_base
-  return baseNormalLobe(lobe.mean, lobe.base, share);
+//? if distribution_ggx
+  // Seen along its axis GGX reflects 1 / (1 + alpha^2) of a furnace, and the rest below its horizon.
+  share *= (1.0 + lobe.base * lobe.base) / (1.0 + shares[i].y * shares[i].y);
+//? end
+  NormalLobe normals = baseNormalLobe(lobe.mean, lobe.base, share);
+  normals.base = shares[i].y;
+  return normals;
 //? else
-  return vmfNormalLobe(lobe.mean, lobe.kappa, share, lobe.base);
+  return vmfNormalLobe(lobe.mean, lobe.kappa, share, shares[i].y);
 //? end
 }
 

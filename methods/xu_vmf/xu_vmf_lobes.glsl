@@ -28,7 +28,7 @@ struct Effective {
 vec4 lobes[most_lobes];    // mean direction, and width: the parameter of the base lobe, or kappa
 vec2 weights[most_lobes];  // of the density, and of the cosine of the mean normal
 //? if environment_light
-float shares[most_lobes];  // of the footprint's facets, but as published
+vec2 shares[most_lobes];   // of the footprint's facets, but as published, and the parameter of their lobe
 //? end
 
 struct Lobe {
@@ -70,7 +70,7 @@ float amountsOf(float covered) {
 struct KeptLobe {
   vec4 lobe;
   vec2 weights;
-  float share;
+  vec2 share;
 };
 
 // `amount` is what the lobe adds with as published: it is the share where lobes weigh what they cover.
@@ -84,6 +84,7 @@ KeptLobe keptLobe(FacetsLobe own, vec3 mean, float q, float share, float amount)
   // The lobe of the one texel that was drawn is a facet's own. The roughness map may have drawn another.
   own.shortfall = q;
   own.energy = energyOf(base);
+  own.parameter = base;
 //? end
   // The mean resultant length of the facets' normals: |r| over that of a single facet.
   float normal_length = min((1.0 - q) / max(1.0 - own.shortfall, 1e-6), 1.0);
@@ -92,5 +93,5 @@ KeptLobe keptLobe(FacetsLobe own, vec3 mean, float q, float share, float amount)
 //? else
   vec4 lobe = vec4(mean, kappa);
 //? end
-  return KeptLobe(lobe, vec2(amount * own.energy / energyOf(base), share * normal_length), amount);
+  return KeptLobe(lobe, vec2(amount * own.energy / energyOf(base), share * normal_length), vec2(amount, own.parameter));
 }

@@ -85,14 +85,14 @@ TextureUnits forward_units(const ShaderVariant& variant, const Prefiltered& pref
   TextureUnits units(variant.effects, prefiltered);
   if (has(variant.effects, Effect::environment_light)) {
     for (const std::string_view name : environment_textures(variant.environment))
-      units.add(name, name == "environment_stack" ? "sampler2DArray" : "sampler2D");
+      units.add(name, name == "environment_stack" || name == "environment_lobes" ? "sampler2DArray" : "sampler2D");
   }
   if (hides_environment(variant.effects)) units.add("visibility_maps", "sampler2DArray");
   if (calls_for_shadow_maps(variant.effects)) units.add("shadow_maps", "sampler2DArrayShadow");
   return units;
 }
 
-std::array<std::string_view, 2> environment_textures(EnvironmentUse use) {
+std::vector<std::string_view> environment_textures(EnvironmentUse use) {
   switch (use) {
     case EnvironmentUse::prefiltered:
       break;
@@ -101,7 +101,7 @@ std::array<std::string_view, 2> environment_textures(EnvironmentUse use) {
     case EnvironmentUse::dense:
       return {"environment_lights", "environment_directions"};
   }
-  return {"environment_stack", "environment_irradiance"};
+  return {"environment_stack", "environment_irradiance", "environment_lobes"};
 }
 
 }  // namespace footprint

@@ -1,7 +1,6 @@
 // Where programs find their textures and uniform blocks: given out in one place, held against what the GL has.
 #pragma once
 
-#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,7 +49,7 @@ class TextureUnits {
 /// Those of a forward pass: behind the module's the environment's, those of its visibility, and the shadow maps.
 [[nodiscard]] TextureUnits forward_units(const ShaderVariant& variant, const Prefiltered& prefiltered);
 
-/// The two textures of an environment in the order of their units.
-[[nodiscard]] std::array<std::string_view, 2> environment_textures(EnvironmentUse use);
+/// The textures of an environment in the order of their units.
+[[nodiscard]] std::vector<std::string_view> environment_textures(EnvironmentUse use);
 
 }  // namespace footprint

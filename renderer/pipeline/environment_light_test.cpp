@@ -35,6 +35,7 @@ std::string light_functions_of(NormalDistribution distribution, GeometryTerm geo
   constexpr std::string_view module =
       "layout(binding = 0) uniform sampler2DArray environment_stack;\n"
       "layout(binding = 1) uniform sampler2D environment_irradiance;\n"
+      "layout(binding = 2) uniform sampler2DArray environment_lobes;\n"
       "struct Effective { Facets facets; };\n"
       "//? include facet_normal_lobes.glsl\n"
       "vec3 meanNormal(Effective e) { return e.facets.normal; }\n"
@@ -306,24 +307,28 @@ double ggx_reflects(double alpha, const glm::dvec3& n, const glm::dvec3& wo,
   return sum / (rings * sectors);
 }
 
-// A GGX facet: alpha, its lean towards the viewer's side and the view, in the plane of both.
+// A GGX facet: alpha, its lean, the view, and the azimuth between the two; degrees.
 struct Facet {
-  double alpha, lean, view;
+  double alpha, lean, view, azimuth;
 
-  [[nodiscard]] glm::dvec3 normal() const { return in_plane(lean); }
-  [[nodiscard]] glm::dvec3 wo() const { return in_plane(view); }
+  [[nodiscard]] glm::dvec3 normal() const { return direction(lean, 0.0); }
+  [[nodiscard]] glm::dvec3 wo() const { return direction(view, azimuth); }
 
  private:
-  static glm::dvec3 in_plane(double degrees) {
-    return {std::sin(degrees * pi / 180.0), 0.0, std::cos(degrees * pi / 180.0)};
+  static glm::dvec3 direction(double degrees, double around) {
+    const double angle = degrees * pi / 180.0, turn = around * pi / 180.0;
+    return {std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn), std::cos(angle)};
   }
 };
 
 std::vector<Facet> facets() {
   std::vector<Facet> all;
   for (const double alpha : {0.05, 0.1, 0.25, 0.5, 0.75, 1.0}) {
-    for (const double lean : {0.0, 25.0, -25.0, 50.0}) {
-      for (const double view : {0.0, 30.0, 60.0, 85.0}) all.push_back({alpha, lean, view});
+    for (const double azimuth : {0.0, 90.0}) {
+      for (const double lean : {0.0, 25.0, -25.0, 50.0}) {
+        if (azimuth > 0.0 && lean <= 0.0) continue;  // the same as others
+        for (const double view : {0.0, 30.0, 60.0, 85.0}) all.push_back({alpha, lean, view, azimuth});
+      }
     }
   }
   return all;
@@ -342,7 +347,7 @@ std::vector<glm::vec4> facet_radiance(const Environment& environment) {
 }
 
 // Rough facets lose much of a white furnace to masking and to the horizon, and those that turn away from the viewer
-// shine by their tail alone: at most 9% of what arrives is off, 3% on average.
+// shine by their tail alone: at most 7% of what arrives is off, 2% on average.
 TEST(EnvironmentLight, GgxFacetsKeepTheEnergyOfAFurnace) {
   const auto radiance = facet_radiance(constant_environment(glm::vec3(1.0F)));
   double squares = 0;
@@ -350,11 +355,11 @@ TEST(EnvironmentLight, GgxFacetsKeepTheEnergyOfAFurnace) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     const double truth =
         ggx_reflects(all[i].alpha, all[i].normal(), all[i].wo(), [](const glm::dvec3&) { return 1.0; });
-    EXPECT_NEAR(radiance[i].x, truth, 0.09)
-        << "alpha " << all[i].alpha << ", lean " << all[i].lean << ", view " << all[i].view;
+    EXPECT_NEAR(radiance[i].x, truth, 0.07) << "alpha " << all[i].alpha << ", lean " << all[i].lean << ", view "
+                                            << all[i].view << ", azimuth " << all[i].azimuth;
     squares += std::pow(radiance[i].x - truth, 2.0);
   }
-  EXPECT_LT(std::sqrt(squares / static_cast<double>(all.size())), 0.03);
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(all.size())), 0.02);
 }
 
 // Of light that is below the horizon alone nothing may be reflected; at most 11% of it is. (A coarse map would

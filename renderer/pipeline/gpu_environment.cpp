@@ -6,13 +6,12 @@
 
 #include "renderer/environment/cell_light.hpp"
 #include "renderer/environment/direction_table.hpp"
+#include "renderer/environment/lobe_table.hpp"
 #include "renderer/pipeline/bindings.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
 
 namespace footprint {
 namespace {
-
-constexpr float nodes_around = 4.0F;  // a ring of a lobe with a tail: docs/base-brdf.md
 
 gl::Buffer block_of(const std::vector<glm::vec4>& values) { return gl::Buffer(std::as_bytes(std::span(values))); }
 
@@ -27,19 +26,22 @@ gl::Texture plain_texture(const Image& image, GLenum internal_format, GLenum for
 GpuEnvironment::Part GpuEnvironment::stack_part() const {
   const RadianceStack stack = prefilter_environment(looked_up(), no_progress);
   const PrefilteredTexture maps = make_array_texture("environment_stack", stack.layers, Storage::fp32, {});
+  std::vector<std::vector<Image>> layers;
+  for (Image& layer : make_lobe_table().layers) layers.push_back({std::move(layer)});
+  const PrefilteredTexture lobes = make_array_texture("environment_lobes", std::move(layers), Storage::fp32, {});
   Part part;
-  part.first = upload_texels(maps);
-  part.second = plain_texture(stack.irradiance, GL_RGBA32F, GL_RGBA);
+  part.textures.push_back(upload_texels(maps));
+  part.textures.push_back(plain_texture(stack.irradiance, GL_RGBA32F, GL_RGBA));
+  part.textures.push_back(upload_texels(lobes));
   part.sampler = gl::trilinear_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
-  std::vector<glm::vec4> values{
-      glm::vec4(stack.mean, 0.0F),
-      glm::vec4(stack.finest_sharpness, static_cast<float>(stack.map_count()), nodes_around, 0.0F)};
+  std::vector<glm::vec4> values{glm::vec4(stack.mean, 0.0F),
+                                glm::vec4(stack.finest_sharpness, static_cast<float>(stack.map_count()), 0.0F, 0.0F)};
   for (const SmallSun& sun : apart_.suns) {
     values.emplace_back(sun.direction, 0.0F);
     values.emplace_back(sun.irradiance, 0.0F);
   }
   part.block = block_of(values);
-  part.bytes = byte_count(maps) + stack.irradiance.texels.size() * sizeof(float);
+  part.bytes = byte_count(maps) + byte_count(lobes) + stack.irradiance.texels.size() * sizeof(float);
   return part;
 }
 
@@ -47,8 +49,8 @@ GpuEnvironment::Part GpuEnvironment::table_part() const {
   const Image& map = *environment_.radiance;
   const DirectionTable table = direction_table(map);
   Part part;
-  part.first = plain_texture(table.radiance, GL_RGBA32F, GL_RGBA);
-  part.second = plain_texture(table.sums, GL_RG32F, GL_RG);
+  part.textures.push_back(plain_texture(table.radiance, GL_RGBA32F, GL_RGBA));
+  part.textures.push_back(plain_texture(table.sums, GL_RG32F, GL_RG));
   part.sampler = gl::nearest_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
   part.block =
       block_of({glm::vec4(static_cast<float>(map.width), static_cast<float>(map.height), environment_.rotation, 0.0F),
@@ -69,8 +71,8 @@ GpuEnvironment::Part GpuEnvironment::light_part() const {
     }
   }
   Part part;
-  part.first = plain_texture(irradiance, GL_RGBA32F, GL_RGBA);
-  part.second = plain_texture(directions, GL_RGBA32F, GL_RGBA);
+  part.textures.push_back(plain_texture(irradiance, GL_RGBA32F, GL_RGBA));
+  part.textures.push_back(plain_texture(directions, GL_RGBA32F, GL_RGBA));
   part.sampler = gl::nearest_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
   part.block = block_of({glm::vec4(0.0F), glm::vec4(0.0F)});
   part.bytes = (irradiance.texels.size() + directions.texels.size()) * sizeof(float);
@@ -95,13 +97,11 @@ void GpuEnvironment::prepare(EnvironmentUse use) {
 
 void GpuEnvironment::bind(const TextureUnits& units, EnvironmentUse use) const {
   const Part& part = parts_.at(static_cast<std::size_t>(use)).value();
-  const auto [first, second] = environment_textures(use);
-  const auto bind = [&](GLuint unit, const gl::Texture& texture) {
-    gl::api().BindTextureUnit(unit, texture.name());
-    gl::api().BindSampler(unit, part.sampler.name());
-  };
-  bind(units.unit(first), part.first);
-  bind(units.unit(second), part.second);
+  const std::vector<std::string_view> names = environment_textures(use);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    gl::api().BindTextureUnit(units.unit(names[i]), part.textures.at(i).name());
+    gl::api().BindSampler(units.unit(names[i]), part.sampler.name());
+  }
   gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::environment, part.block.name());
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "renderer/environment/radiance_stack.hpp"
 #include "renderer/gl/objects.hpp"
@@ -24,7 +25,7 @@ class GpuEnvironment {
   /// Makes what a program needs, if it is not there yet. Errors (machine): over the GL limits, out of memory.
   void prepare(EnvironmentUse use);
 
-  /// Binds it: two textures at their `units`, and the block.
+  /// Binds it: its textures at their `units`, and the block.
   void bind(const TextureUnits& units, EnvironmentUse use) const;
 
   /// How many suns of it methods light by as by directional lights (environment_stack.glsl).
@@ -37,7 +38,7 @@ class GpuEnvironment {
 
  private:
   struct Part {
-    gl::Texture first, second;  // in the order of environment_textures (bindings.hpp)
+    std::vector<gl::Texture> textures;  // in the order of environment_textures (bindings.hpp)
     gl::Sampler sampler;
     gl::Buffer block;
     std::size_t bytes = 0;

@@ -46,7 +46,7 @@ std::vector<glm::vec4> GpuVisibility::attributes(const Scene& scene, std::size_t
                                    {w[3], w[4], w[5], w[6]},
                                    {w[7], w[8], w[9], w[10]},
                                    {w[11], w[12], w[13], w[14]},
-                                   glm::vec4(vertex.diffuse_share, 0.0F)});
+                                   glm::vec4(vertex.diffuse_share, vertex.hidden)});
     }
   }
   return values;

@@ -2,7 +2,7 @@
 // lobe that its mirror images make about the viewer (Wang 2009), from a stack of prefiltered maps (Kautz 2000).
 layout(std140, binding = 5) uniform EnvironmentBlock {
   vec4 environment_mean;         // radiance over all directions
-  vec4 environment_stack_range;  // sharpness of the finest map's lobe, number of maps: two a level; nodes around a ring
+  vec4 environment_stack_range;  // sharpness of the finest map's lobe, number of maps: two a level
 //? if environment_suns
   vec4 environment_suns[2 * environment_sun_count];  // each: towards it, world space; irradiance on what faces it
 //? end
@@ -135,12 +135,6 @@ const int coat_lobe = -1;
 //? end
 
 Beside besideDensity(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 h, vec3 wi, vec3 wo, float sharpness) {
-//? if clear_coat
-  if (i == coat_lobe) {
-    Coat coat = Coat(lobe.normal, 2.0 / lobe.sharpness, f0.x, f0.y, f0.z);
-    return Beside(ggxGeometry(coat.alpha2, coat.normal, wi, wo), vec3(coatShare(coat, h, wo)));
-  }
-//? end
 //? if microgeometry_visibility
   vec3 all = lobeReflectance(e, i, f0, h, wi, wo, sharpness);
   float mean = dot(all, vec3(1.0 / 3.0));
@@ -168,83 +162,117 @@ vec3 lobeRadiance(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wo, mat3 fr
 }
 
 //? if distribution_ggx or clear_coat
-// GGX has a tail that no Gaussian has, and wide facets of it reflect below the horizon, where masking is strongest: the
-// centre of a lobe says little of it. So its visible normals are sampled, as quadrature: once slopes are divided by
-// alpha, wo reflected by them fills a spherical cap evenly (Dupuy and Benyoub 2023). Rings of the cap, by the part of
-// its area within them: the core, half of the energy, and two rings of the tail.
-const vec2 ggx_rings[3] = vec2[](vec2(0.25, 0.5), vec2(0.605662, 0.25), vec2(0.894338, 0.25));  // area within, share
-const float ggx_node_sharpness = 4.0;  // of what a node stands for, over the lobe's own
-// Variance of what the core's and the tail's nodes stand for, over that of the nodes alone.
-const vec2 ggx_spread = vec2(1.76, 1.11);
+// GGX has a tail that no Gaussian has, and wide facets of it reflect below the horizon, where masking is strongest. So
+// the half of its visible normals that is nearest to the axis and the other half look the environment up apart, as vMF
+// lobes that a table has by view and alpha: their energy, direction and sharpness (lobe_table.hpp).
+const float smith_steps = 4.0;  // of lobe_table.hpp
 
-// x along the part of wo across the axis.
-mat3 frameTowards(vec3 axis, vec3 wo) {
-  vec3 x = wo - dot(wo, axis) * axis;
-  if (dot(x, x) < 1e-8) x = cross(axis, abs(axis.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
-  x = normalize(x);
-  return mat3(x, cross(axis, x), axis);
+// Where the table has the base BRDF's geometry factor.
+float geometryStep(NormalLobe lobe, float alpha) {
+//? if masking_shadowing and geometry_smith
+  return smith_steps * clamp(lobe.base / alpha, 0.0, 1.0);
+//? elif masking_shadowing and geometry_tan
+  return smith_steps + 1.0;
+//? else
+  return smith_steps + 2.0;
+//? end
 }
 
-// The mean of max(h.wo, 0) over GGX's normals, c the cosine of wo and axis (Walter 2007's Smith term).
-float ggxVisibleArea(float c, float alpha2) {
-  float root = sqrt(c * c + alpha2 * max(1.0 - c * c, 0.0));
-  return c >= 0.0 ? 0.5 * (root + c) : 0.5 * alpha2 * (1.0 - c * c) / (root - c);
-}
-
-// What nodes reflect: energy, and their directions weighted by it.
-struct NodeSum {
-  vec3 energy;
-  vec3 direction;
-  float weight;
+struct TailedLobe {
+  float alpha;
+  vec2 table;     // coordinates in environment_lobes
+  vec3 mirrored;  // image of the view about the axis
+  vec3 across;    // from there towards the view
 };
 
-// Adds one node of lobe i, number `node` of environment_stack_range.z around a ring.
-void addNode(inout NodeSum sum, Effective e, int i, NormalLobe lobe, vec2 ring, int node, vec3 f0, vec3 wo, mat3 axes) {
-  float alpha = sqrt(2.0 / lobe.sharpness);
-  vec3 seen = wo * axes;
-  vec3 stretched = normalize(vec3(alpha * seen.xy, seen.z));
-  float z = 1.0 - ring.x * (1.0 + stretched.z);
-  float around = environment_stack_range.z;
-  float azimuth = 2.0 * pi / around * (float(node) + (ring.x == ggx_rings[1].x ? 0.0 : 0.5));
-  vec3 cap = vec3(sqrt(max(1.0 - z * z, 0.0)) * vec2(cos(azimuth), sin(azimuth)), z) + stretched;
-  vec3 h = axes * normalize(vec3(alpha * cap.xy, max(cap.z, 1e-6)));
-  vec3 wi = 2.0 * dot(h, wo) * h - wo;
-  float sharpness = ggx_node_sharpness * lobe.sharpness;
-  Beside beside = besideDensity(e, i, lobe, f0, h, wi, wo, sharpness);
-  float reflected = ring.y / around * shareAbove(dot(horizonNormal(lobe), wi), sharpness);
-  reflected *= 4.0 * lobe.weight * ggxVisibleArea(seen.z, alpha * alpha) * beside.weight;
-  sum.energy += reflected * beside.color;
-  sum.direction += reflected * wi;
-  sum.weight += reflected;
+TailedLobe tailedLobe(NormalLobe lobe, vec3 wo) {
+  float c = clamp(dot(lobe.axis, wo), -1.0, 1.0);
+  float sine = sqrt(max(1.0 - c * c, 1e-12));
+  vec2 size = vec2(textureSize(environment_lobes, 0).xy);
+  float alpha = inversesqrt(0.5 * lobe.sharpness);
+  float narrowest = sqrt(smallest_alpha);
+  vec2 at = vec2(0.5 + 0.5 * sign(c) * sqrt(abs(c)), (sqrt(alpha) - narrowest) / (1.0 - narrowest));
+  vec3 tangent = (wo - c * lobe.axis) / sine;
+  vec2 table = (at * (size - 1.0) + 0.5) / size;
+  return TailedLobe(alpha, table, c * lobe.axis - sine * tangent, c * tangent + sine * lobe.axis);
 }
 
-// The environment's mean over the vMF lobe whose mean direction is that of the nodes.
-vec3 nodesRadiance(NodeSum sum, float spread, vec3 n, mat3 frame) {
-  float size = length(sum.direction);
-  if (size < 1e-6) return vec3(0.0);
-  float r = min(size / sum.weight, 0.9999);
-  float sharpness = max(r * (3.0 - r * r) / (spread * (1.0 - r * r)), hemisphere_sharpness);
-  vec3 axis = sum.direction / size;
-  float elevation = dot(n, axis);
-  float share = shareAbove(visibleElevation(frame * axis, elevation), sharpness) / shareAbove(elevation, sharpness);
-  return sum.energy * share * stackRadiance(frame * axis, sharpness);
+// What the table's geometry factor is without, in a direction: a module's own, or that of another normal.
+vec3 ownGeometry(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wi, vec3 wo, float sharpness) {
+//? if distribution_ggx
+  vec3 h = halfVector(wi, wo);
+  float table = max(geometryFactor(min(lobe.base, inversesqrt(0.5 * lobe.sharpness)), lobe.axis, h, wi, wo), 1e-6);
+//? if microgeometry_visibility
+  return min(lobeReflectance(e, i, f0, h, wi, wo, sharpness) / max(table * fresnelTerm(f0, wi, wo), 1e-6), 4.0);
+//? else
+  return vec3(min(lobeGeometry(e, lobe, h, wi, wo) / table, 4.0));
+//? end
+//? else
+  return vec3(1.0);
+//? end
 }
 
-vec3 tailedRadiance(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wo, mat3 frame) {
-  mat3 axes = frameTowards(lobe.axis, wo);
-  NodeSum core = NodeSum(vec3(0.0), vec3(0.0), 0.0);
-  NodeSum tail = core;
-  int around = int(environment_stack_range.z);  // no constant: unrolled, the loop takes compilers seconds
-  int k = 0;
-  do {
-    addNode(core, e, i, lobe, ggx_rings[0], k, f0, wo, axes);
-  } while (++k < around);
-  k = 0;
-  do {
-    addNode(tail, e, i, lobe, ggx_rings[1 + k / around], k % around, f0, wo, axes);
-  } while (++k < 2 * around);
-  vec3 n = horizonNormal(lobe);
-  return nodesRadiance(core, ggx_spread.x, n, frame) + nodesRadiance(tail, ggx_spread.y, n, frame);
+//? if not horizon_open
+// What the surface's plane leaves of a lobe, and that part as a lobe of its own. The lobe's table has the facets' own
+// horizon already, so that its share above the one counts over that above the other. The last factor is fitted to sums
+// over normals: a wide lobe that is cut is no Gaussian.
+float cutByHorizon(inout ReflectedLobe lobe, vec3 own_normal, vec3 n, float alpha) {
+  float own = shareAbove(dot(own_normal, lobe.axis), lobe.sharpness);
+  float share = shareAbove(dot(n, lobe.axis), lobe.sharpness);
+  ReflectedLobe above = aboveHorizon(lobe, n, share);
+  float by = clamp((own - share) / max(1.0 - share, 1e-4), 0.0, 1.0);
+  lobe = ReflectedLobe(normalize(mix(lobe.axis, above.axis, by)), mix(lobe.sharpness, above.sharpness, by));
+  float left = min(share / own, 1.0);
+  return left * mix(1.0, left, alpha);
+}
+//? end
+
+// Half 0 or 1 of a lobe in the table, between two steps of the geometry factor where it is between two.
+vec4 tablePart(TailedLobe tailed, float geometry, int half_of) {
+  float lower = floor(geometry);
+  float layer = 2.0 * lower + float(half_of);
+  countLookups(1);
+  vec4 part = textureLod(environment_lobes, vec3(tailed.table, layer), 0.0);
+  if (geometry == lower) return part;
+  countLookups(1);
+  return mix(part, textureLod(environment_lobes, vec3(tailed.table, layer + 2.0), 0.0), geometry - lower);
+}
+
+vec3 partRadiance(Effective e, int i, NormalLobe lobe, TailedLobe tailed, vec4 part, vec3 f0, vec3 wo, mat3 frame) {
+  vec3 axis = cos(part.b) * tailed.mirrored + sin(part.b) * tailed.across;
+  ReflectedLobe above = ReflectedLobe(axis, exp2(part.a) * 0.5 * lobe.sharpness);
+  float share = lobe.weight;
+//? if not horizon_open
+  share *= cutByHorizon(above, lobe.axis, vec3(0.0, 0.0, 1.0), tailed.alpha);
+//? end
+//? if environment_visibility
+  float elevation = dot(horizonNormal(lobe), above.axis);
+  share *= shareAbove(visibleElevation(frame * above.axis, elevation), above.sharpness) /
+           shareAbove(elevation, above.sharpness);
+//? end
+  vec3 energy = vec3(part.r + part.g);
+//? if clear_coat
+  if (i == coat_lobe) {
+    Coat coat = Coat(lobe.normal, 2.0 / lobe.sharpness, f0.x, f0.y, f0.z);
+    energy *= coatShare(coat, halfVector(axis, wo), wo);
+  } else {
+//? end
+//? if fresnel and fresnel_schlick
+    energy = part.r * f0 + part.g;
+//? else
+    energy *= f0;
+//? end
+    energy *= ownGeometry(e, i, lobe, f0, axis, wo, above.sharpness);
+//? if clear_coat
+  }
+//? end
+  return share * energy * stackRadiance(frame * above.axis, above.sharpness);
+}
+
+vec3 tailedRadiance(Effective e, int i, NormalLobe lobe, float geometry, vec3 f0, vec3 wo, mat3 frame) {
+  TailedLobe tailed = tailedLobe(lobe, wo);
+  return partRadiance(e, i, lobe, tailed, tablePart(tailed, geometry, 0), f0, wo, frame) +
+         partRadiance(e, i, lobe, tailed, tablePart(tailed, geometry, 1), f0, wo, frame);
 }
 //? end
 
@@ -258,7 +286,7 @@ vec3 environmentSpecular(Effective e, vec3 f0, vec3 wo, mat3 frame) {
     countLobes(1);
 //? if distribution_ggx
     if (lobe.tailed) {
-      radiance += tailedRadiance(e, i, lobe, f0, wo, frame);
+      radiance += tailedRadiance(e, i, lobe, geometryStep(lobe, inversesqrt(0.5 * lobe.sharpness)), f0, wo, frame);
       continue;
     }
 //? end
@@ -332,6 +360,6 @@ vec3 coatLit(SurfacePoint p) {
   countLobes(1);
   NormalLobe lobe = NormalLobe(p.coat.normal, 2.0 / p.coat.alpha2, 1.0, 0.0, true, p.coat.normal);
   vec3 shares = vec3(p.coat.weight, p.coat.share, p.coat.spread);
-  return tailedRadiance(p.effective, coat_lobe, lobe, shares, p.wo, p.frame);
+  return tailedRadiance(p.effective, coat_lobe, lobe, smith_steps, shares, p.wo, p.frame);
 }
 //? end

@@ -1,7 +1,7 @@
 // What large bodies leave visible of the environment: signed distance functions at the vertices (Wang et al. 2009) as
 // weights of common components, docs/shadows.md.
 in vec4 visibility_weights[4];  // the first is 1, of the mean
-in vec3 visible_diffuse;        // of a Lambert surface's irradiance, the visible share
+in vec4 visible_diffuse;        // of a Lambert surface's irradiance, the visible share; 0 where bodies hide nothing
 
 // The angle from a direction of the world to the nearest edge between visible and hidden; below 0 where it is hidden.
 float signedDistance(vec3 direction) {
@@ -13,25 +13,27 @@ float signedDistance(vec3 direction) {
   return distance;
 }
 
-// The sine of a direction's elevation over the nearest edge, the horizon being one: `elevation` is that over it. Nothing is known of the back of a surface that is seen from both sides.
-float visibleElevation(vec3 direction, float elevation) {
+// Whether nothing but its own horizon hides light from the surface. Nothing is known of the back of one that is seen from
+// both sides.
+bool isOpen() {
 //? if double_sided
-  if (!gl_FrontFacing) return elevation;
+  if (!gl_FrontFacing) return true;
 //? end
+  return visible_diffuse.w == 0.0;
+}
+
+// The sine of a direction's elevation over the nearest edge, the horizon being one: `elevation` is that over it.
+float visibleElevation(vec3 direction, float elevation) {
+  if (isOpen()) return elevation;
   return min(elevation, sin(clamp(signedDistance(direction), -0.5 * pi, 0.5 * pi)));
 }
 
 // For single directions: no light comes from behind an edge.
-bool isVisible(vec3 direction) {
-//? if double_sided
-  if (!gl_FrontFacing) return true;
-//? end
-  return signedDistance(direction) > 0.0;
-}
+bool isVisible(vec3 direction) { return isOpen() || signedDistance(direction) > 0.0; }
 
 vec3 visibleDiffuse() {
 //? if double_sided
   if (!gl_FrontFacing) return vec3(1.0);
 //? end
-  return visible_diffuse;
+  return visible_diffuse.rgb;
 }

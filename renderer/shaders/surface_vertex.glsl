@@ -9,7 +9,7 @@ layout(location = 5) in vec2 in_surface;
 //? end
 //? if environment_visibility
 layout(location = 6) in vec4 in_visibility_weights[4];
-layout(location = 10) in vec3 in_visible_diffuse;
+layout(location = 10) in vec4 in_visible_diffuse;
 //? end
 //? if vertex_color
 layout(location = 11) in vec4 in_color;
@@ -27,7 +27,7 @@ out vec2 surface_uv;
 //? end
 //? if environment_visibility
 out vec4 visibility_weights[4];
-out vec3 visible_diffuse;
+out vec4 visible_diffuse;
 //? end
 //? if vertex_color
 out vec4 vertex_color;

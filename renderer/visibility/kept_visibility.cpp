@@ -14,7 +14,7 @@
 namespace footprint {
 namespace {
 
-constexpr std::string_view form = "footprint visibility 1";  // another layout below: another number here
+constexpr std::string_view form = "footprint visibility 2";  // another layout below: another number here
 
 template <class Value>
 void add_values(ContentHash& hash, const std::vector<Value>& values) {

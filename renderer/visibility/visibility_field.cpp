@@ -63,10 +63,25 @@ glm::vec3 diffuse_share(const SphereVisibility& visible, const glm::vec3& normal
   return share;
 }
 
+// Solid angles of the grid's cells but for a factor: an octahedron's, seen from its centre.
+std::vector<glm::dvec3> even_light() {
+  std::vector<glm::dvec3> light;
+  for (const glm::vec3& d : visibility_directions())
+    light.emplace_back(std::pow(std::abs(d.x) + std::abs(d.y) + std::abs(d.z), 3.0));
+  return light;
+}
+
+float hidden_share(const SphereVisibility& visible, const glm::vec3& normal) {
+  constexpr float least = 0.005F;  // grazing rays meet a smooth surface's own triangles
+  static const std::vector<glm::dvec3> even = even_light();
+  const float hidden = 1.0F - diffuse_share(visible, normal, even).x;
+  return hidden < least ? 0.0F : hidden;
+}
+
 // What is known of all samples before the compression.
 struct Measured {
   Distances distances;
-  std::vector<glm::vec3> diffuse_shares;
+  std::vector<VertexVisibility> shares;  // without weights
 };
 
 void require_room(std::size_t vertices, std::size_t samples, const std::string& source) {
@@ -82,7 +97,7 @@ void require_room(std::size_t vertices, std::size_t samples, const std::string& 
 Measured measure(const std::vector<const Vertex*>& vertices, const Occluders& occluders, Horizon horizon,
                  std::span<const glm::dvec3> light, const Progress& progress) {
   Measured measured{Distances(static_cast<Eigen::Index>(vertices.size()), map_texels),
-                    std::vector<glm::vec3>(vertices.size())};
+                    std::vector<VertexVisibility>(vertices.size())};
   const std::vector<glm::vec3> directions = map_directions();
   for (std::size_t start = 0; start < vertices.size(); start += vertices_at_once) {
     progress("visibility at vertices", static_cast<double>(start) / static_cast<double>(vertices.size()));
@@ -94,7 +109,8 @@ Measured measure(const std::vector<const Vertex*>& vertices, const Occluders& oc
         const SphereVisibility visible = visibility_at(occluders, vertices[i]->position, normal, horizon);
         const std::vector<float> distances = signed_distances(visible, directions);
         std::ranges::copy(distances, measured.distances.row(static_cast<Eigen::Index>(i)).data());
-        measured.diffuse_shares[i] = diffuse_share(visible, normal, light);
+        measured.shares[i].diffuse_share = diffuse_share(visible, normal, light);
+        measured.shares[i].hidden = hidden_share(visible, normal);
       }
     });
   }
@@ -107,13 +123,14 @@ float sample_spacing(const Scene& scene) {
 }
 
 VertexVisibility interpolated(const VertexSamples& samples, const Vertex& vertex, const Eigen::MatrixXf& weights,
-                              const std::vector<glm::vec3>& diffuse_shares) {
+                              const std::vector<VertexVisibility>& shares) {
   VertexVisibility value{.weights = {}, .diffuse_share = glm::vec3(0.0F)};
   samples.interpolate(vertex, [&](std::size_t sample, float share) {
     for (std::size_t k = 0; k < visibility_components; ++k) {
       value.weights.at(k) += share * weights(static_cast<Eigen::Index>(sample), static_cast<Eigen::Index>(k));
     }
-    value.diffuse_share += share * diffuse_shares[sample];
+    value.diffuse_share += share * shares[sample].diffuse_share;
+    value.hidden += share * shares[sample].hidden;
   });
   return value;
 }
@@ -166,7 +183,7 @@ VisibilityField visibility_field(const Scene& scene, const Occluders& occluders,
   for (const Mesh& mesh : scene.meshes) {
     std::vector<VertexVisibility>& values = field.meshes.emplace_back(mesh.vertices.size());
     tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t i) {
-      values[i] = interpolated(samples, mesh.vertices[i], weights, measured.diffuse_shares);
+      values[i] = interpolated(samples, mesh.vertices[i], weights, measured.shares);
     });
   }
   const double left_out = (measured.distances - weights * components.transpose()).squaredNorm();

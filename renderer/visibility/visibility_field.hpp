@@ -31,6 +31,7 @@ inline constexpr std::size_t most_visibility_vertices = std::size_t{1} << 22U;
 struct VertexVisibility {
   std::array<float, visibility_components> weights{};
   glm::vec3 diffuse_share{1.0F};  ///< of a Lambert surface's irradiance: what is visible over what is above the horizon
+  float hidden = 0.0F;            ///< of even light, what bodies hide of the irradiance; 0 below 0.5%
 };
 
 /// The signed distance function of vertex v at w is mean(w) + sum over k of weights[k] component_k(w), radians.

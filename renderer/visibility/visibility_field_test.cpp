@@ -192,6 +192,8 @@ TEST(VisibilityField, DiffuseShareIsThatOfTheCosine) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(share[c], 1.0 - std::pow(std::sin(40.0 * degree), 2), 0.02);
   // A ball is lit from its own horizon on wherever the floor is not.
   EXPECT_NEAR(field.meshes[1].front().diffuse_share.x, 1.0F, 1e-6F);
+  EXPECT_EQ(field.meshes[1].front().hidden, 0.0F);
+  EXPECT_NEAR(field.meshes[0].back().hidden, std::pow(std::sin(40.0 * degree), 2), 0.02);
 }
 
 TEST(VisibilityField, LightOfCellsIsAllOfTheLight) {

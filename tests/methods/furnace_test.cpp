@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 #include <regex>
 
 #include "methods/registry.hpp"
@@ -105,6 +106,37 @@ TEST(AnOpenHorizon, IsThatOfALevelSurface) {
     TestRenderer open(scene, {32, 32});
     EXPECT_LT(largest_difference(cut.frame(find_method("direct")), open.frame(find_method("direct"))), 1e-5);
     EXPECT_NEAR(covered_mean(cut.reference(36).mean) / covered_mean(open.reference(36).mean), 1.0, 2e-3);
+  }
+}
+
+// The mean of a frame under one light per direction of the upper hemisphere, as much as the furnace's together.
+double under_lights(const Method& method, const SquareMaterial& material, double distance) {
+  constexpr int lights = 1024, at_once = 512;
+  double sum = 0.0;
+  for (int first = 0; first < lights; first += at_once) {
+    Scene scene = furnace(material);
+    scene.environment.reset();
+    for (int i = first; i < first + at_once; ++i) {
+      const double z = (i + 0.5) / lights, azimuth = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
+      const double r = std::sqrt(1.0 - z * z);
+      scene.lights.emplace_back(
+          DirectionalLight{.direction = -glm::vec3(r * std::cos(azimuth), r * std::sin(azimuth), z),
+                           .illuminance = glm::vec3(2.0F * std::numbers::pi_v<float> / lights)});
+    }
+    sum += covered_mean(TestRenderer(scene, {32, 32}).frame(method, {}, {}, 0, distance));
+  }
+  return sum;
+}
+
+// What methods look up of an environment is what their own BRDFs reflect of it, masking and horizon included.
+TEST(AWhiteFurnace, IsTheSumOfItsLights) {
+  for (const char* const name : {"direct", "toksvig", "cells"}) {
+    const Method& method = find_method(name);
+    for (const std::size_t metal : {2U, 3U}) {  // a narrower lobe would need more lights
+      const SquareMaterial material = white_materials().at(metal);
+      const double looked_up = covered_mean(TestRenderer(furnace(material), {32, 32}).frame(method, {}, {}, 0, 4.0));
+      EXPECT_NEAR(looked_up / under_lights(method, material, 4.0), 1.0, 0.01) << name << ", " << material.roughness;
+    }
   }
 }
 

@@ -1,0 +1,31 @@
+// What GGX lobes reflect of light from all sides, and where to: as engines tabulate it for split sums (Karis 2013).
+#pragma once
+
+#include <vector>
+
+#include "renderer/image/image.hpp"
+
+namespace footprint {
+
+/// Geometry factors of f * cos that facets have in turn, all with their own horizon (docs/base-brdf.md): Smith's of
+/// alphas from 0 to the lobe's own in even steps, since spread facets mask as single ones do; Tan's; none.
+inline constexpr int smith_steps = 4, tan_geometry = smith_steps + 1, no_geometry = smith_steps + 2;
+
+/// Layers of one array texture, RGBA, 32-bit floats: layer 2 g + p is part p of geometry g, part 0 the half of a lobe's
+/// visible normals that is nearest to its axis, part 1 its tail. Columns are views, rows widths: `lobe_view` and
+/// `lobe_width` are the values at their centres. Red and green: energies that the terms 1 - x and x of Schlick's
+/// f0 (1 - x) + x reflect. Blue: the angle from the mirror image of the view about the axis to the mean direction,
+/// towards the view. Alpha: log2(kappa alpha^2), kappa of the vMF lobe with that mean direction and spread.
+struct LobeTable {
+  std::vector<Image> layers;
+};
+
+/// Cosine of the angle between view and axis, -1 to 1, at column `x` of `columns`: denser around grazing views.
+[[nodiscard]] double lobe_view(int x, int columns);
+/// GGX's alpha at row `y` of `rows`, 0.001 to 1: even steps of its square root.
+[[nodiscard]] double lobe_width(int y, int rows);
+
+/// Equal at any number of threads; takes about 50 ms of one core.
+[[nodiscard]] LobeTable make_lobe_table();
+
+}  // namespace footprint

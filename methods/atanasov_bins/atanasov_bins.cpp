@@ -27,14 +27,20 @@ using namespace atanasov_bins;
 // Where texels reflect by lobes, a bin is as wide as this share of a lobe's standard deviation, or wider.
 constexpr double bin_width = 1.5;
 
+// Texels whose lobes differ more are in lists of their own, so that a list's mean width is that of each.
+constexpr double class_ratio = 4.0;  // of slope variances
+constexpr int most_classes = 4;
+
+// A variance that nine tenths of the texels exceed.
+double low_variance(std::vector<float> variances) {
+  const auto tenth = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 10);
+  std::ranges::nth_element(variances, tenth);
+  return *tenth;
+}
+
 // Of the narrowest lobe or, where the roughness varies, of one that nine tenths of the map are wider than.
 double narrow_variance(const Material& material) {
-  if (width_map(material) != nullptr) {
-    std::vector<float> variances = lobe_variance_map(material).texels;
-    const auto tenth = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 10);
-    std::ranges::nth_element(variances, tenth);
-    return *tenth;
-  }
+  if (width_map(material) != nullptr) return low_variance(lobe_variance_map(material).texels);
   if (material.lobes.empty()) return mean_lobe_variance(material);
   double narrowest = 1.0;
   for (const FacetLobe& lobe : material.lobes)
@@ -86,6 +92,25 @@ Image widths_of_texels(const Material& material, const glm::ivec2& size) {
   return widths;
 }
 
+WidthClasses one_class(int across) { return {.texels = {.across = {across}, .of_texel = {}}, .from = {0.0}}; }
+
+// Equal steps of the variance's logarithm from the narrow texels to the widest; what is narrower is of the first class.
+WidthClasses classes_of(const Image& widths, int most_across) {
+  const double low = low_variance(widths.texels), high = *std::ranges::max_element(widths.texels);
+  const double range = std::log(high / low);
+  const int count = std::clamp(static_cast<int>(std::ceil(range / std::log(class_ratio))), 1, most_classes);
+  WidthClasses classes;
+  for (int i = 0; i < count; ++i) {
+    classes.from.push_back(i == 0 ? 0.0 : low * std::exp(range * i / count));
+    classes.texels.across.push_back(bins_across_for(i == 0 ? low : classes.from.back(), bin_width, most_across));
+  }
+  for (const float width : widths.texels) {
+    const auto next = std::ranges::upper_bound(classes.from, static_cast<double>(width));
+    classes.texels.of_texel.push_back(static_cast<std::uint8_t>(next - classes.from.begin() - 1));
+  }
+  return classes;
+}
+
 class AtanasovBins final : public Method {
  public:
   [[nodiscard]] const MethodInfo& info() const override { return info_; }
@@ -105,7 +130,19 @@ class AtanasovBins final : public Method {
     const std::string roughness = options.word("roughness");
     const bool by_width = roughness == "lobe" && has(effects, Effect::roughness_variation);
     if (by_width) out.scalars["bins_own_roughness"] = knows_widths(material) ? 1.0F : 0.0F;
-    add_maps(material, across, roughness != "bin", by_width && knows_widths(material), progress, out);
+    const Image normals = normal_map_of(material);
+    const BinMap bins = bin_map(normals, across, progress);
+    out.textures.push_back(bin_map_texture(bins, normal_coordinates(material)));
+    if (roughness == "bin") {
+      add_inverse_map(inverse_of(bins, progress), out);
+    } else if (by_width && knows_widths(material)) {
+      const Image widths = widths_of_texels(material, {normals.width, normals.height});
+      add_lists(bins, normals, classes_of(widths, static_cast<int>(options.number("m"))), &widths, progress, out);
+    } else {
+      add_lists(bins, normals, one_class(across), nullptr, progress, out);
+    }
+    out.scalars["bins_wrap_u"] = wrap_number(normal_coordinates(material).wrap[0]);
+    out.scalars["bins_wrap_v"] = wrap_number(normal_coordinates(material).wrap[1]);
     return out;
   }
 
@@ -114,20 +151,13 @@ class AtanasovBins final : public Method {
   }
 
  private:
-  static void add_maps(const Material& material, int across, bool lobes, bool by_width, const Progress& progress,
-                       Prefiltered& out) {
-    const TextureCoordinates coordinates = normal_coordinates(material);
-    const Image normals = normal_map_of(material);
-    const BinMap bins = bin_map(normals, across, progress);
-    out.textures.push_back(bin_map_texture(bins, coordinates));
-    const InverseMap inverse = inverse_of(bins, progress);
+  static void add_lists(const BinMap& bins, const Image& normals, const WidthClasses& classes, const Image* widths,
+                        const Progress& progress, Prefiltered& out) {
+    const InverseMap inverse = inverse_of(bins, progress, classes.texels);
     add_inverse_map(inverse, out);
-    if (lobes) {
-      const Image widths = by_width ? widths_of_texels(material, {normals.width, normals.height}) : Image();
-      add_list_normals(list_normals(inverse, normals, by_width ? &widths : nullptr), out);
-    }
-    out.scalars["bins_wrap_u"] = wrap_number(coordinates.wrap[0]);
-    out.scalars["bins_wrap_v"] = wrap_number(coordinates.wrap[1]);
+    const std::vector<ListNormal> means = list_normals(inverse, normals, widths);
+    add_list_normals(means, out);
+    add_classes(inverse, classes, means, out);
   }
 
   MethodInfo info_{

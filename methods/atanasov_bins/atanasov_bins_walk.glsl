@@ -63,25 +63,33 @@ Node texelNode(uint i) {
   return Node(0u, i + 1u, texel, texel + 1);
 }
 
-//? if border_nodes
+//? if border_texels
+const float even_share = 0.0;
+//? elif roughness_bin
+const float even_share = 0.25;
+//? else
+const float even_share = 0.5;
+//? end
+
+// Rounds that are left for what a walk that has none left has still to look at.
+const float last_rounds = 24.0;
+
 // Sides below which a node that the border cuts counts by the share of it that is covered, as if its texels were spread
-// evenly: a quarter of the side of a square as large as the footprint; half of it where many lists are summed.
-//? if roughness_bin
-float evenSide(Region r) { return 0.25 * sqrt(areaOf(r)); }
-//? else
-float evenSide(Region r) { return 0.5 * sqrt(areaOf(r)); }
-//? end
-//? else
-float evenSide(Region r) { return 0.0; }
-//? end
+// evenly: a share of the side of a square as large as the footprint, and larger where `rounds` are too few for that.
+// With circumference C, nodes down to sides of s take some 30 + 12 C / s rounds, and down to single texels 6 C.
+float evenSide(Region r, float rounds) {
+  float circumference = 2.0 * (length(r.edges[0]) + length(r.edges[1]));
+  float wanted = even_share * sqrt(areaOf(r));
+  float affordable = 12.0 * circumference / max(rounds - last_rounds - 30.0, 4.0);
+  return 6.0 * circumference > rounds ? max(wanted, affordable) : wanted;
+}
 
 // Over one copy of the map. One loop looks at nodes and at the texels of leaves alike: pixels that are drawn together
 // wait for each other at the end of every loop, and llvmpipe takes every branch. So what the border cuts, a few of
-// many, is put aside for a loop of its own. `finished` becomes false where the driver has ended one before its end
-// (notWhole).
-float areaInCopy(Region r, TexelList list, inout bool finished) {
+// many, is put aside for a loop of its own. A walk that has taken its `rounds` counts what is left by shares.
+// `finished` becomes false where the driver has ended a loop before its end (notWhole).
+float areaInCopy(Region r, TexelList list, float even_side, inout float rounds, inout bool finished) {
   vec4 beyond = beyondMap(r);
-  float even_side = evenSide(r);
   Node node = Node(list.root, list.end, ivec2(0), textureSize(bins_map, 0));
   uvec4 kept[most_pending + most_cut];  // nodes that are left to be looked at, then what is cut
   int pending = 0;
@@ -101,7 +109,9 @@ float areaInCopy(Region r, TexelList list, inout bool finished) {
       bool goes_on = any(greaterThan(sides, vec2(seen.upper - seen.lower)));
       int side = sideOf(r, box.xy, box.zw);
       if (goes_on && side == inside) side = cut;
-      bool counts = side == cut && (in_leaf || !goes_on && all(lessThan(sides, vec2(even_side))));
+      bool even = rounds < last_rounds || !goes_on && all(lessThan(sides, vec2(even_side)));
+      bool counts = side == cut && (in_leaf || even);
+      rounds -= counts ? 2.0 : 1.0;
       bool splits = side == cut && !counts && texels > leaf_size;
       int slot = counts ? most_pending + cut_count : pending;
       if (splits) {
@@ -150,7 +160,9 @@ Region inCopy(Region r, ivec2 copy) {
   return r;
 }
 
-float areaOfList(Region r, TexelList list, inout bool finished) {
+// By at most so many rounds of loops, and some for each copy of the map.
+float areaOfList(Region r, TexelList list, float rounds, inout bool finished) {
+  float even_side = evenSide(r, rounds);
   vec2 size = mapSize();
   ivec2 columns = copiesAlong(r.centre.x, r.reach.x, size.x, bins_wrap_u);
   ivec2 rows = copiesAlong(r.centre.y, r.reach.y, size.y, bins_wrap_v);
@@ -161,7 +173,8 @@ float areaOfList(Region r, TexelList list, inout bool finished) {
   for (int i = 0; i < copies; ++i) {
     ++seen;
     ivec2 copy = ivec2(columns.x + i % across, rows.x + i / across);
-    area += areaInCopy(inCopy(r, copy), list, finished);
+    rounds -= 3.0;
+    area += areaInCopy(inCopy(r, copy), list, even_side, rounds, finished);
   }
   finished = finished && seen >= copies;
   return area;

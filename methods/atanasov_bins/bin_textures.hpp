@@ -24,4 +24,14 @@ void add_inverse_map(const InverseMap& map, Prefiltered& out);
 /// Adds `bins_normals`, mean and spread of each list.
 void add_list_normals(std::span<const ListNormal> normals, Prefiltered& out);
 
+/// The classes of texels, and the slope variance from which on a texel is of each.
+struct WidthClasses {
+  TexelClasses texels;
+  std::vector<double> from;
+};
+
+/// Adds `bins_classes`, for each class: bins along an edge, the largest spread of its lists, and `from`.
+void add_classes(const InverseMap& map, const WidthClasses& classes, std::span<const ListNormal> normals,
+                 Prefiltered& out);
+
 }  // namespace footprint::atanasov_bins

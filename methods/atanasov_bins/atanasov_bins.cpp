@@ -48,12 +48,20 @@ double narrow_variance(const Material& material) {
   return narrowest;
 }
 
-int bins_across(const Material& material, const Options& options) {
+constexpr int bins_as_published = 127;
+
+// The most bins along an edge where lobes call for them.
+int most_across(const Options& options) {
   const int m = static_cast<int>(options.number("m"));
+  return m > 0 ? m : most_bins_across;
+}
+
+int bins_across(const Material& material, const Options& options) {
   const std::string roughness = options.word("roughness");
   const double alpha = options.number("alpha");
-  if (roughness == "flakes") return bins_across_for(0.5 * alpha * alpha, bin_width, most_bins_across);
-  return roughness == "lobe" ? bins_across_for(narrow_variance(material), bin_width, m) : m;
+  if (roughness == "bin") return options.number("m") > 0 ? most_across(options) : bins_as_published;
+  const double variance = roughness == "flakes" ? 0.5 * alpha * alpha : narrow_variance(material);
+  return bins_across_for(variance, bin_width, most_across(options));
 }
 
 // Flakes have a lobe of their own, and mirrors that face h need none.
@@ -92,23 +100,32 @@ Image widths_of_texels(const Material& material, const glm::ivec2& size) {
   return widths;
 }
 
-WidthClasses one_class(int across) { return {.texels = {.across = {across}, .of_texel = {}}, .from = {0.0}}; }
+// The slope variance of normals that fill a bin evenly, doubled, as they may keep to its corners.
+double spread_in_bin(int across) { return bin_solid_angle(across) / 6.0; }
 
 // Equal steps of the variance's logarithm from the narrow texels to the widest; what is narrower is of the first class.
-WidthClasses classes_of(const Image& widths, int most_across) {
+std::vector<WidthClass> classes_of(const Image& widths, int most_across) {
   const double low = low_variance(widths.texels), high = *std::ranges::max_element(widths.texels);
   const double range = std::log(high / low);
   const int count = std::clamp(static_cast<int>(std::ceil(range / std::log(class_ratio))), 1, most_classes);
-  WidthClasses classes;
+  std::vector<WidthClass> classes;
   for (int i = 0; i < count; ++i) {
-    classes.from.push_back(i == 0 ? 0.0 : low * std::exp(range * i / count));
-    classes.texels.across.push_back(bins_across_for(i == 0 ? low : classes.from.back(), bin_width, most_across));
-  }
-  for (const float width : widths.texels) {
-    const auto next = std::ranges::upper_bound(classes.from, static_cast<double>(width));
-    classes.texels.of_texel.push_back(static_cast<std::uint8_t>(next - classes.from.begin() - 1));
+    const double from = low * std::exp(range * i / count), to = low * std::exp(range * (i + 1) / count);
+    const int across = bins_across_for(from, bin_width, most_across);
+    classes.push_back({.across = across, .widest = to + spread_in_bin(across), .from = i == 0 ? 0.0 : from});
   }
   return classes;
+}
+
+// Which texels are of which.
+TexelClasses texels_of(std::span<const WidthClass> classes, const Image& widths) {
+  TexelClasses out;
+  for (const WidthClass& one : classes) out.across.push_back(one.across);
+  for (const float width : widths.texels) {
+    const auto next = std::ranges::upper_bound(classes, static_cast<double>(width), {}, &WidthClass::from);
+    out.of_texel.push_back(static_cast<std::uint8_t>(next - classes.begin() - 1));
+  }
+  return out;
 }
 
 class AtanasovBins final : public Method {
@@ -133,13 +150,20 @@ class AtanasovBins final : public Method {
     const Image normals = normal_map_of(material);
     const BinMap bins = bin_map(normals, across, progress);
     out.textures.push_back(bin_map_texture(bins, normal_coordinates(material)));
-    if (roughness == "bin") {
-      add_inverse_map(inverse_of(bins, progress), out);
-    } else if (by_width && knows_widths(material)) {
-      const Image widths = widths_of_texels(material, {normals.width, normals.height});
-      add_lists(bins, normals, classes_of(widths, static_cast<int>(options.number("m"))), &widths, progress, out);
-    } else {
-      add_lists(bins, normals, one_class(across), nullptr, progress, out);
+    std::vector<WidthClass> classes{{.across = across, .widest = spread_in_bin(across), .from = 0.0}};
+    TexelClasses texels;
+    Image widths(normals.width, normals.height, 1);
+    if (by_width && knows_widths(material)) {
+      widths = widths_of_texels(material, {normals.width, normals.height});
+      classes = classes_of(widths, most_across(options));
+      texels = texels_of(classes, widths);
+    }
+    const InverseMap inverse = inverse_of(bins, progress, texels);
+    add_inverse_map(inverse, out);
+    if (by_width) add_list_widths(list_means(inverse, widths), out);
+    if (roughness != "bin") {
+      add_classes(classes, out);
+      out.textures.push_back(word_texture("bins_moments", node_moments(inverse, bins, texels)));
     }
     out.scalars["bins_wrap_u"] = wrap_number(normal_coordinates(material).wrap[0]);
     out.scalars["bins_wrap_v"] = wrap_number(normal_coordinates(material).wrap[1]);
@@ -151,25 +175,15 @@ class AtanasovBins final : public Method {
   }
 
  private:
-  static void add_lists(const BinMap& bins, const Image& normals, const WidthClasses& classes, const Image* widths,
-                        const Progress& progress, Prefiltered& out) {
-    const InverseMap inverse = inverse_of(bins, progress, classes.texels);
-    add_inverse_map(inverse, out);
-    const std::vector<ListNormal> means = list_normals(inverse, normals, widths);
-    add_list_normals(means, out);
-    add_classes(inverse, classes, means, out);
-  }
-
   MethodInfo info_{
       .name = "atanasov_bins",
       .summary = "Normals sorted into bins of the half vector; trees count each bin's texels under the footprint.",
       .paper = "Atanasov, Krivanek, Koylazov, Wilkie 2020, Efficient Multiscale Rendering of Specular Microstructure",
       .options =
           {whole_option(
-               "m", 127, 1, most_bins_across,
-               "Bins along an edge: the hemisphere has m x m of equal solid angle. With roughness=lobe at most "
-               "so many, none narrower than 1.5 of the lobe's deviations; roughness=flakes takes what alpha "
-               "calls for."),
+               "m", 0, 0, most_bins_across,
+               "Bins along an edge: the hemisphere has m x m of equal solid angle. 0: 127 with roughness=bin; with the "
+               "others bins 1.5 of the lobes' deviations wide, and at most m if it is given."),
            word_option("roughness", {"lobe", "bin", "flakes"},
                        "What spreads a texel's normal: the base lobe about it, bins around the half vector included; "
                        "the bin that it is in, as published; a Beckmann lobe of `alpha` of every flake's own."),
@@ -179,9 +193,10 @@ class AtanasovBins final : public Method {
                        "map's axes; those that the footprint filter would blend."),
            word_option(
                "border", {"nodes", "texels"},
-               "How texels count at the footprint's border: by nodes of the trees narrower than a quarter of it, as if "
-               "their texels were spread evenly, so that what a pixel costs does not grow with its footprint; or one "
-               "by one, exactly."),
+               "How texels count at the footprint's border: by samples of the nodes of the trees narrower than a "
+               "quarter "
+               "of it, so that a pixel's cost does not grow with its footprint; or one by one as far as the steps of a "
+               "pixel allow."),
            word_option("surface", {"facets", "microfacets"},
                        "What the density is of: texels that each reflect about their own normal, as the reference has "
                        "them; microfacets of a surface about its own normal, as published, D over the cosine."),

@@ -101,35 +101,13 @@ Sum sumOfTexels(Effective e, Region r, Query q) {
 }
 
 //? if roughness_bin
-// Lists that are walked.
-float listCount(Effective e, Query q, float rounds) { return 1.0; }
-
-float sumOfBins(Effective e, Region r, Query q, float rounds, inout bool finished) {
-  int list = listOfKey(q.bin);
-  return list < 0 ? 0.0 : areaOfList(r, listAt(uint(list)), rounds, finished) / binSolidAngle();
-}
+//? include atanasov_bins_bins.glsl
 //? else
 //? include atanasov_bins_lobes.glsl
 //? end
 
 // Texels that are looked at one by one for less than the walks of so many lists, which take some 64 steps each.
 float texelsWorth(float lists, float rounds) { return min(64.0 * lists, texelRounds(rounds)); }
-
-// By lists. The texels without a normal are a list too, which takes from the area.
-Sum sumOfLists(Effective e, Region r, Query q, float lists, float rounds) {
-  bool finished = true;
-  float walk = walkRounds(rounds, lists);
-  Sum sum = Sum(0.0, areaOf(r));
-  if (bins_invalid_list >= 0.0) sum.area -= areaOfList(r, listAt(uint(bins_invalid_list)), walk, finished);
-  if (sum.area < 1e-4 * areaOf(r)) return Sum(0.0, 0.0);
-//? if roughness_bin
-  sum.value = sumOfBins(e, r, q, walk, finished);
-//? else
-  sum.value = sumOfNear(e, r, q, walk, rounds, finished);
-  if (!reachesAll(e, q, rounds)) sum.value += sumOfFar(e, r, q, rounds, finished);
-//? end
-  return finished ? sum : notWhole();
-}
 
 // The mean over the footprint; over nothing but texels without a normal that of the surface's own.
 float meanValue(Effective e, Query q) {
@@ -148,7 +126,7 @@ float meanValue(Effective e, Query q) {
     if (hasAtMost(r, texelsWorth(lists, rounds))) {
       part = sumOfTexels(e, r, q);
     } else {
-      part = sumOfLists(e, r, q, lists, rounds);
+      part = sumOfLists(e, r, q, rounds);
     }
     float weight = r.weight / areaOf(r);
     sum.value += weight * part.value;

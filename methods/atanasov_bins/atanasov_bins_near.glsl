@@ -5,7 +5,7 @@
 // Texels whose lobes are about as wide.
 struct WidthClass {
   float across;  // bins along an edge
-  float spread;  // the largest of its lists
+  float widest;  // slope variance of a list beside the base lobe's
   float from;    // the slope variance from which on texels are of it
 };
 
@@ -55,19 +55,21 @@ vec3 normalTurning(vec3 axis, vec3 h) {
 }
 
 int discCount() { return max(facet_lobe_count, 1); }
+float acrossOf(int disc) { return classAt(0).across; }
 
 Disc discOf(int i, float variance, vec3 h, float lists) {
   WidthClass widths = classAt(0);
-  if (facet_lobe_count == 0) return discAbout(h, 0, widths, lobeReach(variance + widths.spread), lists);
-  float reach = lobeReach(facet_lobes[i].variance + widths.spread);
+  if (facet_lobe_count == 0) return discAbout(h, 0, widths, lobeReach(variance + widths.widest), lists);
+  float reach = lobeReach(facet_lobes[i].variance + widths.widest);
   return discAbout(normalTurning(facet_lobes[i].axis, h), 0, widths, reach, lists / float(discCount()));
 }
 //? else
 int discCount() { return int(bins_class_count); }
+float acrossOf(int disc) { return classAt(disc).across; }
 
 Disc discOf(int i, float variance, vec3 h, float lists) {
   WidthClass widths = classAt(i);
-  return discAbout(h, i, widths, lobeReach(variance + widths.spread), lists / float(discCount()));
+  return discAbout(h, i, widths, lobeReach(variance + widths.widest), lists / float(discCount()));
 }
 //? end
 

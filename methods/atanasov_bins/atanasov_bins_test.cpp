@@ -107,11 +107,6 @@ double phong_density(const glm::dvec3& n, const glm::dvec3& h) {
   return (phong_exponent + 1.0) / (2.0 * pi) * std::pow(std::max(glm::dot(n, h), 0.0), phong_exponent);
 }
 
-double beckmann_density(double alpha, const glm::dvec3& n, const glm::dvec3& h) {
-  const double c = std::max(glm::dot(n, h), 1e-3);
-  return std::exp(-(1.0 / (c * c) - 1.0) / (alpha * alpha)) / (pi * alpha * alpha * std::pow(c, 4.0));
-}
-
 const std::vector<glm::dvec3> some_directions{{0.0, 0.0, 1.0}, {0.1, -0.05, 0.99}, {0.2, 0.15, 0.9}, {-0.3, 0.1, 0.9}};
 
 // The largest difference to the plain sum of lobes over directions and footprints, over the largest of the sums.

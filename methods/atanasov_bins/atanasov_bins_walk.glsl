@@ -1,12 +1,10 @@
 // The area of a list's texels under a footprint. A footprint that reaches over the map's border is taken apart: each
 // copy of the map that it touches is walked with the footprint moved, and mirrored, to where the map is.
-//? include atanasov_bins_lists.glsl
-//? include atanasov_bins_region.glsl
+//? include atanasov_bins_counted.glsl
 
-// Halving 2^28 texels down to 16, an odd side's longer part each time, takes 26 steps.
-const int most_pending = 28;
-const int most_cut = 16;  // that are put aside before their areas are taken
-const uint leaf_size = 16u;
+// Depth first, halving 2^28 texels down to 16, an odd side's longer part each time, takes 26 steps.
+const int most_pending = 64;
+const int most_counted = 64;  // that are put aside before they are added
 const uint wide_node = 32768u;  // nodes of fewer texels are one integer
 
 // How far the outermost texels go on beyond the map that does not repeat: lower and upper edges.
@@ -63,43 +61,58 @@ Node texelNode(uint i) {
   return Node(0u, i + 1u, texel, texel + 1);
 }
 
+// Sides below which a node that the border cuts counts by samples: a quarter of the side of a square as large as the
+// footprint.
+float evenSide(Region r) {
 //? if border_texels
-const float even_share = 0.0;
-//? elif roughness_bin
-const float even_share = 0.25;
+  return 0.0;
 //? else
-const float even_share = 0.5;
+  return 0.25 * sqrt(areaOf(r));
 //? end
+}
 
-// Rounds that are left for what a walk that has none left has still to look at.
-const float last_rounds = 24.0;
+// Rounds are spent on large nodes first, so that all that is left where they end is of one size. Only where they are
+// enough for every texel at the border, some 6 for a texel of its length, nothing but a stack is needed.
+bool isDepthFirst(Region r, float rounds) {
+//? if border_texels
+  return 12.0 * (length(r.edges[0]) + length(r.edges[1])) < rounds;
+//? else
+  return false;
+//? end
+}
 
-// Sides below which a node that the border cuts counts by the share of it that is covered, as if its texels were spread
-// evenly: a share of the side of a square as large as the footprint, and larger where `rounds` are too few for that.
-// With circumference C, nodes down to sides of s take some 30 + 12 C / s rounds, and down to single texels 6 C.
-float evenSide(Region r, float rounds) {
-  float circumference = 2.0 * (length(r.edges[0]) + length(r.edges[1]));
-  float wanted = even_share * sqrt(areaOf(r));
-  float affordable = 12.0 * circumference / max(rounds - last_rounds - 30.0, 4.0);
-  return 6.0 * circumference > rounds ? max(wanted, affordable) : wanted;
+bool isOutside(Region r, Node node, uint begin, vec4 beyond) {
+  vec4 box = boxOf(node.lower, node.upper, beyond);
+  return begin == node.end || sideOf(r, box.xy, box.zw) == outside;
+}
+
+// A node or a texel that was put aside, in place of whose `end` is the number of texels.
+void addPutAside(inout ListSum sum, Region r, vec4 beyond, ListBin bin, Node seen, uint begin) {
+  vec4 box = boxOf(seen.lower, seen.upper, beyond);
+  bool whole = sideOf(r, box.xy, box.zw) == inside;
+  addCounted(sum, r, Counted(seen.at, begin, seen.end, box, whole), vec2(seen.upper - seen.lower), bin);
 }
 
 // Over one copy of the map. One loop looks at nodes and at the texels of leaves alike: pixels that are drawn together
-// wait for each other at the end of every loop, and llvmpipe takes every branch. So what the border cuts, a few of
-// many, is put aside for a loop of its own. A walk that has taken its `rounds` counts what is left by shares.
+// wait for each other at the end of every loop, and llvmpipe takes every branch. So what counts, a few of many, is put
+// aside for a loop of its own. Where `rounds` are down to `last` what is pending counts by samples, two rounds each.
 // `finished` becomes false where the driver has ended a loop before its end (notWhole).
-float areaInCopy(Region r, TexelList list, float even_side, inout float rounds, inout bool finished) {
+void addCopy(inout ListSum sum, Region r, TexelList list, ListBin bin, float last, inout float rounds,
+             inout bool finished) {
   vec4 beyond = beyondMap(r);
+  float even_side = evenSide(r);
+  bool depth_first = isDepthFirst(r, rounds - last);
   Node node = Node(list.root, list.end, ivec2(0), textureSize(bins_map, 0));
-  uvec4 kept[most_pending + most_cut];  // nodes that are left to be looked at, then what is cut
-  int pending = 0;
-  int cut_count = 0;
   uint begin = list.first;
+  uvec4 kept[most_pending + most_counted];  // a ring of nodes that are left to be looked at, then what is put aside
+  uint begins[most_pending + most_counted];
+  int first = 0;
+  int pending = 0;
+  int counted = 0;
   bool in_leaf = false;
-  uint whole = 0u;     // texels that are covered whole
-  float partly = 0.0;  // the area of the others
-  while (begin < list.end) {
-    while (begin < list.end && cut_count < most_cut) {
+  bool done = false;
+  while (!done) {
+    while (!done && counted < most_counted) {
       Node seen = node;
       if (in_leaf) seen = texelNode(begin);
       uint texels = seen.end - begin;
@@ -109,37 +122,53 @@ float areaInCopy(Region r, TexelList list, float even_side, inout float rounds, 
       bool goes_on = any(greaterThan(sides, vec2(seen.upper - seen.lower)));
       int side = sideOf(r, box.xy, box.zw);
       if (goes_on && side == inside) side = cut;
-      bool even = rounds < last_rounds || !goes_on && all(lessThan(sides, vec2(even_side)));
-      bool counts = side == cut && (in_leaf || even);
-      rounds -= counts ? 2.0 : 1.0;
+      // Two rounds for all that is pending and, of a leaf, for each of its texels.
+      float needed = float(2 * (pending + (texels > leaf_size ? 2 : int(texels))));
+      bool spent = rounds - last < needed || pending > most_pending - 2;
+      bool counts = side == cut && (in_leaf || spent || !goes_on && all(lessThan(sides, vec2(even_side))));
       bool splits = side == cut && !counts && texels > leaf_size;
-      int slot = counts ? most_pending + cut_count : pending;
-      if (splits) {
-        seen = upperHalfOf(node, begin);
-        ++pending;
-      } else if (counts) {
-        seen.end = texels;
-        ++cut_count;
+      bool leaf = side == cut && !counts && !splits;
+//? if roughness_bin
+      if (side == inside) sum.area += float(texels);
+//? else
+      counts = counts || side == inside;
+//? end
+      rounds -= counts ? 2.0 : 1.0;
+      if (counts) {
+        kept[most_pending + counted] = packedNode(Node(seen.at, texels, seen.lower, seen.upper));
+        begins[most_pending + counted] = begin;
+        ++counted;
       }
-      if (splits || counts) kept[slot] = packedNode(seen);
-      if (side == inside) whole += texels;
-      in_leaf = in_leaf || side == cut && !counts && !splits;
-      if (side != cut || counts) begin += texels;
-      if (begin == node.end && pending > 0) {
-        --pending;
-        node = unpackedNode(kept[pending]);
+      if (splits) {
+        Node upper = upperHalfOf(node, begin);
+        int slot = (first + pending) & (most_pending - 1);
+        kept[slot] = packedNode(upper);
+        begins[slot] = node.end;
+        if (!isOutside(r, upper, node.end, beyond)) ++pending;
+        slot = (first + pending) & (most_pending - 1);
+        kept[slot] = packedNode(node);
+        begins[slot] = begin;
+        if (!isOutside(r, node, begin, beyond)) ++pending;
+      } else if (!leaf) {
+        begin += texels;
+      }
+      in_leaf = in_leaf || leaf;
+      if (splits || begin == node.end) {
         in_leaf = false;
+        done = pending == 0;
+        int slot = depth_first ? (first + pending - 1) & (most_pending - 1) : first;
+        if (!depth_first) first = (first + 1) & (most_pending - 1);
+        node = unpackedNode(kept[slot]);
+        begin = begins[slot];
+        --pending;
       }
     }
-    for (; cut_count > 0; --cut_count) {
-      Node seen = unpackedNode(kept[most_pending + cut_count - 1]);
-      vec4 box = boxOf(seen.lower, seen.upper, beyond);
-      vec2 sides = vec2(seen.upper - seen.lower);
-      partly += float(seen.end) / (sides.x * sides.y) * areaWithin(r, box.xy, box.zw);
+    for (; counted > 0; --counted) {
+      int i = most_pending + counted - 1;
+      addPutAside(sum, r, beyond, bin, unpackedNode(kept[i]), begins[i]);
     }
   }
-  finished = finished && begin == list.end && cut_count == 0;
-  return float(whole) + partly;
+  finished = finished && done && counted == 0;
 }
 
 // Copies of the map along an axis: first and last; one where it does not repeat.
@@ -160,22 +189,26 @@ Region inCopy(Region r, ivec2 copy) {
   return r;
 }
 
-// By at most so many rounds of loops, and some for each copy of the map.
-float areaOfList(Region r, TexelList list, float rounds, inout bool finished) {
-  float even_side = evenSide(r, rounds);
+// By at most so many rounds of loops, which copies of the map share, and some for each copy.
+ListSum sumOfList(Region r, TexelList list, ListBin bin, float rounds, inout bool finished) {
+//? if roughness_bin
+  ListSum sum = ListSum(0.0);
+//? else
+  ListSum sum = ListSum(0.0, vec2(0.0), vec2(0.0));
+//? end
   vec2 size = mapSize();
   ivec2 columns = copiesAlong(r.centre.x, r.reach.x, size.x, bins_wrap_u);
   ivec2 rows = copiesAlong(r.centre.y, r.reach.y, size.y, bins_wrap_v);
-  int across = max(columns.y - columns.x + 1, 1);
-  int copies = across * max(rows.y - rows.x + 1, 1);
-  float area = 0.0;
+  int columns_count = max(columns.y - columns.x + 1, 1);
+  int copies = columns_count * max(rows.y - rows.x + 1, 1);
   int seen = 0;
   for (int i = 0; i < copies; ++i) {
     ++seen;
-    ivec2 copy = ivec2(columns.x + i % across, rows.x + i / across);
+    ivec2 copy = ivec2(columns.x + i % columns_count, rows.x + i / columns_count);
     rounds -= 3.0;
-    area += areaInCopy(inCopy(r, copy), list, even_side, rounds, finished);
+    float last = rounds * (1.0 - 1.0 / float(copies - i));
+    addCopy(sum, inCopy(r, copy), list, bin, last, rounds, finished);
   }
   finished = finished && seen >= copies;
-  return area;
+  return sum;
 }

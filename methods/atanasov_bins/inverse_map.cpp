@@ -162,6 +162,61 @@ void plant_forest(InverseMap& out, const Progress& progress) {
   }
 }
 
+// Sums over texels of one list.
+struct Sums {
+  glm::dvec2 offset{0.0};
+  glm::dvec2 squares{0.0};
+};
+
+// Of the nodes of one list's tree.
+class MomentsOfNodes {
+ public:
+  MomentsOfNodes(const InverseMap& map, const BinMap& bins, std::uint32_t key, int across,
+                 std::vector<std::uint32_t>& out)
+      : map_(&map), bins_(&bins), across_(across), out_(&out) {
+    const std::uint32_t bin = key & ((1U << bin_bits) - 1U), m = static_cast<std::uint32_t>(across);
+    middle_ = glm::dvec2(bin % m, bin / m) + 0.5;
+  }
+
+  Sums add(std::uint32_t at, std::uint32_t first, std::uint32_t end) const {
+    if (end - first <= leaf_size) return of_texels(first, end);
+    const Branches branches = branches_of(map_->forest, at, first, end);
+    Sums lower, upper;
+    const auto add_lower = [&] { lower = add(branches.lower, first, branches.upper_first); };
+    const auto add_upper = [&] { upper = add(branches.upper, branches.upper_first, end); };
+    if (end - first > texels_a_task) {
+      tbb::parallel_invoke(add_lower, add_upper);
+    } else {
+      add_lower();
+      add_upper();
+    }
+    const Sums sums{lower.offset + upper.offset, lower.squares + upper.squares};
+    const glm::dvec2 mean = sums.offset / static_cast<double>(end - first);
+    const glm::dvec2 variance = sums.squares / static_cast<double>(end - first) - mean * mean;
+    (*out_)[at] = packed_moments({mean, 0.5 * (variance.x + variance.y)});
+    return sums;
+  }
+
+ private:
+  [[nodiscard]] Sums of_texels(std::uint32_t first, std::uint32_t end) const {
+    Sums sums;
+    for (std::uint32_t i = first; i < end; ++i) {
+      const std::uint32_t place = map_->texels[i];
+      const std::size_t texel = static_cast<std::size_t>(place >> 16U) * static_cast<std::size_t>(map_->width);
+      const glm::dvec2 offset = place_in_square(bins_->normals[texel + (place & 0xFFFFU)]) * double(across_) - middle_;
+      sums.offset += offset;
+      sums.squares += offset * offset;
+    }
+    return sums;
+  }
+
+  const InverseMap* map_;
+  const BinMap* bins_;
+  int across_;
+  std::vector<std::uint32_t>* out_;
+  glm::dvec2 middle_{0.0};
+};
+
 }  // namespace
 
 Halves halves_of(const TexelRect& rect) {
@@ -225,24 +280,39 @@ std::vector<std::uint32_t> hashed_lists(const InverseMap& map) {
   return table;
 }
 
-std::vector<ListNormal> list_normals(const InverseMap& map, const Image& normals, const Image* widths) {
-  std::vector<ListNormal> out(map.lists.size());
+std::uint32_t packed_moments(const BinMoments& moments) {
+  const auto rounded = [](double value, double most) {
+    return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0, 1.0) * most));
+  };
+  const double deviation = std::sqrt(std::max(moments.variance, 0.0));
+  return rounded(moments.mean.x + 0.5, 4095.0) | rounded(moments.mean.y + 0.5, 4095.0) << 12U |
+         rounded(2.0 * deviation, 255.0) << 24U;
+}
+
+BinMoments unpacked_moments(std::uint32_t packed) {
+  const double deviation = 0.5 * (packed >> 24U) / 255.0;
+  return {.mean = glm::dvec2(packed & 0xFFFU, packed >> 12U & 0xFFFU) / 4095.0 - 0.5,
+          .variance = deviation * deviation};
+}
+
+std::vector<std::uint32_t> node_moments(const InverseMap& map, const BinMap& bins, const TexelClasses& classes) {
+  std::vector<std::uint32_t> out(map.forest.size());
   tbb::parallel_for(std::size_t{0}, map.lists.size(), [&](std::size_t i) {
-    glm::dvec3 sum(0.0);
-    double width = 0.0;
-    for (const std::uint32_t texel : std::span(map.texels).subspan(map.lists[i].first, map.count_of(i))) {
-      const auto x = static_cast<int>(texel & 0xFFFFU), y = static_cast<int>(texel >> 16U);
-      const auto n = normals.at(x, y);
-      const glm::dvec3 normal(n[0], n[1], n[2]);
-      sum += normal / std::max(glm::length(normal), 1e-30);
-      if (widths != nullptr) width += widths->at(x, y)[0];
-    }
-    out[i].spread = width / map.count_of(i);
-    const double size = glm::length(sum);
-    if (size <= 0.0) return;
-    const double r = std::min(size / map.count_of(i), 1.0);
-    out[i].mean = sum / size;
-    out[i].spread += (1.0 - r) / r;
+    const TexelList& list = map.lists[i];
+    if (list.key == no_key) return;
+    const int across = classes.across.empty() ? bins.across : classes.across[list.key >> bin_bits];
+    MomentsOfNodes(map, bins, list.key, across, out).add(list.root, list.first, list.first + map.count_of(i));
+  });
+  return out;
+}
+
+std::vector<float> list_means(const InverseMap& map, const Image& values) {
+  std::vector<float> out(map.lists.size());
+  tbb::parallel_for(std::size_t{0}, map.lists.size(), [&](std::size_t i) {
+    double sum = 0.0;
+    for (const std::uint32_t texel : std::span(map.texels).subspan(map.lists[i].first, map.count_of(i)))
+      sum += values.at(static_cast<int>(texel & 0xFFFFU), static_cast<int>(texel >> 16U))[0];
+    out[i] = static_cast<float>(sum / map.count_of(i));
   });
   return out;
 }

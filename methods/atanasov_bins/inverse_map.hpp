@@ -102,14 +102,21 @@ struct Branches {
 [[nodiscard]] std::vector<std::uint32_t> hashed_lists(const InverseMap& map);
 [[nodiscard]] std::uint32_t hash_slot(std::uint32_t key, std::uint32_t slots);
 
-/// The normals of a list as one: their mean direction, unit, and the slope variance per axis about it, from the length
-/// r of their mean: (1 - r) / r; with `widths`, the slope variance of every texel's own lobe (one channel, as large as
-/// the map), the mean of those added to it.
-struct ListNormal {
-  glm::dvec3 mean{0.0, 0.0, 1.0};
-  double spread = 0.0;
+/// Normals of some texels of one bin: mean and variance of their points of the square from the bin's middle, in bins;
+/// the variance is the mean of both axes'.
+struct BinMoments {
+  glm::dvec2 mean{0.0};
+  double variance = 0.0;
 };
-[[nodiscard]] std::vector<ListNormal> list_normals(const InverseMap& map, const Image& normals,
-                                                   const Image* widths = nullptr);
+/// In one integer: 12 bits for each coordinate of the mean, 8 for the deviation, rounded.
+[[nodiscard]] std::uint32_t packed_moments(const BinMoments& moments);
+[[nodiscard]] BinMoments unpacked_moments(std::uint32_t packed);
+
+/// The packed moments of every node of the forest, where its first integer is there. `classes` as for inverse_of.
+[[nodiscard]] std::vector<std::uint32_t> node_moments(const InverseMap& map, const BinMap& bins,
+                                                      const TexelClasses& classes = {});
+
+/// The mean over every list of a value of its texels (one channel, as large as the map).
+[[nodiscard]] std::vector<float> list_means(const InverseMap& map, const Image& values);
 
 }  // namespace footprint::atanasov_bins

@@ -1,0 +1,20 @@
+// The density of a bin over a large footprint: its list's share of the area. The texels without a normal are a list too,
+// which takes from that.
+float listCount(Effective e, Query q, float rounds) { return 1.0; }
+
+Sum sumOfLists(Effective e, Region r, Query q, float rounds) {
+  bool finished = true;
+  Sum sum = Sum(0.0, areaOf(r));
+  float walk = walkRounds(rounds, bins_invalid_list < 0.0 ? 1.0 : 2.0);
+  int walked = 0;
+  for (int i = 0; i < 2; ++i) {
+    ++walked;
+    int list = i == 0 ? int(bins_invalid_list) : listOfKey(q.bin);
+    if (list < 0) continue;
+    ListSum part = sumOfList(r, listAt(uint(list)), ListBin(vec2(0.0), 1.0), walk, finished);
+    if (i == 0) sum.area -= part.area;
+    else sum.value = part.area / binSolidAngle();
+  }
+  if (sum.area < 1e-4 * areaOf(r)) sum = Sum(0.0, 0.0);
+  return finished && walked == 2 ? sum : notWhole();
+}

@@ -1,0 +1,119 @@
+// What a walk adds of a list: nodes and texels, by what of them is covered and by their normals.
+//? include atanasov_bins_lists.glsl
+//? include atanasov_bins_region.glsl
+
+const uint leaf_size = 16u;
+
+// What lies of a list under a footprint.
+struct ListSum {
+  float area;
+//? if not roughness_bin
+  vec2 offset;   // by area: where normals lie in their bin, from its middle, in bins
+  vec2 squares;  // likewise
+//? end
+};
+
+// The bin of a list: its middle, in bins, and bins along an edge.
+struct ListBin {
+  vec2 middle;
+  float across;
+};
+
+void addNormals(inout ListSum sum, float area, vec2 offset, float variance) {
+  sum.area += area;
+//? if not roughness_bin
+  sum.offset += area * offset;
+  sum.squares += area * (offset * offset + variance);
+//? end
+}
+
+// Adds a share of a texel.
+void addTexel(inout ListSum sum, ivec2 texel, float area, ListBin bin) {
+//? if roughness_bin
+  addNormals(sum, area, vec2(0.0), 0.0);
+//? else
+  countLookups(1);
+  vec2 point = (vec2(unpacked(wordOf(texelFetch(bins_map, texel, 0)))) + 0.5) / 65536.0;
+  addNormals(sum, area, point * bin.across - bin.middle, 0.0);
+//? end
+}
+
+// One of each eighth of a node's texels, in 128ths: at uneven distances, as maps have patterns.
+const uint samples[8] = uint[](5u, 29u, 34u, 58u, 71u, 95u, 100u, 123u);
+
+ivec2 sampledTexel(uint begin, uint texels, int i) {
+  uint at = begin + samples[i] * (texels >> 7) + (samples[i] * (texels & 127u) >> 7);
+  return unpacked(wordAt(bins_texels, at));
+}
+
+// The share that a region covers of a box about a texel's centre, by each of its two pairs of sides.
+float shareOfBox(Region r, ivec2 texel, vec2 half_sides) {
+  vec2 extent = mat2(abs(r.to_unit[0]), abs(r.to_unit[1])) * half_sides;
+  vec2 place = abs(r.to_unit * (vec2(texel) + 0.5 - r.centre));
+  vec2 covered = clamp(0.5 + (0.5 - place) / (2.0 * extent), 0.0, 1.0);
+  return covered.x * covered.y;
+}
+
+// What is put aside: a node, or a texel.
+struct Counted {
+  uint at;      // in the forest
+  uint begin;   // of its texels
+  uint texels;
+  vec4 box;
+  bool whole;   // covered
+};
+
+// One of eight samples of a node. In the tree's order eighths of its texels lie in different parts of it, so each stands
+// for texels that are spread evenly over a box about it, whose sides are 1 / sqrt(32) of the node's. The more of the
+// node the texels fill, the more they are spread evenly over all of it, of which the share `even` is covered.
+void addSample(inout ListSum sum, inout float share, Region r, Counted node, int i, float even, ListBin bin) {
+  ivec2 texel = sampledTexel(node.begin, node.texels, i);
+  float own = even;
+  if (abs(even - 0.5) < 0.499) {
+    vec2 sides = node.box.zw - node.box.xy;
+    own = mix(shareOfBox(r, texel, 0.0883883 * sides), even, float(node.texels) / (sides.x * sides.y));
+  }
+  share += 0.125 * own;
+//? if not roughness_bin
+  if (node.texels <= leaf_size) addTexel(sum, texel, 0.125 * own * float(node.texels), bin);
+//? end
+}
+
+// Called eight times: a loop would take rounds.
+void addNode(inout ListSum sum, Region r, Counted node, ListBin bin) {
+  vec2 sides = node.box.zw - node.box.xy;
+  float even = node.whole ? 1.0 : areaWithin(r, node.box.xy, node.box.zw) / (sides.x * sides.y);
+  float share = 0.0;
+  addSample(sum, share, r, node, 0, even, bin);
+  addSample(sum, share, r, node, 1, even, bin);
+  addSample(sum, share, r, node, 2, even, bin);
+  addSample(sum, share, r, node, 3, even, bin);
+  addSample(sum, share, r, node, 4, even, bin);
+  addSample(sum, share, r, node, 5, even, bin);
+  addSample(sum, share, r, node, 6, even, bin);
+  addSample(sum, share, r, node, 7, even, bin);
+//? if roughness_bin
+  addNormals(sum, share * float(node.texels), vec2(0.0), 0.0);
+//? else
+  if (node.texels <= leaf_size) return;
+  uint moments = wordAt(bins_moments, node.at);
+  vec3 value = vec3(moments & 0xFFFu, moments >> 12 & 0xFFFu, moments >> 24) / vec3(4095.0, 4095.0, 510.0);
+  addNormals(sum, share * float(node.texels), value.xy - 0.5, value.z * value.z);
+//? end
+}
+
+// A texel; one that goes on beyond the border of a map that does not repeat, or a node of such, as if all of it did.
+void addWithin(inout ListSum sum, Region r, Counted counted, vec2 sides, ListBin bin) {
+  float area = float(counted.texels) / (sides.x * sides.y) * areaWithin(r, counted.box.xy, counted.box.zw);
+  addTexel(sum, unpacked(wordAt(bins_texels, counted.begin)), area, bin);
+}
+
+// `sides` are those of the node's rectangle on the map.
+void addCounted(inout ListSum sum, Region r, Counted counted, vec2 sides, ListBin bin) {
+  bool goes_on = any(greaterThan(counted.box.zw - counted.box.xy, sides));
+  if (counted.texels > 1u && !goes_on) {
+    addNode(sum, r, counted, bin);
+  } else {
+    addWithin(sum, r, counted, sides, bin);
+  }
+}

@@ -24,11 +24,10 @@ namespace footprint {
 namespace {
 
 constexpr const char* animate_examples =
-    "SCENE is a folder of scenes/, a path to a scene.toml, or a .gltf or .glb file. The folder gets\n"
-    "images/METHOD_NNNN and images/reference_NNNN, each .exr and .png, index.html with the film and its figures,\n"
-    "animation.json, animation.csv and table.md; and kept/, finished frames, from which a run that was interrupted "
-    "goes\n"
-    "on. Parts of one animation, made by --shard, are joined by `footprint merge`.\n"
+    "The folder gets images/METHOD_NNNN and images/reference_NNNN (.exr and .png), index.html with the film and its\n"
+    "figures, animation.json, animation.csv and table.md. Finished frames stay in kept/, so an interrupted run "
+    "resumes.\n"
+    "`footprint merge` joins the parts of an animation that was rendered with --shard.\n"
     "\n"
     "Examples:\n"
     "  footprint animate model.gltf --methods toksvig --frames 60 -o out\n"
@@ -51,13 +50,14 @@ void add_options(CLI::App& command, AnimateArguments& arguments) {
   command
       .add_option("-o,--output", arguments.output,
                   "Folder for index.html, animation.json, animation.csv, table.md, images/, kept/")
+      ->type_name("DIR")
       ->capture_default_str();
   command
       .add_option("--shard", arguments.shard,
                   "Render part I of N of the frames into the output folder, for `footprint merge`")
       ->type_name("I/N");
-  command.add_flag("--video", arguments.video, "Also make images/film.mp4 of the frames, all side by side, by ffmpeg");
-  command.add_flag("--fresh", arguments.fresh, "Render everything anew: forget the finished frames");
+  command.add_flag("--video", arguments.video, "Also make images/film.mp4 with ffmpeg: all methods side by side");
+  command.add_flag("--fresh", arguments.fresh, "Render every frame again: discard the finished ones");
   add_quiet_flag(command, arguments.quiet);
 }
 
@@ -70,8 +70,8 @@ KeptWork finished_frames(const AnimateArguments& arguments, const RunSettings& s
 // Renders one part; `part.json` says that it is whole, and is there only then.
 void animate_part(const AnimateArguments& arguments, const RunSettings& settings) {
   if (arguments.video)
-    throw Error(ErrorKind::usage, "--video", "a part is no film",
-                "merge the parts, then run this without --shard over the merged folder: its frames are kept");
+    throw Error(ErrorKind::usage, "--video", "a film cannot be made of a part",
+                "merge the parts, then run this without --shard over the merged folder: it reuses the frames");
   const auto begin = std::chrono::steady_clock::now();
   const Shard shard = parse_shard(arguments.shard);
   const KeptWork kept = finished_frames(arguments, settings);
@@ -118,7 +118,7 @@ void run_animate(const AnimateArguments& arguments) {
 
 void add_animate_command(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("animate", "Render the frames of a zoom, an orbit or a light's path, with error and flicker");
+      app.add_subcommand("animate", "Render a zoom, an orbit or a light path, and measure error and flicker");
   const auto arguments = std::make_shared<AnimateArguments>(*command);
   add_options(*command, *arguments);
   command->footer(animate_examples);

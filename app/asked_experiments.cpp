@@ -28,8 +28,8 @@ std::regex expression_of(const std::string& only) {
   try {
     return std::regex(only, std::regex::ECMAScript);
   } catch (const std::regex_error&) {
-    throw Error(ErrorKind::usage, "--only", fmt::format("`{:.80}` is no regular expression", only),
-                "write a part of a name, or for example `fig[45]`");
+    throw Error(ErrorKind::usage, "--only", fmt::format("`{:.80}` is not a regular expression", only),
+                "give part of a name, or for example `fig[45]`");
   }
 }
 
@@ -65,7 +65,7 @@ void add_folder(AskedExperiments& asked, const ExperimentRequest& request) {
   }
   if (!asked.experiments.empty()) return;
   throw Error(ErrorKind::usage, request.only.empty() ? asked.file.string() : "--only",
-              fmt::format("no experiment in {} is called so", asked.file.string()),
+              fmt::format("no experiment in {} matches", asked.file.string()),
               "`footprint list experiments` names those of this program");
 }
 

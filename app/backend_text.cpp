@@ -9,12 +9,12 @@ namespace footprint {
 std::string backend_text(const gl::BackendReport& report) {
   std::string name{gl::backend_name(report.backend)};
   if (report.backend == gl::Backend::egl_device) name += fmt::format(" --device {}", report.device);
-  if (!report.info) return fmt::format("  {:<22} not there: {}\n", name, report.why_not);
+  if (!report.info) return fmt::format("  {:<22} not available: {}\n", name, report.why_not);
   const gl::ContextInfo& info = *report.info;
   return fmt::format(
       "  {:<22} {}, OpenGL {}{}\n"
-      "  {:<22} textures to {} texels a side, frames to {} in one piece, {} texture units, uniform blocks to {} "
-      "bytes\n",
+      "  {:<22} textures up to {} texels per side, frames up to {} without tiles, {} texture units, uniform blocks up "
+      "to {} bytes\n",
       name, info.renderer, info.version, info.software ? ", software" : "", "", info.max_texture_size,
       info.max_framebuffer_size, info.max_texture_units, info.max_uniform_block_bytes);
 }

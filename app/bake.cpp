@@ -28,11 +28,11 @@ namespace footprint {
 namespace {
 
 constexpr const char* bake_examples =
-    "SCENE is a folder of scenes/, a path to a scene.toml, or a .gltf or .glb file. DIR must not hold anything yet.\n"
-    "It gets maps/MATERIAL/NAME.exr and .ktx2 (and .png of storage=unorm8) with whole mip chains, METHOD.glsl that\n"
-    "reads them, and manifest.json (docs/baking.md).\n"
+    "The output folder must be new or empty. It gets maps/MATERIAL/NAME.exr and .ktx2 with all mip levels (.png too "
+    "with\n"
+    "storage=unorm8), METHOD.glsl that reads them, and manifest.json (docs/baking.md).\n"
     "\n"
-    "SCENE may also be an EXR of OpenImageIO's `maketx --bumpslopes`, for methods that keep moments of slope (lean).\n"
+    "For lean and leadr, SCENE may also be an EXR written by OpenImageIO's `maketx --bumpslopes`.\n"
     "\n"
     "Examples:\n"
     "  footprint bake model.gltf --method toksvig -o maps\n"
@@ -56,7 +56,7 @@ struct BakeArguments {
 void require_room(const std::string& output) {
   std::error_code ignored;  // what is no folder, OutputFolder refuses
   if (!std::filesystem::is_directory(output, ignored) || std::filesystem::is_empty(output, ignored)) return;
-  throw Error(ErrorKind::usage, output, "holds other things", "give a new or an empty folder");
+  throw Error(ErrorKind::usage, output, "is not empty", "give a new or an empty folder");
 }
 
 BakedMethod bake_settings(const RunSettings& run, const Scene& scene, const EffectSet& effects,
@@ -75,7 +75,7 @@ std::string extension_of(const std::string& path) {
 
 void require_gltf(const std::string& scene) {
   if (extension_of(scene) == ".gltf" || extension_of(scene) == ".glb") return;
-  throw Error(ErrorKind::usage, "--gltf", fmt::format("{} is no glTF file of which there could be a copy", scene),
+  throw Error(ErrorKind::usage, "--gltf", fmt::format("{} is not a glTF file, so it cannot be copied", scene),
               "name the .gltf or .glb itself, or leave --gltf out");
 }
 
@@ -100,8 +100,8 @@ void take_slopes(const ExrChain& slopes, BakedMethod& baked) {
   const bool joined = roughness != options.end() && roughness->second == std::variant<double, std::string>("moments");
   if (joined || !holds_slope_moments(baked.materials.front())) {
     throw Error(ErrorKind::usage, fmt::format("method {}", baked.spec.text),
-                "does not keep the moments of slope that the file has, and these alone",
-                "take lean or leadr, with roughness=stretched or roughness=shading");
+                "does not store exactly the slope moments that the file has",
+                "use lean or leadr, with roughness=stretched or roughness=shading");
   }
   replace_moments(slopes, baked.materials.front());
 }
@@ -125,7 +125,7 @@ std::string copy_gltf(const BakeToFiles& bake, int level, const std::filesystem:
   if (maps.empty()) {
     throw Error(ErrorKind::usage, "--gltf",
                 fmt::format("{} has no maps that an engine imports for any of the materials", bake.baked.spec.text),
-                "take roughness_bake, and a model with normal maps");
+                "use roughness_bake, and a model with normal maps");
   }
   std::filesystem::create_directories(folder / "gltf");
   return "gltf/" + write_gltf_copy(bake.scene.source, maps, folder / "gltf");
@@ -191,12 +191,12 @@ void run_bake(const BakeArguments& arguments) {
 void add_bake_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("bake", "Write a method's maps as files, with the GLSL that reads them");
   const auto arguments = std::make_shared<BakeArguments>(*command);
-  command->add_option("-o,--output", arguments->output, "Folder for manifest.json, METHOD.glsl, maps/")->required();
+  command->add_option("-o,--output", arguments->output, "Folder for manifest.json, METHOD.glsl, maps/")
+      ->type_name("DIR")
+      ->required();
   auto* gltf = command->add_flag("--gltf", arguments->gltf,
                                  "Also write a copy of the model, with the roughness maps that engines import");
-  command
-      ->add_option("--gltf-level", arguments->gltf_level,
-                   "Mip level that the copy's maps are cut down to; 0 is the finest")
+  command->add_option("--gltf-level", arguments->gltf_level, "Mip level of the copy's maps; 0 is the finest")
       ->check(CLI::Range(0, coarsest_level))
       ->needs(gltf)
       ->capture_default_str();

@@ -26,7 +26,7 @@ std::string text_of(const fs::path& file) {
 std::optional<Baseline> baseline_of(const CheckReports& reports) {
   if (reports.baseline.empty()) {
     if (!reports.update) return {};
-    throw Error(ErrorKind::usage, "--update-baseline", "which one is not said", "add --baseline FILE");
+    throw Error(ErrorKind::usage, "--update-baseline", "the baseline is not given", "add --baseline FILE");
   }
   std::error_code unknown;
   if (fs::is_regular_file(reports.baseline, unknown))
@@ -70,7 +70,7 @@ void CheckBook::update_baseline() const {
   }
   for (const auto& [experiment, records] : figures_) next.figures[experiment] = records;
   write_file_atomically(reports_.baseline, baseline_json(next));
-  write_output(text.empty() ? fmt::format("{}: nothing differs\n", reports_.baseline) : text);
+  write_output(text.empty() ? fmt::format("{}: no differences\n", reports_.baseline) : text);
 }
 
 std::vector<std::string> CheckBook::shortfalls() const {

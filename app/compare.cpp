@@ -20,13 +20,10 @@ namespace footprint {
 namespace {
 
 constexpr const char* compare_examples =
-    "SCENE is a folder of scenes/, a path to a scene.toml, or a .gltf or .glb file. A method is written name or\n"
-    "name:option=value:option=value; `footprint list methods` names them.\n"
-    "\n"
     "Examples:\n"
     "  footprint compare model.gltf -o out\n"
     "  footprint compare model.gltf --methods direct,toksvig:storage=fp16 --distance 1,2,4,8 -o out\n"
-    "  footprint compare scenes/quad/scene.toml --spp 256 --size 1024x768 --seed 7 -o out";
+    "  footprint compare carved_disk --spp 256 --size 1024x768 --seed 7 -o out";
 
 struct CompareArguments {
   explicit CompareArguments(CLI::App& command) : run(command) {}
@@ -41,11 +38,12 @@ void add_options(CLI::App& command, CompareArguments& arguments) {
   command
       .add_option("-o,--output", arguments.output,
                   "Folder for results.json, results.csv, table.md, index.html, images/")
+      ->type_name("DIR")
       ->capture_default_str();
   command.add_option(timing_file_option, arguments.timing_file)->group("");  // no part of the help
   add_quiet_flag(command, arguments.quiet);
   command.add_flag("-v,--verbose", arguments.verbose,
-                   "Print every figure (table.md): errors by cause, pairs of methods, supersampling, precompute");
+                   "Print all of table.md: errors by cause, pairs of methods, supersampling, bakes");
 }
 
 // Everything is written to a hidden folder and moved to its place at the end. The hidden folder has a page after the
@@ -59,10 +57,10 @@ Results compare_into(OutputFolder& folder, const RunSettings& settings, bool qui
   bool is_told = false;
   const ResultsWatch so_far = [&](Results results) {
     sign(results.tool, results.backend);
-    results.scene.warnings.insert(results.scene.warnings.begin(), "the run is not finished: more distances follow");
+    results.scene.warnings.insert(results.scene.warnings.begin(), "the run is not finished; more distances follow");
     write_report(results, folder.path());
     if (!quiet && !std::exchange(is_told, true))
-      write_message(fmt::format("page of the distances that are done, until the run ends: {}",
+      write_message(fmt::format("page of the finished distances, until the run ends: {}",
                                 (folder.path() / "index.html").string()));
   };
   Results results = run_compare(settings, folder.path(), further, parts.next(weight, ""), nullptr, nullptr, {}, so_far);
@@ -87,7 +85,7 @@ void run_compare_command(const CompareArguments& arguments) {
 }  // namespace
 
 void add_compare_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("compare", "Compare methods with a supersampled reference: the main job");
+  CLI::App* command = app.add_subcommand("compare", "Compare methods with a supersampled reference (the main command)");
   const auto arguments = std::make_shared<CompareArguments>(*command);
   add_options(*command, *arguments);
   command->footer(compare_examples);

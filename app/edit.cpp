@@ -19,9 +19,9 @@ namespace footprint {
 namespace {
 
 constexpr const char* edit_examples =
-    "SCENE is a folder of scenes/ or a path to a scene.toml whose [microgeometry] has a kind. KIND.PARAMETER is a\n"
-    "parameter of that kind (docs/scenes.md). The folder gets images/METHOD_NNNN, each .exr and .png, edit.json,\n"
-    "edit.csv and table.md.\n"
+    "SCENE is a scene, or a path to a scene.toml, whose [microgeometry] has a kind. KIND.PARAMETER is a parameter of\n"
+    "that kind (docs/scenes.md). The folder gets images/METHOD_NNNN (.exr and .png), edit.json, edit.csv and "
+    "table.md.\n"
     "\n"
     "Examples:\n"
     "  footprint edit woven_cloth --set weave.warp_width=0.1:0.5 --frames 10 -o out\n"
@@ -38,14 +38,17 @@ struct EditArguments {
 };
 
 void add_options(CLI::App& command, EditArguments& arguments) {
-  command.add_option("--set", arguments.sets, "KIND.PARAMETER=FROM:TO, or =VALUE; may be given several times")
+  command
+      .add_option("--set", arguments.sets, "Change a parameter from FROM to TO, or set it to VALUE; may be repeated")
+      ->type_name("KIND.PARAMETER=FROM:TO")
       ->required()
       ->expected(1)
       ->take_all();
-  command.add_option("--frames", arguments.frames, "Edits, at equal steps of the parameters")
+  command.add_option("--frames", arguments.frames, "Number of edits, at equal steps of the parameters")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   command.add_option("-o,--output", arguments.output, "Folder for edit.json, edit.csv, table.md, images/")
+      ->type_name("DIR")
       ->capture_default_str();
   add_quiet_flag(command, arguments.quiet);
 }
@@ -76,7 +79,7 @@ void run_edit_command(const EditArguments& arguments) {
 }  // namespace
 
 void add_edit_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("edit", "Edit small-scale geometry frame by frame, and time each stage");
+  CLI::App* command = app.add_subcommand("edit", "Edit small-scale geometry frame by frame and time each stage");
   const auto arguments = std::make_shared<EditArguments>(*command);
   add_options(*command, *arguments);
   command->footer(edit_examples);

@@ -178,7 +178,7 @@ void run_and_print(const AskedExperiments& asked, const fs::path& output, const 
   throw Error(
       kind, asked.file.string(),
       fmt::format("{} of {} experiments were not run: {}", missing.size(), groups.size(), fmt::join(missing, ", ")),
-      "run it again when what they lack is there; the others are kept");
+      "fix the causes and run it again; finished experiments are kept");
 }
 
 void run_part(const AskedExperiments& asked, const Shard& shard, const fs::path& output, const KeptWork& kept,

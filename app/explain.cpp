@@ -27,10 +27,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* explain_examples =
-    "SCENE is a folder of scenes/, a path to a scene.toml, or a .gltf or .glb file.\n"
-    "\n"
     "Examples:\n"
-    "  footprint explain model.gltf                 effects with reasons, pass, textures, bytes\n"
+    "  footprint explain model.gltf                 effects with reasons, passes, textures, memory\n"
     "  footprint explain model.gltf --method toksvig --cost\n"
     "  footprint explain model.gltf --json          for programs";
 
@@ -49,7 +47,7 @@ struct TextureUse {
   std::size_t bytes = 0;
 };
 
-// The shadow maps, drawn once before the first frame; none where nothing casts a shadow.
+// The shadow maps, rendered once before the first frame; none where nothing casts a shadow.
 struct ShadowPass {
   std::size_t maps = 0, draws = 0, bytes = 0;
   int resolution = 0;
@@ -125,12 +123,13 @@ Explanation explain(const ExplainArguments& arguments, const Progress& progress)
 }
 
 std::string text_of(const ShadowPass& pass) {
-  return fmt::format("\nshadow maps, drawn once\n  {:<24} {}\n  {:<24} {} of {}x{}\n  {:<24} {}\n", "draws", pass.draws,
-                     "maps", pass.maps, pass.resolution, pass.resolution, "bytes", readable_bytes(pass.bytes));
+  return fmt::format("\nshadow maps, rendered once\n  {:<24} {}\n  {:<24} {} of {}x{}\n  {:<24} {}\n", "draws",
+                     pass.draws, "maps", pass.maps, pass.resolution, pass.resolution, "bytes",
+                     readable_bytes(pass.bytes));
 }
 
 std::string text_of(const VisibilityPass& pass) {
-  return fmt::format("\nvisibility of the environment, asked once\n  {:<24} {}\n  {:<24} {:.3f} rad\n  {:<24} {}\n",
+  return fmt::format("\nenvironment visibility, computed once\n  {:<24} {}\n  {:<24} {:.3f} rad\n  {:<24} {}\n",
                      "vertices", pass.vertices, "error of the distance", pass.error, "bytes",
                      readable_bytes(pass.bytes));
 }
@@ -156,7 +155,7 @@ std::string text_of_input(const Explanation& explanation) {
   for (const ModelChoice& choice : explanation.choices) {
     choices.push_back(fmt::format("{:<24} {}", choice.kind, text_of(choice)));
   }
-  return lines_of("to choose from (* is taken)", choices) + lines_of("supplied", explanation.supplied) +
+  return lines_of("choices (* = selected)", choices) + lines_of("supplied", explanation.supplied) +
          lines_of("warnings", explanation.warnings);
 }
 
@@ -184,7 +183,7 @@ std::string text_of(const Explanation& explanation) {
                       readable_bytes(explanation.memory.peak()), "each further method",
                       readable_bytes(explanation.memory.methods.front().kept));
   if (explanation.costs.empty()) return text;
-  text += fmt::format("\n{:<23} {:>10} {:>12} {:>10}\n", "cost, ms a frame", "with", "without", "adds");
+  text += fmt::format("\n{:<23} {:>10} {:>12} {:>10}\n", "cost, ms per frame", "with", "without", "adds");
   for (const EffectCost& cost : explanation.costs) {
     text += fmt::format("  {:<24} {:>10.3f} {:>12.3f} {:>10.3f}\n", effect_name(cost.effect), cost.with_ms,
                         cost.without_ms, cost.added_ms);
@@ -256,7 +255,7 @@ void run_explain(const ExplainArguments& arguments) {
 }  // namespace
 
 void add_explain_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("explain", "Say which effects a scene calls for, why, and what they cost");
+  CLI::App* command = app.add_subcommand("explain", "Show which shading effects a scene uses, why, and what they cost");
   const auto arguments = std::make_shared<ExplainArguments>(*command);
   command->add_flag("--cost", arguments->cost, "Measure what each effect adds to a frame's time");
   command->add_flag("--json", arguments->json, "Print JSON");

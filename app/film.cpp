@@ -60,8 +60,8 @@ fs::path find_ffmpeg() {
     fs::path file = fs::path(folder) / "ffmpeg";
     if (!folder.empty() && access(file.c_str(), X_OK) == 0) return fs::absolute(file);
   }
-  throw Error(ErrorKind::machine, "--video", "ffmpeg is not there",
-              "install the package ffmpeg, or leave --video out: the frames are written all the same");
+  throw Error(ErrorKind::machine, "--video", "ffmpeg is not installed",
+              "install the package ffmpeg, or leave --video out: the frames are written anyway");
 }
 
 std::string make_film(const fs::path& ffmpeg, const Animation& animation, const fs::path& folder,
@@ -76,7 +76,7 @@ std::string make_film(const fs::path& ffmpeg, const Animation& animation, const 
   fs::remove(errors);
   if (exit_code == 0 && fs::is_regular_file(folder / film_file)) return film_file;
   throw Error(ErrorKind::machine, "--video",
-              fmt::format("ffmpeg ended with {}: {}", exit_code, words.empty() ? "no word" : words.substr(0, 400)),
+              fmt::format("ffmpeg ended with {}: {}", exit_code, words.empty() ? "no message" : words.substr(0, 400)),
               "leave --video out: the frames are kept, and are not rendered again");
 }
 

@@ -26,12 +26,12 @@ void check_hard_cases(const HardCasesRequest& request) {
   display.finish();
   const std::vector<std::string> fell = stability::what_fell(rows);
   std::string text;
-  for (const std::string& line : fell) text += "fell: " + line + "\n";
-  write_output(fmt::format("{}{} figures, {} fell\npage: {}\n", text, rows.size(), fell.size(),
+  for (const std::string& line : fell) text += "failed: " + line + "\n";
+  write_output(fmt::format("{}{} checks, {} failed\npage: {}\n", text, rows.size(), fell.size(),
                            (path / "stability.md").string()));
   if (fell.empty()) return;
   throw Error(ErrorKind::check, std::string(hard_cases_name),
-              fmt::format("{} of {} figures fell, the first: {}", fell.size(), rows.size(), fell.front()), "");
+              fmt::format("{} of {} checks failed, the first: {}", fell.size(), rows.size(), fell.front()), "");
 }
 
 }  // namespace footprint

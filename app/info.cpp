@@ -16,7 +16,7 @@ namespace {
 constexpr const char* info_examples =
     "Examples:\n"
     "  footprint info                               backends with their limits, processor, memory\n"
-    "  footprint info | grep egl-device             the GPUs, with the number that --device takes";
+    "  footprint info | grep egl-device             the GPUs, with their numbers for --device";
 
 void run_info() {
   std::string text = "footprint " FOOTPRINT_VERSION "\n\nbackends\n";
@@ -29,7 +29,7 @@ void run_info() {
 }  // namespace
 
 void add_info_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("info", "Say what this program and this machine can do");
+  CLI::App* command = app.add_subcommand("info", "Show version, OpenGL backends and limits");
   command->footer(info_examples);
   command->callback(run_info);
 }

@@ -61,8 +61,8 @@ std::string options_text(const std::vector<OptionSpec>& options, std::string_vie
 std::string method_text(const MethodInfo& method) {
   std::string text = fmt::format("  {}\n      {}\n", method.name, method.summary);
   if (!method.paper.empty()) text += fmt::format("      {}\n", method.paper);
-  if (method.slow_precompute) text += "      bakes for seconds; kept on disk between runs\n";
-  if (method.slow_frame) text += "      slow: draws for seconds; a bound, in no list of all methods\n";
+  if (method.slow_precompute) text += "      bake takes seconds; cached on disk\n";
+  if (method.slow_frame) text += "      slow: seconds per frame; not part of `all`\n";
   return text + options_text(method.options, ":");
 }
 
@@ -157,7 +157,8 @@ void run_list(const ListArguments& arguments) {
 void add_list_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("list", "List the methods, scenes, surfaces, experiments and backends");
   const auto arguments = std::make_shared<ListArguments>();
-  command->add_option("kind", arguments->kind, "methods, scenes, surfaces, experiments or backends; all if not given");
+  command->add_option("kind", arguments->kind, "methods, scenes, surfaces, experiments or backends; default: all")
+      ->type_name("KIND");
   command->add_flag("--json", arguments->json, "Print JSON");
   command->footer(list_examples);
   command->callback([arguments] { run_list(*arguments); });

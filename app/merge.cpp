@@ -24,11 +24,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* merge_words =
-    "Each PART is the output folder of `footprint run EXPERIMENT --shard I/N`, of one experiment's file and one\n"
-    "program, or of `footprint animate ... --shard I/N`; all N of them are needed, each once. What they hold is "
-    "checked,\n"
-    "taken over, and reported as by one run; nothing is measured. Times carry the name of the machine that took them\n"
-    "(docs/cluster.md).\n"
+    "Each PART is the output folder of `footprint run EXPERIMENT --shard I/N` or `footprint animate ... --shard I/N`.\n"
+    "All N parts must come from the same experiment and program. The report equals that of a single run; nothing is\n"
+    "measured again. Times name the machine that took them (docs/cluster.md).\n"
     "\n"
     "Examples:\n"
     "  footprint merge parts/1 parts/2 -o out\n"
@@ -65,14 +63,15 @@ std::vector<Part> parts_of(const std::vector<std::string>& folders) {
       const Part& first = parts.begin()->second;
       const std::string other = first.folder.string();
       if (part.file.fingerprint != first.file.fingerprint)
-        refuse(part, fmt::format("is of another experiment, or of other options, than {}", other),
+        refuse(part, fmt::format("has another experiment or other options than {}", other),
                "merge the parts of one run");
       if (part.file.maker != first.file.maker)
-        refuse(part, fmt::format("was made by another program, or drawn by another OpenGL, than {}", other),
+        refuse(part, fmt::format("was made by another program or OpenGL than {}", other),
                "run all parts with one program, on machines of one kind");
       if (part.file.shard.count != first.file.shard.count)
         refuse(part,
-               fmt::format("is of {} parts, and {} is of {}", part.file.shard.count, other, first.file.shard.count),
+               fmt::format("is one of {} parts, but {} is one of {}", part.file.shard.count, other,
+                           first.file.shard.count),
                "merge the parts of one run");
     }
     parts.emplace(index, std::move(part));
@@ -83,7 +82,7 @@ std::vector<Part> parts_of(const std::vector<std::string>& folders) {
   for (int index = 1; index <= all.front().file.shard.count; ++index) {
     if (!std::ranges::any_of(all, [&](const Part& part) { return part.file.shard.index == index; }))
       refuse(all.front(), fmt::format("part {} of {} is missing", index, all.front().file.shard.count),
-             fmt::format("run it with --shard {}/{}, and name its folder too", index, all.front().file.shard.count));
+             fmt::format("run it with --shard {}/{}, and add its folder", index, all.front().file.shard.count));
   }
   return all;
 }
@@ -99,8 +98,8 @@ AskedExperiments asked_by(const Part& first, const RunOptions& options) {
                                               run.backend.tile = first.file.tile;
                                             }});
   if (asked.fingerprint != first.file.fingerprint)
-    refuse(first, fmt::format("{} is not what it was when this part was run", asked.file.string()),
-           "run all parts again, or merge with the file as it was");
+    refuse(first, fmt::format("{} has changed since this part was run", asked.file.string()),
+           "run all parts again, or restore the file");
   if (!is_made_by_this_program(first.file.maker))
     refuse(first, "was made by another program than this one", "merge with the program that ran the parts");
   return asked;
@@ -143,12 +142,13 @@ void merge(const MergeArguments& arguments) {
 }  // namespace
 
 void add_merge_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("merge", "Join the parts of a run, made by `run --shard`, to its report");
+  CLI::App* command = app.add_subcommand("merge", "Join the parts of a run made with --shard into one report");
   const auto arguments = std::make_shared<MergeArguments>(*command);
-  command->add_option("part", arguments->parts, "Folders of the parts, all of them")->required()->type_name("PART");
+  command->add_option("part", arguments->parts, "Output folders of all parts")->required()->type_name("PART");
   command
       ->add_option("-o,--output", arguments->output,
                    "Folder for results.json, results.csv, table.md, index.html, images/, kept/")
+      ->type_name("DIR")
       ->capture_default_str();
   add_quiet_flag(*command, arguments->quiet);
   command->footer(merge_words);

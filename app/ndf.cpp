@@ -24,10 +24,8 @@ namespace footprint {
 namespace {
 
 constexpr const char* ndf_examples =
-    "SCENE is a folder of scenes/, a path to a scene.toml, or a .gltf or .glb file. MAP is an EXR of unit normals\n"
-    "(x, y, z, each -1 to 1) or an ordinary normal-map image (OpenGL convention). The footprint is in the map's "
-    "texture\n"
-    "coordinates, (0, 0) at the top left; without one it is the whole map.\n"
+    "MAP is an EXR of unit normals (x, y, z, each -1 to 1) or a normal map as an image (OpenGL convention). Texture\n"
+    "coordinates start with (0, 0) at the top left.\n"
     "\n"
     "Examples:\n"
     "  footprint ndf normals.png -o ndf\n"
@@ -56,8 +54,8 @@ FootprintRect parse_rectangle(const std::string& option, const std::string& text
     const auto [stop, status] = std::from_chars(next, end, values.at(i));
     const bool last = i + 1 == values.size();
     if (status != std::errc{} || (last ? stop != end : stop == end || *stop != ',')) {
-      throw Error(ErrorKind::usage, option, fmt::format("`{}` is no rectangle", text),
-                  "give four numbers u0,v0,u1,v1 with commas between, for example 0,0,0.5,0.5");
+      throw Error(ErrorKind::usage, option, fmt::format("`{}` is not a rectangle", text),
+                  "give four numbers u0,v0,u1,v1 comma-separated, for example 0,0,0.5,0.5");
     }
     next = stop + 1;
   }
@@ -103,38 +101,43 @@ void run_ndf(const NdfArguments& arguments) {
   display.finish();
   for (const std::string& note : results.notes) write_message(note);
   if (!results.fine_enough) {
-    write_message(
-        fmt::format("the grid of directions is too coarse for {}: the truth's integral is {:.4g}, not {:.4g}; "
-                    "give a larger --resolution",
-                    results.lobe, results.truth.energy, results.truth.expected_energy));
+    write_message(fmt::format(
+        "the grid of directions is too coarse for {}: the exact NDF integrates to {:.4g} instead of {:.4g}; "
+        "give a larger --resolution",
+        results.lobe, results.truth.energy, results.truth.expected_energy));
   }
-  write_output(fmt::format("{}\npictures: {}\n", ndf_table(results), (folder.final_path() / results.strip).string()));
+  write_output(fmt::format("{}\nimages: {}\n", ndf_table(results), (folder.final_path() / results.strip).string()));
 }
 
 }  // namespace
 
 void add_ndf_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("ndf", "Show the effective NDF of a footprint by each method beside the true one");
+  CLI::App* command = app.add_subcommand("ndf", "Show each method's NDF of one footprint next to the exact one");
   const auto arguments = std::make_shared<NdfArguments>(*command);
-  command->add_option("source", arguments->source, "SCENE or MAP")->required();
-  auto* footprint = command->add_option("--region", arguments->footprint,
-                                        "u0,v0,u1,v1 in texture coordinates; if not given the whole map");
-  command->add_option("--texels", arguments->texels, "The same as x0,y0,x1,y1 in texels of the normal map")
+  command->add_option("source", arguments->source, "Scene, model or normal map")->type_name("SCENE|MAP")->required();
+  auto* footprint =
+      command->add_option("--region", arguments->footprint, "Footprint in texture coordinates; default: the whole map")
+          ->type_name("U0,V0,U1,V1");
+  command->add_option("--texels", arguments->texels, "Footprint in texels of the normal map")
+      ->type_name("X0,Y0,X1,Y1")
       ->excludes(footprint);
-  command->add_option("--lobe", arguments->lobe,
-                      "blinn_phong:EXPONENT, beckmann:ALPHA, ggx:ALPHA or vmf:KAPPA; if not given the scene's, or "
-                      "blinn_phong:64 for a map");
-  command->add_option("--material", arguments->material,
-                      "Which of the scene's materials: its name, or a number from 0");
+  command
+      ->add_option("--lobe", arguments->lobe,
+                   "blinn_phong:EXPONENT, beckmann:ALPHA, ggx:ALPHA or vmf:KAPPA; default: the scene's, or "
+                   "blinn_phong:64 for a map")
+      ->type_name("LOBE");
+  command->add_option("--material", arguments->material, "Material of the scene, by name or number from 0")
+      ->type_name("NAME");
   command
       ->add_option("--resolution", arguments->resolution,
-                   "Rings of directions that the hemisphere is cut into; if not given as the narrowest lobe needs")
+                   "Rings of directions on the hemisphere; default: as the narrowest lobe needs")
       ->check(CLI::Range(smallest_resolution, largest_resolution));
-  command->add_option("--picture-size", arguments->picture_size, "Side of the pictures, pixels")
+  command->add_option("--picture-size", arguments->picture_size, "Side of the images in pixels")
       ->check(CLI::Range(16, 4096))
       ->capture_default_str();
-  command->add_option("-o,--output", arguments->output, "Folder for ndf.json, ndf.png, images/")->required();
+  command->add_option("-o,--output", arguments->output, "Folder for ndf.json, ndf.png, images/")
+      ->type_name("DIR")
+      ->required();
   add_quiet_flag(*command, arguments->quiet);
   command->footer(ndf_examples);
   command->callback([arguments] { run_ndf(*arguments); });

@@ -83,7 +83,7 @@ Error usage_error(const CLI::App& app, const CLI::ParseError& error) {
   }
   const std::vector<std::string> subcommands = subcommand_names(command);
   if (subcommands.empty()) {
-    return {ErrorKind::usage, place, fmt::format("one argument too many: `{}`", word), help};
+    return {ErrorKind::usage, place, fmt::format("unexpected argument `{}`", word), help};
   }
   return {ErrorKind::usage, place, fmt::format("unknown subcommand `{}`", word), suggestion(word, subcommands)};
 }

@@ -47,7 +47,7 @@ Shard parse_shard(const std::string& text) {
   const Shard shard{.index = count_of(all.substr(0, slash)),
                     .count = slash < text.size() ? count_of(all.substr(slash + 1)) : 0};
   if (shard.index >= 1 && shard.count >= shard.index && shard.count <= most_shards) return shard;
-  throw Error(ErrorKind::usage, "--shard", fmt::format("`{:.80}` is no part", text),
+  throw Error(ErrorKind::usage, "--shard", fmt::format("`{:.80}` is not a part", text),
               "give I/N, part I of N, for example 1/4");
 }
 
@@ -78,7 +78,8 @@ PartFile read_part_file(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "part.json";
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
-    throw Error(ErrorKind::usage, file.string(), "is missing: no part of a run, or one that is not finished",
+    throw Error(ErrorKind::usage, file.string(),
+                "is missing: the folder is not a part of a run, or the part is unfinished",
                 "run it with --shard I/N until it ends");
   try {
     const nlohmann::json document = nlohmann::json::parse(stream);

@@ -6,12 +6,14 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <exception>
+#include <memory>
 #include <new>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/help_format.hpp"
 #include "app/messages.hpp"
 #include "app/parse_error.hpp"
 #include "app/standard_output.hpp"
@@ -22,20 +24,20 @@ namespace footprint {
 namespace {
 
 constexpr const char* program_description =
-    "Renders shiny, bumpy surfaces headlessly and compares the methods that prefilter them with a supersampled "
-    "reference: what each costs, and what error is left.";
+    "Compares methods of specular antialiasing (normal map filtering) with a supersampled reference: error, cost and "
+    "memory of each, on your own glTF model, without a display.";
 
 constexpr const char* program_examples =
     "Examples:\n"
     "  footprint compare model.gltf -o out          error, cost and memory of each method, images and a page\n"
     "  footprint render model.gltf --method toksvig -o out.exr\n"
-    "  footprint check quick -o out                 an experiment, and whether its claims are met\n"
-    "  footprint recommend model.gltf -o advice     which method to take for each material\n"
+    "  footprint check quick -o out                 run an experiment, check its claims and thresholds\n"
+    "  footprint recommend model.gltf -o advice     which method to use for each material\n"
     "  footprint bake model.gltf --method lean -o maps\n"
-    "  footprint score engine.exr --reference reference.exr    another renderer's picture\n"
+    "  footprint score engine.exr --reference reference.exr    an image of another renderer\n"
     "  footprint list methods                       the methods and their options\n"
     "\n"
-    "Exit codes: 0 fine, 1 a check fell short, 2 the command line or an input is wrong, 3 the machine cannot,\n"
+    "Exit codes: 0 success, 1 a check failed, 2 bad command line or input, 3 not possible on this machine,\n"
     "130 interrupted.";
 
 // Subcommands under the heading of what they are for.
@@ -55,8 +57,9 @@ void add_subcommands(CLI::App& app) {
 
 void run_subcommand(int argc, const char* const* argv) {
   CLI::App app(program_description, "footprint");
+  app.formatter(std::make_shared<HelpFormat>());
   app.footer(program_examples);
-  app.set_version_flag("--version", "footprint " FOOTPRINT_VERSION);
+  app.set_version_flag("--version", "footprint " FOOTPRINT_VERSION, "Print the version and exit");
   app.require_subcommand(0, 1);
   add_subcommands(app);
   try {
@@ -102,9 +105,9 @@ int run_program(int argc, const char* const* argv) {
     return told(error.what(), error.kind());
   } catch (const std::system_error& error) {
     const bool no_thread = error.code() == std::errc::resource_unavailable_try_again;
-    return told(
-        no_thread ? "this machine gives no further thread (raise `ulimit -u`, or end other programs)" : error.what(),
-        ErrorKind::machine);
+    return told(no_thread ? "this machine cannot start another thread (raise `ulimit -u`, or end other programs)"
+                          : error.what(),
+                ErrorKind::machine);
   } catch (const std::exception& error) {
     return told(error.what(), ErrorKind::machine);
   }

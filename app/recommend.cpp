@@ -24,8 +24,9 @@ namespace footprint {
 namespace {
 
 constexpr const char* recommend_examples =
-    "Every method is tried under every footprint filter: coarsely, then in full those that could be chosen. Costs are\n"
-    "frame times over `direct`'s under trilinear lookups, measured in turn. Without a limit: the least error.\n"
+    "Every method is measured under every footprint filter: coarsely first, then the contenders in full. Costs are\n"
+    "frame times relative to `direct` under trilinear lookups. At most one limit can be given; without\n"
+    "one, the smallest error wins.\n"
     "\n"
     "Examples:\n"
     "  footprint recommend model.gltf -o advice\n"
@@ -57,7 +58,7 @@ std::vector<FootprintFilter> parse_filters(const std::string& text) {
 
 void require_positive(const char* option, const std::optional<double>& value) {
   if (!value || (*value > 0.0 && std::isfinite(*value))) return;
-  throw Error(ErrorKind::usage, option, fmt::format("{} is no limit", *value), "give a number above 0");
+  throw Error(ErrorKind::usage, option, fmt::format("{} is not a valid limit", *value), "give a number above 0");
 }
 
 void run_recommend_command(const RecommendArguments& arguments) {
@@ -86,25 +87,28 @@ void run_recommend_command(const RecommendArguments& arguments) {
 }  // namespace
 
 void add_recommend_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("recommend", "Name the method to take for each material, within a limit");
+  CLI::App* command = app.add_subcommand("recommend", "Choose the best method for each material, within a limit");
   const auto arguments = std::make_shared<RecommendArguments>(*command);
   auto* error = command->add_option("--max-error", arguments->limits.max_error,
-                                    "The cheapest whose normalised colour error is at most this at every distance");
+                                    "Choose the cheapest with at most this error at every distance");
   auto* cost = command->add_option("--max-cost", arguments->limits.max_cost,
-                                   "The best whose frames take at most so many times direct's");
+                                   "Choose the most accurate with at most this frame time, relative to direct");
   auto* bytes = command
                     ->add_option("--max-bytes", arguments->limits.max_bytes,
-                                 "The best whose maps of a material take at most so many bytes")
+                                 "Choose the most accurate with at most this many bytes of maps per material")
+                    ->type_name("N")
                     ->check(CLI::NonNegativeNumber);
   error->excludes(cost)->excludes(bytes);
   cost->excludes(bytes);
   command
       ->add_option(
           "--footprints", arguments->filters,
-          "Footprint filters to try, commas between (as --footprint of compare takes them); trilinear always is")
+          "Footprint filters to try, comma-separated, as for `compare --footprint`; trilinear is always included")
+      ->type_name("LIST")
       ->capture_default_str();
   command->add_flag("--exhaustive", arguments->exhaustive, "Measure every candidate in full");
   command->add_option("-o,--output", arguments->output, "Folder for index.html, recommend.json and the full runs")
+      ->type_name("DIR")
       ->capture_default_str();
   add_quiet_flag(*command, arguments->quiet);
   command->footer(recommend_examples);

@@ -24,8 +24,7 @@ namespace footprint {
 namespace {
 
 constexpr const char* render_examples =
-    "SCENE is a folder of scenes/, a path to a scene.toml, or a .gltf or .glb file. EXR holds linear radiance with\n"
-    "coverage in alpha; PNG is exposed for display.\n"
+    "EXR stores linear radiance with coverage in alpha; PNG stores the image as displayed, after exposure.\n"
     "\n"
     "Examples:\n"
     "  footprint render model.gltf --method toksvig --size 1024x768 -o toksvig.exr\n"
@@ -46,8 +45,8 @@ struct RenderArguments {
 std::filesystem::path picture_path(const std::string& text) {
   std::filesystem::path path = text;
   if (path.extension() == ".exr" || path.extension() == ".png") return path;
-  throw Error(ErrorKind::usage, "--output", fmt::format("`{}` names no picture", text),
-              "end it in .exr for linear radiance, or .png for display");
+  throw Error(ErrorKind::usage, "--output", fmt::format("`{}` is not an image file", text),
+              "use the extension .exr for linear radiance, or .png for display");
 }
 
 // The factor on the camera's distance: given, or that of a frame of the scene's zoom path.
@@ -82,8 +81,8 @@ RunSettings staged(const RunOptions& options) {
     return run;
   }
   for (const std::string& option : options.given_of("reference")) {
-    throw Error(ErrorKind::usage, option, fmt::format("`{}` takes one sample a pixel", method),
-                "give it with --method reference");
+    throw Error(ErrorKind::usage, option, fmt::format("`{}` takes one sample per pixel", method),
+                "use it with --method reference");
   }
   return run;
 }
@@ -109,10 +108,11 @@ void run_render(const RenderArguments& arguments) {
 }  // namespace
 
 void add_render_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("render", "Render one picture by a method or by the reference");
+  CLI::App* command = app.add_subcommand("render", "Render one image by a method or by the reference");
   const auto arguments = std::make_shared<RenderArguments>(*command);
-  command->add_option("-o,--output", arguments->output, "The picture, .exr or .png")->required();
+  command->add_option("-o,--output", arguments->output, "The image, .exr or .png")->type_name("FILE")->required();
   command->add_option("--frame", arguments->zoom_frame, "Frame of the scene's zoom path, from 0")
+      ->type_name("N")
       ->check(CLI::NonNegativeNumber)
       ->excludes(command->get_option("--distance"));
   add_quiet_flag(*command, arguments->quiet);

@@ -29,30 +29,31 @@ namespace footprint {
 namespace {
 
 constexpr const char* experiment_words =
-    "EXPERIMENT is a TOML file of experiments/ by its name, or a path to one (docs/experiments.md).\n"
-    "`footprint list experiments` names them. A folder stands for all experiments in it.\n"
+    "EXPERIMENT is a name of `footprint list experiments`, or a path to a TOML file or a folder of them\n"
+    "(docs/experiments.md).\n"
     "\n";
 
 constexpr const char* run_examples =
     "Examples:\n"
-    "  footprint run tan2005_fig4 -o out            the figures beside the published ones, and the claims\n"
-    "  footprint run tan2005_fig4 --quick -o out    a quarter of the size: whether it runs and how it looks\n"
-    "  footprint run xu2017_table1 --processes 5 -o out    times over five processes\n"
-    "  footprint run engine_constants --only ggx -o out    of its members those that are called so\n"
-    "  footprint run --all -o results                      every experiment, resumable; --only '^tan' some of them\n"
-    "  footprint run cells --shard 1/4 -o parts/1          a quarter of it, for `footprint merge parts/* -o out`\n"
+    "  footprint run tan2005_fig4 -o out            figures next to the published ones, claims\n"
+    "  footprint run tan2005_fig4 --quick -o out    a quarter of the size: a test run\n"
+    "  footprint run xu2017_table1 --processes 5 -o out    times from five processes\n"
+    "  footprint run engine_constants --only ggx -o out    its members whose names match\n"
+    "  footprint run --all -o results                      every experiment; an interrupted run resumes\n"
+    "  footprint run cells --shard 1/4 -o parts/1          one of four parts, for `footprint merge`\n"
     "  footprint run mine.toml -o out";
 
 constexpr const char* check_examples =
-    "Exit code 1, with the list of what fell short, where a claim does not come out as its file expects or a\n"
-    "threshold is not held; the report is written all the same.\n"
+    "Exit code 1, with a list, if a claim's outcome differs from the expected one or a threshold is exceeded. The\n"
+    "report is still written.\n"
     "\n"
     "Examples:\n"
     "  footprint check quick -o out                 every method, in seconds\n"
-    "  footprint check hard_cases -o out            every method where numbers are hard (docs/stability.md)\n"
+    "  footprint check hard_cases -o out            numerical stress tests (docs/stability.md)\n"
     "  footprint check experiments/tan2005_fig4.toml -o out\n"
     "  footprint check quick -o out --junit out/junit.xml --github\n"
-    "  footprint check quick -o out --baseline quick.json --update-baseline    once; and without the latter ever after";
+    "  footprint check quick -o out --baseline quick.json --update-baseline    first run; later without "
+    "--update-baseline";
 
 struct ExperimentArguments {
   explicit ExperimentArguments(CLI::App& command) : run(command) {}
@@ -73,20 +74,23 @@ struct ExperimentArguments {
 };
 
 void add_options(CLI::App& command, ExperimentArguments& arguments) {
-  CLI::Option* const named = command.add_option("experiment", arguments.experiment, "What to run");
-  command.add_flag("--all", arguments.all, "Every experiment of the program, each into a folder of its name below DIR")
+  CLI::Option* const named =
+      command.add_option("experiment", arguments.experiment, "Name, or path to a TOML file or folder")
+          ->type_name("EXPERIMENT");
+  command.add_flag("--all", arguments.all, "Run every experiment, each into a subfolder with its name")
       ->excludes(named);
   command
-      .add_option("-o,--output", arguments.output,
-                  "Folder for results.json, results.csv, table.md, index.html, images/, and kept/: finished work, from "
-                  "which a run that was interrupted goes on")
+      .add_option(
+          "-o,--output", arguments.output,
+          "Folder for results.json, results.csv, table.md, index.html, images/, and kept/ with the finished work, "
+          "from which an interrupted run resumes")
+      ->type_name("DIR")
       ->capture_default_str();
   command
-      .add_option("--only", arguments.only,
-                  "Of an experiment's members, or of all, those whose names match (a regular expression)")
+      .add_option("--only", arguments.only, "Run only members or experiments whose names match this regular expression")
       ->type_name("REGEX");
   command.add_flag("--fresh", arguments.fresh,
-                   "Measure everything anew: forget the finished work in the output folder");
+                   "Measure everything again: discard the finished work in the output folder");
   command.add_option(timing_file_option, arguments.timing_file)->group("");  // no part of the help
   command.add_option(timing_member_option, arguments.timing_member)->group("");
   add_quiet_flag(command, arguments.quiet);
@@ -94,8 +98,7 @@ void add_options(CLI::App& command, ExperimentArguments& arguments) {
 
 AskedExperiments asked(const ExperimentArguments& arguments) {
   if (arguments.experiment.empty() && !arguments.all)
-    throw Error(ErrorKind::usage, "EXPERIMENT", "no experiment is named",
-                "`footprint list experiments` names them, `footprint check --help` says more");
+    throw Error(ErrorKind::usage, "EXPERIMENT", "no experiment is given", "`footprint list experiments` names them");
   return ask_experiments({.experiment = arguments.all ? experiments_folder().string() : arguments.experiment,
                           .only = arguments.only,
                           .quick = arguments.quick,
@@ -124,7 +127,7 @@ void run_all(const ExperimentArguments& arguments, const RunListener& listener) 
   const KeptWork kept = finished_work(experiments, arguments);
   run_and_print(experiments, arguments.output, kept, arguments.quiet, listener);
   if (kept.found() > 0 && !arguments.quiet)
-    write_message(fmt::format("{} finished parts of an earlier run were taken from {} (--fresh: measure anew)",
+    write_message(fmt::format("{} finished parts of an earlier run were reused from {} (--fresh measures again)",
                               kept.found(), kept.folder().string()));
 }
 
@@ -171,7 +174,7 @@ void refuse_reports(const CheckReports& reports) {
   if (reports.github) option = "--github";
   if (!reports.baseline.empty() || reports.update) option = "--baseline";
   if (option == nullptr) return;
-  throw Error(ErrorKind::usage, option, fmt::format("{} is no experiment and has no such report", hard_cases_name),
+  throw Error(ErrorKind::usage, option, fmt::format("{} is not an experiment and has no such report", hard_cases_name),
               "leave it out: hard_cases.json has all outcomes");
 }
 
@@ -196,10 +199,10 @@ void check(const ExperimentArguments& arguments) {
   if (shortfalls.empty() && failed) throw *failed;
   if (shortfalls.empty()) return;
   std::string list;
-  for (const std::string& line : shortfalls) list += "fell short: " + line + "\n";
+  for (const std::string& line : shortfalls) list += "failed: " + line + "\n";
   write_output(list);
   throw Error(ErrorKind::check, arguments.experiment,
-              fmt::format("{} of its claims and thresholds fell short, the first: {}", shortfalls.size(),
+              fmt::format("{} claims and thresholds failed, the first: {}", shortfalls.size(),
                           shortfalls.front().substr(0, 300)),
               "");
 }
@@ -207,10 +210,11 @@ void check(const ExperimentArguments& arguments) {
 }  // namespace
 
 void add_run_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("run", "Run an experiment: measured beside published, and its claims");
+  CLI::App* command = app.add_subcommand("run", "Run an experiment and compare it with published results");
   const auto arguments = std::make_shared<ExperimentArguments>(*command);
   add_options(*command, *arguments);
-  command->add_flag("--quick", arguments->quick, "A quarter of the size, few samples and texels: no measurement");
+  command->add_flag("--quick", arguments->quick,
+                    "Test run: a quarter of the size, few samples and texels; not a measurement");
   command->footer(std::string(experiment_words) + run_examples);
   command->add_option("--shard", arguments->shard, "Run part I of N into the output folder, for `footprint merge`")
       ->type_name("I/N");
@@ -218,21 +222,19 @@ void add_run_command(CLI::App& app) {
 }
 
 void add_check_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("check", "Run an experiment and hold its claims and thresholds");
+  CLI::App* command = app.add_subcommand("check", "Run an experiment; fail if a claim or threshold fails (CI)");
   const auto arguments = std::make_shared<ExperimentArguments>(*command);
   add_options(*command, *arguments);
-  command->add_flag("--wide", arguments->wide,
-                    "hard_cases: every storage in every case, not over single lobes alone; cases that take long");
+  command->add_flag("--wide", arguments->wide, "hard_cases: every storage in every case, and slow cases too");
   command->add_option("--junit", arguments->reports.junit, "Also write every claim and threshold as JUnit XML")
       ->type_name("FILE");
-  command->add_flag("--github", arguments->reports.github,
-                    "Also print what fell short as annotations of a GitHub workflow");
+  command->add_flag("--github", arguments->reports.github, "Also print failures as annotations for GitHub workflows");
   command
       ->add_option("--baseline", arguments->reports.baseline,
-                   "Also hold errors, flicker and bytes of every record against those of an earlier run")
+                   "Also compare errors, flicker and memory with this file of an earlier run")
       ->type_name("FILE");
   command->add_flag("--update-baseline", arguments->reports.update,
-                    "Write --baseline anew instead of holding against it, and print what differs");
+                    "Write the --baseline file instead of comparing with it, and print the differences");
   command->footer(std::string(experiment_words) + check_examples);
   command->callback([arguments] { check(*arguments); });
 }

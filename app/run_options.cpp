@@ -13,12 +13,12 @@
 namespace footprint {
 namespace {
 
-// "Samples a pixel of the reference (1 to 4096)", and what counts where none is given.
+// "Random seed of the reference (0 or more); default: 1".
 std::string help_text(const Setting& setting) {
   std::string text(setting.help);
   text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
   if (!setting.type.option_takes.empty()) text += fmt::format(" ({})", setting.type.option_takes);
-  if (!setting.otherwise.empty()) text += fmt::format("; if not given {}", setting.otherwise);
+  if (!setting.otherwise.empty()) text += fmt::format("; default: {}", setting.otherwise);
   return text;
 }
 

@@ -38,9 +38,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* score_examples =
-    "PICTURE is an EXR or a Radiance HDR of linear radiance, or a PNG, JPEG, TIFF, BMP or WebP of displayed colours\n"
-    "(sRGB), for which measures of radiance are left out. Of two pictures each is scored, and which of them is closer\n"
-    "is told pixel by pixel.\n"
+    "IMAGE is an EXR or Radiance HDR of linear radiance, or a PNG, JPEG, TIFF, BMP or WebP of displayed colours "
+    "(sRGB),\n"
+    "for which measures of radiance are left out. Two images are scored separately, then compared pixel by pixel.\n"
     "\n"
     "Examples:\n"
     "  footprint score engine.exr --reference model.gltf --spp 256\n"
@@ -48,7 +48,7 @@ constexpr const char* score_examples =
     "  footprint score before.png after.png --reference reference.exr --exposure 0.5 -o score\n"
     "  footprint score a.exr b.exr --reference out/images/d1_reference.exr --mask object.png -o score\n"
     "\n"
-    "For a reference that `footprint compare` wrote, exposure and standard error are those of that comparison.";
+    "If `footprint compare` wrote the reference, its exposure and standard error are used.";
 
 constexpr int scoring_pictures = 6;  // mean, squares, two halves, error, and one to spare
 
@@ -80,7 +80,7 @@ bool names_a_scene(const std::string& reference) {
 // The scene's own, as large as the first picture.
 Reference drawn_reference(const ScoreArguments& arguments) {
   if (!arguments.standard_error.empty())
-    throw Error(ErrorKind::usage, "--standard-error", "a scene's reference knows its own", "leave it out");
+    throw Error(ErrorKind::usage, "--standard-error", "the reference of a scene has its own", "leave it out");
   RunSettings run = arguments.run.settings();
   run.scene = arguments.reference;
   const Image first = read_image(arguments.pictures.front(), Transfer::linear);
@@ -101,20 +101,20 @@ Image read_standard_error(const std::string& file) {
   Image error = read_image(file, Transfer::linear);
   if (error.channels >= 3) return error;
   throw Error(ErrorKind::usage, file, fmt::format("it has {} channels", error.channels),
-              "give the RGB standard error that `footprint compare` writes beside its reference");
+              "give the RGB standard error that `footprint compare` writes next to its reference");
 }
 
 // An image. Beside the results of a comparison that wrote it, exposure and standard error are those of the comparison
 // unless they are given, so that equal images have equal errors there and here.
 Reference given_reference(const ScoreArguments& arguments) {
   for (const std::string& option : arguments.run.given_of("reference")) {
-    throw Error(ErrorKind::usage, option, fmt::format("{} is a picture, and drawn already", arguments.reference),
-                "give it with a scene for the reference");
+    throw Error(ErrorKind::usage, option, fmt::format("{} is an image, not a scene", arguments.reference),
+                "use it with a scene as the reference");
   }
   const RunSettings run = arguments.run.settings();
   if (run.view.distances.front() != 1.0) {
-    throw Error(ErrorKind::usage, "--distance", fmt::format("{} is a picture, and has its view", arguments.reference),
-                "give it with a scene for the reference");
+    throw Error(ErrorKind::usage, "--distance", fmt::format("{} is an image, not a scene", arguments.reference),
+                "use it with a scene as the reference");
   }
   Reference out{read_reference(arguments.reference), {}, 1.0F};
   const std::optional<ListedReference> listed = listed_reference(arguments.reference);
@@ -201,7 +201,7 @@ std::string scores_table(const Scores& scores) {
                     cell(of_radiance(s, s.error.relmse)), cell(s.error.psnr), cell(of_radiance(s, s.error.energy_bias)),
                     cell(s.error.luminance_distance), cell(s.ldr_flip), cell(s.hdr_flip)});
   }
-  std::string text = markdown_table({{"Picture", false},
+  std::string text = markdown_table({{"Image", false},
                                      {"Error"},
                                      {"Rel. RMSE"},
                                      {"relMSE"},
@@ -212,10 +212,11 @@ std::string scores_table(const Scores& scores) {
                                      {"HDR-FLIP"}},
                                     rows);
   if (!scores.pair) return text;
-  return text + fmt::format("\nthe first is closer in {:.1f}% of the pixels, the second in {:.1f}%{}\n",
-                            100 * scores.pair->shares.a, 100 * scores.pair->shares.b,
-                            scores.pair->beyond_noise ? ", beyond three standard errors of the reference"
-                                                      : " (the reference's noise is not known: --standard-error)");
+  return text +
+         fmt::format("\nThe first is closer to the reference in {:.1f}% of the pixels, the second in {:.1f}%{}\n",
+                     100 * scores.pair->shares.a, 100 * scores.pair->shares.b,
+                     scores.pair->beyond_noise ? " (by more than three standard errors of the reference)."
+                                               : " (noise unknown: give --standard-error).");
 }
 
 void write_pictures(const std::filesystem::path& folder, const Scores& scores) {
@@ -249,20 +250,29 @@ void run_score(const ScoreArguments& arguments) {
 }  // namespace
 
 void add_score_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("score", "Score pictures of any origin against a reference");
+  CLI::App* command = app.add_subcommand("score", "Score images of any renderer against a reference");
   const auto arguments = std::make_shared<ScoreArguments>(*command);
-  command->add_option("pictures", arguments->pictures, "PICTURE, or two")->required()->expected(1, 2);
+  command->add_option("pictures", arguments->pictures, "One image, or two")
+      ->type_name("IMAGE")
+      ->required()
+      ->expected(1, 2);
   command
       ->add_option("--reference", arguments->reference,
-                   "SCENE, or an EXR of linear radiance; coverage in alpha, if it has one")
+                   "Scene, or an EXR of linear radiance, with coverage in alpha if present")
+      ->type_name("SCENE|EXR")
       ->required();
-  command->add_option("--standard-error", arguments->standard_error,
-                      "EXR of the reference's own standard error, RGB; if not given noise is not told from error");
-  command->add_option("--mask", arguments->mask, "Picture in which the pixels that count are not black");
-  command->add_option("--pixels-per-degree", arguments->pixels_per_degree, "Of the observer's sight, for FLIP")
+  command
+      ->add_option("--standard-error", arguments->standard_error,
+                   "EXR of the reference's standard error, RGB; without it, noise counts as error")
+      ->type_name("EXR");
+  command->add_option("--mask", arguments->mask, "Image that is black where pixels do not count")->type_name("IMAGE");
+  command
+      ->add_option("--pixels-per-degree", arguments->pixels_per_degree,
+                   "Pixels per degree of the observer's field of view, for FLIP")
       ->check(CLI::Range(5.0, 1000.0))
       ->capture_default_str();
-  command->add_option("-o,--output", arguments->output, "Folder for score.json and pictures; if not given none");
+  command->add_option("-o,--output", arguments->output, "Folder for score.json and images; default: none")
+      ->type_name("DIR");
   add_quiet_flag(*command, arguments->quiet);
   command->footer(score_examples);
   command->callback([arguments] { run_score(*arguments); });

@@ -29,7 +29,7 @@ constexpr const char* manual_examples =
 void add_completions_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("completions", "Print the completions of the command line for a shell");
   const auto shell = std::make_shared<std::string>();
-  command->add_option("shell", *shell, "bash, zsh or fish")->required();
+  command->add_option("shell", *shell, "bash, zsh or fish")->type_name("SHELL")->required();
   command->footer(completion_examples);
   command->callback([shell, &app] { write_output(completion_script(command_tree(app), *shell)); });
 }

@@ -23,9 +23,8 @@ namespace footprint {
 namespace {
 
 constexpr const char* surface_examples =
-    "`footprint list surfaces` names the surfaces and their parameters. EXR holds unit normals as they are, x to the\n"
-    "right, y upwards, z out of the surface, each -1 to 1, 32-bit float. PNG holds (n + 1) / 2 in 8 bits, as glTF's\n"
-    "normal textures do, green up.\n"
+    "`footprint list surfaces` names the surfaces and their parameters. EXR stores unit normals as 32-bit floats,\n"
+    "-1 to 1: x right, y up, z out of the surface. PNG stores (n + 1) / 2 in 8 bits, green up, as glTF does.\n"
     "\n"
     "Examples:\n"
     "  footprint surface v_grooves -o grooves.exr\n"
@@ -74,8 +73,8 @@ void save(const std::filesystem::path& path, Image normals) {
 void run_surface(const SurfaceArguments& arguments) {
   const std::filesystem::path path = arguments.output;
   if (path.extension() != ".exr" && path.extension() != ".png") {
-    throw Error(ErrorKind::usage, "--output", fmt::format("`{}` names no picture", arguments.output),
-                "end it in .exr for float normals, or .png for 8 bits");
+    throw Error(ErrorKind::usage, "--output", fmt::format("`{}` is not an image file", arguments.output),
+                "use the extension .exr for float normals, or .png for 8 bits");
   }
   const Surface& surface = find_surface(all_surfaces(), arguments.surface);
   SurfaceSettings settings = surface_settings(surface, parse_parameters(arguments.parameters));
@@ -95,12 +94,13 @@ void run_surface(const SurfaceArguments& arguments) {
 void add_surface_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("surface", "Write the normal map of a procedural surface");
   const auto arguments = std::make_shared<SurfaceArguments>();
-  command->add_option("name", arguments->surface, "Which surface")->required();
-  command->add_option("-o,--output", arguments->output, "The map, .exr or .png")->required();
-  command->add_option("--resolution", arguments->resolution, "Texels a side; if not given the surface's own")
+  command->add_option("name", arguments->surface, "Name of the surface")->type_name("SURFACE")->required();
+  command->add_option("-o,--output", arguments->output, "The map, .exr or .png")->type_name("FILE")->required();
+  command->add_option("--resolution", arguments->resolution, "Texels per side; default: the surface's own")
       ->check(CLI::Range(1, largest_surface_resolution));
-  command->add_option("--seed", arguments->seed, "Same seed, same bytes")->capture_default_str();
-  command->add_option("--parameter", arguments->parameters, "NAME=VALUE, one of the surface's own; may be repeated")
+  command->add_option("--seed", arguments->seed, "Random seed: same seed, same bytes")->capture_default_str();
+  command->add_option("--parameter", arguments->parameters, "A parameter of the surface; may be repeated")
+      ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
   command->footer(surface_examples);
   command->callback([arguments] { run_surface(*arguments); });

@@ -29,7 +29,7 @@ Error failure_of(int exit_code, std::string text) {
   constexpr std::string_view prefix = "footprint: ";
   while (!text.empty() && text.back() == '\n') text.pop_back();
   if (const auto at = text.rfind(prefix); at != std::string::npos) text = text.substr(at + prefix.size());
-  if (text.empty()) text = "a process for timing ended without a word";
+  if (text.empty()) text = "a timing process ended without a message";
   const bool known =
       exit_code >= static_cast<int>(ErrorKind::check) && exit_code <= static_cast<int>(ErrorKind::machine);
   return {known ? static_cast<ErrorKind>(exit_code) : ErrorKind::machine, "--processes", text};
@@ -44,7 +44,7 @@ FrameTimes times_of_one(const std::vector<std::string>& further, const fs::path&
   arguments.insert(arguments.end(), {timing_file_option, file.string(), "--quiet"});
   ChildProcess child(
       {.program = "/proc/self/exe", .arguments = std::move(arguments), .errors = errors, .folder = {}},
-      Error(ErrorKind::machine, "--processes", "a process for timing cannot be started", "ask for fewer --processes"));
+      Error(ErrorKind::machine, "--processes", "a timing process cannot be started", "ask for fewer --processes"));
   const int exit_code = child.wait(tick);
   if (exit_code != 0) throw failure_of(exit_code, text_of(errors));
   FrameTimes times = nlohmann::json::parse(text_of(file)).get<FrameTimes>();

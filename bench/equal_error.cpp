@@ -22,7 +22,7 @@ constexpr std::uint64_t noise_seed = 0xbf58476d1ce4e5b9;  // and those of the se
 EqualErrors::EqualErrors(const Stage& stage, const View& view, int truth_samples) : stage_(&stage), view_(view) {
   if (truth_samples < 4 || truth_samples > 4096) {
     throw Error(ErrorKind::usage, fmt::format("{} samples", truth_samples),
-                "errors are told against a reference of 4 to 4096 samples a pixel", "give as many");
+                "errors need a reference of 4 to 4096 samples per pixel", "give as many");
   }
   truth_ = stage.reference().render(view, truth_samples, reference_seed, no_progress).mean;
   exposure_ = choose_exposure({}, stage.scene(), truth_).factor;

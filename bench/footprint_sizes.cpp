@@ -101,7 +101,7 @@ void print_footprint_sizes(const std::string& methods, int resolution, int repea
   for (std::size_t i = 0; i < ms.size(); ++i) {
     if (most_ratio <= 0.0 || over_median(ms[i]) <= most_ratio) continue;
     throw Error(ErrorKind::check, stage.methods()[i].baked().spec.text,
-                fmt::format("its dearest footprint takes {:.3g} times the median, {:.3g} are allowed",
+                fmt::format("its most expensive footprint takes {:.3g} times the median, {:.3g} are allowed",
                             over_median(ms[i]), most_ratio));
   }
 }

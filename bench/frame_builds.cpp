@@ -66,7 +66,7 @@ std::string frame_build_table(const std::string& methods, int repeats) {
                                  "ns/texel", "shading", "both");
   for (const int resolution : {512, 1024, 2048}) text += rows_for(resolution, methods, repeats);
   return text +
-         fmt::format("shading: over a frame of `direct`; both: build and shading over {} samples a pixel\n", few_spp);
+         fmt::format("shading: over a frame of `direct`; both: build and shading over {} samples per pixel\n", few_spp);
 }
 
 }  // namespace footprint::bench

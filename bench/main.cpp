@@ -58,9 +58,10 @@ void declare_options(CLI::App& app, Request& request) {
   app.add_option("--footprints", request.footprint_rounds,
                  "Print what frames of --methods cost by the size of a pixel's footprint, over this many rounds")
       ->check(rounds);
-  app.add_option("--most-ratio", request.most_ratio,
-                 "With --footprints: what the dearest footprint of a method may take over the median of all, else the "
-                 "exit code is 1")
+  app.add_option(
+         "--most-ratio", request.most_ratio,
+         "With --footprints: what the most expensive footprint of a method may take over the median of all, else the "
+         "exit code is 1")
       ->check(CLI::PositiveNumber);
   app.add_option(
          "--bakes", request.bake_rounds,
@@ -70,7 +71,7 @@ void declare_options(CLI::App& app, Request& request) {
   app.add_option("--most-seconds", request.bake_limits.seconds, "With --bakes: wall clock that a bake may take")
       ->check(CLI::PositiveNumber);
   app.add_option("--most-gigabytes", request.bake_limits.gigabytes,
-                 "With --bakes: 1e9 bytes of memory that the process may hold")
+                 "With --bakes: 1e9 bytes of memory that the process may take")
       ->check(CLI::PositiveNumber);
   app.add_option("--zoom", request.zoom_rounds,
                  "Print what frames of --methods cost on --scene at every --distance, over this many rounds")
@@ -81,10 +82,10 @@ void declare_options(CLI::App& app, Request& request) {
       ->capture_default_str();
   app.add_option(
          "--samples", request.truth_samples,
-         "With --zoom: also the error of every frame against a reference of so many samples a pixel, the fewest "
+         "With --zoom: also the error of every frame against a reference of so many samples per pixel, the fewest "
          "samples of the reference that come as close, and what the frame takes of their time")
       ->check(CLI::Range(4, 4096));
-  app.add_option("--resolution", request.resolution, "With --footprints: texels a side of the map")
+  app.add_option("--resolution", request.resolution, "With --footprints: texels per side of the map")
       ->check(CLI::Range(1, 16384))
       ->capture_default_str();
   app.add_option("--scene", request.scene,

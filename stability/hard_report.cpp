@@ -14,7 +14,7 @@
 namespace footprint::stability {
 namespace {
 
-constexpr std::array<std::string_view, 4> verdict_words{"held", "guarded", "out of range", "fell"};
+constexpr std::array<std::string_view, 4> verdict_words{"passed", "guarded", "out of range", "failed"};
 
 std::string_view word_of(Verdict verdict) { return verdict_words[static_cast<std::size_t>(verdict)]; }
 
@@ -27,7 +27,7 @@ std::vector<std::string> distinct(const std::vector<HardRow>& rows, std::string 
   return out;
 }
 
-// "held", or how many cases are what else; "not tested" where no row is.
+// "passed", or how many cases are what else; "not tested" where no row is.
 std::string cell(const std::vector<HardRow>& rows, const std::string& method, const std::string& group) {
   std::map<Verdict, std::set<std::string>> cases;
   for (const HardRow& row : rows) {
@@ -39,7 +39,7 @@ std::string cell(const std::vector<HardRow>& rows, const std::string& method, co
     if (!cases.contains(verdict)) continue;
     out += fmt::format("{}{} {}", out.empty() ? "" : ", ", cases[verdict].size(), word_of(verdict));
   }
-  return out.empty() ? "held" : out;
+  return out.empty() ? "passed" : out;
 }
 
 std::string verdict_table(const std::vector<HardRow>& rows) {
@@ -70,7 +70,7 @@ std::string rows_of(const std::vector<HardRow>& rows, Verdict verdict) {
 }
 
 std::string case_table(const std::vector<HardRow>& rows) {
-  std::string out = "| case | group | what it is |\n|---|---|---|\n";
+  std::string out = "| case | group | description |\n|---|---|---|\n";
   std::set<std::string> seen;
   for (const HardRow& row : rows) {
     if (seen.insert(row.hard_case).second)
@@ -81,28 +81,30 @@ std::string case_table(const std::vector<HardRow>& rows) {
 
 constexpr const char* page_head = R"(# Where methods stay stable
 
-Written by `scripts/stability` from a run of `footprint check hard_cases`: every method of the registry through every
-hard case, and what of it held. A method is never said to hold what was not measured in that run. Cases are small values
-in the tables of [`stability/`](../stability); a new one is one entry, and a new method meets all of them without any.
+Written by `scripts/stability` from a run of `footprint check hard_cases`, which tests every method with every hard
+case. Only properties measured in that run are reported. Cases are entries of the tables in
+[`stability/`](../stability), and apply to every method, new ones too.
 
-| figure | what it is | bound |
+| figure | meaning | bound |
 |---|---|---|
-| finite | numbers that are not finite or below 0, before any clamp | 0, for everyone |
-| energy | difference of the integral over the hemisphere from that of the sum over texels, relative | the case's |
-| limit | largest difference from the sum, where the method must meet it, relative to the sum's peak | the case's |
-| direct | relative error of the picture against `direct`, where there is nothing to filter | 0.001 |
-| twin | relative error of the picture against that of another scene which must look the same | 0.001 |
-| mean | mean over the surface against its closed form, relative | 0.05 |
-| coat | largest difference of a pixel from the coat's formula over the method's own picture without it, relative | the case's |
-| step | largest change of the distribution from one step of a parameter to the next, of the whole | four times the sum's own, or the case's |
-| threads | materials that one thread bakes to other bytes than two | 0 |
-| backends | numbers that differ between EGL, by all threads, and OSMesa, by one | 0 |
+| finite | number of values that are not finite or below 0, before any clamp | 0, for every method |
+| energy | relative difference of the integral over the hemisphere from that of the sum over texels | the case's |
+| limit | largest difference from the sum, where the method must equal it, relative to the sum's peak | the case's |
+| direct | relative error of the image against `direct`, where nothing needs filtering | 0.001 |
+| twin | relative error of the image against that of another scene which must look the same | 0.001 |
+| mean | relative error of the mean over the surface against its closed form | 0.05 |
+| coat | largest relative difference of a pixel from the coat's formula over the method's own image without coat | the case's |
+| step | largest change of the distribution from one step of a parameter to the next, as a share of the whole | four times the sum's own, or the case's |
+| threads | number of materials that one thread bakes to other bytes than two | 0 |
+| backends | number of values that differ between EGL (all threads) and OSMesa (one thread) | 0 |
 
-The sum over texels is in double precision and shares no code with the shaders (`renderer/ndf/true_ndf.hpp`), nor does
-that over a pixel's coats (`stability/coat_sum.hpp`). Under a coat, energy is that of the picture, and a step is that of
-one pixel to the next. *Guarded*: a guard bites there, and the figure is its cost. *Out of range*: known not to hold, the
-method's README gives the range, of coats [base-brdf.md](base-brdf.md#clear-coat); each figure has a bound of its own,
-and a run fails where it is passed, or where the case holds after all.
+The sum over texels is in double precision and shares no code with the shaders (`renderer/ndf/true_ndf.hpp`). The same
+is true of the sum over a pixel's coats (`stability/coat_sum.hpp`). Under a coat, energy is that of the image, and a
+step is the change from one pixel to the next.
+
+- *Guarded*: a clamp is active there; the figure is the error it introduces.
+- *Out of range*: a known limit. The method's README gives the range, or [base-brdf.md](base-brdf.md#clear-coat) for
+  coats. Each figure has its own bound. A run fails if the figure exceeds it, or if the case passes after all.
 
 )";
 
@@ -110,7 +112,7 @@ and a run fails where it is passed, or where the case holds after all.
 
 std::string stability_page(const std::vector<HardRow>& rows) {
   return page_head + verdict_table(rows) + "\n## Guarded\n\n" + rows_of(rows, Verdict::guarded) +
-         "\n## Out of range\n\n" + rows_of(rows, Verdict::out_of_range) + "\n## Fell\n\n" +
+         "\n## Out of range\n\n" + rows_of(rows, Verdict::out_of_range) + "\n## Failed\n\n" +
          rows_of(rows, Verdict::fell) + "\n## Cases\n\n" + case_table(rows);
 }
 
@@ -127,7 +129,7 @@ std::string hard_cases_json(const std::vector<HardRow>& rows) {
                     {"why", row.why},
                     {"picture", row.picture}});
   }
-  return nlohmann::json{{"schema", "footprint-hard-cases/1"}, {"rows", std::move(list)}}.dump(1) + "\n";
+  return nlohmann::json{{"schema", "footprint-hard-cases/2"}, {"rows", std::move(list)}}.dump(1) + "\n";
 }
 
 std::vector<std::string> what_fell(const std::vector<HardRow>& rows) {

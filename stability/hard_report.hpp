@@ -11,7 +11,7 @@ namespace footprint::stability {
 /// Markdown: a table of methods and groups of cases, what did not hold with its figures, and the cases.
 [[nodiscard]] std::string stability_page(const std::vector<HardRow>& rows);
 
-/// `footprint-hard-cases/1`: one object a row.
+/// `footprint-hard-cases/2`: one object a row.
 [[nodiscard]] std::string hard_cases_json(const std::vector<HardRow>& rows);
 
 /// One line for each row that fell.

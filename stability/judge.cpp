@@ -33,7 +33,7 @@ void judge(HardRow& row, std::span<const KnownLimit> limits) {
   }
   if (held && known->method != row.method) return;  // what a whole method is granted one storage may do without
   row.verdict = Verdict::fell;
-  row.why = held ? fmt::format("{:.3g} holds {:.3g}: take it off the list of limits", row.value, row.bound)
+  row.why = held ? fmt::format("{:.3g} is within {:.3g}: remove it from the list of limits", row.value, row.bound)
                  : fmt::format("{:.3g} is over the {:.3g} that is known of it", row.value, known->most);
 }
 

@@ -90,8 +90,10 @@ void add_pictures(Limits& limits) {
              "the diffuse term takes slopes for a Gaussian about their mean; two sides of a groove are none");
 }
 
-// Of the coat's filter, which is one for all methods: docs/base-brdf.md, Clear coat.
+// Of the coat's filter, which all methods but `direct` share: docs/base-brdf.md, Clear coat.
 void add_coats(Limits& limits) {
+  limits.add({"direct"}, {"bumpy_coat_seen_along_the_surface"}, "energy", 0.03,
+             "it takes one normal of the coat per pixel, and few of them face the viewer there");
   limits.add(
       {every_method}, {"bumpy_coat_seen_along_the_surface"}, "energy", 0.78,
       "few of a bumpy coat's normals face the viewer there, and reflect nearly all: their lobes' tails are missing");

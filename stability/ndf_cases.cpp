@@ -162,7 +162,7 @@ std::span<const NdfCase> ndf_cases() {
 std::span<const Sweep> sweeps() {
   static const std::vector<Sweep> all{
       {.name = "grooves_11_to_17",
-       .what = "grooves from 11 to 17 degrees, where parts of the hemisphere begin to be told apart",
+       .what = "grooves from 11 to 17 degrees, where parts of the hemisphere begin to separate",
        .material = [](double degrees) { return facets(grooves(degrees), even_lobe); },
        .from = 11.0,
        .to = 17.0,

@@ -74,18 +74,18 @@ std::string command_text(const std::string& program, const CommandPage& page) {
 constexpr std::string_view files =
     ".SH FILES\n"
     ".TP\n\\fI$FOOTPRINT_CACHE, $XDG_CACHE_HOME/footprint, ~/.cache/footprint\\fR\n"
-    "The first of them that is set: precomputed maps that took long, kept between runs.\n"
+    "Cache of slow bakes: the first of these that is set.\n"
     ".SH ENVIRONMENT\n"
     ".TP\n\\fBFOOTPRINT_SCENES\\fR, \\fBFOOTPRINT_EXPERIMENTS\\fR\n"
-    "Folders of scenes and experiments, in place of those that were installed.\n";
+    "Folders of scenes and experiments, instead of the installed ones.\n";
 
 }  // namespace
 
 std::string manual_page(const CommandPage& program, const std::string& version) {
   std::string text =
       fmt::format(".TH {} 1 \"\" \"{} {}\" \"User Commands\"\n", upper(program.name), program.name, version);
-  text += fmt::format(".SH NAME\n{} \\- what prefiltering a shiny, bumpy surface costs, and what error is left\n",
-                      program.name);
+  text +=
+      fmt::format(".SH NAME\n{} \\- compares methods of specular antialiasing (normal map filtering)\n", program.name);
   text += fmt::format(".SH SYNOPSIS\n\\fB{}\\fR \\fICOMMAND\\fR [\\fIARGUMENT\\fR]...\n", program.name);
   text += fmt::format(".SH DESCRIPTION\n{}\n", escaped(program.summary)) + notes_text(program.notes);
   text += ".SH OPTIONS\n";

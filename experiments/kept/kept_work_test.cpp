@@ -46,8 +46,8 @@ class KeptWorkTest : public ::testing::Test {
  protected:
   void SetUp() override {
     folder_ = test::fresh_folder();
-    write(run() / "images/a.png", "a picture");
-    write(run() / "images/same.png", "a picture");
+    write(run() / "images/a.png", "an image");
+    write(run() / "images/same.png", "an image");
     work_.emplace(folder_ / "kept", "me");
     key_ = work_->key("record", std::vector<std::string>{"one", "two"});
     work_->keep(key_, figures, run(), {"images/a.png", "images/same.png"});
@@ -76,8 +76,8 @@ class KeptWorkTest : public ::testing::Test {
 
 TEST_F(KeptWorkTest, ComesBackWithItsFiles) {
   EXPECT_EQ(found(), figures);
-  EXPECT_EQ(text_of(later() / "images/a.png"), "a picture");
-  EXPECT_EQ(text_of(later() / "images/same.png"), "a picture");
+  EXPECT_EQ(text_of(later() / "images/a.png"), "an image");
+  EXPECT_EQ(text_of(later() / "images/same.png"), "an image");
   EXPECT_EQ(work_->found(), 1U);
   EXPECT_THAT(work_->used(), ::testing::ElementsAre(key_));
   EXPECT_TRUE(work_->has_whole(key_));
@@ -91,7 +91,7 @@ TEST_F(KeptWorkTest, EqualFilesAreKeptOnce) {
 TEST_F(KeptWorkTest, ARunThatWritesItsFileAgainLeavesTheKeptOne) {
   write(run() / "images/a.png", "another");
   EXPECT_EQ(found(), figures);
-  EXPECT_EQ(text_of(later() / "images/a.png"), "a picture");
+  EXPECT_EQ(text_of(later() / "images/a.png"), "an image");
 }
 
 TEST_F(KeptWorkTest, KeysTellApart) {
@@ -136,7 +136,7 @@ TEST_F(KeptWorkTest, AnotherFolderTakesItOverWhole) {
   const KeptWork other(folder_ / "other", "me");
   other.take(key_, *work_);
   EXPECT_EQ(other.find<std::vector<double>>(key_, later()), figures);
-  EXPECT_EQ(text_of(later() / "images/a.png"), "a picture");
+  EXPECT_EQ(text_of(later() / "images/a.png"), "an image");
 }
 
 TEST_F(KeptWorkTest, NothingDamagedIsTakenOver) {

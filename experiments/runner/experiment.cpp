@@ -189,7 +189,8 @@ void read_footprints(const TomlTable& root, Experiment& experiment) {
   for (const TomlTable& table : root.tables("ndf", {"name", "footprint"})) {
     const std::string name = required_word(table, "name");
     if (name != file_stem(name) || name.front() == '.') {
-      throw table.error_at("name", fmt::format("is `{:.80}`, which names no folder", name), "use letters and digits");
+      throw table.error_at("name", fmt::format("is `{:.80}`, which cannot name a folder", name),
+                           "use letters and digits");
     }
     if (std::ranges::find(experiment.footprints, name, &NamedFootprint::name) != experiment.footprints.end()) {
       throw table.error_at("name", fmt::format("is `{:.80}` as of another footprint", name), "name it otherwise");
@@ -246,7 +247,7 @@ std::optional<Crop> read_crop(const TomlTable& table, std::string_view key) {
   if (!sides) return std::nullopt;
   const Crop crop{(*sides)[0], (*sides)[1], (*sides)[2], (*sides)[3]};
   if (crop[0] >= crop[2] || crop[1] >= crop[3]) {
-    throw table.error_at(key, "holds nothing", "write it as [left, top, right, bottom], shares from 0 to 1");
+    throw table.error_at(key, "is empty", "write it as [left, top, right, bottom], shares from 0 to 1");
   }
   return crop;
 }
@@ -292,7 +293,7 @@ TomlTable root_of(Experiment& experiment) {
   const fs::path file = experiment.file.parent_path() / *name;
   std::error_code unknown;
   if (!fs::is_regular_file(file, unknown))
-    throw head->error_at("presets", fmt::format("names {}, which is no file", file.string()),
+    throw head->error_at("presets", fmt::format("names {}, which is not a file", file.string()),
                          "write its path from the experiment's folder");
   (void)TomlTable(file, preset_tables).table("experiment", setting_keys("experiment"));
   experiment.presets = file;
@@ -313,7 +314,7 @@ std::vector<fs::path> read_members(const TomlTable& root, const TomlTable& head,
     const fs::path member = folder / (name + ".toml");
     std::error_code unknown;
     if (!fs::is_regular_file(member, unknown)) {
-      throw head.error_at("members", fmt::format("names `{:.80}`, which is no file beside it", name),
+      throw head.error_at("members", fmt::format("names `{:.80}`, which is not a file next to it", name),
                           suggestion(name, list_experiments(folder)));
     }
     if (std::ranges::find(members, member) != members.end()) {

@@ -79,7 +79,7 @@ TEST_F(ExperimentFile, ASizeIsTakenAsOnTheCommandLine) {
   const std::string methods = "[experiment]\ntitle = \"t\"\nscene = \"ribbed_plane\"\nmethods = [\"direct\"]\n";
   EXPECT_EQ(read(methods + "size = \"256x128\"\n").run.view.size, glm::ivec2(256, 128));
   EXPECT_EQ(read(methods + "size = [256, 128]\n").run.view.size, glm::ivec2(256, 128));
-  expect_complaint(methods + "size = \"256\"\n", "`256` is no frame size");
+  expect_complaint(methods + "size = \"256\"\n", "`256` is not a frame size");
   expect_complaint(methods + "size = \"0x3\"\n", "has no pixels");
 }
 
@@ -210,12 +210,12 @@ TEST_F(ExperimentFile, WrongFilesAreRefusedAtTheirLine) {
   expect_complaint(good + "[threshold]\n\"supersampling_time(direct)\" = 1\n", "does not say of how many samples");
   expect_complaint(good + "[reference]\nsupersampling = [0]\n", "not within 1");
   expect_complaint(good + "[threshold]\n\"ndf_l2(direct)\" = 1\n", "add [[ndf]]");
-  expect_complaint(good + "[[ndf]]\nname = \"../a\"\nfootprint = [0, 0, 1, 1]\n", "names no folder");
+  expect_complaint(good + "[[ndf]]\nname = \"../a\"\nfootprint = [0, 0, 1, 1]\n", "cannot name a folder");
   expect_complaint(good + "[[ndf]]\nname = \"a\"\nfootprint = [0, 0, 0, 1]\n", "`footprint` in [[ndf]]");
   expect_complaint(
       good + "[[ndf]]\nname = \"a\"\nfootprint = [0, 0, 1, 1]\n[threshold]\n\"ndf_l2(direct, footprint=b)\" = 1\n",
       "no footprint `b`");
-  expect_complaint(good + "[figure]\ncrop = [0, 0, 0, 1]\n", "holds nothing");
+  expect_complaint(good + "[figure]\ncrop = [0, 0, 0, 1]\n", "is empty");
   expect_complaint(good + "[figure]\n", "`row` in [figure] is missing");
   expect_complaint(good + "[[figure.row]]\npictures = [{ method = \"tan\" }]\n", "no method `tan`");
 }
@@ -232,7 +232,7 @@ TEST_F(ExperimentFile, TakesQuantitiesThatAMethodHas) {
   EXPECT_EQ(experiment.thresholds[0].measure.text(), good);
   expect_complaint(quantity("figure = \"convolution_eror\"\n", good), "did you mean `convolution_error`");
   expect_complaint(quantity(figure + "parameters = { eta3 = 1 }\n", good), "did you mean `eta");
-  expect_complaint(quantity(figure + "parameters = { eta1 = -1 }\n", good), "does not fit");
+  expect_complaint(quantity(figure + "parameters = { eta1 = -1 }\n", good), "is not valid");
   expect_complaint(quantity(figure, "quantity(direct, name=q)"), "direct has no figure");
   expect_complaint(quantity(figure, "quantity(iwasaki_sg, name=r)"), "no quantity `r`");
   expect_complaint(quantity(figure, "quantity(iwasaki_sg)"), "does not say which");

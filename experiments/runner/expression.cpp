@@ -147,7 +147,7 @@ class Parser {
     const bool is_known = found != selectors.end() && sign != std::string::npos;
     if (is_known && select(measure, *found, text.substr(sign + 1))) return;
     at_ = start;
-    if (is_known) fail(fmt::format("`{:.80}` is no value, or the second one", text), "write each selector once");
+    if (is_known) fail(fmt::format("`{:.80}` is not a value, or is the second one", text), "write each selector once");
     std::vector<std::string> known;
     for (const Selector selector : selectors) known.emplace_back(selector_name(selector));
     fail(fmt::format("`{:.80}` selects nothing of {}", text, measure.function->name), suggestion(key, known));

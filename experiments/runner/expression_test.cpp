@@ -187,9 +187,9 @@ TEST(Expression, WhatIsWrongIsNamedWithItsColumn) {
   EXPECT_NE(complaint("error(a) error(b)").find("column 10"), std::string::npos);
   EXPECT_NE(complaint("error()").find("a method is missing"), std::string::npos);
   EXPECT_NE(complaint("error(a, distanse=1)").find("did you mean `distance`"), std::string::npos);
-  EXPECT_NE(complaint("error(a, distance=near)").find("`distance=near` is no value"), std::string::npos);
+  EXPECT_NE(complaint("error(a, distance=near)").find("`distance=near` is not a value"), std::string::npos);
   EXPECT_NE(complaint("error(a, distance=1, distance=2)").find("second"), std::string::npos);
-  EXPECT_NE(complaint("error(a, spp=0)").find("`spp=0` is no value"), std::string::npos);
+  EXPECT_NE(complaint("error(a, spp=0)").find("`spp=0` is not a value"), std::string::npos);
   EXPECT_NE(complaint("psnr(a, spp=16)").find("`spp=16` selects nothing of psnr"), std::string::npos);
   EXPECT_NE(complaint("error(a) < 1").find("`<` does not belong here"), std::string::npos);
   EXPECT_NE(complaint("1e999").find("a number"), std::string::npos);

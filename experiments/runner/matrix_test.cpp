@@ -113,8 +113,8 @@ TEST_F(MatrixFile, IsRefusedAtItsLineBeforeAnythingIsRendered) {
   complains("scene = [\"bumps\", \"bumps\"]\n", "has `bumps` twice");
   complains("scene = [\"bumps\", \"\"]\n", "empty value");
   complains("scene = [\"bumps\"]\nfootprint = [\"box:3\", \"boks:3\"]\n", "did you mean");
-  complains("scene = [\"bumps\"]\nsize = [\"16x16\", \"16\"]\n", "`16` is no frame size");
-  complains("scene = [\"bumps\"]\nseed = [1, -2]\n", "does not fit");
+  complains("scene = [\"bumps\"]\nsize = [\"16x16\", \"16\"]\n", "`16` is not a frame size");
+  complains("scene = [\"bumps\"]\nseed = [1, -2]\n", "is not valid");
   complains("scenes = [\"bumps\"]\n", "did you mean `scene`");
   complains("scene = [\"bumps\"]\noptions = { toksvig = { storage = [\"fp16\"] } }\n", "no method `toksvig`");
   complains("scene = [\"bumps\"]\noptions = { tan_gmm = { m = [1] } }\n", "option");
@@ -227,7 +227,7 @@ TEST_F(MatrixFile, PresetsStandWhereTheFileSaysNothing) {
   const Experiment zooms = read(with_presets + "[zoom]\nfrom = 1\nto = 2\nframes = 2\n");
   EXPECT_TRUE(zooms.run.view.distances.empty()) << "a zoom is taken whole or not at all";
   expect_complaint(with_presets + "scene = \"bumps\"\n", "mine.toml:4", "in [matrix] too");
-  expect_complaint("[experiment]\ntitle = \"T\"\npresets = \"none.toml\"\n", "mine.toml:3", "which is no file");
+  expect_complaint("[experiment]\ntitle = \"T\"\npresets = \"none.toml\"\n", "mine.toml:3", "which is not a file");
   expect_complaint("[experiment]\ntitle = \"T\"\npresets = \"shared.toml\"\nmembers = [\"a\"]\n", "mine.toml:3",
                    "excludes `members`");
   write("shared.toml", "[experiment]\ntitle = \"shared\"\n");

@@ -48,7 +48,7 @@ double parse_positive(std::string_view option, std::string_view text, double low
   const std::string hint = fmt::format("give a number from {} to {}", low, high);
   const auto number = parse_whole_of<double>(text);
   if (!number || !std::isfinite(*number) || *number <= 0.0)
-    throw does_not_fit(option, text, "is no positive number", hint);
+    throw does_not_fit(option, text, "is not a positive number", hint);
   if (*number < low || *number > high)
     throw does_not_fit(option, text, fmt::format("is not within {} to {}", low, high), hint);
   return *number;
@@ -57,7 +57,7 @@ double parse_positive(std::string_view option, std::string_view text, double low
 double parse_angle(std::string_view option, std::string_view text, double most) {
   const auto number = parse_whole_of<double>(text);
   if (number && std::abs(*number) <= most && *number != 0.0) return *number;
-  throw does_not_fit(option, text, "is no angle to turn by", fmt::format("give degrees from -{0} to {0}, not 0", most));
+  throw does_not_fit(option, text, "is not a valid angle", fmt::format("give degrees from -{0} to {0}, not 0", most));
 }
 
 glm::dvec3 parse_direction(std::string_view option, const std::string& text) {
@@ -69,13 +69,13 @@ glm::dvec3 parse_direction(std::string_view option, const std::string& text) {
       values.size() == 3 && parts_of(text).size() == 3 ? glm::dvec3(values[0], values[1], values[2]) : glm::dvec3(0);
   const double length = glm::length(direction);
   if (length > 0.0 && std::isfinite(length)) return direction / length;
-  throw does_not_fit(option, text, "is no direction", "give X,Y,Z in the world, for example 0,1,0");
+  throw does_not_fit(option, text, "is not a direction", "give X,Y,Z in the world, for example 0,1,0");
 }
 
 int parse_side(std::string_view option, std::string_view size, std::string_view digits) {
   const std::string hint = "give WIDTHxHEIGHT in pixels, for example 512x512";
   const bool is_count = !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
-  if (!is_count) throw does_not_fit(option, size, "is no frame size", hint);
+  if (!is_count) throw does_not_fit(option, size, "is not a frame size", hint);
   // Digits that do not fit the type are a number all the same, and far over the limit.
   const auto side = parse_whole_of<std::uint64_t>(digits).value_or(std::numeric_limits<std::uint64_t>::max());
   if (side == 0) throw does_not_fit(option, size, "has no pixels", hint);
@@ -106,7 +106,7 @@ std::vector<double> read_distances(const TomlTable& table, std::string_view key)
   std::vector<double> distances = table.numbers(key, 0, {smallest_distance, largest_distance}).value();
   for (const double distance : distances) {
     if (std::ranges::count(distances, distance) > 1)
-      throw table.error_at(key, fmt::format("has {:g} twice", distance), "give each once");
+      throw table.error_at(key, fmt::format("contains {:g} twice", distance), "give each once");
   }
   return distances;
 }
@@ -115,7 +115,7 @@ std::optional<Exposure> parse_exposure(std::string_view option, std::string_view
   if (text == "auto") return std::nullopt;
   const auto factor = parse_whole_of<double>(text);
   if (!factor || !(*factor >= smallest_exposure && *factor <= largest_exposure))
-    throw does_not_fit(option, text, "is no exposure", "give `auto` or a positive factor on radiance");
+    throw does_not_fit(option, text, "is not an exposure", "give `auto` or a positive factor on radiance");
   return Exposure{.factor = static_cast<float>(*factor), .source = ExposureSource::command_line};
 }
 
@@ -171,7 +171,7 @@ SettingType whole_number_of(Field<Number> field, Number low, Number high) {
   const auto parse = [=](RunSettings& run, std::string_view option, const std::string& text) {
     const auto number = parse_whole_of<Number>(text);
     if (!number || *number < low || *number > high)
-      throw does_not_fit(option, text, "does not fit", fmt::format("give a whole number, {}", takes));
+      throw does_not_fit(option, text, "is not valid", fmt::format("give a whole number, {}", takes));
     field(run) = *number;
   };
   return {.word = "N",
@@ -296,7 +296,7 @@ SettingType fixed_samples(Field<ReferenceSettings> field, int low, int high) {
               [=](RunSettings& run, std::string_view option, const std::string& text) {
                 const auto number = parse_whole_of<int>(text);
                 if (!number || *number < low || *number > high)
-                  throw does_not_fit(option, text, "does not fit", fmt::format("give a whole number, {}", takes));
+                  throw does_not_fit(option, text, "is not valid", fmt::format("give a whole number, {}", takes));
                 set(run, *number);
               },
           .read_file = [=](RunSettings& run, const TomlTable& table,
@@ -332,7 +332,7 @@ SettingType noise(Field<ReferenceSettings> field) {
 SettingType distances(Field<std::vector<double>> field, std::size_t most) {
   const std::string range = fmt::format("{} to {}", smallest_distance, largest_distance);
   return {.word = most == 1 ? "X" : "LIST",
-          .option_takes = most == 1 ? range : range + " each, commas between",
+          .option_takes = most == 1 ? range : range + " each, comma-separated",
           .file_takes = "a list, each " + range,
           .read_text = [=](RunSettings& run, std::string_view option,
                            const std::string& text) { field(run) = parse_distances(option, text, most); },
@@ -346,12 +346,12 @@ SettingType frame_size(Field<std::optional<glm::ivec2>> field) {
     const glm::ivec2 size = parse_size(option, text);
     constexpr std::uint64_t pixel_bytes = 4 * sizeof(float);
     require_memory(frame_bytes(static_cast<std::uint64_t>(size.x), static_cast<std::uint64_t>(size.y), pixel_bytes),
-                   fmt::format("a picture of {}x{}", size.x, size.y));
+                   fmt::format("an image of {}x{}", size.x, size.y));
     field(run) = size;
   };
   return {
       .word = "WIDTHxHEIGHT",
-      .option_takes = fmt::format("1 to {} a side, and what memory holds", max_frame_side),
+      .option_takes = fmt::format("1 to {} per side, as memory permits", max_frame_side),
       .file_takes = fmt::format("[width, height] or \"WIDTHxHEIGHT\", 1 to {} each", max_frame_side),
       .read_text = parse,
       .read_file =
@@ -401,7 +401,7 @@ SettingType one_method(Field<std::vector<MethodSpec>> field) {
 
 SettingType methods(Field<std::vector<MethodSpec>> field) {
   return {.word = "LIST",
-          .option_takes = "name or name:option=value each, commas between",
+          .option_takes = "name or name:option=value each, comma-separated",
           .file_takes =
               R"(a list as ["direct", "toksvig:storage=fp16"], or "all" for all but slow ones with their defaults)",
           .read_text = [=](RunSettings& run, std::string_view,

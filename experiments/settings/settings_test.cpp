@@ -54,7 +54,7 @@ TEST(SizeSetting, TakesWidthThenHeight) {
 TEST(SizeSetting, RefusesWhatIsNoSize) {
   for (const std::string text :
        {"", "x", "512", "512x", "x512", "512 x 512", "-5x5", "+5x5", "1.5x2", "3x4x5", "5X5", "axb", "5x5 "}) {
-    EXPECT_TRUE(says(refused_size(text), "--size: `" + text + "` is no frame size")) << text;
+    EXPECT_TRUE(says(refused_size(text), "--size: `" + text + "` is not a frame size")) << text;
   }
   EXPECT_TRUE(says(refused_size("0x0"), "has no pixels"));
   EXPECT_TRUE(says(refused_size("512x0"), "has no pixels"));
@@ -77,7 +77,7 @@ TEST(DistancesSetting, KeepsTheOrder) {
 
 TEST(DistancesSetting, RefusesWhatIsNoDistance) {
   for (const char* text : {"", ",", "1,", ",1", "0", "-1", "1,nan", "inf", "1e400", "one", "1;2", "1, 2"}) {
-    EXPECT_TRUE(says(refusal("compare", "--distance", text), "is no positive number")) << text;
+    EXPECT_TRUE(says(refusal("compare", "--distance", text), "is not a positive number")) << text;
   }
   for (const char* text : {"1e-4", "1,1000001", "1e300"}) {
     EXPECT_TRUE(says(refusal("compare", "--distance", text), "is not within 0.001 to 1000000")) << text;
@@ -96,7 +96,7 @@ TEST(ExposureSetting, TakesAutoOrAFactorThatTheCommandLineSet) {
 
 TEST(ExposureSetting, RefusesWhatIsNoExposure) {
   for (const char* text : {"", "0", "-1", "nan", "inf", "1e60", "1e-60", "Auto", "1x"}) {
-    EXPECT_TRUE(says(refusal("compare", "--exposure", text), "is no exposure")) << text;
+    EXPECT_TRUE(says(refusal("compare", "--exposure", text), "is not an exposure")) << text;
   }
 }
 

@@ -24,8 +24,8 @@ void require_settings_of_its_own(const RunSettings& settings) {
   if (zooms && settings.path.degrees) refuse("--degrees", "nothing turns in a zoom");
   if (zooms && settings.path.axis) refuse("--axis", "nothing turns in a zoom");
   if (zooms && !settings.view.distances.empty()) refuse("--distance", "a zoom goes from --from to --to");
-  if (!zooms && settings.view.zoom.from) refuse("--from", "this path is no zoom");
-  if (!zooms && settings.view.zoom.to) refuse("--to", "this path is no zoom");
+  if (!zooms && settings.view.zoom.from) refuse("--from", "this path is not a zoom");
+  if (!zooms && settings.view.zoom.to) refuse("--to", "this path is not a zoom");
 }
 
 // The turn that a path has made in a frame, about the centre of the bounds.

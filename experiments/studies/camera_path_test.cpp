@@ -81,7 +81,7 @@ TEST(CameraPath, WhatAPathHasNoUseForIsRefused) {
   EXPECT_NE(refusal(zoom, looked_at()).find("--degrees: nothing turns"), std::string::npos);
   RunSettings orbit = path_of(AnimationPath::orbit, 2);
   orbit.view.zoom.to = 5;
-  EXPECT_NE(refusal(orbit, looked_at()).find("--to: this path is no zoom"), std::string::npos);
+  EXPECT_NE(refusal(orbit, looked_at()).find("--to: this path is not a zoom"), std::string::npos);
   EXPECT_NE(refusal(path_of(AnimationPath::light, 2), looked_at()).find("no light to move"), std::string::npos);
 }
 

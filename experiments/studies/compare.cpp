@@ -427,7 +427,7 @@ class Comparison {
   void add_left_out(std::vector<std::string>& warnings) {
     const EffectSet left_out = effects_on(stage().decisions()) & settings_.without;
     if (left_out.none()) return;
-    warnings.push_back(fmt::format("left out of every picture, the reference's too, as was asked: {}",
+    warnings.push_back(fmt::format("left out of every image, the reference's too, as was asked: {}",
                                    fmt::join(effect_names(left_out), ", ")));
   }
 

@@ -76,6 +76,7 @@ void write_strips(const std::filesystem::path& folder, const std::string& stem, 
     error_captions.push_back(exhibit.caption);
   }
   write_png(folder / "images" / (stem + ".png"), labelled_strip(pictures, captions));
+  if (errors.empty()) return;  // no method could be drawn
   const Image strip = labelled_strip(errors, error_captions);
   const Image legend = false_color_legend(strip.width, std::max(24, strip.height / 12), scale);
   write_png(folder / "images" / (stem + "_errors.png"), stacked(strip, legend));

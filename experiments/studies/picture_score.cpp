@@ -24,7 +24,7 @@ Image with_coverage(Image image, const std::string& file) {
   if (image.channels == 4) return image;
   if (image.channels != 3) {
     throw Error(ErrorKind::usage, file, fmt::format("it has {} channels", image.channels),
-                "give a picture of RGB, or of RGB and coverage");
+                "give an image of RGB, or of RGB and coverage");
   }
   Image out(image.width, image.height, 4, 1.0F);
   for (std::size_t i = 0; i < out.texel_count(); ++i) std::copy_n(&image.texels[3 * i], 3, &out.texels[4 * i]);
@@ -67,7 +67,7 @@ void require_size(const Image& image, const Image& reference, const std::string&
   throw Error(
       ErrorKind::usage, name,
       fmt::format("it is {} x {}, the reference {} x {}", image.width, image.height, reference.width, reference.height),
-      "give pictures of one size and view");
+      "give images of one size and view");
 }
 
 // The object has covered pixels alone; what is shown of this one stays.
@@ -89,7 +89,7 @@ ScoredPicture read_scored(const std::string& file, float exposure) {
 Image read_reference(const std::string& file) {
   Image image = with_coverage(read_image(file, Transfer::srgb), file);
   if (holds_radiance(file)) return image;
-  throw Error(ErrorKind::usage, file, "it holds displayed colours, a reference linear radiance",
+  throw Error(ErrorKind::usage, file, "it stores displayed colours, but a reference needs linear radiance",
               "give an EXR, as `footprint render SCENE --method reference -o reference.exr` writes it");
 }
 

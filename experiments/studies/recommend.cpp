@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 #include "experiments/studies/compare.hpp"
@@ -19,6 +20,7 @@ namespace footprint {
 namespace {
 
 constexpr int coarse_samples = 32, coarse_repeats = 3;  // two passes, which is what tells the noise
+constexpr int smallest_coarse_side = 128;               // pixels; a smaller frame is drawn as it is
 constexpr FootprintFilter plain_filter{FootprintFilterKind::trilinear, 1};
 
 // The comparison under one footprint filter.
@@ -26,6 +28,7 @@ struct FilterRun {
   FootprintFilter filter;
   Results results;
   std::string folder;  ///< from the output folder
+  bool coarse = false;
 };
 
 // What a method under a filter showed at each distance.
@@ -39,8 +42,10 @@ Records records_of(const FilterRun& run, const std::string& method) {
   return records;
 }
 
-bool has_pixels(const Record& record, std::size_t material) {
-  return record.materials.size() > material && record.materials[material].pixels >= too_few_pixels &&
+// A coarse run has a quarter of the pixels.
+bool has_pixels(const Record& record, std::size_t material, bool coarse) {
+  const std::size_t fewest = coarse ? too_few_pixels / 4 : too_few_pixels;
+  return record.materials.size() > material && record.materials[material].pixels >= fewest &&
          record.materials[material].shading.has_value();
 }
 
@@ -52,7 +57,8 @@ std::vector<std::size_t> telling_distances(const std::vector<FilterRun>& runs, s
     const double distance = distances_of(runs.front().results)[d];
     const bool tells = std::ranges::all_of(runs, [&](const FilterRun& run) {
       const DistanceRecords records = records_at(run.results, distance);
-      return std::ranges::all_of(records, [&](const Record& r) { return r.failure || has_pixels(r, material); });
+      return std::ranges::all_of(records,
+                                 [&](const Record& r) { return r.failure || has_pixels(r, material, run.coarse); });
     });
     if (tells) telling.push_back(d);
   }
@@ -117,9 +123,17 @@ std::vector<Candidate> candidates_of(const std::vector<FilterRun>& runs, const s
   return candidates;
 }
 
+// Half of each side, where that leaves enough to tell candidates by.
+glm::ivec2 coarse_size(const RunSettings& run) {
+  const glm::ivec2 full = run.view.size
+                              ? *run.view.size
+                              : frame_size(load_scene(run.scene, run.scene_library, run.overrides), run.view.size);
+  return std::min(full.x, full.y) < 2 * smallest_coarse_side ? full : full / 2;
+}
+
 // The run of a filter with some of the methods.
 RunSettings settings_of(const RecommendSettings& settings, const FootprintFilter& filter,
-                        std::vector<MethodSpec> methods, bool coarse) {
+                        std::vector<MethodSpec> methods, const std::optional<glm::ivec2>& coarse) {
   RunSettings run = settings.run;
   run.methods = std::move(methods);
   run.footprint = filter;
@@ -128,6 +142,7 @@ RunSettings settings_of(const RecommendSettings& settings, const FootprintFilter
   run.reference.bound = BoundUse::off;
   run.reference.supersampling = {1};
   if (!coarse) return run;
+  run.view.size = coarse;
   run.reference.by_noise = false;
   run.reference.spp = std::min(run.reference.spp, coarse_samples);
   run.reference.finest_levels = false;
@@ -210,8 +225,9 @@ class Advisor {
       methods.push_back(with_plain(settings_.run.methods, filter));
     std::optional<std::size_t> tried;
     if (!settings_.exhaustive) {
-      const std::vector<FilterRun> coarse = run_all(methods, true);
+      coarse_size_ = coarse_size(settings_.run);
       tried = count_of(methods);
+      const std::vector<FilterRun> coarse = run_all(methods, true);
       methods = still_in_question(coarse, methods);
     }
     const std::vector<FilterRun> runs = run_all(methods, false);
@@ -244,7 +260,23 @@ class Advisor {
     }
   }
 
+  // Whether no method under a filter can keep the limit of cost, because `direct` alone does not: a few frames tell.
+  bool is_too_expensive(const FootprintFilter& filter, const std::filesystem::path& own, const Progress& progress,
+                        SharedTruth& truth) {
+    if (!settings_.limits.max_cost || filter == plain_filter) return false;
+    const std::vector<MethodSpec> direct{{.text = "direct", .name = "direct", .options = {}}};
+    const Results results =
+        run_compare(settings_of(settings_, filter, direct, coarse_size_), own, {}, progress, &truth);
+    const auto costs = std::views::transform(results.records, [](const Record& r) { return r.ratio_to_direct.median; });
+    const double least = std::ranges::min(costs);
+    if (least * (1.0 - coarse_cost_share) <= *settings_.limits.max_cost) return false;
+    left_out_.push_back({.method = fmt::format("every method under {}", footprint_filter_text(filter)),
+                         .reason = fmt::format("`direct` alone costs {:.1f} times as much there", least)});
+    return true;
+  }
+
   std::vector<FilterRun> run_all(MethodsByFilter& methods, bool coarse) {
+    const std::optional<glm::ivec2> size = coarse ? coarse_size_ : std::nullopt;
     std::vector<FilterRun> runs;
     SharedTruth truth;  // under every filter the same
     ProgressParts parts(parts_.next(coarse ? 1.0 : 3.0, coarse ? "coarse, " : ""), static_cast<double>(methods.size()));
@@ -252,10 +284,17 @@ class Advisor {
       const FootprintFilter& filter = settings_.filters[f];
       const Progress part = parts.next(1.0, footprint_filter_text(filter) + ", ");
       if (methods[f].empty()) continue;
-      FilterRun run{.filter = filter, .results = {}, .folder = file_stem(footprint_filter_text(filter))};
+      FilterRun run{
+          .filter = filter, .results = {}, .folder = file_stem(footprint_filter_text(filter)), .coarse = coarse};
       const std::filesystem::path own = folder_ / (coarse ? "coarse" : run.folder);
       std::filesystem::create_directories(own);
-      run.results = run_compare(settings_of(settings_, filter, methods[f], coarse), own, {}, part, &truth);
+      ProgressParts steps(part, 4.0);
+      if (coarse && is_too_expensive(filter, own, steps.next(1.0, ""), truth)) {
+        methods[f].clear();
+        std::filesystem::remove_all(own);
+        continue;
+      }
+      run.results = run_compare(settings_of(settings_, filter, methods[f], size), own, {}, steps.next(3.0, ""), &truth);
       leave_out_failed(run.results, methods);
       const bool is_of_use = !methods_of(run.results).empty();
       if (coarse || !is_of_use) std::filesystem::remove_all(own);
@@ -339,6 +378,7 @@ class Advisor {
   std::filesystem::path folder_;
   const std::function<void(Results&, const std::filesystem::path&)>& keep_results_;
   ProgressParts parts_;
+  std::optional<glm::ivec2> coarse_size_;
   std::vector<LeftOutMethod> left_out_;
 };
 

@@ -123,7 +123,7 @@ std::optional<DiskCache> cache_of(const RunSettings& settings) {
 void require_pictures(const glm::ivec2& size, int count) {
   const std::uint64_t bytes = frame_bytes(static_cast<std::uint64_t>(size.x), static_cast<std::uint64_t>(size.y),
                                           pixel_bytes * static_cast<std::uint64_t>(count));
-  require_memory(bytes, fmt::format("{} pictures of {}x{}", count, size.x, size.y));
+  require_memory(bytes, fmt::format("{} images of {}x{}", count, size.x, size.y));
 }
 
 std::optional<Error> failure_of(const gl::Context& context, const MethodSpec& method,

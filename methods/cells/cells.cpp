@@ -25,7 +25,7 @@ using cells::Covariance;
 using cells::PlanePoint;
 
 std::vector<OptionSpec> option_table() {
-  return {whole_option("k", 4, 1, cells::most_parts, "Parts that the normals are told apart into; 1 is LEAN."),
+  return {whole_option("k", 4, 1, cells::most_parts, "Number of groups of normals; 1 is LEAN."),
           word_option("labels", {"joint", "global"},
                       "How texels are given to parts: so that blocks of all sizes are well described by one Gaussian "
                       "a part, or by one mixture over the whole map."),
@@ -200,8 +200,8 @@ class Cells final : public Method {
  private:
   MethodInfo info_{.name = "cells",
                    .summary =
-                       "Mean and covariance of each part of the normals, parts being the same at every level: moments "
-                       "that filter linearly, one stretched lobe a part.",
+                       "Mean and covariance for each of several groups of normals, the same groups at every level: "
+                       "moments that filter linearly, one stretched lobe per group.",
                    .paper = "Footprint's own; with one part Olano and Baker 2010, LEAN Mapping, I3D",
                    .options = option_table(),
                    .honours = map_effects_but({Effect::multi_lobe, Effect::normal_layers}),

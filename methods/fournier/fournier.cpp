@@ -104,7 +104,7 @@ class Fournier final : public Method {
       .paper = "Fournier 1992, Normal Distribution Functions and Multiple Surfaces (as Tan 2005 compares with it)",
       .options = {whole_option(
                       "peaks", 7, 1, 8,
-                      "Peaks a texel above the finest level: 7 as Fournier has them, 4 in Tan 2005, figure 7. A "
+                      "Peaks per texel above the finest level: 7 as Fournier has them, 4 in Tan 2005, figure 7. A "
                       "pixel sums up to 8 times as many."),
                   word_option("starts", {"inherited", "own"},
                               "Where the fit of a texel starts from: the peaks of the finer texels below it, or the "

@@ -21,8 +21,8 @@ std::vector<OptionSpec> option_table() {
                       "What facets weigh in the specular term: (n.wo), with the base BRDF's own cosine and geometry "
                       "term, or the paper's (n.wi)(n.wo) without a geometry term."),
           word_option("energy", {"conserved", "published"},
-                      "Whether the amplitudes are scaled to hold what the visible facets hold; least squares alone, as "
-                      "in the paper, does not."),
+                      "Whether the amplitudes are scaled to the energy of the visible facets; plain least squares, as "
+                      "in the paper, does not conserve it."),
           word_option("storage", {"fp32", "fp16"}, "How the amplitudes are stored: 32-bit or 16-bit floats.")};
 }
 

@@ -25,7 +25,7 @@ class NaiveMip final : public Method {
     if (!has(effects, Effect::roughness_variation)) return out;
     const bool lobe = options.word("averages") == "lobe";
     if (lobe && storage == Storage::unorm8) {
-      throw Error(ErrorKind::usage, "naive_mip", "bytes hold no lobe parameters",
+      throw Error(ErrorKind::usage, "naive_mip", "storage=unorm8 cannot store lobe parameters",
                   "give storage=fp32 or storage=fp16, or averages=roughness");
     }
     const Image map = lobe ? lobe_parameter_map_of(material) : roughness_map_of(material);

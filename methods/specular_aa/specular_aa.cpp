@@ -77,9 +77,10 @@ class SpecularAa final : public Method {
                   word_option("normal", {"own", "geometric", "shading"},
                               "Which normal's derivatives: as the preset has it (`free`: geometric), the mesh's, or "
                               "the one with the normal map's mean."),
-                  word_option("bake", bakes(),
-                              "What the roughness mips hold already: nothing, or what roughness_bake with this preset "
-                              "bakes."),
+                  word_option(
+                      "bake", bakes(),
+                      "What the roughness mips already contain: nothing, or what roughness_bake with this preset "
+                      "bakes."),
                   storage_option()},
       .honours = map_effects_but({}),
       .screen_derivatives = true};

@@ -26,7 +26,7 @@ std::vector<OptionSpec> option_table() {
                   "fits each texel on its own."),
       word_option("m_step", {"exact", "published"},
                   "The mean's update: the maximum of the posterior, or the paper's approximation, which weighs the "
-                  "neighbours by c in place of 2 sigma^2 c and can lower the posterior."),
+                  "neighbours by c instead of 2 sigma^2 c and can lower the posterior."),
       word_option(
           "moment", {"corrected", "published"},
           "The stored second moment: alpha (2 sigma^2 + |mu|^2), or the paper's alpha (sigma^2 + |mu|^2), which "

@@ -36,7 +36,7 @@ class Toksvig final : public Method {
  private:
   MethodInfo info_{
       .name = "toksvig",
-      .summary = "One lobe about the mean normal, widened by the spread that the mean normal's length tells.",
+      .summary = "One lobe about the mean normal, widened according to the length of the mean normal.",
       .paper = "Toksvig 2005, Mipmapping Normal Maps, Journal of Graphics Tools 10(3)",
       .options = {storage_option(),
                   number_option(

@@ -18,7 +18,7 @@ void check_lobe(const FacetLobe& lobe, std::size_t number, const Material& mater
   const bool positive = lobe.parameter > 0.0F && lobe.weight > 0.0F;
   if (unit && lobe.axis.z > 0.0F && positive && std::isfinite(lobe.parameter) && std::isfinite(lobe.weight)) return;
   throw Error(ErrorKind::usage, fmt::format("material {}, lobe {}", material.name, number),
-              "its axis is no unit vector above the horizon, or its parameter or weight is not above 0",
+              "its axis is not a unit vector above the horizon, or its parameter or weight is not above 0",
               "give every lobe an axis with z > 0, a parameter and a weight");
 }
 

@@ -58,7 +58,7 @@ void require_finite(const std::string& name, const Image& level) {
   const auto texel = (bad - level.texels.begin()) / level.channels;
   throw Error(ErrorKind::usage, fmt::format("texture {}, level {}x{}", name, level.width, level.height),
               fmt::format("texel ({}, {}) is not finite", texel % level.width, texel / level.width),
-              "mend the map that it was baked from");
+              "fix the map that it was baked from");
 }
 
 TextureLevel encode_level(const std::string& name, const Image& image, Storage storage, bool signed_range) {

@@ -32,7 +32,7 @@ std::optional<std::string> storage_range_note(const Material& material, const Me
   const double narrowest = narrowest_variance(material);
   if (narrowest >= least) return {};
   return fmt::format(
-      "storage={} holds lobes of slope variances from {:g} on, and this material's narrowest has {:.2g}: its "
+      "storage={} can store slope variances from {:g} on, but this material's narrowest lobe has {:.2g}: its "
       "highlights "
       "are off (docs/stability.md)",
       storage, least, narrowest);

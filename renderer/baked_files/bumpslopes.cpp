@@ -35,7 +35,7 @@ bool is_of_heights(const Image& finest) {
 void require_layout(const ExrChain& chain, const std::string& file) {
   if (chain.channels != bumpslopes_channels()) {
     throw Error(ErrorKind::usage, file,
-                fmt::format("has the channels {}, which are no slopes", fmt::join(chain.channels, ", ")),
+                fmt::format("has the channels {}, which are not slopes", fmt::join(chain.channels, ", ")),
                 "make it by `maketx --bumpslopes`");
   }
   const Image& finest = chain.levels.front();
@@ -48,8 +48,8 @@ void require_layout(const ExrChain& chain, const std::string& file) {
   for (const Image& level : chain.levels) {
     if (std::ranges::all_of(level.texels, [](float v) { return std::isfinite(v); })) continue;
     throw Error(ErrorKind::usage, file,
-                fmt::format("level {}x{} holds what is no finite number", level.width, level.height),
-                "mend the map that it was made from");
+                fmt::format("level {}x{} contains a value that is not finite", level.width, level.height),
+                "fix the map that it was made from");
   }
 }
 

@@ -162,7 +162,7 @@ TEST(Options, RangesAreInclusive) {
 TEST(Options, WhatDoesNotFitIsNamedWithTheRange) {
   for (const std::string bad : {"0", "9", "-1", "1.5", "nan", "inf", "", "six", "6x", " 6", "1e999"}) {
     const std::string text = refusal([&] { (void)given({{"n", bad}}); });
-    EXPECT_TRUE(says(text, "toksvig, option n: `" + bad + "` does not fit"));
+    EXPECT_TRUE(says(text, "toksvig, option n: `" + bad + "` is not valid"));
     EXPECT_TRUE(says(text, "a whole number from 1 to 8"));
   }
   EXPECT_TRUE(says(refusal([] { (void)given({{"scale", "2.6"}}); }), "a number from -1 to 2.5"));

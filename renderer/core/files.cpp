@@ -255,7 +255,7 @@ OutputFolder::OutputFolder(const fs::path& final_path) {
   if (final_path.empty()) refuse("an output folder has no name");
   final_ = fs::absolute(final_path).lexically_normal();
   if (!final_.has_filename()) final_ = final_.parent_path();  // "out/" is "out"
-  if (!final_.has_filename()) refuse("is no output folder");
+  if (!final_.has_filename()) refuse("is not an output folder");
   std::error_code ignored;
   const fs::file_status status = fs::status(final_, ignored);
   if (fs::exists(status) && !fs::is_directory(status)) refuse("is not a folder");

@@ -330,7 +330,7 @@ TEST(OutputFolder, APathThatIsNoFolder) {
   fs::create_symlink(folder / "nowhere", folder / "link");
   expect_error(error_of([&] { OutputFolder(folder / "link"); }), ErrorKind::usage, folder / "link", "link to nothing");
   expect_error(error_of([] { OutputFolder{fs::path()}; }), ErrorKind::usage, "", "no name");
-  expect_error(error_of([] { OutputFolder("/"); }), ErrorKind::usage, "/", "no output folder");
+  expect_error(error_of([] { OutputFolder("/"); }), ErrorKind::usage, "/", "not an output folder");
   EXPECT_EQ(names_in(folder), (Names{"file", "link"}));
 }
 

@@ -25,7 +25,7 @@ double parse_number(const OptionSpec& spec, const std::string& text, std::string
                     number <= spec.maximum && (!spec.integer || number == std::floor(number));
   if (fits) return number;
   throw Error(
-      ErrorKind::usage, fmt::format("{}, option {}", owner, spec.name), fmt::format("`{}` does not fit", text),
+      ErrorKind::usage, fmt::format("{}, option {}", owner, spec.name), fmt::format("`{}` is not valid", text),
       fmt::format("give a {} from {} to {}", spec.integer ? "whole number" : "number", spec.minimum, spec.maximum));
 }
 

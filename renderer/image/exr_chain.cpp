@@ -31,7 +31,7 @@ void require_chain(const ExrChain& chain) {
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const bool fits = levels[i].width == std::max(finest.width >> i, 1) &&
                       levels[i].height == std::max(finest.height >> i, 1) && levels[i].channels == finest.channels;
-    if (!fits) throw std::logic_error("the sizes of the levels are no chain");
+    if (!fits) throw std::logic_error("the sizes of the levels do not form a mip chain");
   }
   if (chain.channels.size() != static_cast<std::size_t>(finest.channels))
     throw std::logic_error("every channel has a name");
@@ -82,7 +82,7 @@ Error damaged(const std::string& name, std::string reason) {
 }
 
 void require_readable(const OIIO::ImageSpec& spec, const std::string& name, int most_channels) {
-  if (spec.width < 1 || spec.height < 1 || spec.depth != 1 || spec.deep) throw damaged(name, "it is no flat picture");
+  if (spec.width < 1 || spec.height < 1 || spec.depth != 1 || spec.deep) throw damaged(name, "it is not a flat image");
   if (spec.width > largest_chain_side || spec.height > largest_chain_side) {
     throw Error(ErrorKind::usage, name, fmt::format("declares {} x {} texels", spec.width, spec.height),
                 fmt::format("at most {0} x {0} are taken; scale it down", largest_chain_side));
@@ -106,7 +106,7 @@ void write_exr_chain(const std::filesystem::path& file, const ExrChain& chain, E
 ExrChain read_exr_chain(const std::filesystem::path& file, int most_channels) {
   const std::string name = file.string();
   if (!std::filesystem::exists(file)) throw Error(ErrorKind::usage, name, "there is no such file", "check the path");
-  if (!is_exr(file)) throw Error(ErrorKind::usage, name, "is no EXR", "give a whole EXR");
+  if (!is_exr(file)) throw Error(ErrorKind::usage, name, "is not an EXR", "give a whole EXR");
   OIIO::Filesystem::IOFile source(name, OIIO::Filesystem::IOProxy::Read);
   OIIO::Filesystem::IOProxy* proxy = &source;
   OIIO::ImageSpec config;

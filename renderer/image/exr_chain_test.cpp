@@ -123,7 +123,7 @@ TEST(ExrChain, RefusesWhatIsNoChain) {
 TEST(ExrChain, RefusesToReadWhatIsNoMap) {
   const fs::path folder = test::fresh_folder();
   EXPECT_THROW((void)read_exr_chain(folder / "missing.exr"), Error);
-  std::ofstream(folder / "text.exr") << "no picture";
+  std::ofstream(folder / "text.exr") << "no image";
   EXPECT_THROW((void)read_exr_chain(folder / "text.exr"), Error);
   write_exr_chain(folder / "map.exr", {.levels = uneven_chain(64, 64, 3), .channels = {"R", "G", "B"}}, ExrTexel::full);
   EXPECT_THROW((void)read_exr_chain(folder / "map.exr", 2), Error);

@@ -51,15 +51,15 @@ void place_picture(Image& canvas, const Image& picture, int left) {
 
 void require_strip(const std::vector<Image>& pictures, const std::vector<std::string>& captions) {
   const auto refuse = [](const std::string& message) {
-    throw Error(ErrorKind::usage, "labelled strip", message, "give pictures of one height and a caption for each");
+    throw Error(ErrorKind::usage, "labelled strip", message, "give images of one height and a caption for each");
   };
   if (pictures.empty() || pictures.size() != captions.size()) {
-    refuse(fmt::format("{} pictures, {} captions", pictures.size(), captions.size()));
+    refuse(fmt::format("{} images, {} captions", pictures.size(), captions.size()));
   }
   for (const Image& picture : pictures) {
     const bool taken = picture.channels == 1 || picture.channels == 3 || picture.channels == 4;
     if (picture.empty() || !taken || picture.height != pictures.front().height) {
-      refuse(fmt::format("a picture of {} x {} x {} channels", picture.width, picture.height, picture.channels));
+      refuse(fmt::format("an image of {} x {} x {} channels", picture.width, picture.height, picture.channels));
     }
   }
 }
@@ -68,7 +68,7 @@ void require_strip(const std::vector<Image>& pictures, const std::vector<std::st
 
 Image false_color(const Image& scalar, float maximum) {
   if (scalar.channels != 1) {
-    throw Error(ErrorKind::usage, "false colour", fmt::format("the picture has {} channels", scalar.channels),
+    throw Error(ErrorKind::usage, "false colour", fmt::format("the image has {} channels", scalar.channels),
                 "give one channel");
   }
   Image colored(scalar.width, scalar.height, 3);

@@ -235,14 +235,14 @@ Image difference(const Seen& picture, const Seen& reference) {
 void require_flippable(const Image& picture, const Image& reference) {
   if (picture.width != reference.width || picture.height != reference.height) {
     throw Error(ErrorKind::usage, "comparison",
-                fmt::format("the picture is {} x {}, the reference {} x {}", picture.width, picture.height,
+                fmt::format("the image is {} x {}, the reference {} x {}", picture.width, picture.height,
                             reference.width, reference.height),
-                "compare pictures of one size");
+                "compare images of one size");
   }
   for (const Image* const image : {&picture, &reference}) {
     if (image->channels != 3 && image->channels != 4) {
-      throw Error(ErrorKind::usage, "comparison", fmt::format("a picture has {} channels", image->channels),
-                  "compare RGB or RGBA pictures");
+      throw Error(ErrorKind::usage, "comparison", fmt::format("an image has {} channels", image->channels),
+                  "compare RGB or RGBA images");
     }
     for (std::size_t i = 0; i < image->texels.size(); ++i) {
       if (std::isfinite(image->texels[i])) continue;

@@ -69,7 +69,7 @@ TEST(HostileImage, EmptyFile) {
 
 TEST(HostileImage, TextFile) {
   const fs::path file = fresh_folder() / "text.png";
-  write_file_atomically(file, "This is not a picture.\n");
+  write_file_atomically(file, "This is not an image.\n");
   EXPECT_TRUE(says(refusal(file), "is not an image"));
   EXPECT_TRUE(says(refusal(std::vector<std::uint8_t>{'h', 'i'}), "is not an image"));
 }

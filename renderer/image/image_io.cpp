@@ -105,7 +105,7 @@ std::unique_ptr<OIIO::ImageInput> open_image(IOProxy& source, const std::string&
 
 void check_header(const OIIO::ImageSpec& spec, const std::string& name, int max_side) {
   if (spec.width < 1 || spec.height < 1 || spec.depth != 1 || spec.deep) {
-    throw unreadable(name, fmt::format("is no flat picture ({} x {} x {})", spec.width, spec.height, spec.depth));
+    throw unreadable(name, fmt::format("is not a flat image ({} x {} x {})", spec.width, spec.height, spec.depth));
   }
   if (spec.width > max_side || spec.height > max_side) {
     throw Error(ErrorKind::usage, name, fmt::format("declares {} x {} texels", spec.width, spec.height),
@@ -137,7 +137,7 @@ Image decode(IOProxy& source, const std::string& name, Transfer transfer, int ma
   const OIIO::ImageSpec& spec = input->spec();
   check_header(spec, name, max_side);
   require_memory(frame_bytes(spec.width, spec.height, spec.nchannels * sizeof(float)), name,
-                 "scale the picture down, or free memory");
+                 "scale the image down, or free memory");
   Image image(spec.width, spec.height, spec.nchannels);
   const bool complete = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.texels.data());
   // The JPEG reader fills up what a truncated file lacks, returns success and leaves a message.
@@ -177,7 +177,7 @@ OIIO::ImageSpec writable_spec(const std::filesystem::path& file, const Image& im
   if (image.empty() || !taken) {
     throw Error(
         ErrorKind::usage, file.string(),
-        fmt::format("a picture of {} x {} x {} channels cannot be written", image.width, image.height, image.channels),
+        fmt::format("an image of {} x {} x {} channels cannot be written", image.width, image.height, image.channels),
         "write 1, 3 or 4 channels");
   }
   return {image.width, image.height, image.channels, type};

@@ -41,20 +41,20 @@ Rgb rgb_of(const Image& image, int x, int y, std::string_view which) {
 void require_comparable(const Image& picture, const Image& reference) {
   if (picture.channels != 4 || reference.channels != 4) {
     throw Error(ErrorKind::usage, "comparison",
-                fmt::format("the picture has {} channels, the reference {}", picture.channels, reference.channels),
-                "compare RGBA pictures with the coverage in alpha");
+                fmt::format("the image has {} channels, the reference {}", picture.channels, reference.channels),
+                "compare RGBA images with the coverage in alpha");
   }
   if (picture.width != reference.width || picture.height != reference.height) {
     throw Error(ErrorKind::usage, "comparison",
-                fmt::format("the picture is {} x {}, the reference {} x {}", picture.width, picture.height,
+                fmt::format("the image is {} x {}, the reference {} x {}", picture.width, picture.height,
                             reference.width, reference.height),
-                "compare pictures of one size");
+                "compare images of one size");
   }
 }
 
 void require_mask(const Image& mask, const Image& reference) {
   if (mask.channels == 1 && mask.width == reference.width && mask.height == reference.height) return;
-  throw Error(ErrorKind::usage, "comparison", "the mask is no picture of one channel and the reference's size");
+  throw Error(ErrorKind::usage, "comparison", "the mask is not an image of one channel and the reference's size");
 }
 
 template <typename Visit>  // visit(column, row, picture's rgb, reference's rgb), row by row
@@ -64,7 +64,7 @@ void visit_object_pixels(const Image& picture, const Image& reference, Visit vis
     for (int x = 0; x < reference.width; ++x) {
       if (!covers_whole_pixel(reference.at(x, y))) continue;
       const Rgb truth = rgb_of(reference, x, y, "the reference");
-      visit(x, y, rgb_of(picture, x, y, "the picture"), truth);
+      visit(x, y, rgb_of(picture, x, y, "the image"), truth);
     }
   }
 }
@@ -164,7 +164,7 @@ std::optional<double> normalized_color_over(const Image& picture, const Image& r
   for (int y = 0; y < reference.height; ++y) {
     for (int x = 0; x < reference.width; ++x) {
       if (mask.at(x, y)[0] <= 0.0F || !covers_whole_pixel(reference.at(x, y))) continue;
-      const Rgb shown = rgb_of(picture, x, y, "the picture"), truth = rgb_of(reference, x, y, "the reference");
+      const Rgb shown = rgb_of(picture, x, y, "the image"), truth = rgb_of(reference, x, y, "the reference");
       distance += std::sqrt(displayed_squared_distance(shown, truth, exposure) / 3);
       ++pixels;
     }
@@ -186,7 +186,7 @@ std::optional<FlickerFigures> compare_changes_over(const Image& before, const Im
   std::vector<double> differences;
   visit_object_pixels(picture, reference, [&](int column, int row, const Rgb& x, const Rgb& r) {
     if (mask.at(column, row)[0] <= 0.0F || !covers_whole_pixel(reference_before.at(column, row))) return;
-    const Rgb old_x = rgb_of(before, column, row, "the picture before");
+    const Rgb old_x = rgb_of(before, column, row, "the image before");
     const Rgb old_r = rgb_of(reference_before, column, row, "the reference before");
     double sum = 0;
     for (std::size_t c = 0; c < x.size(); ++c) {

@@ -221,7 +221,7 @@ TEST(Metrics, NotANumberIsNamedWithItsPixelAndPicture) {
     Image broken = good;
     broken.at(3, 5)[2] = bad;
     const std::string in_picture = error_text([&] { (void)compare_images(broken, good, 1.0F); });
-    EXPECT_NE(in_picture.find("the picture, pixel (3, 5)"), std::string::npos) << in_picture;
+    EXPECT_NE(in_picture.find("the image, pixel (3, 5)"), std::string::npos) << in_picture;
     const std::string in_reference = error_text([&] { (void)compare_images(good, broken, 1.0F); });
     EXPECT_NE(in_reference.find("the reference, pixel (3, 5)"), std::string::npos) << in_reference;
     EXPECT_NE(error_text([&] { (void)error_map(broken, good, 1.0F); }), "no error");
@@ -311,7 +311,7 @@ TEST(Flicker, WhatIsNoNumberIsNamed) {
   broken.at(2, 1)[0] = std::numeric_limits<float>::quiet_NaN();
   const Image good = noise(4);
   EXPECT_NE(
-      error_text([&] { (void)compare_changes(broken, good, good, good, 1.0F); }).find("picture before, pixel (2, 1)"),
+      error_text([&] { (void)compare_changes(broken, good, good, good, 1.0F); }).find("image before, pixel (2, 1)"),
       std::string::npos);
   EXPECT_NE(error_text([&] { (void)compare_changes(good, good, Image(1, 1, 4), good, 1.0F); }), "no error");
 }

@@ -64,7 +64,7 @@ Image reduced(const Image& fine, Reduce reduce) {
 
 template <typename Reduce>
 std::vector<Image> chain(Image finest, Reduce reduce) {
-  if (finest.empty()) throw Error(ErrorKind::usage, "mip chain", "the picture has no texels");
+  if (finest.empty()) throw Error(ErrorKind::usage, "mip chain", "the image has no texels");
   std::vector<Image> levels;
   levels.reserve(static_cast<std::size_t>(mip_level_count(finest.width, finest.height)));
   levels.push_back(std::move(finest));

@@ -132,7 +132,8 @@ Lobe parse_lobe(std::string_view option, const std::string& text) {
   const std::string_view digits = std::string_view(text).substr(colon + 1);
   const char* const end = digits.data() + digits.size();
   const auto [stop, status] = std::from_chars(digits.data(), end, lobe.parameter);
-  if (status != std::errc{} || stop != end) throw refuse("has a parameter that is no number", std::string(lobe_hint));
+  if (status != std::errc{} || stop != end)
+    throw refuse("has a parameter that is not a number", std::string(lobe_hint));
   const double least = is_alpha(lobe.distribution) ? smallest_alpha : 1e-3;
   const double most = is_alpha(lobe.distribution) ? 1.0 : 1e6;
   if (!(lobe.parameter >= least && lobe.parameter <= most)) {

@@ -80,11 +80,11 @@ void check_patch(const Patch& patch, const std::string& place) {
     throw refuse(fmt::format("it has {} triangles", patch.triangles.size()),
                  fmt::format("use at most {}", most_patch_triangles));
   }
-  if (!indices_hold(patch)) throw refuse("a triangle names a vertex that is not there", "mend its indices");
-  if (!paints_hold(patch)) throw refuse("a triangle names a colour that is not there", "mend its paints");
+  if (!indices_hold(patch)) throw refuse("a triangle names a vertex that is not there", "fix its indices");
+  if (!paints_hold(patch)) throw refuse("a triangle names a colour that is not there", "fix its paints");
   const Box box = box_of(patch);
   const glm::vec3 size = box.upper - box.lower;
-  if (!std::isfinite(size.x + size.y + size.z)) throw refuse("a position is not finite", "mend its vertices");
+  if (!std::isfinite(size.x + size.y + size.z)) throw refuse("a position is not finite", "fix its vertices");
   const float period = std::min(patch.period.x, patch.period.y);
   if (std::max({size.x, size.y, size.z}) > most_patch_rise * period) {
     throw refuse(fmt::format("it measures {} x {} x {}, its period {} x {}", size.x, size.y, size.z, patch.period.x,

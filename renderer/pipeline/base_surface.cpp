@@ -56,12 +56,13 @@ class BaseSurface final : public Method {
   [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::shared_glsl, "base_surface.glsl"); }
 
  private:
-  MethodInfo info_{.name = "reference",
-                   .summary = "The supersampled truth: many samples a pixel, each shading one texel's own base BRDF.",
-                   .paper = "",
-                   .options = {},
-                   .honours = EffectSet{}.set(),
-                   .draws_directions = true};
+  MethodInfo info_{
+      .name = "reference",
+      .summary = "The supersampled reference: many samples per pixel, each shading the base BRDF of one texel.",
+      .paper = "",
+      .options = {},
+      .honours = EffectSet{}.set(),
+      .draws_directions = true};
 };
 
 }  // namespace

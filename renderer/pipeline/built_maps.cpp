@@ -34,7 +34,7 @@ void take_built_maps(const gl::Context& context, const Scene& scene, const Effec
   const GpuMethod gpu(gpu_scene, baked);
   if (gpu.looks_from_view()) {
     throw Error(ErrorKind::usage, fmt::format("method {}", baked.spec.text),
-                "builds its maps anew for each view: there is nothing that a file could hold",
+                "builds its maps for each view, so they cannot be written to files",
                 "take options whose maps serve every view (of xu_vmf space=tangent), or another method");
   }
   gpu.rebuild({.size = glm::ivec2(1), .camera = scene.camera});

@@ -331,8 +331,8 @@ void GpuScene::make_lights(const gl::ContextInfo& context, const Scene& scene) {
 void GpuScene::update(const Scene& scene) {
   const auto require = [&](bool same, const char* what) {
     if (same) return;
-    throw Error(ErrorKind::usage, scene.source, fmt::format("it has other {} than the scene that is drawn", what),
-                "set it up anew");
+    throw Error(ErrorKind::usage, scene.source,
+                fmt::format("its {} differ from those of the scene that is rendered", what), "set up the scene again");
   };
   require(most_lobes_of(scene.materials) <= facet_lobes_, "lobes");
   SceneContent content;

@@ -37,7 +37,7 @@ std::uint32_t digits_of(int grid, int place) {
 
 SampleGrid sample_grid(int spp, std::uint64_t seed, int fewest_passes) {
   if (spp < 1 || spp > most_samples) {
-    throw Error(ErrorKind::usage, "--spp", fmt::format("{} samples a pixel", spp),
+    throw Error(ErrorKind::usage, "--spp", fmt::format("{} samples per pixel", spp),
                 fmt::format("give 1 to {}", most_samples));
   }
   SampleGrid out{.grid = grid_of(spp, fewest_passes), .passes = {}};

@@ -167,7 +167,7 @@ class ShaderText::Reader {
     } else if (words == "module" && !to_.module_.file.empty()) {
       if (keeping_) to_.include_module();
     } else {
-      throw line_.bad(fmt::format("`{}` is no directive here", words));
+      throw line_.bad(fmt::format("`{}` is not a directive here", words));
     }
   }
 

@@ -94,8 +94,8 @@ TEST(ShaderText, AnUnknownFlagIsAnErrorWithTheNearest) {
 
 TEST(ShaderText, NamesFileAndLineOfABadDirective) {
   const auto cases = std::to_array<std::pair<std::string_view, std::string_view>>({
-      {"a\n//? iff fresnel\n", "`iff fresnel` is no directive here"},
-      {"a\n//? end\n", "`end` is no directive here"},
+      {"a\n//? iff fresnel\n", "`iff fresnel` is not a directive here"},
+      {"a\n//? end\n", "`end` is not a directive here"},
       {"a\n//? else\n", "`else` without an `if`"},
       {"a\n//? elif fresnel\n", "`elif fresnel` without an `if`"},
       {"//? if fresnel and\n//? end\n", "a condition ends too early"},

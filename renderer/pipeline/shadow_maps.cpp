@@ -19,7 +19,7 @@ constexpr const char* hint =
 
 void require_room(const gl::ContextInfo& context, const ShadowViews& views, const Scene& scene) {
   const std::size_t count = views.views.size();
-  const std::string what = fmt::format("{} shadow maps of {} texels a side", count, scene.shadows.resolution);
+  const std::string what = fmt::format("{} shadow maps of {} texels per side", count, scene.shadows.resolution);
   GLint layers = 0;
   gl::api().GetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
   const auto block_bytes = static_cast<std::size_t>(context.max_uniform_block_bytes);

@@ -165,7 +165,7 @@ Supersampled Supersampler::render_tiles(const Sampling& sampling, const SampleGr
       for (; last < samples.passes.size() && samples.passes[last].half == begin.half &&
              samples.passes[last].block == begin.block;
            ++last) {
-        progress(fmt::format("{} samples a pixel", spp), done++ / steps);
+        progress(fmt::format("{} samples per pixel", spp), done++ / steps);
         accumulate(sums, sampling, tile, samples.passes[last]);
       }
       const auto samples_taken = static_cast<double>(last - first) * samples.grid * samples.grid;

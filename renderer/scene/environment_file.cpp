@@ -18,7 +18,7 @@ void require_finite(const Image& image, const std::string& name) {
   const auto width = static_cast<std::size_t>(image.width);
   throw Error(ErrorKind::usage, name,
               fmt::format("the texel in column {}, row {} is {}", texel % width, texel / width, *bad),
-              "radiance must be finite: mend the picture");
+              "radiance must be finite: fix the image");
 }
 
 // Three channels of a picture that has one or four; of four in place, as the largest take gigabytes.

@@ -107,7 +107,7 @@ TEST(EnvironmentFile, BadFilesAndSettingsAreNamed) {
   EXPECT_NE(
       environment_error("file = \"gone.exr\"\npackage = \"blender-data\"").find("install the package blender-data"),
       std::string::npos);
-  test::write_file("environments/text.exr", "no picture");
+  test::write_file("environments/text.exr", "no image");
   EXPECT_NE(environment_error("file = \"text.exr\"").find("text.exr"), std::string::npos);
   EXPECT_NE(environment_error("intensity = 2").find("kind = \"constant\""), std::string::npos);
   EXPECT_NE(environment_error("kind = \"skye\"").find("`sky`"), std::string::npos);

@@ -79,7 +79,7 @@ class ObjReader {
       const std::string_view word = next_word(line);
       const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), values[i]);
       if (error != std::errc{} || end != word.data() + word.size() || !(std::abs(values[i]) <= farthest)) {
-        throw fault(fmt::format("`{:.40}` is no number within 1e15", word));
+        throw fault(fmt::format("`{:.40}` is not a number within 1e15", word));
       }
     }
     return values;
@@ -108,7 +108,7 @@ class ObjReader {
       if (part.size() == rest.size()) return indices;
       rest.remove_prefix(part.size() + 1);
     }
-    throw fault(fmt::format("`{:.40}` is no corner of a face", word));
+    throw fault(fmt::format("`{:.40}` is not a corner of a face", word));
   }
 
   [[nodiscard]] int index_of(std::string_view part, std::size_t size, std::string_view word) const {

@@ -193,7 +193,7 @@ function showProvenance() {
   const {tool, backend, scene, reference} = film;
   const lines = [['Scene', scene.source], ['Frames', `${film.frames.length} of ${film.size.join(' x ')} pixels`],
     ['Footprint filter', film.footprint], ['Exposure', `${scene.exposure} (${scene.exposure_source})`],
-    ['Reference', `${reference.spp} samples a pixel, ${reference.filter}, seed ${reference.seed}`],
+    ['Reference', `${reference.spp} samples per pixel, ${reference.filter}, seed ${reference.seed}`],
     ['OpenGL', `${backend.renderer}, ${backend.version}`], ['Processor', backend.cpu],
     ['Program', `${tool.name} ${tool.version}`], ...scene.defaults.map((line) => ['Supplied', line])];
   for (const [label, value] of lines) byId('provenance').append(element('dt', '', label), element('dd', '', value));
@@ -203,7 +203,7 @@ function showProvenance() {
   const link = element('a', '', film.film);
   link.href = film.film.split('/').map(encodeURIComponent).join('/');
   byId('video').hidden = false;
-  byId('video').append('As one file, the reference first, then the methods in this order: ', link);
+  byId('video').append('As one file (the reference, then the methods in this order): ', link);
 }
 
 function chooseMethod() {

@@ -218,10 +218,10 @@ std::string animation_table(const Animation& animation) {
                       {"Highlights"}},
                      rows) +
       fmt::format(R"(
-Error: normalised colour error against the reference, mean over the frames. Flicker: by how much the change from the
-frame before differs from the reference's, mean over the object's pixels and over the frames; its 99th percentile over
-the pixels. Floors: the part of them that the reference's own noise causes. Highlights: exposed luminance above 0.8, mean
-over the pixels; the reference's is {}.
+Error: normalised colour error against the reference, mean over the frames. Flicker: how much the change since the
+previous frame differs from the reference's, mean over the object's pixels and the frames, and 99th percentile over the
+pixels. Floors: the part that the reference's own noise causes. Highlights: exposed luminance above 0.8, mean over the
+pixels; {} in the reference.
 
 Flicker by cause, mean and 99th percentile:
 
@@ -231,8 +231,8 @@ Flicker by cause, mean and 99th percentile:
           {{"Method", false}, {"Shading"}, {"p99"}, {"Edges"}, {"p99"}, {"Filter"}, {"p99"}, {"Method's own"}, {"p99"}},
           causes) +
       R"(
-Shading: over pixels that are interior in both frames. Edges: over the object's other pixels. Filter: of the exact sum
-under the same footprint filter. Method's own: of the picture against that sum.
+Shading: pixels that are interior in both frames. Edges: the object's other pixels. Filter: flicker of the exact sum
+under the same footprint filter. Method's own: flicker of the image compared with that sum.
 )";
   for (const std::string& warning : animation.scene.warnings)
     text += fmt::format("\nWarning: {}.\n", markdown_escaped(warning));

@@ -32,16 +32,16 @@ void add_keys(const Map& map, std::set<std::string>& keys) {
 // How a figure differs; none where it does not.
 std::optional<std::string> difference(const std::string& name, const double* before, const double* now,
                                       double tolerance) {
-  if (before == nullptr) return fmt::format("{} {:.6g}, which the baseline does not have", name, *now);
-  if (now == nullptr) return fmt::format("{} is missing, and was {:.6g}", name, *before);
+  if (before == nullptr) return fmt::format("{} {:.6g}, missing in the baseline", name, *now);
+  if (now == nullptr) return fmt::format("{} is missing, was {:.6g}", name, *before);
   const double allowed = name == "bytes" ? 0.0 : tolerance;
   if (std::abs(*now - *before) <= allowed) return {};
   return fmt::format("{} {:.6g}, was {:.6g}", name, *now, *before);
 }
 
 std::string differences(const Figures* before, const Figures* now, double tolerance) {
-  if (before == nullptr) return "the baseline does not have this record";
-  if (now == nullptr) return "the run does not have this record";
+  if (before == nullptr) return "this record is missing in the baseline";
+  if (now == nullptr) return "this record is missing in the run";
   std::set<std::string> names;
   add_keys(*before, names);
   add_keys(*now, names);
@@ -76,13 +76,13 @@ std::string baseline_json(const Baseline& baseline) {
 
 Baseline parse_baseline(const std::string& text, const std::string& place) {
   const auto refuse = [&](const std::string& why) {
-    throw Error(ErrorKind::usage, place, why, "--update-baseline writes a new one where there is none");
+    throw Error(ErrorKind::usage, place, why, "delete it and use --update-baseline to write a new one");
   };
   Baseline baseline;
   try {
     const nlohmann::json document = nlohmann::json::parse(text);
     if (!document.is_object() || document.value("schema", "") != schema)
-      refuse(fmt::format("is no baseline of format {}", schema));
+      refuse(fmt::format("is not a baseline of format {}", schema));
     baseline.tolerance = document.at("tolerance");
     baseline.figures = document.at("figures").get<BaselineFigures>();
   } catch (const nlohmann::json::exception&) {

@@ -101,9 +101,9 @@ TEST(Baseline, WhatDiffersFallsShort) {
   };
   EXPECT_TRUE(says(failure(figures(0.1002, 1024)), "error 0.1002, was 0.1"));
   EXPECT_TRUE(says(failure(figures(0.1, 1025)), "bytes 1025, was 1024"));
-  EXPECT_TRUE(says(failure({{"mine", {{"a at 1", {{"bytes", 1024}}}}}}), "error is missing, and was 0.1"));
-  EXPECT_TRUE(says(failure({{"mine", {}}}), "the run does not have this record"));
-  EXPECT_TRUE(says(failure({{"another", {{"a at 1", {}}}}}), "the baseline does not have this record"));
+  EXPECT_TRUE(says(failure({{"mine", {{"a at 1", {{"bytes", 1024}}}}}}), "error is missing, was 0.1"));
+  EXPECT_TRUE(says(failure({{"mine", {}}}), "this record is missing in the run"));
+  EXPECT_TRUE(says(failure({{"another", {{"a at 1", {}}}}}), "this record is missing in the baseline"));
 }
 
 TEST(Baseline, AnExperimentThatWasNotRunIsNotLookedAt) {

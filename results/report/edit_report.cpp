@@ -118,11 +118,11 @@ std::string edit_table(const EditRun& run) {
   std::vector<double> times = edit_times(run);
   rows.push_back(table_row("edit", times));
   std::ranges::sort(times);
-  return text + markdown_table({{"Stage", false}, {"Median ms"}, {"Least"}, {"Most"}}, rows) +
+  return text + markdown_table({{"Stage", false}, {"Median ms"}, {"Minimum"}, {"Maximum"}}, rows) +
          fmt::format(R"(
-{} edits a second (median); {} of baked maps. An edit is all stages, from new parameters to a picture of
-{}x{} pixels. geometry: triangles and normal map of the patch. other: what of the bake no stage of the method is. upload: the
-baked maps to OpenGL. frame: one picture drawn.
+{} edits per second (median); {} of baked maps. An edit is all stages, from new parameters to an image of
+{}x{} pixels. geometry: triangles and normal map of the patch. other: remaining bake time. upload: the baked maps to
+OpenGL. frame: one image rendered.
 )",
                      three_figures(milliseconds / median(times)), readable_bytes(run.records.back().bytes), run.width,
                      run.height);

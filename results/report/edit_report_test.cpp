@@ -53,9 +53,9 @@ TEST(EditReport, CsvLeavesAStageOutThatAFrameDoesNotHave) {
 
 TEST(EditReport, TableHasMediansAndRate) {
   const std::string table = edit_table(two_edits());
-  EXPECT_NE(table.find("| geometry   |      2.00 |  1.00 | 3.00 |"), std::string::npos) << table;
-  EXPECT_NE(table.find("| edit       |      17.5 |  10.0 | 25.0 |"), std::string::npos) << table;
-  EXPECT_NE(table.find("57.1 edits a second"), std::string::npos) << table;
+  EXPECT_NE(table.find("| geometry   |      2.00 |    1.00 |    3.00 |"), std::string::npos) << table;
+  EXPECT_NE(table.find("| edit       |      17.5 |    10.0 |    25.0 |"), std::string::npos) << table;
+  EXPECT_NE(table.find("57.1 edits per second"), std::string::npos) << table;
   EXPECT_NO_THROW((void)edit_table({}));
 }
 

@@ -17,7 +17,7 @@ void check(std::span<const CurvePoint> curve, double error) {
   for (const CurvePoint& point : curve) {
     if (!fits(point.error) || !fits(point.spp) || point.spp == 0) {
       throw Error(ErrorKind::usage, "supersampling curve",
-                  fmt::format("{} samples a pixel with an error of {}", point.spp, point.error));
+                  fmt::format("{} samples per pixel with an error of {}", point.spp, point.error));
     }
   }
 }

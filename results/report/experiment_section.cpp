@@ -36,7 +36,7 @@ std::string with_unit(const std::optional<double>& value, const std::string& uni
 }
 
 Table published_table(const ExperimentReport& report) {
-  Table table{.heading = "Measured beside published",
+  Table table{.heading = "Measured and published",
               .columns = {{"Printed in", false}, {"Measure", false}, {"Published"}, {"Measured"}, {"Note", false}},
               .rows = {}};
   for (const PublishedFigure& figure : report.published) {
@@ -83,7 +83,7 @@ Table thresholds_table(const ExperimentReport& report) {
   for (const ThresholdOutcome& threshold : report.thresholds) {
     table.rows.push_back({threshold.measure, figure_text(threshold.limit),
                           threshold.problem.empty() ? figure_text(threshold.measured) : threshold.problem,
-                          threshold.held() ? "held" : "not held"});
+                          threshold.held() ? "passed" : "failed"});
   }
   return table;
 }
@@ -97,15 +97,15 @@ std::string claim_sentence(const ClaimOutcome& claim) {
 
 std::string outcome_in_words(std::size_t fell_short, std::size_t checks) {
   if (checks == 0) return {};
-  if (fell_short > 0) return fmt::format("{} of {} claims and thresholds fell short.", fell_short, checks);
-  return fmt::format("All {} claims and thresholds came out as expected.", checks);
+  if (fell_short > 0) return fmt::format("{} of {} claims and thresholds failed.", fell_short, checks);
+  return fmt::format("All {} claims and thresholds are as expected.", checks);
 }
 
 std::string summary(const ExperimentReport& report) {
   std::string text = outcome_in_words(report.shortfalls().size(), report.claims.size() + report.thresholds.size());
   if (!report.quick) return text;
   if (!text.empty()) text += " ";
-  return text + "Quick: smaller than the experiment says, so these figures are no measurement.";
+  return text + "Test run (--quick): smaller than the experiment, so this is not a measurement.";
 }
 
 std::string html_table(const Table& table) {
@@ -149,8 +149,7 @@ std::string experiment_markdown(const ExperimentReport& report) {
     for (const ClaimOutcome& claim : report.claims)
       text += fmt::format("- {}\n", markdown_escaped(claim_sentence(claim)));
   }
-  for (const std::string& line : report.shortfalls())
-    text += fmt::format("\n**Fell short:** {}\n", markdown_escaped(line));
+  for (const std::string& line : report.shortfalls()) text += fmt::format("\n**Failed:** {}\n", markdown_escaped(line));
   return text;
 }
 

@@ -25,7 +25,7 @@ TEST(ExperimentSection, MeasuredStandsBesidePublished) {
   const std::string text = experiment_markdown(*example_results().experiment);
   EXPECT_TRUE(says(text, "| Figure 4   | fps(toksvig)        |   125 fps |  400 fps |")) << text;
   EXPECT_TRUE(says(text, "300 s |      n/a | from the cache")) << text;
-  EXPECT_TRUE(says(text, "3 of 5 claims and thresholds fell short. Quick")) << text;
+  EXPECT_TRUE(says(text, "3 of 5 claims and thresholds failed. Test run")) << text;
   EXPECT_TRUE(says(text, "error(toksvig) = 0.01100 \\*; error(direct) = 0.02100")) << text;
 }
 

@@ -17,10 +17,9 @@ std::string plural(const std::string& count, std::string_view noun) {
 }
 
 std::string reference_text(const ReferenceInfo& reference) {
-  std::string text = fmt::format("{} a pixel", plural(std::to_string(reference.spp), "sample"));
+  std::string text = fmt::format("{} per pixel", plural(std::to_string(reference.spp), "sample"));
   if (reference.samples > reference.spp)
-    text +=
-        fmt::format(" to begin with, {} on average where the noise asked for more", three_figures(reference.samples));
+    text += fmt::format(" at first, {} on average after refinement", three_figures(reference.samples));
   text += fmt::format(", {} s, filter {}, seed {}", three_figures(reference.seconds), reference.filter, reference.seed);
   if (!reference.environment.empty()) text += fmt::format(", environment {}", reference.environment);
   std::vector<double> known;
@@ -43,7 +42,7 @@ std::string scene_text(const SceneInfo& scene) {
 }  // namespace
 
 std::string timing_text(const TimingInfo& timing) {
-  return fmt::format("at most {} {} of each method in {}, in turn", timing.frames,
+  return fmt::format("at most {} {} per method in {}, interleaved", timing.frames,
                      timing.frames == 1 ? "frame" : "frames",
                      timing.processes == 1 ? "one process" : fmt::format("each of {} processes", timing.processes));
 }
@@ -134,9 +133,9 @@ std::vector<Provenance> provenance(const Results& results) {
       {"Scene", scene_text(scene)},
       {"Exposure", fmt::format("{} ({})", three_figures(scene.exposure), scene.exposure_source)},
       {"Reference", reference_text(results.reference)},
-      {"Footprint", fmt::format("{} (docs/filters.md)", results.footprint)},
+      {"Footprint filter", fmt::format("{} (docs/filters.md)", results.footprint)},
       {"Timing", timing_text(results.timing)},
-      {"Supplied", list_text(scene.defaults, "nothing, the input has it all")}};
+      {"Supplied", list_text(scene.defaults, "none")}};
   for (const std::string& warning : scene.warnings) lines.push_back({"Warning", warning});
   return lines;
 }

@@ -95,12 +95,11 @@ std::string matrix_csv(const MatrixResults& matrix) {
 std::string matrix_table(const MatrixResults& matrix) {
   std::string text = fmt::format("# {}\n", markdown_escaped(matrix.report.title)) + experiment_markdown(matrix.report);
   if (!matrix.left_out.empty())
-    text += fmt::format("\nNot judged, because it is over members that were left out: {}.\n",
+    text += fmt::format("\nNot judged, because members were left out: {}.\n",
                         markdown_escaped(fmt::format("{}", fmt::join(matrix.left_out, "; "))));
   return text + fmt::format("\n## All records, of {} members\n\n", matrix.members.size()) + records_table(matrix) +
-         "\nEach member's own report lies in the folder of its name. Floor: what the reference's own noise causes of "
-         "the "
-         "error.\n";
+         "\nEach member's own report is in the folder of its name. Floor: the part of the error that the reference's "
+         "noise causes.\n";
 }
 
 void write_matrix_report(const MatrixResults& matrix, const std::filesystem::path& folder) {

@@ -14,7 +14,7 @@ const state = {distance: distances[0], all: false, place: {}, hidden: new Set(),
 const dark = window.matchMedia('(prefers-color-scheme: dark)');
 const paper = window.matchMedia('print');
 
-// Okabe and Ito's colours, told apart by every kind of colour vision; each with a mark of its own.
+// Okabe and Ito's colours, distinct for every kind of colour vision; each with a mark of its own.
 const palette = {
   light: ['#0072b2', '#d55e00', '#007a5a', '#b5488a', '#b07a00', '#2b8cc4', '#444444'],
   dark: ['#4aa8e8', '#ff8a3c', '#2fc79a', '#e79cc8', '#f0c040', '#8fd3ff', '#d0d0d0'],
@@ -22,51 +22,59 @@ const palette = {
 const marks = ['circle', 'rectRot', 'triangle', 'rect', 'star', 'crossRot'];
 
 const columns = [
-  {title: 'Distance', show: (r) => String(r.distance), value: (r) => r.distance, only: () => state.all,
-   meaning: 'How far the camera stands, as a factor on the distance at which the scene places it.'},
+  {title: 'Distance', key: 'distance', show: (r) => String(r.distance), value: (r) => r.distance, only: () => state.all,
+   meaning: 'Camera distance, as a multiple of the scene’s own.'},
   {title: 'Rank', text: 'rank', value: (r) => (r.display.rank === '–' ? null : Number(r.display.rank)),
-   meaning: 'Place by shading error. Methods that differ by no more than the reference’s noise share it; – where too few pixels are interior.'},
+   meaning: 'By shading error. Methods that differ by no more than the reference’s noise share a rank; – if too few pixels are interior.'},
   {title: 'Error', text: 'error', value: (r) => r.error?.normalized_color,
-   meaning: 'Normalised colour error against the reference: mean over the object’s pixels, 0 to 1.'},
+   meaning: 'Normalised colour error against the reference, 0 to 1: mean over the object’s pixels. Lower is better.'},
   {title: 'Shading', text: 'shading', value: (r) => r.error?.shading, best: 'is_best',
-   meaning: 'The same over interior pixels alone, in which the reference sees one smooth piece of surface. Methods are ranked by it.'},
+   meaning: 'Mean error over interior pixels, in which the reference sees one smooth piece of surface. Methods are ranked by it.'},
   {title: 'Edges', text: 'edges', value: (r) => r.error?.edges,
-   meaning: 'The same over the object’s other pixels, which no method filters.'},
+   meaning: 'Mean error over the object’s other pixels, which no method filters.'},
   {title: 'Filter', text: 'filter', value: (r) => r.error?.filter,
-   meaning: 'What the true distribution of normals is off by under the same footprint filter: the filter’s share.'},
+   meaning: 'Error of the exact normal distribution under the same footprint filter.'},
   {title: 'Own error', text: 'method', value: (r) => r.error?.method,
-   meaning: 'What the method’s picture differs from that by: its own share.'},
+   meaning: 'Difference between the method’s image and that of the exact normal distribution.'},
   {title: 'Light', text: 'light', value: (r) => r.error?.light, only: () => records.some((r) => Number.isFinite(r.error?.light)),
-   meaning: 'What the lookup of an environment by lobes costs.'},
-  {title: 'Represent.', text: 'representation', value: (r) => r.error?.representation,
-   meaning: 'Error of the method’s finest level, supersampled: what filtering cannot mend.'},
-  {title: 'Worth spp', text: 'equivalent', value: worth, best: 'is_best',
-   meaning: 'Frames of direct, averaged, that have the same shading error.'},
+   meaning: 'Error of the environment lookup, compared with the whole environment.'},
+  {title: 'Lobe fit', text: 'representation', value: (r) => r.error?.representation,
+   meaning: 'Error of the method’s finest level, supersampled. It remains without any filtering.'},
+  {title: '=\u00a0spp', text: 'equivalent', value: worth, best: 'is_best',
+   meaning: 'Samples per pixel of plain supersampling with the same shading error.'},
   {title: 'Pixels', text: 'pixels', value: (r) => r.pixels.interior,
-   meaning: 'Interior pixels, over which the shading error is taken; ! marks fewer than 100.'},
-  {title: 'Flicker', show: (r) => (r.flicker ? figure(r.flicker.mean) : '–'), value: (r) => r.flicker?.mean,
+   meaning: 'Number of interior pixels; ! marks fewer than 100.'},
+  {title: 'Flicker', key: 'flicker', show: (r) => (r.flicker ? figure(r.flicker.mean) : '–'), value: (r) => r.flicker?.mean,
    only: () => records.some((r) => r.flicker),
-   meaning: 'How much more or otherwise the picture changes from the frame before than the reference does, 0 to 2.'},
+   meaning: 'How much the change since the previous frame differs from the reference’s, 0 to 2.'},
   {title: 'Frame ms', text: 'frame', value: (r) => r.time.frame_ms.median, best: 'is_fastest',
-   meaning: 'Time of one frame: median (least–90th percentile of the repeats).'},
+   meaning: 'Time per frame: median (minimum–90th percentile of the repeats).'},
   {title: '× direct', text: 'ratio', value: (r) => r.time.ratio_to_direct.median,
-   meaning: 'Frame time over that of direct under the same footprint filter: median, and the 95% interval of that median.'},
-  {title: 'fps', text: 'fps', value: (r) => r.time.fps, meaning: 'Frames a second at the median frame time.'},
-  {title: 'Fetches', text: 'fetches', value: (r) => r.time.fetches, meaning: 'Texture lookups a pixel, counted; – of methods whose frames take seconds.'},
-  {title: 'Lobes', text: 'lobes', value: (r) => r.time.lobes, meaning: 'Lobes evaluated a pixel over all lights, counted likewise.'},
+   meaning: 'Frame time relative to direct under the same footprint filter: median (95% interval of the median).'},
+  {title: 'fps', text: 'fps', value: (r) => r.time.fps, meaning: 'Frames per second at the median frame time.'},
+  {title: 'Fetches', text: 'fetches', value: (r) => r.time.fetches, meaning: 'Texture lookups per pixel, counted; – for methods whose frames take seconds.'},
+  {title: 'Lobes', text: 'lobes', value: (r) => r.time.lobes, meaning: 'Lobes evaluated per pixel over all lights, counted; – for methods whose frames take seconds.'},
   {title: 'Build ms', text: 'build', value: (r) => r.time.frame_build_ms,
-   only: () => records.some((r) => r.time.frame_build_ms !== null), meaning: 'What the method rebuilds when something moves, and whether the timed frames have it in them.'},
+   only: () => records.some((r) => r.time.frame_build_ms !== null), meaning: 'Time to rebuild maps when something moves, and whether frame times include it.'},
   {title: 'Bake s', text: 'precompute', value: (r) => r.precompute.seconds,
-   meaning: 'What the method bakes once, in seconds.'},
-  {title: 'Maps', text: 'bytes', value: (r) => r.precompute.bytes, meaning: 'Memory that the baked maps take.'},
+   meaning: 'Bake time in seconds.'},
+  {title: 'Maps', text: 'bytes', value: (r) => r.precompute.bytes, meaning: 'Memory of the baked maps.'},
   {title: 'B/texel', text: 'bytes_per_texel', value: (r) => r.precompute.bytes_per_texel,
-   meaning: 'That memory, in bytes, over the texels of the finest level.'},
+   meaning: 'Bytes per texel of the finest level.'},
   {title: 'Left out', words: true, text: 'left_out', value: (r) => r.effects.left_out.join(),
-   meaning: 'Effects that the scene calls for and the method cannot show.'},
+   meaning: 'Effects of the scene that the method cannot render.'},
 ];
-const nameColumn = {title: 'Method', words: true, value: (r) => r.method};
-const axisColumns = axes.map((axis) => ({title: axis, words: true, show: (r) => r.run.coordinates[axis],
-  value: (r) => r.run.coordinates[axis], meaning: 'What the members of the matrix vary.'}));
+const nameColumn = {title: 'Method', key: 'name', words: true, value: (r) => r.method};
+const axisColumns = axes.map((axis) => ({title: axis, key: `axis ${axis}`, words: true, show: (r) => r.run.coordinates[axis],
+  value: (r) => r.run.coordinates[axis], meaning: 'Axis of the matrix.'}));
+
+/** Whether any record has a figure in the column. */
+const blank = new Set(['n/a', 'none', '–']);
+const isUsed = (column) => (!column.only || column.only()) &&
+  (!column.text || records.some((r) => !blank.has(String(r.display[column.text]))));
+
+/** What the address calls a column: titles may be equal. */
+const keyOf = (column) => column.key ?? column.text;
 
 /** The samples that a record is worth as a sortable number; bounds go beyond the curve's ends. */
 function worth(record) {
@@ -128,14 +136,14 @@ function count(number, noun) {
 
 function showHead() {
   byId('lede').textContent = `${count(methods.length, 'method')} at ${count(distances.length, 'distance')}` +
-    `${runs.length > 1 ? ` in ${count(runs.length, 'member')} of a matrix, ${count(records.length, 'record')}` : ''}, held ` +
-    `against a reference of ${count(Math.round(runs[0].results.reference.samples), 'sample')} per pixel.`;
-  for (const {title, meaning} of columns) byId('meanings').append(element('dt', '', title), element('dd', '', meaning));
+    `${runs.length > 1 ? ` in ${count(runs.length, 'member')} of a matrix, ${count(records.length, 'record')}` : ''}, compared ` +
+    `with a reference of ${count(Math.round(runs[0].results.reference.samples), 'sample')} per pixel.`;
+  for (const {title, meaning} of columns.filter(isUsed)) byId('meanings').append(element('dt', '', title), element('dd', '', meaning));
 }
 
 /** Which member the parts below are of, where there are several, and where its figures come from. */
 function showFocus() {
-  byId('focus').textContent = runs.length > 1 ? `In detail, beside the tables and plots of all that is chosen: ${placeOf(focus())}.` : '';
+  byId('focus').textContent = runs.length > 1 ? `Details below: ${placeOf(focus())}.` : '';
   byId('provenance').replaceChildren(...focus().provenance.flatMap(({label, value}) =>
     [element('dt', '', label), element('dd', label === 'Warning' ? 'warning' : '', value)]));
 }
@@ -212,7 +220,7 @@ function showRows(rows, visible) {
 
 function showTable() {
   const rows = sorted(filtered().filter((record) => state.all || record.distance === state.distance));
-  const visible = [...(runs.length > 1 ? axisColumns : []), ...columns.filter((column) => !column.only || column.only())];
+  const visible = [...(runs.length > 1 ? axisColumns : []), ...columns.filter(isUsed)];
   byId('rows').textContent = `${count(rows.length, 'record')} of ${records.length}`;
   byId('table').tHead.replaceChildren(element('tr', '', headCell(nameColumn), ...visible.map(headCell)));
   showRows(rows, visible);
@@ -236,7 +244,7 @@ function showPair(pair) {
   byId('pair-picture').style.aspectRatio = shown()[0].size.join(' / ');
   byId('pair-caption').replaceChildren(swatch('first', pair.methods[0], pair.closer[0]),
     swatch('second', pair.methods[1], pair.closer[1]),
-    element('span', 'verdict neither', `as close, or noise decides: ${(100 * undecided).toFixed(1)}%`));
+    element('span', 'verdict neither', `tie within noise: ${(100 * undecided).toFixed(1)}%`));
 }
 
 function pairCell(row, column) {
@@ -405,6 +413,28 @@ function logAxis(title, range) {
   };
 }
 
+/** Its ticks are the distances. */
+function distanceAxis(range) {
+  const axis = logAxis('Distance', range);
+  return {...axis, afterBuildTicks: (scale) => { scale.ticks = [...distances].sort((a, b) => a - b).map((value) => ({value})); },
+    ticks: {...axis.ticks, autoSkip: true, callback: (value) => figure(value)}};
+}
+
+/** An entry for each name, with a word for its dashes, which are too long for a legend. */
+function legend(width) {
+  const entries = (plot) => {
+    const sets = plot.data.datasets;
+    return Chart.defaults.plugins.legend.labels.generateLabels(plot)
+      .filter(({datasetIndex: i}) => sets.findIndex((set) => set.label === sets[i].label) === i)
+      .map((entry) => {
+        const dash = sets[entry.datasetIndex].borderDash;
+        return {...entry, text: dash?.length ? `${entry.text} (${dash[0] < 3 ? 'dotted' : 'dashed'})` : entry.text};
+      });
+  };
+  return {position: 'bottom', labels: {usePointStyle: true, boxWidth: width, boxHeight: 9, padding: 16,
+    color: styleValue('--ink'), generateLabels: entries}};
+}
+
 function tooltipText(item) {
   const set = item.dataset;
   const {x, y} = item.raw;
@@ -430,7 +460,7 @@ function showPlot() {
   Chart.getChart('plot')?.destroy();
   const {drawn, curve, floor, missing} = plotContent();
   byId('plot-note').textContent = missing.length
-    ? `Not shown, because an error of 0 or none has no place on a logarithmic axis: ${
+    ? `Not shown, because the logarithmic axis cannot show an error of 0 or none: ${
       [...new Set(missing.map((r) => r.method))].join(', ')}.`
     : '';
   byId('plot').parentElement.hidden = drawn.length + curve.length === 0;
@@ -455,11 +485,7 @@ function showPlot() {
       maintainAspectRatio: false,
       scales: {x: logAxis('Frame time (ms)', x), y: logAxis('Shading error', y)},
       plugins: {
-        legend: {
-          position: 'bottom',
-          labels: {usePointStyle: true, boxWidth: 9, boxHeight: 9, padding: 16, color: styleValue('--ink'),
-            filter: (entry, {datasets: all}) => all.findIndex((set) => set.label === entry.text) === entry.datasetIndex},
-        },
+        legend: legend(9),
         tooltip: {callbacks: {label: tooltipText}, displayColors: false},
       },
     },
@@ -468,7 +494,7 @@ function showPlot() {
 
 // ---- figures against distance
 
-const mostFronts = 12;  // lines that can be told apart
+const mostFronts = 12;  // lines that readers can distinguish
 
 /** A method's figure at each distance, the mean over the members that have it there. */
 function trendSeries(method, value) {
@@ -499,10 +525,10 @@ function showTrend(id, title, value) {
     options: {
       animation: false,
       maintainAspectRatio: false,
-      scales: {x: logAxis('Distance', padded(points.map((p) => p.x), 1.15, 1.15)),
+      scales: {x: distanceAxis(padded(points.map((p) => p.x), 1.15, 1.15)),
         y: logAxis(title, padded(points.map((p) => p.y), 1.4, 1.5))},
       plugins: {
-        legend: {position: 'bottom', labels: {usePointStyle: true, boxWidth: 9, boxHeight: 9, padding: 16, color: styleValue('--ink')}},
+        legend: legend(9),
         tooltip: {callbacks: {label: trendText}, displayColors: false},
       },
     },
@@ -563,10 +589,7 @@ function showSparkle() {
         y: logAxis('Share of pixels', padded(shares, 1, 1.5)),
       },
       plugins: {
-        legend: {
-          position: 'bottom',
-          labels: {usePointStyle: true, boxWidth: 18, padding: 16, color: styleValue('--ink')},
-        },
+        legend: legend(18),
         tooltip: {callbacks: {label: sparkleText}, displayColors: false},
       },
     },
@@ -585,7 +608,7 @@ function picture(run, path, description) {
   const image = element('img');
   image.alt = description;
   image.draggable = false;
-  image.addEventListener('error', () => image.replaceWith(element('span', 'missing', `${place} is not there`)));
+  image.addEventListener('error', () => image.replaceWith(element('span', 'missing', `${place} is missing`)));
   image.src = data.pictures?.[place] ?? urlOf(place);
   return image;
 }
@@ -594,7 +617,7 @@ function picture(run, path, description) {
 function comparison(record) {
   const slider = element('input');
   Object.assign(slider, {type: 'range', min: 0, max: 100, step: 0.5, value: 50});
-  slider.setAttribute('aria-label', `How much of the reference shows beside ${record.method}, in percent`);
+  slider.setAttribute('aria-label', `Share of the reference shown next to ${record.method}, in percent`);
   const node = element('div', 'picture compare',
     picture(record.run, pngOf(record.images.reference), `Reference at distance ${record.distance}`),
     element('div', 'over', picture(record.run, pngOf(record.images.color), `${record.method} at distance ${record.distance}`)),
@@ -668,7 +691,7 @@ function writeState() {
   if (state.all) words.set('all', '1');
   for (const axis of axes) if (state.place[axis] !== undefined) words.set(axis, state.place[axis]);
   for (const method of state.hidden) words.append('without', method);
-  if (state.sort) words.set('sort', state.sort.title);
+  if (state.sort) words.set('sort', keyOf(state.sort));
   if (state.descending) words.set('down', '1');
   history.replaceState(null, '', `#${words}`);
 }
@@ -685,7 +708,7 @@ function readState() {
   }
   if (matching().length === 0) state.place = {};
   state.hidden = new Set(words.getAll('without').filter((method) => methods.includes(method)));
-  state.sort = [nameColumn, ...axisColumns, ...columns].find((column) => column.title === words.get('sort')) ?? null;
+  state.sort = [nameColumn, ...axisColumns, ...columns].find((column) => keyOf(column) === words.get('sort')) ?? null;
   state.descending = words.has('down');
 }
 

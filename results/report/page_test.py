@@ -340,6 +340,40 @@ def check_filters(browser, folder):
     assert browser.run(rows) == 4, "words of another page are passed over"
 
 
+def check_equal_titles(browser):
+    """The address keeps the column of the order, though another one has its title."""
+    sort = "return [document.querySelector('#table th[aria-sort]').cellIndex, document.querySelector('#table th[aria-sort]').textContent]"
+    browser.run("location.hash = ''; columns.find((column) => column.text === 'edges').title = 'Method'")
+    browser.wait_for("new Promise((done) => setTimeout(done, 200))")
+    browser.click("#table thead th:nth-child(5) button")
+    seen, address = browser.run(sort), browser.run("return location.hash")
+    assert seen == [4, "Method"], seen
+    browser.run("location.hash = ''")
+    browser.wait_for("new Promise((done) => setTimeout(done, 200))")
+    browser.run("location.hash = arguments[0]", address)
+    browser.wait_for("new Promise((done) => setTimeout(done, 200))")
+    assert browser.run(sort) == seen, (browser.run(sort), address)
+
+
+def check_reading(browser):
+    """Charts name every distance and say which lines are dashed; columns without figures are left out; menus fit."""
+    ticks = "return Chart.getChart('trend-error').scales.x.ticks.map((tick) => tick.label)"
+    assert browser.run(ticks) == ["1", "4", "16"], browser.run(ticks)
+    legend = browser.run("return Chart.getChart('plot').legend.legendItems.map((item) => item.text)")
+    assert legend[-2:] == ["noise floor (dashed)", "Pareto front (dotted)"], legend
+    heads = "return [...document.querySelectorAll('#table thead th')].map((cell) => cell.textContent)"
+    assert "Left out" in browser.run(heads)
+    browser.run("for (const record of records) record.display.left_out = 'none'; showTable()")
+    assert "Left out" not in browser.run(heads)
+    for width in (390, 1280):
+        browser.resize(width, 900)
+        browser.run("document.querySelector('.filter').open = true; window.scrollTo(0, 0)")
+        left, right = browser.run("""const box = document.getElementById('methods').getBoundingClientRect();
+            return [box.left, window.innerWidth - box.right]""")
+        assert left >= 0 and right >= 0, (width, left, right)
+    browser.run("document.querySelector('.filter').open = false")
+
+
 def check_print(browser, folder):
     """On paper there are no controls, and it is light though the reader's system is dark."""
     browser.send("POST", "/goog/cdp/execute", {"cmd": "Emulation.setEmulatedMedia", "params": {
@@ -369,6 +403,8 @@ def check_example(browser, folder):
     check_zoom_and_layout(browser)
     check_table(browser)
     check_filters(browser, folder)
+    check_equal_titles(browser)
+    check_reading(browser)
     check_looks(browser, folder)
     check_print(browser, folder)
     assert not (messages := browser.complaints()), messages

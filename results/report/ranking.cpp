@@ -52,21 +52,21 @@ std::string who_is_best(const DistanceRecords& sorted, std::size_t best) {
   const Record& first = sorted.front();
   const std::size_t pixels = first.pixels.interior;
   if (best == 1) {
-    return fmt::format("{} has the least shading error, {}, over {} interior pixels.", first.method,
+    return fmt::format("{} has the smallest shading error: {} over {} interior pixels.", first.method,
                        error_text(*ranked_error(first)), pixels);
   }
   std::vector<std::string> names;
   for (std::size_t i = 0; i < best; ++i) names.push_back(sorted[i].get().method);
   return fmt::format(
-      "{} have the least shading error, {} over {} interior pixels, and are not told apart: they differ "
-      "by no more than the reference's noise explains.",
+      "{} share the smallest shading error, {} over {} interior pixels: they differ by no more than the reference's "
+      "noise.",
       enumerated(names), range_text(*ranked_error(first), *ranked_error(sorted[best - 1])), pixels);
 }
 
 std::string who_is_worse(const DistanceRecords& sorted, std::size_t best) {
   std::vector<std::string> names;
   for (std::size_t i = best; i < sorted.size(); ++i) names.push_back(with_error(sorted[i]));
-  return fmt::format("Worse by more than the noise: {}.", enumerated(names));
+  return fmt::format("Significantly worse: {}.", enumerated(names));
 }
 
 // The first two of the ranking, pixel by pixel.
@@ -77,25 +77,26 @@ std::string where_it_is_closer(const Results& results, const DistanceRecords& so
   const auto farther = closer_share(results, first.distance, second.method, first.method);
   if (!closer || !farther) return {};
   return fmt::format(
-      "Pixel by pixel {} is closer to the reference than {} in {:.0f}% of the interior, and farther in {:.0f}%; in the "
-      "rest the two are as close, or noise decides.",
+      "{} is closer to the reference than {} in {:.0f}% of the interior pixels and farther in {:.0f}%; the rest are "
+      "ties "
+      "within noise.",
       first.method, second.method, 100.0 * *closer, 100.0 * *farther);
 }
 
 std::string worth_text(const Record& record) {
   if (!record.equivalent) return {};
   const auto [spp, side] = *record.equivalent;
-  if (side == CurveSide::below) return ", and one frame of direct is closer to the reference";
+  if (side == CurveSide::below) return ", and is less accurate than one frame of direct";
   const std::string count = side == CurveSide::above ? fmt::format("more than {:g}", spp) : equivalent_text(record);
-  if (count == "1") return ", and is as far from the reference as one frame of direct";
-  return fmt::format(", and is as close to the reference as the mean of {} frames of direct", count);
+  if (count == "1") return ", and is as accurate as one frame of direct";
+  return fmt::format(", and is as accurate as the mean of {} frames of direct", count);
 }
 
 std::string price_text(const Record& record) {
   const TimeRatio& ratio = record.ratio_to_direct;
-  if (!std::isfinite(ratio.median)) return fmt::format("takes {} ms a frame", three_figures(record.frame_ms.median));
+  if (!std::isfinite(ratio.median)) return fmt::format("takes {} ms per frame", three_figures(record.frame_ms.median));
   if (record.method == "direct") return "is direct itself";
-  return fmt::format("costs {} times what direct does", ratio_text(ratio));
+  return fmt::format("costs {} times as much as direct", ratio_text(ratio));
 }
 
 std::string what_it_costs(const Record& record) {
@@ -107,8 +108,9 @@ std::string what_the_bound_leaves(const Record& record) {
   const ErrorCauses& causes = record.error->causes;
   if (!causes.filter || !causes.method || !record.pixels.bound) return {};
   return fmt::format(
-      "The true distribution of normals under the same footprint filter is off by {}: that much is the "
-      "filter's. {} differs from that by {}, its own share (over {} pixels).",
+      "Even with the exact normal distribution, this footprint filter leaves an error of {}; {} differs from that "
+      "result "
+      "by {} (over {} pixels).",
       error_text(*causes.filter), record.method, error_text(*causes.method), *record.pixels.bound);
 }
 
@@ -116,8 +118,8 @@ std::string what_the_lookup_costs(const Record& record) {
   const std::optional<double>& light = record.error->causes.light;
   if (!light || !record.pixels.light) return {};
   return fmt::format(
-      "Its lookup of the environment by lobes differs by {} from all of that light shaded by the same "
-      "lobes (over {} pixels).",
+      "Its environment lookup is off by {}, compared with shading the whole environment by the same lobes (over {} "
+      "pixels).",
       error_text(*light), *record.pixels.light);
 }
 
@@ -129,7 +131,7 @@ std::string what_edges_add(const DistanceRecords& records) {
   if (errors.empty()) return {};
   const PixelCounts& pixels = records.front().get().pixels;
   const auto [least, most] = std::ranges::minmax(errors);
-  return fmt::format("Edges are {} of the object's pixels; there every method is off by {}, and none filters them.",
+  return fmt::format("Edges make up {} of the object's pixels; the error there is {}, because no method filters edges.",
                      percent(pixels.object - pixels.interior, pixels.object), range_text(least, most));
 }
 
@@ -203,8 +205,8 @@ std::string ratio_text(const TimeRatio& ratio) { return spread_text(ratio.median
 std::optional<std::string> linear_measures_warning(double distance, const std::optional<double>& standard_error) {
   if (!standard_error || *standard_error <= converged_standard_error) return {};
   return fmt::format(
-      "distance {:g}: measures of linear radiance (relative RMSE, relMSE, energy bias) rest on a few very bright "
-      "pixels: the reference's standard error is {:.2g} of the mean radiance",
+      "distance {:g}: measures of linear radiance (relative RMSE, relMSE, energy bias) depend on a few very "
+      "bright pixels: the reference's standard error is {:.2g} of the mean radiance",
       distance, *standard_error);
 }
 
@@ -217,32 +219,31 @@ std::vector<std::string> ranking_warnings(const Results& results) {
   return those_said(
       at_distances(
           results, [](const auto& records) { return has_not_converged(records); },
-          "the reference has not converged: its noise floor is more than half of the least error, so that all errors "
-          "are partly noise; give --noise, or raise --spp and --spp-max"),
+          "the reference has not converged: its noise floor exceeds half of the smallest error, so all errors are "
+          "partly noise; give --noise, or raise --spp and --spp-max"),
       at_distances(
           results, [&](const auto& records) { return pixels(records).object == 0; },
-          "the object covers no whole pixel: there is no error"),
+          "the object does not cover a whole pixel, so there is no error"),
       at_distances(
           results,
           [&](const auto& records) { return pixels(records).object > 0 && pixels(records).interior < too_few_pixels; },
-          fmt::format("there are fewer than {} interior pixels: methods are not ranked", too_few_pixels)),
+          fmt::format("there are fewer than {} interior pixels, so methods are not ranked", too_few_pixels)),
       at_distances(
           results, [&](const auto& records) { return has_few(pixels(records)); },
-          fmt::format("there are fewer than {} interior pixels (marked !): the ranking rests on few", few_pixels)),
+          fmt::format("there are fewer than {} interior pixels (marked !), so the ranking is uncertain", few_pixels)),
       at_distances(
           results, [&](const auto& records) { return has_nothing_to_filter(pixels(records)); },
-          "nothing is to be filtered: no pixel's footprint spans more than a texel of a normal map"),
-      at_distances(
-          results, is_all_noise,
-          "the methods differ by no more than the reference's noise explains: raise --spp to tell them apart"));
+          "nothing needs filtering: no pixel's footprint spans more than one texel of a normal map"),
+      at_distances(results, is_all_noise,
+                   "the methods differ by no more than the reference's noise: raise --spp to separate them"));
 }
 
 std::string pixels_and_noise(const Record& record) {
   const PixelCounts& pixels = record.pixels;
   const std::string text = fmt::format("{} object pixels, {} of them interior ({})", pixels.object, pixels.interior,
                                        percent(pixels.interior, pixels.object));
-  if (!record.error || !record.error->noise_floor) return text + "; the reference's noise is not known.";
-  return fmt::format("{}; noise floor {}, over interior pixels {}.", text, error_text(*record.error->noise_floor),
+  if (!record.error || !record.error->noise_floor) return text + "; the reference's noise is unknown.";
+  return fmt::format("{}; noise floor {}, {} over interior pixels.", text, error_text(*record.error->noise_floor),
                      error_text(record.error->causes.shading_floor));
 }
 
@@ -266,7 +267,7 @@ std::vector<std::string> findings(const Results& results, double distance) {
       *std::ranges::min_element(sorted.begin(), worse, {}, [](const Record& r) { return r.frame_ms.median; });
   return those_said(
       has_nothing_to_filter(sorted.front().get().pixels)
-          ? std::string("Nothing is to be filtered here: no pixel's footprint spans more than a texel of a normal map.")
+          ? std::string("Nothing needs filtering here: no pixel's footprint spans more than one texel of a normal map.")
           : std::string(),
       sorted.size() > 1 ? who_is_best(sorted, best) : std::string(),
       best < sorted.size() ? who_is_worse(sorted, best) : std::string(), where_it_is_closer(results, sorted),

@@ -117,15 +117,14 @@ TEST(RankingWarnings, TellDifferencesBelowTheNoise) {
 TEST(RankingWarnings, TellWhereNothingIsToBeFiltered) {
   Results results = run_of({method("a", 0.02), method("b", 0.04)});
   for (Record& record : results.records) record.pixels.minified = 0;
-  EXPECT_TRUE(says(warned(results), "nothing is to be filtered"));
-  EXPECT_TRUE(says(said(results), "Nothing is to be filtered here"));
+  EXPECT_TRUE(says(warned(results), "nothing needs filtering"));
+  EXPECT_TRUE(says(said(results), "Nothing needs filtering here"));
 }
 
 TEST(RankingWarnings, TellAReferenceThatHasNotConverged) {
   Results results = run_of({method("a", 0.02), method("b", 0.04)});
   for (Record& record : results.records) record.error->causes.shading_floor = 0.0101;
-  EXPECT_TRUE(
-      says(warned(results), "At distance 1 the reference has not converged: its noise floor is more than half"));
+  EXPECT_TRUE(says(warned(results), "At distance 1 the reference has not converged: its noise floor exceeds half"));
   for (Record& record : results.records) record.error->causes.shading_floor = 0.0099;
   EXPECT_EQ(warned(results), "");
 }
@@ -144,34 +143,35 @@ TEST(RankingWarnings, LeaveVeryBrightPixelsToMeasuresOfLinearRadiance) {
 
 TEST(Findings, NameTheBestAndThoseThatAreWorse) {
   const std::string text = said(run_of({method("direct", 0.09), method("toksvig", 0.02), method("lean", 0.05)}));
-  EXPECT_TRUE(says(text, "toksvig has the least shading error, 0.02000, over 5000 interior pixels."));
-  EXPECT_TRUE(says(text, "Worse by more than the noise: lean (0.05000) and direct (0.09000)."));
-  EXPECT_TRUE(says(text, "Edges are 38% of the object's pixels; there every method is off by 0.12000 to 0.19000"));
+  EXPECT_TRUE(says(text, "toksvig has the smallest shading error: 0.02000 over 5000 interior pixels."));
+  EXPECT_TRUE(says(text, "Significantly worse: lean (0.05000) and direct (0.09000)."));
+  EXPECT_TRUE(says(text, "Edges make up 38% of the object's pixels; the error there is 0.12000 to 0.19000"));
 }
 
 TEST(Findings, ClaimNoWinnerWithinTheNoise) {
   const std::string text = said(run_of({method("lean", 0.0205), method("toksvig", 0.02), method("direct", 0.09)}));
   EXPECT_TRUE(says(text,
-                   "toksvig and lean have the least shading error, 0.02000 to 0.02050 over 5000 interior pixels, "
-                   "and are not told apart"));
-  EXPECT_FALSE(says(text, "toksvig has the least"));
+                   "toksvig and lean share the smallest shading error, 0.02000 to 0.02050 over 5000 interior pixels: "
+                   "they differ by no more than the reference's noise."));
+  EXPECT_FALSE(says(text, "toksvig has the smallest"));
 }
 
 TEST(Findings, SayWhatTheCheapestOfTheBestCosts) {
   Results results = run_of({method("lean", 0.0205), method("toksvig", 0.02), method("direct", 0.09)});
   results.records[0].frame_ms.median = 1.0;
   results.records[0].equivalent = EquivalentSamples{41.2, CurveSide::within};
-  EXPECT_TRUE(says(said(results),
-                   "lean costs 1.30 (1.20-1.40) times what direct does, and is as close to the reference "
-                   "as the mean of 41 frames of direct."));
-  results.records[0].ratio_to_direct = {1.02, 0.9, 1.1};
-  results.records[0].equivalent = EquivalentSamples{64, CurveSide::above};
   EXPECT_TRUE(
       says(said(results),
-           "lean costs 1.02 (0.900-1.10) times what direct does, and is as close to the reference as the mean of "
-           "more than 64 frames of direct."));
+           "lean costs 1.30 (1.20-1.40) times as much as direct, and is as accurate as the mean of 41 frames of "
+           "direct."));
+  results.records[0].ratio_to_direct = {1.02, 0.9, 1.1};
+  results.records[0].equivalent = EquivalentSamples{64, CurveSide::above};
+  EXPECT_TRUE(says(
+      said(results),
+      "lean costs 1.02 (0.900-1.10) times as much as direct, and is as accurate as the mean of more than 64 frames "
+      "of direct."));
   results.records[0].equivalent = EquivalentSamples{1, CurveSide::below};
-  EXPECT_TRUE(says(said(results), "one frame of direct is closer"));
+  EXPECT_TRUE(says(said(results), "is less accurate than one frame of direct"));
 }
 
 // A method is not compared with itself.
@@ -183,12 +183,12 @@ TEST(Findings, SayNothingOfWhatDirectIsWorth) {
 
 TEST(Findings, SayWhatTheBoundLeaves) {
   Results results = run_of({method("toksvig", 0.02), method("direct", 0.09)});
-  EXPECT_FALSE(says(said(results), "true distribution"));
+  EXPECT_FALSE(says(said(results), "exact normal distribution"));
   results.records[0].error->causes.filter = 0.015;
   results.records[0].error->causes.method = 0.008;
   results.records[0].pixels.bound = 1024;
-  EXPECT_TRUE(says(said(results), "is off by 0.01500"));
-  EXPECT_TRUE(says(said(results), "toksvig differs from that by 0.00800, its own share (over 1024 pixels)"));
+  EXPECT_TRUE(says(said(results), "leaves an error of 0.01500"));
+  EXPECT_TRUE(says(said(results), "toksvig differs from that result by 0.00800 (over 1024 pixels)"));
 }
 
 }  // namespace

@@ -54,8 +54,8 @@ std::string named(const Candidate& candidate) {
 }
 
 std::string cost_text(const Candidate& candidate) {
-  if (is_plain(candidate)) return "what direct costs";
-  return fmt::format("{} times direct", ratio_text(candidate.cost));
+  if (is_plain(candidate)) return "the cost of direct";
+  return fmt::format("{} times the cost of direct", ratio_text(candidate.cost));
 }
 
 std::string figures_of(const Candidate& candidate) {
@@ -68,15 +68,16 @@ std::string figures_of(const Candidate& candidate) {
 std::string what_is_chosen(const MaterialAdvice& advice, const Limits& limits) {
   const Candidates& all = advice.candidates;
   if (!advice.choice.chosen) {
-    if (!advice.choice.nearest) return "Nothing can be said: no distance shows 20 interior pixels of it.";
-    return fmt::format("None of {} candidates keeps to {}; {} comes closest: {}.", all.size(), limits_text(limits),
-                       named(all[*advice.choice.nearest]), figures_of(all[*advice.choice.nearest]));
+    if (!advice.choice.nearest) return "No recommendation: no distance shows 20 interior pixels of this material.";
+    return fmt::format("None of {} candidates meets the limit, {}; {} comes closest: {}.", all.size(),
+                       limits_text(limits), named(all[*advice.choice.nearest]),
+                       figures_of(all[*advice.choice.nearest]));
   }
   const Candidate& chosen = all[*advice.choice.chosen];
   if (advice.choice.filter_nothing)
-    return fmt::format("Filter nothing: no candidate gains more than the noise over plain direct, {}.",
+    return fmt::format("Do not filter: no candidate is more accurate than direct beyond noise; {}.",
                        figures_of(chosen));
-  return fmt::format("Take {}: {}.", named(chosen), figures_of(chosen));
+  return fmt::format("Use {}: {}.", named(chosen), figures_of(chosen));
 }
 
 std::string what_is_tied(const MaterialAdvice& advice) {
@@ -84,33 +85,35 @@ std::string what_is_tied(const MaterialAdvice& advice) {
   std::vector<std::string> names;
   for (const std::size_t i : advice.choice.tied)
     names.push_back(fmt::format("{} ({})", named(advice.candidates[i]), figures_of(advice.candidates[i])));
-  return fmt::format("Tied with it within noise: {}.", fmt::join(names, "; "));
+  return fmt::format("Tied within noise: {}.", fmt::join(names, "; "));
 }
 
 std::string how_sure(const MaterialAdvice& advice) {
   if (!advice.choice.chosen) return {};
   const Candidate& chosen = advice.candidates[*advice.choice.chosen];
   const std::string noise = chosen.noise ? error_text(*chosen.noise) : "unknown";
-  return fmt::format("Over {} interior pixels at distance {:g}; the standard error of its error is {}.",
-                     fmt::join(advice.pixels, ", "), fmt::join(advice.distances, ", "), noise);
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < advice.pixels.size(); ++i)
+    parts.push_back(fmt::format("{} at distance {:g}", advice.pixels[i], advice.distances[i]));
+  return fmt::format("Interior pixels measured: {}. Standard error of the error: {}.", fmt::join(parts, ", "), noise);
 }
 
 std::string against_plain(const MaterialAdvice& advice) {
   const auto plain = std::ranges::find_if(advice.candidates, is_plain);
   if (!advice.choice.chosen || plain == advice.candidates.end() || is_plain(advice.candidates[*advice.choice.chosen]))
     return {};
-  std::string text = fmt::format("Without filtering the error is {}", error_text(plain->error));
+  std::string text = fmt::format("Without filtering, the error is {}", error_text(plain->error));
   if (advice.closer_than_plain)
-    text += fmt::format("; pixel by pixel it is closer than direct in {:.0f}% and farther in {:.0f}%, beyond noise",
+    text += fmt::format("; filtering improves {:.0f}% of the pixels and worsens {:.0f}%, beyond noise",
                         100.0 * (*advice.closer_than_plain)[0], 100.0 * (*advice.closer_than_plain)[1]);
   return text + ".";
 }
 
 std::string what_better_costs(const MaterialAdvice& advice) {
   if (!advice.choice.chosen) return {};
-  if (!advice.choice.better) return "Nothing that was tried is closer to the reference beyond noise.";
+  if (!advice.choice.better) return "No candidate is more accurate beyond noise.";
   const Candidate& better = advice.candidates[*advice.choice.better];
-  return fmt::format("The cheapest that is closer beyond noise is {}: {}.", named(better), figures_of(better));
+  return fmt::format("To reduce the error further, use {}: {}.", named(better), figures_of(better));
 }
 
 }  // namespace
@@ -167,12 +170,22 @@ std::vector<std::size_t> contenders(const std::vector<Candidate>& candidates, co
     return a.error * (1.0 + error_share) + noise < b.error && a.worst * (1.0 + error_share) + noise < b.worst &&
            a.cost.median * (1.0 + cost_share) < b.cost.median && (!limits.max_bytes || a.bytes <= b.bytes);
   };
-  std::vector<std::size_t> kept;
+  const auto is_over = [&](const Candidate& c) {
+    return limits.max_cost && c.cost.median * (1.0 - cost_share) > *limits.max_cost;
+  };
+  Indices kept, over;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& candidate = candidates[i];
     const bool beaten = std::ranges::any_of(candidates, [&](const Candidate& c) { return beats(c, candidate); });
-    if (!beaten || is_plain(candidate)) kept.push_back(i);
+    if (is_plain(candidate) || (!beaten && !is_over(candidate))) kept.push_back(i);
+    if (!is_plain(candidate) && !beaten && is_over(candidate)) over.push_back(i);
   }
+  // Of those over the limit of cost the cheapest that is more accurate than all within it: what a lower error costs.
+  const auto error_of = [&](std::size_t i) { return candidates[i].error; };
+  const double least = kept.empty() ? INFINITY : error_of(*std::ranges::min_element(kept, {}, error_of));
+  std::erase_if(over, [&](std::size_t i) { return error_of(i) >= least; });
+  if (!over.empty())
+    kept.push_back(*std::ranges::min_element(over, {}, [&](std::size_t i) { return candidates[i].cost.median; }));
   return kept;
 }
 
@@ -180,13 +193,12 @@ std::string limits_text(const Limits& limits) {
   if (limits.max_error) return fmt::format("an error of at most {:g} at every distance", *limits.max_error);
   if (limits.max_cost) return fmt::format("at most {:g} times the cost of direct", *limits.max_cost);
   if (limits.max_bytes) return fmt::format("at most {}", readable_bytes(*limits.max_bytes));
-  return "the least error";
+  return "the smallest error";
 }
 
 std::vector<std::string> advice_sentences(const MaterialAdvice& advice, const Limits& limits) {
   std::vector<std::string> sentences{what_is_chosen(advice, limits), what_is_tied(advice), how_sure(advice),
                                      against_plain(advice), what_better_costs(advice)};
-  if (!advice.command.empty()) sentences.push_back("Bake it: " + advice.command);
   std::erase(sentences, std::string());
   return sentences;
 }
@@ -199,6 +211,7 @@ std::string recommendation_text(const Recommendation& recommendation) {
     text += fmt::format("\n{}\n", advice.material);
     for (const std::string& sentence : advice_sentences(advice, recommendation.limits))
       text += fmt::format("  {}\n", sentence);
+    if (!advice.command.empty()) text += fmt::format("  Bake it: {}\n", advice.command);
   }
   return text;
 }

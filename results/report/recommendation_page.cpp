@@ -17,6 +17,7 @@ namespace footprint {
 
 namespace {
 
+constexpr std::string_view words_cell = "class=\"words-column\"";  // left-aligned, as in page.css
 constexpr double plot_width = 860, plot_height = 380, margin_left = 70, margin_right = 150, margin_top = 26,
                  margin_bottom = 46;
 
@@ -70,7 +71,7 @@ std::string axes_svg(const Axis& x, const Axis& y) {
     svg += line_between("grid", x.from, y.at(tick), x.to, y.at(tick));
     svg += text_at(x.from - 6, y.at(tick) + 4, "end", fmt::format("{:g}", tick));
   }
-  svg += text_at(0.5 * (x.from + x.to), y.from + 36, "middle", "frame time over direct");
+  svg += text_at(0.5 * (x.from + x.to), y.from + 36, "middle", "frame time relative to direct");
   return svg + text_at(x.from, y.to - 4, "end", "error");
 }
 
@@ -155,22 +156,27 @@ std::string front_svg(const MaterialAdvice& advice, const Limits& limits) {
     const bool is_chosen = chosen && chosen->method == candidate.method && chosen->footprint == candidate.footprint;
     svg += dot_svg(candidate, is_on_front(shown, candidate), is_chosen, x, y, labels);
   }
-  const std::string label = "Error against cost; the table holds the same figures";
-  return fmt::format(R"(<svg class="front" viewBox="0 0 {} {}" role="img" aria-label="{}">{}</svg>)", plot_width,
-                     plot_height, label, svg);
+  const std::string label = "Error against cost; the table shows the same values";
+  return fmt::format(
+      R"(<div class="scroll"><svg class="front" viewBox="0 0 {} {}" role="img" aria-label="{}">{}</svg></div>)",
+      plot_width, plot_height, label, svg);
 }
 
 std::string table_html(const MaterialAdvice& advice) {
   std::string rows;
   for (std::size_t i = 0; i < advice.candidates.size(); ++i) {
     const Candidate& c = advice.candidates[i];
-    rows += fmt::format("<tr{}><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                        advice.choice.chosen == i ? R"( class="chosen-row")" : "", html_escaped(c.method),
-                        html_escaped(c.footprint), error_text(c.error), error_text(c.worst),
-                        c.noise ? error_text(*c.noise) : "n/a", ratio_text(c.cost), readable_bytes(c.bytes));
+    rows += fmt::format(
+        "<tr{0}><td {8}>{1}</td><td {8}>{2}</td><td>{3}</td><td>{4}</td><td>{5}</td><td>{6}</td><td>{7}</td></tr>\n",
+        advice.choice.chosen == i ? R"( class="chosen-row")" : "", html_escaped(c.method), html_escaped(c.footprint),
+        error_text(c.error), error_text(c.worst), c.noise ? error_text(*c.noise) : "n/a", ratio_text(c.cost),
+        readable_bytes(c.bytes), words_cell);
   }
-  return "<div class=\"scroll\"><table><thead><tr><th>Method</th><th>Footprint filter</th><th>Error</th><th>Worst</th>"
-         "<th>Noise</th><th>x direct</th><th>Bytes</th></tr></thead><tbody>\n" +
+  return fmt::format("<div class=\"scroll\"><table><thead><tr><th {0}>Method</th><th {0}>Footprint filter</th>",
+                     words_cell) +
+         "<th>Error</th><th>Worst "
+         "error</th>"
+         "<th>Noise</th><th>Cost</th><th>Memory</th></tr></thead><tbody>\n" +
          rows + "</tbody></table></div>\n";
 }
 
@@ -178,8 +184,10 @@ std::string advice_html(const MaterialAdvice& advice, const Limits& limits) {
   std::string words;
   for (const std::string& sentence : advice_sentences(advice, limits))
     words += fmt::format("<li>{}</li>\n", html_escaped(sentence));
-  return fmt::format("<section><h2>{}</h2>\n<ul class=\"words\">\n{}</ul>\n{}{}</section>\n",
-                     html_escaped(advice.material), words, front_svg(advice, limits), table_html(advice));
+  const std::string command =
+      advice.command.empty() ? "" : fmt::format("<pre class=\"scroll\">{}</pre>\n", html_escaped(advice.command));
+  return fmt::format("<section><h2>{}</h2>\n<ul class=\"words\">\n{}</ul>\n{}{}{}</section>\n",
+                     html_escaped(advice.material), words, command, front_svg(advice, limits), table_html(advice));
 }
 
 std::string display_picture(const std::string& exr) { return exr.substr(0, exr.rfind('.')) + ".png"; }
@@ -192,12 +200,12 @@ std::string pictures_html(const Recommendation& recommendation) {
     };
     figures += fmt::format(
         "<figure><div class=\"trio\">{}{}{}</div><figcaption class=\"note\">Distance {:g}: the reference, "
-        "{} under {}, and its error</figcaption></figure>\n",
+        "{} under {}, and the error</figcaption></figure>\n",
         image(display_picture(p.reference), "reference"), image(display_picture(p.picture), "method"),
         image(p.error, "error"), p.distance, html_escaped(p.method), html_escaped(p.footprint));
   }
   return figures.empty() ? std::string()
-                         : "<section><h2>Pictures</h2>\n<div class=\"pairs\">\n" + figures + "</div></section>\n";
+                         : "<section><h2>Images</h2>\n<div class=\"pairs\">\n" + figures + "</div></section>\n";
 }
 
 std::string provenance_html(const Recommendation& r) {
@@ -205,18 +213,13 @@ std::string provenance_html(const Recommendation& r) {
   for (const std::string& report : r.reports)
     links += fmt::format("<li><a href=\"{0}\">{0}</a></li>", html_escaped(report));
   return fmt::format(
-      "<section><h2>Where the figures come from</h2>\n<p class=\"note\">{}, {} x {} pixels, distances {:g}. Reference: "
-      "{} samples "
-      "a pixel on average. Errors are normalised colour errors over interior pixels, their mean over the distances; "
-      "costs are "
-      "whole frames with the method on every material, over those of direct under trilinear lookups, measured in turn. "
-      "{} of {} "
-      "candidates were measured in full{}. {}; {}; {}.</p>\n<p class=\"note\">The full "
-      "runs:</p><ul>{}</ul></section>\n",
+      "<section><h2>Provenance</h2>\n<p class=\"note\">{}, {} x {} pixels, distances {:g}. Reference: "
+      "{} samples per pixel on average. Error: normalised colour error over interior pixels, mean over the distances. "
+      "Cost: frame time with the method on every material, relative to direct under trilinear lookups. {} of {} "
+      "candidates were measured in full{}. {}; {}; {}.</p>\n<p class=\"note\">Full runs:</p><ul>{}</ul></section>\n",
       html_escaped(r.scene.source), r.width, r.height, fmt::join(r.distances, ", "), three_figures(r.reference.samples),
-      r.measured, r.tried, r.exhaustive ? "" : "; the others lost a coarse run by far",
-      html_escaped(r.backend.renderer), html_escaped(r.backend.cpu), "footprint " + html_escaped(r.tool.version),
-      links);
+      r.measured, r.tried, r.exhaustive ? "" : "; a coarse run ruled out the others", html_escaped(r.backend.renderer),
+      html_escaped(r.backend.cpu), "footprint " + html_escaped(r.tool.version), links);
 }
 
 }  // namespace
@@ -226,9 +229,9 @@ std::string recommendation_page(const Recommendation& recommendation) {
   for (const MaterialAdvice& advice : recommendation.materials) body += advice_html(advice, recommendation.limits);
   body += pictures_html(recommendation) + provenance_html(recommendation);
   const std::string title = html_escaped(recommendation.scene.name);
-  std::string lede = html_escaped("Asked for: " + limits_text(recommendation.limits) + ".");
+  std::string lede = html_escaped("Goal: " + limits_text(recommendation.limits) + ".");
   for (const auto& [method, reason] : recommendation.left_out)
-    lede += html_escaped(fmt::format(" {} is left out, which this machine refuses: {}.", method, reason));
+    lede += html_escaped(fmt::format(" {} is left out because it does not run here: {}.", method, reason));
   return fill_page(
       {.file = "recommendation.html", .title = recommendation.scene.name + " – which method?", .scripts = false},
       {{"title", title}, {"lede", lede}, {"body", body}});

@@ -89,6 +89,12 @@ std::string answer(const Results& results, double distance) {
   return most_accurate(best, error_of_direct(results, distance)) + cheapest_gain(records, best);
 }
 
+// Hundredths are the least that a bake's time is good for.
+std::string seconds_text(double seconds) {
+  if (seconds < 0.01) return "<0.01 s";
+  return seconds < 9.995 ? fmt::format("{:.2f} s", seconds) : fmt::format("{} s", three_figures(seconds));
+}
+
 Row row_of(const Results& results, const Record& record) {
   const std::optional<double> error = ranked_error(record);
   const bool is_direct = record.method == "direct";
@@ -101,7 +107,7 @@ Row row_of(const Results& results, const Record& record) {
           record.failure ? std::string() : equivalent_text(record),
           record.failure ? std::string() : ratio_text(record.ratio_to_direct),
           record.failure ? std::string() : readable_bytes(record.precompute_bytes),
-          record.failure ? std::string() : fmt::format("{} s", three_figures(record.precompute_seconds))};
+          record.failure ? std::string() : seconds_text(record.precompute_seconds)};
 }
 
 // Two spaces between columns; the method's name to the left, all else to the right.
@@ -144,7 +150,8 @@ std::string legend(const Results& results) {
   return fmt::format(
       "  Error: mean colour difference from the reference, 0 to 1, over interior pixels; lower is better.\n"
       "  = supersampling at: samples per pixel of plain supersampling with the same error.\n"
-      "  Cost: frame time over that of direct: median, and the 95% interval of the median; {}.\n{}",
+      "  Cost: frame time over that of direct: median, and the 95% interval of the median;\n"
+      "  {}.\n{}",
       timing_text(results.timing), any_marked ? "  *: at the noise floor of the reference.\n" : "");
 }
 

@@ -69,6 +69,15 @@ TEST(ResultsSummary, FailedAndUnrankedRowsComeLast) {
   EXPECT_TRUE(says(results_summary(run_of({failed})), "no method is ranked"));
 }
 
+TEST(ResultsSummary, RoundsSecondsToHundredths) {
+  std::vector<Record> rows{row("a", 0.1, 1), row("b", 0.2, 1), row("c", 0.3, 1)};
+  rows[0].precompute_seconds = 0.0004;
+  rows[1].precompute_seconds = 1.4142;
+  rows[2].precompute_seconds = 31.42;
+  const std::string text = results_summary(run_of(rows));
+  for (const char* seconds : {"  <0.01 s\n", "   1.41 s\n", "   31.4 s\n"}) EXPECT_TRUE(says(text, seconds));
+}
+
 TEST(ResultsSummary, ColumnsAlign) {
   const std::string text = results_summary(example_results());
   EXPECT_TRUE(says(text, "Distance  Method"));

@@ -62,10 +62,10 @@ std::vector<std::string> error_row(const Record& record, const DistanceRecords& 
 }
 
 std::vector<MarkdownColumn> error_columns(const DistanceRecords& records) {
-  std::vector<MarkdownColumn> columns{{"Name", false}, {"Rank"},   {"Error"}, {"Shading"},
-                                      {"Edges"},       {"Filter"}, {"Method"}};
+  std::vector<MarkdownColumn> columns{{"Method", false}, {"Rank"},   {"Error"},    {"Shading"},
+                                      {"Edges"},         {"Filter"}, {"Own error"}};
   if (has_light(records)) columns.push_back({"Light"});
-  for (const char* title : {"Repr.", "Worth spp", "Pixels"}) columns.push_back({title});
+  for (const char* title : {"Lobe fit", "= spp", "Pixels"}) columns.push_back({title});
   return columns;
 }
 
@@ -163,7 +163,7 @@ std::string distance_section(const Results& results, double distance) {
 
 /// What does not depend on the distance: one line a method, more only where its figures differ.
 std::string preparation_section(const Results& results) {
-  const std::vector<MarkdownColumn> columns{{"Method", false}, {"Precompute s"},  {"Maps"},
+  const std::vector<MarkdownColumn> columns{{"Method", false}, {"Bake s"},        {"Maps"},
                                             {"B/texel"},       {"Cached", false}, {"Effects left out", false}};
   Rows rows;
   for (const Record& record : results.records) {
@@ -175,7 +175,7 @@ std::string preparation_section(const Results& results) {
                                  list_text(record.effects_left_out, "none")};
     if (std::ranges::find(rows, row) == rows.end()) rows.push_back(std::move(row));
   }
-  return "\n## What each method prepares\n\n" + markdown_table(columns, rows);
+  return "\n## Bakes\n\n" + markdown_table(columns, rows);
 }
 
 /// Flicker between the frames of a zoom.
@@ -188,7 +188,7 @@ std::string flicker_section(const Results& results) {
                     flicker.noise_floor ? error_text(*flicker.noise_floor) : "n/a"});
   }
   if (rows.empty()) return {};
-  return "\n## Flicker against the frame before\n\n" +
+  return "\n## Flicker\n\n" +
          markdown_table({{"Frame"}, {"Method", false}, {"Mean"}, {"99th percentile"}, {"Floor"}}, rows);
 }
 
@@ -211,8 +211,8 @@ std::string quantity_section(const Results& results) {
   for (const QuantityFigure& figure : results.quantities) {
     rows.push_back({figure.name, figure.method, figure.quantity, fmt::format("{:.3g}", figure.value)});
   }
-  return "\n## Figures that no picture shows\n\n" +
-         markdown_table({{"Name", false}, {"Method", false}, {"Figure", false}, {"Value"}}, rows);
+  return "\n## Other quantities\n\n" +
+         markdown_table({{"Name", false}, {"Method", false}, {"Quantity", false}, {"Value"}}, rows);
 }
 
 /// Frame builds, where a method has one: they are part of its price at that distance.
@@ -267,28 +267,33 @@ std::string supersampling_section(const Results& results) {
 std::string warnings_section(const Results& results) {
   const std::vector<std::string> warnings = ranking_warnings(results);
   if (warnings.empty()) return {};
-  std::string text = "\n## Before you rank\n\n";
+  std::string text = "\n## Caveats\n\n";
   for (const std::string& warning : warnings) text += list_entry(warning);
   return text;
 }
 
 std::string words_section(const Results& results) {
-  std::string text = "\n## In words\n";
+  std::string text = "\n## Summary\n";
   for (const double distance : distances_of(results)) {
     text += fmt::format("\nDistance {}:\n\n", distance);
     for (const std::string& finding : findings(results, distance)) text += list_entry(finding);
   }
   return text + R"(
-Errors are normalised colour errors. Error: mean over the object's pixels. Shading: over interior pixels alone, in which
-the reference sees one smooth piece of surface (`Pixels` counts them); methods are ranked by it, and share a place (=)
-where they differ by no more than the reference's noise explains. Edges: over the object's other pixels, which no method
-filters. Filter: of the shading error what the true distribution of normals leaves under the same footprint filter.
-Method: what the method's picture differs from that by. Light: what its lookup of an environment by lobes differs by from
-all of that light. Repr.: the error of the method's finest level, supersampled. Worth spp: the frames of `direct`,
-averaged, that have the same shading error. % of pixels closer than: interior pixels in which the row's method is closer
-to the reference than the column's, by more than the reference's noise explains. Frame ms: median (least-90th
-percentile). x direct: frame time over that of `direct`, median (95% interval of the median).
-Fetches, Lobes: texture lookups and lobes a pixel, counted.
+Errors are normalised colour errors; lower is better.
+
+- Error: mean over the object's pixels.
+- Shading: mean over interior pixels, in which the reference sees one smooth piece of surface; `Pixels` counts them.
+- Rank: by the shading error; methods that differ by no more than the reference's noise share a rank (=).
+- Edges: mean over the object's other pixels, which no method filters.
+- Filter: shading error of the exact normal distribution under the same footprint filter.
+- Own error: difference between the method's image and that.
+- Light: error of its environment lookup, compared with the whole environment.
+- Lobe fit: error of the method's finest level, supersampled. It remains without any filtering.
+- = spp: samples per pixel of plain supersampling with the same shading error.
+- % of pixels closer than: interior pixels in which the row's method is closer to the reference, beyond noise.
+- Frame ms: median (minimum-90th percentile).
+- x direct: frame time over that of `direct`: median (95% interval of the median).
+- Fetches, Lobes: texture lookups and lobes per pixel, counted.
 )";
 }
 

@@ -100,7 +100,7 @@ Surface surface() {
   return {.name = "car_paint",
           .summary = "small flat flakes, each leaning its own way, in a coat of paint with a lobe of its own",
           .parameters = {whole_option("flakes", 1024, 1, 8192, "cells for flakes along the map's width"),
-                         number_option("coverage", 0.5, 0, 1, "share of the cells that hold a flake"),
+                         number_option("coverage", 0.5, 0, 1, "share of the cells that contain a flake"),
                          number_option("flake_tilt", 0.2, 0, 1, "alpha of the Beckmann distribution of flakes"),
                          number_option("flake_alpha", 0.03, 1e-3, 1, "alpha of a flake's own lobe"),
                          number_option("base_alpha", 0.2, 1e-3, 1, "alpha of the lobe of the paint between flakes"),

@@ -65,7 +65,7 @@ std::vector<Case> buffers() {
       {.name = "DataUriTooShort",
        .arguments = {model},
        .exit_code = 2,
-       .errors_have = {"quad.gltf", "buffers[0]", "data URI holds", "byteLength"},
+       .errors_have = {"quad.gltf", "buffers[0]", "data URI has", "byteLength"},
        .files = {{"quad.gltf", cut_data_uri()}}},
       {.name = "GlbCutShort",
        .arguments = {"{}/quad.glb"},
@@ -167,7 +167,7 @@ std::vector<Case> textures() {
   return {
       missing,
       row("TextureEmpty", "empty", ""),
-      row("TextureThatIsNoImage", "not an image", "words, not a picture"),
+      row("TextureThatIsNoImage", "not an image", "words, not an image"),
       row("TextureOfHostileSize", "100000 x 100000", png_text(100000, 100000, {"\0", 1})),
       row("TextureCutShort", "truncated", whole.substr(0, whole.size() - 6)),
   };

@@ -22,9 +22,9 @@ std::vector<Case> footprints() {
       row("ReversedFootprint", {"--region", "0.5,0,0.25,1"}, {"--region", "is reversed", "u0,v0,u1,v1"}),
       row("FootprintThatIsNoNumber", {"--region", "0,0,nan,1"}, {"--region", "is not finite"}),
       row("HugeFootprint", {"--region", "0,0,1e9,1"}, {"--region", "64 maps"}),
-      row("FootprintOfThreeNumbers", {"--region", "0,0,1"}, {"--region", "`0,0,1` is no rectangle", "0,0,0.5,0.5"}),
-      row("FootprintOfFiveNumbers", {"--region", "0,0,1,1,1"}, {"--region", "is no rectangle"}),
-      row("FootprintInWords", {"--region", "left"}, {"--region", "`left` is no rectangle"}),
+      row("FootprintOfThreeNumbers", {"--region", "0,0,1"}, {"--region", "`0,0,1` is not a rectangle", "0,0,0.5,0.5"}),
+      row("FootprintOfFiveNumbers", {"--region", "0,0,1,1,1"}, {"--region", "is not a rectangle"}),
+      row("FootprintInWords", {"--region", "left"}, {"--region", "`left` is not a rectangle"}),
       row("EmptyTexels", {"--texels", "1,1,1,2"}, {"--texels 1,1,1,2", "is empty"}),
       row("FootprintTwice", {"--texels", "0,0,1,1", "--region", "0,0,1,1"}, {"--texels", "--region"}),
   };
@@ -59,7 +59,7 @@ std::vector<Case> sources() {
       of("MissingExr", "{}/missing.exr", {"missing.exr", "no such file"}),
       of("MisspeltSceneOfNdf", "ribbed_plan", {"ribbed_plan", "did you mean `ribbed_plane`?"}),
       of("EmptyMap", "{}/empty.png", {"empty.png"}, {{"empty.png", ""}}),
-      of("TextAsMap", "{}/text.exr", {"text.exr"}, {{"text.exr", "no picture"}}),
+      of("TextAsMap", "{}/text.exr", {"text.exr"}, {{"text.exr", "no image"}}),
       of("CutOffMap", "{}/cut.png", {"cut.png"}, {{"cut.png", bumps_png().substr(0, 40)}}),
   };
 }

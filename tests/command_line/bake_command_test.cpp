@@ -33,7 +33,7 @@ std::vector<Case> wrong_bakes() {
     return Case{.name = name, .arguments = std::move(arguments), .exit_code = 2, .errors_have = std::move(errors)};
   };
   Case other_things = row("BakeOverOtherThings", {"v_grooves", "--method", "toksvig"},
-                          {"maps", "holds other things", "new or an empty folder"});
+                          {"maps", "is not empty", "new or an empty folder"});
   other_things.files = {{"maps/mine.txt", "mine"}};
   Case a_file = row("BakeOverAFile", {"v_grooves", "--method", "toksvig"}, {"maps"});
   a_file.files = {{"maps", "mine"}};
@@ -43,7 +43,7 @@ std::vector<Case> wrong_bakes() {
   Case no_maps = row("CopyByAMethodWithoutMapsForEngines", {"{}/quad.gltf", "--method", "toksvig", "--gltf"},
                      {"--gltf", "toksvig", "roughness_bake"});
   no_maps.files = {{"quad.gltf", make_bumpy_quad().text()}, {"bumps.png", bumps_png()}};
-  Case no_slopes = row("SlopesThatAreText", {"{}/slopes.exr", "--method", "lean"}, {"slopes.exr", "is no EXR"});
+  Case no_slopes = row("SlopesThatAreText", {"{}/slopes.exr", "--method", "lean"}, {"slopes.exr", "is not an EXR"});
   no_slopes.files = {{"slopes.exr", "text"}};
   return {
       other_things,
@@ -54,11 +54,11 @@ std::vector<Case> wrong_bakes() {
       row("BakeByTwoMethods", {"v_grooves", "--method", "toksvig,lean"}, {"--method", "name one"}),
       row("BakeTheReference", {"v_grooves", "--method", "reference"}, {"reference"}),
       row("BakeWhatIsBuiltForAView", {"v_grooves", "--method", "xu_vmf:space=camera"},
-          {"xu_vmf:space=camera", "anew for each view", "serve every view"}),
+          {"xu_vmf:space=camera", "builds its maps for each view", "serve every view"}),
       nothing,
       row("BakeAMissingScene", {"{}/missing.gltf", "--method", "toksvig"}, {"missing.gltf"}),
       row("CopyOfNoGltf", {"v_grooves", "--method", "roughness_bake", "--gltf"},
-          {"--gltf", "v_grooves", "no glTF file"}),
+          {"--gltf", "v_grooves", "not a glTF file"}),
       row("LevelWithoutACopy", {"v_grooves", "--method", "roughness_bake", "--gltf-level", "2"}, {"--gltf"}),
       row("LevelOfTheCopyOutOfRange", {"a.gltf", "--method", "roughness_bake", "--gltf", "--gltf-level", "-1"},
           {"--gltf-level"}),

@@ -46,10 +46,7 @@ const std::vector<Case> wrong_words{
      .arguments = {"render", "{}/a.gltf", "--metod=direct", "-o", "{}/a.exr"},
      .exit_code = 2,
      .errors_have = {"render: unknown option `--metod`", "did you mean `--method`?"}},
-    {.name = "ArgumentTooMany",
-     .arguments = {"info", "extra"},
-     .exit_code = 2,
-     .errors_have = {"one argument too many"}},
+    {.name = "ArgumentTooMany", .arguments = {"info", "extra"}, .exit_code = 2, .errors_have = {"unexpected argument"}},
     {.name = "NoScene", .arguments = {"compare"}, .exit_code = 2, .errors_have = {"scene", "footprint compare --help"}},
     {.name = "NoMethod",
      .arguments = {"render", "{}/a.gltf", "-o", "{}/a.exr"},
@@ -211,7 +208,7 @@ const std::vector<Case> machine_cases{
      .arguments = {"render", "ribbed_plane", "--method", "direct", "--size", "16x16", "-o", "{}/a.exr"},
      .exit_code = 2,
      .errors_have = {"a.exr: is a folder"},
-     .files = {{"a.exr/notes.txt", "a folder, not a picture"}}},
+     .files = {{"a.exr/notes.txt", "a folder, not an image"}}},
     {.name = "PictureWhereNoFolderIs",
      .arguments = {"render", model, "--method", "direct", "--size", "16x16", "-o", "{}/missing/a.exr"},
      .exit_code = 3,
@@ -253,7 +250,7 @@ const std::vector<Case> machine_cases{
      .arguments = {"render", model, "--method", "reference", "--spp", "4096", "-o", "{}/a.exr"},
      .exit_code = 130,
      .errors_have = {"interrupted"},
-     .interrupt_at = "samples a pixel",
+     .interrupt_at = "samples per pixel",
      .starts_program = true},
     {.name = "ReferenceOptionWithAMethod",
      .arguments = {"render", model, "--method", "direct", "--spp", "64", "-o", "{}/a.exr"},
@@ -296,7 +293,7 @@ std::vector<Case> usage_cases() {
        {"compare", "render", "animate", "edit", "run", "check", "explain", "ndf", "list", "surface", "info"}) {
     cases.push_back({.name = "UsageOf_" + command,
                      .arguments = {command, "--help"},
-                     .output_has = {"Usage: footprint " + command + " [OPTIONS]", "Examples:\n"}});
+                     .output_has = {"Usage: footprint " + command + " ", "Examples:\n"}});
   }
   return cases;
 }

@@ -67,7 +67,7 @@ const std::vector<Case> frames{
     comparison("OnePixel", {"--size", "1x1", "--spp", "4", "--distance", "1"}, {"direct"}),
     comparison("OneSample", {"--size", "16x16", "--spp", "1", "--distance", "1"}, {"direct"}),
     comparison("NoWholePixelCovered", {"--size", "16x16", "--spp", "4", "--distance", "1000"},
-               {"n/a", "the object covers no whole pixel"}),
+               {"n/a", "the object does not cover a whole pixel"}),
     comparison("TilesOfOnePixel", {"--size", "4x4", "--spp", "2", "--distance", "1", "--tile", "1"}, {"direct"}),
     {.name = "NoLightFromTheFront",
      .arguments = {"compare", "{}/scene.toml", "--size", "16x16", "--spp", "2", "--repeats", "1", "-o", "{}/out"},
@@ -95,7 +95,7 @@ Case of_two_scenes(const std::string& name, std::vector<std::string> arguments) 
 
 std::vector<Case> choices() {
   Case listed = of_two_scenes("Listed", {"explain", "--model-scene", "seen", "--size", "16x16"});
-  listed.output_has = {"to choose from",
+  listed.output_has = {"choices (* = selected)",
                        "0 `bare`, *1 `seen`",
                        "*0 `camera 0`, 1 `near`",
                        "the first of 2 cameras is used",

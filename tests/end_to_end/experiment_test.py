@@ -45,11 +45,11 @@ class Experiments(WholeRunTest):
     def assert_falls_short(self, name, content, *parts):
         code, output, errors, out = self.execute(name, content)
         self.assertEqual(code, 1, errors)
-        short = [line for line in output.splitlines() if line.startswith("fell short: ")]
+        short = [line for line in output.splitlines() if line.startswith("failed: ")]
         self.assertEqual(len(short), 1, output)
         for part in parts:
             self.assertIn(part, short[0])
-        self.assertRegex(errors, r"^footprint: .*1 of its claims and thresholds fell short")
+        self.assertRegex(errors, r"^footprint: .*1 claims and thresholds failed")
         self.assertTrue((out / "index.html").is_file(), "the report is written all the same")
 
     # What continuous integration holds.
@@ -108,14 +108,14 @@ class Experiments(WholeRunTest):
         content += '[threshold]\n"error(*)" = 1\n"-psnr(*)" = 0\n'
         code, output, errors, out = self.execute("expected", content)
         self.assertEqual((code, errors), (0, ""))
-        self.assertIn("All 5 claims and thresholds came out as expected", output)
+        self.assertIn("All 5 claims and thresholds are as expected", output)
         self.assertTrue(results_of(out)["experiment"]["claims"][0]["as_expected"])
 
     def test_run_reports_what_check_refuses(self):
         content = HEAD.replace("spp = 16", "spp = 256") + '[threshold]\n"error(toksvig)" = 0.05\n'
         code, output, _, out = self.execute("report", content, "run")
         self.assertEqual(code, 0)
-        self.assertIn("Fell short:", output)
+        self.assertIn("Failed:", output)
         self.assertFalse(results_of(out)["experiment"]["thresholds"][0]["held"])
 
     # What other programs read.
@@ -149,7 +149,7 @@ class Experiments(WholeRunTest):
         self.assertEqual(self.check("based", HEAD, "--update-baseline")[0], 2)
         code, output, errors = self.check("based", HEAD, "--baseline", baseline, "--update-baseline")
         self.assertEqual((code, errors), (0, ""))
-        self.assertIn("based: baseline toksvig at 1: the baseline does not have this record", output)
+        self.assertIn("based: baseline toksvig at 1: this record is missing in the baseline", output)
         written = baseline.read_text(encoding="utf-8")
         self.assertEqual(self.check("based", HEAD, "--baseline", baseline)[0], 0)
         document = json.loads(written)
@@ -158,8 +158,8 @@ class Experiments(WholeRunTest):
         baseline.write_text(json.dumps(document), encoding="utf-8")
         code, output, errors = self.check("based", HEAD, "--baseline", baseline)
         self.assertEqual(code, 1)
-        self.assertRegex(output, r"(?m)^fell short: baseline toksvig at 1: error 0\.\d+, was 0\.\d+$")
-        self.assertIn("1 of its claims and thresholds fell short", errors)
+        self.assertRegex(output, r"(?m)^failed: baseline toksvig at 1: error 0\.\d+, was 0\.\d+$")
+        self.assertIn("1 claims and thresholds failed", errors)
         code, output, _ = self.check("based", HEAD, "--baseline", baseline, "--update-baseline")
         self.assertEqual(code, 0)
         self.assertRegex(output, r"based: baseline toksvig at 1: error 0\.\d+, was 0\.\d+\n")
@@ -216,7 +216,7 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
         file = self.folder / "quick_of_small.toml"
         file.write_text(HEAD, encoding="utf-8")
         output = run("run", file, "--quick", "--quiet", "-o", self.folder / "quick_of_small")
-        self.assertIn("no measurement", output)
+        self.assertIn("not a measurement", output)
         self.assertEqual(results_of(self.folder / "quick_of_small")["records"][0]["size"], [8, 8])
 
     def test_every_experiment_of_the_tree_is_readable(self):
@@ -308,7 +308,7 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
         refused([parts[0], parts[0]], "name each part once")
         other = self.folder / "other"
         run("animate", *light, "--seed", 2, "--shard", "2/2", "-o", other)
-        refused([parts[0], other], "of other options")
+        refused([parts[0], other], "other options")
 
     def film(self, name, script, **options):
         """Runs with a program of that script as ffmpeg."""

@@ -106,12 +106,12 @@ class Killed(WholeRunTest):
         distances = sorted({record["distance"] for record in results["records"]})
         self.assertEqual(distances, [1, 2, 3, 4][: len(distances)])
         self.assertLess(len(distances), 4)
-        self.assertIn("the run is not finished: more distances follow", results["scene"]["warnings"])
+        self.assertIn("the run is not finished; more distances follow", results["scene"]["warnings"])
         for record in results["records"]:
             for image in (record["images"]["color"], record["images"]["error"]):
                 self.assertTrue((pages[0].parent / image).is_file(), image)
         process.send_signal(signal.SIGINT)
-        self.assertIn(f"page of the distances that are done, until the run ends: {pages[0]}", process.communicate()[1])
+        self.assertIn(f"page of the finished distances, until the run ends: {pages[0]}", process.communicate()[1])
         self.assertEqual(process.returncode, 130)
         self.assertFalse(out.exists() or self.left_beside(out))
 

@@ -105,7 +105,7 @@ class Merged(KeptRunTest):
     def test_a_part_is_not_finished(self):
         part = self.copy(1, "unfinished")
         (part / "part.json").unlink()
-        self.assert_refused([self.parts[0], part, self.parts[2]], "unfinished/part.json", "not finished")
+        self.assert_refused([self.parts[0], part, self.parts[2]], "unfinished/part.json", "unfinished")
 
     def test_a_part_of_another_experiment(self):
         other = self.folder / "other"
@@ -115,7 +115,7 @@ class Merged(KeptRunTest):
     def test_a_part_of_other_options(self):
         other = self.folder / "quick"
         self.must("run", self.group, "-q", "--quick", "--shard", f"2/{COUNT}", "-o", other)
-        self.assert_refused([self.parts[0], other, self.parts[2]], "quick/part.json", "of other options")
+        self.assert_refused([self.parts[0], other, self.parts[2]], "quick/part.json", "other options")
 
     def test_a_part_of_another_program(self):
         maker = "0123456789abcdef llvmpipe"
@@ -126,7 +126,7 @@ class Merged(KeptRunTest):
 
     def test_a_part_of_another_count(self):
         self.assert_refused([self.parts[0], self.with_document(1, "count", shard=[2, 4]), self.parts[2]],
-                            "is of 4 parts", "is of 3")
+                            "one of 4 parts", "one of 3")
 
     def test_a_damaged_list(self):
         part = self.copy(1, "list")
@@ -163,7 +163,7 @@ class Merged(KeptRunTest):
         part = self.folder / "before_change"
         self.must("run", changing, "-q", "--shard", "1/1", "-o", part)
         self.write("changing", "[zoom]\ndistances = [2]\n")
-        self.assert_refused([part], "changing.toml is not what it was")
+        self.assert_refused([part], "changing.toml has changed")
 
     def test_no_part_at_all(self):
         for text in ("0/3", "4/3", "1", "1/0", "-1/3", "one/3", "1/3/3"):

@@ -63,6 +63,9 @@ class RecommendTest(WholeRunTest):
         page = (folder / "index.html").read_text(encoding="utf-8")
         for words in document_of(folder)["materials"][0]["words"]:
             self.assertIn(words, output)
+        command = document_of(folder)["materials"][0]["command"]
+        self.assertIn(f"Bake it: {command}\n", output)
+        self.assertIn(f">{command}</pre>", page)
         self.assertIn("<svg", page)
         self.assertNotIn("{{", page)
         for report in document_of(folder)["reports"]:

@@ -109,7 +109,7 @@ class Resumed(WholeAndKilled):
         out = self.copy("again")
         before = finished(out)
         errors = self.must("run", self.experiment, "-o", out)
-        self.assertIn("finished parts of an earlier run were taken from", errors)
+        self.assertIn("finished parts of an earlier run were reused from", errors)
         self.assertEqual(finished(out), before)
         self.assert_same_outcome(self.expected, outcome(out))
 

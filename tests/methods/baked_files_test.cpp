@@ -224,7 +224,7 @@ TEST(BakedFilesOf, NothingAreRefused) {
     }
     return std::string("no error");
   };
-  EXPECT_TRUE(test::says(refusal(rough_square(), "xu_vmf:space=camera"), "anew for each view"));
+  EXPECT_TRUE(test::says(refusal(rough_square(), "xu_vmf:space=camera"), "builds its maps for each view"));
   EXPECT_TRUE(test::says(refusal(rough_square(), "xu_vmf:space=camera"), "serve every view"));
   EXPECT_TRUE(test::says(refusal(square_scene({}, {}), "toksvig"), "do not vary on any material"));
 }

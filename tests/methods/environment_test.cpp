@@ -153,7 +153,7 @@ TEST(SmallSunInAnEnvironment, IsWhatTheReferenceSeesOfItAtEveryRoughness) {
   for (const auto& [roughness, most] : {std::pair(0.1F, 1.0), {0.3F, 0.04}, {0.5F, 0.04}, {1.0F, 0.04}}) {
     TestRenderer renderer(sunny_square(roughness), sunny_size);
     const SunErrors errors = errors_of(renderer.frame(find_method("direct")), renderer.reference(128).mean);
-    EXPECT_TRUE(errors.hold(most)) << "roughness " << roughness << ": mean " << errors.mean << ", picture "
+    EXPECT_TRUE(errors.hold(most)) << "roughness " << roughness << ": mean " << errors.mean << ", image "
                                    << errors.picture;
   }
 }

@@ -73,11 +73,10 @@ class Documents(unittest.TestCase):
         self.assertEqual(lines, ["app/a.cpp:3: `anew`: better again", "results/report/b.js:2: `mend`: better fix",
                                  "results/report/c.html:1: `dear`: better expensive"])
 
-    def test_words_of_code_links_settings_and_generated_pages_are_let_pass(self):
-        text = ("`held` [it](docs/held.md)\n\n```\nheld\n```\n"
-                "<!-- settings of a run -->\n| anew |\n<!-- end of the settings -->\n")
-        files = {"README.md": text, "docs/README.md": "[a](page.md) [b](held.md) [c](stability.md)\n",
-                 "docs/held.md": "# Page\n", "docs/stability.md": "held\n"}
+    def test_words_of_code_links_and_generated_pages_pass(self):
+        text = "`held` [it](docs/held.md)\n\n```\nheld\n```\n"
+        files = {"README.md": text, "docs/README.md": "[a](page.md) [b](held.md) [c](reproduction.md)\n",
+                 "docs/held.md": "# Page\n", "docs/reproduction.md": "held\n"}
         self.assertEqual(self.told(**files), (0, ["6 documents agree"]))
 
 

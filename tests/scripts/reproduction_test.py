@@ -54,7 +54,7 @@ class Floors(Tree):
     def test_a_floor_above_a_third_is_told_with_the_samples_that_would_do(self):
         code, lines = self.told(results(0.01, 0.02, floor=0.02 / 3))
         self.assertEqual(code, 1)
-        self.assertIn("n  difference 0.01000  floor 0.00667  not converged with 64 samples a pixel; 256 would do", lines[0])
+        self.assertIn("n  difference 0.01000  floor 0.00667  not converged with 64 samples per pixel; 256 would do", lines[0])
 
     def test_claims_of_other_things_have_none(self):
         for inequality in ("time(a:x=1) < 2 * time(b)", "error(a:x=1, spp=16) < error(b)", "error(a:x=1) / error(b) < 2",

@@ -58,7 +58,7 @@ Supersampled TestRenderer::supersampled(const Method& method, int spp, std::uint
   const GpuMethod gpu(gpu_scene_, bake_result);
   const Supersampler sampler(context_->info(), gpu_scene_, gpu, filter, scene_.camera.orthographic, tile, environment);
   Supersampled picture = sampler.render({.size = size_, .camera = scene_.camera}, spp, seed, no_progress, texels);
-  context_->check("supersampling a test picture");
+  context_->check("supersampling a test image");
   return picture;
 }
 

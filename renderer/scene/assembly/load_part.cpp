@@ -214,7 +214,7 @@ Image with_metallic(const Image& roughness, float metallic) {
 Image read_lobe_parameter(const std::filesystem::path& file, NormalDistribution distribution) {
   const Image stored = read_image(file, Transfer::linear);
   if (!is_exr(file)) {
-    throw Error(ErrorKind::usage, file.string(), "is no EXR, and no other format holds a lobe parameter",
+    throw Error(ErrorKind::usage, file.string(), "is not an EXR, and no other format can store a lobe parameter",
                 "store it as 32-bit floats in an EXR, or give a map of roughness");
   }
   const NumberRange range = lobe_range(distribution);

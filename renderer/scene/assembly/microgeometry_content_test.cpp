@@ -100,7 +100,7 @@ TEST(MicrogeometryContent, MistakesAroundAMapOfIndicesAreNamed) {
   const std::string map = "[maps]\nmaterial = { file = \"indices.png\" }\n";
   EXPECT_NE(error_of("", 0.0F).find("without a map"), std::string::npos);
   EXPECT_NE(error_of(map, 2.0F).find("indices.png"), std::string::npos);
-  EXPECT_NE(error_of(map, 2.0F).find("names none of the 2"), std::string::npos);
+  EXPECT_NE(error_of(map, 2.0F).find("is not an index of the 2"), std::string::npos);
   EXPECT_NE(error_of("[maps]\nmaterial = { file = \"none.png\" }\n", 0.0F).find("none.png"), std::string::npos);
   const std::string one = test::usage_error(
       [] { return load_microgeometry("kind = \"flat\"\n[maps]\nmaterial = { file = \"a.png\" }\n"); });

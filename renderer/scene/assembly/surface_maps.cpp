@@ -91,13 +91,15 @@ UnitCounts count_unit_vectors(const Image& stored) {
 void require_unit_vectors(const Image& stored) {
   const UnitCounts counts = count_unit_vectors(stored);
   if (2 * counts.as_stored < counts.texels && 2 * counts.as_encoded >= counts.texels) {
-    throw Error(ErrorKind::usage, {}, "its values are normals encoded as 0 to 1, but an EXR holds x, y, z of -1 to 1",
+    throw Error(ErrorKind::usage, {},
+                "its values are normals encoded as 0 to 1, but an EXR must store x, y, z of -1 to 1",
                 "store 2 c - 1, or give the map as PNG");
   }
   if (2 * counts.as_stored < counts.texels) {
-    throw Error(ErrorKind::usage, {},
-                fmt::format("{} of {} texels hold no unit vector", counts.texels - counts.as_stored, counts.texels),
-                "store unit normals, x, y, z of -1 to 1 in the first three channels");
+    throw Error(
+        ErrorKind::usage, {},
+        fmt::format("{} of {} texels do not contain a unit vector", counts.texels - counts.as_stored, counts.texels),
+        "store unit normals, x, y, z of -1 to 1 in the first three channels");
   }
 }
 
@@ -168,7 +170,8 @@ NormalMap normals_of_heights(const Image& stored, double strength) {
 std::vector<std::string> describe_faults(const NormalMap& map, const std::string& name) {
   std::vector<std::string> lines;
   if (map.invalid > 0) {
-    lines.push_back(fmt::format("normal map `{}`: {} texels hold no direction and do not count", name, map.invalid));
+    lines.push_back(
+        fmt::format("normal map `{}`: {} texels do not contain a direction and do not count", name, map.invalid));
   }
   if (map.inverted > 0) {
     lines.push_back(
@@ -208,7 +211,7 @@ Image decode_lobe_parameter(const Image& stored, double least, double most) {
       const float value = stored.at(x, y)[0];
       if (!(value >= lowest && value <= highest)) {
         throw Error(ErrorKind::usage, fmt::format("texel ({}, {})", x, y),
-                    fmt::format("holds {}, not within {} to {}", value, least, most),
+                    fmt::format("contains {}, not within {} to {}", value, least, most),
                     "store the lobe parameter itself, as 32-bit floats");
       }
       map.at(x, y)[0] = value;
@@ -226,8 +229,8 @@ std::vector<Image> decode_indices(const Image& stored, std::size_t count) {
     if (!(std::abs(value - whole) <= rounding && whole >= 0.0F && whole < static_cast<float>(count))) {
       const auto width = static_cast<std::size_t>(stored.width);
       throw Error(ErrorKind::usage, "map of indices",
-                  fmt::format("texel ({}, {}) holds {}, which names none of the {} materials", i % width, i / width,
-                              value, count),
+                  fmt::format("texel ({}, {}) contains {}, which is not an index of the {} materials", i % width,
+                              i / width, value, count),
                   fmt::format("store whole numbers from 0 to {} in the red channel", count - 1));
     }
     shares[static_cast<std::size_t>(whole)].texels[i] = 1.0F;

@@ -40,7 +40,7 @@ TEST(GltfBadInput, FilesThatAreNoGltf) {
   EXPECT_NE(error_of("/dev/zero").find("not a regular file"), std::string::npos);
   EXPECT_NE(error_of(test::write_file("empty.gltf", "")).find("empty"), std::string::npos);
   EXPECT_NE(error_of(test::write_file("words.gltf", "hello world")).find("not valid JSON"), std::string::npos);
-  EXPECT_NE(error_of(test::write_file("array.gltf", "[1, 2, 3]")).find("no object"), std::string::npos);
+  EXPECT_NE(error_of(test::write_file("array.gltf", "[1, 2, 3]")).find("not an object"), std::string::npos);
   EXPECT_NE(error_of(test::write_file("bare.gltf", "{\"nodes\": []}")).find("asset.version"), std::string::npos);
   EXPECT_NE(error_of(test::write_file("big.gltf", "{\"asset\": {\"version\": \"2.0\"}, \"x\": 1e999}")).find("JSON"),
             std::string::npos);
@@ -197,7 +197,7 @@ void add_normal_map(GltfBuilder& quad, const json& image) {
 
 TEST(GltfBadInput, TexturesNameMaterialAndFile) {
   test::write_file("empty.png", "");
-  test::write_file("words.png", "this is no image at all");
+  test::write_file("words.png", "this is not an image at all");
   for (const char* name : {"missing.png", "empty.png", "words.png"}) {
     expect_error(name, [&](GltfBuilder& quad) { add_normal_map(quad, {{"uri", name}}); });
     expect_error("materials[0] `bumpy`", [&](GltfBuilder& quad) { add_normal_map(quad, {{"uri", name}}); });

@@ -329,7 +329,7 @@ void check_version(const json& document) {
   const auto asset = document.find("asset");
   if (asset == document.end() || !asset->is_object() || !asset->contains("version") ||
       !(*asset)["version"].is_string()) {
-    refuse_gltf("asset.version", "is missing, so this is no glTF 2.0 file");
+    refuse_gltf("asset.version", "is missing, so this is not a glTF 2.0 file");
   }
   const auto version = (*asset)["version"].get<std::string>();
   if (!version.starts_with("2.")) {
@@ -380,7 +380,7 @@ void check_embedded_buffers(const json& document) {
     const auto length = buffers[i]["byteLength"].get<std::uint64_t>();
     if (bytes == length) continue;
     refuse_gltf(fmt::format("buffers[{}]", i),
-                fmt::format("its data URI holds {} bytes, byteLength is {}", bytes, length));
+                fmt::format("its data URI has {} bytes, byteLength is {}", bytes, length));
   }
 }
 
@@ -419,7 +419,7 @@ json parse_gltf_json(std::string_view text) {
 }
 
 void check_gltf_json(const json& document) {
-  if (!document.is_object()) refuse_gltf({}, "the JSON is no object, so this is no glTF file");
+  if (!document.is_object()) refuse_gltf({}, "the JSON is not an object, so this is not a glTF file");
   check_version(document);
   for (const Rule& rule : rules) apply_rule(document, rule);
   for (const std::string_view texture : texture_paths) {

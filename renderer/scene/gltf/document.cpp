@@ -46,7 +46,7 @@ std::string_view glb_json(std::span<const std::uint8_t> bytes) {
     fail_container(fmt::format("says {} bytes, the file has {}", length, bytes.size()));
   }
   const std::uint64_t json_length = word_at(bytes, header);
-  if (word_at(bytes, header + 4) != json_chunk) fail_container("the first chunk is no JSON");
+  if (word_at(bytes, header + 4) != json_chunk) fail_container("the first chunk is not JSON");
   const std::uint64_t json_end = header + chunk_header + json_length;
   if (json_end > length) fail_container("the JSON chunk is longer than the file");
   if (json_end < length) {

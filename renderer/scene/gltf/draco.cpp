@@ -79,7 +79,7 @@ Bytes values_of(const draco::PointAttribute& attribute, std::uint32_t points) {
   for (std::uint32_t i = 0; i < points; ++i) {
     if (!attribute.ConvertValue<T>(attribute.mapped_index(draco::PointIndex(i)), static_cast<std::int8_t>(components),
                                    values.data()))
-      refuse_gltf(extension_name, "an attribute holds values of another type than its accessor");
+      refuse_gltf(extension_name, "an attribute has values of another type than its accessor");
     std::memcpy(&bytes[i * components * sizeof(T)], values.data(), components * sizeof(T));
   }
   return bytes;
@@ -98,7 +98,7 @@ Bytes values_of(const draco::PointAttribute& attribute, std::uint32_t points, in
     case TINYGLTF_COMPONENT_TYPE_FLOAT:
       return values_of<float>(attribute, points);
     default:
-      refuse_gltf(extension_name, fmt::format("{} is no component type of an attribute", component_type));
+      refuse_gltf(extension_name, fmt::format("{} is not a component type of an attribute", component_type));
   }
 }
 

@@ -389,7 +389,7 @@ TEST(Gltf, ClearCoatsHaveFactorsAndMapsOfTheirOwn) {
   EXPECT_EQ(constant->weight, 0.75F);
   EXPECT_EQ(constant->roughness, 0.0F);
   EXPECT_FALSE(constant->weight_map || constant->roughness_map || constant->normal_map);
-  EXPECT_FALSE(model.materials.at(2).coat) << "a weight of 0, the default, is no coat";
+  EXPECT_FALSE(model.materials.at(2).coat) << "a weight of 0, the default, is not a coat";
 }
 
 /// The example of KHR_texture_transform: the lower left quadrant of the image, turned clockwise by 90 degrees.

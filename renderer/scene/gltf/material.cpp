@@ -58,7 +58,7 @@ Wrap wrap_mode(int mode, const std::string& place) {
     case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
       return Wrap::clamp_to_edge;
     default:
-      refuse_gltf(place, fmt::format("{} is no wrap mode of glTF 2.0", mode));
+      refuse_gltf(place, fmt::format("{} is not a wrap mode of glTF 2.0", mode));
   }
 }
 

@@ -88,7 +88,7 @@ bool read_texture_coordinates(Builder& builder, const std::string& name, glm::ve
 int color_components(const Builder& builder, int index) {
   const auto& accessor = builder.model.accessors[static_cast<std::size_t>(index)];
   if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !accessor.normalized) {
-    refuse_gltf("COLOR_0", "its integers are not normalised, so that nothing tells what they stand for");
+    refuse_gltf("COLOR_0", "its integers are not normalised, so their meaning is undefined");
   }
   return accessor.type == TINYGLTF_TYPE_VEC3 ? 3 : 4;
 }

@@ -77,7 +77,7 @@ void check(const Encoding& encoding, std::size_t length) {
     if (stride != 2 && stride != 4)
       refuse_gltf(extension_name, fmt::format("indices of {} bytes are not allowed", stride));
     if (mode == "TRIANGLES" && count % 3 != 0)
-      refuse_gltf(extension_name, fmt::format("{} indices are no whole triangles", count));
+      refuse_gltf(extension_name, fmt::format("{} indices are not whole triangles", count));
     if (filter != "NONE") refuse_gltf(extension_name, "indices have no filter");
   } else {
     refuse_gltf(extension_name, fmt::format("`{:.20}` is none of ATTRIBUTES, TRIANGLES, INDICES", mode));

@@ -134,14 +134,14 @@ TEST(MapSettings, MistakesAreNamed) {
   expect_brdf_error(vmf_plane + "[maps.kappa]\nuv = [1, 1]\n", {"scene.toml:4", "`file` in [maps.kappa] is missing"});
   expect_brdf_error(vmf_plane + kappa_map(one) + "uv = [0, 1]\n", {"scene.toml:6", "not within"});
   expect_brdf_error(vmf_plane + kappa_map("none.exr"), {"none.exr", "no such file"});
-  expect_brdf_error(vmf_plane + kappa_map(bad), {"bad.exr", "texel (0, 0)", "holds 0"});
+  expect_brdf_error(vmf_plane + kappa_map(bad), {"bad.exr", "texel (0, 0)", "contains 0"});
   expect_brdf_error("[plane]\n" + kappa_map(one), {"scene.toml:2", "does not belong"});
   expect_brdf_error(vmf_plane + "kappa = 3\n" + kappa_map(one), {"scene.toml:5", "excludes"});
   expect_brdf_error(vmf_plane + kappa_map(one) + "[maps.roughness]\nfile = \"one.exr\"\n", {"excludes"});
   expect_brdf_error(vmf_plane + kappa_map(one) + "[[brdf.lobe]]\naxis = [0, 0, 1]\nkappa = 3\n",
                     {"excludes [[brdf.lobe]]"});
   write_png(test::write_file("made/bytes.png", ""), Image(2, 2, 1, 0.5F));
-  expect_brdf_error(vmf_plane + kappa_map("bytes.png"), {"bytes.png", "no EXR"});
+  expect_brdf_error(vmf_plane + kappa_map("bytes.png"), {"bytes.png", "not an EXR"});
 }
 
 TEST(SurfaceMaps, ASurfaceBringsLobesAndMaps) {

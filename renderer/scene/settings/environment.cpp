@@ -38,7 +38,7 @@ EnvironmentKind read_kind(const TomlTable& table) {
 void read_files(const TomlTable& table, const std::filesystem::path& folder, EnvironmentSettings& settings) {
   if (table.has("file") == table.has("files")) {
     throw table.error_at("file", "or `files` must be given, and only one of them",
-                         R"(name the picture, or give kind = "constant" or "sky")");
+                         R"(name the image, or give kind = "constant" or "sky")");
   }
   const auto names = table.has("file") ? std::vector{*table.word("file")} : *table.words("files");
   for (const std::string& name : names) settings.candidates.push_back(folder / name);

@@ -4,7 +4,8 @@ float listCount(Effective e, Query q, float rounds) { return 1.0; }
 
 Sum sumOfLists(Effective e, Region r, Query q, float rounds) {
   bool finished = true;
-  Sum sum = Sum(0.0, areaOf(r));
+  Sum sum = sumBeyond(e, r, q, rounds, finished);
+  sum.area += areaOnMap(r);
   float walk = walkRounds(rounds, bins_invalid_list < 0.0 ? 1.0 : 2.0);
   int walked = 0;
   for (int i = 0; i < 2; ++i) {
@@ -13,7 +14,7 @@ Sum sumOfLists(Effective e, Region r, Query q, float rounds) {
     if (list < 0) continue;
     ListSum part = sumOfList(r, listAt(uint(list)), ListBin(vec2(0.0), 1.0), walk, finished);
     if (i == 0) sum.area -= part.area;
-    else sum.value = part.area / binSolidAngle();
+    else sum.value += part.area / binSolidAngle();
   }
   if (sum.area < 1e-4 * areaOf(r)) sum = Sum(0.0, 0.0);
   return finished && walked == 2 ? sum : notWhole();

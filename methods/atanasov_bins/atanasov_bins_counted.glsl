@@ -9,7 +9,7 @@ struct ListSum {
   float area;
 //? if not roughness_bin
   vec2 offset;   // by area: where normals lie in their bin, from its middle, in bins
-  vec2 squares;  // likewise
+  vec2 squares;  // by area: of that
 //? end
 };
 
@@ -38,11 +38,13 @@ void addTexel(inout ListSum sum, ivec2 texel, float area, ListBin bin) {
 //? end
 }
 
-// One of each eighth of a node's texels, in 128ths: at uneven distances, as maps have patterns.
+// One of each eighth of a node's texels, in 128ths, at uneven distances, as maps have patterns; 5 / 12 into each, which in
+// the tree's order is its middle: 0.0110101... has the coordinates 0.0111... and 0.1000..., whose digits it has in turns.
 const uint samples[8] = uint[](5u, 29u, 34u, 58u, 71u, 95u, 100u, 123u);
 
 ivec2 sampledTexel(uint begin, uint texels, int i) {
-  uint at = begin + samples[i] * (texels >> 7) + (samples[i] * (texels & 127u) >> 7);
+  uint place = 12u * samples[i] + 5u;
+  uint at = begin + place * (texels / 1536u) + place * (texels % 1536u) / 1536u;
   return unpacked(wordAt(bins_texels, at));
 }
 
@@ -59,61 +61,42 @@ struct Counted {
   uint at;      // in the forest
   uint begin;   // of its texels
   uint texels;
-  vec4 box;
-  bool whole;   // covered
+  vec2 sides;   // of its rectangle
+  float share;  // of that which is covered
 };
 
 // One of eight samples of a node. In the tree's order eighths of its texels lie in different parts of it, so each stands
 // for texels that are spread evenly over a box about it, whose sides are 1 / sqrt(32) of the node's. The more of the
-// node the texels fill, the more they are spread evenly over all of it, of which the share `even` is covered.
-void addSample(inout ListSum sum, inout float share, Region r, Counted node, int i, float even, ListBin bin) {
+// node the texels fill, the more they are spread evenly over all of it.
+void addSample(inout ListSum sum, inout float share, Region r, Counted node, int i, ListBin bin) {
   ivec2 texel = sampledTexel(node.begin, node.texels, i);
-  float own = even;
-  if (abs(even - 0.5) < 0.499) {
-    vec2 sides = node.box.zw - node.box.xy;
-    own = mix(shareOfBox(r, texel, 0.0883883 * sides), even, float(node.texels) / (sides.x * sides.y));
-  }
+  float own = node.share;
+  if (abs(own - 0.5) < 0.499)
+    own = mix(shareOfBox(r, texel, 0.0883883 * node.sides), own, float(node.texels) / (node.sides.x * node.sides.y));
   share += 0.125 * own;
 //? if not roughness_bin
   if (node.texels <= leaf_size) addTexel(sum, texel, 0.125 * own * float(node.texels), bin);
 //? end
 }
 
-// Called eight times: a loop would take rounds.
-void addNode(inout ListSum sum, Region r, Counted node, ListBin bin) {
-  vec2 sides = node.box.zw - node.box.xy;
-  float even = node.whole ? 1.0 : areaWithin(r, node.box.xy, node.box.zw) / (sides.x * sides.y);
+// Eight calls: a loop would take rounds.
+void addCounted(inout ListSum sum, Region r, Counted node, ListBin bin) {
   float share = 0.0;
-  addSample(sum, share, r, node, 0, even, bin);
-  addSample(sum, share, r, node, 1, even, bin);
-  addSample(sum, share, r, node, 2, even, bin);
-  addSample(sum, share, r, node, 3, even, bin);
-  addSample(sum, share, r, node, 4, even, bin);
-  addSample(sum, share, r, node, 5, even, bin);
-  addSample(sum, share, r, node, 6, even, bin);
-  addSample(sum, share, r, node, 7, even, bin);
+  addSample(sum, share, r, node, 0, bin);
+  addSample(sum, share, r, node, 1, bin);
+  addSample(sum, share, r, node, 2, bin);
+  addSample(sum, share, r, node, 3, bin);
+  addSample(sum, share, r, node, 4, bin);
+  addSample(sum, share, r, node, 5, bin);
+  addSample(sum, share, r, node, 6, bin);
+  addSample(sum, share, r, node, 7, bin);
+  float area = share * float(node.texels);
 //? if roughness_bin
-  addNormals(sum, share * float(node.texels), vec2(0.0), 0.0);
+  addNormals(sum, area, vec2(0.0), 0.0);
 //? else
   if (node.texels <= leaf_size) return;
   uint moments = wordAt(bins_moments, node.at);
   vec3 value = vec3(moments & 0xFFFu, moments >> 12 & 0xFFFu, moments >> 24) / vec3(4095.0, 4095.0, 510.0);
-  addNormals(sum, share * float(node.texels), value.xy - 0.5, value.z * value.z);
+  addNormals(sum, area, value.xy - 0.5, value.z * value.z);
 //? end
-}
-
-// A texel; one that goes on beyond the border of a map that does not repeat, or a node of such, as if all of it did.
-void addWithin(inout ListSum sum, Region r, Counted counted, vec2 sides, ListBin bin) {
-  float area = float(counted.texels) / (sides.x * sides.y) * areaWithin(r, counted.box.xy, counted.box.zw);
-  addTexel(sum, unpacked(wordAt(bins_texels, counted.begin)), area, bin);
-}
-
-// `sides` are those of the node's rectangle on the map.
-void addCounted(inout ListSum sum, Region r, Counted counted, vec2 sides, ListBin bin) {
-  bool goes_on = any(greaterThan(counted.box.zw - counted.box.xy, sides));
-  if (counted.texels > 1u && !goes_on) {
-    addNode(sum, r, counted, bin);
-  } else {
-    addWithin(sum, r, counted, sides, bin);
-  }
 }

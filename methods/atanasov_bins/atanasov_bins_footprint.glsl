@@ -100,6 +100,7 @@ Sum sumOfTexels(Effective e, Region r, Query q) {
   return seen < box.count ? notWhole() : sum;
 }
 
+//? include atanasov_bins_beyond.glsl
 //? if roughness_bin
 //? include atanasov_bins_bins.glsl
 //? else

@@ -84,7 +84,7 @@ float sumOfFar(Effective e, Region r, Query q, float rounds, inout bool finished
     ++seen;
     ivec2 texel = texelAt(r, evenPoint(i).xy);
     uint code = packedAt(texel);
-    if (code == no_normal) continue;
+    if (code == no_normal || isBeyond(texel)) continue;
     float variance = varianceAt(e, texel);
     if (!isNear(e, code, variance, q, rounds)) sum += valueAbout(variance, unpackedNormal(code), 0.0, q);
   }
@@ -117,7 +117,9 @@ Sum sumOfLists(Effective e, Region r, Query q, float rounds) {
     }
     finished = finished && seen == block.count;
   }
-  Sum sum = Sum(sumOfFar(e, r, q, rounds, finished), areaOf(r));
+  Sum sum = sumBeyond(e, r, q, rounds, finished);
+  sum.value += sumOfFar(e, r, q, rounds, finished);
+  sum.area += areaOnMap(r);
   float walk = walkRounds(rounds, float(max(count, 1)));
   int walked = 0;
   for (int i = 0; i < count; ++i) {

@@ -2,25 +2,10 @@
 // copy of the map that it touches is walked with the footprint moved, and mirrored, to where the map is.
 //? include atanasov_bins_counted.glsl
 
-// Depth first, halving 2^28 texels down to 16, an odd side's longer part each time, takes 26 steps.
+// A power of two. Depth first, halving 2^28 texels down to 16, an odd side's longer part each time, takes 26 steps.
 const int most_pending = 64;
-const int most_counted = 64;  // that are put aside before they are added
+const int most_counted = 32;    // that are put aside before they are added
 const uint wide_node = 32768u;  // nodes of fewer texels are one integer
-
-// How far the outermost texels go on beyond the map that does not repeat: lower and upper edges.
-vec4 beyondMap(Region r) {
-  vec2 size = mapSize();
-  vec4 beyond = max(vec4(r.reach - r.centre, r.centre + r.reach - size), 0.0);
-  vec2 clamped = vec2(equal(vec2(bins_wrap_u, bins_wrap_v), vec2(2.0)));
-  return beyond * clamped.xyxy;
-}
-
-// A box of texels, the border's widened.
-vec4 boxOf(ivec2 lower, ivec2 upper, vec4 beyond) {
-  ivec2 size = textureSize(bins_map, 0);
-  vec2 from = vec2(lower) - beyond.xy * vec2(equal(lower, ivec2(0)));
-  return vec4(from, vec2(upper) + beyond.zw * vec2(equal(upper, size)));
-}
 
 // What is left to be looked at: a node of the tree, its texels up to `end`, its rectangle.
 struct Node {
@@ -63,7 +48,7 @@ Node texelNode(uint i) {
 
 // Sides below which a node that the border cuts counts by samples: a quarter of the side of a square as large as the
 // footprint.
-float evenSide(Region r) {
+float sampledSide(Region r) {
 //? if border_texels
   return 0.0;
 //? else
@@ -72,35 +57,34 @@ float evenSide(Region r) {
 }
 
 // Rounds are spent on large nodes first, so that all that is left where they end is of one size. Only where they are
-// enough for every texel at the border, some 6 for a texel of its length, nothing but a stack is needed.
+// enough for every texel at the border, some 3 for a texel of its length, the order does not matter.
 bool isDepthFirst(Region r, float rounds) {
 //? if border_texels
-  return 12.0 * (length(r.edges[0]) + length(r.edges[1])) < rounds;
+  return 6.0 * (length(r.edges[0]) + length(r.edges[1])) < rounds;
 //? else
   return false;
 //? end
 }
 
-bool isOutside(Region r, Node node, uint begin, vec4 beyond) {
-  vec4 box = boxOf(node.lower, node.upper, beyond);
-  return begin == node.end || sideOf(r, box.xy, box.zw) == outside;
+// A node or a texel that was put aside.
+void addPutAside(inout ListSum sum, Region r, ListBin bin, Node seen, uint begin) {
+  vec2 lower = vec2(seen.lower);
+  vec2 sides = vec2(seen.upper) - lower;
+//? if roughness_bin
+  float share = areaWithin(r, lower, lower + sides) / (sides.x * sides.y);
+//? else
+  float share = coveredOf(r, lower, lower + sides) / (sides.x * sides.y);
+//? end
+  addCounted(sum, r, Counted(seen.at, begin, seen.end - begin, sides, share), bin);
 }
 
-// A node or a texel that was put aside, in place of whose `end` is the number of texels.
-void addPutAside(inout ListSum sum, Region r, vec4 beyond, ListBin bin, Node seen, uint begin) {
-  vec4 box = boxOf(seen.lower, seen.upper, beyond);
-  bool whole = sideOf(r, box.xy, box.zw) == inside;
-  addCounted(sum, r, Counted(seen.at, begin, seen.end, box, whole), vec2(seen.upper - seen.lower), bin);
-}
-
-// Over one copy of the map. One loop looks at nodes and at the texels of leaves alike: pixels that are drawn together
-// wait for each other at the end of every loop, and llvmpipe takes every branch. So what counts, a few of many, is put
-// aside for a loop of its own. Where `rounds` are down to `last` what is pending counts by samples, two rounds each.
-// `finished` becomes false where the driver has ended a loop before its end (notWhole).
+// Over one copy of the map. A round looks at both halves of a node or at two texels of a leaf: pixels that are drawn
+// together wait for each other at the end of every loop, and llvmpipe takes every branch. So what counts, a few of many,
+// is put aside for a loop of its own. Where `rounds` are down to `last` what is pending counts by samples, two rounds
+// each. `finished` becomes false where the driver has ended a loop before its end (notWhole).
 void addCopy(inout ListSum sum, Region r, TexelList list, ListBin bin, float last, inout float rounds,
              inout bool finished) {
-  vec4 beyond = beyondMap(r);
-  float even_side = evenSide(r);
+  vec2 sampled_side = vec2(sampledSide(r));
   bool depth_first = isDepthFirst(r, rounds - last);
   Node node = Node(list.root, list.end, ivec2(0), textureSize(bins_map, 0));
   uint begin = list.first;
@@ -109,52 +93,58 @@ void addCopy(inout ListSum sum, Region r, TexelList list, ListBin bin, float las
   int first = 0;
   int pending = 0;
   int counted = 0;
-  bool in_leaf = false;
-  bool done = false;
+  bool is_root = true;
+  bool done = begin == list.end;
   while (!done) {
-    while (!done && counted < most_counted) {
-      Node seen = node;
-      if (in_leaf) seen = texelNode(begin);
-      uint texels = seen.end - begin;
-      vec4 box = boxOf(seen.lower, seen.upper, beyond);
-      vec2 sides = box.zw - box.xy;
-      // Texels that go on beyond the map are larger than others: none stands for another.
-      bool goes_on = any(greaterThan(sides, vec2(seen.upper - seen.lower)));
-      int side = sideOf(r, box.xy, box.zw);
-      if (goes_on && side == inside) side = cut;
-      // Two rounds for all that is pending and, of a leaf, for each of its texels.
-      float needed = float(2 * (pending + (texels > leaf_size ? 2 : int(texels))));
+    while (!done && counted < most_counted - 1) {
+      bool leaf = node.end - begin <= leaf_size;
+      float needed = 2.0 * float(pending) + (leaf ? 1.5 * float(node.end - begin) : 4.0);
       bool spent = rounds - last < needed || pending > most_pending - 2;
-      bool counts = side == cut && (in_leaf || spent || !goes_on && all(lessThan(sides, vec2(even_side))));
-      bool splits = side == cut && !counts && texels > leaf_size;
-      bool leaf = side == cut && !counts && !splits;
+      bool itself = is_root || spent;
+      Node a = node;
+      Node b = node;
+      uint b_begin = node.end;
+      if (!itself && leaf) {
+        a = texelNode(begin);
+        if (begin + 1u < node.end) {
+          b_begin = begin + 1u;
+          b = texelNode(b_begin);
+        }
+      } else if (!itself) {
+        b = upperHalfOf(a, begin);
+        b_begin = a.end;
+      }
+      int side_a = begin == a.end ? outside : sideOf(r, vec2(a.lower), vec2(a.upper));
+      int side_b = b_begin == b.end ? outside : sideOf(r, vec2(b.lower), vec2(b.upper));
+      bool ends = spent || leaf && !itself;
+      bool counts_a = side_a == cut && (ends || all(lessThan(vec2(a.upper - a.lower), sampled_side)));
+      bool counts_b = side_b == cut && (ends || all(lessThan(vec2(b.upper - b.lower), sampled_side)));
+      bool waits_a = side_a == cut && !counts_a;
+      bool waits_b = side_b == cut && !counts_b;
 //? if roughness_bin
-      if (side == inside) sum.area += float(texels);
+      if (side_a == inside) sum.area += float(a.end - begin);
+      if (side_b == inside) sum.area += float(b.end - b_begin);
 //? else
-      counts = counts || side == inside;
+      counts_a = counts_a || side_a == inside;
+      counts_b = counts_b || side_b == inside;
 //? end
-      rounds -= counts ? 2.0 : 1.0;
-      if (counts) {
-        kept[most_pending + counted] = packedNode(Node(seen.at, texels, seen.lower, seen.upper));
-        begins[most_pending + counted] = begin;
-        ++counted;
+      int slot_b = counts_b ? most_pending + counted : (first + pending) & (most_pending - 1);
+      if (counts_b) ++counted;
+      if (waits_b) ++pending;
+      int slot_a = counts_a ? most_pending + counted : (first + pending) & (most_pending - 1);
+      if (counts_a) ++counted;
+      if (waits_a) ++pending;
+      if (counts_b || waits_b) {
+        kept[slot_b] = packedNode(b);
+        begins[slot_b] = b_begin;
       }
-      if (splits) {
-        Node upper = upperHalfOf(node, begin);
-        int slot = (first + pending) & (most_pending - 1);
-        kept[slot] = packedNode(upper);
-        begins[slot] = node.end;
-        if (!isOutside(r, upper, node.end, beyond)) ++pending;
-        slot = (first + pending) & (most_pending - 1);
-        kept[slot] = packedNode(node);
-        begins[slot] = begin;
-        if (!isOutside(r, node, begin, beyond)) ++pending;
-      } else if (!leaf) {
-        begin += texels;
+      if (counts_a || waits_a) {
+        kept[slot_a] = packedNode(a);
+        begins[slot_a] = begin;
       }
-      in_leaf = in_leaf || leaf;
-      if (splits || begin == node.end) {
-        in_leaf = false;
+      rounds -= 1.0 + float(counts_a) + float(counts_b);
+      begin += 2u;
+      if (itself || !leaf || begin >= node.end) {
         done = pending == 0;
         int slot = depth_first ? (first + pending - 1) & (most_pending - 1) : first;
         if (!depth_first) first = (first + 1) & (most_pending - 1);
@@ -162,10 +152,11 @@ void addCopy(inout ListSum sum, Region r, TexelList list, ListBin bin, float las
         begin = begins[slot];
         --pending;
       }
+      is_root = false;
     }
     for (; counted > 0; --counted) {
       int i = most_pending + counted - 1;
-      addPutAside(sum, r, beyond, bin, unpackedNode(kept[i]), begins[i]);
+      addPutAside(sum, r, bin, unpackedNode(kept[i]), begins[i]);
     }
   }
   finished = finished && done && counted == 0;

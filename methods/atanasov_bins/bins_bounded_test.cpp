@@ -75,8 +75,8 @@ double relative_error(std::span<const glm::vec4> found, std::span<const double> 
 
 constexpr int m = 31;
 
-// The largest over the footprints; each over all bins.
-double error_of_bins(Kind kind, const std::string& border) {
+// Of each footprint, over all bins.
+std::vector<double> errors_of_bins(Kind kind, const std::string& border) {
   const Image normals = map_of(kind, 1024);
   std::vector<glm::dvec3> middles;
   for (int bin = 0; bin < m * m; ++bin)
@@ -86,23 +86,40 @@ double error_of_bins(Kind kind, const std::string& border) {
       &atanasov_bins_method(), &material, {{"m", std::to_string(m)}, {"roughness", "bin"}, {"border", border}}};
   const std::vector<glm::vec4> found =
       probe_footprints(probed, "return vec4(ndf(e, c.xyz));", inputs_of(large_footprints, 1024.0, middles));
-  double worst = 0.0;
+  std::vector<double> errors;
   for (std::size_t i = 0; i < large_footprints.size(); ++i) {
     std::vector<double> truth = shares_of_bins(normals, large_footprints[i], Wrap::repeat, m);
     for (double& share : truth) share /= bin_solid_angle(m);
-    worst = std::max(worst, relative_error(std::span(found).subspan(i * truth.size(), truth.size()), truth));
+    errors.push_back(relative_error(std::span(found).subspan(i * truth.size(), truth.size()), truth));
   }
-  return worst;
+  return errors;
 }
 
-// README: 2.5, 2.0 and 3.0% of noise, flakes and waves.
+// README. By texels the rounds are too few for the last footprint alone.
 TEST(AtanasovBounded, BinsAreNearThePlainSum) {
   for (const Kind kind : kinds) {
-    const double nodes = error_of_bins(kind, "nodes");
-    EXPECT_LT(nodes, 0.031) << static_cast<int>(kind);
-    EXPECT_GT(nodes, 1e-3) << static_cast<int>(kind) << ": no node was sampled";
-    EXPECT_LT(error_of_bins(kind, "texels"), 1e-5) << static_cast<int>(kind);
+    const std::vector<double> nodes = errors_of_bins(kind, "nodes"), texels = errors_of_bins(kind, "texels");
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      EXPECT_LT(nodes[i], 0.031) << static_cast<int>(kind);
+      EXPECT_GT(nodes[i], 1e-3) << static_cast<int>(kind) << ": no node was sampled";
+      EXPECT_LT(texels[i], i + 1 < nodes.size() ? 1e-5 : 1e-3) << static_cast<int>(kind);
+    }
   }
+}
+
+// More copies of a map than are walked: its mean.
+TEST(AtanasovBounded, ManyMapsAreTheWholeMap) {
+  const Image normals = map_of(Kind::noise, 16);
+  const Material material = material_of(normals, Wrap::repeat);
+  const Parallelogram wide = turned({3.0, 5.0}, {500.0, 20.0}, 0.4);
+  const std::vector<double> shares = shares_of_bins(normals, wide, Wrap::repeat, m);
+  std::vector<glm::dvec3> middles;
+  for (int bin = 0; bin < m * m; ++bin)
+    middles.push_back(square_to_hemisphere((glm::dvec2(bin % m, bin / m) + 0.5) / double{m}));
+  const ProbedMethod probed{&atanasov_bins_method(), &material, {{"m", std::to_string(m)}, {"roughness", "bin"}}};
+  const std::vector<glm::vec4> found =
+      probe_footprints(probed, "return vec4(ndf(e, c.xyz) * binSolidAngle());", inputs_of({wide}, 16.0, middles));
+  EXPECT_LT(relative_error(found, shares), 0.03);
 }
 
 // ---- lobes ----
@@ -188,8 +205,8 @@ TEST(AtanasovBounded, SeveralMapsAreNearThePlainSum) {
     const Image normals = map_of(kind, 128);
     for (const Wrap wrap : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge}) {
       for (const Lobe& lobe : {medium, tailed}) {
-        const double e = error_of_lobes(normals, footprints, wrap, lobe);
-        std::printf("%d wrap %d %s: %g\n", int(kind), int(wrap), lobe_text(lobe).c_str(), e);
+        EXPECT_LT(error_of_lobes(normals, footprints, wrap, lobe), wrap == Wrap::clamp_to_edge ? 0.03 : 0.055)
+            << static_cast<int>(kind) << ", wrap " << static_cast<int>(wrap) << ", " << lobe_text(lobe);
       }
     }
   }
@@ -226,8 +243,6 @@ TEST(AtanasovBounded, ManyLightsAreAsOne) {
       const Image exact = picture(scene, 1, exact_method(), "exact:kernel=areas:texels=256");
       for (const auto& [lights, error, energy] : light_counts) {
         const auto found = compare_images(picture(scene, lights, atanasov_bins_method(), "atanasov_bins"), exact, 1.0F);
-        std::printf("%d %d %zu: %g %g\n", int(kind), int(distribution), lights, found->relative_rmse,
-                    found->energy_bias);
         EXPECT_LT(found.value().relative_rmse, error) << static_cast<int>(kind) << ", " << lights;
         EXPECT_LT(std::abs(found.value().energy_bias), energy) << static_cast<int>(kind) << ", " << lights;
       }
@@ -237,14 +252,15 @@ TEST(AtanasovBounded, ManyLightsAreAsOne) {
 
 TEST(AtanasovBounded, ManyLightsAreAsOneInEveryMode) {
   const Scene scene = lit_square(Kind::flakes, NormalDistribution::beckmann);
-  for (const std::string text :
-       {"atanasov_bins:roughness=bin", "atanasov_bins:roughness=flakes", "atanasov_bins:border=texels",
-        "atanasov_bins:footprint=box", "atanasov_bins:footprint=filter"}) {
+  const std::array<std::pair<std::string, double>, 5> modes{{{"atanasov_bins:roughness=bin", 1e-5},
+                                                             {"atanasov_bins:roughness=flakes", 0.25},
+                                                             {"atanasov_bins:border=texels", 0.1},
+                                                             {"atanasov_bins:footprint=box", 0.09},
+                                                             {"atanasov_bins:footprint=filter", 0.22}}};
+  for (const auto& [text, error] : modes) {
     const Image one = picture(scene, 1, atanasov_bins_method(), text);
-    for (const std::size_t lights : {4, 16, 48}) {
-      const auto found = compare_images(picture(scene, lights, atanasov_bins_method(), text), one, 1.0F);
-      std::printf("%s %zu: %g\n", text.c_str(), lights, found->relative_rmse);
-    }
+    const Image many = picture(scene, 48, atanasov_bins_method(), text);
+    EXPECT_LT(compare_images(many, one, 1.0F).value().relative_rmse, error) << text;
   }
 }
 

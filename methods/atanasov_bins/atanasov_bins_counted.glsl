@@ -56,7 +56,7 @@ float shareOfBox(Region r, ivec2 texel, vec2 half_sides) {
   return covered.x * covered.y;
 }
 
-// What is put aside: a node, or a texel.
+// A node that is put aside.
 struct Counted {
   uint at;      // in the forest
   uint begin;   // of its texels

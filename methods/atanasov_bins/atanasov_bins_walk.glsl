@@ -67,15 +67,14 @@ bool isDepthFirst(Region r, float rounds) {
 }
 
 // A node or a texel that was put aside.
-void addPutAside(inout ListSum sum, Region r, ListBin bin, Node seen, uint begin) {
-  vec2 lower = vec2(seen.lower);
-  vec2 sides = vec2(seen.upper) - lower;
-//? if roughness_bin
-  float share = areaWithin(r, lower, lower + sides) / (sides.x * sides.y);
-//? else
-  float share = coveredOf(r, lower, lower + sides) / (sides.x * sides.y);
-//? end
+void addNode(inout ListSum sum, Region r, ListBin bin, Node seen, uint begin) {
+  vec2 sides = vec2(seen.upper - seen.lower);
+  float share = areaWithin(r, vec2(seen.lower), vec2(seen.upper)) / (sides.x * sides.y);
   addCounted(sum, r, Counted(seen.at, begin, seen.end - begin, sides, share), bin);
+}
+
+void addOne(inout ListSum sum, Region r, ListBin bin, ivec2 texel) {
+  addTexel(sum, texel, areaWithin(r, vec2(texel), vec2(texel) + 1.0), bin);
 }
 
 // Over one copy of the map. A round looks at both halves of a node or at two texels of a leaf: pixels that are drawn
@@ -92,11 +91,12 @@ void addCopy(inout ListSum sum, Region r, TexelList list, ListBin bin, float las
   uint begins[most_pending + most_counted];
   int first = 0;
   int pending = 0;
-  int counted = 0;
+  int nodes = 0;  // put aside, from the beginning
+  int texels = 0;  // from the end
   bool is_root = true;
   bool done = begin == list.end;
   while (!done) {
-    while (!done && counted < most_counted - 1) {
+    while (!done && nodes + texels < most_counted - 1) {
       bool leaf = node.end - begin <= leaf_size;
       float needed = 2.0 * float(pending) + (leaf ? 1.5 * float(node.end - begin) : 4.0);
       bool spent = rounds - last < needed || pending > most_pending - 2;
@@ -128,11 +128,14 @@ void addCopy(inout ListSum sum, Region r, TexelList list, ListBin bin, float las
       counts_a = counts_a || side_a == inside;
       counts_b = counts_b || side_b == inside;
 //? end
-      int slot_b = counts_b ? most_pending + counted : (first + pending) & (most_pending - 1);
-      if (counts_b) ++counted;
+      bool are_texels = leaf && !itself;
+      int aside = most_pending + (are_texels ? most_counted - 1 - texels : nodes);
+      int slot_b = counts_b ? aside : (first + pending) & (most_pending - 1);
+      if (counts_b) aside += are_texels ? -1 : 1;
       if (waits_b) ++pending;
-      int slot_a = counts_a ? most_pending + counted : (first + pending) & (most_pending - 1);
-      if (counts_a) ++counted;
+      int slot_a = counts_a ? aside : (first + pending) & (most_pending - 1);
+      if (are_texels) texels += int(counts_a) + int(counts_b);
+      else nodes += int(counts_a) + int(counts_b);
       if (waits_a) ++pending;
       if (counts_b || waits_b) {
         kept[slot_b] = packedNode(b);
@@ -154,12 +157,13 @@ void addCopy(inout ListSum sum, Region r, TexelList list, ListBin bin, float las
       }
       is_root = false;
     }
-    for (; counted > 0; --counted) {
-      int i = most_pending + counted - 1;
-      addPutAside(sum, r, bin, unpackedNode(kept[i]), begins[i]);
+    for (; nodes > 0; --nodes) {
+      int i = most_pending + nodes - 1;
+      addNode(sum, r, bin, unpackedNode(kept[i]), begins[i]);
     }
+    for (; texels > 0; --texels) addOne(sum, r, bin, unpacked(kept[most_pending + most_counted - texels].z));
   }
-  finished = finished && done && counted == 0;
+  finished = finished && done && nodes + texels == 0;
 }
 
 // Copies of the map along an axis: first and last; one where it does not repeat.

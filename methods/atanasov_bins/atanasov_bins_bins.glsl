@@ -7,15 +7,15 @@ Sum sumOfLists(Effective e, Region r, Query q, float rounds) {
   Sum sum = sumBeyond(e, r, q, rounds, finished);
   sum.area += areaOnMap(r);
   float walk = walkRounds(rounds, bins_invalid_list < 0.0 ? 1.0 : 2.0);
-  int walked = 0;
-  for (int i = 0; i < 2; ++i) {
-    ++walked;
+  int i = bins_invalid_list < 0.0 ? 1 : 0;
+  do {
     int list = i == 0 ? int(bins_invalid_list) : listOfKey(q.bin);
+    ++i;
     if (list < 0) continue;
     ListSum part = sumOfList(r, listAt(uint(list)), ListBin(vec2(0.0), 1.0), walk, finished);
-    if (i == 0) sum.area -= part.area;
+    if (i == 1) sum.area -= part.area;
     else sum.value += part.area / binSolidAngle();
-  }
+  } while (i < 2);
   if (sum.area < 1e-4 * areaOf(r)) sum = Sum(0.0, 0.0);
-  return finished && walked == 2 ? sum : notWhole();
+  return finished && i == 2 ? sum : notWhole();
 }

@@ -38,14 +38,14 @@ std::string unit_text(const RunSettings& settings) {
 // Everything that errors are measured against, but for the distance. An automatic exposure is that of the first one.
 std::string reference_content(const RunSettings& settings, const Scene& scene, double first_distance) {
   const auto& [spp, by_noise, fixed_spp, noise, spp_max, other_spp, supersampling, seed, filter, environment, bound,
-               finest_levels] = settings.reference;
+               by_cause] = settings.reference;
   ContentHash hash;
   const bool adapts = by_noise && !fixed_spp;
   hash.add(fmt::format("{} {} {} {}", spp, adapts, noise ? number(*noise) : "auto", spp_max));
   hash.add(fmt::format("{} / {}", fmt::join(other_spp, " "), fmt::join(supersampling, " ")));
   hash.add(unit_text(settings));
   hash.add(fmt::format("{} {} {} {} {}", seed, static_cast<int>(filter), static_cast<int>(environment),
-                       static_cast<int>(bound), finest_levels));
+                       static_cast<int>(bound), by_cause));
   if (adapts && !noise) {
     for (const MethodSpec& method : settings.methods) hash.add(method.text);  // their differences say how many samples
   }

@@ -159,7 +159,7 @@ SharedTruth::AtDistance& TruthFinder::begun_reference(SharedTruth& shared, const
 Image TruthFinder::samples_of_finest_levels(const Truth& truth, const Image& whole, const Progress& progress) {
   const ReferenceSettings& asked = settings_.reference;
   const int spp = finest_samples(asked);
-  if (spp == asked.spp || !asked.finest_levels) return whole;
+  if (spp == asked.spp || !asked.by_cause) return whole;
   return finest_mean(stage_.reference(), truth.view, asked, progress);
 }
 
@@ -229,10 +229,7 @@ void TruthFinder::leave_out_unresolved(Truth& truth) const {
 
 // The pixels that are interior, and the bound over them.
 void TruthFinder::find_parts(Truth& truth, const std::string& prefix) {
-  const Interior interior =
-      interior_finder_.render(truth.view, object_part(truth.reference.mean), settings_.reference.spp,
-                              settings_.reference.seed, progress_.next(interior_weight, prefix));
-  stage_.context().check("finding interior pixels");
+  const Interior interior = interior_of(truth, progress_.next(interior_weight, prefix));
   const std::size_t left_out = truth.parts.counts.unresolved;
   truth.parts = pixel_parts(truth.reference.mean, interior);
   truth.parts.counts.unresolved = left_out;
@@ -249,6 +246,19 @@ void TruthFinder::find_parts(Truth& truth, const std::string& prefix) {
   truth.bound = draw_bound(stage_, *bound_, settings_.reference.bound, truth.view, truth.parts, interior.texels);
   truth.parts.counts.bound = count_pixels(truth.bound->pixels);
   stage_.context().check("drawing the bound");
+}
+
+// As they are shared, or found and shared.
+Interior TruthFinder::interior_of(const Truth& truth, const Progress& progress) const {
+  SharedTruth::AtDistance* known = nullptr;
+  if (shared_ != nullptr)
+    known = &*std::ranges::find(shared_->distances, truth.distance, &SharedTruth::AtDistance::distance);
+  if (known != nullptr && known->interior) return *known->interior;
+  Interior interior = interior_finder_.render(truth.view, object_part(truth.reference.mean), settings_.reference.spp,
+                                              settings_.reference.seed, progress);
+  stage_.context().check("finding interior pixels");
+  if (known != nullptr) known->interior = interior;
+  return interior;
 }
 
 OtherTruth TruthFinder::other_truth(const Truth& truth, int spp, const std::string& prefix) {

@@ -70,6 +70,10 @@ class RecommendTest(WholeRunTest):
         self.assertNotIn("{{", page)
         for report in document_of(folder)["reports"]:
             self.assertTrue((folder / report).is_file(), report)
+        for record in results_of(folder / "trilinear")["records"]:
+            error = record["error"]
+            self.assertEqual([error["representation"], error["filtering"], error["light"]], [None] * 3)
+            self.assertGreater(error["normalized_color"], 0)
         for source in page.split('<img src="')[1:]:
             self.assertTrue((folder / source.split('"', 1)[0]).is_file(), source)
 

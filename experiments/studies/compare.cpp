@@ -73,7 +73,10 @@ class Comparison {
         parts_(whole_.next(3, ""),
                static_cast<double>(distances_.size()) * (TruthFinder::weight(settings) + weight_of_methods(settings))) {
     require_pictures(size_, pictures_held(settings.methods.size(), distances_.size()));
-    if (kept_ != nullptr) keys_.emplace(*kept_, settings_, loaded(), distances_);
+    if (kept_ == nullptr) return;
+    keys_.emplace(*kept_, settings_, loaded(), shared_ != nullptr ? shared_->content : scene_content(loaded()),
+                  distances_);
+    if (shared_ != nullptr && shared_->kept_as.empty()) shared_->kept_as = keys_->truth_content();
   }
 
   Results run(const FurtherTimes& further_times, const ResultsWatch& so_far) {
@@ -239,7 +242,16 @@ class Comparison {
     } else if (i > 0) {
       finder().choose_exposure(distances_.front());
     }
-    return finder().find(i, distances_[i]);
+    if (!keys_ || shared_ == nullptr || shared_->truth.at(distances_[i])) return finder().find(i, distances_[i]);
+    const std::string key = keys_->shared_truth(shared_->kept_as, i);
+    auto known = kept_->find<SharedTruth::AtDistance>(key, folder_);
+    if (known) {
+      shared_->truth.distances.push_back(std::move(*known));
+      return finder().find(i, distances_[i]);
+    }
+    Truth truth = finder().find(i, distances_[i]);
+    kept_->keep(key, *shared_->truth.at(distances_[i]), folder_);
+    return truth;
   }
 
   KeptTruth outline(const Truth& truth) {

@@ -37,7 +37,9 @@ using ResultsWatch = std::function<void(const Results& results)>;
 /// Those of another size or reference can share the scene alone.
 struct SharedWork {
   std::shared_ptr<PreparedScene> scene;
+  std::string content;  ///< scene_content of it, before it was prepared; of comparisons that keep work
   SharedTruth truth;
+  std::string kept_as;  ///< what the truth depends on, said by the first comparison that keeps work
 };
 
 /// Runs the comparison and writes its pictures into FOLDER/images (made here). The figures are over this process and

@@ -17,11 +17,11 @@ namespace {
 std::string number(double value) { return fmt::format("{}", value); }  // as many digits as it takes
 
 // What the scene is and how it is looked at, whatever is measured of it.
-std::string scene_content(const RunSettings& settings, const Scene& scene) {
+std::string seen_content(const RunSettings& settings, const Scene& scene, const std::string& content) {
   const auto& [size, quick_size, distances, zoom, exposure, error_scale] = settings.view;
   const glm::ivec2 pixels = frame_size(scene, size);
   ContentHash hash;
-  add_content(hash, scene);
+  hash.add(content);
   hash.add(settings.without.to_string());
   hash.add(fmt::format("{}x{}", pixels.x, pixels.y));
   hash.add(footprint_filter_text(footprint_filter_of(settings, scene)));
@@ -60,12 +60,18 @@ std::string reference_content(const RunSettings& settings, const Scene& scene, d
 
 }  // namespace
 
+std::string scene_content(const Scene& scene) {
+  ContentHash hash;
+  add_content(hash, scene);
+  return hash.hex();
+}
+
 ComparisonKeys::ComparisonKeys(const KeptWork& work, const RunSettings& settings, const Scene& scene,
-                               std::vector<double> distances)
+                               const std::string& content, std::vector<double> distances)
     : work_(&work),
       settings_(&settings),
       distances_(std::move(distances)),
-      scene_(scene_content(settings, scene)),
+      scene_(seen_content(settings, scene, content)),
       reference_(reference_content(settings, scene, distances_.front())),
       source_(scene.source) {}
 
@@ -94,6 +100,10 @@ std::string ComparisonKeys::times(std::size_t distance) const {
 std::string ComparisonKeys::head() const {
   return work_->key("head",
                     with_methods({scene_, source_, fmt::format("{}", static_cast<int>(settings_->reference.bound))}));
+}
+
+std::string ComparisonKeys::shared_truth(const std::string& first, std::size_t distance) const {
+  return work_->key("shared", std::vector{first, number(distances_[distance])});
 }
 
 std::string ComparisonKeys::of_scene(std::string_view kind, const std::vector<std::string>& more) const {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "experiments/studies/compare.hpp"
+#include "experiments/studies/kept_comparison.hpp"
 #include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/file_names.hpp"
@@ -211,14 +212,16 @@ MaterialAdvice advice_of(const RecommendSettings& settings, const std::vector<Fi
 
 class Advisor {
  public:
-  Advisor(const RecommendSettings& settings, std::filesystem::path folder,
-          const std::function<void(Results&, const std::filesystem::path&)>& keep_results, const Progress& progress)
+  Advisor(const RecommendSettings& settings, std::filesystem::path folder, const KeptWork& kept,
+          const RecommendListener& listener, const Progress& progress)
       : settings_(settings),
         folder_(std::move(folder)),
-        keep_results_(keep_results),
+        kept_(kept),
+        listener_(listener),
         parts_(progress, (settings.exhaustive ? 0.0 : 1.0) + 3.0),
         scene_(std::make_shared<PreparedScene>(
-            load_scene(settings.run.scene, settings.run.scene_library, settings.run.overrides), settings.run)) {}
+            load_scene(settings.run.scene, settings.run.scene_library, settings.run.overrides), settings.run)),
+        content_(scene_content(scene_->scene)) {}
 
   Recommendation run() {
     MethodsByFilter methods;
@@ -229,6 +232,7 @@ class Advisor {
       coarse_size_ = coarse_size(settings_.run, scene_->scene);
       tried = count_of(methods);
       const std::vector<FilterRun> coarse = run_all(methods, true);
+      tell_first_answer(coarse, *tried);
       methods = still_in_question(coarse, methods);
     }
     const std::vector<FilterRun> runs = run_all(methods, false);
@@ -249,6 +253,16 @@ class Advisor {
     return count;
   }
 
+  void tell_first_answer(const std::vector<FilterRun>& coarse, std::size_t tried) {
+    const glm::ivec2 full = frame_size(scene_->scene, settings_.run.view.size);
+    const auto pixels = [](const glm::ivec2& size) { return static_cast<double>(size.x) * size.y; };
+    Recommendation answer = described(coarse);
+    answer.coarse = pixels(*coarse_size_) / pixels(full);
+    answer.tried = tried;
+    answer.left_out = left_out_;
+    listener_.first_answer(answer);
+  }
+
   // Leaves out the methods that failed at any distance, under this filter and those that follow.
   void leave_out_failed(const Results& results, MethodsByFilter& methods) {
     for (const Record& record : results.records) {
@@ -267,7 +281,7 @@ class Advisor {
     if (!settings_.limits.max_cost || filter == plain_filter) return false;
     const std::vector<MethodSpec> direct{{.text = "direct", .name = "direct", .options = {}}};
     const Results results =
-        run_compare(settings_of(settings_, filter, direct, coarse_size_), own, {}, progress, &shared);
+        run_compare(settings_of(settings_, filter, direct, coarse_size_), own, {}, progress, &shared, &kept_);
     const auto costs = std::views::transform(results.records, [](const Record& r) { return r.ratio_to_direct.median; });
     const double least = std::ranges::min(costs);
     if (least * (1.0 - coarse_cost_share) <= *settings_.limits.max_cost) return false;
@@ -279,7 +293,7 @@ class Advisor {
   std::vector<FilterRun> run_all(MethodsByFilter& methods, bool coarse) {
     const std::optional<glm::ivec2> size = coarse ? coarse_size_ : std::nullopt;
     std::vector<FilterRun> runs;
-    SharedWork shared{.scene = scene_, .truth = {}};  // under every filter the same
+    SharedWork shared{.scene = scene_, .content = content_, .truth = {}, .kept_as = {}};
     ProgressParts parts(parts_.next(coarse ? 1.0 : 3.0, coarse ? "coarse, " : ""), static_cast<double>(methods.size()));
     for (std::size_t f = 0; f < methods.size(); ++f) {
       const FootprintFilter& filter = settings_.filters[f];
@@ -296,12 +310,12 @@ class Advisor {
         continue;
       }
       run.results =
-          run_compare(settings_of(settings_, filter, methods[f], size), own, {}, steps.next(3.0, ""), &shared);
+          run_compare(settings_of(settings_, filter, methods[f], size), own, {}, steps.next(3.0, ""), &shared, &kept_);
       leave_out_failed(run.results, methods);
       const bool is_of_use = !methods_of(run.results).empty();
       if (coarse || !is_of_use) std::filesystem::remove_all(own);
       if (!is_of_use) continue;
-      if (!coarse) keep_results_(run.results, own);
+      if (!coarse) listener_.results(run.results, own);
       runs.push_back(std::move(run));
     }
     if (runs.empty())
@@ -348,6 +362,7 @@ class Advisor {
     result.exhaustive = settings_.exhaustive;
     for (std::size_t material = 0; material < material_count(runs); ++material)
       result.materials.push_back(advice_of(settings_, runs, material));
+    if (runs.front().coarse) return result;
     for (const FilterRun& run : runs) result.reports.push_back(run.folder + "/index.html");
     add_pictures(runs, result);
     return result;
@@ -378,20 +393,20 @@ class Advisor {
 
   const RecommendSettings& settings_;
   std::filesystem::path folder_;
-  const std::function<void(Results&, const std::filesystem::path&)>& keep_results_;
+  const KeptWork& kept_;
+  const RecommendListener& listener_;
   ProgressParts parts_;
   std::shared_ptr<PreparedScene> scene_;
+  std::string content_;
   std::optional<glm::ivec2> coarse_size_;
   std::vector<LeftOutMethod> left_out_;
 };
 
 }  // namespace
 
-Recommendation run_recommend(
-    const RecommendSettings& settings, const std::filesystem::path& folder,
-    const std::function<void(Results& results, const std::filesystem::path& folder)>& keep_results,
-    const Progress& progress) {
-  return Advisor(settings, folder, keep_results, progress).run();
+Recommendation run_recommend(const RecommendSettings& settings, const std::filesystem::path& folder,
+                             const KeptWork& kept, const RecommendListener& listener, const Progress& progress) {
+  return Advisor(settings, folder, kept, listener, progress).run();
 }
 
 }  // namespace footprint

@@ -73,6 +73,11 @@ Image finest_mean(const Supersampler& sampler, const View& view, const Reference
   return sampler.render_mean(view, spp, settings.seed, progress);
 }
 
+SharedTruth::AtDistance* SharedTruth::at(double distance) {
+  const auto known = std::ranges::find(distances, distance, &AtDistance::distance);
+  return known != distances.end() ? &*known : nullptr;
+}
+
 TruthFinder::TruthFinder(const RunSettings& settings, const Stage& stage, std::filesystem::path folder,
                          std::function<float(const Image& first_reference)> exposure, ProgressParts& progress,
                          SharedTruth* shared)
@@ -143,8 +148,7 @@ SharedTruth::AtDistance& TruthFinder::begun_reference(SharedTruth& shared, const
   const ReferenceSettings& asked = settings_.reference;
   const Progress reference = progress_.next(asked.spp, prefix + "reference, ");
   const Progress finest = progress_.next(finest_samples(asked), prefix + "reference, ");
-  const auto known = std::ranges::find(shared.distances, truth.distance, &SharedTruth::AtDistance::distance);
-  if (known != shared.distances.end()) return *known;
+  if (SharedTruth::AtDistance* known = shared.at(truth.distance)) return *known;
   const auto begin = std::chrono::steady_clock::now();
   SharedTruth::AtDistance begun;
   begun.distance = truth.distance;
@@ -250,9 +254,7 @@ void TruthFinder::find_parts(Truth& truth, const std::string& prefix) {
 
 // As they are shared, or found and shared.
 Interior TruthFinder::interior_of(const Truth& truth, const Progress& progress) const {
-  SharedTruth::AtDistance* known = nullptr;
-  if (shared_ != nullptr)
-    known = &*std::ranges::find(shared_->distances, truth.distance, &SharedTruth::AtDistance::distance);
+  SharedTruth::AtDistance* known = shared_ != nullptr ? shared_->at(truth.distance) : nullptr;
   if (known != nullptr && known->interior) return *known->interior;
   Interior interior = interior_finder_.render(truth.view, object_part(truth.reference.mean), settings_.reference.spp,
                                               settings_.reference.seed, progress);

@@ -77,6 +77,9 @@ struct SharedTruth {
     std::optional<Interior> interior;
   };
   std::vector<AtDistance> distances;
+
+  /// Null where it has none.
+  [[nodiscard]] AtDistance* at(double distance);
 };
 
 /// Finds it distance by distance. Keeps the addresses of what it is given.

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "experiments/studies/frame_times.hpp"
 #include "renderer/pipeline/timing.hpp"
 
 namespace footprint {
@@ -20,6 +21,11 @@ EffectCost cost_of(Effect effect, const std::vector<double>& with, const std::ve
           .added_ms = quantile(added, 0.5)};
 }
 
+// Whether more rounds would change little: the interval of the ratio to the frame with all effects is narrow.
+bool are_known(const RepeatedTimes& times) {
+  return std::ranges::all_of(times, [&](const auto& own) { return is_ratio_known(own, times.front()); });
+}
+
 // The scene drawn with some of its effects. Pinned: the method keeps the scene's address.
 struct Variant {
   std::unique_ptr<GpuScene> scene;
@@ -29,8 +35,7 @@ struct Variant {
 Variant make_variant(const Stage& stage, const RunSettings& run, const EffectSet& effects, const glm::ivec2& size,
                      const Progress& progress) {
   const gl::ContextInfo& context = stage.context().info();
-  const std::optional<DiskCache> cache = cache_of(run);
-  auto scene = std::make_unique<GpuScene>(context, stage.scene(), effects, progress, cache ? &*cache : nullptr);
+  auto scene = std::make_unique<GpuScene>(context, stage.scene(), effects, progress, nullptr, &stage.gpu_scene());
   StagedMethod method(context, *scene, stage.scene(), effects, run.methods.front(),
                       footprint_filter_of(run, stage.scene()), size, run, no_progress);
   return {std::move(scene), std::move(method)};
@@ -54,8 +59,9 @@ std::vector<EffectCost> measure_effect_costs(const Stage& stage, const RunSettin
   }
   std::vector<DrawFrame> frames{[&] { stage.methods().front().frames().draw(view); }};
   for (const Variant& variant : variants) frames.emplace_back([&] { variant.method.frames().draw(view); });
-  const auto times = interleaved_times(stage.context().info(), frames, run.timing.repeats,
-                                       [&](std::string_view what, double done) { progress(what, 0.5 + 0.5 * done); });
+  const auto times = interleaved_times(
+      stage.context().info(), frames, run.timing.repeats,
+      [&](std::string_view what, double done) { progress(what, 0.5 + 0.5 * done); }, are_known);
   stage.context().check("timing the effects");
 
   std::vector<EffectCost> costs;

@@ -152,6 +152,11 @@ std::vector<Assigned> share_of(const std::vector<Assigned>& all, const Shard& sh
 
 fs::path kept_folder(const fs::path& output) { return output / "kept"; }
 
+std::string reuse_text(const KeptWork& kept) {
+  return fmt::format("{} finished parts of an earlier run were reused from {} (--fresh measures again)", kept.found(),
+                     kept.folder().string());
+}
+
 std::string maker_for(const RunSettings& run) {
   const gl::Context context(run.backend.context);
   return maker_of_work(fmt::format("{} {}", context.info().renderer, context.info().version));

@@ -15,6 +15,9 @@ namespace footprint {
 /// The folder below a run's output folder in which its finished work is kept.
 [[nodiscard]] std::filesystem::path kept_folder(const std::filesystem::path& output);
 
+/// How much of an earlier run was reused, and how to measure it again.
+[[nodiscard]] std::string reuse_text(const KeptWork& kept);
+
 /// Who makes this run's work: the program, and what draws for it by these settings. Errors (machine): no OpenGL.
 [[nodiscard]] std::string maker_for(const RunSettings& run);
 

@@ -114,7 +114,7 @@ Explanation explain(const ExplainArguments& arguments, const Progress& progress)
                    .bytes = maps->bytes(),
                    .resolution = maps->resolution()};
   }
-  if (const auto& visibility = stage.gpu_scene().visibility()) {
+  if (const GpuVisibility* visibility = stage.gpu_scene().visibility()) {
     out.visibility = {
         .vertices = visibility->vertex_count(), .bytes = visibility->bytes(), .error = visibility->error()};
   }

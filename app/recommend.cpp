@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "app/commands.hpp"
+#include "app/experiment_runs.hpp"
+#include "app/messages.hpp"
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
@@ -41,6 +43,7 @@ struct RecommendArguments {
   std::string filters = "trilinear,anisotropic:8,shaded:2";
   Limits limits;
   bool exhaustive = false;
+  bool fresh = false;
   std::string output = "out";
   bool quiet = false;
 };
@@ -61,6 +64,11 @@ void require_positive(const char* option, const std::optional<double>& value) {
   throw Error(ErrorKind::usage, option, fmt::format("{} is not a valid limit", *value), "give a number above 0");
 }
 
+void write_answer(const Recommendation& answer, const std::filesystem::path& folder) {
+  write_file_atomically(folder / "recommend.json", recommendation_json(answer));
+  write_file_atomically(folder / "index.html", recommendation_page(answer));
+}
+
 void run_recommend_command(const RecommendArguments& arguments) {
   require_positive("--max-error", arguments.limits.max_error);
   require_positive("--max-cost", arguments.limits.max_cost);
@@ -69,19 +77,32 @@ void run_recommend_command(const RecommendArguments& arguments) {
                                    .limits = arguments.limits,
                                    .exhaustive = arguments.exhaustive};
   ProgressDisplay display(progress_style(arguments.quiet));
-  const auto sign_and_write = [](Results& results, const std::filesystem::path& folder) {
-    sign(results.tool, results.backend);
-    write_report(results, folder);
-  };
+  const KeptWork kept(kept_folder(arguments.output), maker_for(settings.run));
+  if (arguments.fresh) kept.clear();
   const auto [result, path] = write_whole(arguments.output, [&](OutputFolder& folder) {
-    Recommendation made = run_recommend(settings, folder.path(), sign_and_write, display.callback());
-    write_file_atomically(folder.path() / "recommend.json", recommendation_json(made));
-    write_file_atomically(folder.path() / "index.html", recommendation_page(made));
+    const RecommendListener listener{
+        .results =
+            [](Results& results, const std::filesystem::path& own) {
+              sign(results.tool, results.backend);
+              write_report(results, own);
+            },
+        .first_answer =
+            [&](const Recommendation& answer) {
+              write_answer(answer, folder.path());
+              display.finish();
+              write_output(recommendation_text(answer) + "\n");
+              if (!arguments.quiet)
+                write_message(fmt::format("page of the first answer, until the run ends: {}",
+                                          (folder.path() / "index.html").string()));
+            }};
+    Recommendation made = run_recommend(settings, folder.path(), kept, listener, display.callback());
+    write_answer(made, folder.path());
     keep(folder);
     return made;
   });
   display.finish();
   write_output(fmt::format("{}\npage: {}\n", recommendation_text(result), (path / "index.html").string()));
+  if (kept.found() > 0 && !arguments.quiet) write_message(reuse_text(kept));
 }
 
 }  // namespace
@@ -107,9 +128,15 @@ void add_recommend_command(CLI::App& app) {
       ->type_name("LIST")
       ->capture_default_str();
   command->add_flag("--exhaustive", arguments->exhaustive, "Measure every candidate in full");
-  command->add_option("-o,--output", arguments->output, "Folder for index.html, recommend.json and the full runs")
+  command
+      ->add_option(
+          "-o,--output", arguments->output,
+          "Folder for index.html, recommend.json, the full runs, and kept/ with the finished work, from which an "
+          "interrupted run resumes")
       ->type_name("DIR")
       ->capture_default_str();
+  command->add_flag("--fresh", arguments->fresh,
+                    "Measure everything again: discard the finished work in the output folder");
   add_quiet_flag(*command, arguments->quiet);
   command->footer(recommend_examples);
   command->callback([arguments] { run_recommend_command(*arguments); });

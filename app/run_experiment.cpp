@@ -126,9 +126,7 @@ void run_all(const ExperimentArguments& arguments, const RunListener& listener) 
   const AskedExperiments experiments = asked(arguments);
   const KeptWork kept = finished_work(experiments, arguments);
   run_and_print(experiments, arguments.output, kept, arguments.quiet, listener);
-  if (kept.found() > 0 && !arguments.quiet)
-    write_message(fmt::format("{} finished parts of an earlier run were reused from {} (--fresh measures again)",
-                              kept.found(), kept.folder().string()));
+  if (kept.found() > 0 && !arguments.quiet) write_message(reuse_text(kept));
 }
 
 // Runs one part; `part.json` says that it is whole, and is there only then.

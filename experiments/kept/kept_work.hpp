@@ -37,8 +37,7 @@ class KeptWork {
     if (!item) return {};
     std::optional<T> value = unpacked<T>(item->value, key);
     if (!value || !put_files(*item, run_folder)) return {};
-    used_.insert(key);
-    ++found_;
+    if (used_.insert(key).second) ++found_;
     return value;
   }
 
@@ -56,7 +55,7 @@ class KeptWork {
   /// The keys of all items, sorted.
   [[nodiscard]] std::vector<std::string> keys() const;
 
-  /// The keys that were found or kept through this object, sorted, and how often something was found.
+  /// The keys that were found or kept through this object, sorted, and how many were found that it had not kept itself.
   [[nodiscard]] std::vector<std::string> used() const { return {used_.begin(), used_.end()}; }
   [[nodiscard]] std::size_t found() const { return found_; }
 

@@ -40,7 +40,16 @@ class Packer {
   template <class T>
   void put(std::vector<T>& values) {
     writer_->add<std::uint64_t>(values.size());
-    for (T& value : values) put(value);
+    if constexpr (std::is_arithmetic_v<T>) {
+      writer_->add_values(values);
+    } else {
+      for (T& value : values) put(value);
+    }
+  }
+  template <class First, class Second>
+  void put(std::pair<First, Second>& value) {
+    put(value.first);
+    put(value.second);
   }
   template <class T, std::size_t count>
   void put(std::array<T, count>& values) {
@@ -89,8 +98,18 @@ class Unpacker {
   void get(std::string& text) { text = reader_->get_text(); }
   template <class T>
   void get(std::vector<T>& values) {
-    values.resize(reader_->get_count(1));
-    for (T& value : values) get(value);
+    if constexpr (std::is_arithmetic_v<T>) {
+      (void)reader_->get_count(1);  // a text has no count before its block
+      values = reader_->get_values<T>();
+    } else {
+      values.resize(reader_->get_count(1));
+      for (T& value : values) get(value);
+    }
+  }
+  template <class First, class Second>
+  void get(std::pair<First, Second>& value) {
+    get(value.first);
+    get(value.second);
   }
   template <class T, std::size_t count>
   void get(std::array<T, count>& values) {

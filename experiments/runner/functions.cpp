@@ -182,7 +182,8 @@ Evaluate over_times(std::function<Figure(const Record&)> time) {
                       "no record has this figure");
 }
 
-Evaluate over_errors(double RecordError::*member) {
+template <class Value>
+Evaluate over_errors(Value RecordError::*member) {
   return over_records([member](const Record& r) { return r.error ? Figure((*r.error).*member) : Figure(); });
 }
 

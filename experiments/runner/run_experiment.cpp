@@ -67,7 +67,8 @@ class FurtherFigures {
         folder_(folder),
         kept_(kept),
         scene_(load_scene(experiment.run.scene, experiment.run.scene_library, experiment.run.overrides)) {
-    if (kept_ != nullptr) keys_.emplace(*kept_, experiment.run, scene_, run_distances(experiment.run.view, scene_));
+    if (kept_ != nullptr)
+      keys_.emplace(*kept_, experiment.run, scene_, scene_content(scene_), run_distances(experiment.run.view, scene_));
   }
 
   void add_to(Results& results, const Progress& progress) {

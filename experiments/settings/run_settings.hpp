@@ -106,9 +106,9 @@ struct ReferenceSettings {
   ReferenceFilter filter = ReferenceFilter::after_shading;
   EnvironmentUse environment = EnvironmentUse::sampled;  ///< how it integrates one
   BoundUse bound = BoundUse::automatic;
-  /// Whether each method's finest level is supersampled as well; not so, the frame stands for it, in runs of which
-  /// nobody sees the errors of representation and filtering.
-  bool finest_levels = true;
+  /// Whether the errors of representation, filtering and the environment's lookup are measured, for which more is drawn
+  /// than a method's frame.
+  bool by_cause = true;
 };
 
 /// How frame times are taken.

@@ -59,25 +59,28 @@ struct DistanceWork {
 class Comparison {
  public:
   Comparison(const RunSettings& settings, std::filesystem::path folder, const Progress& progress, const KeptWork* kept,
-             RecordWatch watch)
+             RecordWatch watch, SharedWork* shared = nullptr)
       : settings_(settings),
         folder_(std::move(folder)),
         kept_(kept),
         watch_(std::move(watch)),
+        shared_(shared),
         whole_(progress, 4),
-        scene_(load_scene(settings.scene, settings.scene_library, settings.overrides)),
-        size_(frame_size(scene_, settings.view.size)),
-        distances_(run_distances(settings.view, scene_)),
+        scene_(shared_ != nullptr ? Scene{} : load_scene(settings.scene, settings.scene_library, settings.overrides)),
+        size_(frame_size(loaded(), settings.view.size)),
+        distances_(run_distances(settings.view, loaded())),
         stage_progress_(whole_.next(1, "")),
         parts_(whole_.next(3, ""),
                static_cast<double>(distances_.size()) * (TruthFinder::weight(settings) + weight_of_methods(settings))) {
     require_pictures(size_, pictures_held(settings.methods.size(), distances_.size()));
-    if (kept_ != nullptr) keys_.emplace(*kept_, settings_, scene_, distances_);
+    if (kept_ == nullptr) return;
+    keys_.emplace(*kept_, settings_, loaded(), shared_ != nullptr ? shared_->content : scene_content(loaded()),
+                  distances_);
+    if (shared_ != nullptr && shared_->kept_as.empty()) shared_->kept_as = keys_->truth_content();
   }
 
-  Results run(const FurtherTimes& further_times, SharedTruth* shared, const ResultsWatch& so_far) {
+  Results run(const FurtherTimes& further_times, const ResultsWatch& so_far) {
     further_ = &further_times;
-    shared_ = shared;
     std::filesystem::create_directories(folder_ / "images");
     for (std::size_t i = 0; i < distances_.size(); ++i) {
       DistanceWork work = measured(i);
@@ -109,20 +112,26 @@ class Comparison {
   const Stage& stage() {
     if (!stage_) {
       if (kept_ != nullptr) kept_->require_more_allowed(settings_.scene);
-      stage_ = std::make_unique<Stage>(std::move(scene_), settings_, stage_progress_, pictures_of_a_frame, Unit::direct,
-                                       Refusal::keeps_a_row);
+      auto prepared =
+          shared_ != nullptr ? shared_->scene : std::make_shared<PreparedScene>(std::move(scene_), settings_);
+      stage_ = std::make_unique<Stage>(std::move(prepared), settings_, stage_progress_, pictures_of_a_frame,
+                                       Unit::direct, Refusal::keeps_a_row);
       measurer_.emplace(*stage_);
     }
     return *stage_;
   }
 
+  // Before there is a stage.
+  [[nodiscard]] const Scene& loaded() const { return shared_ != nullptr ? shared_->scene->scene : scene_; }
+
   // As it was loaded, or as the stage has it: no second copy of a large one.
-  [[nodiscard]] const Scene& scene() const { return stage_ ? stage_->scene() : scene_; }
+  [[nodiscard]] const Scene& scene() const { return stage_ ? stage_->scene() : loaded(); }
 
   TruthFinder& finder() {
     if (!finder_)
       finder_.emplace(
-          settings_, stage(), folder_, [this](const Image& first) { return choose(first); }, parts_, shared_);
+          settings_, stage(), folder_, [this](const Image& first) { return choose(first); }, parts_,
+          shared_ != nullptr ? &shared_->truth : nullptr);
     return *finder_;
   }
 
@@ -233,7 +242,16 @@ class Comparison {
     } else if (i > 0) {
       finder().choose_exposure(distances_.front());
     }
-    return finder().find(i, distances_[i]);
+    if (!keys_ || shared_ == nullptr || shared_->truth.at(distances_[i])) return finder().find(i, distances_[i]);
+    const std::string key = keys_->shared_truth(shared_->kept_as, i);
+    auto known = kept_->find<SharedTruth::AtDistance>(key, folder_);
+    if (known) {
+      shared_->truth.distances.push_back(std::move(*known));
+      return finder().find(i, distances_[i]);
+    }
+    Truth truth = finder().find(i, distances_[i]);
+    kept_->keep(key, *shared_->truth.at(distances_[i]), folder_);
+    return truth;
   }
 
   KeptTruth outline(const Truth& truth) {
@@ -276,7 +294,7 @@ class Comparison {
     const std::string& text = settings_.methods[index].text;
     const std::string prefix = fmt::format("distance {:g}: {}, ", truth.distance, text);
     MethodPictures pictures{.frame = staged.frames().render(truth.view), .finest = {}};
-    pictures.finest = settings_.reference.finest_levels ? finest_level(truth, staged, prefix) : pictures.frame;
+    if (settings_.reference.by_cause) pictures.finest = finest_level(truth, staged, prefix);
     stage().context().check("rendering " + text);
     draft.record = measurer_->measure(staged, pictures, truth, exposure_->factor);
     draft.record.work = measurer_->work_of(staged, truth.view);
@@ -447,6 +465,7 @@ class Comparison {
   std::filesystem::path folder_;
   const KeptWork* kept_;
   RecordWatch watch_;
+  SharedWork* shared_;
   ProgressParts whole_;
   Scene scene_;
   glm::ivec2 size_;
@@ -457,7 +476,6 @@ class Comparison {
   std::unique_ptr<Stage> stage_;
   std::optional<MethodMeasurer> measurer_;
   std::optional<TruthFinder> finder_;
-  SharedTruth* shared_ = nullptr;
   const FurtherTimes* further_ = nullptr;
   std::optional<std::vector<FrameTimes>> further_known_;
   std::optional<Exposure> exposure_;
@@ -474,9 +492,9 @@ FrameTimes time_frames(const RunSettings& settings, const Progress& progress) {
 }
 
 Results run_compare(const RunSettings& settings, const std::filesystem::path& folder, const FurtherTimes& further_times,
-                    const Progress& progress, SharedTruth* shared, const KeptWork* kept, const RecordWatch& watch,
+                    const Progress& progress, SharedWork* shared, const KeptWork* kept, const RecordWatch& watch,
                     const ResultsWatch& so_far) {
-  return Comparison(settings, folder, progress, kept, watch).run(further_times, shared, so_far);
+  return Comparison(settings, folder, progress, kept, watch, shared).run(further_times, so_far);
 }
 
 void measure_distances(const RunSettings& settings, std::span<const std::size_t> distances,

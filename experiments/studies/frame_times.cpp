@@ -28,16 +28,6 @@ TimeRatio ratio_between(const std::vector<double>& times, const std::vector<doub
   return {.median = quantile(ratios, 0.5), .low = low, .high = high};
 }
 
-// Whether more rounds would say little more of a ratio: the interval of its median is narrow. Of fewer rounds there is
-// no interval (median_interval).
-bool is_known(const std::vector<double>& times, const std::vector<double>& unit) {
-  constexpr std::size_t fewest = 6;
-  constexpr double narrow = 0.03;
-  if (times.size() < fewest) return false;
-  const TimeRatio ratio = ratio_between(times, unit);
-  return ratio.high - ratio.low < narrow * ratio.median;
-}
-
 void set_frame_times(Record& record, const std::vector<double>& times) {
   record.frame_ms = {.median = quantile(times, 0.5), .minimum = std::ranges::min(times), .p90 = quantile(times, 0.9)};
   record.fps = 1000.0 / record.frame_ms.median;
@@ -50,6 +40,15 @@ void set_no_times(Record& record) {
 }
 
 }  // namespace
+
+// Of fewer rounds there is no interval (median_interval).
+bool is_ratio_known(const std::vector<double>& times, const std::vector<double>& unit) {
+  constexpr std::size_t fewest = 6;
+  constexpr double narrow = 0.03;
+  if (times.size() < fewest) return false;
+  const TimeRatio ratio = ratio_between(times, unit);
+  return ratio.high - ratio.low < narrow * ratio.median;
+}
 
 DistanceTimes time_methods(const Stage& stage, const View& view, int repeats, const Progress& progress) {
   std::vector<DrawFrame> draws;
@@ -64,7 +63,7 @@ DistanceTimes time_methods(const Stage& stage, const View& view, int repeats, co
   }
   const auto is_enough = [&](const RepeatedTimes& times) {
     const std::span<const std::vector<double>> frames = std::span(times).first(stage.methods().size());
-    return std::ranges::all_of(frames, [&](const auto& own) { return is_known(own, times[stage.unit()]); });
+    return std::ranges::all_of(frames, [&](const auto& own) { return is_ratio_known(own, times[stage.unit()]); });
   };
   return interleaved_times(stage.context().info(), draws, repeats, progress, is_enough);
 }

@@ -18,6 +18,10 @@ using DistanceTimes = std::vector<std::vector<double>>;
 /// Those of one process at all distances.
 using FrameTimes = std::vector<DistanceTimes>;
 
+/// Whether more rounds would say little more of the ratio of `times` to `unit`, taken in the same rounds: the 95%
+/// interval of its median is narrower than 3% of it.
+[[nodiscard]] bool is_ratio_known(const std::vector<double>& times, const std::vector<double>& unit);
+
 /// Those of one distance, all candidates in turn.
 [[nodiscard]] DistanceTimes time_methods(const Stage& stage, const View& view, int repeats, const Progress& progress);
 

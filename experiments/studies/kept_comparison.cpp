@@ -17,11 +17,11 @@ namespace {
 std::string number(double value) { return fmt::format("{}", value); }  // as many digits as it takes
 
 // What the scene is and how it is looked at, whatever is measured of it.
-std::string scene_content(const RunSettings& settings, const Scene& scene) {
+std::string seen_content(const RunSettings& settings, const Scene& scene, const std::string& content) {
   const auto& [size, quick_size, distances, zoom, exposure, error_scale] = settings.view;
   const glm::ivec2 pixels = frame_size(scene, size);
   ContentHash hash;
-  add_content(hash, scene);
+  hash.add(content);
   hash.add(settings.without.to_string());
   hash.add(fmt::format("{}x{}", pixels.x, pixels.y));
   hash.add(footprint_filter_text(footprint_filter_of(settings, scene)));
@@ -38,14 +38,14 @@ std::string unit_text(const RunSettings& settings) {
 // Everything that errors are measured against, but for the distance. An automatic exposure is that of the first one.
 std::string reference_content(const RunSettings& settings, const Scene& scene, double first_distance) {
   const auto& [spp, by_noise, fixed_spp, noise, spp_max, other_spp, supersampling, seed, filter, environment, bound,
-               finest_levels] = settings.reference;
+               by_cause] = settings.reference;
   ContentHash hash;
   const bool adapts = by_noise && !fixed_spp;
   hash.add(fmt::format("{} {} {} {}", spp, adapts, noise ? number(*noise) : "auto", spp_max));
   hash.add(fmt::format("{} / {}", fmt::join(other_spp, " "), fmt::join(supersampling, " ")));
   hash.add(unit_text(settings));
   hash.add(fmt::format("{} {} {} {} {}", seed, static_cast<int>(filter), static_cast<int>(environment),
-                       static_cast<int>(bound), finest_levels));
+                       static_cast<int>(bound), by_cause));
   if (adapts && !noise) {
     for (const MethodSpec& method : settings.methods) hash.add(method.text);  // their differences say how many samples
   }
@@ -60,12 +60,18 @@ std::string reference_content(const RunSettings& settings, const Scene& scene, d
 
 }  // namespace
 
+std::string scene_content(const Scene& scene) {
+  ContentHash hash;
+  add_content(hash, scene);
+  return hash.hex();
+}
+
 ComparisonKeys::ComparisonKeys(const KeptWork& work, const RunSettings& settings, const Scene& scene,
-                               std::vector<double> distances)
+                               const std::string& content, std::vector<double> distances)
     : work_(&work),
       settings_(&settings),
       distances_(std::move(distances)),
-      scene_(scene_content(settings, scene)),
+      scene_(seen_content(settings, scene, content)),
       reference_(reference_content(settings, scene, distances_.front())),
       source_(scene.source) {}
 
@@ -94,6 +100,10 @@ std::string ComparisonKeys::times(std::size_t distance) const {
 std::string ComparisonKeys::head() const {
   return work_->key("head",
                     with_methods({scene_, source_, fmt::format("{}", static_cast<int>(settings_->reference.bound))}));
+}
+
+std::string ComparisonKeys::shared_truth(const std::string& first, std::size_t distance) const {
+  return work_->key("shared", std::vector{first, number(distances_[distance])});
 }
 
 std::string ComparisonKeys::of_scene(std::string_view kind, const std::vector<std::string>& more) const {

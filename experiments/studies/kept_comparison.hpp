@@ -64,6 +64,30 @@ void fields(Archive& archive, TruthFiles& value) {
 }
 
 template <class Archive>
+void fields(Archive& archive, Image& value) {
+  auto& [width, height, channels, texels] = value;
+  archive(width, height, channels, texels);
+}
+
+template <class Archive>
+void fields(Archive& archive, Interior& value) {
+  auto& [mask, texels] = value;
+  archive(mask, texels);
+}
+
+template <class Archive>
+void fields(Archive& archive, Supersampled& value) {
+  auto& [spp, mean, standard_error, halves] = value;
+  archive(spp, mean, standard_error, halves);
+}
+
+template <class Archive>
+void fields(Archive& archive, SharedTruth::AtDistance& value) {
+  auto& [distance, reference, begun, first, samples, seconds, interior] = value;
+  archive(distance, reference, begun, first, samples, seconds, interior);
+}
+
+template <class Archive>
 void fields(Archive& archive, KeptTruth& value) {
   auto& [exposure, standard_error, samples, seconds, unresolved, files, curve, warnings] = value;
   archive(exposure, standard_error, samples, seconds, unresolved, files, curve, warnings);
@@ -87,18 +111,25 @@ void fields(Archive& archive, KeptHead& value) {
   archive(backend, scene, footprint, lit_by_environment, first_warnings, last_warnings);
 }
 
+/// A hash of all that a scene is, as it was loaded.
+[[nodiscard]] std::string scene_content(const Scene& scene);
+
 /// The keys of the parts of one comparison: each hashes what its part depends on and nothing else, so that a change
 /// leaves the other parts as they are.
 class ComparisonKeys {
  public:
-  /// `scene` is the settings' own, `distances` all of the comparison.
-  ComparisonKeys(const KeptWork& work, const RunSettings& settings, const Scene& scene, std::vector<double> distances);
+  /// `scene` is the settings' own, `content` its scene_content, `distances` all of the comparison.
+  ComparisonKeys(const KeptWork& work, const RunSettings& settings, const Scene& scene, const std::string& content,
+                 std::vector<double> distances);
 
   [[nodiscard]] std::string truth(std::size_t distance) const;
   [[nodiscard]] std::string record(std::size_t distance, std::size_t method) const;
   [[nodiscard]] std::string pairs(std::size_t distance) const;
   [[nodiscard]] std::string times(std::size_t distance) const;
   [[nodiscard]] std::string head() const;
+  /// Of a truth that comparisons share: `first` is what that of the first of them depends on.
+  [[nodiscard]] std::string shared_truth(const std::string& first, std::size_t distance) const;
+  [[nodiscard]] std::string truth_content() const { return scene_ + reference_; }
   /// Of anything else that depends on the scene, the methods and `more` alone.
   [[nodiscard]] std::string of_scene(std::string_view kind, const std::vector<std::string>& more) const;
 

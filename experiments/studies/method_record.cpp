@@ -41,19 +41,20 @@ std::vector<OtherReference> errors_against_others(const Truth& truth, const Imag
 void set_error(Record& record, const Truth& truth, const MethodPictures& pictures, float exposure) {
   const std::optional<ErrorFigures> figures = compare_images(pictures.frame, truth.reference.mean, exposure);
   if (!figures) return;
-  record.error =
-      RecordError{.normalized_color = figures->normalized_color,
-                  .relative_rmse = figures->relative_rmse,
-                  .relmse = figures->relmse,
-                  .psnr = figures->psnr,
-                  .energy_bias = figures->energy_bias,
-                  .luminance_distance = figures->luminance_distance,
-                  .luminances = figures->luminances,
-                  .reference_luminances = figures->reference_luminances,
-                  .noise_floor = truth.noise_floor,
-                  .representation = normalized_color(pictures.finest, truth.reference.mean, exposure).value(),
-                  .filtering = normalized_color(pictures.frame, pictures.finest, exposure).value(),
-                  .causes = causes_of(truth, pictures.frame, exposure)};
+  record.error = RecordError{.normalized_color = figures->normalized_color,
+                             .relative_rmse = figures->relative_rmse,
+                             .relmse = figures->relmse,
+                             .psnr = figures->psnr,
+                             .energy_bias = figures->energy_bias,
+                             .luminance_distance = figures->luminance_distance,
+                             .luminances = figures->luminances,
+                             .reference_luminances = figures->reference_luminances,
+                             .noise_floor = truth.noise_floor,
+                             .causes = causes_of(truth, pictures.frame, exposure)};
+  if (pictures.finest) {
+    record.error->representation = normalized_color(*pictures.finest, truth.reference.mean, exposure);
+    record.error->filtering = normalized_color(pictures.frame, *pictures.finest, exposure);
+  }
   record.equivalent = equivalent(truth, *record.error);
   record.other_references = errors_against_others(truth, pictures.frame, exposure);
 }
@@ -79,7 +80,7 @@ Record MethodMeasurer::measure(const StagedMethod& method, const MethodPictures&
   set_error(record, truth, pictures, exposure);
   if (record.equivalent && &method == &stage_.methods()[stage_.unit()])
     record.equivalent = EquivalentSamples{.spp = 1, .side = CurveSide::within};  // a sample is one of its frames
-  set_light_error(record, truth, pictures.frame, method, exposure);
+  if (pictures.finest) set_light_error(record, truth, pictures.frame, method, exposure);
   set_material_errors(record, truth, pictures.frame, method, exposure);
   name_reference(record, truth);
   return record;

@@ -11,8 +11,10 @@ namespace footprint {
 
 /// What is drawn of a method to be measured.
 struct MethodPictures {
-  Image frame;   ///< one frame
-  Image finest;  ///< the method's finest level, supersampled, as converged as the reference
+  Image frame;  ///< one frame
+  /// The method's finest level, supersampled, as converged as the reference; none: what it tells of the error is left
+  /// out, and so is that of the environment's lookup.
+  std::optional<Image> finest;
 };
 
 /// Fills records. Keeps what a method needs to be drawn otherwise from distance to distance.

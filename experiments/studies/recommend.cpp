@@ -5,14 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <ranges>
 #include <utility>
 
 #include "experiments/studies/compare.hpp"
+#include "experiments/studies/kept_comparison.hpp"
 #include "experiments/studies/stage.hpp"
-#include "experiments/studies/truth.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/file_names.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/ranking.hpp"
 
@@ -124,10 +126,8 @@ std::vector<Candidate> candidates_of(const std::vector<FilterRun>& runs, const s
 }
 
 // Half of each side, where that leaves enough to tell candidates by.
-glm::ivec2 coarse_size(const RunSettings& run) {
-  const glm::ivec2 full = run.view.size
-                              ? *run.view.size
-                              : frame_size(load_scene(run.scene, run.scene_library, run.overrides), run.view.size);
+glm::ivec2 coarse_size(const RunSettings& run, const Scene& scene) {
+  const glm::ivec2 full = frame_size(scene, run.view.size);
   return std::min(full.x, full.y) < 2 * smallest_coarse_side ? full : full / 2;
 }
 
@@ -140,12 +140,12 @@ RunSettings settings_of(const RecommendSettings& settings, const FootprintFilter
   run.timing.unit = plain_filter;
   run.by_material = true;
   run.reference.bound = BoundUse::off;
+  run.reference.by_cause = false;
   run.reference.supersampling = {1};
   if (!coarse) return run;
   run.view.size = coarse;
   run.reference.by_noise = false;
   run.reference.spp = std::min(run.reference.spp, coarse_samples);
-  run.reference.finest_levels = false;
   run.timing.repeats = std::min(run.timing.repeats, coarse_repeats);
   return run;
 }
@@ -212,12 +212,16 @@ MaterialAdvice advice_of(const RecommendSettings& settings, const std::vector<Fi
 
 class Advisor {
  public:
-  Advisor(const RecommendSettings& settings, std::filesystem::path folder,
-          const std::function<void(Results&, const std::filesystem::path&)>& keep_results, const Progress& progress)
+  Advisor(const RecommendSettings& settings, std::filesystem::path folder, const KeptWork& kept,
+          const RecommendListener& listener, const Progress& progress)
       : settings_(settings),
         folder_(std::move(folder)),
-        keep_results_(keep_results),
-        parts_(progress, (settings.exhaustive ? 0.0 : 1.0) + 3.0) {}
+        kept_(kept),
+        listener_(listener),
+        parts_(progress, (settings.exhaustive ? 0.0 : 1.0) + 3.0),
+        scene_(std::make_shared<PreparedScene>(
+            load_scene(settings.run.scene, settings.run.scene_library, settings.run.overrides), settings.run)),
+        content_(scene_content(scene_->scene)) {}
 
   Recommendation run() {
     MethodsByFilter methods;
@@ -225,9 +229,10 @@ class Advisor {
       methods.push_back(with_plain(settings_.run.methods, filter));
     std::optional<std::size_t> tried;
     if (!settings_.exhaustive) {
-      coarse_size_ = coarse_size(settings_.run);
+      coarse_size_ = coarse_size(settings_.run, scene_->scene);
       tried = count_of(methods);
       const std::vector<FilterRun> coarse = run_all(methods, true);
+      tell_first_answer(coarse, *tried);
       methods = still_in_question(coarse, methods);
     }
     const std::vector<FilterRun> runs = run_all(methods, false);
@@ -248,6 +253,16 @@ class Advisor {
     return count;
   }
 
+  void tell_first_answer(const std::vector<FilterRun>& coarse, std::size_t tried) {
+    const glm::ivec2 full = frame_size(scene_->scene, settings_.run.view.size);
+    const auto pixels = [](const glm::ivec2& size) { return static_cast<double>(size.x) * size.y; };
+    Recommendation answer = described(coarse);
+    answer.coarse = pixels(*coarse_size_) / pixels(full);
+    answer.tried = tried;
+    answer.left_out = left_out_;
+    listener_.first_answer(answer);
+  }
+
   // Leaves out the methods that failed at any distance, under this filter and those that follow.
   void leave_out_failed(const Results& results, MethodsByFilter& methods) {
     for (const Record& record : results.records) {
@@ -262,11 +277,11 @@ class Advisor {
 
   // Whether no method under a filter can keep the limit of cost, because `direct` alone does not: a few frames tell.
   bool is_too_expensive(const FootprintFilter& filter, const std::filesystem::path& own, const Progress& progress,
-                        SharedTruth& truth) {
+                        SharedWork& shared) {
     if (!settings_.limits.max_cost || filter == plain_filter) return false;
     const std::vector<MethodSpec> direct{{.text = "direct", .name = "direct", .options = {}}};
     const Results results =
-        run_compare(settings_of(settings_, filter, direct, coarse_size_), own, {}, progress, &truth);
+        run_compare(settings_of(settings_, filter, direct, coarse_size_), own, {}, progress, &shared, &kept_);
     const auto costs = std::views::transform(results.records, [](const Record& r) { return r.ratio_to_direct.median; });
     const double least = std::ranges::min(costs);
     if (least * (1.0 - coarse_cost_share) <= *settings_.limits.max_cost) return false;
@@ -278,7 +293,7 @@ class Advisor {
   std::vector<FilterRun> run_all(MethodsByFilter& methods, bool coarse) {
     const std::optional<glm::ivec2> size = coarse ? coarse_size_ : std::nullopt;
     std::vector<FilterRun> runs;
-    SharedTruth truth;  // under every filter the same
+    SharedWork shared{.scene = scene_, .content = content_, .truth = {}, .kept_as = {}};
     ProgressParts parts(parts_.next(coarse ? 1.0 : 3.0, coarse ? "coarse, " : ""), static_cast<double>(methods.size()));
     for (std::size_t f = 0; f < methods.size(); ++f) {
       const FootprintFilter& filter = settings_.filters[f];
@@ -289,17 +304,18 @@ class Advisor {
       const std::filesystem::path own = folder_ / (coarse ? "coarse" : run.folder);
       std::filesystem::create_directories(own);
       ProgressParts steps(part, 4.0);
-      if (coarse && is_too_expensive(filter, own, steps.next(1.0, ""), truth)) {
+      if (coarse && is_too_expensive(filter, own, steps.next(1.0, ""), shared)) {
         methods[f].clear();
         std::filesystem::remove_all(own);
         continue;
       }
-      run.results = run_compare(settings_of(settings_, filter, methods[f], size), own, {}, steps.next(3.0, ""), &truth);
+      run.results =
+          run_compare(settings_of(settings_, filter, methods[f], size), own, {}, steps.next(3.0, ""), &shared, &kept_);
       leave_out_failed(run.results, methods);
       const bool is_of_use = !methods_of(run.results).empty();
       if (coarse || !is_of_use) std::filesystem::remove_all(own);
       if (!is_of_use) continue;
-      if (!coarse) keep_results_(run.results, own);
+      if (!coarse) listener_.results(run.results, own);
       runs.push_back(std::move(run));
     }
     if (runs.empty())
@@ -346,6 +362,7 @@ class Advisor {
     result.exhaustive = settings_.exhaustive;
     for (std::size_t material = 0; material < material_count(runs); ++material)
       result.materials.push_back(advice_of(settings_, runs, material));
+    if (runs.front().coarse) return result;
     for (const FilterRun& run : runs) result.reports.push_back(run.folder + "/index.html");
     add_pictures(runs, result);
     return result;
@@ -376,19 +393,20 @@ class Advisor {
 
   const RecommendSettings& settings_;
   std::filesystem::path folder_;
-  const std::function<void(Results&, const std::filesystem::path&)>& keep_results_;
+  const KeptWork& kept_;
+  const RecommendListener& listener_;
   ProgressParts parts_;
+  std::shared_ptr<PreparedScene> scene_;
+  std::string content_;
   std::optional<glm::ivec2> coarse_size_;
   std::vector<LeftOutMethod> left_out_;
 };
 
 }  // namespace
 
-Recommendation run_recommend(
-    const RecommendSettings& settings, const std::filesystem::path& folder,
-    const std::function<void(Results& results, const std::filesystem::path& folder)>& keep_results,
-    const Progress& progress) {
-  return Advisor(settings, folder, keep_results, progress).run();
+Recommendation run_recommend(const RecommendSettings& settings, const std::filesystem::path& folder,
+                             const KeptWork& kept, const RecommendListener& listener, const Progress& progress) {
+  return Advisor(settings, folder, kept, listener, progress).run();
 }
 
 }  // namespace footprint

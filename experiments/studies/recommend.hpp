@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "experiments/kept/kept_work.hpp"
 #include "experiments/settings/run_settings.hpp"
 #include "renderer/core/progress.hpp"
 #include "results/report/recommendation.hpp"
@@ -23,11 +24,18 @@ struct RecommendSettings {
 /// How far the coarse run's errors and costs are trusted: what is behind another by more than that in both is dropped.
 inline constexpr double coarse_error_share = 0.15, coarse_cost_share = 0.25;
 
+/// Who is told while it runs.
+struct RecommendListener {
+  /// Writes the report of a full run into its folder.
+  std::function<void(Results& results, const std::filesystem::path& folder)> results;
+  /// Sees what the coarse pass comes to, before the full one.
+  std::function<void(const Recommendation& answer)> first_answer = [](const Recommendation& /*answer*/) {};
+};
+
 /// Compares them. The full runs' pictures and reports go to FOLDER/FILTER, one for each footprint filter that is still
-/// in question; `keep_results` writes a report there. Errors: those of run_compare.
-[[nodiscard]] Recommendation run_recommend(
-    const RecommendSettings& settings, const std::filesystem::path& folder,
-    const std::function<void(Results& results, const std::filesystem::path& folder)>& keep_results,
-    const Progress& progress);
+/// in question. What `kept` has is not done again, and what is done is kept there. Errors: those of run_compare.
+[[nodiscard]] Recommendation run_recommend(const RecommendSettings& settings, const std::filesystem::path& folder,
+                                           const KeptWork& kept, const RecommendListener& listener,
+                                           const Progress& progress);
 
 }  // namespace footprint

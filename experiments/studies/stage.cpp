@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <new>
-#include <tuple>
 #include <utility>
 
 #include "experiments/studies/run_info.hpp"
@@ -25,10 +24,9 @@ constexpr std::uint64_t pixel_bytes = 16;   // RGBA, 32-bit floats
 // A method on the GPU, baked and uploaded one material after the other, so that what is baked lies in memory twice for
 // one texture at most. A frame build may read what was baked; of every other method the GPU has all that a frame
 // needs.
-using Uploaded = std::pair<std::unique_ptr<BakedMethod>, std::unique_ptr<GpuMethod>>;
-
-Uploaded bake_and_upload(const GpuScene& gpu_scene, const Scene& scene, const EffectSet& effects, const Method& method,
-                         const MethodSpec& spec, const BakeCache* cache, const Progress& progress) {
+PreparedMethod bake_and_upload(const GpuScene& gpu_scene, const Scene& scene, const EffectSet& effects,
+                               const Method& method, const MethodSpec& spec, const BakeCache* cache,
+                               const Progress& progress) {
   auto baked = std::make_unique<BakedMethod>(unbaked(method, spec));
   auto gpu = std::make_unique<GpuMethod>(gpu_scene, *baked);
   bake_materials(*baked, scene, effects, progress, cache, [&](std::size_t material) {
@@ -39,12 +37,22 @@ Uploaded bake_and_upload(const GpuScene& gpu_scene, const Scene& scene, const Ef
   return {std::move(baked), std::move(gpu)};
 }
 
-Uploaded bake_and_upload(const GpuScene& gpu_scene, const Scene& scene, const EffectSet& effects,
-                         const MethodSpec& spec, const std::optional<DiskCache>& files, const Progress& progress) {
+PreparedMethod bake_and_upload(const GpuScene& gpu_scene, const Scene& scene, const EffectSet& effects,
+                               const MethodSpec& spec, const std::optional<DiskCache>& files,
+                               const Progress& progress) {
   const Method& method = find_method(spec.name);
   if (!files) return bake_and_upload(gpu_scene, scene, effects, method, spec, nullptr, progress);
   const BakeCache cache(*files);
   return bake_and_upload(gpu_scene, scene, effects, method, spec, &cache, progress);
+}
+
+std::unique_ptr<FrameRenderer> frames_of(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method,
+                                         const Camera& camera, const FootprintFilter& filter, const glm::ivec2& size,
+                                         const RunSettings& settings) {
+  return std::make_unique<FrameRenderer>(
+      context, scene, method, size,
+      ProgramSettings{.sampling = Sampling::frame, .footprint = filter, .orthographic = camera.orthographic},
+      settings.backend.tile);
 }
 
 // The scene's own maps are there already, and available memory knows it.
@@ -52,31 +60,6 @@ void require_maps(const MemoryEstimate& estimate) {
   require_memory(estimate.peak() - estimate.kept,
                  fmt::format("what {} methods make of the maps", estimate.methods.size()),
                  "compare fewer methods at once, use smaller textures, or free memory");
-}
-
-// A method that is to be staged.
-struct WantedMethod {
-  MethodSpec spec;
-  FootprintFilter filter;
-};
-
-std::vector<WantedMethod> wanted_methods(const RunSettings& settings, const FootprintFilter& filter) {
-  std::vector<WantedMethod> wanted;
-  for (const MethodSpec& spec : settings.methods) wanted.push_back({.spec = spec, .filter = filter});
-  return wanted;
-}
-
-// Of `direct` under the filter of the unit, added where it is not there yet. `direct:option=...` is another method.
-std::size_t place_of_unit(const RunSettings& settings, std::vector<WantedMethod>& wanted, const FootprintFilter& own) {
-  const FootprintFilter filter = settings.timing.unit.value_or(own);
-  const auto is_unit = [&](const WantedMethod& method) {
-    return method.spec.text == "direct" && method.filter == filter;
-  };
-  const auto found = std::ranges::find_if(wanted, is_unit);
-  const auto place = static_cast<std::size_t>(found - wanted.begin());
-  if (found == wanted.end())
-    wanted.push_back({.spec = {.text = "direct", .name = "direct", .options = {}}, .filter = filter});
-  return place;
 }
 
 // Whether the context is lost.
@@ -142,110 +125,146 @@ std::optional<Error> failure_of(const gl::Context& context, const MethodSpec& me
   return failure;
 }
 
+PreparedScene::PreparedScene(Scene loaded, const RunSettings& settings)
+    : context(settings.backend.context),
+      scene(std::move(loaded)),
+      triangles(scene_info(scene, {}).triangles),
+      decisions(derive_effects(scene)),
+      effects(effects_on(decisions) & ~settings.without) {}
+
 StagedMethod::StagedMethod(const MethodSpec& spec, const Error& refusal)
-    : baked_(std::make_unique<BakedMethod>(unbaked(find_method(spec.name), spec))), refusal_(refusal) {}
+    : prepared_(std::make_shared<const PreparedMethod>(PreparedMethod{
+          .baked = std::make_unique<BakedMethod>(unbaked(find_method(spec.name), spec)), .gpu = nullptr})),
+      refusal_(refusal) {}
 
 StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& scene, const Scene& values,
                            const EffectSet& effects, const MethodSpec& spec, const FootprintFilter& filter,
                            const glm::ivec2& size, const RunSettings& settings, const Progress& progress) {
-  std::tie(baked_, gpu_) = bake_and_upload(scene, values, effects, spec, cache_of(settings), progress);
-  frames_ = std::make_unique<FrameRenderer>(
-      context, scene, *gpu_, size,
-      ProgramSettings{.sampling = Sampling::frame, .footprint = filter, .orthographic = values.camera.orthographic},
-      settings.backend.tile);
+  prepared_ = std::make_shared<const PreparedMethod>(
+      bake_and_upload(scene, values, effects, spec, cache_of(settings), progress));
+  frames_ = frames_of(context, scene, *prepared_->gpu, values.camera, filter, size, settings);
 }
+
+StagedMethod::StagedMethod(PreparedScene& scene, std::shared_ptr<const PreparedMethod> prepared,
+                           const FootprintFilter& filter, const glm::ivec2& size, const RunSettings& settings)
+    : prepared_(std::move(prepared)),
+      frames_(
+          frames_of(scene.context.info(), *scene.gpu, *prepared_->gpu, scene.scene.camera, filter, size, settings)) {}
 
 Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress, int pictures, Unit unit,
              Refusal refusal)
-    : context_(settings.backend.context),
-      scene_(std::move(scene)),
-      triangles_(scene_info(scene_, {}).triangles),
-      settings_(settings),
-      size_(frame_size(scene_, settings.view.size)),
-      decisions_(derive_effects(scene_)),
-      effects_(effects_on(decisions_) & ~settings.without) {
+    : Stage(std::make_shared<PreparedScene>(std::move(scene), settings), settings, progress, pictures, unit, refusal) {}
+
+Stage::Stage(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, const Progress& progress, int pictures,
+             Unit unit, Refusal refusal)
+    : prepared_(std::move(scene)), settings_(settings), size_(frame_size(prepared_->scene, settings.view.size)) {
   require_pictures(size_, pictures);
-  const FootprintFilter filter = footprint_filter_of(settings, scene_);
-  std::vector<WantedMethod> wanted = wanted_methods(settings, filter);
-  if (unit == Unit::direct) unit_ = place_of_unit(settings, wanted, filter);
+  PreparedScene& shared = *prepared_;
+  const std::vector<Wanted> wanted = wanted_methods(unit);
   std::vector<MethodSpec> specs;
-  for (const WantedMethod& method : wanted) specs.push_back(method.spec);
-  const MemoryEstimate memory = estimate_memory(scene_, effects_, normal_memory_of(specs, effects_));
-  require_maps(memory);
-  scene_ = refined_for_visibility(std::move(scene_), effects_);
-  const std::optional<DiskCache> cache = cache_of(settings);
+  for (const Wanted& method : wanted) specs.push_back(method.spec);
+  const MemoryEstimate memory = estimate_memory(shared.scene, shared.effects, normal_memory_of(specs, shared.effects));
+  const bool is_first = shared.gpu == nullptr;
   const auto bakes = static_cast<double>(wanted.size() + 1);
-  const double upload = hides_environment(effects_) ? bakes : 1.0;  // visibility takes as long as all bakes, or longer
+  // Visibility takes as long as all bakes, or longer.
+  const double upload = hides_environment(shared.effects) ? bakes : 1.0;
   ProgressParts parts(progress, upload + bakes);
-  gpu_scene_ =
-      std::make_unique<GpuScene>(context_.info(), scene_, effects_, parts.next(upload, ""), cache ? &*cache : nullptr);
-  std::vector<std::optional<StagedMethod>> staged(wanted.size());
+  const Progress of_upload = parts.next(upload, "");
+  if (is_first) {
+    require_maps(memory);
+    shared.scene = refined_for_visibility(std::move(shared.scene), shared.effects);
+    const std::optional<DiskCache> cache = cache_of(settings);
+    shared.gpu = std::make_unique<GpuScene>(shared.context.info(), shared.scene, shared.effects, of_upload,
+                                            cache ? &*cache : nullptr);
+  }
+  std::vector<std::optional<StagedMethod>> all(wanted.size());
   for (const std::size_t i : memory.bake_order()) {
-    const WantedMethod& method = wanted[i];
-    const auto failure = failure_of(context_, method.spec, [&] {
-      staged[i].emplace(context_.info(), *gpu_scene_, scene_, effects_, method.spec, method.filter, size_, settings,
-                        parts.next(1, "bake "));
-    });
+    const auto failure =
+        failure_of(shared.context, wanted[i].spec, [&] { all[i].emplace(staged(wanted[i], parts.next(1, "bake "))); });
     if (!failure) continue;
     if (i >= settings.methods.size() || refusal == Refusal::ends_the_run) throw *failure;
-    staged[i].emplace(method.spec, *failure);
+    all[i].emplace(wanted[i].spec, *failure);
   }
-  for (std::optional<StagedMethod>& method : staged) methods_.push_back(*std::move(method));
-  std::tie(base_, gpu_base_) =
-      bake_and_upload(*gpu_scene_, scene_, effects_, base_surface(),
-                      {.text = "reference", .name = "reference", .options = {}}, nullptr, parts.next(1, "bake "));
-  reference_ =
-      std::make_unique<Supersampler>(context_.info(), *gpu_scene_, *gpu_base_, settings.reference.filter,
-                                     scene_.camera.orthographic, settings.backend.tile, settings.reference.environment);
-  context_.check("setting up the scene");
+  for (std::optional<StagedMethod>& method : all) methods_.push_back(*std::move(method));
+  if (is_first)
+    shared.base =
+        bake_and_upload(*shared.gpu, shared.scene, shared.effects, base_surface(),
+                        {.text = "reference", .name = "reference", .options = {}}, nullptr, parts.next(1, "bake "));
+  reference_ = std::make_unique<Supersampler>(shared.context.info(), *shared.gpu, *shared.base.gpu,
+                                              settings.reference.filter, shared.scene.camera.orthographic,
+                                              settings.backend.tile, settings.reference.environment);
+  shared.context.check("setting up the scene");
+}
+
+// The unit is `direct` under its filter, added where it is not there yet. `direct:option=...` is another method.
+std::vector<Stage::Wanted> Stage::wanted_methods(Unit unit) {
+  const FootprintFilter own = footprint_filter_of(settings_, scene());
+  std::vector<Wanted> wanted;
+  for (const MethodSpec& spec : settings_.methods) wanted.push_back({.spec = spec, .filter = own});
+  if (unit == Unit::none) return wanted;
+  const FootprintFilter filter = settings_.timing.unit.value_or(own);
+  const auto is_unit = [&](const Wanted& method) { return method.spec.text == "direct" && method.filter == filter; };
+  const auto found = std::ranges::find_if(wanted, is_unit);
+  unit_ = static_cast<std::size_t>(found - wanted.begin());
+  if (found == wanted.end())
+    wanted.push_back({.spec = {.text = "direct", .name = "direct", .options = {}}, .filter = filter});
+  return wanted;
+}
+
+StagedMethod Stage::staged(const Wanted& method, const Progress& progress) {
+  std::shared_ptr<const PreparedMethod>& known = prepared_->methods[method.spec.text];
+  if (!known)
+    known = std::make_shared<const PreparedMethod>(
+        bake_and_upload(*prepared_->gpu, scene(), effects(), method.spec, cache_of(settings_), progress));
+  return {*prepared_, known, method.filter, size_, settings_};
 }
 
 SceneInfo Stage::info(const Exposure& exposure) const {
-  SceneInfo info = scene_info(scene_, exposure);
-  info.triangles = triangles_;
+  SceneInfo info = scene_info(scene(), exposure);
+  info.triangles = prepared_->triangles;
   return info;
 }
 
-View Stage::view(double distance) const { return {.size = size_, .camera = camera_at_distance(scene_, distance)}; }
+View Stage::view(double distance) const { return {.size = size_, .camera = camera_at_distance(scene(), distance)}; }
 
 void Stage::move_lights(std::vector<Light> lights) {
-  scene_.lights = std::move(lights);
-  gpu_scene_->update(scene_);
+  prepared_->scene.lights = std::move(lights);
+  prepared_->gpu->update(scene());
 }
 
 StagedMethod Stage::stage(const MethodSpec& method, const Progress& progress) const {
-  return {context_.info(), *gpu_scene_, scene_,  effects_, method, footprint_filter_of(settings_, scene_),
-          size_,           settings_,   progress};
+  return {context().info(), *prepared_->gpu, scene(), effects(), method, footprint_filter_of(settings_, scene()), size_,
+          settings_,        progress};
 }
 
-InteriorFinder Stage::interior_finder() const { return {*gpu_scene_, scene_}; }
+InteriorFinder Stage::interior_finder() const { return {*prepared_->gpu, scene()}; }
 
 FrameRenderer Stage::dense_frames(const StagedMethod& method) const {
-  return {context_.info(),
-          *gpu_scene_,
+  return {context().info(),
+          *prepared_->gpu,
           method.gpu(),
           size_,
           ProgramSettings{.sampling = Sampling::frame,
-                          .footprint = footprint_filter_of(settings_, scene_),
-                          .orthographic = scene_.camera.orthographic,
+                          .footprint = footprint_filter_of(settings_, scene()),
+                          .orthographic = scene().camera.orthographic,
                           .environment = EnvironmentUse::dense},
           settings_.backend.tile};
 }
 
 FrameRenderer Stage::counting_frames(const StagedMethod& method) const {
-  return {context_.info(),
-          *gpu_scene_,
+  return {context().info(),
+          *prepared_->gpu,
           method.gpu(),
           size_,
           ProgramSettings{.sampling = Sampling::frame,
-                          .footprint = footprint_filter_of(settings_, scene_),
+                          .footprint = footprint_filter_of(settings_, scene()),
                           .counting = true,
-                          .orthographic = scene_.camera.orthographic},
+                          .orthographic = scene().camera.orthographic},
           settings_.backend.tile};
 }
 
 Supersampler Stage::finest_level(const StagedMethod& method) const {
-  return {context_.info(),       *gpu_scene_, method.gpu(), settings_.reference.filter, scene_.camera.orthographic,
+  return {context().info(),      *prepared_->gpu, method.gpu(), settings_.reference.filter, scene().camera.orthographic,
           settings_.backend.tile};
 }
 

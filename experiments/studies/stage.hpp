@@ -2,9 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "experiments/settings/run_settings.hpp"
@@ -57,6 +59,27 @@ enum class Unit {
 /// Errors (machine): so many pictures (RGBA, 32-bit floats) of this size are more than memory holds.
 void require_pictures(const glm::ivec2& size, int count);
 
+/// The maps of a method in memory and on the GPU, which serve frames of every size under every footprint filter.
+struct PreparedMethod {
+  std::unique_ptr<BakedMethod> baked;
+  std::unique_ptr<GpuMethod> gpu;
+};
+
+/// What stages over one scene share: its context, its maps and meshes on the GPU, and the methods that were prepared
+/// for them. The first stage fills it.
+struct PreparedScene {
+  PreparedScene(Scene loaded, const RunSettings& settings);
+
+  gl::Context context;
+  Scene scene;
+  std::size_t triangles;  ///< that were given
+  std::vector<EffectDecision> decisions;
+  EffectSet effects;
+  std::unique_ptr<GpuScene> gpu;                                           ///< null before the first stage
+  std::map<std::string, std::shared_ptr<const PreparedMethod>> methods{};  ///< by their text
+  PreparedMethod base{};                                                   ///< what the reference draws
+};
+
 /// A method ready to draw frames. Pinned: each part keeps the address of those before it.
 class StagedMethod {
  public:
@@ -64,19 +87,22 @@ class StagedMethod {
                const MethodSpec& spec, const FootprintFilter& filter, const glm::ivec2& size,
                const RunSettings& settings, const Progress& progress);
 
+  /// Of what is prepared already.
+  StagedMethod(PreparedScene& scene, std::shared_ptr<const PreparedMethod> prepared, const FootprintFilter& filter,
+               const glm::ivec2& size, const RunSettings& settings);
+
   /// A method that cannot be drawn, for the reason given: it has options, but no maps and no frames.
   StagedMethod(const MethodSpec& spec, const Error& refusal);
 
   /// Why the method cannot be drawn; none where it can.
   [[nodiscard]] const std::optional<Error>& refusal() const { return refusal_; }
 
-  [[nodiscard]] const BakedMethod& baked() const { return *baked_; }
-  [[nodiscard]] const GpuMethod& gpu() const { return *gpu_; }
+  [[nodiscard]] const BakedMethod& baked() const { return *prepared_->baked; }
+  [[nodiscard]] const GpuMethod& gpu() const { return *prepared_->gpu; }
   [[nodiscard]] const FrameRenderer& frames() const { return *frames_; }
 
  private:
-  std::unique_ptr<BakedMethod> baked_;
-  std::unique_ptr<GpuMethod> gpu_;
+  std::shared_ptr<const PreparedMethod> prepared_;
   std::unique_ptr<FrameRenderer> frames_;
   std::optional<Error> refusal_;
 };
@@ -91,13 +117,18 @@ class Stage {
   Stage(Scene scene, const RunSettings& settings, const Progress& progress, int pictures = pictures_of_a_frame,
         Unit unit = Unit::none, Refusal refusal = Refusal::ends_the_run);
 
-  [[nodiscard]] const gl::Context& context() const { return context_; }
-  [[nodiscard]] const Scene& scene() const { return scene_; }
+  /// The same over a scene that other stages may have prepared: what they have is taken from there, and what is made is
+  /// left there for those that follow. Their settings differ in methods, footprint filter and size alone.
+  Stage(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, const Progress& progress,
+        int pictures = pictures_of_a_frame, Unit unit = Unit::none, Refusal refusal = Refusal::ends_the_run);
+
+  [[nodiscard]] const gl::Context& context() const { return prepared_->context; }
+  [[nodiscard]] const Scene& scene() const { return prepared_->scene; }
   /// The scene for the head of a report: its triangles as they were given, not as visibility at vertices cuts them.
   [[nodiscard]] SceneInfo info(const Exposure& exposure) const;
-  [[nodiscard]] const std::vector<EffectDecision>& decisions() const { return decisions_; }
-  [[nodiscard]] const EffectSet& effects() const { return effects_; }
-  [[nodiscard]] const GpuScene& gpu_scene() const { return *gpu_scene_; }
+  [[nodiscard]] const std::vector<EffectDecision>& decisions() const { return prepared_->decisions; }
+  [[nodiscard]] const EffectSet& effects() const { return prepared_->effects; }
+  [[nodiscard]] const GpuScene& gpu_scene() const { return *prepared_->gpu; }
   /// In the order of the settings; last a unit that they do not have themselves.
   [[nodiscard]] const std::vector<StagedMethod>& methods() const { return methods_; }
   /// The place of the unit among them. Only of a stage that has one.
@@ -126,18 +157,19 @@ class Stage {
   [[nodiscard]] Supersampler finest_level(const StagedMethod& method) const;
 
  private:
-  gl::Context context_;
-  Scene scene_;
-  std::size_t triangles_;  // that were given
+  // A method that is to be staged.
+  struct Wanted {
+    MethodSpec spec;
+    FootprintFilter filter;
+  };
+  [[nodiscard]] std::vector<Wanted> wanted_methods(Unit unit);
+  [[nodiscard]] StagedMethod staged(const Wanted& method, const Progress& progress);
+
+  std::shared_ptr<PreparedScene> prepared_;
   RunSettings settings_;
   glm::ivec2 size_;
-  std::vector<EffectDecision> decisions_;
-  EffectSet effects_;
-  std::unique_ptr<GpuScene> gpu_scene_;
   std::vector<StagedMethod> methods_;
   std::optional<std::size_t> unit_;
-  std::unique_ptr<BakedMethod> base_;
-  std::unique_ptr<GpuMethod> gpu_base_;
   std::unique_ptr<Supersampler> reference_;
 };
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <new>
 #include <string>
 #include <string_view>
@@ -51,6 +52,35 @@ TEST(Stage, InfoCountsTheTrianglesThatTheSceneHasAndNotTheirPartsForVisibility) 
   const Stage stage(std::move(scene), settings, no_progress);
   EXPECT_GT(stage.scene().meshes.front().indices.size() / 3, given);
   EXPECT_EQ(stage.info({}).triangles, given);
+}
+
+TEST(Stage, TakesFromAPreparedSceneWhatAnotherStageBakedAndDrawsTheSame) {
+  const auto scene = [] { return testing::square_scene(testing::random_normals(16, 16, 0.5F, 1), {}); };
+  RunSettings settings;
+  settings.methods = parse_methods("direct,toksvig");
+  settings.view.size = {16, 16};
+  settings.cache.reset();
+  std::size_t bakes = 0;
+  const Progress watch = [&](std::string_view what, double /*fraction*/) {
+    bakes += what.starts_with("bake ") ? 1 : 0;
+  };
+  const auto prepared = std::make_shared<PreparedScene>(scene(), settings);
+  const Stage first(prepared, settings, watch);
+  EXPECT_GT(bakes, 0U);
+  bakes = 0;
+  settings.view.size = {24, 24};
+  settings.footprint = FootprintFilter{FootprintFilterKind::box, 2};
+  const Stage second(prepared, settings, watch);
+  EXPECT_EQ(bakes, 0U);
+  const auto pictures = [](const Stage& stage) {
+    std::vector<std::vector<float>> all;
+    for (const StagedMethod& method : stage.methods()) all.push_back(method.frames().render(stage.view(1.0)).texels);
+    return all;
+  };
+  const auto shared = pictures(second);  // before another context is made
+  for (const std::size_t method : {0U, 1U})
+    EXPECT_EQ(&second.methods()[method].baked(), &first.methods()[method].baked());
+  EXPECT_EQ(shared, pictures(Stage(scene(), settings, no_progress)));
 }
 
 // An image that is not finite, or memory that is not there, is the method's own failure; an interrupt is not.

@@ -73,6 +73,11 @@ Image finest_mean(const Supersampler& sampler, const View& view, const Reference
   return sampler.render_mean(view, spp, settings.seed, progress);
 }
 
+SharedTruth::AtDistance* SharedTruth::at(double distance) {
+  const auto known = std::ranges::find(distances, distance, &AtDistance::distance);
+  return known != distances.end() ? &*known : nullptr;
+}
+
 TruthFinder::TruthFinder(const RunSettings& settings, const Stage& stage, std::filesystem::path folder,
                          std::function<float(const Image& first_reference)> exposure, ProgressParts& progress,
                          SharedTruth* shared)
@@ -143,8 +148,7 @@ SharedTruth::AtDistance& TruthFinder::begun_reference(SharedTruth& shared, const
   const ReferenceSettings& asked = settings_.reference;
   const Progress reference = progress_.next(asked.spp, prefix + "reference, ");
   const Progress finest = progress_.next(finest_samples(asked), prefix + "reference, ");
-  const auto known = std::ranges::find(shared.distances, truth.distance, &SharedTruth::AtDistance::distance);
-  if (known != shared.distances.end()) return *known;
+  if (SharedTruth::AtDistance* known = shared.at(truth.distance)) return *known;
   const auto begin = std::chrono::steady_clock::now();
   SharedTruth::AtDistance begun;
   begun.distance = truth.distance;
@@ -161,7 +165,7 @@ Image TruthFinder::samples_of_finest_levels(const Truth& truth, const Image& who
   const ReferenceSettings& asked = settings_.reference;
   if (has(stage_.effects(), Effect::environment_light) && asked.environment == EnvironmentUse::sampled) return {};
   const int spp = finest_samples(asked);
-  if (spp == asked.spp || !asked.finest_levels) return whole;
+  if (spp == asked.spp || !asked.by_cause) return whole;
   return finest_mean(stage_.reference(), truth.view, asked, progress);
 }
 
@@ -231,10 +235,7 @@ void TruthFinder::leave_out_unresolved(Truth& truth) const {
 
 // The pixels that are interior, and the bound over them.
 void TruthFinder::find_parts(Truth& truth, const std::string& prefix) {
-  const Interior interior =
-      interior_finder_.render(truth.view, object_part(truth.reference.mean), settings_.reference.spp,
-                              settings_.reference.seed, progress_.next(interior_weight, prefix));
-  stage_.context().check("finding interior pixels");
+  const Interior interior = interior_of(truth, progress_.next(interior_weight, prefix));
   const std::size_t left_out = truth.parts.counts.unresolved;
   truth.parts = pixel_parts(truth.reference.mean, interior);
   truth.parts.counts.unresolved = left_out;
@@ -251,6 +252,17 @@ void TruthFinder::find_parts(Truth& truth, const std::string& prefix) {
   truth.bound = draw_bound(stage_, *bound_, settings_.reference.bound, truth.view, truth.parts, interior.texels);
   truth.parts.counts.bound = count_pixels(truth.bound->pixels);
   stage_.context().check("drawing the bound");
+}
+
+// As they are shared, or found and shared.
+Interior TruthFinder::interior_of(const Truth& truth, const Progress& progress) const {
+  SharedTruth::AtDistance* known = shared_ != nullptr ? shared_->at(truth.distance) : nullptr;
+  if (known != nullptr && known->interior) return *known->interior;
+  Interior interior = interior_finder_.render(truth.view, object_part(truth.reference.mean), settings_.reference.spp,
+                                              settings_.reference.seed, progress);
+  stage_.context().check("finding interior pixels");
+  if (known != nullptr) known->interior = interior;
+  return interior;
 }
 
 OtherTruth TruthFinder::other_truth(const Truth& truth, int spp, const std::string& prefix) {

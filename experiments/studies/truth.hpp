@@ -74,8 +74,12 @@ struct SharedTruth {
     Image first;         ///< and over those of finest levels
     double samples = 0;  ///< a pixel, mean over the picture; 0: it has those that it begins with, and may need more
     double seconds = 0;  ///< that all of it took
+    std::optional<Interior> interior;
   };
   std::vector<AtDistance> distances;
+
+  /// Null where it has none.
+  [[nodiscard]] AtDistance* at(double distance);
 };
 
 /// Finds it distance by distance. Keeps the addresses of what it is given.
@@ -113,6 +117,7 @@ class TruthFinder {
   void write_reference(Truth& truth) const;
   void leave_out_unresolved(Truth& truth) const;
   void find_parts(Truth& truth, const std::string& prefix);
+  [[nodiscard]] Interior interior_of(const Truth& truth, const Progress& progress) const;
   [[nodiscard]] OtherTruth other_truth(const Truth& truth, int spp, const std::string& prefix);
 
   const RunSettings& settings_;

@@ -261,7 +261,7 @@ GpuTexture SharedUploads::upload(const PrefilteredTexture& texture) {
 }
 
 GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects,
-                   const Progress& progress, const DiskCache* cache)
+                   const Progress& progress, const DiskCache* cache, const GpuScene* same)
     : context_(&context),
       effects_(effects),
       brdf_(scene.materials.front().brdf),
@@ -283,14 +283,25 @@ GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const Eff
     batches_.push_back(std::move(batch));
   }
   shared_bytes_ = uploads.bytes();
+  if (same != nullptr) environment_ = same->environment_;
   make_lights(context, scene);
-  if (hides_environment(effects)) make_visibility(scene, progress, cache);
+  if (!hides_environment(effects)) return;
+  if (same != nullptr && same->visibility_ != nullptr) {
+    take_visibility(scene, same->visibility_);
+  } else {
+    make_visibility(scene, progress, cache);
+  }
 }
 
 void GpuScene::make_visibility(const Scene& scene, const Progress& progress, const DiskCache* cache) {
-  if (visibility_) shared_bytes_ -= visibility_->bytes();
   const Environment white = constant_environment(glm::vec3(1.0F));
-  visibility_.emplace(scene, scene.environment ? environment_->looked_up() : white, progress, cache);
+  take_visibility(scene, std::make_shared<const GpuVisibility>(
+                             scene, scene.environment ? environment_->looked_up() : white, progress, cache));
+}
+
+void GpuScene::take_visibility(const Scene& scene, std::shared_ptr<const GpuVisibility> visibility) {
+  if (visibility_) shared_bytes_ -= visibility_->bytes();
+  visibility_ = std::move(visibility);
   shared_bytes_ += visibility_->bytes();
   for (GpuBatch& batch : batches_) {
     const std::vector<glm::vec4> attributes = visibility_->attributes(scene, batch.material);
@@ -322,8 +333,11 @@ void GpuScene::make_lights(const gl::ContextInfo& context, const Scene& scene) {
   directional_lights_ = light_buffer(blocks.directional);
   light_counts_ = {blocks.point.size() / 2, blocks.spot.size() / 4, blocks.directional.size() / 2,
                    shadow_maps_ ? shadow_maps_->views().views.size() : 0};
-  if (has(effects_, Effect::environment_light))
-    environment_.emplace(scene.environment.value_or(constant_environment(glm::vec3(0.0F))));
+  if (!has(effects_, Effect::environment_light)) {
+    environment_ = nullptr;
+  } else if (environment_ == nullptr) {
+    environment_ = std::make_shared<GpuEnvironment>(scene.environment.value_or(constant_environment(glm::vec3(0.0F))));
+  }
   for (const auto* block : {&blocks.point, &blocks.spot, &blocks.directional})
     count_in(content_.lights, std::as_bytes(std::span(*block)));
 }

@@ -119,9 +119,10 @@ class GpuScene {
  public:
   /// Errors (usage): materials with different base BRDFs (a comparison needs one); (machine): over GL's limits; those
   /// of `progress`, which is called where the visibility of an environment takes time. It is kept in `cache`, where
-  /// there is one.
+  /// there is one. The environment and its visibility are those of `same`, where that is given: the same scene with
+  /// other effects.
   GpuScene(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects,
-           const Progress& progress = no_progress, const DiskCache* cache = nullptr);
+           const Progress& progress = no_progress, const DiskCache* cache = nullptr, const GpuScene* same = nullptr);
 
   /// Takes over vertices, lights and the constants of materials as `scene` has them: the next frame of what moves.
   /// Maps, environment and base BRDF stay; visibility is asked anew where vertices moved. Errors (usage): another
@@ -144,10 +145,10 @@ class GpuScene {
     return shared_bytes_ + (environment_ ? environment_->stack_bytes() : 0);
   }
   /// None without its light.
-  [[nodiscard]] const GpuEnvironment* environment() const { return environment_ ? &*environment_ : nullptr; }
-  [[nodiscard]] GpuEnvironment* environment() { return environment_ ? &*environment_ : nullptr; }
+  [[nodiscard]] const GpuEnvironment* environment() const { return environment_.get(); }
+  [[nodiscard]] GpuEnvironment* environment() { return environment_.get(); }
   /// None where nothing hides a part of the environment.
-  [[nodiscard]] const std::optional<GpuVisibility>& visibility() const { return visibility_; }
+  [[nodiscard]] const GpuVisibility* visibility() const { return visibility_.get(); }
   [[nodiscard]] SamplerCache& samplers() { return samplers_; }
 
   /// Binds the light blocks, their shadow maps at their unit of `units`, and sets the light counts of `program`.
@@ -172,8 +173,8 @@ class GpuScene {
   gl::Buffer point_lights_, spot_lights_, directional_lights_;
   LightCounts light_counts_;
   std::size_t facet_lobes_ = 1;
-  std::optional<GpuEnvironment> environment_;
-  std::optional<GpuVisibility> visibility_;
+  std::shared_ptr<GpuEnvironment> environment_;
+  std::shared_ptr<const GpuVisibility> visibility_;
   SamplerCache samplers_;
   SceneContent content_;
   std::optional<ShadowMaps> shadow_maps_;
@@ -181,6 +182,7 @@ class GpuScene {
   [[nodiscard]] LightBlocks blocks_of(std::span<const Light> lights) const;
   void make_lights(const gl::ContextInfo& context, const Scene& scene);
   void make_visibility(const Scene& scene, const Progress& progress, const DiskCache* cache);
+  void take_visibility(const Scene& scene, std::shared_ptr<const GpuVisibility> visibility);
 };
 
 }  // namespace footprint

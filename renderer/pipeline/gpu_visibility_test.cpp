@@ -169,6 +169,22 @@ TEST(GpuVisibility, IsNowhereWhereNothingHidesTheEnvironment) {
   EXPECT_FALSE(TestRenderer(covered, {picture_size, picture_size}).gpu_scene().visibility());
 }
 
+TEST(GpuVisibility, IsThatOfTheSameSceneWithOtherEffects) {
+  const Scene scene = under_white_sky(box_over_floor());
+  const EffectSet effects = effects_on(derive_effects(scene));
+  const auto without = [&](Effect effect) { return EffectSet(effects).reset(static_cast<std::size_t>(effect)); };
+  const gl::ContextInfo& context = shared_context().info();
+  const GpuScene whole(context, scene, effects);
+  const auto variant = [&](Effect left_out) {
+    return GpuScene(context, scene, without(left_out), no_progress, nullptr, &whole);
+  };
+  EXPECT_EQ(variant(Effect::fresnel).visibility(), whole.visibility());
+  EXPECT_EQ(variant(Effect::fresnel).environment(), whole.environment());
+  EXPECT_EQ(variant(Effect::fresnel).shared_bytes(), whole.shared_bytes());
+  EXPECT_EQ(variant(Effect::environment_light).environment(), nullptr);
+  EXPECT_EQ(variant(Effect::environment_light).visibility(), nullptr);
+}
+
 // Shorter edges are for the vertices' values alone.
 TEST(GpuVisibility, RefiningChangesNoPicture) {
   const Scene scene = under_white_sky(box_over_floor());

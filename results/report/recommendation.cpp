@@ -203,7 +203,17 @@ std::vector<std::string> advice_sentences(const MaterialAdvice& advice, const Li
   return sentences;
 }
 
+std::string first_answer_title(const Recommendation& recommendation) {
+  return fmt::format("First answer (coarse, {:.0f}% of the pixels)", 100.0 * recommendation.coarse.value());
+}
+
 std::string recommendation_text(const Recommendation& recommendation) {
+  if (recommendation.coarse) {
+    std::string text = first_answer_title(recommendation) + ":\n";
+    for (const MaterialAdvice& advice : recommendation.materials)
+      text += fmt::format("  {}: {}\n", advice.material, what_is_chosen(advice, recommendation.limits));
+    return text;
+  }
   std::string text = fmt::format("{}, {}: {} of {} candidates measured in full\n", recommendation.scene.name,
                                  limits_text(recommendation.limits), recommendation.measured, recommendation.tried);
   for (const auto& [method, reason] : recommendation.left_out) text += fmt::format("left out {}: {}\n", method, reason);

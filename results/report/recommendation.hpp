@@ -79,13 +79,13 @@ struct AdvicePicture {
   std::string picture, reference, error;
 };
 
-/// A whole recommendation.
 /// A method that was to be tried and that this machine refused.
 struct LeftOutMethod {
   std::string method;
   std::string reason;  ///< as the error says it
 };
 
+/// A whole recommendation.
 struct Recommendation {
   ToolInfo tool;
   BackendInfo backend;
@@ -94,9 +94,10 @@ struct Recommendation {
   int width = 0, height = 0;
   std::vector<double> distances;  ///< all that were tried
   Limits limits;
-  bool exhaustive = false;   ///< every candidate was measured in full
-  std::size_t tried = 0;     ///< candidates, before any was dropped
-  std::size_t measured = 0;  ///< in full
+  bool exhaustive = false;            ///< every candidate was measured in full
+  std::size_t tried = 0;              ///< candidates, before any was dropped
+  std::size_t measured = 0;           ///< in full
+  std::optional<double> coarse = {};  ///< the share of the pixels, where it is the first answer, of the coarse pass
   std::vector<LeftOutMethod> left_out;
   std::vector<MaterialAdvice> materials;
   std::vector<AdvicePicture> pictures;
@@ -108,6 +109,9 @@ struct Recommendation {
 
 /// What was found of a material, in sentences.
 [[nodiscard]] std::vector<std::string> advice_sentences(const MaterialAdvice& advice, const Limits& limits);
+
+/// "First answer (coarse, 25% of the pixels)", of a recommendation that is one.
+[[nodiscard]] std::string first_answer_title(const Recommendation& recommendation);
 
 /// The text that the program prints, recommend.json (docs/recommend.schema.json, "schema": "footprint-recommend/1") and
 /// index.html.

@@ -71,6 +71,7 @@ std::string recommendation_json(const Recommendation& recommendation) {
                       {"exhaustive", recommendation.exhaustive},
                       {"tried", recommendation.tried},
                       {"measured", recommendation.measured},
+                      {"coarse", or_null(recommendation.coarse)},
                       {"left_out", std::move(left_out)},
                       {"reports", recommendation.reports},
                       {"materials", std::move(materials)}};

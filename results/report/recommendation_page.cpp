@@ -230,6 +230,8 @@ std::string recommendation_page(const Recommendation& recommendation) {
   body += pictures_html(recommendation) + provenance_html(recommendation);
   const std::string title = html_escaped(recommendation.scene.name);
   std::string lede = html_escaped("Goal: " + limits_text(recommendation.limits) + ".");
+  if (recommendation.coarse)
+    lede += html_escaped(fmt::format(" {}: the run is not finished.", first_answer_title(recommendation)));
   for (const auto& [method, reason] : recommendation.left_out)
     lede += html_escaped(fmt::format(" {} is left out because it does not run here: {}.", method, reason));
   return fill_page(

@@ -88,8 +88,8 @@ struct RecordError {
   std::array<std::uint32_t, 32> luminances{},
       reference_luminances{};         ///< pixels by luminance, in even bins from 0 to 1
   std::optional<double> noise_floor;  ///< normalised colour error that the reference's own noise causes
-  double representation = 0;          ///< normalised colour error of the method's finest level, supersampled
-  double filtering = 0;               ///< normalised colour error against that supersampled finest level
+  /// Normalised colour errors: of the method's finest level, supersampled, and against it. None: it was not drawn.
+  std::optional<double> representation = {}, filtering = {};
   ErrorCauses causes = {};
 };
 

@@ -2,12 +2,13 @@
 
 import copy
 import json
+import subprocess
 import sys
 import unittest
 
 from generated_model import model
 from recommendations import disagreement, disagreements
-from whole_runs import SOURCE, WholeRunTest, results_of, run
+from whole_runs import PROGRAM, SOURCE, WholeRunTest, results_of, run
 
 sys.path.insert(0, str(SOURCE / "results" / "report"))
 from schema_test import described, jsonschema  # exit code 77 without the package python3-jsonschema
@@ -36,13 +37,17 @@ class RecommendTest(WholeRunTest):
         output = run("recommend", scene, "--methods", METHODS, *SMALL, *arguments, "-o", folder)
         return folder, output
 
-    def test_document_holds_to_its_schema(self):
-        folder, _ = self.recommend("schema", model(self.folder / "model", 3, 3, 64), "--distance", "1")
-        document = document_of(folder)
+    @staticmethod
+    def validator():
         schema = json.loads((SOURCE / "docs" / "recommend.schema.json").read_text(encoding="utf-8"))
         jsonschema.Draft7Validator.check_schema(schema)
         described(schema, "")
-        validator = jsonschema.Draft7Validator(schema)
+        return jsonschema.Draft7Validator(schema)
+
+    def test_document_holds_to_its_schema(self):
+        folder, _ = self.recommend("schema", model(self.folder / "model", 3, 3, 64), "--distance", "1")
+        document = document_of(folder)
+        validator = self.validator()
         validator.validate(document)
         self.assertEqual(len(document["materials"]), 3)
         for change in (
@@ -70,8 +75,50 @@ class RecommendTest(WholeRunTest):
         self.assertNotIn("{{", page)
         for report in document_of(folder)["reports"]:
             self.assertTrue((folder / report).is_file(), report)
+        for record in results_of(folder / "trilinear")["records"]:
+            error = record["error"]
+            self.assertEqual([error["representation"], error["filtering"], error["light"]], [None] * 3)
+            self.assertGreater(error["normalized_color"], 0)
         for source in page.split('<img src="')[1:]:
             self.assertTrue((folder / source.split('"', 1)[0]).is_file(), source)
+
+    def test_a_killed_run_has_a_first_answer_and_resumes(self):
+        folder = self.folder / "killed"
+        arguments = ["recommend", "v_grooves", "--methods", METHODS, "--footprints", "trilinear,anisotropic:8", "--size", "256x256", "--distance", "2", "-o", folder]
+        killed = subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(killed.communicate)
+        self.assertEqual(killed.stdout.readline(), "First answer (coarse, 25% of the pixels):\n")
+        self.assertRegex(killed.stdout.readline(), r"  \S+: (Use|Do not filter)")
+        killed.kill()
+        killed.wait()
+        self.assertFalse((folder / "recommend.json").exists())
+        [hidden] = [*self.folder.glob(".killed.partial-*"), *folder.glob(".killed.partial-*")]
+        answer = document_of(hidden)
+        self.assertEqual((answer["coarse"], answer["measured"], answer["reports"]), (0.25, 0, []))
+        self.validator().validate(answer)
+        self.assertIn("the run is not finished", (hidden / "index.html").read_text(encoding="utf-8"))
+
+        resumed = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=True)
+        self.assertIn("finished parts of an earlier run were reused", resumed.stderr)
+        self.assertNotIn("coarse, trilinear, bake", resumed.stderr)
+        self.assertFalse(hidden.exists())
+        document = document_of(folder)
+        self.assertIsNone(document["coarse"])
+        again = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=True)
+        self.assertNotIn("reference, ", again.stderr)
+        self.assertEqual(document_of(folder), document)
+        fresh = subprocess.run([PROGRAM, *map(str, arguments), "--fresh"], capture_output=True, text=True, check=True)
+        self.assertNotIn("were reused", fresh.stderr)
+
+    def test_a_reference_is_resumed_for_the_filters_that_follow(self):
+        """Methods under shaded:2 would ask for more samples than those under the first filter, which are not measured again."""
+        def references(name, *filters):
+            folder = self.folder / name
+            for listed in filters:
+                run("recommend", *self.SHOTS, "--exhaustive", "--methods", "direct,toksvig", "--footprints", listed, "-o", folder)
+            return [(folder / "shaded_2" / "images" / f"d{distance}_reference.exr").read_bytes() for distance in (1, 4)]
+
+        self.assertEqual(references("resumed", "trilinear", "trilinear,shaded:2"), references("at_once", "trilinear,shaded:2"))
 
     def test_agrees_with_an_exhaustive_run(self):
         """With a limit that plain direct is beyond, and with none."""

@@ -181,6 +181,59 @@ class CheckRecommendations(InFolder):
         self.assertIn("holds runs with other options", done.stderr)
 
 
+# Stand for footprint_bench, whose frame takes 20 ms, and for a program that answers or fails.
+BENCH = """#!/bin/sh
+echo '{"benchmarks": [{"cpu_time": 20.0}]}'
+"""
+RUNS = """#!/bin/sh
+echo "$*" >> "$(dirname "$0")/calls"
+case $1 in
+  explain) echo '{"cost": [{"effect": "environment_light", "with_ms": 30, "without_ms": 12}]}' ;;
+  recommend) echo "First answer (coarse, 25% of the pixels):" ;;
+  compare) case $* in *--without*) echo "wrong" >&2; exit 2 ;; esac ;;
+esac
+"""
+
+
+class RunCosts(InFolder):
+    def setUp(self):
+        super().setUp()
+        self.bottle = self.folder / "WaterBottle/glTF/WaterBottle.gltf"
+        self.bottle.parent.mkdir(parents=True)
+        for name, text in (("app/footprint", RUNS), ("bench/footprint_bench", BENCH)):
+            (self.folder / name).parent.mkdir()
+            (self.folder / name).write_text(text, encoding="utf-8")
+            (self.folder / name).chmod(0o755)
+
+    def table(self, *arguments):
+        done = subprocess.run([SOURCE / "scripts/run_costs", "--quick", "--models", self.folder, "--programs", self.folder, *arguments],
+                              capture_output=True, text=True, check=False)
+        cells = [[cell.strip() for cell in line.split("|")[1:-1]] for line in done.stdout.splitlines()[2:]]
+        return done, {first: rest for first, *rest in cells}
+
+    def test_a_model_that_is_absent_is_said_to_be(self):
+        done, rows = self.table("--only", "WaterBottle")
+        self.assertEqual((done.returncode, [cells[0] for cells in rows.values()]), (0, ["model absent"] * 2))
+        self.assertFalse((self.folder / "app/calls").exists())
+
+    def test_rows_have_seconds_and_ratios(self):
+        self.bottle.touch()
+        done, rows = self.table("--only", "WaterBottle|carved")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(len(rows), 3)
+        self.assertRegex(rows["recommend WaterBottle `--max-cost 2`"][0], r"^0\.\d \(first answer 0\.\d\)$")
+        for cells in rows.values():
+            self.assertAlmostEqual(float(cells[2]), float(cells[1]) / 0.02, delta=3)  # of seconds in one digit
+        self.assertIn("--size 64x64", (self.folder / "app/calls").read_text(encoding="utf-8"))
+
+    @unittest.skipUnless(pathlib.Path("/usr/share/assimp/models/glTF2/ClearCoat-glTF").exists(), "no ClearCoatTest")
+    def test_a_failed_run_is_told_and_the_others_go_on(self):
+        done, rows = self.table()
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual([name for name, cells in rows.items() if cells[0] == "failed"], ["the same, `--without environment_light`"])
+        self.assertIn("ratio 2.50", [cells[2] for cells in rows.values()])
+
+
 class EngineConstants(InFolder):
     """The page is what results say: the least error wins, and what is missing is named."""
 

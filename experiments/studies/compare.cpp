@@ -305,7 +305,7 @@ class Comparison {
 
   Image finest_level(const Truth& truth, const StagedMethod& staged, const std::string& prefix) {
     Image finest = finest_mean(stage().finest_level(staged), truth.view, settings_.reference,
-                                     parts_.next(finest_samples(settings_.reference), prefix + "finest level, "));
+                               parts_.next(finest_samples(settings_.reference), prefix + "finest level, "));
     if (truth.first.texels.empty()) return finest;
     return as_converged(finest, truth.first, truth.reference.mean);
   }

@@ -53,13 +53,15 @@ const std::vector<Case> recommendations{
                    "256x256", "--spp", "4096", "-o", "{}/out"},
      .exit_code = 130,
      .errors_have = {"interrupted"},
-     .interrupt_at = "reference"},
+     .interrupt_at = "reference",
+     .keeps_work = true},
     {.name = "RecommendOnAFullDisk",
      .arguments = {"recommend", "v_grooves", "--methods", "direct,toksvig", "--footprints", "trilinear", "--size",
                    "48x48", "--distance", "4", "--spp", "16", "--repeats", "1", "-o", "{}/out"},
      .exit_code = 3,
      .errors_have = {"work/out"},
-     .file_size_limit = 20000},
+     .file_size_limit = 20000,
+     .keeps_work = true},
 };
 
 INSTANTIATE_TEST_SUITE_P(HelpOfRecommend, CommandLine, ::testing::ValuesIn(help_of_recommend), case_name);

@@ -44,8 +44,6 @@ void add_storages(Limits& limits) {
              {"blinn_phong_10000_on_10", "blinn_phong_1000000_on_10", "vmf_1000000_on_10", "ggx_0_001_on_10",
               "beckmann_0_001_on_10"},
              "limit", 1.1, "half floats lose slopes' spreads below 0.08 of their mean");
-  limits.add({"atanasov_bins", "atanasov_bins:storage=fp32"}, {"ggx_0_001_on_10"}, "limit", 0.027,
-             "16 bits per axis turn a normal by up to 0.002 degrees");
 }
 
 void add_slopes(Limits& limits) {

@@ -160,8 +160,11 @@ class AtanasovBins final : public Method {
     }
     const InverseMap inverse = inverse_of(bins, progress, texels);
     add_inverse_map(inverse, out);
-    if (by_width) add_list_widths(list_means(inverse, widths), out);
+    if (by_width) add_list_values("bins_widths", list_means(inverse, widths), 1, out);
     if (roughness != "bin") {
+      const std::vector<glm::vec2> roundings = list_roundings(inverse, bins, normals);
+      add_list_values("bins_roundings", {&roundings.front().x, 2 * roundings.size()}, 2, out);
+      out.scalars["bins_list_count"] = static_cast<float>(inverse.lists.size());
       add_classes(classes, out);
       out.textures.push_back(word_texture("bins_moments", node_moments(inverse, bins, texels)));
     }

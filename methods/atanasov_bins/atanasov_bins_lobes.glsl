@@ -9,7 +9,14 @@ float listCount(Effective e, Query q, float rounds) {
     Disc disc = discOf(i, varianceOfLists(e), q.h, most);
     count += min(disc.limit, 1.0) * disc.across * disc.across;
   }
-  return max(count, 1.0);
+  return clamp(count, 1.0, bins_list_count);
+}
+
+// What the packed normals of a list's texels have lost on average: where lobes are narrow it turns them.
+vec2 listRounding(int list) {
+  countLookups(1);
+  int columns = textureSize(bins_roundings, 0).x;
+  return texelFetch(bins_roundings, ivec2(list & (columns - 1), list >> findMSB(columns)), 0).rg;
 }
 
 // The mean of the texels' own slope variances, of a list.
@@ -28,7 +35,7 @@ float listWidth(int list) {
 float valueOfList(int list, ListBin bin, ListSum sum, Effective e, Query q) {
   vec2 mean = sum.offset / sum.area;
   vec2 variance = max(sum.squares / sum.area - mean * mean, 0.0);
-  vec2 point = (bin.middle + mean) / bin.across;
+  vec2 point = (bin.middle + mean) / bin.across + listRounding(list);
   float half_bin = 0.5 / bin.across;
   vec3 normal = squareToHemisphere(point);
   vec3 along_x = squareToHemisphere(point + vec2(half_bin, 0.0)) - normal;

@@ -80,11 +80,12 @@ void add_inverse_map(const InverseMap& map, Prefiltered& out) {
   out.scalars["bins_invalid_list"] = invalid ? static_cast<float>(map.lists.size() - 1) : -1.0F;
 }
 
-void add_list_widths(std::span<const float> widths, Prefiltered& out) {
-  const int columns = columns_for(widths.size());
-  Image image(columns, rows_for(widths.size(), columns), 1);
-  std::ranges::copy(widths, image.texels.begin());
-  out.textures.push_back(make_texture("bins_widths", {image}, Storage::fp32, {}));
+void add_list_values(std::string name, std::span<const float> values, int channels, Prefiltered& out) {
+  const std::size_t lists = values.size() / static_cast<std::size_t>(channels);
+  const int columns = columns_for(lists);
+  Image image(columns, rows_for(lists, columns), channels);
+  std::ranges::copy(values, image.texels.begin());
+  out.textures.push_back(make_texture(std::move(name), {image}, Storage::fp32, {}));
   out.textures.back().filter = TextureFilter::nearest;
 }
 

@@ -21,8 +21,8 @@ namespace footprint::atanasov_bins {
 /// Adds `bins_texels`, `bins_forest`, `bins_lists`, `bins_hash` and what the shader has to know of them.
 void add_inverse_map(const InverseMap& map, Prefiltered& out);
 
-/// Adds `bins_widths`, a number for each list.
-void add_list_widths(std::span<const float> widths, Prefiltered& out);
+/// Adds a texture of `channels` values for each list, list by list.
+void add_list_values(std::string name, std::span<const float> values, int channels, Prefiltered& out);
 
 /// Texels whose lobes are about as wide: bins along an edge, the largest slope variance that the lobe of a list may
 /// have beside that of the base lobe, and the texel's own variance from which on it is of the class.

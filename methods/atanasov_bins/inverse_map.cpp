@@ -14,6 +14,7 @@
 
 #include "methods/atanasov_bins/bins.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/microgeometry/direction_grid.hpp"
 
 namespace footprint::atanasov_bins {
 namespace {
@@ -162,6 +163,19 @@ void plant_forest(InverseMap& out, const Progress& progress) {
   }
 }
 
+// The mean over every list of what `value` has for a texel's place.
+template <class Mean, class Value>
+std::vector<Mean> means_over_lists(const InverseMap& map, const Value& value) {
+  std::vector<Mean> out(map.lists.size());
+  tbb::parallel_for(std::size_t{0}, map.lists.size(), [&](std::size_t i) {
+    decltype(value(0, 0)) sum{};
+    for (const std::uint32_t texel : std::span(map.texels).subspan(map.lists[i].first, map.count_of(i)))
+      sum += value(static_cast<int>(texel & 0xFFFFU), static_cast<int>(texel >> 16U));
+    out[i] = Mean(sum / static_cast<double>(map.count_of(i)));
+  });
+  return out;
+}
+
 // Sums over texels of one list.
 struct Sums {
   glm::dvec2 offset{0.0};
@@ -306,15 +320,18 @@ std::vector<std::uint32_t> node_moments(const InverseMap& map, const BinMap& bin
   return out;
 }
 
-std::vector<float> list_means(const InverseMap& map, const Image& values) {
-  std::vector<float> out(map.lists.size());
-  tbb::parallel_for(std::size_t{0}, map.lists.size(), [&](std::size_t i) {
-    double sum = 0.0;
-    for (const std::uint32_t texel : std::span(map.texels).subspan(map.lists[i].first, map.count_of(i)))
-      sum += values.at(static_cast<int>(texel & 0xFFFFU), static_cast<int>(texel >> 16U))[0];
-    out[i] = static_cast<float>(sum / map.count_of(i));
+std::vector<glm::vec2> list_roundings(const InverseMap& map, const BinMap& bins, const Image& normals) {
+  return means_over_lists<glm::vec2>(map, [&](int x, int y) {
+    const std::uint32_t packed =
+        bins.normals[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(x)];
+    if (packed == no_normal) return glm::dvec2(0.0);
+    const std::span<const float> n = normals.at(x, y);
+    return hemisphere_to_square(glm::normalize(glm::dvec3(n[0], n[1], n[2]))) - place_in_square(packed);
   });
-  return out;
+}
+
+std::vector<float> list_means(const InverseMap& map, const Image& values) {
+  return means_over_lists<float>(map, [&](int x, int y) { return static_cast<double>(values.at(x, y)[0]); });
 }
 
 }  // namespace footprint::atanasov_bins

@@ -116,6 +116,10 @@ struct BinMoments {
 [[nodiscard]] std::vector<std::uint32_t> node_moments(const InverseMap& map, const BinMap& bins,
                                                       const TexelClasses& classes = {});
 
+/// The mean over every list of what 16 bits take from the points of its texels' normals (four channels, as large as the
+/// map) in the unit square.
+[[nodiscard]] std::vector<glm::vec2> list_roundings(const InverseMap& map, const BinMap& bins, const Image& normals);
+
 /// The mean over every list of a value of its texels (one channel, as large as the map).
 [[nodiscard]] std::vector<float> list_means(const InverseMap& map, const Image& values);
 

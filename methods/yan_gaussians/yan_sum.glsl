@@ -164,11 +164,13 @@ uint leafBegin(uint leaf, uint count, int depth) {
 // llvmpipe ends loops after 65535 rounds a pixel, all lights together: no picture may pass for whole then. A step of the
 // walk takes one round and, where any of the eight pixels that are drawn together is in a leaf, five more.
 float notWhole() { return uintBitsToFloat(0x7fc00000u); }
-const int most_steps = 8000 / shade_calls;
+// Half of the steps are shared out evenly; of the other half each call may take a quarter of what is left.
+const int own_steps = 4000 / shade_calls;
+int shared_steps = 4000;
 const int draws = max(8192 / shade_calls, 1);
 
 // The elements within reach of the footprint take more steps than there are, whatever their normals.
-bool isTooWide(Effective e) {
+bool isTooWide(Effective e, int most_steps) {
   vec2 sides = min(2.0 * e.reach, e.size);
   return normalReach() >= 2.0 && sides.x * sides.y > 4.0 * float(most_steps);
 }
@@ -199,7 +201,9 @@ float sumOver(Effective e, Query q) {
   float sum = 0.0;
   uint node = 1u;
   bool done = false;
-  int steps = isTooWide(e) ? most_steps : 0;
+  int most_steps = own_steps + shared_steps / 4;
+  int steps = isTooWide(e, most_steps) ? most_steps : 0;
+  bool walks = steps == 0;
   while (!done && steps < most_steps) {
     ++steps;
     bool inside = reaches(e, node, q.h, normal_reach);
@@ -222,6 +226,7 @@ float sumOver(Effective e, Query q) {
     node >>= uint(findLSB(node));
     done = node == 1u;
   }
+  if (walks) shared_steps -= max(steps - own_steps, 0);
   if (done) return sum * e.scale;
   return steps < most_steps ? notWhole() : estimateOver(e, q);
 }

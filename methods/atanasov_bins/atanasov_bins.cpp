@@ -27,14 +27,20 @@ using namespace atanasov_bins;
 // Where texels reflect by lobes, a bin is as wide as this share of a lobe's standard deviation, or wider.
 constexpr double bin_width = 1.5;
 
+// Texels whose lobes differ more are in lists of their own, so that a list's mean width is that of each.
+constexpr double class_ratio = 4.0;  // of slope variances
+constexpr int most_classes = 4;
+
+// A variance that nine tenths of the texels exceed.
+double low_variance(std::vector<float> variances) {
+  const auto tenth = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 10);
+  std::ranges::nth_element(variances, tenth);
+  return *tenth;
+}
+
 // Of the narrowest lobe or, where the roughness varies, of one that nine tenths of the map are wider than.
 double narrow_variance(const Material& material) {
-  if (width_map(material) != nullptr) {
-    std::vector<float> variances = lobe_variance_map(material).texels;
-    const auto tenth = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 10);
-    std::ranges::nth_element(variances, tenth);
-    return *tenth;
-  }
+  if (width_map(material) != nullptr) return low_variance(lobe_variance_map(material).texels);
   if (material.lobes.empty()) return mean_lobe_variance(material);
   double narrowest = 1.0;
   for (const FacetLobe& lobe : material.lobes)
@@ -42,12 +48,20 @@ double narrow_variance(const Material& material) {
   return narrowest;
 }
 
-int bins_across(const Material& material, const Options& options) {
+constexpr int bins_as_published = 127;
+
+// The most bins along an edge where lobes call for them.
+int most_across(const Options& options) {
   const int m = static_cast<int>(options.number("m"));
+  return m > 0 ? m : most_bins_across;
+}
+
+int bins_across(const Material& material, const Options& options) {
   const std::string roughness = options.word("roughness");
   const double alpha = options.number("alpha");
-  if (roughness == "flakes") return bins_across_for(0.5 * alpha * alpha, bin_width, most_bins_across);
-  return roughness == "lobe" ? bins_across_for(narrow_variance(material), bin_width, m) : m;
+  if (roughness == "bin") return options.number("m") > 0 ? most_across(options) : bins_as_published;
+  const double variance = roughness == "flakes" ? 0.5 * alpha * alpha : narrow_variance(material);
+  return bins_across_for(variance, bin_width, most_across(options));
 }
 
 // Flakes have a lobe of their own, and mirrors that face h need none.
@@ -86,6 +100,34 @@ Image widths_of_texels(const Material& material, const glm::ivec2& size) {
   return widths;
 }
 
+// The slope variance of normals that fill a bin evenly, doubled, as they may keep to its corners.
+double spread_in_bin(int across) { return bin_solid_angle(across) / 6.0; }
+
+// Equal steps of the variance's logarithm from the narrow texels to the widest; what is narrower is of the first class.
+std::vector<WidthClass> classes_of(const Image& widths, int most_across) {
+  const double low = low_variance(widths.texels), high = *std::ranges::max_element(widths.texels);
+  const double range = std::log(high / low);
+  const int count = std::clamp(static_cast<int>(std::ceil(range / std::log(class_ratio))), 1, most_classes);
+  std::vector<WidthClass> classes;
+  for (int i = 0; i < count; ++i) {
+    const double from = low * std::exp(range * i / count), to = low * std::exp(range * (i + 1) / count);
+    const int across = bins_across_for(from, bin_width, most_across);
+    classes.push_back({.across = across, .widest = to + spread_in_bin(across), .from = i == 0 ? 0.0 : from});
+  }
+  return classes;
+}
+
+// Which texels are of which.
+TexelClasses texels_of(std::span<const WidthClass> classes, const Image& widths) {
+  TexelClasses out;
+  for (const WidthClass& one : classes) out.across.push_back(one.across);
+  for (const float width : widths.texels) {
+    const auto next = std::ranges::upper_bound(classes, static_cast<double>(width), {}, &WidthClass::from);
+    out.of_texel.push_back(static_cast<std::uint8_t>(next - classes.begin() - 1));
+  }
+  return out;
+}
+
 class AtanasovBins final : public Method {
  public:
   [[nodiscard]] const MethodInfo& info() const override { return info_; }
@@ -105,7 +147,29 @@ class AtanasovBins final : public Method {
     const std::string roughness = options.word("roughness");
     const bool by_width = roughness == "lobe" && has(effects, Effect::roughness_variation);
     if (by_width) out.scalars["bins_own_roughness"] = knows_widths(material) ? 1.0F : 0.0F;
-    add_maps(material, across, roughness != "bin", by_width && knows_widths(material), progress, out);
+    const Image normals = normal_map_of(material);
+    const BinMap bins = bin_map(normals, across, progress);
+    out.textures.push_back(bin_map_texture(bins, normal_coordinates(material)));
+    std::vector<WidthClass> classes{{.across = across, .widest = spread_in_bin(across), .from = 0.0}};
+    TexelClasses texels;
+    Image widths(normals.width, normals.height, 1);
+    if (by_width && knows_widths(material)) {
+      widths = widths_of_texels(material, {normals.width, normals.height});
+      classes = classes_of(widths, most_across(options));
+      texels = texels_of(classes, widths);
+    }
+    const InverseMap inverse = inverse_of(bins, progress, texels);
+    add_inverse_map(inverse, out);
+    if (by_width) add_list_values("bins_widths", list_means(inverse, widths), 1, out);
+    if (roughness != "bin") {
+      const std::vector<glm::vec2> roundings = list_roundings(inverse, bins, normals);
+      add_list_values("bins_roundings", {&roundings.front().x, 2 * roundings.size()}, 2, out);
+      out.scalars["bins_list_count"] = static_cast<float>(inverse.lists.size());
+      add_classes(classes, out);
+      out.textures.push_back(word_texture("bins_moments", node_moments(inverse, bins, texels)));
+    }
+    out.scalars["bins_wrap_u"] = wrap_number(normal_coordinates(material).wrap[0]);
+    out.scalars["bins_wrap_v"] = wrap_number(normal_coordinates(material).wrap[1]);
     return out;
   }
 
@@ -114,32 +178,15 @@ class AtanasovBins final : public Method {
   }
 
  private:
-  static void add_maps(const Material& material, int across, bool lobes, bool by_width, const Progress& progress,
-                       Prefiltered& out) {
-    const TextureCoordinates coordinates = normal_coordinates(material);
-    const Image normals = normal_map_of(material);
-    const BinMap bins = bin_map(normals, across, progress);
-    out.textures.push_back(bin_map_texture(bins, coordinates));
-    const InverseMap inverse = inverse_of(bins, progress);
-    add_inverse_map(inverse, out);
-    if (lobes) {
-      const Image widths = by_width ? widths_of_texels(material, {normals.width, normals.height}) : Image();
-      add_list_normals(list_normals(inverse, normals, by_width ? &widths : nullptr), out);
-    }
-    out.scalars["bins_wrap_u"] = wrap_number(coordinates.wrap[0]);
-    out.scalars["bins_wrap_v"] = wrap_number(coordinates.wrap[1]);
-  }
-
   MethodInfo info_{
       .name = "atanasov_bins",
       .summary = "Normals sorted into bins of the half vector; trees count each bin's texels under the footprint.",
       .paper = "Atanasov, Krivanek, Koylazov, Wilkie 2020, Efficient Multiscale Rendering of Specular Microstructure",
       .options =
           {whole_option(
-               "m", 127, 1, most_bins_across,
-               "Bins along an edge: the hemisphere has m x m of equal solid angle. With roughness=lobe at most "
-               "so many, none narrower than 1.5 of the lobe's deviations; roughness=flakes takes what alpha "
-               "calls for."),
+               "m", 0, 0, most_bins_across,
+               "Bins along an edge: the hemisphere has m x m of equal solid angle. 0: 127 with roughness=bin; with the "
+               "others bins 1.5 of the lobes' deviations wide, and at most m if it is given."),
            word_option("roughness", {"lobe", "bin", "flakes"},
                        "What spreads a texel's normal: the base lobe about it, bins around the half vector included; "
                        "the bin that it is in, as published; a Beckmann lobe of `alpha` of every flake's own."),
@@ -149,9 +196,10 @@ class AtanasovBins final : public Method {
                        "map's axes; those that the footprint filter would blend."),
            word_option(
                "border", {"nodes", "texels"},
-               "How texels count at the footprint's border: by nodes of the trees narrower than a quarter of it, as if "
-               "their texels were spread evenly, so that what a pixel costs does not grow with its footprint; or one "
-               "by one, exactly."),
+               "How texels count at the footprint's border: by samples of the nodes of the trees narrower than a "
+               "quarter "
+               "of it, so that a pixel's cost does not grow with its footprint; or one by one as far as the steps of a "
+               "pixel allow."),
            word_option("surface", {"facets", "microfacets"},
                        "What the density is of: texels that each reflect about their own normal, as the reference has "
                        "them; microfacets of a surface about its own normal, as published, D over the cosine."),

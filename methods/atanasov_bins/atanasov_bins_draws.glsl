@@ -1,8 +1,6 @@
 // What is drawn from under a footprint (section 2.1): texels at points that fill it evenly or, of a region that has no
 // more texels than are drawn, these, by their areas.
 
-ivec2 texelAt(Region r, vec2 point) { return ivec2(floor(r.centre + r.edges * (point - 0.5))); }
-
 // All regions share the draws.
 int drawsEach(Footprint f) { return max(int(option_draws) / regionCount(f), 1); }
 

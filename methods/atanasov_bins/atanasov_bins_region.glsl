@@ -1,4 +1,5 @@
 // A footprint on the map as a parallelogram in texels, and what it covers of boxes.
+//? include atanasov_bins_rounds.glsl
 //? include parallelogram.glsl
 
 struct Region {
@@ -15,13 +16,6 @@ Region regionAbout(vec2 centre, mat2 edges, float weight) {
 
 float areaOf(Region r) { return abs(determinant(r.edges)); }
 
-// A map that a footprint covers more often than this along an axis counts once, as a whole.
-//? if roughness_bin
-const float most_periods = 16.0;
-//? else
-const float most_periods = 4.0;
-//? end
-
 vec2 mapSize() { return vec2(textureSize(bins_map, 0)); }
 
 Region wholeMap(float weight) {
@@ -30,9 +24,10 @@ Region wholeMap(float weight) {
 }
 
 // Of no less than a texel: the bilinear filter where texels are large on screen.
-Region regionOf(vec2 centre, mat2 edges, float weight) {
+Region regionOf(vec2 centre, mat2 edges, float weight, int regions) {
   Region r = regionAbout(centre, widened(edges, 1.0), weight);
-  vec2 most = mix(vec2(0.5 * most_periods) * mapSize(), vec2(1e6), equal(vec2(bins_wrap_u, bins_wrap_v), vec2(2.0)));
+  float periods = mostPeriods(regionRounds(regions));
+  vec2 most = mix(vec2(0.5 * periods) * mapSize(), vec2(1e6), equal(vec2(bins_wrap_u, bins_wrap_v), vec2(2.0)));
   return all(lessThan(r.reach, most)) ? r : wholeMap(weight);  // what is no number too
 }
 
@@ -48,7 +43,7 @@ Region regionAt(Footprint f, int i) {
   vec2 within = clamp(texel.uv, 0.5 / texels, 1.0 - 0.5 / texels);
   vec2 uv = mix(texel.uv, within, equal(vec2(bins_wrap_u, bins_wrap_v), vec2(2.0)));
   vec2 sides = vec2(finest) / texels;
-  return regionOf(uv * vec2(finest), mat2(sides.x, 0.0, 0.0, sides.y), texel.weight);
+  return regionOf(uv * vec2(finest), mat2(sides.x, 0.0, 0.0, sides.y), texel.weight, regionCount(f));
 }
 //? else
 int regionCount(Footprint f) { return 1; }
@@ -59,7 +54,7 @@ Region regionAt(Footprint f, int i) {
   vec2 sides = abs(edges[0]) + abs(edges[1]);
   edges = mat2(sides.x, 0.0, 0.0, sides.y);
 //? end
-  return regionOf(f.uv * mapSize(), edges, 1.0);
+  return regionOf(f.uv * mapSize(), edges, 1.0, 1);
 }
 //? end
 

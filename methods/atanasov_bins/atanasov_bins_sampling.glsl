@@ -13,9 +13,7 @@ vec4 evenPoint(int i) { return fract(0.5 + float(i + 1) * vec4(0.85667488, 0.733
 // The normal that a texel reflects about: its own or, where the bin is all that is known of it, at a place of that.
 vec3 normalOf(uint code, vec2 place) {
 //? if roughness_bin
-  uint across = uint(bins_across);
-  uvec2 cell = uvec2((code & 0xFFFFu) * across >> 16, (code >> 16) * across >> 16);
-  return squareToHemisphere((vec2(cell) + place) / bins_across);
+  return squareToHemisphere((vec2(cellOfPacked(code, bins_across)) + place) / bins_across);
 //? else
   return unpackedNormal(code);
 //? end

@@ -107,11 +107,6 @@ double phong_density(const glm::dvec3& n, const glm::dvec3& h) {
   return (phong_exponent + 1.0) / (2.0 * pi) * std::pow(std::max(glm::dot(n, h), 0.0), phong_exponent);
 }
 
-double beckmann_density(double alpha, const glm::dvec3& n, const glm::dvec3& h) {
-  const double c = std::max(glm::dot(n, h), 1e-3);
-  return std::exp(-(1.0 / (c * c) - 1.0) / (alpha * alpha)) / (pi * alpha * alpha * std::pow(c, 4.0));
-}
-
 const std::vector<glm::dvec3> some_directions{{0.0, 0.0, 1.0}, {0.1, -0.05, 0.99}, {0.2, 0.15, 0.9}, {-0.3, 0.1, 0.9}};
 
 // The largest difference to the plain sum of lobes over directions and footprints, over the largest of the sums.
@@ -159,37 +154,6 @@ TEST(AtanasovBins, LobesOfALargeFootprintConverge) {
   // Bins 1.5 of the lobe's deviations wide move a normal by 0.43 deviations, root mean square along an axis, where a
   // Gaussian lobe's slope is 0.6 of its peak a deviation at most: a quarter of it for one texel, less for more.
   EXPECT_LT(largest_error(normals, large, {{"roughness", "flakes"}, {"alpha", "0.04"}}, flake), 0.12);
-}
-
-// Nodes at the border that count by the share that is covered: of T texels that are strewn at random it is off by about
-// 0.4 / sqrt(T) (README.md), while what is looked at no longer grows with the footprint.
-TEST(AtanasovBins, BorderByNodesIsNearThatByTexels) {
-  constexpr int m = 15;
-  const Image normals = test_normals(1024, 1024, 0.5F, m);
-  const Material material = material_of(normals, Wrap::repeat);
-  const std::string value = "vec4(ndf(e, c.xyz), 0.0, 0.0, 0.0)";
-  for (const double side : {200.0, 700.0}) {
-    const Parallelogram p{{510.0, 300.0}, {{0.96 * side, 0.28 * side}, {-0.28 * side, 0.96 * side}}};
-    std::vector<std::array<glm::vec4, 3>> inputs;
-    for (std::uint32_t bin = 0; bin < m * m; ++bin)
-      inputs.push_back(
-          input_of(p, {1024.0, 1024.0}, square_to_hemisphere((glm::dvec2(bin % m, bin / m) + 0.5) / double{m})));
-    std::map<std::string, std::string> options{{"m", "15"}, {"roughness", "bin"}, {"border", "texels"}};
-    const auto texels = probe_footprints(material, options, value, inputs);
-    options["border"] = "nodes";
-    const auto nodes = probe_footprints(material, options, value, inputs);
-    double energy = 0.0, off = 0.0, count = 0.0;
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
-      const double mine = nodes[i].x * bin_solid_angle(m), truth = texels[i].x * bin_solid_angle(m);
-      energy += mine;
-      if (truth <= 0.0) continue;
-      off += std::pow((mine - truth) / truth, 2) * truth * p.area();  // in units of 1 / sqrt(texels)
-      count += 1.0;
-    }
-    EXPECT_NEAR(energy, 1.0, 1e-3) << side;
-    EXPECT_LT(std::sqrt(off / count), 0.5) << side;
-    EXPECT_GT(std::sqrt(off / count), 0.01) << side << ": no node was taken for its texels";
-  }
 }
 
 // A map of texels without a normal is the surface's own; normals below the horizon are those on the rim.
@@ -275,25 +239,6 @@ TEST(AtanasovBins, StorageLeavesHighlightsAsTheyAre) {
                                    effects_on(derive_effects(scene)), no_progress);
     EXPECT_TRUE(baked.materials.front().notes.empty()) << baked.materials.front().notes.front();
   }
-}
-
-// llvmpipe ends loops after 65535 rounds. A pixel of which that leaves texels out must not pass for the sum of all.
-TEST(AtanasovBins, IsNeverAPartOfTheSum) {
-  const Scene scene = square_scene(random_normals(1024, 1024, 0.5F, 13), {.brdf = {}, .roughness = 0.2F});
-  Scene many = scene;
-  many.lights.resize(48, scene.lights[0]);
-  const std::string text = "atanasov_bins:border=texels";
-  const Image once = TestRenderer(scene, {4, 4}).frame(atanasov_bins_method(), text);
-  const Image all = TestRenderer(many, {4, 4}).frame(atanasov_bins_method(), text);
-  int left_out = 0;
-  for (std::size_t i = 0; i < all.texels.size(); i += 4) {
-    if (!std::isfinite(all.texels[i])) {
-      ++left_out;
-    } else {
-      EXPECT_NEAR(all.texels[i] / once.texels[i], 48.0, 0.02) << i;
-    }
-  }
-  EXPECT_GT(left_out, 0) << "nothing was put to the test";
 }
 
 }  // namespace

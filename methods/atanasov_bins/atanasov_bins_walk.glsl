@@ -1,28 +1,11 @@
 // The area of a list's texels under a footprint. A footprint that reaches over the map's border is taken apart: each
 // copy of the map that it touches is walked with the footprint moved, and mirrored, to where the map is.
-//? include atanasov_bins_lists.glsl
-//? include atanasov_bins_region.glsl
+//? include atanasov_bins_counted.glsl
 
-// Halving 2^28 texels down to 16, an odd side's longer part each time, takes 26 steps.
-const int most_pending = 28;
-const int most_cut = 16;  // that are put aside before their areas are taken
-const uint leaf_size = 16u;
+// A power of two. Depth first, halving 2^28 texels down to 16, an odd side's longer part each time, takes 26 steps.
+const int most_pending = 64;
+const int most_counted = 32;    // that are put aside before they are added
 const uint wide_node = 32768u;  // nodes of fewer texels are one integer
-
-// How far the outermost texels go on beyond the map that does not repeat: lower and upper edges.
-vec4 beyondMap(Region r) {
-  vec2 size = mapSize();
-  vec4 beyond = max(vec4(r.reach - r.centre, r.centre + r.reach - size), 0.0);
-  vec2 clamped = vec2(equal(vec2(bins_wrap_u, bins_wrap_v), vec2(2.0)));
-  return beyond * clamped.xyxy;
-}
-
-// A box of texels, the border's widened.
-vec4 boxOf(ivec2 lower, ivec2 upper, vec4 beyond) {
-  ivec2 size = textureSize(bins_map, 0);
-  vec2 from = vec2(lower) - beyond.xy * vec2(equal(lower, ivec2(0)));
-  return vec4(from, vec2(upper) + beyond.zw * vec2(equal(upper, size)));
-}
 
 // What is left to be looked at: a node of the tree, its texels up to `end`, its rectangle.
 struct Node {
@@ -63,73 +46,124 @@ Node texelNode(uint i) {
   return Node(0u, i + 1u, texel, texel + 1);
 }
 
-//? if border_nodes
-// Sides below which a node that the border cuts counts by the share of it that is covered, as if its texels were spread
-// evenly: a quarter of the side of a square as large as the footprint; half of it where many lists are summed.
-//? if roughness_bin
-float evenSide(Region r) { return 0.25 * sqrt(areaOf(r)); }
+// Sides below which a node that the border cuts counts by samples: a quarter of the side of a square as large as the
+// footprint.
+float sampledSide(Region r) {
+//? if border_texels
+  return 0.0;
 //? else
-float evenSide(Region r) { return 0.5 * sqrt(areaOf(r)); }
+  return 0.25 * sqrt(areaOf(r));
 //? end
-//? else
-float evenSide(Region r) { return 0.0; }
-//? end
+}
 
-// Over one copy of the map. One loop looks at nodes and at the texels of leaves alike: pixels that are drawn together
-// wait for each other at the end of every loop, and llvmpipe takes every branch. So what the border cuts, a few of
-// many, is put aside for a loop of its own. `finished` becomes false where the driver has ended one before its end
-// (notWhole).
-float areaInCopy(Region r, TexelList list, inout bool finished) {
-  vec4 beyond = beyondMap(r);
-  float even_side = evenSide(r);
+// Rounds are spent on large nodes first, so that all that is left where they end is of one size. Only where they are
+// enough for every texel at the border, some 3 for a texel of its length, the order does not matter.
+bool isDepthFirst(Region r, float rounds) {
+//? if border_texels
+  return 6.0 * (length(r.edges[0]) + length(r.edges[1])) < rounds;
+//? else
+  return false;
+//? end
+}
+
+// A node or a texel that was put aside.
+void addNode(inout ListSum sum, Region r, ListBin bin, Node seen, uint begin) {
+  vec2 sides = vec2(seen.upper - seen.lower);
+  float share = areaWithin(r, vec2(seen.lower), vec2(seen.upper)) / (sides.x * sides.y);
+  addCounted(sum, r, Counted(seen.at, begin, seen.end - begin, sides, share), bin);
+}
+
+void addOne(inout ListSum sum, Region r, ListBin bin, ivec2 texel) {
+  addTexel(sum, texel, areaWithin(r, vec2(texel), vec2(texel) + 1.0), bin);
+}
+
+// Over one copy of the map. A round looks at both halves of a node or at two texels of a leaf: pixels that are drawn
+// together wait for each other at the end of every loop, and llvmpipe takes every branch. So what counts, a few of many,
+// is put aside for a loop of its own. Where `rounds` are down to `last` what is pending counts by samples, two rounds
+// each. `finished` becomes false where the driver has ended a loop before its end (notWhole).
+void addCopy(inout ListSum sum, Region r, TexelList list, ListBin bin, float last, inout float rounds,
+             inout bool finished) {
+  vec2 sampled_side = vec2(sampledSide(r));
+  bool depth_first = isDepthFirst(r, rounds - last);
   Node node = Node(list.root, list.end, ivec2(0), textureSize(bins_map, 0));
-  uvec4 kept[most_pending + most_cut];  // nodes that are left to be looked at, then what is cut
-  int pending = 0;
-  int cut_count = 0;
   uint begin = list.first;
-  bool in_leaf = false;
-  uint whole = 0u;     // texels that are covered whole
-  float partly = 0.0;  // the area of the others
-  while (begin < list.end) {
-    while (begin < list.end && cut_count < most_cut) {
-      Node seen = node;
-      if (in_leaf) seen = texelNode(begin);
-      uint texels = seen.end - begin;
-      vec4 box = boxOf(seen.lower, seen.upper, beyond);
-      vec2 sides = box.zw - box.xy;
-      // Texels that go on beyond the map are larger than others: none stands for another.
-      bool goes_on = any(greaterThan(sides, vec2(seen.upper - seen.lower)));
-      int side = sideOf(r, box.xy, box.zw);
-      if (goes_on && side == inside) side = cut;
-      bool counts = side == cut && (in_leaf || !goes_on && all(lessThan(sides, vec2(even_side))));
-      bool splits = side == cut && !counts && texels > leaf_size;
-      int slot = counts ? most_pending + cut_count : pending;
-      if (splits) {
-        seen = upperHalfOf(node, begin);
-        ++pending;
-      } else if (counts) {
-        seen.end = texels;
-        ++cut_count;
+  uvec4 kept[most_pending + most_counted];  // a ring of nodes that are left to be looked at, then what is put aside
+  uint begins[most_pending + most_counted];
+  int first = 0;
+  int pending = 0;
+  int nodes = 0;  // put aside, from the beginning
+  int texels = 0;  // from the end
+  bool is_root = true;
+  bool done = begin == list.end;
+  while (!done) {
+    while (!done && nodes + texels < most_counted - 1) {
+      bool leaf = node.end - begin <= leaf_size;
+      float needed = 2.0 * float(pending) + (leaf ? 1.5 * float(node.end - begin) : 4.0);
+      bool spent = rounds - last < needed || pending > most_pending - 2;
+      bool itself = is_root || spent;
+      Node a = node;
+      Node b = node;
+      uint b_begin = node.end;
+      if (!itself && leaf) {
+        a = texelNode(begin);
+        if (begin + 1u < node.end) {
+          b_begin = begin + 1u;
+          b = texelNode(b_begin);
+        }
+      } else if (!itself) {
+        b = upperHalfOf(a, begin);
+        b_begin = a.end;
       }
-      if (splits || counts) kept[slot] = packedNode(seen);
-      if (side == inside) whole += texels;
-      in_leaf = in_leaf || side == cut && !counts && !splits;
-      if (side != cut || counts) begin += texels;
-      if (begin == node.end && pending > 0) {
+      int side_a = begin == a.end ? outside : sideOf(r, vec2(a.lower), vec2(a.upper));
+      int side_b = b_begin == b.end ? outside : sideOf(r, vec2(b.lower), vec2(b.upper));
+      bool ends = spent || leaf && !itself;
+      bool counts_a = side_a == cut && (ends || all(lessThan(vec2(a.upper - a.lower), sampled_side)));
+      bool counts_b = side_b == cut && (ends || all(lessThan(vec2(b.upper - b.lower), sampled_side)));
+      bool waits_a = side_a == cut && !counts_a;
+      bool waits_b = side_b == cut && !counts_b;
+//? if roughness_bin
+      if (side_a == inside) sum.area += float(a.end - begin);
+      if (side_b == inside) sum.area += float(b.end - b_begin);
+//? else
+      counts_a = counts_a || side_a == inside;
+      counts_b = counts_b || side_b == inside;
+//? end
+      bool are_texels = leaf && !itself;
+      int aside = most_pending + (are_texels ? most_counted - 1 - texels : nodes);
+      int slot_b = counts_b ? aside : (first + pending) & (most_pending - 1);
+      if (counts_b) aside += are_texels ? -1 : 1;
+      if (waits_b) ++pending;
+      int slot_a = counts_a ? aside : (first + pending) & (most_pending - 1);
+      if (are_texels) texels += int(counts_a) + int(counts_b);
+      else nodes += int(counts_a) + int(counts_b);
+      if (waits_a) ++pending;
+      if (counts_b || waits_b) {
+        kept[slot_b] = packedNode(b);
+        begins[slot_b] = b_begin;
+      }
+      if (counts_a || waits_a) {
+        kept[slot_a] = packedNode(a);
+        begins[slot_a] = begin;
+      }
+      rounds -= 1.0 + float(counts_a) + float(counts_b);
+      begin += 2u;
+      if (itself || !leaf || begin >= node.end) {
+        done = pending == 0;
+        int slot = depth_first ? (first + pending - 1) & (most_pending - 1) : first;
+        if (!depth_first) first = (first + 1) & (most_pending - 1);
+        node = unpackedNode(kept[slot]);
+        begin = begins[slot];
         --pending;
-        node = unpackedNode(kept[pending]);
-        in_leaf = false;
       }
+      is_root = false;
     }
-    for (; cut_count > 0; --cut_count) {
-      Node seen = unpackedNode(kept[most_pending + cut_count - 1]);
-      vec4 box = boxOf(seen.lower, seen.upper, beyond);
-      vec2 sides = vec2(seen.upper - seen.lower);
-      partly += float(seen.end) / (sides.x * sides.y) * areaWithin(r, box.xy, box.zw);
+    for (; nodes > 0; --nodes) {
+      int i = most_pending + nodes - 1;
+      addNode(sum, r, bin, unpackedNode(kept[i]), begins[i]);
     }
+    for (; texels > 0; --texels) addOne(sum, r, bin, unpacked(kept[most_pending + most_counted - texels].z));
   }
-  finished = finished && begin == list.end && cut_count == 0;
-  return float(whole) + partly;
+  finished = finished && done && nodes + texels == 0;
 }
 
 // Copies of the map along an axis: first and last; one where it does not repeat.
@@ -150,19 +184,26 @@ Region inCopy(Region r, ivec2 copy) {
   return r;
 }
 
-float areaOfList(Region r, TexelList list, inout bool finished) {
+// By at most so many rounds of loops, which copies of the map share, and some for each copy.
+ListSum sumOfList(Region r, TexelList list, ListBin bin, float rounds, inout bool finished) {
+//? if roughness_bin
+  ListSum sum = ListSum(0.0);
+//? else
+  ListSum sum = ListSum(0.0, vec2(0.0), vec2(0.0));
+//? end
   vec2 size = mapSize();
   ivec2 columns = copiesAlong(r.centre.x, r.reach.x, size.x, bins_wrap_u);
   ivec2 rows = copiesAlong(r.centre.y, r.reach.y, size.y, bins_wrap_v);
-  int across = max(columns.y - columns.x + 1, 1);
-  int copies = across * max(rows.y - rows.x + 1, 1);
-  float area = 0.0;
+  int columns_count = max(columns.y - columns.x + 1, 1);
+  int copies = columns_count * max(rows.y - rows.x + 1, 1);
   int seen = 0;
   for (int i = 0; i < copies; ++i) {
     ++seen;
-    ivec2 copy = ivec2(columns.x + i % across, rows.x + i / across);
-    area += areaInCopy(inCopy(r, copy), list, finished);
+    ivec2 copy = ivec2(columns.x + i % columns_count, rows.x + i / columns_count);
+    rounds -= 3.0;
+    float last = rounds * (1.0 - 1.0 / float(copies - i));
+    addCopy(sum, inCopy(r, copy), list, bin, last, rounds, finished);
   }
   finished = finished && seen >= copies;
-  return area;
+  return sum;
 }

@@ -19,9 +19,14 @@ ivec2 unpacked(uint code) { return ivec2(code & 0xFFFFu, code >> 16); }
 const uint no_normal = 0xFFFFFFFFu;
 const uint up_code = 0x80008000u;  // (0, 0, 1)
 
+ivec2 cellOfPacked(uint code, float across) {
+  uint m = uint(across);
+  return ivec2((code & 0xFFFFu) * m >> 16, (code >> 16) * m >> 16);
+}
+
 uint binOfPacked(uint code) {
-  uint across = uint(bins_across);
-  return ((code >> 16) * across >> 16) * across + ((code & 0xFFFFu) * across >> 16);
+  ivec2 cell = cellOfPacked(code, bins_across);
+  return uint(cell.y) * uint(bins_across) + uint(cell.x);
 }
 
 vec3 unpackedNormal(uint code) { return squareToHemisphere((vec2(unpacked(code)) + 0.5) / 65536.0); }

@@ -77,22 +77,27 @@ void add_inverse_map(const InverseMap& map, Prefiltered& out) {
   const bool invalid = map.has_invalid();
   const std::size_t slots = hash.size() / 2;  // of two integers each
   out.scalars["bins_hash_slots"] = static_cast<float>(slots);
-  out.scalars["bins_list_count"] = static_cast<float>(map.lists.size() - (invalid ? 1 : 0));
   out.scalars["bins_invalid_list"] = invalid ? static_cast<float>(map.lists.size() - 1) : -1.0F;
 }
 
-void add_list_normals(std::span<const ListNormal> normals, Prefiltered& out) {
-  const int columns = columns_for(normals.size());
-  Image image(columns, rows_for(normals.size(), columns), 4);
-  double most = 0.0;
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    const glm::vec4 texel(glm::vec3(normals[i].mean), static_cast<float>(normals[i].spread));
-    std::copy_n(&texel.x, 4, image.texels.begin() + static_cast<std::ptrdiff_t>(4 * i));
-    most = std::max(most, normals[i].spread);
-  }
-  out.textures.push_back(make_texture("bins_normals", {image}, Storage::fp32, {}));
+void add_list_values(std::string name, std::span<const float> values, int channels, Prefiltered& out) {
+  const std::size_t lists = values.size() / static_cast<std::size_t>(channels);
+  const int columns = columns_for(lists);
+  Image image(columns, rows_for(lists, columns), channels);
+  std::ranges::copy(values, image.texels.begin());
+  out.textures.push_back(make_texture(std::move(name), {image}, Storage::fp32, {}));
   out.textures.back().filter = TextureFilter::nearest;
-  out.scalars["bins_spread"] = static_cast<float>(most);
+}
+
+void add_classes(std::span<const WidthClass> classes, Prefiltered& out) {
+  Image image(static_cast<int>(classes.size()), 1, 3);
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    const std::array<double, 3> values{static_cast<double>(classes[i].across), classes[i].widest, classes[i].from};
+    std::ranges::copy(values, image.texels.begin() + static_cast<std::ptrdiff_t>(3 * i));
+  }
+  out.textures.push_back(make_texture("bins_classes", {image}, Storage::fp32, {}));
+  out.textures.back().filter = TextureFilter::nearest;
+  out.scalars["bins_class_count"] = static_cast<float>(classes.size());
 }
 
 }  // namespace footprint::atanasov_bins

@@ -21,7 +21,18 @@ namespace footprint::atanasov_bins {
 /// Adds `bins_texels`, `bins_forest`, `bins_lists`, `bins_hash` and what the shader has to know of them.
 void add_inverse_map(const InverseMap& map, Prefiltered& out);
 
-/// Adds `bins_normals`, mean and spread of each list.
-void add_list_normals(std::span<const ListNormal> normals, Prefiltered& out);
+/// Adds a texture of `channels` values for each list, list by list.
+void add_list_values(std::string name, std::span<const float> values, int channels, Prefiltered& out);
+
+/// Texels whose lobes are about as wide: bins along an edge, the largest slope variance that the lobe of a list may
+/// have beside that of the base lobe, and the texel's own variance from which on it is of the class.
+struct WidthClass {
+  int across = 1;
+  double widest = 0.0;
+  double from = 0.0;
+};
+
+/// Adds `bins_classes`: across, widest, from.
+void add_classes(std::span<const WidthClass> classes, Prefiltered& out);
 
 }  // namespace footprint::atanasov_bins

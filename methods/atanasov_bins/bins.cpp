@@ -46,9 +46,11 @@ std::uint32_t bin_of_packed(std::uint32_t packed, int m) {
   return ((packed >> 16U) * count >> 16U) * count + ((packed & 0xFFFFU) * count >> 16U);
 }
 
-glm::dvec3 unpacked_normal(std::uint32_t packed) {
-  return square_to_hemisphere({((packed & 0xFFFFU) + 0.5) / places, ((packed >> 16U) + 0.5) / places});
+glm::dvec2 place_in_square(std::uint32_t packed) {
+  return (glm::dvec2(packed & 0xFFFFU, packed >> 16U) + 0.5) / double{places};
 }
+
+glm::dvec3 unpacked_normal(std::uint32_t packed) { return square_to_hemisphere(place_in_square(packed)); }
 
 int bins_across_for(double variance, double share, int most) {
   const double width = share * std::sqrt(std::max(variance, 1e-12));

@@ -26,6 +26,9 @@ inline constexpr std::uint32_t no_normal = 0xFFFFFFFFU;
 /// The bin that packed_normal was given.
 [[nodiscard]] std::uint32_t bin_of_packed(std::uint32_t packed, int m);
 
+/// The point of the unit square.
+[[nodiscard]] glm::dvec2 place_in_square(std::uint32_t packed);
+
 /// The normal, within 1e-4 radians (of one below the horizon: that on the rim).
 [[nodiscard]] glm::dvec3 unpacked_normal(std::uint32_t packed);
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <span>
 #include <string>
 #include <vector>
@@ -60,6 +62,12 @@ inline constexpr double phong_exponent = 200.0;
           {{0.9 * size.x, 0.5 * size.y}, {{0.4 * size.x, 0.0}, {0.0, 0.3 * size.y}}},
           {{0.31 * size.x, 0.44 * size.y}, {{1.2, 0.1}, {-0.1, 1.4}}},
           {0.5 * size, {{size.x, 0.0}, {0.0, size.y}}}};
+}
+
+/// Beckmann's density of normals at h about n.
+[[nodiscard]] inline double beckmann_density(double alpha, const glm::dvec3& n, const glm::dvec3& h) {
+  const double c = std::max(glm::dot(n, h), 1e-3);
+  return std::exp(-(1.0 / (c * c) - 1.0) / (alpha * alpha)) / (std::numbers::pi * alpha * alpha * std::pow(c, 4.0));
 }
 
 /// A probe's input: the footprint in uv (a.xy, b), a direction (c).

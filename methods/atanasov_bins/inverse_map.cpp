@@ -14,6 +14,7 @@
 
 #include "methods/atanasov_bins/bins.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/microgeometry/direction_grid.hpp"
 
 namespace footprint::atanasov_bins {
 namespace {
@@ -25,38 +26,62 @@ constexpr std::size_t texels_a_task = 65536;  // fewer are arranged by one threa
 // First of part `i` of so many elements.
 std::size_t part_begin(std::size_t elements, std::size_t i) { return elements * i / parts; }
 
-// Counts of each part and bin become where the part's texels of the bin begin; the whole lists are left in `lists`.
-void add_up(std::vector<std::vector<std::uint32_t>>& counts, std::vector<TexelList>& lists) {
+// Where a texel's bin is counted: the bins of all classes, one class after the other, then what has no normal.
+class KeyOrder {
+ public:
+  KeyOrder(const BinMap& map, const TexelClasses& classes) : map_(&map), classes_(&classes), across_(classes.across) {
+    if (across_.empty()) across_.push_back(map.across);
+    for (const int m : across_)
+      begins_.push_back(begins_.back() + static_cast<std::size_t>(m) * static_cast<std::size_t>(m));
+  }
+  [[nodiscard]] std::size_t count() const { return begins_.back() + 1; }
+  [[nodiscard]] std::size_t of_texel(std::size_t i) const {
+    const std::uint32_t normal = map_->normals[i];
+    if (normal == no_normal) return begins_.back();
+    const std::size_t own = classes_->of_texel.empty() ? 0 : classes_->of_texel[i];
+    return begins_[own] + bin_of_packed(normal, across_[own]);
+  }
+  [[nodiscard]] std::uint32_t key(std::size_t place) const {
+    if (place == begins_.back()) return no_key;
+    const auto own = static_cast<std::size_t>(std::ranges::upper_bound(begins_, place) - begins_.begin()) - 1;
+    return bin_key(own, static_cast<std::uint32_t>(place - begins_[own]));
+  }
+
+ private:
+  const BinMap* map_;
+  const TexelClasses* classes_;
+  std::vector<int> across_;
+  std::vector<std::size_t> begins_{0};  // of each class, and the end
+};
+
+// Counts of each part and place become where the part's texels of the bin begin; the whole lists are left in `lists`.
+void add_up(std::vector<std::vector<std::uint32_t>>& counts, const KeyOrder& order, std::vector<TexelList>& lists) {
   std::uint32_t next = 0;
-  for (std::size_t bin = 0; bin < counts.front().size(); ++bin) {
+  for (std::size_t place = 0; place < counts.front().size(); ++place) {
     const std::uint32_t first = next;
     for (std::vector<std::uint32_t>& part : counts) {
-      const std::uint32_t count = part[bin];
-      part[bin] = next;
+      const std::uint32_t count = part[place];
+      part[place] = next;
       next += count;
     }
-    if (next > first) lists.push_back({.bin = static_cast<std::uint32_t>(bin), .first = first, .root = 0});
+    if (next > first) lists.push_back({.key = order.key(place), .first = first, .root = 0});
   }
 }
 
-// Texels in order of their bins, those of a bin row by row.
-void sort_by_bin(const BinMap& map, InverseMap& out) {
+// Texels in that order, those of one place row by row.
+void sort_by_bin(const BinMap& map, const KeyOrder& order, InverseMap& out) {
   const auto width = static_cast<std::size_t>(map.width);
-  const auto bins = static_cast<std::size_t>(map.across) * static_cast<std::size_t>(map.across);
-  const auto bin_at = [&](std::size_t i) {
-    return map.normals[i] == no_normal ? static_cast<std::uint32_t>(bins) : bin_of_packed(map.normals[i], map.across);
-  };
   std::vector<std::vector<std::uint32_t>> counts(parts);
   tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t p) {
-    counts[p].assign(bins + 1, 0);
+    counts[p].assign(order.count(), 0);
     for (std::size_t i = part_begin(map.normals.size(), p); i < part_begin(map.normals.size(), p + 1); ++i)
-      ++counts[p][bin_at(i)];
+      ++counts[p][order.of_texel(i)];
   });
-  add_up(counts, out.lists);
+  add_up(counts, order, out.lists);
   out.texels.resize(map.normals.size());
   tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t p) {
     for (std::size_t i = part_begin(map.normals.size(), p); i < part_begin(map.normals.size(), p + 1); ++i)
-      out.texels[counts[p][bin_at(i)]++] = static_cast<std::uint32_t>(i / width << 16U | i % width);
+      out.texels[counts[p][order.of_texel(i)]++] = static_cast<std::uint32_t>(i / width << 16U | i % width);
   });
 }
 
@@ -138,6 +163,74 @@ void plant_forest(InverseMap& out, const Progress& progress) {
   }
 }
 
+// The mean over every list of what `value` has for a texel's place.
+template <class Mean, class Value>
+std::vector<Mean> means_over_lists(const InverseMap& map, const Value& value) {
+  std::vector<Mean> out(map.lists.size());
+  tbb::parallel_for(std::size_t{0}, map.lists.size(), [&](std::size_t i) {
+    decltype(value(0, 0)) sum{};
+    for (const std::uint32_t texel : std::span(map.texels).subspan(map.lists[i].first, map.count_of(i)))
+      sum += value(static_cast<int>(texel & 0xFFFFU), static_cast<int>(texel >> 16U));
+    out[i] = Mean(sum / static_cast<double>(map.count_of(i)));
+  });
+  return out;
+}
+
+// Sums over texels of one list.
+struct Sums {
+  glm::dvec2 offset{0.0};
+  glm::dvec2 squares{0.0};
+};
+
+// Of the nodes of one list's tree.
+class MomentsOfNodes {
+ public:
+  MomentsOfNodes(const InverseMap& map, const BinMap& bins, std::uint32_t key, int across,
+                 std::vector<std::uint32_t>& out)
+      : map_(&map), bins_(&bins), across_(across), out_(&out) {
+    const std::uint32_t bin = key & ((1U << bin_bits) - 1U), m = static_cast<std::uint32_t>(across);
+    middle_ = glm::dvec2(bin % m, bin / m) + 0.5;
+  }
+
+  Sums add(std::uint32_t at, std::uint32_t first, std::uint32_t end) const {
+    if (end - first <= leaf_size) return of_texels(first, end);
+    const Branches branches = branches_of(map_->forest, at, first, end);
+    Sums lower, upper;
+    const auto add_lower = [&] { lower = add(branches.lower, first, branches.upper_first); };
+    const auto add_upper = [&] { upper = add(branches.upper, branches.upper_first, end); };
+    if (end - first > texels_a_task) {
+      tbb::parallel_invoke(add_lower, add_upper);
+    } else {
+      add_lower();
+      add_upper();
+    }
+    const Sums sums{lower.offset + upper.offset, lower.squares + upper.squares};
+    const glm::dvec2 mean = sums.offset / static_cast<double>(end - first);
+    const glm::dvec2 variance = sums.squares / static_cast<double>(end - first) - mean * mean;
+    (*out_)[at] = packed_moments({mean, 0.5 * (variance.x + variance.y)});
+    return sums;
+  }
+
+ private:
+  [[nodiscard]] Sums of_texels(std::uint32_t first, std::uint32_t end) const {
+    Sums sums;
+    for (std::uint32_t i = first; i < end; ++i) {
+      const std::uint32_t place = map_->texels[i];
+      const std::size_t texel = static_cast<std::size_t>(place >> 16U) * static_cast<std::size_t>(map_->width);
+      const glm::dvec2 offset = place_in_square(bins_->normals[texel + (place & 0xFFFFU)]) * double(across_) - middle_;
+      sums.offset += offset;
+      sums.squares += offset * offset;
+    }
+    return sums;
+  }
+
+  const InverseMap* map_;
+  const BinMap* bins_;
+  int across_;
+  std::vector<std::uint32_t>* out_;
+  glm::dvec2 middle_{0.0};
+};
+
 }  // namespace
 
 Halves halves_of(const TexelRect& rect) {
@@ -176,51 +269,69 @@ BinMap bin_map(const Image& normals, int across, const Progress& progress) {
   return out;
 }
 
-InverseMap inverse_of(const BinMap& map, const Progress& progress) {
-  InverseMap out{
-      .width = map.width, .height = map.height, .across = map.across, .texels = {}, .lists = {}, .forest = {}};
+InverseMap inverse_of(const BinMap& map, const Progress& progress, const TexelClasses& classes) {
+  InverseMap out{.width = map.width, .height = map.height, .texels = {}, .lists = {}, .forest = {}};
   progress("sorting texels", 0.0);
-  sort_by_bin(map, out);
+  sort_by_bin(map, KeyOrder(map, classes), out);
   plant_forest(out, progress);
   return out;
 }
 
-std::uint32_t hash_slot(std::uint32_t bin, std::uint32_t slots) {
-  return (bin * 2654435769U) >> (32 - std::bit_width(slots - 1));  // Fibonacci hashing: Knuth, volume 3, section 6.4
+std::uint32_t hash_slot(std::uint32_t key, std::uint32_t slots) {
+  return (key * 2654435769U) >> (32 - std::bit_width(slots - 1));  // Fibonacci hashing: Knuth, volume 3, section 6.4
 }
 
 std::vector<std::uint32_t> hashed_lists(const InverseMap& map) {
   const std::uint32_t slots = std::bit_ceil(std::max(2 * static_cast<std::uint32_t>(map.lists.size()), 2U));
-  std::vector<std::uint32_t> table(2 * static_cast<std::size_t>(slots), no_bin);
+  std::vector<std::uint32_t> table(2 * static_cast<std::size_t>(slots), no_key);
   for (std::size_t i = 0; i < map.lists.size(); ++i) {
-    std::size_t slot = hash_slot(map.lists[i].bin, slots);
-    while (table[2 * slot] != no_bin) slot = (slot + 1) % slots;
-    table[2 * slot] = map.lists[i].bin;
+    if (map.lists[i].key == no_key) continue;
+    std::size_t slot = hash_slot(map.lists[i].key, slots);
+    while (table[2 * slot] != no_key) slot = (slot + 1) % slots;
+    table[2 * slot] = map.lists[i].key;
     table[2 * slot + 1] = static_cast<std::uint32_t>(i);
   }
   return table;
 }
 
-std::vector<ListNormal> list_normals(const InverseMap& map, const Image& normals, const Image* widths) {
-  std::vector<ListNormal> out(map.lists.size());
+std::uint32_t packed_moments(const BinMoments& moments) {
+  const auto rounded = [](double value, double most) {
+    return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0, 1.0) * most));
+  };
+  const double deviation = std::sqrt(std::max(moments.variance, 0.0));
+  return rounded(moments.mean.x + 0.5, 4095.0) | rounded(moments.mean.y + 0.5, 4095.0) << 12U |
+         rounded(2.0 * deviation, 255.0) << 24U;
+}
+
+BinMoments unpacked_moments(std::uint32_t packed) {
+  const double deviation = 0.5 * (packed >> 24U) / 255.0;
+  return {.mean = glm::dvec2(packed & 0xFFFU, packed >> 12U & 0xFFFU) / 4095.0 - 0.5,
+          .variance = deviation * deviation};
+}
+
+std::vector<std::uint32_t> node_moments(const InverseMap& map, const BinMap& bins, const TexelClasses& classes) {
+  std::vector<std::uint32_t> out(map.forest.size());
   tbb::parallel_for(std::size_t{0}, map.lists.size(), [&](std::size_t i) {
-    glm::dvec3 sum(0.0);
-    double width = 0.0;
-    for (const std::uint32_t texel : std::span(map.texels).subspan(map.lists[i].first, map.count_of(i))) {
-      const auto x = static_cast<int>(texel & 0xFFFFU), y = static_cast<int>(texel >> 16U);
-      const auto n = normals.at(x, y);
-      const glm::dvec3 normal(n[0], n[1], n[2]);
-      sum += normal / std::max(glm::length(normal), 1e-30);
-      if (widths != nullptr) width += widths->at(x, y)[0];
-    }
-    out[i].spread = width / map.count_of(i);
-    const double size = glm::length(sum);
-    if (size <= 0.0) return;
-    const double r = std::min(size / map.count_of(i), 1.0);
-    out[i].mean = sum / size;
-    out[i].spread += (1.0 - r) / r;
+    const TexelList& list = map.lists[i];
+    if (list.key == no_key) return;
+    const int across = classes.across.empty() ? bins.across : classes.across[list.key >> bin_bits];
+    MomentsOfNodes(map, bins, list.key, across, out).add(list.root, list.first, list.first + map.count_of(i));
   });
   return out;
+}
+
+std::vector<glm::vec2> list_roundings(const InverseMap& map, const BinMap& bins, const Image& normals) {
+  return means_over_lists<glm::vec2>(map, [&](int x, int y) {
+    const std::uint32_t packed =
+        bins.normals[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(x)];
+    if (packed == no_normal) return glm::dvec2(0.0);
+    const std::span<const float> n = normals.at(x, y);
+    return hemisphere_to_square(glm::normalize(glm::dvec3(n[0], n[1], n[2]))) - place_in_square(packed);
+  });
+}
+
+std::vector<float> list_means(const InverseMap& map, const Image& values) {
+  return means_over_lists<float>(map, [&](int x, int y) { return static_cast<double>(values.at(x, y)[0]); });
 }
 
 }  // namespace footprint::atanasov_bins

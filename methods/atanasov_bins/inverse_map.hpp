@@ -23,12 +23,25 @@ struct BinMap {
 /// Of a normal map of four channels (as Material::normal_map). Errors (usage): more than 16384 texels along an edge.
 [[nodiscard]] BinMap bin_map(const Image& normals, int across, const Progress& progress);
 
+/// Texels whose lobes are about as wide, in bins as wide as those lobes call for.
+struct TexelClasses {
+  std::vector<int> across;             ///< bins along an edge, for each class
+  std::vector<std::uint8_t> of_texel;  ///< row by row; empty: one class
+};
+
 /// Most texels that no tree divides.
 inline constexpr std::uint32_t leaf_size = 16;
 
-/// The texels of one bin, InverseMap::texels from `first` to the next list's.
+/// A bin of a class, in one integer: most_bins_across squared is less than 2^22.
+inline constexpr unsigned bin_bits = 22;
+inline constexpr std::uint32_t no_key = 0xFFFFFFFFU;
+[[nodiscard]] constexpr std::uint32_t bin_key(std::size_t texel_class, std::uint32_t bin) {
+  return static_cast<std::uint32_t>(texel_class) << bin_bits | bin;
+}
+
+/// The texels of one class in one bin, InverseMap::texels from `first` to the next list's.
 struct TexelList {
-  std::uint32_t bin = 0;  ///< m^2: texels without a normal
+  std::uint32_t key = 0;  ///< bin_key, or no_key: texels without a normal
   std::uint32_t first = 0;
   std::uint32_t root = 0;  ///< of its tree, in InverseMap::forest, where it has more than leaf_size texels
 };
@@ -58,9 +71,8 @@ inline constexpr std::uint32_t wide_node = 1U << 15U;
 struct InverseMap {
   int width = 0;
   int height = 0;
-  int across = 1;
   std::vector<std::uint32_t> texels;  ///< x in the lower 16 bits, y in the upper
-  std::vector<TexelList> lists;       ///< ordered by bin, none of them empty
+  std::vector<TexelList> lists;       ///< ordered by their keys, none of them empty
   std::vector<std::uint32_t> forest;
 
   /// The number of texels of a list.
@@ -69,10 +81,7 @@ struct InverseMap {
     return static_cast<std::uint32_t>(next) - lists[list].first;
   }
   /// Whether the last list is that of the texels without a normal.
-  [[nodiscard]] bool has_invalid() const {
-    return !lists.empty() &&
-           lists.back().bin == static_cast<std::uint32_t>(across) * static_cast<std::uint32_t>(across);
-  }
+  [[nodiscard]] bool has_invalid() const { return !lists.empty() && lists.back().key == no_key; }
 };
 
 /// Where the halves of a node are: their trees in `forest`, and the first texel of the upper half.
@@ -85,23 +94,33 @@ struct Branches {
 [[nodiscard]] Branches branches_of(std::span<const std::uint32_t> forest, std::uint32_t at, std::uint32_t first,
                                    std::uint32_t end);
 
-/// Equal maps give equal values at any number of threads.
-[[nodiscard]] InverseMap inverse_of(const BinMap& map, const Progress& progress);
+/// Equal arguments give equal values at any number of threads. Without classes: one, of the map's own bins.
+[[nodiscard]] InverseMap inverse_of(const BinMap& map, const Progress& progress, const TexelClasses& classes = {});
 
-/// From bin to list: slots of two integers, bin and list, by open addressing. `hash_slot` is where to begin to look;
-/// an empty slot, whose bin is no_bin, ends the search.
-inline constexpr std::uint32_t no_bin = 0xFFFFFFFFU;
+/// From key to list: slots of two integers, key and list, by open addressing. `hash_slot` is where to begin to look; an
+/// empty slot, whose key is no_key, ends the search.
 [[nodiscard]] std::vector<std::uint32_t> hashed_lists(const InverseMap& map);
-[[nodiscard]] std::uint32_t hash_slot(std::uint32_t bin, std::uint32_t slots);
+[[nodiscard]] std::uint32_t hash_slot(std::uint32_t key, std::uint32_t slots);
 
-/// The normals of a list as one: their mean direction, unit, and the slope variance per axis about it, from the length
-/// r of their mean: (1 - r) / r; with `widths`, the slope variance of every texel's own lobe (one channel, as large as
-/// the map), the mean of those added to it.
-struct ListNormal {
-  glm::dvec3 mean{0.0, 0.0, 1.0};
-  double spread = 0.0;
+/// Normals of some texels of one bin: mean and variance of their points of the square from the bin's middle, in bins;
+/// the variance is the mean of both axes'.
+struct BinMoments {
+  glm::dvec2 mean{0.0};
+  double variance = 0.0;
 };
-[[nodiscard]] std::vector<ListNormal> list_normals(const InverseMap& map, const Image& normals,
-                                                   const Image* widths = nullptr);
+/// In one integer: 12 bits for each coordinate of the mean, 8 for the deviation, rounded.
+[[nodiscard]] std::uint32_t packed_moments(const BinMoments& moments);
+[[nodiscard]] BinMoments unpacked_moments(std::uint32_t packed);
+
+/// The packed moments of every node of the forest, where its first integer is there. `classes` as for inverse_of.
+[[nodiscard]] std::vector<std::uint32_t> node_moments(const InverseMap& map, const BinMap& bins,
+                                                      const TexelClasses& classes = {});
+
+/// The mean over every list of what 16 bits take from the points of its texels' normals (four channels, as large as the
+/// map) in the unit square.
+[[nodiscard]] std::vector<glm::vec2> list_roundings(const InverseMap& map, const BinMap& bins, const Image& normals);
+
+/// The mean over every list of a value of its texels (one channel, as large as the map).
+[[nodiscard]] std::vector<float> list_means(const InverseMap& map, const Image& values);
 
 }  // namespace footprint::atanasov_bins

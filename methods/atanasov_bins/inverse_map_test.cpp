@@ -6,6 +6,7 @@
 #include <tbb/global_control.h>
 
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <random>
 #include <set>
@@ -42,8 +43,7 @@ struct Maps {
 
   [[nodiscard]] std::uint32_t bin_at(int x, int y) const {
     const std::uint32_t packed = bins.normals[static_cast<std::size_t>(y * bins.width + x)];
-    return packed == no_normal ? static_cast<std::uint32_t>(bins.across * bins.across)
-                               : bin_of_packed(packed, bins.across);
+    return packed == no_normal ? no_key : bin_of_packed(packed, bins.across);
   }
 };
 
@@ -74,11 +74,11 @@ TEST(InverseMap, HasEveryTexelOnceInItsBinAndItsNode) {
       ASSERT_EQ(map.texels.size(), maps.bins.normals.size());
       EXPECT_EQ(std::set<std::uint32_t>(map.texels.begin(), map.texels.end()).size(), map.texels.size());
       for (std::size_t i = 0; i < map.lists.size(); ++i) {
-        ASSERT_TRUE(i == 0 || map.lists[i].bin > map.lists[i - 1].bin);
+        ASSERT_TRUE(i == 0 || map.lists[i].key > map.lists[i - 1].key);
         ASSERT_GT(map.count_of(i), 0U);
         for (std::uint32_t k = map.lists[i].first; k < map.lists[i].first + map.count_of(i); ++k) {
           const int x = static_cast<int>(map.texels[k] & 0xFFFFU), y = static_cast<int>(map.texels[k] >> 16U);
-          ASSERT_EQ(maps.bin_at(x, y), map.lists[i].bin);
+          ASSERT_EQ(maps.bin_at(x, y), map.lists[i].key);
         }
         expect_tree(map, map.lists[i].root, map.lists[i].first, map.lists[i].first + map.count_of(i), {{0, 0}, size});
       }
@@ -117,17 +117,40 @@ TEST(InverseMap, HashFindsEveryListAndNoOther) {
   const std::vector<std::uint32_t> table = hashed_lists(maps.inverse);
   const auto slots = static_cast<std::uint32_t>(table.size() / 2);
   const auto find = [&](std::uint32_t bin) {
-    for (std::uint32_t slot = hash_slot(bin, slots); table[2 * slot] != no_bin; slot = (slot + 1) % slots)
+    for (std::uint32_t slot = hash_slot(bin, slots); table[2 * slot] != no_key; slot = (slot + 1) % slots)
       if (table[2 * slot] == bin) return static_cast<int>(table[2 * slot + 1]);
     return -1;
   };
   std::size_t next = 0;
-  for (std::uint32_t bin = 0; bin <= 63 * 63; ++bin) {
-    const bool there = next < maps.inverse.lists.size() && maps.inverse.lists[next].bin == bin;
+  for (std::uint32_t bin = 0; bin < 63 * 63; ++bin) {
+    const bool there = next < maps.inverse.lists.size() && maps.inverse.lists[next].key == bin;
     EXPECT_EQ(find(bin), there ? static_cast<int>(next) : -1) << bin;
     if (there) ++next;
   }
-  EXPECT_EQ(next, maps.inverse.lists.size());
+  ASSERT_TRUE(maps.inverse.has_invalid());
+  EXPECT_EQ(next + 1, maps.inverse.lists.size());
+}
+
+TEST(InverseMap, HasListsOfItsOwnForEveryClass) {
+  const BinMap bins = bin_map(some_normals(60, 40, 0.9), 63, no_progress);
+  TexelClasses classes{.across = {63, 9}, .of_texel = {}};
+  for (std::size_t i = 0; i < bins.normals.size(); ++i) classes.of_texel.push_back(i % 7 < 3 ? 1 : 0);
+  const InverseMap map = inverse_of(bins, no_progress, classes);
+  const std::vector<std::uint32_t> table = hashed_lists(map);
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i + 1 < map.lists.size(); ++i) {
+    ASSERT_TRUE(i == 0 || map.lists[i].key > map.lists[i - 1].key);
+    for (std::uint32_t k = map.lists[i].first; k < map.lists[i].first + map.count_of(i); ++k) {
+      const std::size_t texel = (map.texels[k] >> 16U) * 60 + (map.texels[k] & 0xFFFFU);
+      const std::size_t own = classes.of_texel[texel];
+      ASSERT_EQ(map.lists[i].key, bin_key(own, bin_of_packed(bins.normals[texel], classes.across[own])));
+      ++seen;
+    }
+    std::size_t slot = hash_slot(map.lists[i].key, static_cast<std::uint32_t>(table.size() / 2));
+    while (table[2 * slot] != map.lists[i].key) slot = (slot + 1) % (table.size() / 2);
+    EXPECT_EQ(table[2 * slot + 1], i);
+  }
+  EXPECT_EQ(seen + map.count_of(map.lists.size() - 1), map.texels.size());
 }
 
 std::vector<Parallelogram> footprints_on(const glm::dvec2& size) {
@@ -144,14 +167,14 @@ TEST(InverseMap, CountsUnderAnyFootprintAsAPlainSumDoes) {
   for (const glm::ivec2& size : {glm::ivec2(1, 1), {64, 64}, {457, 671}}) {
     const Maps maps(some_normals(size.x, size.y, 0.9), 31);
     for (const Parallelogram& p : footprints_on(size)) {
-      std::vector<double> truth(31 * 31 + 1, 0.0);
+      std::map<std::uint32_t, double> truth;
       testing::for_each_texel(p, size, Wrap::repeat,
                               [&](int x, int y, double area) { truth[maps.bin_at(x, y)] += area; });
       testing::WalkTwin walk(maps.inverse, p);
       double total = 0.0;
       for (std::size_t i = 0; i < maps.inverse.lists.size(); ++i) {
         const double found = walk.area(i);
-        ASSERT_NEAR(found / p.area(), truth[maps.inverse.lists[i].bin] / p.area(), 1e-6) << size.x << " " << i;
+        ASSERT_NEAR(found / p.area(), truth[maps.inverse.lists[i].key] / p.area(), 1e-6) << size.x << " " << i;
         total += found / p.area();
       }
       EXPECT_NEAR(total, 1.0, 1e-6) << size.x;
@@ -193,19 +216,20 @@ TEST(InverseMap, VisitsFewNodes) {
   }
 }
 
-TEST(InverseMap, NormalsOfListsAreMeans) {
+TEST(InverseMap, MeansOfListsAreThoseOfTheirTexels) {
   const Image normals = some_normals(64, 64, 0.3);
   const Maps maps(normals, 15);
-  const std::vector<ListNormal> found = list_normals(maps.inverse, normals);
-  const double widest = std::sqrt(bin_solid_angle(15));
-  for (std::size_t i = 0; i + 1 < found.size(); ++i) {
-    EXPECT_NEAR(glm::length(found[i].mean), 1.0, 1e-12);
-    EXPECT_EQ(bin_of(found[i].mean, 15), maps.inverse.lists[i].bin);
-    EXPECT_LT(found[i].spread, widest * widest);
+  Image columns(64, 64, 1);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) columns.at(x, y)[0] = static_cast<float>(x);
   }
-  // One normal has no spread.
-  const Image one = some_normals(1, 1, 0.3, false);
-  EXPECT_NEAR(list_normals(Maps(one, 15).inverse, one)[0].spread, 0.0, 1e-12);
+  const std::vector<float> found = list_means(maps.inverse, columns);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    double sum = 0.0;
+    for (std::uint32_t k = 0; k < maps.inverse.count_of(i); ++k)
+      sum += maps.inverse.texels[maps.inverse.lists[i].first + k] & 0xFFFFU;
+    EXPECT_NEAR(found[i], sum / maps.inverse.count_of(i), 1e-4) << i;
+  }
 }
 
 // Section 2.1: a point of the footprint, its texel's bin, a normal anywhere in that bin. Chi-squared over the bins.
@@ -228,7 +252,7 @@ TEST(InverseMap, DensityIsThatOfSampling) {
     const double density = walk.area(i) / (p.area() * bin_solid_angle(m));
     const double expected = samples * density * bin_solid_angle(m);
     if (expected < 5.0) continue;
-    const double difference = counts[maps.inverse.lists[i].bin] - expected;
+    const double difference = counts[maps.inverse.lists[i].key] - expected;
     chi2 += difference * difference / expected;
     freedom += 1.0;
   }

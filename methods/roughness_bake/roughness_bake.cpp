@@ -63,7 +63,7 @@ std::optional<std::vector<Image>> extended_chain(const std::vector<Image>& chain
   return {};
 }
 
-// One roughness map must be able to hold what both maps say. `sizes_fit`: they have common mip levels.
+// One roughness map must be able to store what both maps say. `sizes_fit`: they have common mip levels.
 void require_one_map(const Material& material, bool sizes_fit) {
   const bool varies = width_map(material) != nullptr;
   std::string why;
@@ -73,8 +73,9 @@ void require_one_map(const Material& material, bool sizes_fit) {
   if (material.layer_map) why = "it has a detail layer with coordinates of its own";
   if (!material.lobes.empty()) why = "its facets have lobes of their own";
   if (why.empty()) return;
-  throw Error(ErrorKind::usage, "material " + material.name, "no roughness map holds what is baked: " + why,
-              "an engine has to draw it by the module");
+  throw Error(ErrorKind::usage, "material " + material.name,
+              "one roughness map cannot store the baked roughness: " + why,
+              "draw it with the shader module of this method");
 }
 
 // The formula at every texel, which the shader evaluates in between as well.

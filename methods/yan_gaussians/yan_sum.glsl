@@ -12,6 +12,7 @@ struct Effective {
   vec3 within;       // covariance of positions in an element, given the footprint
   vec2 reach;        // half of the rectangle in which elements count
   float scale;       // from exp(...) to an element's weight
+  vec3 root;         // of the covariance of footprint and seed together: the lower triangle whose square it is
   bool wide;         // beyond half of the map: copies of an element count
 };
 
@@ -51,6 +52,7 @@ Effective effective(Footprints f) {
   vec3 i = e.inverse_sum;
   e.within = seed_variance * vec3(i.x * pixel.x + i.y * pixel.y, i.x * pixel.y + i.y * pixel.z,
                                   i.y * pixel.y + i.z * pixel.z);
+  e.root = vec3(sqrt(sum.x), sum.y * inversesqrt(sum.x), sqrt(sum.z - sum.y * sum.y / sum.x));
   e.reach = option_cutoff * sqrt(sum.xz);
   e.scale = 1.0 / (2.0 * pi * sqrt(sum.x * sum.z - sum.y * sum.y) * gridSum(sum, e.centre - 0.5));
   e.wide = any(greaterThan(e.reach, 0.5 * e.size));
@@ -105,17 +107,11 @@ float spreadOnSphere(Effective e, vec2 disc, vec4 slopes) {
 }
 
 //? end
-// What an element adds: its weight under the footprint times what its normals there reflect. Given the footprint its
+// What the normals of the element of a texel reflect, which lies `d` from the footprint's centre. Given the footprint its
 // positions have the mean `shift` from its own and the covariance `within`, and its normals follow by the Jacobian.
-float elementAt(Effective e, uint place, Query q) {
-  uint texel = texelAt(place);
-  uint width = uint(e.size.x);
-  ivec2 at = ivec2(texel % width, texel / width);
-  vec2 d = e.centre - (vec2(at) + 0.5);
-  d -= e.size * round(d / e.size);
-  float weight = e.wide ? copies(e, d) : exp(-0.5 * quadratic(e.inverse_sum, d));
+float valueOfTexel(Effective e, ivec2 at, vec2 d, Query q) {
   vec3 normal = normalize(texelFetch(mean_normal, at, 0).xyz);
-  countLookups(2);
+  countLookups(1);
 //? if jacobian_central
   vec4 slopes = texelFetch(yan_jacobian, at, 0);
   countLookups(1);
@@ -126,10 +122,22 @@ float elementAt(Effective e, uint place, Query q) {
   float spread = spreadOnSphere(e, normal.xy, slopes);
 //? end
   if (slopes != vec4(0.0)) normal = onSphere(normal.xy + vec2(dot(slopes.xy, shift), dot(slopes.zw, shift)));
-  float value = elementValue(normal, spread, q);
+  return elementValue(normal, spread, q);
 //? else
-  float value = elementValue(normal, no_spread, q);
+  return elementValue(normal, no_spread, q);
 //? end
+}
+
+// What an element adds: its weight under the footprint times what its normals there reflect.
+float elementAt(Effective e, uint place, Query q) {
+  uint texel = texelAt(place);
+  uint width = uint(e.size.x);
+  ivec2 at = ivec2(texel % width, texel / width);
+  vec2 d = e.centre - (vec2(at) + 0.5);
+  d -= e.size * round(d / e.size);
+  countLookups(1);
+  float weight = e.wide ? copies(e, d) : exp(-0.5 * quadratic(e.inverse_sum, d));
+  float value = valueOfTexel(e, at, d, q);
   return weight > 0.0 ? weight * value : 0.0;
 }
 
@@ -153,8 +161,36 @@ uint leafBegin(uint leaf, uint count, int depth) {
   return depth == 0 ? low : high << uint(32 - depth) | low >> uint(depth);
 }
 
-// llvmpipe ends loops after 65535 rounds a pixel, all lights together: no picture may pass for whole then.
+// llvmpipe ends loops after 65535 rounds a pixel, all lights together: no picture may pass for whole then. A step of the
+// walk takes one round and, where any of the eight pixels that are drawn together is in a leaf, five more.
 float notWhole() { return uintBitsToFloat(0x7fc00000u); }
+// One call takes them all. Of several, each has its part of one half, and takes up to a quarter of what is left of the
+// other.
+const int own_steps = (shade_calls > 1 ? 4000 : 8000) / shade_calls;
+int shared_steps = shade_calls > 1 ? 4000 : 0;
+const int draws = max(8192 / shade_calls, 1);
+
+// The elements within reach of the footprint take more steps than there are, whatever their normals.
+bool isTooWide(Effective e, int most_steps) {
+  vec2 sides = min(2.0 * e.reach, e.size);
+  return normalReach() >= 2.0 && sides.x * sides.y > 4.0 * float(most_steps);
+}
+
+// An estimate without bias: the mean of so many elements, drawn as often as the footprint weighs them.
+float estimateOver(Effective e, Query q) {
+  float sum = 0.0;
+  int seen = 0;
+  for (int i = 0; i < draws; ++i) {
+    ++seen;
+    // Multiples of powers of 1 / g with g^3 = g + 1 fill the square evenly (Roberts 2018).
+    vec2 u = fract(vec2(0.5) + float(i + 1) * vec2(0.7548776662, 0.5698402910));
+    float angle = 2.0 * pi * u.y;
+    vec2 normal = sqrt(-2.0 * log(max(u.x, 1e-7))) * vec2(cos(angle), sin(angle));
+    vec2 place = floor(e.centre + vec2(e.root.x * normal.x, e.root.y * normal.x + e.root.z * normal.y));
+    sum += valueOfTexel(e, ivec2(place - e.size * floor(place / e.size)), e.centre - (place + 0.5), q);
+  }
+  return seen == draws ? sum / float(draws) : notWhole();
+}
 
 // Nodes in preorder: below one that reaches come its children, behind one that does not, or is a leaf, the next right
 // sibling of it or of an ancestor. The last ways lead back to the root, 1.
@@ -166,7 +202,11 @@ float sumOver(Effective e, Query q) {
   float sum = 0.0;
   uint node = 1u;
   bool done = false;
-  while (!done) {
+  int most_steps = own_steps + shared_steps / 4;
+  int steps = isTooWide(e, most_steps) ? most_steps : 0;
+  bool walks = steps == 0;
+  while (!done && steps < most_steps) {
+    ++steps;
     bool inside = reaches(e, node, q.h, normal_reach);
     if (inside && node < leaves) {
       node *= 2u;
@@ -175,19 +215,21 @@ float sumOver(Effective e, Query q) {
     if (inside) {
       uint place = leafBegin(node - leaves, count, depth);
       uint end = leafBegin(node - leaves + 1u, count, depth);
-      float held = 0.0;
+      float part = 0.0;
       for (; place < end; place += 2u) {
-        held += elementAt(e, place, q);
-        if (place + 1u < end) held += elementAt(e, place + 1u, q);
+        part += elementAt(e, place, q);
+        if (place + 1u < end) part += elementAt(e, place + 1u, q);
       }
       if (place < end) return notWhole();
-      sum += held;
+      sum += part;
     }
     node += 1u;
     node >>= uint(findLSB(node));
     done = node == 1u;
   }
-  return done ? sum * e.scale : notWhole();
+  if (walks) shared_steps -= max(steps - own_steps, 0);
+  if (done) return sum * e.scale;
+  return steps < most_steps ? notWhole() : estimateOver(e, q);
 }
 
 float ndf(Effective e, vec3 h) { return sumOver(e, Query(false, h, h, h)); }

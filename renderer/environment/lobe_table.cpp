@@ -81,7 +81,7 @@ void add_node(std::array<Sum, geometries>& sums, const View& view, double u, dou
   }
 }
 
-// The texel of a sum over `count` nodes that have `share` of the lobe.
+// The texel of a sum over nodes, `scale` the energy of one where its factor is 1.
 std::array<float, 4> texel_of(const Sum& sum, const View& view, double scale) {
   const double size = glm::length(sum.direction);
   const double mirrored = std::atan2(-view.wo.x, view.c);

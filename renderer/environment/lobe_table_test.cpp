@@ -72,12 +72,13 @@ TEST(LobeTable, HasWhatTheSumOverNormalsSays) {
         const double alpha = lobe_width(y, rows);
         const double base = geometry == no_geometry ? -1.0 : alpha * geometry / smith_steps;
         const Reflected truth = sum_over_normals(lobe_view(x, columns), alpha, base);
-        const Reflected held = sum_of_parts(table, static_cast<std::size_t>(geometry), x, y);
+        const Reflected tabulated = sum_of_parts(table, static_cast<std::size_t>(geometry), x, y);
         const double most = 0.015 * (truth.rest + truth.schlick);
-        EXPECT_NEAR(held.rest, truth.rest, most) << geometry << ", " << x << ", " << y;
-        EXPECT_NEAR(held.schlick, truth.schlick, most) << geometry << ", " << x << ", " << y;
+        EXPECT_NEAR(tabulated.rest, truth.rest, most) << geometry << ", " << x << ", " << y;
+        EXPECT_NEAR(tabulated.schlick, truth.schlick, most) << geometry << ", " << x << ", " << y;
         if (y > 15) continue;  // wider lobes are near a hemisphere's sharpness, below which the table has none
-        EXPECT_LT(glm::distance(held.direction, truth.direction), 2.0 * most) << geometry << ", " << x << ", " << y;
+        EXPECT_LT(glm::distance(tabulated.direction, truth.direction), 2.0 * most)
+            << geometry << ", " << x << ", " << y;
       }
     }
   }

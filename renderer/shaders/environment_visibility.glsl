@@ -1,7 +1,7 @@
 // What large bodies leave visible of the environment: signed distance functions at the vertices (Wang et al. 2009) as
 // weights of common components, docs/shadows.md.
 in vec4 visibility_weights[4];  // the first is 1, of the mean
-in vec4 visible_diffuse;        // of a Lambert surface's irradiance, the visible share; 0 where bodies hide nothing
+in vec4 visible_diffuse;        // rgb: of a Lambert surface's irradiance, the visible share; a: 0 where bodies hide none
 
 // The angle from a direction of the world to the nearest edge between visible and hidden; below 0 where it is hidden.
 float signedDistance(vec3 direction) {

@@ -141,7 +141,7 @@ def faults_of(name, text, run_examples):
                 if fault := command_fault(command):
                     yield f"{name}:{line}: {command}: {fault}"
                 elif run_examples and block["kind"] == "console" and not block["slow"] and command.startswith("footprint "):
-                    printed = run(*shlex.split(command)[1:], folder=folder).replace(folder, "/work")
+                    printed = run(*shlex.split(command)[1:], folder=folder).replace(folder, ".")
                     if fault := first_difference(trimmed(shown), trimmed(printed.split("\n"))):
                         yield f"{name}:{line}: {command}: {fault}"
 

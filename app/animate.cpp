@@ -61,10 +61,10 @@ void add_options(CLI::App& command, AnimateArguments& arguments) {
   add_quiet_flag(command, arguments.quiet);
 }
 
-KeptWork finished_frames(const AnimateArguments& arguments, const RunSettings& settings) {
-  KeptWork kept(kept_folder(arguments.output), maker_for(settings));
-  if (arguments.fresh) kept.clear();
-  return kept;
+FinishedWork finished_frames(const AnimateArguments& arguments, const RunSettings& settings) {
+  FinishedWork finished(kept_folder(arguments.output), maker_for(settings));
+  if (arguments.fresh) finished.clear();
+  return finished;
 }
 
 // Renders one part; `part.json` says that it is whole, and is there only then.
@@ -74,7 +74,7 @@ void animate_part(const AnimateArguments& arguments, const RunSettings& settings
                 "merge the parts, then run this without --shard over the merged folder: it reuses the frames");
   const auto begin = std::chrono::steady_clock::now();
   const Shard shard = parse_shard(arguments.shard);
-  const KeptWork kept = finished_frames(arguments, settings);
+  const FinishedWork finished = finished_frames(arguments, settings);
   const std::filesystem::path output = arguments.output;
   std::error_code none;
   std::filesystem::remove(output / "part.json", none);
@@ -82,18 +82,18 @@ void animate_part(const AnimateArguments& arguments, const RunSettings& settings
   {
     const OutputFolder scratch(output);  // never moved to its place
     const auto range = [&](std::size_t frames) { return range_of(shard, frames); };
-    const MeasuredFrames measured = measure_animation(settings, range, scratch.path(), kept, display.callback());
+    const std::string run = measure_animation(settings, range, scratch.path(), finished, display.callback());
     std::filesystem::create_directories(output);
     write_part_file(output, {.kind = PartKind::animation,
                              .experiment = settings.scene,
-                             .fingerprint = measured.head,
-                             .maker = kept.maker(),
+                             .fingerprint = run,
+                             .maker = finished.maker(),
                              .shard = shard,
                              .only = {},
                              .tile = settings.backend.tile,
                              .node = host_name(),
                              .seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
-                             .keys = kept.used()});
+                             .keys = finished.used()});
   }
   display.finish();
   write_output(fmt::format("part {} of {}: {}\n", shard.index, shard.count, output.string()));
@@ -103,11 +103,11 @@ void run_animate(const AnimateArguments& arguments) {
   const RunSettings settings = arguments.run.settings();
   if (!arguments.shard.empty()) return animate_part(arguments, settings);
   const std::filesystem::path ffmpeg = arguments.video ? find_ffmpeg() : std::filesystem::path();
-  const KeptWork kept = finished_frames(arguments, settings);
+  const FinishedWork finished = finished_frames(arguments, settings);
   ProgressDisplay display(progress_style(arguments.quiet));
   write_and_print(arguments.output, [&](const std::filesystem::path& folder) {
     ProgressParts parts(display.callback(), 20);
-    Animation animation = run_animation(settings, folder, kept, parts.next(19, ""));
+    Animation animation = run_animation(settings, folder, finished, parts.next(19, ""));
     if (arguments.video) animation.film = make_film(ffmpeg, animation, folder, parts.next(1, ""));
     display.finish();
     return animation;

@@ -41,7 +41,7 @@ CheckBook::CheckBook(CheckReports reports) : reports_(std::move(reports)), basel
 
 void CheckBook::add(const ExperimentReport& report) {
   ++runs_;
-  for (CheckOutcome& outcome : check_outcomes(report, text_of(report.file))) outcomes_.push_back(std::move(outcome));
+  for (CheckOutcome& outcome : check_outcomes(report)) outcomes_.push_back(std::move(outcome));
 }
 
 void CheckBook::add(const Results& results) {

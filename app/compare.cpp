@@ -52,18 +52,18 @@ Results compare_into(OutputFolder& folder, const RunSettings& settings, bool qui
   const int others = settings.timing.processes - 1;
   ProgressParts parts(progress, main_process_weight + others);
   const Progress of_others = parts.next(others, "");
-  const FurtherTimes further = [&] { return times_of_processes(others, {}, folder.path(), of_others); };
-  bool is_told = false;
+  bool has_message = false;
   const ResultsWatch so_far = [&](Results results) {
     sign(results.tool, results.backend);
     results.scene.warnings.insert(results.scene.warnings.begin(), "the run is not finished; more distances follow");
     write_report(results, folder.path());
-    if (!quiet && !std::exchange(is_told, true))
+    if (!quiet && !std::exchange(has_message, true))
       write_message(fmt::format("page of the finished distances, until the run ends: {}",
                                 (folder.path() / "index.html").string()));
   };
-  Results results =
-      run_compare(settings, folder.path(), further, parts.next(main_process_weight, ""), nullptr, nullptr, {}, so_far);
+  const CompareContext context{
+      .further_times = [&] { return times_of_processes(others, {}, folder.path(), of_others); }, .so_far = so_far};
+  Results results = run_compare(settings, folder.path(), parts.next(main_process_weight, ""), context);
   keep_results(results, folder, write_report);
   return results;
 }

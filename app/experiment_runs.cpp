@@ -1,4 +1,4 @@
-// Reports from kept work, and kept work from shares of all there is to do.
+// Reports of whole runs, and finished work of parts of them.
 #include "app/experiment_runs.hpp"
 
 #include <fmt/format.h>
@@ -35,13 +35,14 @@ FurtherTimes further_times_of(const Experiment& experiment, const fs::path& scra
   };
 }
 
-Results run_into(const Experiment& experiment, OutputFolder& folder, const KeptWork& kept, const Progress& progress,
-                 const RecordWatch& watch) {
+Results run_into(const Experiment& experiment, OutputFolder& folder, const FinishedWork& finished,
+                 const Progress& progress, const RecordWatch& watch) {
   ProgressParts parts(progress, main_process_weight + experiment.run.timing.processes - 1);
-  const FurtherTimes further =
-      further_times_of(experiment, folder.path(), parts.next(experiment.run.timing.processes - 1, ""));
-  Results results =
-      run_experiment(experiment, further, folder.path(), parts.next(main_process_weight, ""), &kept, watch);
+  const CompareContext context{
+      .further_times = further_times_of(experiment, folder.path(), parts.next(experiment.run.timing.processes - 1, "")),
+      .finished = &finished,
+      .watch = watch};
+  Results results = run_experiment(experiment, folder.path(), parts.next(main_process_weight, ""), context);
   keep_results(results, folder, write_report);
   return results;
 }
@@ -84,9 +85,9 @@ ExperimentReport report_matrix(const Group& group, std::vector<Results> members,
 // Runs groups into their folders, prints what became of them and tells it.
 class Runs {
  public:
-  Runs(const AskedExperiments& asked, const fs::path& output, const KeptWork& kept, bool quiet,
+  Runs(const AskedExperiments& asked, const fs::path& output, const FinishedWork& finished, bool quiet,
        const RunListener& listener)
-      : asked_(asked), output_(output), kept_(kept), quiet_(quiet), listener_(listener) {}
+      : asked_(asked), output_(output), finished_(finished), quiet_(quiet), listener_(listener) {}
 
   void run(const Group& group) const {
     NoiseGuard guard(group.judged(), group.experiments);
@@ -94,7 +95,7 @@ class Runs {
     for (const Experiment& experiment : group.experiments) {
       ProgressDisplay display(progress_style(quiet_));
       auto [results, path] = write_whole(below(asked_.folder_of(experiment)), [&](OutputFolder& folder) {
-        return run_into(experiment, folder, kept_, display.callback(), guard.watch(experiment));
+        return run_into(experiment, folder, finished_, display.callback(), guard.watch(experiment));
       });
       display.finish();
       if (group.matrix == nullptr) print_results(results, path);
@@ -110,7 +111,7 @@ class Runs {
 
   const AskedExperiments& asked_;
   const fs::path& output_;
-  const KeptWork& kept_;
+  const FinishedWork& finished_;
   bool quiet_;
   const RunListener& listener_;
 };
@@ -151,9 +152,9 @@ std::vector<Assigned> share_of(const std::vector<Assigned>& all, const Shard& sh
 
 fs::path kept_folder(const fs::path& output) { return output / "kept"; }
 
-std::string reuse_text(const KeptWork& kept) {
-  return fmt::format("{} finished parts of an earlier run were reused from {} (--fresh measures again)", kept.found(),
-                     kept.folder().string());
+std::string reuse_text(const FinishedWork& finished) {
+  return fmt::format("{} finished parts of an earlier run were reused from {} (--fresh measures again)",
+                     finished.reused(), finished.folder().string());
 }
 
 std::string maker_for(const RunSettings& run) {
@@ -161,9 +162,9 @@ std::string maker_for(const RunSettings& run) {
   return maker_of_work(fmt::format("{} {}", context.info().renderer, context.info().version));
 }
 
-void run_and_print(const AskedExperiments& asked, const fs::path& output, const KeptWork& kept, bool quiet,
+void run_and_print(const AskedExperiments& asked, const fs::path& output, const FinishedWork& finished, bool quiet,
                    const RunListener& listener) {
-  const Runs runs(asked, output, kept, quiet, listener);
+  const Runs runs(asked, output, finished, quiet, listener);
   const std::vector<Group> groups = groups_of(asked);
   if (groups.size() == 1) return runs.run(groups.front());
   std::vector<std::string> missing;
@@ -182,10 +183,10 @@ void run_and_print(const AskedExperiments& asked, const fs::path& output, const 
   throw Error(
       kind, asked.file.string(),
       fmt::format("{} of {} experiments were not run: {}", missing.size(), groups.size(), fmt::join(missing, ", ")),
-      "fix the causes and run it again; finished experiments are kept");
+      "fix the causes and run it again; finished experiments are reused");
 }
 
-void run_part(const AskedExperiments& asked, const Shard& shard, const fs::path& output, const KeptWork& kept,
+void run_part(const AskedExperiments& asked, const Shard& shard, const fs::path& output, const FinishedWork& finished,
               bool quiet) {
   const OutputFolder scratch(output);  // never moved to its place
   const std::vector<Assigned> share = share_of(all_units(asked), shard);
@@ -200,8 +201,10 @@ void run_part(const AskedExperiments& asked, const Shard& shard, const fs::path&
     const Progress progress = parts.next(1, experiment->full_name() + ": ");
     const fs::path pictures = scratch.path() / experiment->full_name();
     fs::create_directories(pictures);
-    measure_unit(*experiment, unit, further_times_of(*experiment, pictures, progress), pictures, progress, kept,
-                 guards.at(experiment)->watch(*experiment));
+    measure_unit(*experiment, unit, pictures, progress,
+                 {.further_times = further_times_of(*experiment, pictures, progress),
+                  .finished = &finished,
+                  .watch = guards.at(experiment)->watch(*experiment)});
   }
   display.finish();
 }

@@ -7,16 +7,16 @@
 
 #include "app/asked_experiments.hpp"
 #include "app/part_file.hpp"
-#include "experiments/kept/kept_work.hpp"
+#include "experiments/studies/finished_work.hpp"
 #include "results/report/records.hpp"
 
 namespace footprint {
 
-/// The folder below a run's output folder in which its finished work is kept.
+/// The folder below a run's output folder in which its finished work is finished.
 [[nodiscard]] std::filesystem::path kept_folder(const std::filesystem::path& output);
 
 /// How much of an earlier run was reused, and how to measure it again.
-[[nodiscard]] std::string reuse_text(const KeptWork& kept);
+[[nodiscard]] std::string reuse_text(const FinishedWork& finished);
 
 /// Who makes this run's work: the program, and what draws for it by these settings. Errors (machine): no OpenGL.
 [[nodiscard]] std::string maker_for(const RunSettings& run);
@@ -27,16 +27,17 @@ struct RunListener {
   std::function<void(const ExperimentReport& report)> matrix = [](const ExperimentReport& /*report*/) {};
 };
 
-/// Runs each experiment as far as `kept` does not have it, into `output` or, of members, into folders of their own
+/// Runs each experiment, except for its finished parts, into `output` or, of members, into folders of their own
 /// below it, and prints the tables; of a matrix the one over all members, which is written to its folder too. Errors:
-/// those of run_experiment, and (usage) a threshold within the reference's noise; what is finished until then is kept.
-/// Of several experiments one that cannot be run is passed over: the error comes at the end, of the first one's kind.
-void run_and_print(const AskedExperiments& asked, const std::filesystem::path& output, const KeptWork& kept, bool quiet,
-                   const RunListener& listener);
+/// those of run_experiment, and (usage) a threshold within the reference's noise; what is finished until then is
+/// finished. Of several experiments one that cannot be run is passed over: the error comes at the end, of the first
+/// one's kind.
+void run_and_print(const AskedExperiments& asked, const std::filesystem::path& output, const FinishedWork& finished,
+                   bool quiet, const RunListener& listener);
 
-/// Does one part of the work of all experiments together and keeps it in `kept`, below `output`; pictures on their way
-/// go there too and are gone at the end.
+/// Measures one part of all experiments together and stores it in `finished`. Images are below `output` until they are
+/// stored.
 void run_part(const AskedExperiments& asked, const Shard& shard, const std::filesystem::path& output,
-              const KeptWork& kept, bool quiet);
+              const FinishedWork& finished, bool quiet);
 
 }  // namespace footprint

@@ -15,7 +15,7 @@
 #include "app/part_file.hpp"
 #include "app/run_options.hpp"
 #include "app/written_animation.hpp"
-#include "experiments/studies/kept_animation.hpp"
+#include "experiments/studies/animate.hpp"
 #include "renderer/core/error.hpp"
 
 namespace footprint {
@@ -105,24 +105,21 @@ AskedExperiments asked_by(const Part& first, const RunOptions& options) {
   return asked;
 }
 
-// Takes over what all parts hold, and says under which keys.
-std::vector<std::string> take_over(const std::vector<Part>& parts, const KeptWork& kept) {
-  std::vector<std::string> keys;
+// Copies the finished work of all parts.
+void take_all(const std::vector<Part>& parts, const FinishedWork& finished) {
   for (const Part& part : parts) {
-    const KeptWork from(kept_folder(part.folder), kept.maker());
-    for (const std::string& key : part.file.keys) kept.take(key, from);
-    keys.insert(keys.end(), part.file.keys.begin(), part.file.keys.end());
+    const FinishedWork from(kept_folder(part.folder), finished.maker());
+    for (const std::string& key : part.file.keys) finished.take(key, from);
   }
-  return keys;
 }
 
 void merge_animation(const std::vector<Part>& parts, const std::string& output) {
   if (!is_made_by_this_program(parts.front().file.maker))
     refuse(parts.front(), "was made by another program than this one", "merge with the program that ran the parts");
-  const KeptWork kept(kept_folder(output), parts.front().file.maker, true);
-  const std::vector<std::string> keys = take_over(parts, kept);
+  const FinishedWork finished(kept_folder(output), parts.front().file.maker, true);
+  take_all(parts, finished);
   write_and_print(output, [&](const fs::path& folder) {
-    return joined_animation(kept, parts.front().file.fingerprint, keys, folder);
+    return joined_animation(finished, parts.front().file.fingerprint, folder);
   });
 }
 
@@ -130,10 +127,10 @@ void merge(const MergeArguments& arguments) {
   const std::vector<Part> parts = parts_of(arguments.parts);
   if (parts.front().file.kind == PartKind::animation) return merge_animation(parts, arguments.output);
   const AskedExperiments asked = asked_by(parts.front(), arguments.run);
-  const KeptWork kept(kept_folder(arguments.output), parts.front().file.maker, true);
-  take_over(parts, kept);
+  const FinishedWork finished(kept_folder(arguments.output), parts.front().file.maker, true);
+  take_all(parts, finished);
   std::optional<Error> failed;
-  run_and_print(asked, arguments.output, kept, arguments.quiet, {.experiment = [&](const Results& results) {
+  run_and_print(asked, arguments.output, finished, arguments.quiet, {.experiment = [&](const Results& results) {
                   if (!failed) failed = row_failures(results);
                 }});
   if (failed) throw *failed;

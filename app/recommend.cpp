@@ -77,8 +77,8 @@ void run_recommend_command(const RecommendArguments& arguments) {
                                    .limits = arguments.limits,
                                    .exhaustive = arguments.exhaustive};
   ProgressDisplay display(progress_style(arguments.quiet));
-  const KeptWork kept(kept_folder(arguments.output), maker_for(settings.run));
-  if (arguments.fresh) kept.clear();
+  const FinishedWork finished(kept_folder(arguments.output), maker_for(settings.run));
+  if (arguments.fresh) finished.clear();
   const auto [result, path] = write_whole(arguments.output, [&](OutputFolder& folder) {
     const RecommendListener listener{
         .results =
@@ -95,14 +95,14 @@ void run_recommend_command(const RecommendArguments& arguments) {
                 write_message(fmt::format("page of the first answer, until the run ends: {}",
                                           (folder.path() / "index.html").string()));
             }};
-    Recommendation made = run_recommend(settings, folder.path(), kept, listener, display.callback());
+    Recommendation made = run_recommend(settings, folder.path(), finished, listener, display.callback());
     write_answer(made, folder.path());
     keep(folder);
     return made;
   });
   display.finish();
   write_output(fmt::format("{}\npage: {}\n", recommendation_text(result), (path / "index.html").string()));
-  if (kept.found() > 0 && !arguments.quiet) write_message(reuse_text(kept));
+  if (finished.reused() > 0 && !arguments.quiet) write_message(reuse_text(finished));
 }
 
 }  // namespace

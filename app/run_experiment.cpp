@@ -115,18 +115,18 @@ void take_times(const ExperimentArguments& arguments) {
               "it is for processes that this program starts itself");
 }
 
-KeptWork finished_work(const AskedExperiments& asked, const ExperimentArguments& arguments) {
-  KeptWork kept(kept_folder(arguments.output), maker_for(asked.experiments.front().run));
-  if (arguments.fresh) kept.clear();
-  return kept;
+FinishedWork finished_work(const AskedExperiments& asked, const ExperimentArguments& arguments) {
+  FinishedWork finished(kept_folder(arguments.output), maker_for(asked.experiments.front().run));
+  if (arguments.fresh) finished.clear();
+  return finished;
 }
 
 // Runs the experiment, or each of its members into a folder of its own, and prints the tables.
 void run_all(const ExperimentArguments& arguments, const RunListener& listener) {
   const AskedExperiments experiments = asked(arguments);
-  const KeptWork kept = finished_work(experiments, arguments);
-  run_and_print(experiments, arguments.output, kept, arguments.quiet, listener);
-  if (kept.found() > 0 && !arguments.quiet) write_message(reuse_text(kept));
+  const FinishedWork finished = finished_work(experiments, arguments);
+  run_and_print(experiments, arguments.output, finished, arguments.quiet, listener);
+  if (finished.reused() > 0 && !arguments.quiet) write_message(reuse_text(finished));
 }
 
 // Runs one part; `part.json` says that it is whole, and is there only then.
@@ -135,15 +135,15 @@ void run_shard(const ExperimentArguments& arguments) {
   const Shard shard = parse_shard(arguments.shard);
   const AskedExperiments experiments = asked(arguments);
   const std::filesystem::path output = arguments.output;
-  const KeptWork kept = finished_work(experiments, arguments);
+  const FinishedWork finished = finished_work(experiments, arguments);
   std::error_code none;
   std::filesystem::remove(output / "part.json", none);
-  run_part(experiments, shard, output, kept, arguments.quiet);
+  run_part(experiments, shard, output, finished, arguments.quiet);
   const RunSettings& run = experiments.experiments.front().run;
   std::filesystem::create_directories(output);
   write_part_file(output, {.experiment = std::filesystem::absolute(experiments.file).lexically_normal().string(),
                            .fingerprint = experiments.fingerprint,
-                           .maker = kept.maker(),
+                           .maker = finished.maker(),
                            .shard = shard,
                            .only = arguments.only,
                            .quick = arguments.quick,
@@ -151,7 +151,7 @@ void run_shard(const ExperimentArguments& arguments) {
                            .tile = run.backend.tile,
                            .node = host_name(),
                            .seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
-                           .keys = kept.used()});
+                           .keys = finished.used()});
   write_output(fmt::format("part {} of {}: {}\n", shard.index, shard.count, output.string()));
 }
 

@@ -121,7 +121,8 @@ Claim read_claim(const TomlTable& table, const Experiment& experiment) {
           .text = std::move(words),
           .inequality = std::move(inequality),
           .expect = *expect == 0 ? Verdict::reproduced : Verdict::not_reproduced,
-          .reason = std::move(reason)};
+          .reason = std::move(reason),
+          .place = table.error_at("name", "", "").place()};
 }
 
 void read_claims(const TomlTable& root, Experiment& experiment) {
@@ -147,7 +148,7 @@ void read_thresholds(const TomlTable& root, Experiment& experiment) {
       const Expression measure = written.with_method(method);
       at_key(*table, key, [&] { check_measures(measure, experiment); });
       const std::string place = table->error_at(key, "", "").place();
-      experiment.thresholds.push_back({.measure = measure, .limit = limit, .written = key, .place = place});
+      experiment.thresholds.push_back({.measure = measure, .limit = limit, .place = place});
     }
   }
 }

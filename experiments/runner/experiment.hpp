@@ -21,13 +21,14 @@ struct Claim {
   Inequality inequality;
   Verdict expect = Verdict::reproduced;
   std::string reason;
+  std::string place{};  ///< FILE:LINE of its name
 };
 
 /// An upper bound on an expression without `*`.
 struct Threshold {
   Expression measure;
   double limit = 0;
-  std::string written{}, place{};  ///< its key in the file, and FILE:LINE of that
+  std::string place{};  ///< FILE:LINE of its key
 };
 
 /// A figure that a paper prints.

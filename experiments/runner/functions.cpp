@@ -197,11 +197,11 @@ Sample error_sample(const Measure& measure, const Record& record) {
           .noise_floor = other->noise_floor};
 }
 
-double build_ms(const Record& record) { return record.frame_build ? record.frame_build->ms : 0.0; }
+double build_ms(const Record& record) { return record.frame_build_ms.value_or(0.0); }
 
 // A frame without what is rebuilt in it, whether or not the timed frames rebuilt it.
 double shading_ms(const Record& record) {
-  const bool timed = record.frame_build && record.frame_build->timing == BuildTiming::every_frame;
+  const bool timed = record.frame_build == BuildTiming::every_frame;
   return record.frame_ms.median - (timed ? build_ms(record) : 0.0);
 }
 
@@ -290,7 +290,7 @@ std::vector<FigureFunction> function_table() {
       {"time", records, nothing, over_times([](const Record& r) { return r.frame_ms.median; })},
       {"fps", records, nothing, over_times([](const Record& r) { return r.fps; })},
       {"build", records, nothing,
-       over_times([](const Record& r) { return r.frame_build ? Figure(r.frame_build->ms) : Figure(); })},
+       over_times([](const Record& r) { return r.frame_build_ms ? Figure(*r.frame_build_ms) : Figure(); })},
       {"shading", records, nothing, over_times(shading_ms)},
       {"total", records, nothing, over_times([](const Record& r) { return shading_ms(r) + build_ms(r); })},
       {"supersampling_time", {distance, spp, scene, size, filter, seed}, a_timed_count, supersampling_ms},

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "experiments/runner/functions.hpp"
+#include "experiments/runner/noise_guard.hpp"
 
 namespace footprint {
 namespace {
@@ -33,7 +34,8 @@ ClaimOutcome outcome_of(const Claim& claim, std::span<const Results> runs) {
                        .problem = left.problem.empty() ? right.problem : left.problem,
                        .left = left.value,
                        .right = right.value,
-                       .figures = {}};
+                       .figures = {},
+                       .place = claim.place};
   add_figures(left, outcome.figures);
   add_figures(right, outcome.figures);
   std::set<std::string> nodes = left.nodes;
@@ -53,9 +55,9 @@ ThresholdOutcome outcome_of(const Threshold& threshold, std::span<const Results>
                            .limit = threshold.limit,
                            .measured = found.value,
                            .problem = std::move(found.problem),
-                           .written = threshold.written};
-  const bool is_one_call = found.calls.size() == 1 && found.calls.front().text == outcome.measure;
-  const std::optional<double> floor = is_one_call ? found.calls.front().noise_floor : std::nullopt;
+                           .place = threshold.place};
+  const bool has_floor = single_measure(threshold) && !found.calls.empty();
+  const std::optional<double> floor = has_floor ? found.calls.front().noise_floor : std::nullopt;
   if (found.value && floor && threshold.limit <= *floor) {
     outcome.measured.reset();
     outcome.problem =

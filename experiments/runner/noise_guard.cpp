@@ -10,6 +10,12 @@
 
 namespace footprint {
 
+std::optional<Measure> single_measure(const Threshold& threshold) {
+  const std::vector<Measure> measures = threshold.measure.measures();
+  if (measures.size() != 1 || measure_text(measures.front()) != threshold.measure.text()) return {};
+  return measures.front();
+}
+
 NoiseGuard::NoiseGuard(const Experiment& judged, std::span<const Experiment> members)
     : judged_(&judged), members_(members), known_(members.size()) {
   for (std::size_t i = 0; i < members.size() && !judged.thresholds.empty(); ++i) {
@@ -41,12 +47,12 @@ void NoiseGuard::see(std::size_t member, std::span<const Record> records) {
 }
 
 void NoiseGuard::hold(const Threshold& threshold) const {
-  const std::vector<Measure> measures = threshold.measure.measures();
-  if (measures.size() != 1 || measure_text(measures.front()) != threshold.measure.text()) return;
+  const std::optional<Measure> measure = single_measure(threshold);
+  if (!measure) return;
   const Evaluation found = threshold.measure.evaluate(known_);
   if (found.calls.empty() || !found.calls.front().noise_floor) return;
   const MeasuredCall& call = found.calls.front();
-  const auto count = static_cast<double>(std::max(count_of(measures.front()), call.records));
+  const auto count = static_cast<double>(std::max(count_of(*measure), call.records));
   const double least = *call.noise_floor * static_cast<double>(call.records) / count;
   if (threshold.limit > least) return;
   throw Error(ErrorKind::usage, threshold.place,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,10 @@
 #include "experiments/studies/compare.hpp"
 
 namespace footprint {
+
+/// The measure of a threshold on a single error or flicker, which the reference's noise may decide; none for a
+/// threshold on an expression of several.
+[[nodiscard]] std::optional<Measure> single_measure(const Threshold& threshold);
 
 /// Of one experiment, or of a matrix. A bound on a single error or flicker that is no higher than what the reference's
 /// noise causes of it could be neither held nor missed. Such a bound may be on a mean over distances and members of

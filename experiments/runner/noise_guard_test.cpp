@@ -13,8 +13,7 @@ Experiment experiment_with(const std::string& measure, double limit) {
   experiment.name = "mine";
   experiment.run.view.distances = {1, 2};
   experiment.run.methods = {{.text = "direct", .name = "direct", .options = {}}};
-  experiment.thresholds.push_back(
-      {.measure = Expression(measure, ""), .limit = limit, .written = measure, .place = "mine.toml:7"});
+  experiment.thresholds.push_back({.measure = Expression(measure, ""), .limit = limit, .place = "mine.toml:7"});
   return experiment;
 }
 

@@ -5,17 +5,31 @@
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
+#include <utility>
 
 #include "experiments/runner/composed_figure.hpp"
 #include "experiments/runner/judge.hpp"
 #include "experiments/runner/quantities.hpp"
-#include "experiments/studies/kept_comparison.hpp"
 #include "experiments/studies/ndf_inspection.hpp"
+#include "experiments/studies/run_fingerprint.hpp"
 #include "experiments/studies/zoom.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
+#include "results/report/record_fields.hpp"
 
 namespace footprint {
+
+/// The figures of an experiment that are not about images.
+struct FurtherFigures {
+  std::vector<FootprintNdf> ndf;
+  std::vector<QuantityFigure> quantities;
+};
+
+template <class Archive>
+void fields(Archive& archive, Is<FurtherFigures> auto& value) {
+  archive("ndf", value.ndf);
+  archive("quantities", value.quantities);
+}
+
 namespace {
 
 constexpr int quick_spp = 16;
@@ -45,9 +59,10 @@ std::vector<FootprintNdf> inspected(const Experiment& experiment, const NdfSourc
   return figures;
 }
 
-// The files of a folder below `folder`, relative to that.
+// The files of a subfolder, relative to `folder`.
 std::vector<std::string> files_below(const std::filesystem::path& folder, const std::string& subfolder) {
   std::vector<std::string> files;
+  if (!std::filesystem::is_directory(folder / subfolder)) return files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / subfolder)) {
     if (entry.is_regular_file()) files.push_back(entry.path().lexically_relative(folder).string());
   }
@@ -55,74 +70,52 @@ std::vector<std::string> files_below(const std::filesystem::path& folder, const 
   return files;
 }
 
-bool looks_further(const Experiment& experiment) {
+bool has_further_figures(const Experiment& experiment) {
   return !experiment.footprints.empty() || !experiment.quantities.empty();
 }
 
-// What an experiment asks for beside its comparison: NDFs and quantities, each kept on its own.
-class FurtherFigures {
- public:
-  FurtherFigures(const Experiment& experiment, const std::filesystem::path& folder, const KeptWork* kept)
-      : experiment_(experiment),
-        folder_(folder),
-        kept_(kept),
-        scene_(load_scene(experiment.run.scene, experiment.run.scene_library, experiment.run.overrides)) {
-    if (kept_ != nullptr)
-      keys_.emplace(*kept_, experiment.run, scene_, scene_content(scene_), run_distances(experiment.run.view, scene_));
+// What the figures depend on besides the settings.
+std::vector<std::string> figure_content(const Experiment& experiment) {
+  std::vector<std::string> content;
+  for (const auto& [name, rect] : experiment.footprints) {
+    const auto& [lower, upper] = rect;
+    content.push_back(fmt::format("{} {} {} {} {}", name, lower.x, lower.y, upper.x, upper.y));
   }
-
-  void add_to(Results& results, const Progress& progress) {
-    ProgressParts parts(progress, static_cast<double>(experiment_.footprints.size() + 1));
-    for (const NamedFootprint& footprint : experiment_.footprints)
-      std::ranges::move(ndf_of(footprint, parts.next(1, "footprint " + footprint.name + ": ")),
-                        std::back_inserter(results.ndf));
-    if (!experiment_.quantities.empty()) results.quantities = quantities(parts.next(1, ""));
+  for (const NamedQuantity& quantity : experiment.quantities) {
+    content.push_back(fmt::format("{} {} {}", quantity.name, quantity.quantity, quantity.material));
+    for (const auto& [name, value] : quantity.parameters) content.push_back(name + "=" + value);
   }
+  return content;
+}
 
- private:
-  std::vector<FootprintNdf> ndf_of(const NamedFootprint& footprint, const Progress& progress) {
-    const auto& [lower, upper] = footprint.rect;
-    const std::string key =
-        key_of("ndf", {footprint.name, fmt::format("{} {} {} {}", lower.x, lower.y, upper.x, upper.y)});
-    if (auto known = found<std::vector<FootprintNdf>>(key)) return *known;
-    const NdfSource source = load_ndf_source(experiment_.run.scene, "", experiment_.run.scene_library);
-    std::vector<FootprintNdf> figures = inspected(experiment_, source, footprint, folder_, progress);
-    if (kept_ != nullptr) kept_->keep(key, figures, folder_, files_below(folder_, "ndf/" + footprint.name));
-    return figures;
+FurtherFigures measured_figures(const Experiment& experiment, const Scene& scene, const std::filesystem::path& folder,
+                                const Progress& progress) {
+  FurtherFigures figures;
+  ProgressParts parts(progress, static_cast<double>(experiment.footprints.size() + 1));
+  for (const NamedFootprint& footprint : experiment.footprints) {
+    const NdfSource source = load_ndf_source(experiment.run.scene, "", experiment.run.scene_library);
+    std::ranges::move(
+        inspected(experiment, source, footprint, folder, parts.next(1, "footprint " + footprint.name + ": ")),
+        std::back_inserter(figures.ndf));
   }
+  if (!experiment.quantities.empty()) figures.quantities = measure_quantities(experiment, scene, parts.next(1, ""));
+  return figures;
+}
 
-  std::vector<QuantityFigure> quantities(const Progress& progress) {
-    std::vector<std::string> asked;
-    for (const NamedQuantity& quantity : experiment_.quantities) {
-      asked.push_back(fmt::format("{} {} {}", quantity.name, quantity.quantity, quantity.material));
-      for (const auto& [name, value] : quantity.parameters) asked.push_back(name + "=" + value);
-    }
-    const std::string key = key_of("quantities", asked);
-    if (auto known = found<std::vector<QuantityFigure>>(key)) return *known;
-    std::vector<QuantityFigure> figures = measure_quantities(experiment_, scene_, progress);
-    if (kept_ != nullptr) kept_->keep(key, figures, folder_);
-    return figures;
-  }
-
-  [[nodiscard]] std::string key_of(std::string_view kind, const std::vector<std::string>& more) const {
-    return keys_ ? keys_->of_scene(kind, more) : "";
-  }
-
-  // Errors (usage): it is not kept, where all of it must be.
-  template <class T>
-  std::optional<T> found(const std::string& key) const {
-    if (kept_ == nullptr) return {};
-    auto known = kept_->find<T>(key, folder_);
-    if (!known) kept_->require_more_allowed(experiment_.run.scene);
-    return known;
-  }
-
-  const Experiment& experiment_;
-  const std::filesystem::path& folder_;
-  const KeptWork* kept_;
-  Scene scene_;
-  std::optional<ComparisonKeys> keys_;  // where work is kept
-};
+// NDFs and quantities, measured or read back. Errors (usage): they are not finished, and must be.
+FurtherFigures further_figures(const Experiment& experiment, const std::filesystem::path& folder,
+                               const Progress& progress, const FinishedWork* finished) {
+  const RunSettings& run = experiment.run;
+  const Scene scene = load_scene(run.scene, run.scene_library, run.overrides);
+  if (finished == nullptr) return measured_figures(experiment, scene, folder, progress);
+  const std::string key =
+      run_fingerprint(finished->maker(), run, scene, scene_content(scene), figure_content(experiment)) + "/figures";
+  if (auto known = finished->find<FurtherFigures>(key, folder)) return std::move(*known);
+  finished->require_more_allowed(run.scene);
+  FurtherFigures figures = measured_figures(experiment, scene, folder, progress);
+  finished->store(key, figures, folder, files_below(folder, "ndf"));
+  return figures;
+}
 
 // The pictures of all footprints, each once.
 std::vector<std::string> ndf_pictures(const Results& results) {
@@ -149,13 +142,16 @@ void make_quick(Experiment& experiment) {
   run.overrides.most_texels = quick_texels;
 }
 
-Results run_experiment(const Experiment& experiment, const FurtherTimes& further_times,
-                       const std::filesystem::path& folder, const Progress& progress, const KeptWork* kept,
-                       const RecordWatch& watch) {
-  ProgressParts parts(progress, looks_further(experiment) ? 6 : 4);
-  Results results = run_compare(experiment.run, folder, further_times, parts.next(4, ""), nullptr, kept, watch);
+Results run_experiment(const Experiment& experiment, const std::filesystem::path& folder, const Progress& progress,
+                       const CompareContext& context) {
+  ProgressParts parts(progress, has_further_figures(experiment) ? 6 : 4);
+  Results results = run_compare(experiment.run, folder, parts.next(4, ""), context);
   results.coordinates = experiment.coordinates;
-  if (looks_further(experiment)) FurtherFigures(experiment, folder, kept).add_to(results, parts.next(2, ""));
+  if (has_further_figures(experiment)) {
+    FurtherFigures figures = further_figures(experiment, folder, parts.next(2, ""), context.finished);
+    results.ndf = std::move(figures.ndf);
+    results.quantities = std::move(figures.quantities);
+  }
   results.experiment = judge(experiment, std::span(&results, 1));
   results.experiment->quick = experiment.quick;
   results.experiment->pictures = write_figures(experiment.figure, experiment, results, folder);
@@ -170,17 +166,14 @@ std::vector<WorkUnit> work_units(const Experiment& experiment) {
     if (i == 0 || experiment.run.view.zoom.frames == 0) units.emplace_back();
     units.back().distances.push_back(i);
   }
-  if (looks_further(experiment)) units.emplace_back();
+  if (has_further_figures(experiment)) units.emplace_back();
   return units;
 }
 
-void measure_unit(const Experiment& experiment, const WorkUnit& unit, const FurtherTimes& further_times,
-                  const std::filesystem::path& folder, const Progress& progress, const KeptWork& kept,
-                  const RecordWatch& watch) {
-  if (!unit.distances.empty())
-    return measure_distances(experiment.run, unit.distances, folder, further_times, kept, progress, watch);
-  Results figures;
-  FurtherFigures(experiment, folder, &kept).add_to(figures, progress);
+void measure_unit(const Experiment& experiment, const WorkUnit& unit, const std::filesystem::path& folder,
+                  const Progress& progress, const CompareContext& context) {
+  if (!unit.distances.empty()) return measure_distances(experiment.run, unit.distances, folder, progress, context);
+  (void)further_figures(experiment, folder, progress, context.finished);
 }
 
 }  // namespace footprint

@@ -1,38 +1,28 @@
-// The error pictures of a comparison, which wait until all errors are known: the scale of each distance, the one that
-// all share, and the strips of a distance side by side.
+// The error images of a comparison, made from the images that were written: on the scale of each distance, on the scale
+// that all distances share, and in strips side by side.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
-#include <string>
-#include <vector>
 
-#include "experiments/settings/run_settings.hpp"
-#include "experiments/studies/picture_files.hpp"
-#include "results/report/records.hpp"
+#include "experiments/studies/distance_result.hpp"
+#include "renderer/image/image.hpp"
 
 namespace footprint {
 
-/// A record whose error picture waits for the scale that all of them share.
-struct Draft {
-  Record record;
-  Exhibit exhibit;
-  std::string stem, name;  ///< of its files; the part of it that is the method's
-};
+/// The 99th percentile of an error image over the pixels that have an error.
+[[nodiscard]] double error_percentile(const Image& error);
 
-/// What stands at the top of the pictures of some drafts: `asked`, else the largest 99th percentile over them, in two
-/// digits, 0.01 at least.
-[[nodiscard]] double error_scale(std::span<const Draft> drafts, const std::optional<double>& asked);
+/// The top of the false-colour scale for errors up to `largest`: two digits, 0.01 or more.
+/// given: the scale that was requested, which is then returned.
+[[nodiscard]] double error_scale(double largest, const std::optional<double>& given);
 
-/// Writes the error pictures of the drafts of one distance on its own scale, and names them in the records; until
-/// write_shared_error_pictures they are those on the shared scale, too.
-void write_error_pictures(const std::filesystem::path& folder, std::span<Draft> drafts, double scale);
+/// Writes the strips of a distance and its error images on the scale `top`, and names them in the records; the images
+/// on the shared scale are the same until write_shared_error_images. folder: output folder with the images of `result`.
+void write_error_images(const std::filesystem::path& folder, DistanceResult& result, double top);
 
-/// Writes the error pictures of some drafts on the scale that all distances share, and names them in the records.
-void write_shared_error_pictures(const std::filesystem::path& folder, std::span<Draft> drafts, double shared);
-
-/// Writes the strips of a distance, the reference first.
-void write_distance_strips(const std::filesystem::path& folder, Exhibit reference, std::span<const Draft> drafts,
-                           float exposure, double scale);
+/// Writes the error images of a distance on the scale `top` that all distances share, and names them in the records.
+void write_shared_error_images(const std::filesystem::path& folder, DistanceResult& result, double top);
 
 }  // namespace footprint

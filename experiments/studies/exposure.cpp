@@ -11,7 +11,7 @@ namespace footprint {
 namespace {
 
 constexpr double percentile = 0.95;
-constexpr float target = 0.8F;
+constexpr float target_luminance = 0.8F;
 
 }  // namespace
 
@@ -25,7 +25,7 @@ float automatic_exposure(const Image& reference) {
   const auto nth =
       luminances.begin() + static_cast<std::ptrdiff_t>(percentile * static_cast<double>(luminances.size() - 1));
   std::ranges::nth_element(luminances, nth);
-  return *nth > 0.0F && std::isfinite(*nth) ? target / *nth : 1.0F;
+  return *nth > 0.0F && std::isfinite(*nth) ? target_luminance / *nth : 1.0F;
 }
 
 Exposure choose_exposure(const std::optional<Exposure>& given, const Scene& scene, const Image& first_reference) {

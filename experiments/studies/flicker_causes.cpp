@@ -29,20 +29,20 @@ std::optional<PartFlicker> part_of(const std::optional<FlickerFigures>& figures)
 
 }  // namespace
 
-FlickerCauses flicker_causes(const Image& before, const Image& picture, const FrameTruth& truth_before,
-                             const FrameTruth& truth, float exposure) {
-  const Image& old_reference = truth_before.reference.mean;
-  const Image& reference = truth.reference.mean;
-  const Image interior = in_both(truth_before.parts.interior, truth.parts.interior);
+FlickerCauses flicker_causes(const Image& before, const Image& picture, const FrameReference& target_before,
+                             const FrameReference& target, float exposure) {
+  const Image& old_reference = target_before.reference.mean;
+  const Image& reference = target.reference.mean;
+  const Image interior = in_both(target_before.parts.interior, target.parts.interior);
   const Image edges = without(object_pixels(reference), interior);
   const auto over = [&](const Image& mask) {
     return part_of(compare_changes_over(before, picture, old_reference, reference, exposure, mask));
   };
   FlickerCauses causes{.shading = over(interior), .edges = over(edges), .filter = {}, .method = {}};
-  if (!truth_before.bound || !truth.bound) return causes;
-  const Image pixels = in_both(truth_before.bound->pixels, truth.bound->pixels);
-  const Image& old_bound = truth_before.bound->picture;
-  const Image& bound = truth.bound->picture;
+  if (!target_before.bound || !target.bound) return causes;
+  const Image pixels = in_both(target_before.bound->pixels, target.bound->pixels);
+  const Image& old_bound = target_before.bound->picture;
+  const Image& bound = target.bound->picture;
   causes.filter = part_of(compare_changes_over(old_bound, bound, old_reference, reference, exposure, pixels));
   causes.method = part_of(compare_changes_over(before, picture, as_reference(old_bound, old_reference),
                                                as_reference(bound, reference), exposure, pixels));

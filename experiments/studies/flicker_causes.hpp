@@ -10,14 +10,15 @@
 namespace footprint {
 
 /// What one frame's pictures are held against.
-struct FrameTruth {
+struct FrameReference {
   Supersampled reference;
   PixelParts parts;
   std::optional<BoundPicture> bound;
 };
 
 /// Of a method that drew `before` and then `picture`.
-[[nodiscard]] FlickerCauses flicker_causes(const Image& before, const Image& picture, const FrameTruth& truth_before,
-                                           const FrameTruth& truth, float exposure);
+[[nodiscard]] FlickerCauses flicker_causes(const Image& before, const Image& picture,
+                                           const FrameReference& target_before, const FrameReference& target,
+                                           float exposure);
 
 }  // namespace footprint

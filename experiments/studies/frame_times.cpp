@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "renderer/core/host.hpp"
 #include "renderer/pipeline/timing.hpp"
 
 namespace footprint {
@@ -68,26 +69,16 @@ DistanceTimes time_methods(const Stage& stage, const View& view, int repeats, co
   return interleaved_times(stage.context().info(), draws, repeats, progress, is_enough);
 }
 
-std::vector<std::optional<BuildTiming>> build_timings(const Stage& stage) {
-  std::vector<std::optional<BuildTiming>> builds;
-  for (const StagedMethod& staged : stage.methods()) {
-    builds.emplace_back();
-    if (staged.refusal()) continue;
-    const GpuMethod& gpu = staged.gpu();
-    if (gpu.has_frame_build()) builds.back() = gpu.keeps_builds() ? BuildTiming::reused : BuildTiming::every_frame;
-  }
-  return builds;
-}
-
-void set_times(std::span<const std::reference_wrapper<Record>> records,
-               std::span<const std::optional<BuildTiming>> builds, std::span<const DistanceTimes> processes,
-               std::size_t unit) {
-  const bool has_unit = unit >= records.size() || !records[unit].get().failure;
-  const std::vector<double> unit_times = pooled(processes, unit);
-  std::size_t build = builds.size();  // the candidate that is the next method's frame build
+void set_times(std::span<Record> records, const Stage& stage, std::span<const DistanceTimes> processes) {
+  const bool has_unit = stage.unit() >= records.size() || !records[stage.unit()].failure;
+  const std::vector<double> unit_times = pooled(processes, stage.unit());
+  std::size_t build = stage.methods().size();  // the candidate that is the next method's frame build
   for (std::size_t m = 0; m < records.size(); ++m) {
     Record& record = records[m];
-    const std::size_t own_build = builds[m] ? build++ : 0;
+    const StagedMethod& staged = stage.methods()[m];
+    const bool is_built = !staged.refusal() && staged.gpu().has_frame_build();
+    const std::size_t own_build = is_built ? build++ : 0;
+    record.node = host_name();
     if (record.failure) {
       set_no_times(record);
       continue;
@@ -95,8 +86,9 @@ void set_times(std::span<const std::reference_wrapper<Record>> records,
     const std::vector<double> times = pooled(processes, m);
     set_frame_times(record, times);
     record.ratio_to_direct = has_unit ? ratio_between(times, unit_times) : unknown_ratio;
-    if (builds[m])
-      record.frame_build = FrameBuildTime{.ms = quantile(pooled(processes, own_build), 0.5), .timing = *builds[m]};
+    if (!is_built) continue;
+    record.frame_build_ms = quantile(pooled(processes, own_build), 0.5);
+    record.frame_build = staged.gpu().keeps_builds() ? BuildTiming::reused : BuildTiming::every_frame;
   }
 }
 

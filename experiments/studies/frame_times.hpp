@@ -1,8 +1,6 @@
 // Frame times of a comparison: measured in turn, pooled over processes, and written into its records.
 #pragma once
 
-#include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,14 +23,10 @@ using FrameTimes = std::vector<DistanceTimes>;
 /// Those of one distance, all candidates in turn.
 [[nodiscard]] DistanceTimes time_methods(const Stage& stage, const View& view, int repeats, const Progress& progress);
 
-/// Of each of the stage's methods when its frame build runs; none: it has none.
-[[nodiscard]] std::vector<std::optional<BuildTiming>> build_timings(const Stage& stage);
-
-/// Fills in frame times, ratios and frame builds of the records of one distance, in the order of `builds`; medians are
-/// over all processes, and every ratio is formed within one, to the method at `unit`, which costs 1. Where that one
-/// failed, ratios are not known.
-void set_times(std::span<const std::reference_wrapper<Record>> records,
-               std::span<const std::optional<BuildTiming>> builds, std::span<const DistanceTimes> processes,
-               std::size_t unit);
+/// Fills in frame times, ratios and frame builds of the records of one distance.
+/// records: one per method of the stage's settings, in their order.
+/// processes: the times of each process. Medians are over all of them, and every ratio is formed within one process, to
+/// the stage's unit, which costs 1. If the unit failed, ratios are unknown.
+void set_times(std::span<Record> records, const Stage& stage, std::span<const DistanceTimes> processes);
 
 }  // namespace footprint

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/significance.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"
@@ -17,9 +18,9 @@ std::string write_verdicts(const std::filesystem::path& folder, const std::strin
   return file;
 }
 
-std::vector<std::array<double, 2>> shares_by_material(const Image& verdicts, const Truth& truth) {
+std::vector<std::array<double, 2>> shares_by_material(const Image& verdicts, const ReferenceView& target) {
   std::vector<std::array<double, 2>> shares;
-  for (const Image& mask : truth.materials) {
+  for (const Image& mask : target.materials) {
     const CloserShares own = closer_shares(verdicts, mask).value_or(CloserShares{});
     shares.push_back({own.a, own.b});
   }
@@ -28,22 +29,22 @@ std::vector<std::array<double, 2>> shares_by_material(const Image& verdicts, con
 
 }  // namespace
 
-std::vector<MethodPair> compare_pairs(const std::filesystem::path& folder, std::span<const Draft> drafts,
-                                      const Truth& truth, float exposure) {
-  const Image object = object_pixels(truth.reference.mean);
+std::vector<MethodPair> compare_pairs(const std::filesystem::path& folder, std::span<const Record> records,
+                                      std::span<const Image> images, std::span<const std::string> names,
+                                      const ReferenceView& target, float exposure) {
+  const Image object = object_pixels(target.reference.mean);
   std::vector<MethodPair> pairs;
-  for (std::size_t i = 0; i < drafts.size(); ++i) {
-    for (std::size_t j = i + 1; j < drafts.size(); ++j) {
-      if (drafts[i].record.failure || drafts[j].record.failure) continue;
-      const std::optional<Image> verdicts =
-          closer_beyond_noise(drafts[i].exhibit.picture, drafts[j].exhibit.picture, truth.reference, exposure);
-      const auto shares = verdicts ? closer_shares(*verdicts, truth.parts.interior) : std::nullopt;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    for (std::size_t j = i + 1; j < records.size(); ++j) {
+      if (records[i].failure || records[j].failure) continue;
+      const std::optional<Image> verdicts = closer_beyond_noise(images[i], images[j], target.reference, exposure);
+      const auto shares = verdicts ? closer_shares(*verdicts, target.parts.interior) : std::nullopt;
       if (!shares) continue;
-      const std::string stem = fmt::format("{}_or_{}", drafts[i].stem, drafts[j].name);
-      pairs.push_back({.distance = truth.distance,
-                       .methods = {drafts[i].record.method, drafts[j].record.method},
+      const std::string stem = fmt::format("{}_or_{}", distance_stem(target.distance, names[i]), names[j]);
+      pairs.push_back({.distance = target.distance,
+                       .methods = {records[i].method, records[j].method},
                        .closer = {shares->a, shares->b},
-                       .materials = shares_by_material(*verdicts, truth),
+                       .materials = shares_by_material(*verdicts, target),
                        .picture = write_verdicts(folder, stem, *verdicts, object)});
     }
   }

@@ -4,7 +4,7 @@
 #include <map>
 #include <optional>
 
-#include "experiments/studies/truth.hpp"
+#include "experiments/studies/reference_view.hpp"
 #include "renderer/pipeline/pixel_work.hpp"
 
 namespace footprint {
@@ -24,23 +24,24 @@ class MethodMeasurer {
   explicit MethodMeasurer(const Stage& stage) : stage_(stage) {}
 
   /// The row of a method that has no figures, for the reason given.
-  [[nodiscard]] Record failed(const StagedMethod& method, const Truth& truth, const Error& why) const;
+  [[nodiscard]] Record failed(const StagedMethod& method, const ReferenceView& target, const Error& why) const;
 
   /// What is known of the method before it is timed or held against other frames. Errors (usage): a pixel of a picture
   /// that is no finite number, named.
-  [[nodiscard]] Record measure(const StagedMethod& method, const MethodPictures& pictures, const Truth& truth,
+  [[nodiscard]] Record measure(const StagedMethod& method, const MethodPictures& pictures, const ReferenceView& target,
                                float exposure);
 
-  /// Counted; none of methods that draw for seconds: they would count as long.
-  [[nodiscard]] std::optional<RecordWork> work_of(const StagedMethod& method, const View& view);
+  /// Counts the texture lookups and lobes per pixel, except of methods whose frames take seconds: counting takes as
+  /// long.
+  void count_work(Record& record, const StagedMethod& method, const View& view);
 
  private:
-  [[nodiscard]] Record described(const StagedMethod& method, const Truth& truth) const;
-  void set_light_error(Record& record, const Truth& truth, const Image& picture, const StagedMethod& method,
+  [[nodiscard]] Record described(const StagedMethod& method, const ReferenceView& target) const;
+  void set_light_error(Record& record, const ReferenceView& target, const Image& picture, const StagedMethod& method,
                        float exposure);
 
-  void set_material_errors(Record& record, const Truth& truth, const Image& picture, const StagedMethod& method,
-                           float exposure) const;
+  void set_material_errors(Record& record, const ReferenceView& target, const Image& picture,
+                           const StagedMethod& method, float exposure) const;
 
   const Stage& stage_;
   std::map<const StagedMethod*, FrameRenderer> dense_frames_;  // of a scene with an environment

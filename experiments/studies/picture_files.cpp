@@ -57,6 +57,11 @@ std::string write_exposable_picture(const std::filesystem::path& folder, const s
   return write_picture(folder, stem, radiance, exposure);
 }
 
+std::vector<std::string> exposable_files(const std::string& exr) {
+  const std::string stem = exr.substr(0, exr.size() - std::string_view(".exr").size());
+  return {exr, stem + ".png", stem + "_dark.png"};
+}
+
 std::string write_mask(const std::filesystem::path& folder, const std::string& stem, const Image& mask) {
   Image picture(mask.width, mask.height, 4, 1.0F);
   for (std::size_t i = 0; i < mask.texels.size(); ++i)
@@ -64,16 +69,16 @@ std::string write_mask(const std::filesystem::path& folder, const std::string& s
   return write_picture(folder, stem, picture, 1.0F);
 }
 
-void write_strips(const std::filesystem::path& folder, const std::string& stem, const std::vector<Exhibit>& exhibits,
+void write_strips(const std::filesystem::path& folder, const std::string& stem, const std::vector<StripPanel>& panels,
                   float exposure, float scale) {
   std::vector<Image> pictures, errors;
   std::vector<std::string> captions, error_captions;
-  for (const Exhibit& exhibit : exhibits) {
-    pictures.push_back(to_display(exhibit.picture, exposure));
-    captions.push_back(exhibit.caption);
-    if (exhibit.error.empty()) continue;
-    errors.push_back(false_color(exhibit.error, scale));
-    error_captions.push_back(exhibit.caption);
+  for (const StripPanel& panel : panels) {
+    pictures.push_back(to_display(panel.picture, exposure));
+    captions.push_back(panel.caption);
+    if (panel.error.empty()) continue;
+    errors.push_back(false_color(panel.error, scale));
+    error_captions.push_back(panel.caption);
   }
   write_png(folder / "images" / (stem + ".png"), labelled_strip(pictures, captions));
   if (errors.empty()) return;  // no method could be drawn

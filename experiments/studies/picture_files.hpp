@@ -34,11 +34,14 @@ std::string write_error_picture(const std::filesystem::path& folder, const std::
 std::string write_exposable_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,
                                     float exposure);
 
+/// The files that write_exposable_picture makes of "images/STEM.exr".
+[[nodiscard]] std::vector<std::string> exposable_files(const std::string& exr);
+
 /// Writes a mask, one channel of 1 and 0, as FOLDER/images/STEM.exr and STEM.png beside it; returns "images/STEM.exr".
 std::string write_mask(const std::filesystem::path& folder, const std::string& stem, const Image& mask);
 
 /// A picture of a comparison, for the strips that show all of one distance side by side.
-struct Exhibit {
+struct StripPanel {
   std::string caption;
   Image picture;  ///< linear radiance, coverage in alpha
   Image error;    ///< normalised colour error of each pixel; empty for the reference
@@ -46,7 +49,7 @@ struct Exhibit {
 
 /// Writes FOLDER/images/STEM.png, the pictures side by side, and STEM_errors.png, their errors over the legend
 /// of the scale.
-void write_strips(const std::filesystem::path& folder, const std::string& stem, const std::vector<Exhibit>& exhibits,
+void write_strips(const std::filesystem::path& folder, const std::string& stem, const std::vector<StripPanel>& panels,
                   float exposure, float scale);
 
 }  // namespace footprint

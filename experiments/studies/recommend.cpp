@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "experiments/studies/compare.hpp"
-#include "experiments/studies/kept_comparison.hpp"
+#include "experiments/studies/run_fingerprint.hpp"
 #include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/file_names.hpp"
@@ -209,11 +209,11 @@ MaterialAdvice advice_of(const RecommendSettings& settings, const std::vector<Fi
 
 class Advisor {
  public:
-  Advisor(const RecommendSettings& settings, std::filesystem::path folder, const KeptWork& kept,
+  Advisor(const RecommendSettings& settings, std::filesystem::path folder, const FinishedWork& finished,
           const RecommendListener& listener, const Progress& progress)
       : settings_(settings),
         folder_(std::move(folder)),
-        kept_(kept),
+        finished_(finished),
         listener_(listener),
         parts_(progress, (settings.exhaustive ? 0.0 : 1.0) + 3.0),
         scene_(std::make_shared<PreparedScene>(
@@ -278,7 +278,7 @@ class Advisor {
     if (!settings_.limits.max_cost || filter == plain_filter) return false;
     const std::vector<MethodSpec> direct{{.text = "direct", .name = "direct", .options = {}}};
     const Results results =
-        run_compare(settings_of(settings_, filter, direct, coarse_size_), own, {}, progress, &shared, &kept_);
+        run_compare(settings_of(settings_, filter, direct, coarse_size_), own, progress, with(shared));
     const auto costs = std::views::transform(results.records, [](const Record& r) { return r.ratio_to_direct.median; });
     const double least = std::ranges::min(costs);
     if (least * (1.0 - coarse_cost_share) <= *settings_.limits.max_cost) return false;
@@ -287,10 +287,12 @@ class Advisor {
     return true;
   }
 
+  [[nodiscard]] CompareContext with(SharedWork& shared) const { return {.finished = &finished_, .shared = &shared}; }
+
   std::vector<FilterRun> run_all(MethodsByFilter& methods, bool coarse) {
     const std::optional<glm::ivec2> size = coarse ? coarse_size_ : std::nullopt;
     std::vector<FilterRun> runs;
-    SharedWork shared{.scene = scene_, .content = content_, .truth = {}, .kept_as = {}};
+    SharedWork shared{.scene = scene_, .content = content_, .references = {}, .first = {}};
     ProgressParts parts(parts_.next(coarse ? 1.0 : 3.0, coarse ? "coarse, " : ""), static_cast<double>(methods.size()));
     for (std::size_t f = 0; f < methods.size(); ++f) {
       const FootprintFilter& filter = settings_.filters[f];
@@ -307,7 +309,7 @@ class Advisor {
         continue;
       }
       run.results =
-          run_compare(settings_of(settings_, filter, methods[f], size), own, {}, steps.next(3.0, ""), &shared, &kept_);
+          run_compare(settings_of(settings_, filter, methods[f], size), own, steps.next(3.0, ""), with(shared));
       leave_out_failed(run.results, methods);
       const bool is_of_use = !methods_of(run.results).empty();
       if (coarse || !is_of_use) std::filesystem::remove_all(own);
@@ -324,13 +326,13 @@ class Advisor {
   // Of each filter the methods that some material may yet take.
   [[nodiscard]] MethodsByFilter still_in_question(const std::vector<FilterRun>& runs,
                                                   const MethodsByFilter& methods) const {
-    MethodsByFilter kept(methods.size());
+    MethodsByFilter wanted(methods.size());
     for (std::size_t f = 0; f < methods.size(); ++f) {
       const std::string filter = footprint_filter_text(settings_.filters[f]);
-      std::ranges::copy_if(methods[f], std::back_inserter(kept[f]),
+      std::ranges::copy_if(methods[f], std::back_inserter(wanted[f]),
                            [&](const MethodSpec& method) { return is_wanted(runs, method.text, filter); });
     }
-    return kept;
+    return wanted;
   }
 
   [[nodiscard]] bool is_wanted(const std::vector<FilterRun>& runs, const std::string& method,
@@ -390,7 +392,7 @@ class Advisor {
 
   const RecommendSettings& settings_;
   std::filesystem::path folder_;
-  const KeptWork& kept_;
+  const FinishedWork& finished_;
   const RecommendListener& listener_;
   ProgressParts parts_;
   std::shared_ptr<PreparedScene> scene_;
@@ -402,8 +404,9 @@ class Advisor {
 }  // namespace
 
 Recommendation run_recommend(const RecommendSettings& settings, const std::filesystem::path& folder,
-                             const KeptWork& kept, const RecommendListener& listener, const Progress& progress) {
-  return Advisor(settings, folder, kept, listener, progress).run();
+                             const FinishedWork& finished, const RecommendListener& listener,
+                             const Progress& progress) {
+  return Advisor(settings, folder, finished, listener, progress).run();
 }
 
 }  // namespace footprint

@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
-#include "experiments/kept/kept_work.hpp"
 #include "experiments/settings/run_settings.hpp"
+#include "experiments/studies/finished_work.hpp"
 #include "renderer/core/progress.hpp"
 #include "results/report/recommendation.hpp"
 
@@ -33,9 +33,10 @@ struct RecommendListener {
 };
 
 /// Compares them. The full runs' pictures and reports go to FOLDER/FILTER, one for each footprint filter that is still
-/// in question. What `kept` has is not done again, and what is done is kept there. Errors: those of run_compare.
+/// in question.
+/// finished: parts that are in here are not measured, and the others are stored here. Errors: those of run_compare.
 [[nodiscard]] Recommendation run_recommend(const RecommendSettings& settings, const std::filesystem::path& folder,
-                                           const KeptWork& kept, const RecommendListener& listener,
+                                           const FinishedWork& finished, const RecommendListener& listener,
                                            const Progress& progress);
 
 }  // namespace footprint

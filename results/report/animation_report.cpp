@@ -11,6 +11,7 @@
 #include "results/report/figures.hpp"
 #include "results/report/markdown_table.hpp"
 #include "results/report/page_shell.hpp"
+#include "results/report/record_fields.hpp"
 #include "results/report/results_document.hpp"
 #include "results/report/text_template.hpp"
 
@@ -21,83 +22,53 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* animation_schema = "footprint-animation/2";
 
-// What flicker is made of, by its names in the documents.
-struct FlickerPart {
-  const char* name;
-  std::optional<PartFlicker> FlickerCauses::*member;
-};
-constexpr std::array<FlickerPart, 4> flicker_parts{{{"shading", &FlickerCauses::shading},
-                                                    {"edges", &FlickerCauses::edges},
-                                                    {"filter", &FlickerCauses::filter},
-                                                    {"method", &FlickerCauses::method}}};
+constexpr std::array flicker_parts{&FlickerCauses::shading, &FlickerCauses::edges, &FlickerCauses::filter,
+                                   &FlickerCauses::method};
 
-Json animation_error_json(const AnimationRecord& record) {
-  if (!record.normalized_color) return nullptr;
-  const ErrorCauses& causes = record.causes;
-  return {{"normalized_color", json_number(record.normalized_color)},
-          {"noise_floor", json_number(record.noise_floor)},
-          {"shading", json_number(causes.shading)},
-          {"shading_floor", json_number(causes.shading_floor)},
-          {"edges", json_number(causes.edges)},
-          {"filter", json_number(causes.filter)},
-          {"method", json_number(causes.method)}};
-}
-
-Json animation_flicker_json(const AnimationRecord& record) {
-  Json flicker = flicker_json(record.flicker);
-  if (flicker.is_null()) return flicker;
-  for (const FlickerPart& part : flicker_parts) {
-    const std::optional<PartFlicker>& value = record.flicker_causes.*part.member;
-    flicker[part.name] = value ? Json{{"mean", json_number(value->mean)}, {"p99", json_number(value->p99)}} : Json();
-  }
-  return flicker;
-}
-
-Json animation_record_json(const AnimationRecord& record) {
-  return {{"frame", record.frame},
-          {"method", record.method},
-          {"error", animation_error_json(record)},
-          {"flicker", animation_flicker_json(record)},
-          {"highlight_energy", json_number(record.highlight_energy)},
-          {"image", record.image}};
-}
-
-Json animation_frame_json(const AnimationFrame& frame) {
-  const PixelCounts& pixels = frame.pixels;
-  return {{"frame", frame.frame},
-          {"distance", json_number(frame.distance)},
-          {"degrees", json_number(frame.degrees)},
-          {"pixels",
-           {{"object", pixels.object},
-            {"unresolved", pixels.unresolved},
-            {"interior", pixels.interior},
-            {"bound", pixels.bound ? Json(*pixels.bound) : Json()}}},
-          {"standard_error", json_number(frame.standard_error)},
-          {"highlight_energy", json_number(frame.highlight_energy)},
-          {"image", frame.image}};
-}
+// The columns of animation.csv, with their places in {"frame": ..., "record": ...}.
+constexpr std::array csv_columns{CsvColumn{"frame", "/record/frame"},
+                                 CsvColumn{"distance", "/frame/distance"},
+                                 CsvColumn{"degrees", "/frame/degrees"},
+                                 CsvColumn{"method", "/record/method"},
+                                 CsvColumn{"normalized_color_error", "/record/error/normalized_color"},
+                                 CsvColumn{"noise_floor", "/record/error/noise_floor"},
+                                 CsvColumn{"shading", "/record/error/shading"},
+                                 CsvColumn{"edges", "/record/error/edges"},
+                                 CsvColumn{"filter", "/record/error/filter"},
+                                 CsvColumn{"method_share", "/record/error/method"},
+                                 CsvColumn{"flicker", "/record/flicker/mean"},
+                                 CsvColumn{"flicker_p99", "/record/flicker/p99"},
+                                 CsvColumn{"flicker_noise_floor", "/record/flicker/noise_floor"},
+                                 CsvColumn{"flicker_shading", "/record/flicker/shading/mean"},
+                                 CsvColumn{"flicker_shading_p99", "/record/flicker/shading/p99"},
+                                 CsvColumn{"flicker_edges", "/record/flicker/edges/mean"},
+                                 CsvColumn{"flicker_edges_p99", "/record/flicker/edges/p99"},
+                                 CsvColumn{"flicker_filter", "/record/flicker/filter/mean"},
+                                 CsvColumn{"flicker_filter_p99", "/record/flicker/filter/p99"},
+                                 CsvColumn{"flicker_method", "/record/flicker/method/mean"},
+                                 CsvColumn{"flicker_method_p99", "/record/flicker/method/p99"},
+                                 CsvColumn{"highlight_energy", "/record/highlight_energy"},
+                                 CsvColumn{"reference_highlight_energy", "/frame/highlight_energy"},
+                                 CsvColumn{"image", "/record/image"}};
 
 Json animation_document(const Animation& animation) {
-  Json frames = Json::array(), records = Json::array();
-  for (const AnimationFrame& frame : animation.frames) frames.push_back(animation_frame_json(frame));
-  for (const AnimationRecord& record : animation.records) records.push_back(animation_record_json(record));
   const ReferenceInfo& reference = animation.reference;
   return {{"schema", animation_schema},
-          {"tool", tool_json(animation.tool)},
-          {"backend", backend_json(animation.backend)},
-          {"scene", scene_json(animation.scene)},
+          {"tool", to_json_value(animation.tool)},
+          {"backend", to_json_value(animation.backend)},
+          {"scene", to_json_value(animation.scene)},
           {"reference",
            {{"spp", reference.spp},
             {"filter", reference.filter},
             {"seed", reference.seed},
-            {"environment", reference.environment.empty() ? Json() : Json(reference.environment)}}},
+            {"environment", to_json_value(reference.environment)}}},
           {"footprint", animation.footprint},
           {"path", animation.way.path},
           {"axis", animation.way.axis ? Json(*animation.way.axis) : Json()},
           {"size", Json::array({animation.width, animation.height})},
           {"film", animation.film.empty() ? Json() : Json(animation.film)},
-          {"frames", std::move(frames)},
-          {"records", std::move(records)}};
+          {"frames", to_json_value(animation.frames)},
+          {"records", to_json_value(animation.records)}};
 }
 
 // Of the figures that are there: their mean and their largest.
@@ -119,13 +90,15 @@ std::vector<std::string> table_row(const Animation& animation, const std::string
   Summary error, floor, flicker, p99, flicker_floor, highlights;
   for (const AnimationRecord& record : animation.records) {
     if (record.method != method) continue;
-    error.add(record.normalized_color);
-    floor.add(record.noise_floor);
+    if (record.error) {
+      error.add(record.error->normalized_color);
+      floor.add(record.error->noise_floor);
+    }
     highlights.add(record.highlight_energy);
     if (!record.flicker) continue;
-    flicker.add(record.flicker->mean);
-    p99.add(record.flicker->p99);
-    flicker_floor.add(record.flicker->noise_floor);
+    flicker.add(record.flicker->whole.mean);
+    p99.add(record.flicker->whole.p99);
+    flicker_floor.add(record.flicker->whole.noise_floor);
   }
   return {
       method,          error.mean_text(),         floor.mean_text(),     flicker.mean_text(), flicker.largest_text(),
@@ -134,11 +107,12 @@ std::vector<std::string> table_row(const Animation& animation, const std::string
 
 std::vector<std::string> cause_row(const Animation& animation, const std::string& method) {
   std::vector<std::string> row{method};
-  for (const FlickerPart& part : flicker_parts) {
+  for (const auto part : flicker_parts) {
     Summary mean, p99;
     for (const AnimationRecord& record : animation.records) {
-      const std::optional<PartFlicker>& value = record.flicker_causes.*part.member;
-      if (record.method != method || !value) continue;
+      if (record.method != method || !record.flicker) continue;
+      const std::optional<PartFlicker>& value = record.flicker->causes.*part;
+      if (!value) continue;
       mean.add(value->mean);
       p99.add(value->p99);
     }
@@ -167,26 +141,11 @@ std::string highlights_of_reference(const Animation& animation) {
 std::string animation_json(const Animation& animation) { return json_text(animation_document(animation), 2) + "\n"; }
 
 std::string animation_csv(const Animation& animation) {
-  std::string csv =
-      "frame,distance,degrees,method,normalized_color_error,noise_floor,shading,edges,filter,method_share,flicker,"
-      "flicker_p99,flicker_noise_floor";
-  for (const FlickerPart& part : flicker_parts) csv += fmt::format(",flicker_{0},flicker_{0}_p99", part.name);
-  csv += ",highlight_energy,reference_highlight_energy,image\r\n";
+  std::string csv = csv_header(csv_columns).append(csv_line_end);
   for (const AnimationRecord& record : animation.records) {
     const AnimationFrame& frame = animation.frames.at(static_cast<std::size_t>(record.frame));
-    const auto& flicker = record.flicker;
-    csv +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", record.frame, frame.distance, frame.degrees,
-                    csv_field(record.method), csv_field(record.normalized_color), csv_field(record.noise_floor),
-                    csv_field(record.causes.shading), csv_field(record.causes.edges), csv_field(record.causes.filter),
-                    csv_field(record.causes.method), flicker ? csv_field(flicker->mean) : "",
-                    flicker ? csv_field(flicker->p99) : "", flicker ? csv_field(flicker->noise_floor) : "");
-    for (const FlickerPart& part : flicker_parts) {
-      const std::optional<PartFlicker>& value = record.flicker_causes.*part.member;
-      csv += fmt::format(",{},{}", value ? csv_field(value->mean) : "", value ? csv_field(value->p99) : "");
-    }
-    csv += fmt::format(",{},{},{}\r\n", csv_field(record.highlight_energy), csv_field(frame.highlight_energy),
-                       csv_field(record.image));
+    const Json both{{"frame", to_json_value(frame)}, {"record", to_json_value(record)}};
+    csv.append(csv_line(csv_columns, both)).append(csv_line_end);
   }
   return csv;
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "results/report/records.hpp"
+#include "results/report/record_fields.hpp"
 
 namespace footprint {
 
@@ -25,17 +25,27 @@ struct FlickerCauses {
   std::optional<PartFlicker> method;   ///< of the picture against that of `exact`, over the same
 };
 
+/// The error of one method in one frame, as in RecordError.
+struct FrameError {
+  double normalized_color = 0;
+  std::optional<double> noise_floor;
+  ErrorCauses causes;
+};
+
+/// The flicker of one method from the frame before, with its causes.
+struct FrameFlicker {
+  Flicker whole;
+  FlickerCauses causes;
+};
+
 /// One method in one frame.
 struct AnimationRecord {
   int frame = 0;
   std::string method;
-  std::optional<double> normalized_color;  ///< none: the object covers no whole pixel
-  std::optional<double> noise_floor;
-  ErrorCauses causes;
-  std::optional<Flicker> flicker;  ///< none in the first frame
-  FlickerCauses flicker_causes;
+  std::optional<FrameError> error;      ///< none: the object covers no whole pixel
+  std::optional<FrameFlicker> flicker;  ///< none in the first frame
   std::optional<double> highlight_energy;
-  std::string image;  ///< EXR, from the output folder; a .png of the same stem lies beside it
+  std::string image;  ///< EXR, from the output folder; next to it a .png of the same stem
 };
 
 /// What all methods share in one frame.
@@ -68,6 +78,58 @@ struct Animation {
   std::vector<AnimationFrame> frames;    ///< in their order
   std::vector<AnimationRecord> records;  ///< frame by frame, in each in the order of the methods
 };
+
+template <class Archive>
+void fields(Archive& archive, Is<PartFlicker> auto& value) {
+  archive("mean", value.mean);
+  archive("p99", value.p99);
+}
+
+template <class Archive>
+void fields(Archive& archive, Is<FrameError> auto& value) {
+  archive("normalized_color", value.normalized_color);
+  archive("noise_floor", value.noise_floor);
+  archive("shading", value.causes.shading);
+  archive("shading_floor", value.causes.shading_floor);
+  archive("edges", value.causes.edges);
+  archive("filter", value.causes.filter);
+  archive("method", value.causes.method);
+}
+
+template <class Archive>
+void fields(Archive& archive, Is<FrameFlicker> auto& value) {
+  fields(archive, value.whole);
+  archive("shading", value.causes.shading);
+  archive("edges", value.causes.edges);
+  archive("filter", value.causes.filter);
+  archive("method", value.causes.method);
+}
+
+template <class Archive>
+void fields(Archive& archive, Is<AnimationRecord> auto& value) {
+  archive("frame", value.frame);
+  archive("method", value.method);
+  archive("error", value.error);
+  archive("flicker", value.flicker);
+  archive("highlight_energy", value.highlight_energy);
+  archive("image", value.image);
+}
+
+template <class Archive>
+void fields(Archive& archive, Is<AnimationFrame> auto& value) {
+  archive("frame", value.frame);
+  archive("distance", value.distance);
+  archive("degrees", value.degrees);
+  archive.group("pixels", [&](auto& pixels) {
+    pixels("object", value.pixels.object);
+    pixels("unresolved", value.pixels.unresolved);
+    pixels("interior", value.pixels.interior);
+    pixels("bound", value.pixels.bound);
+  });
+  archive("standard_error", value.standard_error);
+  archive("highlight_energy", value.highlight_energy);
+  archive("image", value.image);
+}
 
 /// The document of docs/animation.schema.json, "schema": "footprint-animation/2".
 [[nodiscard]] std::string animation_json(const Animation& animation);

@@ -13,7 +13,7 @@ namespace {
 
 Animation three_frames() {
   Animation animation = example_animation();
-  animation.records[0].normalized_color.reset();
+  animation.records[0].error.reset();
   return animation;
 }
 
@@ -35,7 +35,7 @@ TEST(AnimationReport, JsonHasAllFrames) {
 TEST(AnimationReport, CsvHasALineARecordAndQuotesWhatItMust) {
   const std::string csv = animation_csv(three_frames());
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
-  EXPECT_NE(csv.find("0,1,0,a,,0.01,,,,,,,,,,,,,,,,0.3,0.25,images/a_0000.exr\r\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("0,1,0,a,,,,,,,,,,,,,,,,,,0.3,0.25,images/a_0000.exr\r\n"), std::string::npos) << csv;
   EXPECT_NE(csv.find("\"b:x=1,\"\"y\"\"\""), std::string::npos) << csv;
 }
 

@@ -105,8 +105,7 @@ std::vector<CheckOutcome> held_against(const Baseline& baseline, const BaselineF
       outcomes.push_back({.suite = experiment,
                           .name = "baseline " + name,
                           .failure = differences(find(before, name), find(records, name), baseline.tolerance),
-                          .file = file,
-                          .line = 0});
+                          .place = file});
     }
   }
   return outcomes;

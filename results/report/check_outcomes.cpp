@@ -11,13 +11,6 @@
 namespace footprint {
 namespace {
 
-// The line of the first place of `text` that has these words; 0 where none has.
-int line_of(const std::string& text, const std::string& words) {
-  const std::size_t place = text.find(words);
-  if (place == std::string::npos) return 0;
-  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(place), '\n'));
-}
-
 // XML 1.0: characters that no document may hold, not even escaped, become blanks.
 std::string xml_escaped(std::string_view text) {
   std::string out;
@@ -55,6 +48,16 @@ std::string command_escaped(std::string_view text, bool is_property) {
   return out;
 }
 
+// FILE:LINE, or FILE, as properties of a workflow command.
+std::string place_property(const std::string& place) {
+  if (place.empty()) return {};
+  const std::size_t colon = place.rfind(':');
+  const bool has_line = colon != std::string::npos && colon + 1 < place.size() &&
+                        place.find_first_not_of("0123456789", colon + 1) == std::string::npos;
+  const std::string file = command_escaped(has_line ? place.substr(0, colon) : place, true);
+  return has_line ? fmt::format("file={},line={},", file, place.substr(colon + 1)) : fmt::format("file={},", file);
+}
+
 std::string test_case(const CheckOutcome& outcome) {
   const std::string head =
       fmt::format(R"(    <testcase classname="{}" name="{}")", xml_escaped(outcome.suite), xml_escaped(outcome.name));
@@ -70,21 +73,19 @@ std::size_t failures_among(std::span<const CheckOutcome> outcomes) {
 
 }  // namespace
 
-std::vector<CheckOutcome> check_outcomes(const ExperimentReport& report, const std::string& toml) {
+std::vector<CheckOutcome> check_outcomes(const ExperimentReport& report) {
   std::vector<CheckOutcome> outcomes;
   for (const ClaimOutcome& claim : report.claims) {
     outcomes.push_back({.suite = report.name,
                         .name = "claim " + claim.name,
                         .failure = claim.as_expected() ? "" : shortfall_of(claim),
-                        .file = report.file,
-                        .line = line_of(toml, fmt::format("name = \"{}\"", claim.name))});
+                        .place = claim.place});
   }
   for (const ThresholdOutcome& threshold : report.thresholds) {
     outcomes.push_back({.suite = report.name,
                         .name = "threshold " + threshold.measure,
                         .failure = threshold.held() ? "" : shortfall_of(threshold),
-                        .file = report.file,
-                        .line = line_of(toml, fmt::format("\"{}\"", threshold.written))});
+                        .place = threshold.place});
   }
   return outcomes;
 }
@@ -118,10 +119,8 @@ std::string github_annotations(std::span<const CheckOutcome> outcomes) {
   std::string text;
   for (const CheckOutcome& outcome : outcomes) {
     if (outcome.failure.empty()) continue;
-    std::string place;
-    if (!outcome.file.empty()) place += fmt::format("file={},", command_escaped(outcome.file, true));
-    if (outcome.line > 0) place += fmt::format("line={},", outcome.line);
-    text += fmt::format("::error {}title={}::{}\n", place, command_escaped(outcome.suite + ": " + outcome.name, true),
+    text += fmt::format("::error {}title={}::{}\n", place_property(outcome.place),
+                        command_escaped(outcome.suite + ": " + outcome.name, true),
                         command_escaped(outcome.failure, false));
   }
   return text;

@@ -15,13 +15,11 @@ struct CheckOutcome {
   std::string suite;    ///< the experiment
   std::string name;     ///< "claim NAME", "threshold EXPRESSION"
   std::string failure;  ///< how it fell short; empty: as it should be
-  std::string file{};   ///< where it is written; empty: nowhere
-  int line = 0;         ///< of that file, from 1; 0: not known
+  std::string place{};  ///< FILE:LINE or FILE where it is written; empty: nowhere
 };
 
-/// Claims, then thresholds. A claim's line is that of its name in `toml`, a threshold's that of its expression as it is
-/// written there.
-[[nodiscard]] std::vector<CheckOutcome> check_outcomes(const ExperimentReport& report, const std::string& toml = {});
+/// Claims, then thresholds.
+[[nodiscard]] std::vector<CheckOutcome> check_outcomes(const ExperimentReport& report);
 
 /// "NAME: FAILURE" of what fell short.
 [[nodiscard]] std::vector<std::string> shortfalls_of(std::span<const CheckOutcome> outcomes);

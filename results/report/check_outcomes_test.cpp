@@ -20,11 +20,12 @@ ClaimOutcome claim(const std::string& name, const std::string& inequality, Verdi
   claim.name = name;
   claim.inequality = inequality;
   claim.outcome = outcome;
+  claim.place = name == "good" ? "a,b/mine.toml:3" : "a,b/mine.toml:6";
   return claim;
 }
 
 ThresholdOutcome threshold(const std::string& measure, double measured) {
-  return {.measure = measure, .limit = 0.5, .measured = measured, .problem = {}, .written = "error(*)"};
+  return {.measure = measure, .limit = 0.5, .measured = measured, .problem = {}, .place = "a,b/mine.toml:8"};
 }
 
 ExperimentReport report() {
@@ -37,24 +38,21 @@ ExperimentReport report() {
   return report;
 }
 
-const std::string toml =
-    "[experiment]\n[[claim]]\nname = \"good\"\n\n[[claim]]\nname = \"bad\"\n[threshold]\n\"error(*)\" = 0.5\n";
-
-TEST(CheckOutcomes, AreClaimsAndThresholdsWithTheirLines) {
-  const std::vector<CheckOutcome> outcomes = check_outcomes(report(), toml);
+TEST(CheckOutcomes, AreClaimsAndThresholdsWithTheirPlaces) {
+  const std::vector<CheckOutcome> outcomes = check_outcomes(report());
   ASSERT_THAT(outcomes, SizeIs(4));
   EXPECT_THAT(outcomes[0].failure, IsEmpty());
-  EXPECT_EQ(outcomes[0].line, 3);
-  EXPECT_EQ(outcomes[1].line, 6);
+  EXPECT_EQ(outcomes[0].place, "a,b/mine.toml:3");
+  EXPECT_EQ(outcomes[1].place, "a,b/mine.toml:6");
   EXPECT_THAT(outcomes[2].failure, IsEmpty());
-  EXPECT_EQ(outcomes[3].line, 8);
+  EXPECT_EQ(outcomes[3].place, "a,b/mine.toml:8");
   EXPECT_TRUE(says(outcomes[3].failure, "at most 0.50000, measured 0.75000"));
   EXPECT_EQ(shortfalls_of(outcomes), report().shortfalls());
   EXPECT_THAT(shortfalls_of(outcomes), SizeIs(2));
 }
 
 TEST(CheckOutcomes, JunitCountsAndEscapes) {
-  std::vector<CheckOutcome> outcomes = check_outcomes(report(), toml);
+  std::vector<CheckOutcome> outcomes = check_outcomes(report());
   outcomes.push_back({.suite = "<other>", .name = "claim \x01", .failure = ""});
   const std::string xml = junit_xml(outcomes);
   EXPECT_TRUE(says(xml, "<testsuites tests=\"5\" failures=\"2\">"));
@@ -66,7 +64,7 @@ TEST(CheckOutcomes, JunitCountsAndEscapes) {
 }
 
 TEST(CheckOutcomes, AnnotationsAreOfWhatFellShort) {
-  const std::string text = github_annotations(check_outcomes(report(), toml));
+  const std::string text = github_annotations(check_outcomes(report()));
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2);
   EXPECT_TRUE(says(text, "::error file=a%2Cb/mine.toml,line=6,title=mine%3A claim bad::"));
   EXPECT_TRUE(says(text, "::error file=a%2Cb/mine.toml,line=8,title=mine%3A threshold error(b)::at most 0.5"));

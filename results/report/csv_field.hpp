@@ -1,7 +1,9 @@
 // Fields and lines of comma-separated values after RFC 4180.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -18,7 +20,18 @@ namespace footprint {
 
 inline constexpr std::string_view csv_line_end = "\r\n";
 
-/// The names of the columns of results.csv, and one record below them; without an end of the line.
+/// A column and the place of its value in a JSON document.
+struct CsvColumn {
+  std::string_view name;
+  const char* place;  ///< JSON pointer
+};
+
+/// The names of columns, and their values in `document`; without an end of the line. An absent or null value is empty,
+/// a list "a;b", an object "name=value;name=value".
+[[nodiscard]] std::string csv_header(std::span<const CsvColumn> columns);
+[[nodiscard]] std::string csv_line(std::span<const CsvColumn> columns, const nlohmann::ordered_json& document);
+
+/// The same of results.csv.
 [[nodiscard]] std::string csv_header();
 [[nodiscard]] std::string csv_line(const Record& record);
 

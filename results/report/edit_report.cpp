@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "renderer/core/files.hpp"
@@ -12,24 +11,14 @@
 #include "results/report/csv_field.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/markdown_table.hpp"
+#include "results/report/record_fields.hpp"
 #include "results/report/results_document.hpp"
 
 namespace footprint {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr const char* edit_schema = "footprint-edit/1";
 constexpr double milliseconds = 1e3;
-
-Json record_json(const EditRecord& record) {
-  Json stages = Json::object();
-  for (const StageTime& time : record.stages) stages[time.stage] = json_number(milliseconds * time.seconds);
-  return {{"frame", record.frame},         {"parameters", record.parameters},
-          {"stage_ms", std::move(stages)}, {"edit_ms", json_number(milliseconds * record.seconds())},
-          {"bytes", record.bytes},         {"notes", record.notes},
-          {"image", record.image}};
-}
 
 std::optional<double> stage_ms(const EditRecord& record, const std::string& stage) {
   const auto found = std::ranges::find(record.stages, stage, &StageTime::stage);
@@ -70,19 +59,30 @@ std::vector<std::string> stage_names(const EditRun& run) {
   return names;
 }
 
-std::string edit_json(const EditRun& run) {
-  Json records = Json::array();
-  for (const EditRecord& record : run.records) records.push_back(record_json(record));
-  const Json document{{"schema", edit_schema},
-                      {"tool", tool_json(run.tool)},
-                      {"backend", backend_json(run.backend)},
-                      {"scene", scene_json(run.scene)},
-                      {"kind", run.kind},
-                      {"method", run.method},
-                      {"size", Json::array({run.width, run.height})},
-                      {"records", std::move(records)}};
-  return json_text(document, 2) + "\n";
+void fields(JsonWriter& archive, const EditRecord& value) {
+  archive("frame", value.frame);
+  archive("parameters", value.parameters);
+  archive.group("stage_ms", [&](JsonWriter& stages) {
+    for (const StageTime& time : value.stages) stages(time.stage.c_str(), milliseconds * time.seconds);
+  });
+  archive("edit_ms", milliseconds * value.seconds());
+  archive("bytes", value.bytes);
+  archive("notes", value.notes);
+  archive("image", value.image);
 }
+
+void fields(JsonWriter& archive, const EditRun& value) {
+  archive("schema", edit_schema);
+  archive("tool", value.tool);
+  archive("backend", value.backend);
+  archive("scene", value.scene);
+  archive("kind", value.kind);
+  archive("method", value.method);
+  archive("size", std::tie(value.width, value.height));
+  archive("records", value.records);
+}
+
+std::string edit_json(const EditRun& run) { return json_text(to_json_value(run), 2) + "\n"; }
 
 std::string edit_csv(const EditRun& run) {
   const std::vector<std::string> stages = stage_names(run);

@@ -10,16 +10,15 @@ AnimationRecord record_of_frame(int frame, const std::string& method, double err
   AnimationRecord record;
   record.frame = frame;
   record.method = method;
-  record.normalized_color = error;
-  record.noise_floor = 0.01;
+  record.error = FrameError{.normalized_color = error, .noise_floor = 0.01, .causes = {}};
   record.highlight_energy = 0.3;
   record.image = fmt::format("images/{}_{:04}.exr", stem, frame);
   if (frame == 0) return record;
-  record.causes.shading = 0.9 * error;
-  record.flicker = Flicker{.mean = 2 * error, .p99 = 3 * error, .noise_floor = {}};
-  record.flicker_causes.shading = PartFlicker{.mean = error, .p99 = error};
-  record.flicker_causes.edges = PartFlicker{.mean = 3 * error, .p99 = 3 * error};
-  if (method != "a") record.flicker_causes.filter = PartFlicker{.mean = 0.05, .p99 = 0.1};
+  record.error->causes.shading = 0.9 * error;
+  record.flicker = FrameFlicker{.whole = {.mean = 2 * error, .p99 = 3 * error, .noise_floor = {}}, .causes = {}};
+  record.flicker->causes.shading = PartFlicker{.mean = error, .p99 = error};
+  record.flicker->causes.edges = PartFlicker{.mean = 3 * error, .p99 = 3 * error};
+  if (method != "a") record.flicker->causes.filter = PartFlicker{.mean = 0.05, .p99 = 0.1};
   return record;
 }
 
@@ -59,7 +58,7 @@ Animation hostile_animation() {
     if (record.method != "a") record.method = "<img src=x onerror=\"document.title='broken'\">";
   }
   animation.frames[1].highlight_energy.reset();
-  animation.records[2].normalized_color.reset();
+  animation.records[2].error.reset();
   animation.records[3].flicker.reset();
   animation.film = "images/film.mp4";
   return animation;

@@ -175,8 +175,10 @@ Results example_results() {
   for (std::size_t i = 8; i < 12; ++i)
     results.records[i].pixels = {.object = 30, .interior = 7, .minified = 7, .bound = {}, .light = {}};
   results.records[1].error->causes.light = 0.0021;
-  results.records[1].work = {.fetches = 96.5, .lobes = 12.25};
-  results.records[3].frame_build = FrameBuildTime{.ms = 0.31, .timing = BuildTiming::every_frame};
+  results.records[1].fetches = 96.5;
+  results.records[1].lobes = 12.25;
+  results.records[3].frame_build_ms = 0.31;
+  results.records[3].frame_build = BuildTiming::every_frame;
   results.records[3].precompute_cached = true;
   results.records[0].other_references = {{16, 0.0223, 0.0029}, {36, 0.0217, {}}};
   results.records[4].flicker = Flicker{.mean = 0.031, .p99 = 0.4, .noise_floor = 0.002};

@@ -1,9 +1,12 @@
 // What became of an experiment: its figures beside the published ones, its claims and thresholds (docs/experiments.md).
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "renderer/core/words.hpp"
 
 namespace footprint {
 
@@ -13,6 +16,14 @@ enum class Verdict {
   not_reproduced,
   undecided  ///< a figure is missing; never expected
 };
+
+/// As reports write it.
+inline constexpr std::array<Word<Verdict>, 3> verdict_words{{
+    {Verdict::reproduced, "reproduced"},
+    {Verdict::not_reproduced, "not_reproduced"},
+    {Verdict::undecided, "undecided"},
+}};
+constexpr const auto& words_of(Verdict /*verdict*/) { return verdict_words; }
 
 /// A figure that a paper prints, and the one that was measured.
 struct PublishedFigure {
@@ -40,6 +51,7 @@ struct ClaimOutcome {
   std::string problem;  ///< of an undecided one
   std::optional<double> left, right;
   std::vector<ClaimFigure> figures;
+  std::string place{};  ///< FILE:LINE of the claim
 
   [[nodiscard]] bool as_expected() const { return outcome == expect; }
 };
@@ -49,8 +61,8 @@ struct ThresholdOutcome {
   std::string measure;
   double limit = 0;
   std::optional<double> measured;
-  std::string problem;    ///< why there is no figure, or empty
-  std::string written{};  ///< its key in the file, whose `*` each method has an outcome of
+  std::string problem;  ///< why there is no figure, or empty
+  std::string place{};  ///< FILE:LINE of the threshold
 
   [[nodiscard]] bool held() const { return measured && *measured <= limit; }
 };

@@ -48,7 +48,7 @@ Table published_table(const ExperimentReport& report) {
 
 // As people write it.
 std::string_view in_words(Verdict verdict) {
-  return verdict == Verdict::not_reproduced ? "not reproduced" : verdict_name(verdict);
+  return verdict == Verdict::not_reproduced ? "not reproduced" : word_for(verdict_words, verdict);
 }
 
 std::string outcome_text(const ClaimOutcome& claim) {

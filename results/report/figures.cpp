@@ -21,7 +21,7 @@ std::string reference_text(const ReferenceInfo& reference) {
   if (reference.samples > reference.spp)
     text += fmt::format(" at first, {} on average after refinement", three_figures(reference.samples));
   text += fmt::format(", {} s, filter {}, seed {}", three_figures(reference.seconds), reference.filter, reference.seed);
-  if (!reference.environment.empty()) text += fmt::format(", environment {}", reference.environment);
+  if (reference.environment) text += fmt::format(", environment {}", *reference.environment);
   std::vector<double> known;
   for (const std::optional<double>& error : reference.standard_errors) {
     if (error) known.push_back(*error);
@@ -92,22 +92,6 @@ std::string equivalent_text(const Record& record) {
   if (!spp) return equivalent_bound(record);
   const std::string text = *spp < 9.95 ? fmt::format("{:.1f}", *spp) : fmt::format("{:.0f}", *spp);
   return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
-}
-
-std::string_view timing_name(BuildTiming timing) {
-  return timing == BuildTiming::every_frame ? "every frame" : "reused";
-}
-
-std::string_view verdict_name(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::reproduced:
-      return "reproduced";
-    case Verdict::not_reproduced:
-      return "not_reproduced";
-    case Verdict::undecided:
-      break;
-  }
-  return "undecided";
 }
 
 bool at_noise_floor(const Record& record) {

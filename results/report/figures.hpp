@@ -43,12 +43,6 @@ namespace footprint {
 /// "41", "1.5", or the bound.
 [[nodiscard]] std::string equivalent_text(const Record& record);
 
-/// "every frame", "reused".
-[[nodiscard]] std::string_view timing_name(BuildTiming timing);
-
-/// "reproduced", "not_reproduced", "undecided".
-[[nodiscard]] std::string_view verdict_name(Verdict verdict);
-
 /// Whether the error, over all of the object, cannot be told from the reference's own noise.
 [[nodiscard]] bool at_noise_floor(const Record& record);
 

@@ -9,10 +9,10 @@
 
 #include "renderer/core/files.hpp"
 #include "results/report/csv_field.hpp"
-#include "results/report/experiment_json.hpp"
 #include "results/report/experiment_section.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/markdown_table.hpp"
+#include "results/report/record_fields.hpp"
 #include "results/report/results_document.hpp"
 
 namespace footprint {
@@ -23,10 +23,8 @@ using Json = nlohmann::ordered_json;
 constexpr const char* matrix_schema = "footprint-matrix/1";
 
 Json member_json(const MatrixMember& member) {
-  Json coordinates = Json::object();
-  for (const auto& [axis, value] : member.results.coordinates) coordinates[axis] = value;
   return {{"folder", member.folder},
-          {"coordinates", std::move(coordinates)},
+          {"coordinates", to_json_value(member.results.coordinates)},
           {"scene", member.results.scene.name},
           {"footprint", member.results.footprint},
           {"spp", member.results.reference.spp},
@@ -74,9 +72,9 @@ std::string matrix_json(const MatrixResults& matrix) {
   Json members = Json::array();
   for (const MatrixMember& member : matrix.members) members.push_back(member_json(member));
   const Json document{{"schema", matrix_schema},
-                      {"tool", tool_json(matrix.members.front().results.tool)},
-                      {"backend", backend_json(matrix.members.front().results.backend)},
-                      {"experiment", experiment_json(matrix.report)},
+                      {"tool", to_json_value(matrix.members.front().results.tool)},
+                      {"backend", to_json_value(matrix.members.front().results.backend)},
+                      {"experiment", to_json_value(matrix.report)},
                       {"left_out", matrix.left_out},
                       {"members", std::move(members)}};
   return json_text(document, 2) + "\n";

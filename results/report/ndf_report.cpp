@@ -4,67 +4,86 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "results/report/markdown_table.hpp"
+#include "results/report/record_fields.hpp"
+#include "results/report/results_document.hpp"
 
 namespace footprint {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json images_json(const NdfImages& images) {
-  Json json{{"density", images.density}, {"picture", images.picture}};
-  if (!images.difference.empty()) json["difference"] = images.difference;
-  return json;
-}
-
-Json record_json(const NdfRecord& record) {
-  Json options = Json::object();
-  for (const auto& [name, value] : record.options) {
-    options[name] = std::visit([](const auto& held) { return Json(held); }, value);
-  }
-  return {{"l2", number(record.l2)}, {"energy", number(record.energy)}, {"peak", number(record.peak)},
-          {"lobes", record.lobes},   {"options", std::move(options)},   {"images", images_json(record.images)}};
-}
-
-Json methods_json(const NdfResults& results) {
-  Json methods = Json::object();
-  for (const NdfRecord& record : results.records) methods[record.method] = record_json(record);
-  return methods;
-}
 
 std::string figure(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "not finite"; }
 
 }  // namespace
 
-std::string ndf_json(const NdfResults& r) {
-  const Json json{
-      {"schema", ndf_schema},
-      {"tool", {{"name", "footprint"}, {"version", r.version}}},
-      {"source",
-       {{"path", r.source},
-        {"kind", r.kind},
-        {"material", r.material},
-        {"width", r.map_size[0]},
-        {"height", r.map_size[1]}}},
-      {"lobe", {{"narrowest", r.lobe}, {"varies", r.lobe_varies}}},
-      {"footprint", {{"u0", r.footprint[0]}, {"v0", r.footprint[1]}, {"u1", r.footprint[2]}, {"v1", r.footprint[3]}}},
-      {"texels", {{"area", number(r.texels)}, {"valid_share", number(r.valid_share)}, {"distinct", r.facets}}},
-      {"fetch", {{"level", number(r.level)}, {"filter", r.filter}}},
-      {"grid", {{"resolution", r.resolution}, {"directions", r.directions}, {"fine_enough", r.fine_enough}}},
-      {"pictures", {{"scale", number(r.scale)}, {"strip", r.strip}}},
-      {"truth",
-       {{"energy", number(r.truth.energy)},
-        {"expected_energy", number(r.truth.expected_energy)},
-        {"peak", number(r.truth.peak)},
-        {"images", images_json(r.truth.images)}}},
-      {"methods", methods_json(r)},
-      {"notes", r.notes}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+void fields(JsonWriter& archive, const NdfImages& value) {
+  archive("density", value.density);
+  archive("picture", value.picture);
+  if (!value.difference.empty()) archive("difference", value.difference);
 }
+
+void fields(JsonWriter& archive, const NdfRecord& value) {
+  archive("l2", value.l2);
+  archive("energy", value.energy);
+  archive("peak", value.peak);
+  archive("lobes", value.lobes);
+  archive("options", value.options);
+  archive("images", value.images);
+}
+
+void fields(JsonWriter& archive, const NdfTruth& value) {
+  archive("energy", value.energy);
+  archive("expected_energy", value.expected_energy);
+  archive("peak", value.peak);
+  archive("images", value.images);
+}
+
+void fields(JsonWriter& archive, const NdfResults& value) {
+  archive("schema", ndf_schema);
+  archive("tool", ToolInfo{.name = "footprint", .version = value.version});
+  archive.group("source", [&](JsonWriter& source) {
+    source("path", value.source);
+    source("kind", value.kind);
+    source("material", value.material);
+    source("width", value.map_size[0]);
+    source("height", value.map_size[1]);
+  });
+  archive.group("lobe", [&](JsonWriter& lobe) {
+    lobe("narrowest", value.lobe);
+    lobe("varies", value.lobe_varies);
+  });
+  archive.group("footprint", [&](JsonWriter& footprint) {
+    footprint("u0", value.footprint[0]);
+    footprint("v0", value.footprint[1]);
+    footprint("u1", value.footprint[2]);
+    footprint("v1", value.footprint[3]);
+  });
+  archive.group("texels", [&](JsonWriter& texels) {
+    texels("area", value.texels);
+    texels("valid_share", value.valid_share);
+    texels("distinct", value.facets);
+  });
+  archive.group("fetch", [&](JsonWriter& fetch) {
+    fetch("level", value.level);
+    fetch("filter", value.filter);
+  });
+  archive.group("grid", [&](JsonWriter& grid) {
+    grid("resolution", value.resolution);
+    grid("directions", value.directions);
+    grid("fine_enough", value.fine_enough);
+  });
+  archive.group("pictures", [&](JsonWriter& pictures) {
+    pictures("scale", value.scale);
+    pictures("strip", value.strip);
+  });
+  archive("truth", value.truth);
+  archive.group("methods", [&](JsonWriter& methods) {
+    for (const NdfRecord& record : value.records) methods(record.method.c_str(), record);
+  });
+  archive("notes", value.notes);
+}
+
+std::string ndf_json(const NdfResults& results) { return json_text(to_json_value(results), 2) + "\n"; }
 
 std::string ndf_table(const NdfResults& results) {
   std::vector<std::vector<std::string>> rows;

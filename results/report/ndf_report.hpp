@@ -23,7 +23,7 @@ struct NdfImages {
 /// One method's effective NDF beside the true one. Figures that are not finite were not to be had.
 struct NdfRecord {
   std::string method;  ///< as written
-  std::map<std::string, std::variant<double, std::string>, std::less<>> options;
+  std::map<std::string, std::variant<double, std::string>> options;
   double l2 = 0.0;      ///< relative L2 error over solid angle
   double energy = 0.0;  ///< over the truth's
   double peak = 0.0;    ///< largest density, per steradian

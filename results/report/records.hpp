@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "renderer/core/words.hpp"
 #include "results/report/experiment_report.hpp"
 
 namespace footprint {
@@ -27,23 +28,18 @@ struct EquivalentSamples {
   CurveSide side = CurveSide::within;
 };
 
-/// When what a method rebuilds is rebuilt, and so whether `frame_ms` has it in it.
+/// Whether the timed frames include the rebuild of a method's maps.
 enum class BuildTiming {
-  every_frame,  ///< it has
-  reused        ///< it has not: the timed frames kept what was built before them
+  every_frame,  ///< every frame rebuilds them
+  reused        ///< the frames reuse maps that were built before them
 };
 
-/// What a method rebuilds when something moves.
-struct FrameBuildTime {
-  double ms = 0;  ///< median
-  BuildTiming timing = BuildTiming::every_frame;
-};
-
-/// What a pixel costs, counted: means over the object.
-struct RecordWork {
-  double fetches = 0;  ///< texture lookups
-  double lobes = 0;    ///< evaluated, over all lights
-};
+/// As reports write it.
+inline constexpr std::array<Word<BuildTiming>, 2> build_timing_words{{
+    {BuildTiming::every_frame, "every frame"},
+    {BuildTiming::reused, "reused"},
+}};
+constexpr const auto& words_of(BuildTiming /*timing*/) { return build_timing_words; }
 
 /// Median with its spread over the repeats of one run.
 struct FrameTime {
@@ -142,10 +138,12 @@ struct Record {
   std::optional<Flicker> flicker;                ///< none: no frame of a zoom, or its first
   std::string node = {};                         ///< the machine that the times below were taken on
   FrameTime frame_ms;
-  std::optional<FrameBuildTime> frame_build;  ///< none: the method rebuilds nothing
-  double fps = 0;                             ///< 1000 / frame_ms.median
+  std::optional<double> frame_build_ms;    ///< median time to rebuild the method's maps; none: it rebuilds nothing
+  std::optional<BuildTiming> frame_build;  ///< whether `frame_ms` includes that time; none: it rebuilds nothing
+  double fps = 0;                          ///< 1000 / frame_ms.median
   TimeRatio ratio_to_direct;
-  std::optional<RecordWork> work;        ///< none: not counted
+  std::optional<double> fetches;         ///< texture lookups per pixel, mean over the object; none: not counted
+  std::optional<double> lobes;           ///< lobes per pixel over all lights, mean over the object; none: not counted
   std::vector<MaterialError> materials;  ///< in the order of the scene; empty where the run does not tell them apart
   double precompute_seconds = 0;
   std::uint64_t precompute_bytes = 0;
@@ -229,7 +227,7 @@ struct ReferenceInfo {
   std::uint64_t seed = 0;
   /// At each distance or frame: root mean square of the per-pixel standard error over mean radiance; none: unknown.
   std::vector<std::optional<double>> standard_errors = {};
-  std::string environment = {};  ///< sampled or dense; empty without one
+  std::optional<std::string> environment = {};  ///< sampled or dense; none: the scene has no environment
   double samples = 0;  ///< mean samples a pixel over all distances: `spp`, and more where the noise asked for it
   double seconds = 0;  ///< that its pictures took, all distances together
 };

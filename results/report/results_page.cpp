@@ -13,6 +13,7 @@
 #include "results/report/matrix_report.hpp"
 #include "results/report/page_shell.hpp"
 #include "results/report/ranking.hpp"
+#include "results/report/record_fields.hpp"
 #include "results/report/report.hpp"
 #include "results/report/results_document.hpp"
 #include "results/report/text_template.hpp"
@@ -54,31 +55,33 @@ bool is_best(const Record& record, const DistanceRecords& records) {
 Json display(const Record& record, const DistanceRecords& records) {
   const auto cause = [&record](auto member) { return record.error ? error_text(record.error->causes.*member) : "n/a"; };
   const std::optional<int> place = rank(record, records);
-  const std::optional<FrameBuildTime>& build = record.frame_build;
+  const std::optional<double>& build = record.frame_build_ms;
   const std::size_t interior = record.pixels.interior;
-  return {{"rank", place ? fmt::format("{}", *place) : "–"},
-          {"error", record.error ? error_text(record.error->normalized_color) : "n/a"},
-          {"shading", cause(&ErrorCauses::shading)},
-          {"at_floor", shading_at_noise_floor(record)},
-          {"edges", cause(&ErrorCauses::edges)},
-          {"filter", cause(&ErrorCauses::filter)},
-          {"method", cause(&ErrorCauses::method)},
-          {"light", cause(&ErrorCauses::light)},
-          {"representation", record.error ? error_text(record.error->representation) : "n/a"},
-          {"equivalent", equivalent_text(record)},
-          {"pixels", fmt::format("{}{}", interior, interior < few_pixels ? " !" : "")},
-          {"frame", spread_text(record.frame_ms.median, record.frame_ms.minimum, record.frame_ms.p90)},
-          {"ratio", ratio_text(record.ratio_to_direct)},
-          {"fps", three_figures(record.fps)},
-          {"fetches", record.work ? three_figures(record.work->fetches) : "–"},
-          {"lobes", record.work ? three_figures(record.work->lobes) : "–"},
-          {"build", build ? fmt::format("{}, {}", three_figures(build->ms), timing_name(build->timing)) : "none"},
-          {"precompute", three_figures(record.precompute_seconds)},
-          {"bytes", readable_bytes(record.precompute_bytes)},
-          {"bytes_per_texel", bytes_per_texel_text(record)},
-          {"left_out", list_text(record.effects_left_out, "none")},
-          {"is_best", is_best(record, records)},
-          {"is_fastest", is_fastest(record, records)}};
+  return {
+      {"rank", place ? fmt::format("{}", *place) : "–"},
+      {"error", record.error ? error_text(record.error->normalized_color) : "n/a"},
+      {"shading", cause(&ErrorCauses::shading)},
+      {"at_floor", shading_at_noise_floor(record)},
+      {"edges", cause(&ErrorCauses::edges)},
+      {"filter", cause(&ErrorCauses::filter)},
+      {"method", cause(&ErrorCauses::method)},
+      {"light", cause(&ErrorCauses::light)},
+      {"representation", record.error ? error_text(record.error->representation) : "n/a"},
+      {"equivalent", equivalent_text(record)},
+      {"pixels", fmt::format("{}{}", interior, interior < few_pixels ? " !" : "")},
+      {"frame", spread_text(record.frame_ms.median, record.frame_ms.minimum, record.frame_ms.p90)},
+      {"ratio", ratio_text(record.ratio_to_direct)},
+      {"fps", three_figures(record.fps)},
+      {"fetches", record.fetches ? three_figures(*record.fetches) : "–"},
+      {"lobes", record.lobes ? three_figures(*record.lobes) : "–"},
+      {"build", build ? fmt::format("{}, {}", three_figures(*build), word_for(build_timing_words, *record.frame_build))
+                      : "none"},
+      {"precompute", three_figures(record.precompute_seconds)},
+      {"bytes", readable_bytes(record.precompute_bytes)},
+      {"bytes_per_texel", bytes_per_texel_text(record)},
+      {"left_out", list_text(record.effects_left_out, "none")},
+      {"is_best", is_best(record, records)},
+      {"is_fastest", is_fastest(record, records)}};
 }
 
 /// What was found at a distance, and the scale of its error pictures.
@@ -99,10 +102,8 @@ Json run_json(const Results& results, const std::string& folder) {
   for (const Record& record : results.records) records.push_back(display(record, records_at(results, record.distance)));
   Json distances = Json::array();
   for (const double distance : distances_of(results)) distances.push_back(distance_json(results, distance));
-  Json coordinates = Json::object();
-  for (const auto& [axis, value] : results.coordinates) coordinates[axis] = value;
   return {{"folder", folder},
-          {"coordinates", std::move(coordinates)},
+          {"coordinates", to_json_value(results.coordinates)},
           {"results", results_document(results)},
           {"provenance", std::move(head)},
           {"display", std::move(records)},

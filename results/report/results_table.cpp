@@ -72,8 +72,8 @@ std::vector<MarkdownColumn> error_columns(const DistanceRecords& records) {
 std::vector<std::string> time_row(const Record& record) {
   const FrameTime& frame = record.frame_ms;
   return {spread_text(frame.median, frame.minimum, frame.p90), ratio_text(record.ratio_to_direct),
-          three_figures(record.fps), record.work ? three_figures(record.work->fetches) : "-",
-          record.work ? three_figures(record.work->lobes) : "-"};
+          three_figures(record.fps), record.fetches ? three_figures(*record.fetches) : "-",
+          record.lobes ? three_figures(*record.lobes) : "-"};
 }
 
 constexpr std::size_t terminal = 130;  // columns
@@ -220,9 +220,8 @@ std::string frame_build_section(const Results& results) {
   Rows rows;
   for (const Record& record : results.records) {
     if (!record.frame_build) continue;
-    const auto [ms, timing] = *record.frame_build;
-    rows.push_back(
-        {record.method, fmt::format("{}", record.distance), three_figures(ms), std::string(timing_name(timing))});
+    rows.push_back({record.method, fmt::format("{}", record.distance), three_figures(record.frame_build_ms.value_or(0)),
+                    std::string(word_for(build_timing_words, *record.frame_build))});
   }
   if (rows.empty()) return {};
   return "\n## Frame build\n\n" +

@@ -1,4 +1,4 @@
-"""Small experiments whose finished work is kept, for the tests that kill them, split them and join them."""
+"""Small experiments that store their finished work, for the tests that kill, split and merge them."""
 
 import json
 import subprocess
@@ -59,8 +59,14 @@ def outcome(folder):
 
 
 def finished(folder):
-    """When each finished part was written, by its key."""
-    return {file.stem: file.stat().st_mtime_ns for file in (folder / "kept").glob("*/*.done")}
+    """When each finished part was written, by its key RUN/NAME."""
+    kept = folder / "kept"
+    return {str(file.relative_to(kept).with_suffix("")): file.stat().st_mtime_ns for file in kept.glob("*/*.json")}
+
+
+def names(keys):
+    """The names of parts, sorted."""
+    return sorted(key.split("/")[1] for key in keys)
 
 
 class KeptRunTest(WholeRunTest):

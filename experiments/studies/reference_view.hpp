@@ -3,7 +3,7 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@
 namespace footprint {
 
 /// Another reference, of another count of samples.
-struct OtherTruth {
+struct OtherReferenceImage {
   int spp = 1;
   Image mean;
   std::optional<double> noise_floor;
@@ -29,7 +29,7 @@ struct LightPart {
 };
 
 /// Paths from the output folder, as in RecordImages.
-struct TruthFiles {
+struct ReferenceFiles {
   std::string reference, standard_error, interior;
 };
 
@@ -42,7 +42,7 @@ struct TruthFiles {
                                 const Progress& progress);
 
 /// What is known of one distance.
-struct Truth {
+struct ReferenceView {
   std::size_t frame = 0;
   double distance = 1;
   View view;
@@ -52,86 +52,85 @@ struct Truth {
   Image unresolved;        ///< a mask of them
   double samples = 0;      ///< a pixel, mean over the picture
   double seconds = 0;      ///< that the reference took
+  std::optional<double> wanted_noise;  ///< noise floor that it was refined to; none: it was not refined
   std::optional<double> noise_floor, shading_floor;
   PixelParts parts;
   std::vector<Image> materials;  ///< masks of the interior pixels of each material; empty where they are not told apart
   std::optional<BoundPicture> bound;
   LightPart light;  ///< empty without an environment
-  TruthFiles files;
+  ReferenceFiles files;
   std::vector<SupersamplingPoint> curve;
-  std::vector<OtherTruth> others;
+  std::vector<OtherReferenceImage> others;
   std::vector<std::string> warnings;
 };
 
-/// What several comparisons of one scene have in common, distance by distance: the reference, as far as the methods of
-/// the first comparison asked for. Its noise is a part of every error that is measured against it, so that errors of
-/// different comparisons can be ranked only against the very same one.
-struct SharedTruth {
+/// The references that several comparisons of one scene, view and reference share, distance by distance. A reference's
+/// noise is a part of every error that is measured against it, so errors of different comparisons can be ranked only
+/// against the very same reference.
+struct SharedReferences {
   struct AtDistance {
     double distance = 1;
     Supersampled reference;
-    Image begun;         ///< its mean over the samples that it begins with, by which the exposure is chosen
-    Image first;         ///< and over those of finest levels
-    double samples = 0;  ///< a pixel, mean over the picture; 0: it has those that it begins with, and may need more
+    Image begun;         ///< its mean over its first samples, by which the exposure is chosen
+    Image first;         ///< its mean over the samples of finest levels
+    double samples = 0;  ///< per pixel, mean over the image; 0: it has its first samples, and may need more
     double seconds = 0;  ///< that all of it took
     std::optional<Interior> interior;
   };
   std::vector<AtDistance> distances;
+  std::map<double, double> wanted_noise;  ///< by distance, the noise floor that the first comparison asked for
 
-  /// Null where it has none.
+  /// Null if there is none.
   [[nodiscard]] AtDistance* at(double distance);
 };
 
-/// Finds it distance by distance. Keeps the addresses of what it is given.
-class TruthFinder {
+/// Renders the references of a comparison. Keeps the addresses of its arguments.
+class ReferenceRenderer {
  public:
-  /// `exposure` is asked for the factor once the first reference is there, unless it is known. Pictures go to
-  /// FOLDER/images. What `shared` has is taken from there, and what it lacks is added: for comparisons of the same
-  /// scene, view and reference.
-  TruthFinder(const RunSettings& settings, const Stage& stage, std::filesystem::path folder,
-              std::function<float(const Image& first_reference)> exposure, ProgressParts& progress,
-              SharedTruth* shared = nullptr);
+  /// folder: images go to its images/.
+  /// shared: references are taken from here and added here; null: every reference is rendered.
+  ReferenceRenderer(const RunSettings& settings, const Stage& stage, std::filesystem::path folder,
+                    ProgressParts& progress, SharedReferences* shared = nullptr);
 
-  /// What it weighs in progress, a distance.
+  /// The share of progress that a distance takes.
   [[nodiscard]] static double weight(const RunSettings& settings);
 
-  /// The exposure is chosen by the first reference, which is that of frame 0, unless it is known before.
-  [[nodiscard]] Truth find(std::size_t frame, double distance);
+  /// The first samples of the reference at a distance, from which an exposure is chosen.
+  [[nodiscard]] const Image& first_samples(double distance);
 
-  /// The exposure as it was chosen in another run.
-  void set_exposure(float exposure);
+  /// Everything about one distance; writes its images.
+  [[nodiscard]] ReferenceView find(std::size_t frame, double distance, float exposure);
 
-  /// Chooses it by the reference's first samples at `first_distance`, where no truth of that one is to be found.
-  void choose_exposure(double first_distance);
+  /// The reference alone.
+  [[nodiscard]] ReferenceView render(std::size_t frame, double distance, float exposure);
 
-  /// Why there is no bound, where there is none.
+  /// Why there is no bound, if there is none.
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
-  void render_reference(Truth& truth, const std::string& prefix);
-  [[nodiscard]] SharedTruth::AtDistance& begun_reference(SharedTruth& shared, const Truth& truth,
-                                                         const std::string& prefix);
-  [[nodiscard]] Image samples_of_finest_levels(const Truth& truth, const Image& whole, const Progress& progress);
-  void refine_reference(SharedTruth::AtDistance& begun, const View& view, const Progress& progress);
-  [[nodiscard]] double noise_that_tells_apart(const Supersampled& reference, const View& view) const;
-  void write_reference(Truth& truth) const;
-  void leave_out_unresolved(Truth& truth) const;
-  void find_parts(Truth& truth, const std::string& prefix);
-  [[nodiscard]] Interior interior_of(const Truth& truth, const Progress& progress) const;
-  [[nodiscard]] OtherTruth other_truth(const Truth& truth, int spp, const std::string& prefix);
+  [[nodiscard]] ReferenceView refined(std::size_t frame, double distance, float exposure);
+  [[nodiscard]] SharedReferences::AtDistance& begun_reference(double distance, const std::string& prefix);
+  [[nodiscard]] Image samples_of_finest_levels(const View& view, const Image& whole, const Progress& progress);
+  void refine_reference(SharedReferences::AtDistance& begun, const View& view, const Progress& progress);
+  [[nodiscard]] double noise_wanted(const SharedReferences::AtDistance& begun, const View& view);
+  [[nodiscard]] double noise_that_separates(const Supersampled& reference, const View& view) const;
+  void write_reference(ReferenceView& target) const;
+  void leave_out_unresolved(ReferenceView& target) const;
+  void find_parts(ReferenceView& target, const std::string& prefix);
+  [[nodiscard]] Interior interior_of(const ReferenceView& target, const Progress& progress) const;
+  [[nodiscard]] OtherReferenceImage other_reference(const ReferenceView& target, int spp, const std::string& prefix);
 
   const RunSettings& settings_;
   const Stage& stage_;
   std::filesystem::path folder_;
-  std::function<float(const Image&)> choose_exposure_;
   ProgressParts& progress_;
-  std::optional<float> known_exposure_;
-  float exposure_ = 1.0F;
+  float exposure_ = 1.0F;  // of the distance that is rendered
   InteriorFinder interior_finder_;
   std::optional<MaterialFinder> material_finder_;  // where materials are told apart
   std::vector<std::string> warnings_;
   std::optional<StagedMethod> bound_;
-  SharedTruth* shared_;
+  SharedReferences own_;  // of the distance that is rendered, if nothing is shared
+  SharedReferences* shared_;
 };
 
 }  // namespace footprint

@@ -1,5 +1,5 @@
 // From the reference's first samples to all that methods are held against at one distance.
-#include "experiments/studies/truth.hpp"
+#include "experiments/studies/reference_view.hpp"
 
 #include <fmt/format.h>
 
@@ -73,111 +73,115 @@ Image finest_mean(const Supersampler& sampler, const View& view, const Reference
   return sampler.render_mean(view, spp, settings.seed, progress);
 }
 
-SharedTruth::AtDistance* SharedTruth::at(double distance) {
+SharedReferences::AtDistance* SharedReferences::at(double distance) {
   const auto known = std::ranges::find(distances, distance, &AtDistance::distance);
   return known != distances.end() ? &*known : nullptr;
 }
 
-TruthFinder::TruthFinder(const RunSettings& settings, const Stage& stage, std::filesystem::path folder,
-                         std::function<float(const Image& first_reference)> exposure, ProgressParts& progress,
-                         SharedTruth* shared)
+ReferenceRenderer::ReferenceRenderer(const RunSettings& settings, const Stage& stage, std::filesystem::path folder,
+                                     ProgressParts& progress, SharedReferences* shared)
     : settings_(settings),
       stage_(stage),
       folder_(std::move(folder)),
-      choose_exposure_(std::move(exposure)),
       progress_(progress),
       interior_finder_(stage.interior_finder()),
       bound_(stage_bound(stage, settings.reference.bound, warnings_)),
-      shared_(shared) {
+      shared_(shared != nullptr ? shared : &own_) {
   if (settings.by_material)
     material_finder_.emplace(stage.context().info(), stage.scene(), stage.view(1.0).size, settings.backend.tile);
 }
 
-double TruthFinder::weight(const RunSettings& settings) {
+double ReferenceRenderer::weight(const RunSettings& settings) {
   const ReferenceSettings& reference = settings.reference;
   const double others = std::accumulate(reference.other_spp.begin(), reference.other_spp.end(), 0.0);
   return (1.0 + automatic_work) * reference.spp + finest_samples(reference) + others +
          curve_weight(reference.supersampling) + 2.0 * interior_weight;
 }
 
-Truth TruthFinder::find(std::size_t frame, double distance) {
+const Image& ReferenceRenderer::first_samples(double distance) {
+  return begun_reference(distance, fmt::format("distance {:g}: ", distance)).begun;
+}
+
+ReferenceView ReferenceRenderer::render(std::size_t frame, double distance, float exposure) {
+  ReferenceView target = refined(frame, distance, exposure);
+  leave_out_unresolved(target);
+  return target;
+}
+
+// With its unresolved pixels.
+ReferenceView ReferenceRenderer::refined(std::size_t frame, double distance, float exposure) {
   const std::string prefix = fmt::format("distance {:g}: ", distance);
-  Truth truth;
-  truth.frame = frame;
-  truth.distance = distance;
-  truth.view = stage_.view(distance);
-  render_reference(truth, prefix);
-  write_reference(truth);
-  leave_out_unresolved(truth);
-  truth.noise_floor = noise_floor(truth.reference, exposure_);
-  find_parts(truth, prefix);
-  truth.curve = measured_curve(
-      stage_, settings_.reference, distance,
-      {.reference = truth.reference.mean, .interior = truth.parts.interior, .exposure = exposure_}, progress_);
-  for (const int spp : settings_.reference.other_spp) truth.others.push_back(other_truth(truth, spp, prefix));
-  return truth;
-}
-
-void TruthFinder::set_exposure(float exposure) {
-  known_exposure_ = exposure;
   exposure_ = exposure;
+  ReferenceView target;
+  target.frame = frame;
+  target.distance = distance;
+  target.view = stage_.view(distance);
+  SharedReferences::AtDistance& known = begun_reference(distance, prefix);
+  refine_reference(known, target.view,
+                   progress_.next(automatic_work * settings_.reference.spp, prefix + "reference, "));
+  if (const auto noise = shared_->wanted_noise.find(distance); noise != shared_->wanted_noise.end())
+    target.wanted_noise = noise->second;
+  target.reference = known.reference;
+  target.first = known.first;
+  target.samples = known.samples;
+  target.seconds = known.seconds;
+  return target;
 }
 
-void TruthFinder::choose_exposure(double first_distance) {
-  const ReferenceSettings& asked = settings_.reference;
-  set_exposure(
-      choose_exposure_(stage_.reference()
-                           .render(stage_.view(first_distance), asked.spp, asked.seed, progress_.next(0, "exposure, "))
-                           .mean));
+ReferenceView ReferenceRenderer::find(std::size_t frame, double distance, float exposure) {
+  const std::string prefix = fmt::format("distance {:g}: ", distance);
+  ReferenceView target = refined(frame, distance, exposure);
+  write_reference(target);
+  leave_out_unresolved(target);
+  target.noise_floor = noise_floor(target.reference, exposure_);
+  find_parts(target, prefix);
+  target.curve = measured_curve(
+      stage_, settings_.reference, distance,
+      {.reference = target.reference.mean, .interior = target.parts.interior, .exposure = exposure_}, progress_);
+  for (const int spp : settings_.reference.other_spp) target.others.push_back(other_reference(target, spp, prefix));
+  own_ = {};
+  return target;
 }
 
-void TruthFinder::render_reference(Truth& truth, const std::string& prefix) {
-  SharedTruth own;
-  SharedTruth::AtDistance& known = begun_reference(shared_ != nullptr ? *shared_ : own, truth, prefix);
-  if (!known_exposure_ && truth.frame == 0) set_exposure(choose_exposure_(known.begun));
-  refine_reference(known, truth.view, progress_.next(automatic_work * settings_.reference.spp, prefix + "reference, "));
-  truth.reference = known.reference;
-  truth.first = known.first;
-  truth.samples = known.samples;
-  truth.seconds = known.seconds;
-}
-
-// What does not depend on the methods: rendered, or taken from what is shared.
-SharedTruth::AtDistance& TruthFinder::begun_reference(SharedTruth& shared, const Truth& truth,
-                                                      const std::string& prefix) {
-  const ReferenceSettings& asked = settings_.reference;
-  const Progress reference = progress_.next(asked.spp, prefix + "reference, ");
-  const Progress finest = progress_.next(finest_samples(asked), prefix + "reference, ");
-  if (SharedTruth::AtDistance* known = shared.at(truth.distance)) return *known;
+// Renders the first samples, which do not depend on the methods, unless they are known.
+SharedReferences::AtDistance& ReferenceRenderer::begun_reference(double distance, const std::string& prefix) {
+  const ReferenceSettings& settings = settings_.reference;
+  if (SharedReferences::AtDistance* known = shared_->at(distance)) return *known;
+  const Progress reference = progress_.next(settings.spp, prefix + "reference, ");
+  const Progress finest = progress_.next(finest_samples(settings), prefix + "reference, ");
   const auto begin = std::chrono::steady_clock::now();
-  SharedTruth::AtDistance begun;
-  begun.distance = truth.distance;
-  begun.reference = stage_.reference().render(truth.view, asked.spp, asked.seed, reference);
+  const View view = stage_.view(distance);
+  SharedReferences::AtDistance begun;
+  begun.distance = distance;
+  begun.reference = stage_.reference().render(view, settings.spp, settings.seed, reference);
   begun.begun = begun.reference.mean;
-  begun.first = samples_of_finest_levels(truth, begun.begun, finest);
+  begun.first = samples_of_finest_levels(view, begun.begun, finest);
   begun.seconds = seconds_since(begin);
-  return shared.distances.emplace_back(std::move(begun));
+  return shared_->distances.emplace_back(std::move(begun));
 }
 
 // The reference over the samples of finest levels. Where its samples draw directions from an environment, their noise
 // is its own: methods look the environment up, and a difference of the two would only add it.
-Image TruthFinder::samples_of_finest_levels(const Truth& truth, const Image& whole, const Progress& progress) {
+Image ReferenceRenderer::samples_of_finest_levels(const View& view, const Image& whole, const Progress& progress) {
   const ReferenceSettings& asked = settings_.reference;
   if (has(stage_.effects(), Effect::environment_light) && asked.environment == EnvironmentUse::sampled) return {};
   const int spp = finest_samples(asked);
   if (spp == asked.spp || !asked.by_cause) return whole;
-  return finest_mean(stage_.reference(), truth.view, asked, progress);
+  return finest_mean(stage_.reference(), view, asked, progress);
 }
 
-// Goes on with the reference until its noise is what was asked for, where nobody has.
-void TruthFinder::refine_reference(SharedTruth::AtDistance& begun, const View& view, const Progress& progress) {
+// Refines the reference to the requested noise, unless it was refined already.
+void ReferenceRenderer::refine_reference(SharedReferences::AtDistance& begun, const View& view,
+                                         const Progress& progress) {
   if (begun.samples > 0) return;
   const ReferenceSettings& asked = settings_.reference;
   begun.samples = asked.spp;
   if (!asked.by_noise || asked.fixed_spp) return;
   const auto begin = std::chrono::steady_clock::now();
   const bool surrounded = has(stage_.effects(), Effect::environment_light);
-  const Convergence wanted{.noise = asked.noise ? *asked.noise : noise_that_tells_apart(begun.reference, view),
+  const double noise = noise_wanted(begun, view);
+  shared_->wanted_noise[begun.distance] = noise;
+  const Convergence wanted{.noise = noise,
                            .exposure = exposure_,
                            .spp_max = asked.spp_max,
                            .most_work = asked.noise ? unbounded_work : most_work(asked.spp, view.size, surrounded)};
@@ -185,9 +189,16 @@ void TruthFinder::refine_reference(SharedTruth::AtDistance& begun, const View& v
   begun.seconds += seconds_since(begin);
 }
 
+// As requested, or as the first comparison that shares the reference wanted it.
+double ReferenceRenderer::noise_wanted(const SharedReferences::AtDistance& begun, const View& view) {
+  if (settings_.reference.noise) return *settings_.reference.noise;
+  const auto known = shared_->wanted_noise.find(begun.distance);
+  return known != shared_->wanted_noise.end() ? known->second : noise_that_separates(begun.reference, view);
+}
+
 // A fifth of the least difference between the methods' errors that the table prints, or of the least error. Methods
 // that agree to three figures are one to it.
-double TruthFinder::noise_that_tells_apart(const Supersampled& reference, const View& view) const {
+double ReferenceRenderer::noise_that_separates(const Supersampled& reference, const View& view) const {
   Supersampled counted = reference;
   leave_out(counted, unresolved(counted, exposure_));
   std::vector<double> errors;
@@ -210,65 +221,66 @@ double TruthFinder::noise_that_tells_apart(const Supersampled& reference, const 
   return std::max(least / 5.0, least_noise);
 }
 
-void TruthFinder::write_reference(Truth& truth) const {
-  const std::string stem = distance_stem(truth.distance, "reference");
-  truth.files.reference = write_exposable_picture(folder_, stem, truth.reference.mean, exposure_);
-  truth.files.standard_error = fmt::format("images/{}_standard_error.exr", stem);
-  write_exr(folder_ / truth.files.standard_error, truth.reference.standard_error);
+void ReferenceRenderer::write_reference(ReferenceView& target) const {
+  const std::string stem = distance_stem(target.distance, "reference");
+  target.files.reference = write_exposable_picture(folder_, stem, target.reference.mean, exposure_);
+  target.files.standard_error = fmt::format("images/{}_standard_error.exr", stem);
+  write_exr(folder_ / target.files.standard_error, target.reference.standard_error);
 }
 
 // Every figure is over the pixels that are covered; what is left out stands in the warnings.
-void TruthFinder::leave_out_unresolved(Truth& truth) const {
-  truth.whole = truth.reference.mean;
-  truth.unresolved = unresolved(truth.reference, exposure_);
-  leave_out(truth.reference, truth.unresolved);
-  if (!truth.first.texels.empty()) uncover(truth.first, truth.unresolved);
-  const std::size_t whole = object_pixel_count(truth.whole);
-  const std::size_t left_out = whole - object_pixel_count(truth.reference.mean);
-  truth.parts.counts.unresolved = left_out;
+void ReferenceRenderer::leave_out_unresolved(ReferenceView& target) const {
+  target.whole = target.reference.mean;
+  target.unresolved = unresolved(target.reference, exposure_);
+  leave_out(target.reference, target.unresolved);
+  if (!target.first.texels.empty()) uncover(target.first, target.unresolved);
+  const std::size_t whole = object_pixel_count(target.whole);
+  const std::size_t left_out = whole - object_pixel_count(target.reference.mean);
+  target.parts.counts.unresolved = left_out;
   if (left_out == 0) return;
-  truth.warnings.push_back(fmt::format(
+  target.warnings.push_back(fmt::format(
       "distance {:g}: {:.2g}% of the object unresolved: in {} of {} pixels a few samples carry nearly all of the "
       "light; they are left out of every figure",
-      truth.distance, 100.0 * static_cast<double>(left_out) / static_cast<double>(whole), left_out, whole));
+      target.distance, 100.0 * static_cast<double>(left_out) / static_cast<double>(whole), left_out, whole));
 }
 
 // The pixels that are interior, and the bound over them.
-void TruthFinder::find_parts(Truth& truth, const std::string& prefix) {
-  const Interior interior = interior_of(truth, progress_.next(interior_weight, prefix));
-  const std::size_t left_out = truth.parts.counts.unresolved;
-  truth.parts = pixel_parts(truth.reference.mean, interior);
-  truth.parts.counts.unresolved = left_out;
-  if (material_finder_) truth.materials = material_finder_->masks(truth.view, truth.parts.interior);
-  truth.shading_floor = noise_floor_over(truth.reference, exposure_, truth.parts.interior);
-  truth.files.interior = write_mask(folder_, distance_stem(truth.distance, "interior"), truth.parts.interior);
+void ReferenceRenderer::find_parts(ReferenceView& target, const std::string& prefix) {
+  const Interior interior = interior_of(target, progress_.next(interior_weight, prefix));
+  const std::size_t left_out = target.parts.counts.unresolved;
+  target.parts = pixel_parts(target.reference.mean, interior);
+  target.parts.counts.unresolved = left_out;
+  if (material_finder_) target.materials = material_finder_->masks(target.view, target.parts.interior);
+  target.shading_floor = noise_floor_over(target.reference, exposure_, target.parts.interior);
+  target.files.interior = write_mask(folder_, distance_stem(target.distance, "interior"), target.parts.interior);
   if (has(stage_.effects(), Effect::environment_light)) {
-    truth.light = light_part(truth.parts);
-    truth.parts.counts.light = pixel_count(truth.light.pixels);
+    target.light = light_part(target.parts);
+    target.parts.counts.light = pixel_count(target.light.pixels);
   }
   const Progress progress = progress_.next(interior_weight, prefix);
   if (!bound_) return;
   progress("exact", 0.0);
-  truth.bound = draw_bound(stage_, *bound_, settings_.reference.bound, truth.view, truth.parts, interior.texels);
-  truth.parts.counts.bound = pixel_count(truth.bound->pixels);
+  target.bound = draw_bound(stage_, *bound_, settings_.reference.bound, target.view, target.parts, interior.texels);
+  target.parts.counts.bound = pixel_count(target.bound->pixels);
   stage_.context().check("drawing the bound");
 }
 
 // As they are shared, or found and shared.
-Interior TruthFinder::interior_of(const Truth& truth, const Progress& progress) const {
-  SharedTruth::AtDistance* known = shared_ != nullptr ? shared_->at(truth.distance) : nullptr;
-  if (known != nullptr && known->interior) return *known->interior;
-  Interior interior = interior_finder_.render(truth.view, object_part(truth.reference.mean), settings_.reference.spp,
+Interior ReferenceRenderer::interior_of(const ReferenceView& target, const Progress& progress) const {
+  SharedReferences::AtDistance& known = *shared_->at(target.distance);
+  if (known.interior) return *known.interior;
+  Interior interior = interior_finder_.render(target.view, object_part(target.reference.mean), settings_.reference.spp,
                                               settings_.reference.seed, progress);
   stage_.context().check("finding interior pixels");
-  if (known != nullptr) known->interior = interior;
+  known.interior = interior;
   return interior;
 }
 
-OtherTruth TruthFinder::other_truth(const Truth& truth, int spp, const std::string& prefix) {
-  Supersampled other = stage_.reference().render(truth.view, spp, settings_.reference.seed,
+OtherReferenceImage ReferenceRenderer::other_reference(const ReferenceView& target, int spp,
+                                                       const std::string& prefix) {
+  Supersampled other = stage_.reference().render(target.view, spp, settings_.reference.seed,
                                                  progress_.next(spp, prefix + "other reference, "), TexelUse::drawn);
-  leave_out(other, truth.unresolved);
+  leave_out(other, target.unresolved);
   return {.spp = spp, .mean = other.mean, .noise_floor = noise_floor(other, exposure_)};
 }
 

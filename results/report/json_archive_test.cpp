@@ -1,0 +1,71 @@
+// Values written as JSON and read back: equal to the last bit.
+#include "results/report/json_archive.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "results/report/example_results.hpp"
+#include "results/report/record_fields.hpp"
+
+namespace footprint {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+Json again(const T& value) {
+  return to_json_value(from_json_value<T>(Json::parse(to_json_value(value).dump())));
+}
+
+TEST(JsonArchive, EveryRecordComesBackWhole) {
+  for (const Record& record : example_results().records) EXPECT_EQ(again(record), to_json_value(record));
+}
+
+TEST(JsonArchive, FiguresComeBackToTheBit) {
+  Record record = example_results().records.front();
+  record.options = {{"n", 4.0}, {"storage", std::string("fp16")}};
+  record.distance = 0.1;
+  record.error->psnr = std::numeric_limits<double>::infinity();
+  record.error->causes.edges.reset();
+  record.equivalent = EquivalentSamples{.spp = 64, .side = CurveSide::above};
+  record.frame_build = BuildTiming::reused;
+  record.materials = {{.material = "a", .pixels = 3, .shading = 1.0 / 3.0, .noise = {}, .bytes = 7}};
+  const Record back = from_json_value<Record>(Json::parse(to_json_value(record).dump()));
+  EXPECT_EQ(back.options, record.options);
+  EXPECT_EQ(back.distance, 0.1);
+  EXPECT_TRUE(std::isinf(back.error->psnr));
+  EXPECT_FALSE(back.error->causes.edges);
+  EXPECT_EQ(back.equivalent->spp, 64);
+  EXPECT_EQ(back.equivalent->side, CurveSide::above);
+  EXPECT_EQ(back.frame_build, BuildTiming::reused);
+  ASSERT_EQ(back.materials.size(), 1U);
+  EXPECT_EQ(back.materials[0].shading, 1.0 / 3.0);
+  EXPECT_EQ(back.width, record.width);
+}
+
+TEST(JsonArchive, TheCurveSideComesBack) {
+  for (const CurveSide side : {CurveSide::within, CurveSide::below, CurveSide::above}) {
+    Record record;
+    record.equivalent = EquivalentSamples{.spp = 41.5, .side = side};
+    const Record back = from_json_value<Record>(to_json_value(record));
+    ASSERT_TRUE(back.equivalent);
+    EXPECT_EQ(back.equivalent->side, side);
+    EXPECT_EQ(back.equivalent->spp, 41.5);
+  }
+  EXPECT_FALSE(from_json_value<Record>(to_json_value(Record{})).equivalent);
+}
+
+TEST(JsonArchive, AnotherDocumentIsRefused) {
+  EXPECT_THROW((void)from_json_value<Record>(Json::array()), Json::exception);
+  EXPECT_THROW((void)from_json_value<Record>(Json::object()), Json::exception);
+  EXPECT_THROW((void)from_json_value<MethodPair>(to_json_value(Record{})), Json::exception);
+  Json unknown = to_json_value(example_results().records.front());
+  unknown["time"]["frame_build"] = "sometimes";
+  EXPECT_ANY_THROW((void)from_json_value<Record>(unknown));
+}
+
+}  // namespace
+}  // namespace footprint

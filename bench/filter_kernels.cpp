@@ -1,5 +1,5 @@
-// footprint_filter_kernels FILE.png: the kernels of the footprint filters over an even, a sheared and a grazing
-// footprint, as one picture, and as the table of docs/filters.md on stdout.
+// footprint_filter_kernels FILE.png: draws the kernels of the footprint filters over an even, a sheared and a grazing
+// footprint in one image, and prints the table of docs/filters.md.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,10 +10,12 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/image/image_io.hpp"
-#include "renderer/ndf/filter_kernel.hpp"
+#include "tests/support/filter_kernel.hpp"
 
 namespace footprint {
 namespace {
+
+using testing::box_kernel, testing::filter_kernel, testing::kernel_moments, testing::KernelMoments;
 
 constexpr int edge = 64;    // texels of the map that a kernel is drawn on
 constexpr int phases = 64;  // places of a footprint that figures are means over

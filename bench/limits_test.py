@@ -1,4 +1,4 @@
-"""The gates of `footprint_bench`: what is within its limits passes, what is beyond one ends with exit code 1."""
+"""The gates of `footprint_bench`: exit code 1 if a bake or a footprint exceeds a limit, else 0."""
 
 import os
 import re
@@ -41,28 +41,6 @@ class LimitsTest(unittest.TestCase):
         refused = bench(*sizes, "1.0001")
         self.assertEqual(refused.returncode, 1, refused.stdout)
         self.assertIn("times the median, 1 are allowed", refused.stderr)
-
-    def test_a_zoom_has_a_row_a_distance_and_method(self):
-        result = bench("--zoom", "1", "--scene", "scratched_metal_1k", "--distance", "1,16")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        rows = re.findall(r"^([0-9]+) +(direct|atanasov_bins\S+) +[0-9.]+ +([0-9.]+)$", result.stdout, re.M)
-        self.assertEqual([distance for distance, _, _ in rows], ["1", "1", "16", "16"], result.stdout)
-        for _, method, ratio in rows:
-            self.assertEqual(method == "direct", float(ratio) == 1.0, result.stdout)
-
-    def test_frames_are_held_against_the_samples_that_are_as_good(self):
-        result = bench("--zoom", "1", "--scene", "scratched_metal_1k", "--distance", "4", "--samples", "64")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        row = r"(direct|atanasov_bins)\S* .* error ([0-9.]+) \(noise ([0-9.]+)\): (?:better than )?([0-9]+) samples, ([0-9.]+) x their time$"
-        rows = {name: figures for name, *figures in re.findall(row, result.stdout, re.M)}
-        self.assertEqual(set(rows), {"direct", "atanasov_bins"}, result.stdout)
-        for error, noise, samples, ratio in rows.values():
-            self.assertGreater(float(error), float(noise))
-            self.assertIn(int(samples), (1, 2, 4, 8, 16))  # up to a quarter of the truth's
-            self.assertGreater(float(ratio), 0.0)
-        # What is closer to the truth is as good as more samples, or as many.
-        nearer, farther = sorted(rows.values(), key=lambda row: float(row[0]))
-        self.assertGreaterEqual(int(nearer[2]), int(farther[2]))
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
-// footprint_bench: what frames, the reference, start-up, mip chains, mixtures, edits of small-scale geometry and baking
-// cost (docs/performance.md).
+// footprint_bench: the time of frames, the reference, start-up, mip chains, mixtures, edits of small-scale geometry and
+// bakes (docs/performance.md).
 #include <benchmark/benchmark.h>
 
 #include <CLI/CLI.hpp>
@@ -8,29 +8,24 @@
 #include <exception>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "bench/bake_limits.hpp"
 #include "bench/footprint_sizes.hpp"
 #include "bench/frame_benchmarks.hpp"
-#include "bench/frame_builds.hpp"
 #include "bench/iwasaki_benchmarks.hpp"
 #include "bench/mip_benchmarks.hpp"
 #include "bench/ratios.hpp"
 #include "bench/tan_gmm_benchmarks.hpp"
-#include "bench/zoom_frames.hpp"
 #include "renderer/core/error.hpp"
 
 namespace {
 
-// What the command line asks for.
+// The values of the command line.
 struct Request {
-  int ratio_rounds = 0, build_rounds = 0, footprint_rounds = 0, bake_rounds = 0, zoom_rounds = 0;  // 0: not asked for
+  int ratio_rounds = 0, footprint_rounds = 0, bake_rounds = 0;  // 0: not that mode
   footprint::bench::BakeLimits bake_limits;
   int resolution = 4096;  // of the map under the footprints
   double most_ratio = 0.0;
-  std::optional<int> truth_samples;
-  std::vector<double> distances{1, 2, 4, 8, 16};
   std::string scene, methods, over = "direct";
 };
 
@@ -42,18 +37,12 @@ Examples:
   footprint_bench --ratios 15 --scene carved_disk --methods toksvig,tan_gmm --over tan_gmm
   footprint_bench --footprints 5 --methods atanasov_bins:roughness=bin,tan_gmm --resolution 1024
   footprint_bench --bakes 3 --scene scratched_metal --methods atanasov_bins:m=63:roughness=bin --most-seconds 10
-  footprint_bench --zoom 5 --scene car_paint --methods atanasov_bins:m=63:roughness=bin --distance 1,4,16
-  footprint_bench --zoom 5 --scene car_paint_flakes --methods atanasov_bins:m=127:roughness=bin --samples 256
-  footprint_bench --builds 5 --methods xu_vmf:rebuild=changed,xu_vmf:rebuild=changed:conversion=table
 )";
 
 void declare_options(CLI::App& app, Request& request) {
   const CLI::Range rounds(1, 100000);
   app.add_option("--ratios", request.ratio_rounds,
                  "Print ratios of interleaved frame times over this many rounds, and nothing else")
-      ->check(rounds);
-  app.add_option("--builds", request.build_rounds,
-                 "Print what frame builds of --methods cost by the size of the map, over this many rounds")
       ->check(rounds);
   app.add_option("--footprints", request.footprint_rounds,
                  "Print what frames of --methods cost by the size of a pixel's footprint, over this many rounds")
@@ -73,18 +62,6 @@ void declare_options(CLI::App& app, Request& request) {
   app.add_option("--most-gigabytes", request.bake_limits.gigabytes,
                  "With --bakes: 1e9 bytes of memory that the process may take")
       ->check(CLI::PositiveNumber);
-  app.add_option("--zoom", request.zoom_rounds,
-                 "Print what frames of --methods cost on --scene at every --distance, over this many rounds")
-      ->check(rounds);
-  app.add_option("--distance", request.distances, "With --zoom: factors on the camera's distance, commas between")
-      ->check(CLI::Range(1e-3, 1e6))
-      ->delimiter(',')
-      ->capture_default_str();
-  app.add_option(
-         "--samples", request.truth_samples,
-         "With --zoom: also the error of every frame against a reference of so many samples per pixel, the fewest "
-         "samples of the reference that come as close, and what the frame takes of their time")
-      ->check(CLI::Range(4, 4096));
   app.add_option("--resolution", request.resolution, "With --footprints: texels per side of the map")
       ->check(CLI::Range(1, 16384))
       ->capture_default_str();
@@ -99,7 +76,7 @@ void declare_options(CLI::App& app, Request& request) {
 constexpr const char* description =
     "Benchmarks of Footprint; all --benchmark_... options of Google Benchmark work too.";
 
-// Google Benchmark looks for --help first and knows nothing of the options above.
+// Google Benchmark handles --help first and does not know the options above.
 void print_help() {
   CLI::App app(description, "footprint_bench");
   Request request;
@@ -109,7 +86,7 @@ void print_help() {
 }
 
 void run(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv, print_help);  // takes the --benchmark_... options out
+  benchmark::Initialize(&argc, argv, print_help);  // removes the --benchmark_... options
   CLI::App app(description, "footprint_bench");
   Request request;
   declare_options(app, request);
@@ -117,11 +94,6 @@ void run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     std::exit(app.exit(error) == 0 ? 0 : static_cast<int>(footprint::ErrorKind::usage));
-  }
-  if (request.build_rounds > 0) {
-    if (request.methods.empty()) request.methods = "xu_vmf:rebuild=changed";
-    (void)std::fputs(footprint::bench::frame_build_table(request.methods, request.build_rounds).c_str(), stdout);
-    return;
   }
   if (request.footprint_rounds > 0) {
     if (request.methods.empty()) request.methods = "atanasov_bins:roughness=bin";
@@ -133,15 +105,6 @@ void run(int argc, char** argv) {
   if (request.bake_rounds > 0) {
     if (request.methods.empty()) request.methods = "atanasov_bins:roughness=bin";
     if (scene) footprint::bench::print_bake_table(*scene, request.methods, request.bake_rounds, request.bake_limits);
-    return;
-  }
-  if (request.zoom_rounds > 0) {
-    if (request.methods.empty()) request.methods = "atanasov_bins:roughness=bin";
-    if (scene)
-      (void)std::fputs(footprint::bench::zoom_table(std::move(*scene), request.methods, request.distances,
-                                                    request.zoom_rounds, request.truth_samples)
-                           .c_str(),
-                       stdout);
     return;
   }
   std::optional<footprint::bench::BenchScene> subject;

@@ -51,7 +51,7 @@ function(footprint_install_development)
   install(TARGETS footprint_settings ${libraries} EXPORT FootprintTargets
           ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}/footprint" COMPONENT development)
   install(EXPORT FootprintTargets DESTINATION "${config}" COMPONENT development)
-  set(headers app experiments methods renderer results scenes stability)
+  set(headers app experiments methods renderer results scenes)
   if(FOOTPRINT_TESTS)
     list(APPEND headers tests)
   endif()

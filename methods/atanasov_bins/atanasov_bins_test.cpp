@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "methods/atanasov_bins/bins_probe.hpp"
 #include "renderer/image/metrics.hpp"
+#include "tests/methods/bins_probe.hpp"
 #include "tests/support/rendering.hpp"
 
 namespace footprint {
@@ -21,7 +21,6 @@ const Method& exact_method();
 namespace footprint::testing {
 namespace {
 
-using atanasov_bins::bin_of;
 using atanasov_bins::bin_solid_angle;
 using std::numbers::pi;
 

@@ -1,4 +1,4 @@
-// The bin of a direction from its point of the square, and how that point is rounded without leaving the bin.
+// Rounds a direction's point of the square without leaving its bin.
 #include "methods/atanasov_bins/bins.hpp"
 
 #include <algorithm>
@@ -12,27 +12,18 @@ namespace {
 
 constexpr std::uint32_t places = 65536;  // along an axis
 
-// x = 1, and what rounding puts beyond it, is in the last bin.
-std::uint32_t index_along(double x, int m) {
-  return static_cast<std::uint32_t>(std::clamp(static_cast<int>(std::floor(x * m)), 0, m - 1));
-}
-
-// Places [first, last] are those p for which floor(p m / places) is the bin.
+// Places [first, last] are those p for which floor(p m / places) is the bin. x = 1, or beyond 1 by rounding, is in the
+// last bin.
 std::uint32_t place_along(double x, int m) {
-  const std::uint32_t bin = index_along(x, m);
+  const auto bin = static_cast<std::uint32_t>(std::clamp(static_cast<int>(std::floor(x * m)), 0, m - 1));
   const auto count = static_cast<std::uint32_t>(m);
   const std::uint32_t first = (bin * places + count - 1) / count;
   const std::uint32_t last = ((bin + 1) * places + count - 1) / count - 1;
   const auto place = static_cast<std::uint32_t>(std::clamp(std::floor(x * places), 0.0, places - 1.0));
-  return std::clamp(place, first, std::min(last, places - 2));  // places - 1 is left to no_normal
+  return std::clamp(place, first, std::min(last, places - 2));  // places - 1 is for no_normal
 }
 
 }  // namespace
-
-std::uint32_t bin_of(const glm::dvec3& direction, int m) {
-  const glm::dvec2 point = hemisphere_to_square(direction);
-  return index_along(point.y, m) * static_cast<std::uint32_t>(m) + index_along(point.x, m);
-}
 
 double bin_solid_angle(int m) { return 2.0 * std::numbers::pi / (static_cast<double>(m) * m); }
 
@@ -49,8 +40,6 @@ std::uint32_t bin_of_packed(std::uint32_t packed, int m) {
 glm::dvec2 place_in_square(std::uint32_t packed) {
   return (glm::dvec2(packed & 0xFFFFU, packed >> 16U) + 0.5) / double{places};
 }
-
-glm::dvec3 unpacked_normal(std::uint32_t packed) { return square_to_hemisphere(place_in_square(packed)); }
 
 int bins_across_for(double variance, double share, int most) {
   const double width = share * std::sqrt(std::max(variance, 1e-12));

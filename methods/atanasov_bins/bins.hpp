@@ -1,5 +1,5 @@
-// Bins of normals: cells of equal solid angle over the hemisphere, and a normal in 32 bits, its bin and its place
-// there.
+// Bins of normals: m x m cells of equal solid angle over the hemisphere, row by row of the unit square to which
+// renderer/microgeometry/direction_grid.hpp maps it. A normal in 32 bits stores its bin and its place in the bin.
 #pragma once
 
 #include <cstdint>
@@ -7,33 +7,27 @@
 
 namespace footprint::atanasov_bins {
 
-/// The most bins along an edge: 32 places are left of 2^16 in each.
+/// The most bins along an edge: each has 32 of the 2^16 places.
 inline constexpr int most_bins_across = 2047;
 
-/// A texel without a normal, in place of packed_normal.
+/// The value of a texel without a normal; packed_normal never returns it.
 inline constexpr std::uint32_t no_normal = 0xFFFFFFFFU;
 
-/// The bin of a unit vector among m x m of equal solid angle, row by row (direction_grid.hpp has the map); a direction
-/// below the horizon is in the bin on the rim that lies under it.
-[[nodiscard]] std::uint32_t bin_of(const glm::dvec3& direction, int m);
-
-/// Its solid angle, 2 pi / m^2.
+/// The solid angle of each of m x m bins, 2 pi / m^2 sr.
 [[nodiscard]] double bin_solid_angle(int m);
 
-/// A normal as its point of the unit square, 16 bits an axis (x low), rounded within its bin; never `no_normal`.
+/// A unit normal's point of the unit square, 16 bits per axis (x low), rounded within its bin. A normal below the
+/// horizon is in the nearest bin of the rim.
 [[nodiscard]] std::uint32_t packed_normal(const glm::dvec3& normal, int m);
 
-/// The bin that packed_normal was given.
+/// The bin of a packed normal, of m x m; `m` as in packed_normal.
 [[nodiscard]] std::uint32_t bin_of_packed(std::uint32_t packed, int m);
 
-/// The point of the unit square.
+/// The point of the unit square of a packed normal, within 1e-4 radians of the normal itself.
 [[nodiscard]] glm::dvec2 place_in_square(std::uint32_t packed);
 
-/// The normal, within 1e-4 radians (of one below the horizon: that on the rim).
-[[nodiscard]] glm::dvec3 unpacked_normal(std::uint32_t packed);
-
-/// Bins along an edge, an odd number, so that one is as wide as `share` of a lobe's standard deviation; at least 5, at
-/// most `most`. `variance`: slope variance per axis.
+/// The odd number of bins along an edge at which a bin is `share` of a lobe's standard deviation wide: 5 to `most`.
+/// `variance` is the lobe's slope variance per axis.
 [[nodiscard]] int bins_across_for(double variance, double share, int most);
 
 }  // namespace footprint::atanasov_bins

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "methods/atanasov_bins/bins_probe.hpp"
 #include "renderer/image/metrics.hpp"
+#include "tests/methods/bins_probe.hpp"
 #include "tests/support/rendering.hpp"
 
 namespace footprint {

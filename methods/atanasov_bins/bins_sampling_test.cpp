@@ -6,9 +6,9 @@
 #include <numbers>
 #include <random>
 
-#include "methods/atanasov_bins/bins_probe.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/scene/environment.hpp"
+#include "tests/methods/bins_probe.hpp"
 #include "tests/support/rendering.hpp"
 
 namespace footprint {
@@ -101,7 +101,7 @@ TEST(AtanasovSampling, ShaderDrawsAsTheDensitySays) {
     double drawn = 0.0;
     for (const glm::vec4& normal : probe_footprints(drawing(material), drawn_by_shader, inputs)) {
       if (normal.w == 0.0F) continue;
-      counts[atanasov_bins::bin_of(glm::dvec3(glm::vec3(normal)), bins_across)] += 1.0;
+      counts[bin_of(glm::dvec3(glm::vec3(normal)), bins_across)] += 1.0;
       drawn += 1.0;
     }
     const auto deviations = [&](const Parallelogram& p) {

@@ -303,12 +303,6 @@ std::uint32_t packed_moments(const BinMoments& moments) {
          rounded(2.0 * deviation, 255.0) << 24U;
 }
 
-BinMoments unpacked_moments(std::uint32_t packed) {
-  const double deviation = 0.5 * (packed >> 24U) / 255.0;
-  return {.mean = glm::dvec2(packed & 0xFFFU, packed >> 12U & 0xFFFU) / 4095.0 - 0.5,
-          .variance = deviation * deviation};
-}
-
 std::vector<std::uint32_t> node_moments(const InverseMap& map, const BinMap& bins, const TexelClasses& classes) {
   std::vector<std::uint32_t> out(map.forest.size());
   tbb::parallel_for(std::size_t{0}, map.lists.size(), [&](std::size_t i) {

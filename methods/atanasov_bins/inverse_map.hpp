@@ -110,7 +110,6 @@ struct BinMoments {
 };
 /// In one integer: 12 bits for each coordinate of the mean, 8 for the deviation, rounded.
 [[nodiscard]] std::uint32_t packed_moments(const BinMoments& moments);
-[[nodiscard]] BinMoments unpacked_moments(std::uint32_t packed);
 
 /// The packed moments of every node of the forest, where its first integer is there. `classes` as for inverse_of.
 [[nodiscard]] std::vector<std::uint32_t> node_moments(const InverseMap& map, const BinMap& bins,

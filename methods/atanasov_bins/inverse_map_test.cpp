@@ -12,8 +12,8 @@
 #include <set>
 
 #include "methods/atanasov_bins/bin_textures.hpp"
-#include "methods/atanasov_bins/bins_twin.hpp"
 #include "renderer/core/error.hpp"
+#include "tests/methods/bins_twin.hpp"
 
 namespace footprint::atanasov_bins {
 namespace {
@@ -244,7 +244,7 @@ TEST(InverseMap, DensityIsThatOfSampling) {
   constexpr int samples = 400'000;
   for (int i = 0; i < samples; ++i) {
     const glm::dvec4 u(unit(random), unit(random), unit(random), unit(random));
-    counts[bin_of(testing::drawn_normal(maps.bins, p, Wrap::repeat, u).value(), m)] += 1.0;
+    counts[testing::bin_of(testing::drawn_normal(maps.bins, p, Wrap::repeat, u).value(), m)] += 1.0;
   }
   testing::WalkTwin walk(maps.inverse, p);
   double chi2 = 0.0, freedom = -1.0;

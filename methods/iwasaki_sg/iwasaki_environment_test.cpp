@@ -8,10 +8,10 @@
 
 #include "methods/iwasaki_sg/settings.hpp"
 #include "methods/iwasaki_sg/study/dense_brdf.hpp"
-#include "methods/iwasaki_sg/test_materials.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "renderer/scene/camera.hpp"
 #include "renderer/scene/environment.hpp"
+#include "tests/methods/iwasaki_materials.hpp"
 #include "tests/support/rendering.hpp"
 
 namespace footprint::testing {

@@ -9,10 +9,10 @@
 
 #include "methods/iwasaki_sg/material_table.hpp"
 #include "methods/iwasaki_sg/settings.hpp"
-#include "methods/iwasaki_sg/test_materials.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "renderer/pipeline/base_surface.hpp"
+#include "tests/methods/iwasaki_materials.hpp"
 #include "tests/support/method_probe.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/slope_twin.hpp"

@@ -11,10 +11,10 @@
 #include <string_view>
 #include <vector>
 
-#include "methods/iwasaki_sg/test_materials.hpp"
 #include "renderer/lobes/vmf.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "renderer/pipeline/shader_source.hpp"
+#include "tests/methods/iwasaki_materials.hpp"
 #include "tests/support/shader_probe.hpp"
 
 namespace footprint::iwasaki_sg {

@@ -1,5 +1,5 @@
 // Every preset against its formula as its source prints it; the limits.
-#include "methods/specular_aa/screen_presets.hpp"
+#include "tests/methods/screen_presets.hpp"
 
 #include <gtest/gtest.h>
 

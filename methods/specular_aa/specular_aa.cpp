@@ -1,7 +1,6 @@
-// `specular_aa`: the mean normal under a lobe that is widened where normals change over the screen, by an engine's
-// formula; over roughness mips as engines bake them, where that is asked for.
+// `specular_aa`: widens the lobe about the mean normal where normals change over the screen, by an engine's formula.
+// The roughness mips below it may be those that engines bake.
 #include "methods/roughness_bake/baked_maps.hpp"
-#include "methods/specular_aa/screen_presets.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
 #include "renderer/core/error.hpp"
@@ -14,14 +13,13 @@ extern const EmbeddedTexts specular_aa_glsl;
 
 namespace {
 
-using namespace specular_aa;
-
-constexpr Formula defaults{};
+constexpr double default_constant = 0.3;
+constexpr double default_cap = 0.04;
 
 // Another preset with a constant of its own would be that preset in name alone.
 void check(const Options& options) {
-  const bool has_own = options.number("constant") != defaults.constant || options.number("cap") != defaults.cap;
-  if (preset_of(options.word("preset")) != Preset::free && has_own) {
+  const bool has_own = options.number("constant") != default_constant || options.number("cap") != default_cap;
+  if (options.word("preset") != "free" && has_own) {
     throw Error(ErrorKind::usage, "specular_aa", "preset=" + options.word("preset") + " has its own constant and cap",
                 "give preset=free for others, or leave `constant` and `cap` out");
   }
@@ -68,12 +66,14 @@ class SpecularAa final : public Method {
       .name = "specular_aa",
       .summary = "The mean normal under a lobe widened by how normals change over the screen, as engines do it.",
       .paper = "Tokuyoshi and Kaplanyan 2019, 2021, and engines' forms of it (README)",
-      .options = {word_option("preset", {preset_names.begin(), preset_names.end()},
+      .options = {word_option("preset",
+                              {"filament", "unity", "o3de", "godot", "bevy", "unreal", "three", "babylon",
+                               "tokuyoshi_kaplanyan_2019", "tokuyoshi_kaplanyan_2021", "free"},
                               "Whose formula: an engine's, a paper's, or `free`."),
-                  number_option("constant", defaults.constant, 0.0, 4.0,
+                  number_option("constant", default_constant, 0.0, 4.0,
                                 "Of preset=free: alpha^2 + min(constant S, cap), S the sum of the normal's squared "
                                 "derivatives."),
-                  number_option("cap", defaults.cap, 0.0, 1.0, "Of preset=free: the most that is added to alpha^2."),
+                  number_option("cap", default_cap, 0.0, 1.0, "Of preset=free: the most that is added to alpha^2."),
                   word_option("normal", {"own", "geometric", "shading"},
                               "Which normal's derivatives: as the preset has it (`free`: geometric), the mesh's, or "
                               "the one with the normal map's mean."),

@@ -1,5 +1,5 @@
-// Engines' screen-space filters of normals: the twin of screen_presets.hpp. Where no next pixels are told (samples of a
-// supersampled picture, the NDF inspector) the lobe stays as it is.
+// Engines' screen-space filters of normals; tests/methods/screen_presets.hpp has the same formulas in double precision.
+// Without neighbouring pixels (a sample of a supersampled image, the NDF inspector) the lobe is not widened.
 //? include mean_normal.glsl
 //? include mean_roughness.glsl
 //? if not bake_none

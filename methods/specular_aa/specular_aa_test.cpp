@@ -1,15 +1,16 @@
-// The module's formulas against screen_presets.cpp, what it is told of the next pixels, and the pictures.
+// The module's formulas against those in double precision, the neighbouring pixels that it reads, and its images.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "methods/specular_aa/screen_presets.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/shader_source.hpp"
+#include "tests/methods/screen_presets.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/shader_probe.hpp"
 #include "tests/support/test_scenes.hpp"
@@ -59,6 +60,13 @@ TEST(SpecularAa, ModuleHasTheFormulasOfThePresets) {
       EXPECT_NEAR(got[i].y / widened_alpha2({.preset = preset}, alpha2, steps, LightKind::environment), 1.0, 1e-4);
     }
   }
+}
+
+TEST(SpecularAa, HasTheSamePresetsAsTheFormulas) {
+  const std::vector<OptionSpec>& options = specular_aa_method().info().options;
+  const auto preset = std::ranges::find(options, "preset", &OptionSpec::name);
+  ASSERT_NE(preset, options.end());
+  EXPECT_TRUE(std::ranges::equal(preset->choices, preset_names));
 }
 
 glm::vec4 unit(float x, float y) { return {glm::normalize(glm::vec3(x, y, 1.0F)), 0.0F}; }

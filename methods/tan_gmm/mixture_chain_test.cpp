@@ -12,8 +12,8 @@
 #include <limits>
 #include <vector>
 
-#include "methods/tan_gmm/mixture_twin.hpp"
 #include "renderer/core/error.hpp"
+#include "tests/methods/mixture_twin.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint::tan_gmm {

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "methods/tan_gmm/mixture_twin.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/image/mipmap.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
 #include "renderer/pipeline/shader_source.hpp"
+#include "tests/methods/mixture_twin.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/shader_probe.hpp"
 #include "tests/support/test_scenes.hpp"

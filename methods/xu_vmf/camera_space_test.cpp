@@ -5,10 +5,9 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "methods/xu_vmf/built_map.hpp"
-#include "methods/xu_vmf/shortfall_twin.hpp"
 #include "renderer/pipeline/frame.hpp"
 #include "renderer/scene/plane.hpp"
+#include "tests/methods/built_map.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/test_scenes.hpp"
 

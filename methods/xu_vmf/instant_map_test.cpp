@@ -6,9 +6,8 @@
 #include <functional>
 #include <numbers>
 
-#include "methods/xu_vmf/built_map.hpp"
-#include "methods/xu_vmf/shortfall_twin.hpp"
 #include "renderer/image/mipmap.hpp"
+#include "tests/methods/built_map.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/test_scenes.hpp"
 
@@ -222,6 +221,15 @@ TEST(XuMap, HasTheLobesOfAFacetInLayersOfTheirOwn) {
       }
     }
   }
+}
+
+TEST(BuiltMapOfAConstantMap, HasItsOneLobe) {
+  const std::vector<MapLobe> lobes =
+      BuiltMap(blinn_phong_square(constant_normals(4, 4, {0.28F, 0, 0.96F}), 100)).lobes();
+  ASSERT_EQ(lobes.size(), 1U);
+  EXPECT_NEAR(lobes[0].share, 1.0, 1e-6);
+  EXPECT_LT(glm::length(lobes[0].mean - glm::dvec3(0.28, 0, 0.96)), 1e-5);
+  EXPECT_NEAR(lobes[0].kappa, 101.0, 0.01);
 }
 
 // Each with its own parts and half the weight.

@@ -8,8 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "methods/xu_vmf/built_map.hpp"
-#include "methods/xu_vmf/shortfall_twin.hpp"
+#include "tests/methods/built_map.hpp"
 #include "tests/support/method_probe.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/shader_probe.hpp"

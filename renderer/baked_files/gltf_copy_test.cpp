@@ -8,8 +8,8 @@
 
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/gltf/model.hpp"
-#include "renderer/scene/gltf/test_builder.hpp"
 #include "tests/support/fresh_folder.hpp"
+#include "tests/support/gltf_builder.hpp"
 #include "tests/support/says.hpp"
 #include "tests/support/test_scenes.hpp"
 

@@ -5,8 +5,8 @@
 
 #include <stdexcept>
 
-#include "renderer/baked_files/ktx2_reader.hpp"
 #include "renderer/image/mipmap.hpp"
+#include "tests/support/ktx2_reader.hpp"
 
 namespace footprint {
 namespace {

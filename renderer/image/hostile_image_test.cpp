@@ -9,8 +9,8 @@
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
 #include "renderer/image/image_io.hpp"
-#include "renderer/image/test_png.hpp"
 #include "tests/support/fresh_folder.hpp"
+#include "tests/support/png_file.hpp"
 #include "tests/support/says.hpp"
 
 namespace footprint {

@@ -16,8 +16,8 @@
 #include <numeric>
 
 #include "renderer/core/error.hpp"
-#include "renderer/image/test_png.hpp"
 #include "tests/support/fresh_folder.hpp"
+#include "tests/support/png_file.hpp"
 
 namespace footprint {
 namespace {

@@ -86,8 +86,6 @@ int mip_level_count(int width, int height) {
   return static_cast<int>(std::bit_width(static_cast<unsigned>(std::max({width, height, 1}))));
 }
 
-Image downsample(const Image& fine) { return fine.texel_count() <= 1 ? fine : reduced(fine, plain_mean); }
-
 std::vector<Image> mip_chain(Image finest) { return chain(std::move(finest), plain_mean); }
 
 std::vector<Image> weighted_mip_chain(Image finest) { return chain(std::move(finest), weighted_mean); }

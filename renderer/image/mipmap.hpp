@@ -23,12 +23,9 @@ struct MipTaps {
 /// mipmapping"); one where n = 1.
 [[nodiscard]] MipTaps mip_taps(int fine_size, int i);
 
-/// The next coarser level: each coarse texel is the exact mean of the area that it covers of the finer level (for an
-/// odd size n = 2m + 1 the polyphase weights ((m - i), m, (1 + i)) / n per axis), so every channel's mean survives
-/// every level to rounding. Sums are taken in double. A 1 x 1 image is returned as it is.
-[[nodiscard]] Image downsample(const Image& fine);
-
-/// The whole chain, `finest` first, 1 x 1 last. Plain means of every channel.
+/// The whole chain, `finest` first, 1 x 1 last. Each coarse texel is the exact mean of the area that it covers of the
+/// finer level (mip_taps per axis), so every level has the same mean of each channel, but for rounding. Sums are in
+/// double precision. Errors (usage): an image without texels.
 [[nodiscard]] std::vector<Image> mip_chain(Image finest);
 
 /// As mip_chain, but the last channel is a weight: the other channels of a coarse texel are the weighted mean of those

@@ -80,20 +80,6 @@ Lobe lobe_from_variance(NormalDistribution distribution, float variance) {
   return {distribution, alpha};
 }
 
-float lobe_alpha(const Lobe& lobe) {
-  const auto p = static_cast<float>(lobe.parameter);
-  switch (lobe.distribution) {
-    case blinn_phong:
-      return std::sqrt(2.0F / (p + 2.0F));
-    case vmf:
-      return std::min(std::sqrt(2.0F / std::max(p, smallest_concentration)), 1.0F);
-    case beckmann:
-    case ggx:
-      break;
-  }
-  return p;
-}
-
 float lobe_variance(const Lobe& lobe) {
   const auto p = static_cast<float>(lobe.parameter);
   switch (lobe.distribution) {

@@ -20,11 +20,10 @@ struct Lobe {
 /// The narrowest lobe there is, for the base BRDF and every method alike: a mirror whose peak stays finite in 32 bits.
 inline constexpr double smallest_alpha = 1e-3;
 
-/// The lobe of a width alpha (at least `smallest_alpha`) or of a slope variance per axis, and these of a lobe: the C++
-/// twins of common_lobes.glsl, in 32 bits as it has them.
+/// The lobe of a width alpha (at least `smallest_alpha`) or of a slope variance per axis, and the slope variance of a
+/// lobe: the functions of common_lobes.glsl in C++, in 32 bits too.
 [[nodiscard]] Lobe lobe_from_alpha(NormalDistribution distribution, float alpha);
 [[nodiscard]] Lobe lobe_from_variance(NormalDistribution distribution, float variance);
-[[nodiscard]] float lobe_alpha(const Lobe& lobe);
 [[nodiscard]] float lobe_variance(const Lobe& lobe);
 
 /// The perceptual roughness r of a lobe, so that lobe_from_alpha(r^2) is the lobe again, to 1e-6 of it (Blinn-Phong

@@ -10,7 +10,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "renderer/microgeometry/patch_kinds.hpp"
-#include "renderer/microgeometry/ray_traced_tiling.hpp"
+#include "tests/support/ray_traced_tiling.hpp"
 
 namespace footprint {
 namespace {

@@ -1,6 +1,4 @@
 // Kernels of the footprint filters: sums, means and widths, the box that they approach, and the shaders' own texels.
-#include "renderer/ndf/filter_kernel.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
@@ -11,6 +9,7 @@
 #include "renderer/image/mipmap.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
 #include "renderer/pipeline/shader_source.hpp"
+#include "tests/support/filter_kernel.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/shader_probe.hpp"
 #include "tests/support/test_scenes.hpp"

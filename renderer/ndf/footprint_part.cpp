@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "renderer/image/mipmap.hpp"
-#include "renderer/ndf/filter_kernel.hpp"
+#include "renderer/ndf/filter_probes.hpp"
 
 namespace footprint {
 namespace {

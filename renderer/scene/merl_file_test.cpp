@@ -10,7 +10,7 @@
 #include <limits>
 #include <numbers>
 
-#include "renderer/scene/gltf/test_builder.hpp"
+#include "tests/support/gltf_builder.hpp"
 
 namespace footprint {
 namespace {

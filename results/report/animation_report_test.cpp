@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "results/report/example_animation.hpp"
+#include "tests/report/example_animation.hpp"
 
 namespace footprint {
 namespace {

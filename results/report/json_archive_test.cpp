@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "results/report/example_results.hpp"
+#include "tests/report/example_results.hpp"
 #include "results/report/record_fields.hpp"
 
 namespace footprint {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "results/report/example_results.hpp"
 #include "results/report/report.hpp"
+#include "tests/report/example_results.hpp"
 #include "tests/support/fresh_folder.hpp"
 
 namespace footprint {

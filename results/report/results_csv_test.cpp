@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "results/report/example_results.hpp"
 #include "results/report/report.hpp"
+#include "tests/report/example_results.hpp"
 
 namespace footprint {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "results/report/example_results.hpp"
 #include "results/report/report.hpp"
+#include "tests/report/example_results.hpp"
 
 namespace footprint {
 namespace {

@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "renderer/core/error.hpp"
-#include "results/report/example_results.hpp"
 #include "results/report/report.hpp"
 #include "results/report/text_template.hpp"
+#include "tests/report/example_results.hpp"
 
 namespace footprint {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "results/report/example_results.hpp"
+#include "tests/report/example_results.hpp"
 #include "tests/support/says.hpp"
 
 namespace footprint {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <sstream>
 
-#include "results/report/example_results.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/markdown_table.hpp"
 #include "results/report/report.hpp"
+#include "tests/report/example_results.hpp"
 #include "tests/support/says.hpp"
 
 namespace footprint {

@@ -9,8 +9,8 @@
 
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "scenes/surfaces/noise.hpp"
-#include "scenes/surfaces/test_maps.hpp"
 #include "tests/support/source_folder.hpp"
+#include "tests/support/surface_maps.hpp"
 
 namespace footprint {
 namespace {

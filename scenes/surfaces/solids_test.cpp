@@ -5,9 +5,9 @@
 #include <array>
 #include <numbers>
 
-#include "scenes/surfaces/test_meshes.hpp"
 #include "scenes/surfaces/turned.hpp"
 #include "tests/support/mesh_area.hpp"
+#include "tests/support/surface_meshes.hpp"
 
 namespace footprint {
 namespace {

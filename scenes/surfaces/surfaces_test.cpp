@@ -10,7 +10,7 @@
 
 #include "renderer/core/error.hpp"
 #include "scenes/surfaces/registry.hpp"
-#include "scenes/surfaces/test_meshes.hpp"
+#include "tests/support/surface_meshes.hpp"
 
 namespace footprint {
 

@@ -7,7 +7,7 @@
 #include <functional>
 #include <string>
 
-#include "scenes/surfaces/test_maps.hpp"
+#include "tests/support/surface_maps.hpp"
 
 namespace footprint {
 namespace {

@@ -1,7 +1,7 @@
 // The quad of GltfBuilder under a normal map of 2 x 2 texels, whose PNG file is made in memory.
 #include "tests/command_line/bumpy_quad.hpp"
 
-#include "renderer/image/test_png.hpp"
+#include "tests/support/png_file.hpp"
 
 namespace footprint::test {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "renderer/scene/gltf/test_builder.hpp"
+#include "tests/support/gltf_builder.hpp"
 
 namespace footprint::test {
 

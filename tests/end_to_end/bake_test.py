@@ -9,7 +9,7 @@ import unittest
 
 from whole_runs import SOURCE, WholeRunTest, run
 
-sys.path.insert(0, str(SOURCE / "results" / "report"))
+sys.path.insert(0, str(SOURCE / "tests" / "report"))
 from schema_test import described, jsonschema  # exit code 77 without the package python3-jsonschema
 
 

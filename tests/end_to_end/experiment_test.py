@@ -66,7 +66,7 @@ class Experiments(WholeRunTest):
         self.assert_holds_to_schema(out)
 
     def assert_holds_to_schema(self, out):
-        validator = SOURCE / "results" / "report" / "schema_test.py"
+        validator = SOURCE / "tests" / "report" / "schema_test.py"
         command = ["/usr/bin/python3", "-B", validator, SOURCE / "docs" / "results.schema.json", out / "results.json"]
         done = subprocess.run([*map(str, command)], capture_output=True, text=True, check=False)
         self.assertIn(done.returncode, (0, 77), done.stderr)

@@ -10,7 +10,7 @@ from generated_model import model
 from recommendations import disagreement, disagreements
 from whole_runs import PROGRAM, SOURCE, WholeRunTest, results_of, run
 
-sys.path.insert(0, str(SOURCE / "results" / "report"))
+sys.path.insert(0, str(SOURCE / "tests" / "report"))
 from schema_test import described, jsonschema  # exit code 77 without the package python3-jsonschema
 
 SMALL = ["--size", "64x64", "--spp", "32", "--repeats", "3", "--footprints", "trilinear,anisotropic:8", "--quiet"]

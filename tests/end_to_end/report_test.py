@@ -46,7 +46,7 @@ class Report(WholeRunTest):
     # The files.
 
     def test_the_results_hold_to_their_schema(self):
-        validator = SOURCE / "results" / "report" / "schema_test.py"
+        validator = SOURCE / "tests" / "report" / "schema_test.py"
         schema = SOURCE / "docs" / "results.schema.json"
         command = [sys.executable, "-B", validator, schema, self.out / "results.json"]
         done = subprocess.run(command, capture_output=True, text=True, check=False)

@@ -9,10 +9,10 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "renderer/baked_files/ktx2_reader.hpp"
 #include "renderer/gl/objects.hpp"
 #include "renderer/image/exr_chain.hpp"
 #include "renderer/pipeline/view.hpp"
+#include "tests/support/ktx2_reader.hpp"
 #include "tests/support/rendering.hpp"
 
 namespace footprint::testing {

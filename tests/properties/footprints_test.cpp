@@ -4,9 +4,9 @@
 #include <numeric>
 
 #include "methods/tan_gmm/em.hpp"
-#include "renderer/ndf/filter_kernel.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
 #include "tests/properties/inputs.hpp"
+#include "tests/support/filter_kernel.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint::testing {

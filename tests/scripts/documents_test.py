@@ -38,7 +38,7 @@ class Documents(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_whole_documents_pass(self):
-        self.assertEqual(self.told(), (0, ["4 documents agree"]))
+        self.assertEqual(self.told(), (0, ["4 documents agree; the sources have 0 lines in 0 files"]))
 
     def test_a_link_to_nothing_is_told(self):
         lines = self.told(**{"README.md": "\n[gone](docs/gone.md)\n"})
@@ -77,7 +77,17 @@ class Documents(unittest.TestCase):
         text = "`held` [it](docs/held.md)\n\n```\nheld\n```\n"
         files = {"README.md": text, "docs/README.md": "[a](page.md) [b](held.md) [c](reproduction.md)\n",
                  "docs/held.md": "# Page\n", "docs/reproduction.md": "held\n"}
-        self.assertEqual(self.told(**files), (0, ["6 documents agree"]))
+        self.assertEqual(self.told(**files), (0, ["6 documents agree; the sources have 0 lines in 0 files"]))
+
+    def test_sources_are_counted_without_tests(self):
+        files = {"renderer/a.cpp": "1\n2\n", "renderer/a_test.cpp": "1\n", "scripts/b": "1\n", "docs/c.py": "1\n"}
+        self.assertEqual(self.told(**files), (0, ["4 documents agree; the sources have 3 lines in 2 files"]))
+
+    def test_sources_above_the_ceiling_are_reported(self):
+        for files in ({"app/a.cpp": 73_001 * "\n"}, {f"app/{i}.cpp": "" for i in range(901)}):
+            code, lines = self.told(**files)
+            self.assertEqual(code, 1)
+            self.assertRegex(lines[0], "lines in [0-9]+ sources: [0-9]+ lines in [0-9]+ are allowed")
 
 
 if __name__ == "__main__":

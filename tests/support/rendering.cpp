@@ -1,4 +1,4 @@
-// One EGL context for all tests of a program; every picture bakes its method anew.
+// One EGL context for all tests of a program, and one bake and program for all images of a method and scene.
 #include "tests/support/rendering.hpp"
 
 #include <algorithm>
@@ -16,6 +16,23 @@ const gl::Context& shared_context() {
   return context;
 }
 
+// A method on the GPU, and the programs of its frames.
+struct TestRenderer::Prepared {
+  struct Key {
+    FootprintFilter filter;
+    int tile;
+    EnvironmentUse environment;
+
+    friend bool operator==(const Key&, const Key&) = default;
+  };
+
+  Prepared(const GpuScene& scene, BakedMethod bake_result) : baked(std::move(bake_result)), gpu(scene, baked) {}
+
+  BakedMethod baked;
+  GpuMethod gpu;
+  std::vector<std::pair<Key, std::unique_ptr<FrameRenderer>>> frames;
+};
+
 TestRenderer::TestRenderer(const Scene& scene, const glm::ivec2& size, std::optional<EffectSet> effects,
                            const gl::Context& context)
     : context_(&context),
@@ -29,24 +46,33 @@ BakedMethod TestRenderer::baked(const Method& method, const std::string& text) c
   return bake(method, spec, scene_, effects_, no_progress);
 }
 
+TestRenderer::Prepared& TestRenderer::prepared(const Method& method, const std::string& text) {
+  std::shared_ptr<Prepared>& found = prepared_[{&method, text}];
+  if (!found) found = std::make_shared<Prepared>(gpu_scene_, baked(method, text));
+  return *found;
+}
+
 Image TestRenderer::frame(const Method& method, const std::string& text, const FootprintFilter& filter, int tile,
                           double distance, EnvironmentUse environment) {
-  const BakedMethod bake_result = baked(method, text);
-  const GpuMethod gpu(gpu_scene_, bake_result);
-  const FrameRenderer frames(context_->info(), gpu_scene_, gpu, size_,
-                             {.sampling = Sampling::frame,
-                              .footprint = filter,
-                              .orthographic = scene_.camera.orthographic,
-                              .environment = environment},
-                             tile);
-  Image picture = frames.render({.size = size_, .camera = camera_at_distance(scene_, distance)});
+  Prepared& drawn = prepared(method, text);
+  const Prepared::Key key{filter, tile, environment};
+  auto found = std::ranges::find(drawn.frames, key, [](const auto& frames) { return frames.first; });
+  if (found == drawn.frames.end()) {
+    const ProgramSettings settings{.sampling = Sampling::frame,
+                                   .footprint = filter,
+                                   .orthographic = scene_.camera.orthographic,
+                                   .environment = environment};
+    drawn.frames.emplace_back(
+        key, std::make_unique<FrameRenderer>(context_->info(), gpu_scene_, drawn.gpu, size_, settings, tile));
+    found = std::prev(drawn.frames.end());
+  }
+  Image picture = found->second->render({.size = size_, .camera = camera_at_distance(scene_, distance)});
   context_->check("drawing a test frame");
   return picture;
 }
 
 PixelWork TestRenderer::work(const Method& method, const std::string& text, const FootprintFilter& filter) {
-  const BakedMethod bake_result = baked(method, text);
-  const GpuMethod gpu(gpu_scene_, bake_result);
+  const GpuMethod& gpu = prepared(method, text).gpu;
   const FrameRenderer counting(context_->info(), gpu_scene_, gpu, size_,
                                {.footprint = filter, .counting = true, .orthographic = scene_.camera.orthographic});
   return pixel_work(counting, {.size = size_, .camera = scene_.camera});
@@ -54,9 +80,8 @@ PixelWork TestRenderer::work(const Method& method, const std::string& text, cons
 
 Supersampled TestRenderer::supersampled(const Method& method, int spp, std::uint64_t seed, ReferenceFilter filter,
                                         int tile, EnvironmentUse environment, TexelUse texels) {
-  const BakedMethod bake_result = baked(method, {});
-  const GpuMethod gpu(gpu_scene_, bake_result);
-  const Supersampler sampler(context_->info(), gpu_scene_, gpu, filter, scene_.camera.orthographic, tile, environment);
+  const Supersampler sampler(context_->info(), gpu_scene_, prepared(method, {}).gpu, filter, scene_.camera.orthographic,
+                             tile, environment);
   Supersampled picture = sampler.render({.size = size_, .camera = scene_.camera}, spp, seed, no_progress, texels);
   context_->check("supersampling a test image");
   return picture;
@@ -72,6 +97,7 @@ std::string TestRenderer::fragment_text(const Method& method) {
 }
 
 void TestRenderer::update(const Scene& scene) {
+  prepared_.clear();
   gpu_scene_.update(scene);
   scene_ = scene;
 }

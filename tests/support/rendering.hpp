@@ -1,7 +1,10 @@
-// One scene on one context, drawn by any method: what tests of the pipeline and of methods need.
+// One scene on one context, drawn by any method, for tests of the pipeline and of methods.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <string>
+#include <utility>
 
 #include "renderer/gl/context.hpp"
 #include "renderer/pipeline/frame.hpp"
@@ -13,7 +16,8 @@ namespace footprint::testing {
 /// The EGL surfaceless context that all tests of a binary share; made on the first call.
 [[nodiscard]] const gl::Context& shared_context();
 
-/// A scene uploaded with its own effects, or with `effects` where given.
+/// A scene uploaded with its own effects, or with `effects` if given. Bakes and compiled programs are kept, so a second
+/// image of the same method costs only its frame.
 class TestRenderer {
  public:
   explicit TestRenderer(const Scene& scene, const glm::ivec2& size = {64, 64}, std::optional<EffectSet> effects = {},
@@ -21,7 +25,7 @@ class TestRenderer {
 
   [[nodiscard]] Image frame(const Method& method, const std::string& text = {}, const FootprintFilter& filter = {},
                             int tile = 0, double distance = 1.0, EnvironmentUse environment = EnvironmentUse::sampled);
-  /// What a pixel of that frame looks up and evaluates.
+  /// Texture lookups and lobe evaluations per pixel of that frame.
   [[nodiscard]] PixelWork work(const Method& method, const std::string& text, const FootprintFilter& filter);
   [[nodiscard]] Supersampled supersampled(const Method& method, int spp, std::uint64_t seed = 1,
                                           ReferenceFilter filter = ReferenceFilter::after_shading, int tile = 0,
@@ -32,18 +36,23 @@ class TestRenderer {
                                        EnvironmentUse environment = EnvironmentUse::sampled,
                                        TexelUse texels = TexelUse::filtered);
   [[nodiscard]] std::string fragment_text(const Method& method);
-  /// Goes on with another scene of the same parts (GpuScene::update).
+  /// Replaces the scene by another of the same parts (GpuScene::update).
   void update(const Scene& scene);
   [[nodiscard]] const GpuScene& gpu_scene() const { return gpu_scene_; }
 
  private:
+  struct Prepared;
+
   [[nodiscard]] BakedMethod baked(const Method& method, const std::string& text) const;
+  /// The method baked and uploaded, on the first call for `text`.
+  [[nodiscard]] Prepared& prepared(const Method& method, const std::string& text);
 
   const gl::Context* context_;
   glm::ivec2 size_;
   EffectSet effects_;
   Scene scene_;
   GpuScene gpu_scene_;
+  std::map<std::pair<const Method*, std::string>, std::shared_ptr<Prepared>> prepared_;
 };
 
 /// The largest absolute difference of any channel; infinite for different sizes or a NaN.

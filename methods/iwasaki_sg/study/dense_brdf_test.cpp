@@ -10,9 +10,9 @@
 
 #include "methods/iwasaki_sg/settings.hpp"
 #include "methods/iwasaki_sg/study/quantities.hpp"
-#include "methods/iwasaki_sg/test_materials.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
+#include "tests/methods/iwasaki_materials.hpp"
 
 namespace footprint::iwasaki_sg {
 namespace {

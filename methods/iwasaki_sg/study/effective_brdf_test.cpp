@@ -7,9 +7,9 @@
 #include <random>
 
 #include "methods/iwasaki_sg/settings.hpp"
-#include "methods/iwasaki_sg/test_materials.hpp"
 #include "renderer/core/random.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
+#include "tests/methods/iwasaki_materials.hpp"
 #include "tests/support/method_probe.hpp"
 
 namespace footprint::iwasaki_sg {

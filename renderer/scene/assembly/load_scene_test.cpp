@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "renderer/image/image_io.hpp"
-#include "renderer/scene/gltf/test_builder.hpp"
+#include "tests/support/gltf_builder.hpp"
 #include "tests/support/source_folder.hpp"
 
 namespace footprint {

@@ -9,7 +9,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
-#include "renderer/scene/gltf/test_builder.hpp"
+#include "tests/support/gltf_builder.hpp"
 
 namespace footprint {
 namespace {

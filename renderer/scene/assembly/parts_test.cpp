@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "renderer/scene/assembly/load_scene.hpp"
-#include "renderer/scene/gltf/test_builder.hpp"
 #include "renderer/scene/plane.hpp"
+#include "tests/support/gltf_builder.hpp"
 
 namespace footprint {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
-#include "renderer/image/test_png.hpp"
 #include "renderer/scene/gltf/model.hpp"
-#include "renderer/scene/gltf/test_builder.hpp"
+#include "tests/support/gltf_builder.hpp"
+#include "tests/support/png_file.hpp"
 
 namespace footprint {
 namespace {

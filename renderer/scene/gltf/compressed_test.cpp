@@ -11,7 +11,7 @@
 
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "renderer/scene/gltf/model.hpp"
-#include "renderer/scene/gltf/test_builder.hpp"
+#include "tests/support/gltf_builder.hpp"
 
 namespace footprint {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/scene/gltf/model.hpp"
-#include "renderer/scene/gltf/test_builder.hpp"
+#include "tests/support/gltf_builder.hpp"
 
 namespace footprint {
 namespace {

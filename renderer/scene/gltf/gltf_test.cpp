@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "renderer/scene/gltf/model.hpp"
-#include "renderer/scene/gltf/test_builder.hpp"
 #include "tests/support/expect_near.hpp"
+#include "tests/support/gltf_builder.hpp"
 
 namespace footprint {
 namespace {

@@ -6,7 +6,7 @@
 #include "renderer/core/suggest.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "renderer/scene/gltf/model.hpp"
-#include "renderer/scene/gltf/test_builder.hpp"
+#include "tests/support/gltf_builder.hpp"
 #include "tests/support/says.hpp"
 
 namespace footprint {

@@ -5,8 +5,8 @@
 
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
-#include "renderer/scene/gltf/test_builder.hpp"
 #include "renderer/scene/plane.hpp"
+#include "tests/support/gltf_builder.hpp"
 
 namespace footprint {
 namespace {

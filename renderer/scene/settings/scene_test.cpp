@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "renderer/scene/gltf/test_builder.hpp"
+#include "tests/support/gltf_builder.hpp"
 
 namespace footprint {
 namespace {

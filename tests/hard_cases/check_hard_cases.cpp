@@ -1,0 +1,37 @@
+// Runs the hard cases, writes the report, and fails if a check failed.
+#include "app/hard_cases.hpp"
+
+#include <fmt/format.h>
+
+#include "app/output.hpp"
+#include "app/progress_display.hpp"
+#include "app/standard_output.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/core/files.hpp"
+#include "tests/hard_cases/hard_report.hpp"
+
+namespace footprint {
+
+void check_hard_cases(const HardCasesRequest& request) {
+  ProgressDisplay display(progress_style(request.quiet));
+  const hard_cases::HardSettings settings{
+      .context = request.run.backend.context, .methods = request.run.methods, .wide = request.wide};
+  const auto [rows, path] = write_whole(request.output, [&](OutputFolder& folder) {
+    auto measured = hard_cases::run_hard_cases(settings, folder.path(), display.callback());
+    write_file_atomically(folder.path() / "hard_cases.json", hard_cases::hard_cases_json(measured));
+    write_file_atomically(folder.path() / "stability.md", hard_cases::stability_page(measured));
+    keep(folder);
+    return measured;
+  });
+  display.finish();
+  const std::vector<std::string> failures = hard_cases::failures_of(rows);
+  std::string text;
+  for (const std::string& line : failures) text += "failed: " + line + "\n";
+  write_output(fmt::format("{}{} checks, {} failed\npage: {}\n", text, rows.size(), failures.size(),
+                           (path / "stability.md").string()));
+  if (failures.empty()) return;
+  throw Error(ErrorKind::check, std::string(hard_cases_name),
+              fmt::format("{} of {} checks failed, the first: {}", failures.size(), rows.size(), failures.front()), "");
+}
+
+}  // namespace footprint

@@ -1,0 +1,67 @@
+// Figures that are easy to add up by hand.
+#include "tests/report/example_animation.hpp"
+
+#include <fmt/format.h>
+
+namespace footprint {
+namespace {
+
+AnimationRecord record_of_frame(int frame, const std::string& method, double error, const std::string& stem) {
+  AnimationRecord record;
+  record.frame = frame;
+  record.method = method;
+  record.error = FrameError{.normalized_color = error, .noise_floor = 0.01, .causes = {}};
+  record.highlight_energy = 0.3;
+  record.image = fmt::format("images/{}_{:04}.exr", stem, frame);
+  if (frame == 0) return record;
+  record.error->causes.shading = 0.9 * error;
+  record.flicker = FrameFlicker{.whole = {.mean = 2 * error, .p99 = 3 * error, .noise_floor = {}}, .causes = {}};
+  record.flicker->causes.shading = PartFlicker{.mean = error, .p99 = error};
+  record.flicker->causes.edges = PartFlicker{.mean = 3 * error, .p99 = 3 * error};
+  if (method != "a") record.flicker->causes.filter = PartFlicker{.mean = 0.05, .p99 = 0.1};
+  return record;
+}
+
+}  // namespace
+
+Animation example_animation() {
+  Animation animation;
+  animation.tool.version = "0.0.0";
+  animation.backend = {.name = "egl", .renderer = "none", .version = "4.5", .cpu = "some"};
+  animation.scene.name = "plane";
+  animation.scene.source = "plane";
+  animation.scene.exposure_source = "scene";
+  animation.reference = {.spp = 16, .filter = "after_shading", .seed = 1, .standard_errors = {0.02, 0.02, 0.02}};
+  animation.footprint = "anisotropic:8";
+  animation.way = {.path = "orbit", .axis = std::array{0.0, 1.0, 0.0}};
+  animation.width = 64;
+  animation.height = 48;
+  for (int frame = 0; frame < 3; ++frame) {
+    animation.frames.push_back({.frame = frame,
+                                .distance = 1,
+                                .degrees = 10.0 * frame,
+                                .pixels = {.object = 100, .interior = 80, .bound = {}, .light = {}},
+                                .standard_error = 0.02,
+                                .highlight_energy = 0.25,
+                                .image = fmt::format("images/reference_{:04}.exr", frame)});
+    animation.records.push_back(record_of_frame(frame, "a", 0.1 * (frame + 1), "a"));
+    animation.records.push_back(record_of_frame(frame, "b:x=1,\"y\"", 0.3, "b"));
+  }
+  return animation;
+}
+
+Animation hostile_animation() {
+  Animation animation = example_animation();
+  animation.scene.name = "</script><script>document.title='broken'</script>\"<b>&amp; {{data}}";
+  animation.scene.warnings = {"not UTF-8: \xff\xfe, and <!-- a comment"};
+  for (AnimationRecord& record : animation.records) {
+    if (record.method != "a") record.method = "<img src=x onerror=\"document.title='broken'\">";
+  }
+  animation.frames[1].highlight_energy.reset();
+  animation.records[2].error.reset();
+  animation.records[3].flicker.reset();
+  animation.film = "images/film.mp4";
+  return animation;
+}
+
+}  // namespace footprint

@@ -1,4 +1,4 @@
-// `footprint bake`: a method's maps as files, with the GLSL that reads them, for other renderers.
+// `footprint bake`: writes a method's maps, with the GLSL that reads them, for other renderers.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -51,9 +51,9 @@ struct BakeArguments {
   bool quiet = false;
 };
 
-// Maps of another bake among these would be taken for its own.
+// Requires a new or empty folder, because maps of another bake would be mistaken for this one's.
 void require_room(const std::string& output) {
-  std::error_code ignored;  // what is no folder, OutputFolder refuses
+  std::error_code ignored;  // OutputFolder refuses a path that is not a folder
   if (!std::filesystem::is_directory(output, ignored) || std::filesystem::is_empty(output, ignored)) return;
   throw Error(ErrorKind::usage, output, "is not empty", "give a new or an empty folder");
 }
@@ -72,7 +72,7 @@ void require_gltf(const std::string& scene) {
               "name the .gltf or .glb itself, or leave --gltf out");
 }
 
-// A plane's material with the slopes of a file; how rough it is the file does not say.
+// A material with the slopes of a file, which says nothing about its roughness.
 Scene scene_of_slopes(const std::string& file, const ExrChain& slopes) {
   const std::filesystem::path path = file;
   Scene scene;
@@ -105,7 +105,7 @@ std::vector<EngineMaps> engine_maps_of(const Scene& scene, const BakedMethod& ba
   return maps;
 }
 
-// The copy of the model with the maps of all materials that have some; what was written.
+// Writes the copy of the model, with the maps of all materials that have some. Returns its path in the folder.
 std::string copy_gltf(const BakeToFiles& bake, int level, const std::filesystem::path& folder) {
   const BakeListing listing = list_bake(bake);
   std::vector<ReplacedMaps> maps;

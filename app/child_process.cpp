@@ -1,4 +1,4 @@
-// posix_spawn with its standard error in a file, polled so that an interrupt is seen.
+// Starts the program by posix_spawn with standard error in a file, and polls it so that interrupts are noticed.
 #include "app/child_process.hpp"
 
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-// Another program that this one starts and waits for.
+// A program that this one starts and waits for.
 #pragma once
 
 #include <sys/types.h>
@@ -13,18 +13,18 @@
 
 namespace footprint {
 
-/// What is started, and how.
+/// A command to start.
 struct ChildCommand {
   std::filesystem::path program;       ///< absolute
   std::vector<std::string> arguments;  ///< with the program's name first
-  std::filesystem::path errors;        ///< file that gets its standard error
-  std::filesystem::path folder;        ///< that it runs in; empty: this program's own
+  std::filesystem::path errors;        ///< file for its standard error
+  std::filesystem::path folder;        ///< working directory; empty: this program's own
 };
 
 /// A child process that does not outlive its owner.
 class ChildProcess {
  public:
-  /// Starts it. Errors: `failure`, where it cannot be started.
+  /// Starts it. Errors: `failure` if it cannot be started.
   ChildProcess(ChildCommand command, const Error& failure);
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
@@ -35,14 +35,14 @@ class ChildProcess {
   /// The exit code, or -1 if a signal ended it. Empty while it runs.
   [[nodiscard]] std::optional<int> poll();
 
-  /// Waits for it, calls `tick` meanwhile, which may throw, and gives the exit code.
+  /// Waits for it and returns the exit code. Calls `tick` meanwhile, which may throw.
   [[nodiscard]] int wait(const std::function<void()>& tick);
 
  private:
   pid_t id_ = 0;
 };
 
-/// The whole of a text file; empty where there is none.
+/// The content of a text file; empty if there is none.
 [[nodiscard]] std::string text_of(const std::filesystem::path& file);
 
 }  // namespace footprint

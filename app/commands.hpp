@@ -1,4 +1,4 @@
-// The subcommands of `footprint`, one source file each.
+// The subcommands of `footprint`.
 #pragma once
 
 namespace CLI {
@@ -24,6 +24,5 @@ void add_score_command(CLI::App& app);
 void add_surface_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_completions_command(CLI::App& app);
-void add_manual_command(CLI::App& app);
 
 }  // namespace footprint

@@ -1,4 +1,4 @@
-// Which processor this is: times mean nothing without it.
+// The processor, without which times cannot be compared.
 #pragma once
 
 #include <iosfwd>
@@ -8,8 +8,8 @@ namespace footprint {
 
 /// A processor as Linux describes it.
 struct CpuInfo {
-  std::string model;      ///< "Intel(R) Xeon(R) Processor"; the architecture where the system names no model
-  int logical_cores = 1;  ///< those that the system runs, hyper-threads counted
+  std::string model;      ///< "Intel(R) Xeon(R) Processor"; the architecture if the system names no model
+  int logical_cores = 1;  ///< including hyper-threads
 };
 
 /// Reads the format of /proc/cpuinfo.

@@ -1,24 +1,26 @@
-// `footprint explain`: which effects a scene calls for and why, the passes, textures and bytes that follow, what they
-// cost.
+// `footprint explain`: the effects of a scene with their reasons, its passes, textures and bytes, and their costs.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/commands.hpp"
-#include "app/effect_cost.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
 #include "app/standard_output.hpp"
+#include "experiments/studies/frame_times.hpp"
 #include "experiments/studies/memory_estimate.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/memory.hpp"
+#include "renderer/pipeline/timing.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 
 namespace footprint {
@@ -47,27 +49,34 @@ struct TextureUse {
   std::size_t bytes = 0;
 };
 
-// The shadow maps, rendered once before the first frame; none where nothing casts a shadow.
+// The shadow maps, rendered once before the first frame; none if nothing casts a shadow.
 struct ShadowPass {
   std::size_t maps = 0, draws = 0, bytes = 0;
   int resolution = 0;
 };
 
-// The environment's visibility at the vertices, asked once before the first frame; none where nothing hides it.
+// The environment's visibility at the vertices, computed once before the first frame; none if nothing hides it.
 struct VisibilityPass {
   std::size_t vertices = 0, bytes = 0;
   double error = 0;  // radians
 };
 
-// Everything that `explain` has to say.
+// Milliseconds of a frame with every effect of the scene, and without one of them.
+struct EffectCost {
+  Effect effect = Effect::diffuse;
+  double with_ms = 0, without_ms = 0;  // medians over the repeats
+  double added_ms = 0;                 // median of the differences, frame by frame; noise can make it negative
+};
+
+// Everything that `explain` reports.
 struct Explanation {
   std::vector<ModelChoice> choices;
   std::vector<std::string> warnings, supplied;
   std::vector<EffectDecision> effects;
   MemoryEstimate memory;
   std::string method;
-  std::vector<std::string> left_out;  // effects that the scene calls for and the method cannot honour
-  std::size_t draws = 0;              // of the forward pass: one a material
+  std::vector<std::string> left_out;  // effects of the scene that the method does not support
+  std::size_t draws = 0;              // of the forward pass: one per material
   std::size_t shared_bytes = 0, method_bytes = 0;
   std::vector<TextureUse> textures;
   std::size_t shader_lines = 0;
@@ -75,6 +84,62 @@ struct Explanation {
   std::optional<VisibilityPass> visibility;
   std::vector<EffectCost> costs;
 };
+
+EffectCost cost_of(Effect effect, const std::vector<double>& with, const std::vector<double>& without) {
+  std::vector<double> added(with.size());
+  std::ranges::transform(with, without, added.begin(), std::minus{});
+  return {.effect = effect,
+          .with_ms = quantile(with, 0.5),
+          .without_ms = quantile(without, 0.5),
+          .added_ms = quantile(added, 0.5)};
+}
+
+// Whether more rounds would change little, because the intervals of all ratios to the first frame are narrow.
+bool are_known(const RepeatedTimes& times) {
+  return std::ranges::all_of(times, [&](const auto& own) { return is_ratio_known(own, times.front()); });
+}
+
+// The scene with some of its effects. The method stores the scene's address.
+struct Variant {
+  std::unique_ptr<GpuScene> scene;
+  StagedMethod method;
+};
+
+Variant make_variant(const Stage& stage, const RunSettings& run, const EffectSet& effects, const glm::ivec2& size,
+                     const Progress& progress) {
+  const gl::ContextInfo& context = stage.context().info();
+  auto scene = std::make_unique<GpuScene>(context, stage.scene(), effects, progress, nullptr, &stage.gpu_scene());
+  StagedMethod method(context, *scene, stage.scene(), effects, run.methods.front(),
+                      footprint_filter_of(run, stage.scene()), size, run, no_progress);
+  return {std::move(scene), std::move(method)};
+}
+
+// Renders the scene by the stage's first method with all effects and without each one, frames interleaved.
+std::vector<EffectCost> measure_effect_costs(const Stage& stage, const RunSettings& run, const Progress& progress) {
+  const View view = stage.view(1.0);
+  std::vector<Effect> measured;
+  std::vector<Variant> variants;
+  ProgressParts parts([&](std::string_view what, double done) { progress(what, 0.5 * done); },
+                      static_cast<double>(stage.effects().count()));
+  for (const Effect effect : all_effects()) {
+    if (!has(stage.effects(), effect)) continue;
+    measured.push_back(effect);
+    const EffectSet kept = EffectSet(stage.effects()).reset(static_cast<std::size_t>(effect));
+    const Progress preparing = parts.next(1, "preparing: ");
+    preparing(effect_name(effect), 0.0);
+    variants.push_back(make_variant(stage, run, kept, view.size, preparing));
+  }
+  std::vector<DrawFrame> frames{[&] { stage.methods().front().frames().draw(view); }};
+  for (const Variant& variant : variants) frames.emplace_back([&] { variant.method.frames().draw(view); });
+  const auto times = interleaved_times(
+      stage.context().info(), frames, run.timing.repeats,
+      [&](std::string_view what, double done) { progress(what, 0.5 + 0.5 * done); }, are_known);
+  stage.context().check("timing the effects");
+
+  std::vector<EffectCost> costs;
+  for (std::size_t i = 0; i < measured.size(); ++i) costs.push_back(cost_of(measured[i], times[0], times[i + 1]));
+  return costs;
+}
 
 std::vector<TextureUse> texture_uses(const BakedMethod& baked) {
   std::vector<TextureUse> uses;
@@ -134,7 +199,7 @@ std::string text_of(const VisibilityPass& pass) {
                      readable_bytes(pass.bytes));
 }
 
-// A star before what is taken.
+// The names of the choices, with a star before the selected one.
 std::string text_of(const ModelChoice& choice) {
   std::string text;
   for (std::size_t i = 0; i < choice.names.size(); ++i) {
@@ -149,7 +214,7 @@ std::string lines_of(std::string_view heading, const std::vector<std::string>& l
   return text.empty() ? text : fmt::format("{}\n{}\n", heading, text);
 }
 
-// What the model file offers, what it lacks, and what of it is left out.
+// The choices of the model file, the defaults supplied for it, and the warnings about it.
 std::string text_of_input(const Explanation& explanation) {
   std::vector<std::string> choices;
   for (const ModelChoice& choice : explanation.choices) {

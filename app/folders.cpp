@@ -1,4 +1,4 @@
-// Folders by environment variable, else of the installed tree that the program lies in, else of the source tree.
+// Folders by environment variable, else of the tree in which the program is installed, else of the source tree.
 #include "app/folders.hpp"
 
 #include <cstdlib>
@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The folder that scenes/ and experiments/ lie in. A program in PREFIX/bin or PREFIX/libexec finds
+// The folder that contains scenes/ and experiments/. A program in PREFIX/bin or PREFIX/libexec finds
 // PREFIX/share/footprint, wherever PREFIX was moved to.
 fs::path data_folder() {
   std::error_code unknown;

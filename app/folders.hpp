@@ -1,4 +1,4 @@
-// Where the program finds what has a name: scenes and experiments.
+// Folders in which the program finds scenes and experiments by name.
 #pragma once
 
 #include <filesystem>
@@ -7,12 +7,12 @@
 
 namespace footprint {
 
-/// Where the experiments that have a name lie: the environment variable FOOTPRINT_EXPERIMENTS, else
-/// experiments/ of the installed tree, else of the source tree.
+/// The folder of experiments: the environment variable FOOTPRINT_EXPERIMENTS, else experiments/ of the installed tree,
+/// else of the source tree.
 [[nodiscard]] std::filesystem::path experiments_folder();
 
-/// Where the scenes that have a name lie (FOOTPRINT_SCENES, else scenes/ of the installed tree, else of the source
-/// tree), and the surfaces of this build.
+/// The folder of scenes (FOOTPRINT_SCENES, else scenes/ of the installed tree, else of the source tree), and the
+/// surfaces of this build.
 [[nodiscard]] SceneLibrary scene_library();
 
 }  // namespace footprint

@@ -1,4 +1,4 @@
-// Words into lines, and CLI11's type names into what people read: "INT:INT in [1 - 9]" as "N (1 to 9)".
+// Wraps words into lines, and translates CLI11's type names: "INT:INT in [1 - 9]" to "N (1 to 9)".
 #include "app/help_format.hpp"
 
 #include <fmt/format.h>
@@ -62,7 +62,8 @@ std::string HelpFormat::make_description(const CLI::App* app) const { return ent
 std::string HelpFormat::make_usage(const CLI::App* app, std::string name) const {
   std::string usage = "\nUsage: " + name;
   if (!app->get_subcommands({}).empty()) usage += " SUBCOMMAND";
-  for (const CLI::Option* option : app->get_options([](const CLI::Option* o) { return o->get_positional(); }))
+  for (const CLI::Option* option :
+       app->get_options([](const CLI::Option* o) { return o->get_positional() && !o->get_group().empty(); }))
     usage += " " + positional_words(*option);
   return usage + " [OPTION]...\n";
 }

@@ -7,7 +7,7 @@
 
 namespace footprint {
 
-/// An option is printed as "-o, --output DIR", what it does, and its range and default.
+/// Prints an option as "-o, --output DIR", its meaning, its range and its default.
 class HelpFormat : public CLI::Formatter {
  public:
   static constexpr std::size_t width = 100;

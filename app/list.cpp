@@ -1,5 +1,4 @@
-// `footprint list`: the methods with their options, the scenes, the surfaces with their parameters, the experiments,
-// the backends.
+// The subcommands about this program: `list`, `info` and `completions`.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -10,13 +9,16 @@
 #include <variant>
 #include <vector>
 
-#include "app/backend_text.hpp"
 #include "app/commands.hpp"
+#include "app/completions.hpp"
+#include "app/cpu_info.hpp"
 #include "app/folders.hpp"
 #include "app/standard_output.hpp"
 #include "experiments/runner/experiment.hpp"
 #include "methods/registry.hpp"
+#include "renderer/core/memory.hpp"
 #include "renderer/core/words.hpp"
+#include "renderer/gl/context.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "scenes/surfaces/registry.hpp"
 
@@ -30,6 +32,19 @@ constexpr const char* list_examples =
     "  footprint list                               everything\n"
     "  footprint list methods                       the methods and their options\n"
     "  footprint list scenes --json                 for programs";
+
+constexpr const char* info_examples =
+    "Examples:\n"
+    "  footprint info                               backends with their limits, processor, memory\n"
+    "  footprint info | grep egl-device             the GPUs, with their numbers for --device";
+
+constexpr const char* completions_examples =
+    "Installed packages bring these already.\n"
+    "\n"
+    "Examples:\n"
+    "  source <(footprint completions bash)\n"
+    "  footprint completions zsh > ~/.zfunc/_footprint\n"
+    "  footprint completions fish > ~/.config/fish/completions/footprint.fish";
 
 const std::vector<std::string> kinds{"methods", "scenes", "surfaces", "experiments", "backends"};
 
@@ -48,7 +63,7 @@ std::string range_text(const OptionSpec& option) {
   return fmt::format("{}", fmt::join(option.choices, ", "));
 }
 
-// `prefix` is what stands before an option where it is written.
+// A line per option; `prefix` precedes an option when it is written.
 std::string options_text(const std::vector<OptionSpec>& options, std::string_view prefix) {
   std::string text;
   for (const OptionSpec& option : options) {
@@ -107,25 +122,73 @@ Json method_json(const MethodInfo& method) {
           {"options", options_json(method.options)}};
 }
 
+// A line with renderer and version and one with its limits, or one line that says why it is not available.
+std::string backend_text(const gl::BackendReport& report) {
+  std::string name{gl::backend_name(report.backend)};
+  if (report.backend == gl::Backend::egl_device) name += fmt::format(" --device {}", report.device);
+  if (!report.info) return fmt::format("  {:<22} not available: {}\n", name, report.why_not);
+  const gl::ContextInfo& info = *report.info;
+  return fmt::format(
+      "  {:<22} {}, OpenGL {}{}\n"
+      "  {:<22} textures up to {} texels per side, frames up to {} without tiles, {} texture units, uniform blocks up "
+      "to {} bytes\n",
+      name, info.renderer, info.version, info.software ? ", software" : "", "", info.max_texture_size,
+      info.max_framebuffer_size, info.max_texture_units, info.max_uniform_block_bytes);
+}
+
+Json backend_json(const gl::BackendReport& report) {
+  Json json{
+      {"name", gl::backend_name(report.backend)}, {"device", report.device}, {"available", report.info.has_value()}};
+  if (!report.info) {
+    json["why_not"] = report.why_not;
+    return json;
+  }
+  const gl::ContextInfo& info = *report.info;
+  json["vendor"] = info.vendor;
+  json["renderer"] = info.renderer;
+  json["version"] = info.version;
+  json["glsl_version"] = info.glsl_version;
+  json["software"] = info.software;
+  json["max_texture_size"] = info.max_texture_size;
+  json["max_framebuffer_size"] = info.max_framebuffer_size;
+  json["max_texture_units"] = info.max_texture_units;
+  json["max_uniform_block_bytes"] = info.max_uniform_block_bytes;
+  return json;
+}
+
+std::vector<std::string> names_of(std::string_view kind) {
+  if (kind == "scenes") return list_scenes(scene_library().folder);
+  if (kind == "experiments") return list_experiments(experiments_folder());
+  std::vector<std::string> names;
+  if (kind == "methods") {
+    for (const Method* method : all_methods()) names.push_back(method->info().name);
+  } else {
+    for (const Surface& surface : all_surfaces()) names.push_back(surface.name);
+  }
+  return names;
+}
+
+std::string backends_text() {
+  std::string text = "backends\n";
+  for (const gl::BackendReport& report : gl::probe_backends()) text += backend_text(report);
+  return text;
+}
+
 std::string kind_text(const std::string& kind) {
+  if (kind == "backends") return backends_text();
   std::string text = kind + "\n";
   if (kind == "methods") {
     for (const Method* method : all_methods()) text += method_text(method->info());
-  } else if (kind == "scenes") {
-    for (const std::string& scene : list_scenes(scene_library().folder)) text += fmt::format("  {}\n", scene);
-  } else if (kind == "experiments") {
-    for (const std::string& name : list_experiments(experiments_folder())) text += fmt::format("  {}\n", name);
   } else if (kind == "surfaces") {
     for (const Surface& surface : all_surfaces()) text += surface_text(surface);
   } else {
-    for (const gl::BackendReport& report : gl::probe_backends()) text += backend_text(report);
+    for (const std::string& name : names_of(kind)) text += fmt::format("  {}\n", name);
   }
   return text;
 }
 
 Json kind_json(const std::string& kind) {
-  if (kind == "scenes") return list_scenes(scene_library().folder);
-  if (kind == "experiments") return list_experiments(experiments_folder());
+  if (kind == "scenes" || kind == "experiments") return names_of(kind);
   Json json = Json::array();
   if (kind == "methods") {
     for (const Method* method : all_methods()) json.push_back(method_json(method->info()));
@@ -152,6 +215,16 @@ void run_list(const ListArguments& arguments) {
   write_output(arguments.json ? json.dump(2) + "\n" : text);
 }
 
+void run_info() {
+  write_output(fmt::format("footprint {}\n\n{}\nmachine\n  {:<22} {}\n  {:<22} {} available\n", FOOTPRINT_VERSION,
+                           backends_text(), "processor", describe_cpu(), "memory", readable_bytes(available_memory())));
+}
+
+struct CompletionsArguments {
+  std::string shell;
+  std::vector<std::string> words;  // the words typed so far, for `offer`
+};
+
 }  // namespace
 
 void add_list_command(CLI::App& app) {
@@ -162,6 +235,24 @@ void add_list_command(CLI::App& app) {
   command->add_flag("--json", arguments->json, "Print JSON");
   command->footer(list_examples);
   command->callback([arguments] { run_list(*arguments); });
+}
+
+void add_info_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("info", "Show version, OpenGL backends and limits");
+  command->footer(info_examples);
+  command->callback(run_info);
+}
+
+void add_completions_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("completions", "Print the completions of the command line for a shell");
+  const auto arguments = std::make_shared<CompletionsArguments>();
+  command->add_option("shell", arguments->shell, "bash, zsh or fish")->type_name("SHELL")->required();
+  command->add_option("words", arguments->words)->group("");  // `completions offer -- WORD...`, which the scripts call
+  command->footer(completions_examples);
+  command->callback([arguments, &app] {
+    write_output(arguments->shell == "offer" ? offered_words(app, arguments->words, names_of)
+                                             : completion_script(arguments->shell));
+  });
 }
 
 }  // namespace footprint

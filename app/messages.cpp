@@ -10,7 +10,7 @@
 namespace footprint {
 namespace {
 
-// The JSON library tells UTF-8 from other bytes on writing.
+// The JSON library replaces bytes that are not UTF-8 when it writes.
 std::string valid_utf8(std::string_view text) {
   using nlohmann::json;
   return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
@@ -26,7 +26,7 @@ std::string printable_line(std::string_view text) {
 }
 
 void write_message(std::string_view text) {
-  // Nobody is told if standard error is closed: there is nowhere left to tell it.
+  // If standard error is closed, there is nowhere left to report that.
   (void)std::fputs(("footprint: " + printable_line(text) + "\n").c_str(), stderr);
 }
 

@@ -1,4 +1,4 @@
-// What the program tells people on standard error, beside its progress.
+// Messages on standard error, besides the progress.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace footprint {
 
-/// `text` as one line that any terminal can show: control characters become spaces, bytes that are no UTF-8 become
-/// U+FFFD. Names in files are anyone's.
+/// `text` as one line that any terminal can show: control characters become spaces, and bytes that are not UTF-8 become
+/// U+FFFD, because names in files can contain anything.
 [[nodiscard]] std::string printable_line(std::string_view text);
 
 /// Writes "footprint: TEXT" as one line to standard error.
 void write_message(std::string_view text);
 
-/// Writes one message for each of the scene's warnings and, unless `quiet`, for what was supplied because it has none.
+/// Writes a message per warning of the scene and, unless `quiet`, per default that was supplied for it.
 void write_scene_notes(const Scene& scene, bool quiet);
 
 }  // namespace footprint

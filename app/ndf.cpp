@@ -1,4 +1,4 @@
-// `footprint ndf`: what each method takes the facets under a footprint for, beside what they are.
+// `footprint ndf`: each method's NDF of the facets under a footprint, next to the exact one.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -11,13 +11,13 @@
 
 #include "app/commands.hpp"
 #include "app/messages.hpp"
+#include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
 #include "app/standard_output.hpp"
 #include "experiments/studies/ndf_inspection.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
-#include "renderer/core/interrupt.hpp"
 #include "renderer/ndf/hemisphere_grid.hpp"
 
 namespace footprint {
@@ -62,7 +62,7 @@ FootprintRect parse_rectangle(const std::string& option, const std::string& text
   return {{values[0], values[1]}, {values[2], values[3]}};
 }
 
-// The footprint in texture coordinates, whichever way it was given.
+// The footprint in texture coordinates, given in them or in texels.
 FootprintRect footprint_of(const NdfArguments& arguments, const Material& material) {
   FootprintRect rect;
   if (!arguments.footprint.empty()) rect = parse_rectangle("--region", arguments.footprint);
@@ -91,13 +91,14 @@ void run_ndf(const NdfArguments& arguments) {
   settings.footprint = footprint_of(arguments, source.material);
 
   ProgressDisplay display(progress_style(arguments.quiet));
-  OutputFolder folder(arguments.output);
-  std::filesystem::create_directories(folder.path() / "images");
-  NdfResults results = inspect_ndf(source, settings, folder.path(), display.callback());
-  results.version = FOOTPRINT_VERSION;
-  write_file_atomically(folder.path() / "ndf.json", ndf_json(results));
-  throw_if_interrupted();
-  folder.commit();
+  const auto [results, path] = write_whole(arguments.output, [&](OutputFolder& folder) {
+    std::filesystem::create_directories(folder.path() / "images");
+    NdfResults measured = inspect_ndf(source, settings, folder.path(), display.callback());
+    measured.version = FOOTPRINT_VERSION;
+    write_file_atomically(folder.path() / "ndf.json", ndf_json(measured));
+    keep(folder);
+    return measured;
+  });
   display.finish();
   for (const std::string& note : results.notes) write_message(note);
   if (!results.fine_enough) {
@@ -106,7 +107,7 @@ void run_ndf(const NdfArguments& arguments) {
         "give a larger --resolution",
         results.lobe, results.truth.energy, results.truth.expected_energy));
   }
-  write_output(fmt::format("{}\nimages: {}\n", ndf_table(results), (folder.final_path() / results.strip).string()));
+  write_output(fmt::format("{}\nimages: {}\n", ndf_table(results), (path / results.strip).string()));
 }
 
 }  // namespace

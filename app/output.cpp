@@ -1,4 +1,4 @@
-// Places of errors, signatures, and what is printed at the end.
+// Places of errors, signatures, and the summary that is printed at the end.
 #include "app/output.hpp"
 
 #include <fmt/format.h>
@@ -18,6 +18,12 @@ Error at_final_place(const Error& error, const OutputFolder& folder) {
   const std::string hidden = folder.path().string();
   if (place.starts_with(hidden)) place.replace(0, hidden.size(), folder.final_path().string());
   return {error.kind(), std::move(place), error.message(), error.hint()};
+}
+
+std::filesystem::path image_path(const std::string& output, const std::string& hint) {
+  std::filesystem::path path = output;
+  if (path.extension() == ".exr" || path.extension() == ".png") return path;
+  throw Error(ErrorKind::usage, "--output", fmt::format("`{}` is not an image file", output), hint);
 }
 
 void sign(ToolInfo& tool, BackendInfo& backend) {

@@ -1,5 +1,4 @@
-// Output folders of subcommands: filled out of sight, moved to their place at the end, with errors that name that
-// place.
+// Output of subcommands. Folders are filled out of sight and moved to their place at the end; errors name that place.
 #pragma once
 
 #include <filesystem>
@@ -14,23 +13,26 @@
 
 namespace footprint {
 
-/// An error of a file that is still out of sight, with the place that the file was meant for.
+/// The error of a hidden file, with the path that the file will have at its place.
 [[nodiscard]] Error at_final_place(const Error& error, const OutputFolder& folder);
 
-/// Fills in what only the program knows: its version, and the processor that it runs on.
+/// The path of an output image. Errors (usage): the extension is neither .exr nor .png, with `hint`.
+[[nodiscard]] std::filesystem::path image_path(const std::string& output, const std::string& hint);
+
+/// Adds the program's version and the processor.
 void sign(ToolInfo& tool, BackendInfo& backend);
 
-/// Moves the folder to its place. Errors (interrupted): where the run was interrupted, it is not moved.
+/// Moves the folder to its place. Errors (interrupted): the run was interrupted, and the folder is not moved.
 void keep(OutputFolder& folder);
 
 /// Prints the summary of `results`, or with `verbose` all of table.md, and the path of their page in `folder`.
 void print_results(const Results& results, const std::filesystem::path& folder, bool verbose = false);
 
-/// The error (check) that ends the program after a run in which rows failed, once everything else is written; none
-/// where no row failed.
+/// The error (check) for a run in which rows failed, to be thrown once everything else is written; none if all passed.
 [[nodiscard]] std::optional<Error> row_failures(const Results& results);
 
-/// What `write` makes of the folder (it commits) and where that is. Nothing is left of a folder that was not committed.
+/// The result of `write`, which fills and commits the folder, and the folder's place. Removes a folder that was not
+/// committed.
 template <typename Write>
 auto write_whole(const std::filesystem::path& output, Write write) {
   OutputFolder folder(output);
@@ -42,9 +44,8 @@ auto write_whole(const std::filesystem::path& output, Write write) {
   }
 }
 
-/// Signs measured `results` with the program's version and the processor, lets `write` put them into the folder and
-/// moves that to its place, where pictures go that an earlier run's `document` lists. Errors (interrupted): nothing is
-/// moved.
+/// Signs `results`, writes them into the folder by `write` and moves it to its place, where it replaces the images that
+/// an earlier run's `document` lists. Errors (interrupted): nothing is moved.
 template <typename Measured, typename Write>
 void keep_results(Measured& results, OutputFolder& folder, Write write, const char* document = "results.json") {
   sign(results.tool, results.backend);

@@ -1,4 +1,4 @@
-// Redraws one bar ten times a second at most, or writes a line every two seconds and where a longer stage ends.
+// Redraws a bar at most ten times a second, or writes a line every two seconds and at the end of a longer stage.
 #include "app/progress_display.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ using namespace std::chrono_literals;
 constexpr std::string_view clear_line = "\r\x1b[K";
 constexpr int bar_cells = 24;
 
-// Nobody is told if standard error is closed: there is nowhere left to tell it.
+// If standard error is closed, there is nowhere left to report that.
 void write_to_stderr(std::string_view text) {
   (void)std::fwrite(text.data(), 1, text.size(), stderr);
   (void)std::fflush(stderr);
@@ -57,7 +57,7 @@ ProgressDisplay::ProgressDisplay(ProgressStyle style, Sink sink, Clock clock, st
       stage_started_(last_shown_) {}
 
 ProgressDisplay::~ProgressDisplay() {
-  // Work that failed leaves its stage unfinished: the bar goes, and no line claims an end.
+  // Work that failed has not finished its stage: clear the bar, and write no line about an end.
   const bool failed = std::uncaught_exceptions() > 0;
   if (failed && style_ == ProgressStyle::lines) return;
   finish();
@@ -97,7 +97,7 @@ void ProgressDisplay::draw_bar(std::string_view what, double fraction) {
 void ProgressDisplay::write_lines(std::string_view what, double fraction) {
   const auto now = clock_();
   if (stage_ != what) {
-    // Stages that pass in a moment would bury the others.
+    // Short stages get no line, because they would hide the others.
     if (!stage_.empty() && now - stage_started_ >= 500ms) {
       sink_(fmt::format("{:3.0f} %  {}: done\n", std::floor(100.0 * stage_fraction_), stage_));
       last_shown_ = now;
@@ -111,7 +111,7 @@ void ProgressDisplay::write_lines(std::string_view what, double fraction) {
   stage_fraction_ = fraction;
 }
 
-// The stage's own rate, carried on: that of a faster one before it would leave an estimate that counts up.
+// Extrapolates the stage's own rate: with that of a faster stage before it, the estimate would count up.
 std::string ProgressDisplay::time_left(double fraction) const {
   const double elapsed = std::chrono::duration<double>(clock_() - rate_since_.time).count();
   const double done = fraction - rate_since_.fraction;

@@ -1,4 +1,4 @@
-// Progress for people: a bar on a terminal, plain lines elsewhere, nothing if quiet.
+// The display of progress: a bar on a terminal, lines elsewhere, nothing if quiet.
 #pragma once
 
 #include <chrono>
@@ -20,7 +20,7 @@ enum class ProgressStyle {
 /// The style for standard error: a bar if it is a terminal that can redraw a line, else lines.
 [[nodiscard]] ProgressStyle progress_style(bool quiet);
 
-/// Shows the progress of one job, with an estimate of the time left, and lets Ctrl-C through at every report. For one
+/// Shows the progress of one job with an estimate of the time left, and reacts to Ctrl-C at every report. For one
 /// thread at a time.
 class ProgressDisplay {
  public:
@@ -35,10 +35,10 @@ class ProgressDisplay {
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
   ~ProgressDisplay();
 
-  /// One report: what is being done and the fraction done of the whole job, 0 to 1. Throws Error{interrupted}.
+  /// Reports the current step and the fraction of the whole job that is done, 0 to 1. Errors (interrupted).
   void report(std::string_view what, double fraction);
 
-  /// Ends the display: clears the bar, or writes the last stage's line. Reports after it start anew.
+  /// Ends the display: clears the bar, or writes the last stage's line. Later reports start a new one.
   void finish();
 
   /// This display as the callback that long work takes; the display must outlive it.
@@ -57,9 +57,9 @@ class ProgressDisplay {
   struct {
     std::chrono::steady_clock::time_point time;
     double fraction = 0;
-  } rate_since_;               // where the stage began
-  std::string stage_;          // what the last report was about; empty before the first
-  double stage_fraction_ = 0;  // and how far it was
+  } rate_since_;               // when the stage began
+  std::string stage_;          // of the last report; empty before the first
+  double stage_fraction_ = 0;  // of the last report
 };
 
 }  // namespace footprint

@@ -1,4 +1,4 @@
-// `footprint recommend`: which method to take for each material, within a limit of error, cost or size, and why.
+// `footprint recommend`: chooses a method for each material, within a limit of error, cost or size.
 #include "experiments/studies/recommend.hpp"
 
 #include <fmt/format.h>
@@ -48,7 +48,7 @@ struct RecommendArguments {
   bool quiet = false;
 };
 
-// Plain `direct`, which all are held against, is under the trilinear one.
+// Trilinear is always among them: costs are relative to `direct` with it.
 std::vector<FootprintFilter> parse_filters(const std::string& text) {
   std::vector<FootprintFilter> filters{{FootprintFilterKind::trilinear, 1}};
   std::istringstream words(text);

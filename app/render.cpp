@@ -1,4 +1,4 @@
-// `footprint render`: one picture of a scene by one method, or by the supersampled reference.
+// `footprint render`: one image of a scene by a method, or by the supersampled reference.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +10,7 @@
 
 #include "app/commands.hpp"
 #include "app/messages.hpp"
+#include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
 #include "app/standard_output.hpp"
@@ -42,14 +43,7 @@ struct RenderArguments {
   bool quiet = false;
 };
 
-std::filesystem::path picture_path(const std::string& text) {
-  std::filesystem::path path = text;
-  if (path.extension() == ".exr" || path.extension() == ".png") return path;
-  throw Error(ErrorKind::usage, "--output", fmt::format("`{}` is not an image file", text),
-              "use the extension .exr for linear radiance, or .png for display");
-}
-
-// The factor on the camera's distance: given, or that of a frame of the scene's zoom path.
+// The factor on the camera's distance: as given, or of a frame of the scene's zoom path.
 double distance_factor(double given, const std::optional<std::size_t>& frame, const Scene& scene) {
   if (!frame) return given;
   if (*frame < scene.distances.size()) return scene.distances[*frame];
@@ -71,8 +65,8 @@ void save_picture(const std::filesystem::path& path, const Image& picture, const
   write_png(path, to_display(picture, choose_exposure(run.view.exposure, scene, picture).factor));
 }
 
-// The run without the reference among its methods: the stage has it anyway. Options that only the reference heeds would
-// be a silent misunderstanding with a method.
+// The settings of the stage, which always has the reference and does not take it as a method. Options of the reference
+// are refused with a method, which would ignore them.
 RunSettings staged(const RunOptions& options) {
   RunSettings run = options.settings();
   const std::string method = run.methods.front().text;
@@ -88,7 +82,8 @@ RunSettings staged(const RunOptions& options) {
 }
 
 void run_render(const RenderArguments& arguments) {
-  const std::filesystem::path path = picture_path(arguments.output);
+  const std::filesystem::path path =
+      image_path(arguments.output, "use the extension .exr for linear radiance, or .png for display");
   const RunSettings run = staged(arguments.run);
   Scene scene = load_scene(run.scene, run.scene_library, run.overrides);
   const double distance = distance_factor(run.view.distances.front(), arguments.zoom_frame, scene);

@@ -1,4 +1,4 @@
-// Between the table of settings and the parser of the command line.
+// Adds rows of the table of settings to the parser of the command line, and reads their values.
 #include "app/run_options.hpp"
 
 #include <fmt/format.h>

@@ -14,18 +14,18 @@ class Option;
 
 namespace footprint {
 
-/// The options that a subcommand has of the table. Lives as long as the subcommand is being parsed and run.
+/// The options of a subcommand that are settings of a run. Must outlive the parsing and running of the subcommand.
 class RunOptions {
  public:
-  /// Adds them to `command`, by its name.
+  /// Adds the options that the table has for `command`'s name.
   explicit RunOptions(CLI::App& command);
 
-  /// What was given, put over `run`, with the folders that the program knows: scenes, surfaces, cache. For after the
-  /// whole command line has been parsed. Errors (usage) name the option; (machine): one picture of --size is more than
-  /// memory holds.
+  /// Overwrites settings of `run` with the options given, and sets the folders of scenes and the cache. Call it after
+  /// the whole command line has been parsed. Errors (usage) name the option; (machine): an image of --size does not fit
+  /// in memory.
   void apply(RunSettings& run) const;
 
-  /// The same over a run's own defaults.
+  /// The same over the defaults of a run.
   [[nodiscard]] RunSettings settings() const;
 
   /// The options given that have a key in [`table`] of an experiment's file: "--spp" of [reference].

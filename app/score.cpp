@@ -1,4 +1,4 @@
-// `footprint score`: pictures of any origin against a reference.
+// `footprint score`: images of any origin against a reference.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -20,7 +20,7 @@
 #include "app/run_options.hpp"
 #include "app/standard_output.hpp"
 #include "experiments/studies/exposure.hpp"
-#include "experiments/studies/picture_score.hpp"
+#include "experiments/studies/score.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/file_names.hpp"
@@ -62,22 +62,22 @@ struct ScoreArguments {
   bool quiet = false;
 };
 
-// What pictures are held against.
+// What images are compared with.
 struct Reference {
   Image picture;
   Image standard_error;  // empty: not known
   float exposure = 1.0F;
 };
 
-// By its name: a scene is a folder's, or a file of these kinds.
+// Whether the name is a scene's: that of a folder, or of a file of these kinds.
 bool names_a_scene(const std::string& reference) {
   const std::string extension = lower_extension(reference);
   constexpr std::array<std::string_view, 4> scenes{".toml", ".gltf", ".glb", ".obj"};
   return extension.empty() || std::ranges::find(scenes, extension) != scenes.end();
 }
 
-// The scene's own, as large as the first picture.
-Reference drawn_reference(const ScoreArguments& arguments) {
+// The reference of a scene, in the size of the first image.
+Reference rendered_reference(const ScoreArguments& arguments) {
   if (!arguments.standard_error.empty())
     throw Error(ErrorKind::usage, "--standard-error", "the reference of a scene has its own", "leave it out");
   RunSettings run = arguments.run.settings();
@@ -103,16 +103,14 @@ Image read_standard_error(const std::string& file) {
               "give the RGB standard error that `footprint compare` writes next to its reference");
 }
 
-// An image. Beside the results of a comparison that wrote it, exposure and standard error are those of the comparison
-// unless they are given, so that equal images have equal errors there and here.
+// An image. If `footprint compare` wrote it, exposure and standard error are those of its results.json unless they are
+// given, so that equal images have equal errors in both.
 Reference given_reference(const ScoreArguments& arguments) {
-  for (const std::string& option : arguments.run.given_of("reference")) {
-    throw Error(ErrorKind::usage, option, fmt::format("{} is an image, not a scene", arguments.reference),
-                "use it with a scene as the reference");
-  }
   const RunSettings run = arguments.run.settings();
-  if (run.view.distances.front() != 1.0) {
-    throw Error(ErrorKind::usage, "--distance", fmt::format("{} is an image, not a scene", arguments.reference),
+  std::vector<std::string> of_scenes = arguments.run.given_of("reference");
+  if (run.view.distances.front() != 1.0) of_scenes.emplace_back("--distance");
+  if (!of_scenes.empty()) {
+    throw Error(ErrorKind::usage, of_scenes.front(), fmt::format("{} is an image, not a scene", arguments.reference),
                 "use it with a scene as the reference");
   }
   Reference out{read_reference(arguments.reference), {}, 1.0F};
@@ -134,7 +132,7 @@ struct Scores {
 };
 
 Scores take_scores(const ScoreArguments& arguments) {
-  Reference reference = names_a_scene(arguments.reference) ? drawn_reference(arguments) : given_reference(arguments);
+  Reference reference = names_a_scene(arguments.reference) ? rendered_reference(arguments) : given_reference(arguments);
   Scores out;
   out.exposure = reference.exposure;
   if (!reference.standard_error.empty())
@@ -154,22 +152,13 @@ Scores take_scores(const ScoreArguments& arguments) {
   return out;
 }
 
-std::optional<double> of_radiance(const PictureScore& score, double value) {
-  return score.displayed ? std::nullopt : std::optional(value);
-}
-
 Json score_json(const PictureScore& score) {
-  const ErrorFigures& e = score.error;
-  return {{"picture", score.name},
-          {"displayed", score.displayed},
-          {"normalized_color", json_number(e.normalized_color)},
-          {"relative_rmse", json_number(of_radiance(score, e.relative_rmse))},
-          {"relmse", json_number(of_radiance(score, e.relmse))},
-          {"psnr", json_number(std::isfinite(e.psnr) ? std::optional(e.psnr) : std::nullopt)},
-          {"energy_bias", json_number(of_radiance(score, e.energy_bias))},
-          {"luminance_distance", json_number(e.luminance_distance)},
-          {"ldr_flip", json_number(score.ldr_flip)},
-          {"hdr_flip", json_number(score.hdr_flip)}};
+  Json json{{"picture", score.name}, {"displayed", score.displayed}};
+  for (const ScoreMetric& metric : score_metrics()) {
+    const std::optional<double> value = metric.value(score);
+    json[metric.key] = json_number(value && std::isfinite(*value) ? value : std::nullopt);
+  }
+  return json;
 }
 
 std::string scores_json(const ScoreArguments& arguments, const Scores& scores) {
@@ -194,22 +183,14 @@ std::string scores_json(const ScoreArguments& arguments, const Scores& scores) {
 std::string cell(const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "n/a"; }
 
 std::string scores_table(const Scores& scores) {
+  std::vector<MarkdownColumn> columns{{"Image", false}};
   std::vector<std::vector<std::string>> rows;
-  for (const PictureScore& s : scores.pictures) {
-    rows.push_back({s.name, cell(s.error.normalized_color), cell(of_radiance(s, s.error.relative_rmse)),
-                    cell(of_radiance(s, s.error.relmse)), cell(s.error.psnr), cell(of_radiance(s, s.error.energy_bias)),
-                    cell(s.error.luminance_distance), cell(s.ldr_flip), cell(s.hdr_flip)});
+  for (const ScoreMetric& metric : score_metrics()) columns.push_back({std::string(metric.title)});
+  for (const PictureScore& score : scores.pictures) {
+    rows.push_back({score.name});
+    for (const ScoreMetric& metric : score_metrics()) rows.back().push_back(cell(metric.value(score)));
   }
-  std::string text = markdown_table({{"Image", false},
-                                     {"Error"},
-                                     {"Rel. RMSE"},
-                                     {"relMSE"},
-                                     {"PSNR dB"},
-                                     {"Energy"},
-                                     {"Lum. dist."},
-                                     {"LDR-FLIP"},
-                                     {"HDR-FLIP"}},
-                                    rows);
+  std::string text = markdown_table(columns, rows);
   if (!scores.pair) return text;
   return text +
          fmt::format("\nThe first is closer to the reference in {:.1f}% of the pixels, the second in {:.1f}%{}\n",

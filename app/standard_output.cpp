@@ -1,4 +1,4 @@
-// Writes and flushes at once, so that a full disk is an error here; a closed pipe is none.
+// Writes and flushes at once, so that a full disk is an error here.
 #include "app/standard_output.hpp"
 
 #include <cerrno>

@@ -1,4 +1,4 @@
-// `footprint surface`: the normal map of a procedural surface as a file, for other tools.
+// `footprint surface`: writes the normal map of a procedural surface for other tools.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/output.hpp"
 #include "app/standard_output.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/interrupt.hpp"
@@ -54,7 +55,7 @@ std::map<std::string, std::string> parse_parameters(const std::vector<std::strin
   return parameters;
 }
 
-/// x, y and z alone: the weight is 1 everywhere.
+// x, y and z only: the weight is 1 everywhere.
 Image normals_only(const Image& map) {
   Image normals(map.width, map.height, 3);
   for (int y = 0; y < map.height; ++y) {
@@ -71,17 +72,14 @@ void save(const std::filesystem::path& path, Image normals) {
 }
 
 void run_surface(const SurfaceArguments& arguments) {
-  const std::filesystem::path path = arguments.output;
-  if (path.extension() != ".exr" && path.extension() != ".png") {
-    throw Error(ErrorKind::usage, "--output", fmt::format("`{}` is not an image file", arguments.output),
-                "use the extension .exr for float normals, or .png for 8 bits");
-  }
+  const std::filesystem::path path =
+      image_path(arguments.output, "use the extension .exr for float normals, or .png for 8 bits");
   const Surface& surface = find_surface(all_surfaces(), arguments.surface);
   SurfaceSettings settings = surface_settings(surface, parse_parameters(arguments.parameters));
   if (arguments.resolution != 0) settings.resolution = arguments.resolution;
   settings.seed = arguments.seed;
   const auto side = static_cast<std::uint64_t>(settings.resolution);
-  constexpr std::uint64_t texel_bytes = (4 + 3) * sizeof(float);  // the map, and what of it is written
+  constexpr std::uint64_t texel_bytes = (4 + 3) * sizeof(float);  // the map, and its written channels
   require_memory(frame_bytes(side, side, texel_bytes), fmt::format("a map of {} x {} texels", side, side),
                  "ask for a smaller --resolution, or free memory");
   Image normals = normals_only(surface_normals(surface, settings));

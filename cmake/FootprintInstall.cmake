@@ -1,11 +1,11 @@
 # What `cmake --install` and CPack put under a prefix, in two components:
-#   runtime      the program, scenes, experiments, published figures, documents, man page, completions of shells
+#   runtime      the program, scenes, experiments, published figures, documents, manual pages, shell completions
 #   development  headers, libraries and find_package(Footprint) for methods out of the tree
 include(GNUInstallDirs)
 set(CMAKE_INSTALL_DOCDIR "${CMAKE_INSTALL_DATADIR}/doc/footprint")
 
-# footprint_install_program(TARGET): the program, and all that it reads or that tells of it. What the program writes of
-# itself is written when it is built.
+# footprint_install_program(TARGET): the program, and all that it reads or that describes it. The program itself writes
+# its completions and manual pages during the installation.
 function(footprint_install_program target)
   set(data "${CMAKE_INSTALL_DATADIR}/footprint")
   install(TARGETS ${target} RUNTIME COMPONENT runtime)
@@ -19,25 +19,13 @@ function(footprint_install_program target)
   install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright COMPONENT runtime)
 
   set(written "${CMAKE_CURRENT_BINARY_DIR}/self_description")
-  set(page "${written}/footprint.1")
-  set(bash "${written}/footprint")
-  set(zsh "${written}/_footprint")
-  set(fish "${written}/footprint.fish")
-  add_custom_command(
-    OUTPUT "${page}" "${bash}" "${zsh}" "${fish}"
-    COMMAND "${CMAKE_COMMAND}" -E make_directory "${written}"
-    COMMAND ${target} manual > "${page}"
-    COMMAND ${target} completions bash > "${bash}"
-    COMMAND ${target} completions zsh > "${zsh}"
-    COMMAND ${target} completions fish > "${fish}"
-    DEPENDS ${target}
-    COMMENT "Writing the manual page and the completions"
-    VERBATIM)
-  add_custom_target(footprint_self_description ALL DEPENDS "${page}" "${bash}" "${zsh}" "${fish}")
-  install(FILES "${page}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT runtime)
-  install(FILES "${bash}" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" COMPONENT runtime)
-  install(FILES "${zsh}" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions" COMPONENT runtime)
-  install(FILES "${fish}" DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d" COMPONENT runtime)
+  install(CODE "execute_process(COMMAND \"${PROJECT_SOURCE_DIR}/packaging/self_description\" \"$<TARGET_FILE:${target}>\"
+                                        \"${written}\" COMMAND_ERROR_IS_FATAL ANY)" COMPONENT runtime)
+  install(DIRECTORY "${written}/man/" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT runtime)
+  install(FILES "${written}/footprint" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" COMPONENT runtime)
+  install(FILES "${written}/_footprint" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions" COMPONENT runtime)
+  install(FILES "${written}/footprint.fish" DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d"
+          COMPONENT runtime)
 endfunction()
 
 # footprint_install_development(): what find_package(Footprint) needs. CMake's scripts find the program's main.cpp, the
@@ -60,7 +48,7 @@ function(footprint_install_development)
   install(DIRECTORY "${PROJECT_BINARY_DIR}/renderer/gl/generated/renderer" COMPONENT development
           DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/footprint" FILES_MATCHING PATTERN "*.hpp")
   install(DIRECTORY cmake DESTINATION "${parts}" COMPONENT development FILES_MATCHING PATTERN "*.cmake")
-  install(FILES app/early_start.cpp app/main.cpp DESTINATION "${parts}/app" COMPONENT development)
+  install(FILES app/main.cpp DESTINATION "${parts}/app" COMPONENT development)
   install(FILES methods/quantities.cpp.in methods/registry.cpp.in DESTINATION "${parts}/methods" COMPONENT development)
   install(DIRECTORY methods/template DESTINATION "${parts}/methods" COMPONENT development)
 

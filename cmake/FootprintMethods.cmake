@@ -82,7 +82,7 @@ endfunction()
 # lacks.
 function(footprint_add_program target)
   footprint_write_registry(sources libraries)
-  add_executable(${target} "${FOOTPRINT_CMAKE_DIR}/../app/main.cpp" "${FOOTPRINT_CMAKE_DIR}/../app/early_start.cpp"
+  add_executable(${target} "${FOOTPRINT_CMAKE_DIR}/../app/main.cpp"
                  ${sources})
   target_link_libraries(${target} PRIVATE footprint_commands ${libraries})
 endfunction()

@@ -1,5 +1,8 @@
-// What is done with the table of settings, whatever stands in it.
+// What is done with the table of settings, whatever its rows.
 #include "experiments/settings/setting.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -7,6 +10,29 @@
 #include "renderer/scene/settings/toml_values.hpp"
 
 namespace footprint {
+namespace {
+
+constexpr double largest_exact = 9007199254740992.0;  // 2^53: TOML's numbers are read as doubles
+
+// A key's value as an option takes it.
+std::string text_at(const TomlTable& table, std::string_view key, const SettingType& type) {
+  if (table.is_word(key)) return *table.word(key);
+  if (type.separator == 0) return fmt::format("{}", *table.number(key, {-largest_exact, largest_exact}));
+  const std::vector<std::string> parts = *table.words_or_numbers(key);
+  for (const std::string& part : parts) {
+    if (part.find(type.separator) != std::string::npos)
+      throw table.error_at(key, fmt::format("has `{:.80}`", part), "write each value on its own");
+  }
+  return fmt::format("{}", fmt::join(parts, std::string(1, type.separator)));
+}
+
+void read_setting(const TomlTable& table, std::string_view key, const SettingType& type, RunSettings& run) {
+  const std::string text = text_at(table, key, type);
+  if (text.empty()) throw table.error_at(key, "is empty", "fill it in");
+  at_key(table, key, [&] { type.read_text(run, "", text); });
+}
+
+}  // namespace
 
 std::string_view option_name(const Setting& setting) { return setting.option.substr(0, setting.option.find(',')); }
 
@@ -27,7 +53,7 @@ void read_settings(const TomlTable& table, std::string_view name, RunSettings& r
   for (const Setting& setting : run_settings()) {
     if (setting.key.empty() || setting.table != name) continue;
     if (table.has(setting.key)) {
-      setting.type.read_file(run, table, setting.key);
+      read_setting(table, setting.key, setting.type, run);
     } else if (setting.required && std::ranges::find(given, setting.key) == given.end()) {
       refuse_missing(table, setting.key, experiments_document);
     }

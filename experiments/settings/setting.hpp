@@ -15,15 +15,15 @@ class TomlTable;
 
 /// How a value is written, and where in a RunSettings it goes; setting_types.hpp makes them.
 struct SettingType {
-  std::string word;          ///< stands for the value in the help: "N", "WIDTHxHEIGHT"; empty: a flag, without a value
+  std::string word;  ///< placeholder of the value in the help: "N", "WIDTHxHEIGHT"; empty: a flag, without a value
   std::string option_takes;  ///< "1 to 4096"; empty where the help says all
-  std::string file_takes;    ///< the same of a key in an experiment's file
-  /// Reads the value of an option that is called so. Errors (usage) name the option.
+  std::string file_takes;    ///< the same for a key in an experiment's file
+  /// Reads a value into `run`. `option` is the option's name, or empty for a key of a file. Errors (usage) name it.
   std::function<void(RunSettings& run, std::string_view option, const std::string& text)> read_text;
-  /// Reads a key that the table has. Errors (usage) name file, line and key.
-  std::function<void(RunSettings& run, const TomlTable& table, std::string_view key)> read_file;
   /// The value as an option takes it; empty: there is none.
   std::function<std::string(RunSettings run)> text;
+  /// What separates the elements in the text of a list, which is an array in a file; 0: the value is not a list.
+  char separator = 0;
 };
 
 /// A row of the table.

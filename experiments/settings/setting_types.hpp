@@ -1,4 +1,4 @@
-// The types of a run's settings: what each takes as an option's text and as a key's value, and where that goes.
+// The types of a run's settings: the texts that each takes, and the field that the value goes to.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,48 +16,48 @@
 
 namespace footprint::setting_types {
 
-/// The most pixels a side that a frame size may name; what memory holds is asked later, by whoever takes it.
+/// The largest side of a frame size, in pixels; memory may limit it further.
 inline constexpr int max_frame_side = 10'000'000;
 
-/// Where in a run's settings a value is kept.
+/// The field of a run's settings that stores a value.
 template <class Value>
 using Field = Value& (*)(RunSettings& run);
 
 /// Any text.
 [[nodiscard]] SettingType any_text(Field<std::string> field, const char* word);
 
-/// Any text but an empty one, where it is given.
+/// Any text except an empty one.
 [[nodiscard]] SettingType any_name(Field<std::optional<std::string>> field, const char* word);
 
 /// A file's path.
 [[nodiscard]] SettingType file_path(Field<std::optional<std::filesystem::path>> field);
 
-/// A whole number, both ends inclusive; a `high` that is the type's own counts as none.
+/// A whole number, both ends inclusive; the type's largest value as `high` means no limit.
 [[nodiscard]] SettingType whole_number(Field<int> field, int low, int high);
 [[nodiscard]] SettingType whole_number(Field<std::uint64_t> field, std::uint64_t low, std::uint64_t high);
 
-/// Whole numbers of one range, in files alone.
+/// A list of whole numbers, each within the range.
 [[nodiscard]] SettingType whole_numbers(Field<std::vector<int>> field, int low, int high);
 
 /// A number above 0.
 [[nodiscard]] SettingType positive_number(Field<std::optional<double>> field, double low, double high);
 
-/// An angle in degrees, either way round.
+/// An angle in degrees, in either direction, not 0.
 [[nodiscard]] SettingType angle(Field<std::optional<double>> field, double most);
 
-/// A direction of the world, of any length but 0; it is kept as a unit vector.
+/// A direction in world space, of any length except 0; stored as a unit vector.
 [[nodiscard]] SettingType direction(Field<std::optional<glm::dvec3>> field);
 
-/// Samples a pixel, which then are fixed.
+/// A fixed number of samples per pixel.
 [[nodiscard]] SettingType fixed_samples(Field<ReferenceSettings> field, int low, int high);
 
-/// A noise floor to be reached, or "auto".
+/// A target noise floor, or "auto".
 [[nodiscard]] SettingType noise(Field<ReferenceSettings> field);
 
-/// Factors on the camera's distance, `most` at most, none twice.
+/// Factors on the camera's distance, at most `most`, all different.
 [[nodiscard]] SettingType distances(Field<std::vector<double>> field, std::size_t most);
 
-/// A frame size. An option's also asks whether memory holds one picture of it: Errors (machine).
+/// A frame size. Errors (machine), for an option only: memory cannot hold one image of it.
 [[nodiscard]] SettingType frame_size(Field<std::optional<glm::ivec2>> field);
 
 /// A factor on radiance, or "auto" for none.
@@ -66,35 +66,28 @@ using Field = Value& (*)(RunSettings& run);
 /// A footprint filter.
 [[nodiscard]] SettingType footprint_filter(Field<std::optional<FootprintFilter>> field);
 
-/// One method, or `reference`; an option alone.
+/// One method, or `reference`.
 [[nodiscard]] SettingType one_method(Field<std::vector<MethodSpec>> field);
 
-/// Methods, or "all" in a file.
+/// Methods; in a file also "all".
 [[nodiscard]] SettingType methods(Field<std::vector<MethodSpec>> field);
 
-/// Effects by their names.
+/// A set of effects, by name.
 [[nodiscard]] SettingType effects(Field<EffectSet> field);
 
-/// A flag that empties a folder's value.
+/// A flag that unsets a folder.
 [[nodiscard]] SettingType no_folder(Field<std::optional<std::filesystem::path>> field);
 
-/// The index among `words` of the word that a key has. Errors (usage) name file, line and key.
-[[nodiscard]] std::size_t word_of_key(const TomlTable& table, std::string_view key,
-                                      const std::vector<std::string>& words);
-
-/// One of some words; `what` it is in errors.
+/// One of some words; `what` names them in errors.
 template <class Value, std::size_t count>
 [[nodiscard]] SettingType one_word(std::type_identity_t<Field<Value>> field,
                                    const std::array<Word<Value>, count>& words, const char* what) {
-  const std::vector<std::string> names = word_names(words);
-  const std::string takes = fmt::format("{}", fmt::join(names, ", "));
+  const std::string takes = fmt::format("{}", fmt::join(word_names(words), ", "));
   return {.word = "WORD",
           .option_takes = takes,
           .file_takes = takes,
           .read_text = [=](RunSettings& run, std::string_view option,
                            const std::string& text) { field(run) = word_value(words, text, what, option); },
-          .read_file = [=](RunSettings& run, const TomlTable& table,
-                           std::string_view key) { field(run) = words[word_of_key(table, key, names)].value; },
           .text = [=](RunSettings run) { return std::string(word_for(words, field(run))); }};
 }
 

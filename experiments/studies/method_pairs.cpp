@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "experiments/studies/picture_files.hpp"
-#include "experiments/studies/significance.hpp"
+#include "experiments/studies/score.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"
 

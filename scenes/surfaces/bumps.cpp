@@ -4,7 +4,6 @@
 #include "renderer/core/random.hpp"
 #include "scenes/surfaces/meshes.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
-#include "scenes/surfaces/wrapped_grid.hpp"
 
 namespace footprint::surfaces::bumps {
 namespace {

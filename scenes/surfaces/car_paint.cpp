@@ -7,9 +7,8 @@
 
 #include "renderer/core/random.hpp"
 #include "scenes/surfaces/meshes.hpp"
-#include "scenes/surfaces/octaves.hpp"
+#include "scenes/surfaces/noise.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
-#include "scenes/surfaces/wrapped_grid.hpp"
 
 namespace footprint::surfaces::car_paint {
 namespace {

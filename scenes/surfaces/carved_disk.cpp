@@ -11,7 +11,6 @@
 #include "scenes/surfaces/meshes.hpp"
 #include "scenes/surfaces/noise.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
-#include "scenes/surfaces/wrapped_grid.hpp"
 
 namespace footprint::surfaces::carved_disk {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "scenes/surfaces/meshes.hpp"
-#include "scenes/surfaces/octaves.hpp"
+#include "scenes/surfaces/noise.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
 
 namespace footprint::surfaces::cast_metal {

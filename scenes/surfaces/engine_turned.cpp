@@ -7,7 +7,6 @@
 #include "renderer/core/random.hpp"
 #include "scenes/surfaces/meshes.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
-#include "scenes/surfaces/wrapped_grid.hpp"
 
 namespace footprint::surfaces::engine_turned {
 namespace {

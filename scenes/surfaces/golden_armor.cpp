@@ -7,7 +7,6 @@
 #include "scenes/surfaces/height.hpp"
 #include "scenes/surfaces/meshes.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
-#include "scenes/surfaces/wrapped_grid.hpp"
 
 namespace footprint::surfaces::golden_armor {
 namespace {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "renderer/core/random.hpp"
-#include "scenes/surfaces/wrapped_grid.hpp"
+#include "scenes/surfaces/texel_grid.hpp"
 
 namespace footprint {
 namespace {

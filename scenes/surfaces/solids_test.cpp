@@ -5,7 +5,7 @@
 #include <array>
 #include <numbers>
 
-#include "scenes/surfaces/turned.hpp"
+#include "scenes/surfaces/meshes.hpp"
 #include "tests/support/mesh_area.hpp"
 #include "tests/support/surface_meshes.hpp"
 

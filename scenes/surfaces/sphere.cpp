@@ -1,8 +1,8 @@
 // sphere: a ball without relief.
 #include <array>
 
+#include "scenes/surfaces/meshes.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
-#include "scenes/surfaces/turned.hpp"
 
 namespace footprint::surfaces::sphere {
 namespace {

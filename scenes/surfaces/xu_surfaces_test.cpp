@@ -11,7 +11,7 @@
 
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "scenes/surfaces/jacquard.hpp"
-#include "scenes/surfaces/octaves.hpp"
+#include "scenes/surfaces/noise.hpp"
 #include "tests/support/source_folder.hpp"
 #include "tests/support/surface_maps.hpp"
 #include "tests/support/texture_coverage.hpp"

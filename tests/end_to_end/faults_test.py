@@ -28,7 +28,7 @@ class Faults(WholeRunTest):
         return try_run(*arguments, env=os.environ | {"LD_PRELOAD": FAULTS[name]}, timeout=60)
 
     def test_no_thread_to_be_had(self):
-        self.assert_fails(self.with_fault("no_thread", "--version"), 3, "no further thread", "ulimit -u")
+        self.assert_fails(self.with_fault("no_thread", "--version"), 3, "cannot create a thread", "ulimit -u")
 
     def test_no_memory_to_be_had(self):
         done = self.with_fault("no_memory", "render", *SETTINGS, "-q", "-o", self.folder / "none.exr")

@@ -41,12 +41,17 @@ run_program() {
   [ -s "$work/picture.exr" ] || fail "no picture"
 }
 
-# Each is whole, and names an option.
+# Manual pages, completions and documents are complete.
 look_at_texts() {
-  expect "$prefix/share/man/man1/footprint.1" '\-\-methods'
-  expect "$prefix/share/bash-completion/completions/footprint" '--methods'
-  expect "$prefix/share/zsh/vendor-completions/_footprint" '--methods'
-  expect "$prefix/share/fish/vendor_completions.d/footprint.fish" '-l methods'
+  if command -v help2man >/dev/null; then
+    expect "$prefix/share/man/man1/footprint.1" 'compare'
+    expect "$prefix/share/man/man1/footprint-compare.1" '\-\-methods'
+  fi
+  expect "$prefix/share/bash-completion/completions/footprint" 'footprint completions offer'
+  expect "$prefix/share/zsh/vendor-completions/_footprint" 'footprint completions offer'
+  expect "$prefix/share/fish/vendor_completions.d/footprint.fish" 'footprint completions offer'
+  "$program" completions offer -- compare bumps --method >"$work/offered"
+  expect "$work/offered" '--methods'
   [ -s "$prefix/share/doc/footprint/README.md" ] || fail "no README.md"
   [ -s "$prefix/share/doc/footprint/docs/metrics.md" ] || fail "no documents where README.md looks for them"
   [ -s "$prefix/share/doc/footprint/copyright" ] || fail "no licence"

@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import tomllib
 import unittest
 
 SOURCE = pathlib.Path(os.environ["FOOTPRINT_SOURCE_DIR"])
@@ -178,7 +179,7 @@ class CheckRecommendations(InFolder):
         self.assertEqual(self.check("--small", "bumps").returncode, 0)
         done = self.check("bumps")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("holds runs with other options", done.stderr)
+        self.assertIn("contains runs with other options", done.stderr)
 
 
 # Stand for footprint_bench, whose frame takes 20 ms, and for a program that answers or fails.
@@ -243,12 +244,12 @@ class EngineConstants(InFolder):
         errors = {method: 0.5 for method in {**self.script.CONSTANTS, **self.script.BESIDE}.values()}
         errors.update({self.script.CONSTANTS["1"]: 0.25, self.script.CONSTANTS["2"]: 0.125})
         for name in self.script.SURFACES:
-            self.write(name, f"Constants, surface {name}", errors, name in self.script.SPREADS)
+            self.write(name, errors, name in self.script.SPREADS)
         screen = {"direct": 0.75, "specular_aa:preset=unity": 0.375, "specular_aa:preset=o3de": 0.3125}
         screen.update({method: float(constant) for method, constant in self.script.ROUND.items()})
-        self.write(self.script.SCREEN, "Constants, a model", screen, False)
+        self.write(self.script.SCREEN[0], screen, False)
 
-    def write(self, name, title, errors, with_spreads):
+    def write(self, name, errors, with_spreads):
         record = {"shading_floor": 0.01, "energy_bias": 0.0}
         records = [{"method": method, "pixels": {"interior": 3, "object": 4},
                     "error": {**record, "shading": error + step, "normalized_color": error + step},
@@ -260,9 +261,9 @@ class EngineConstants(InFolder):
                 quantities += [{"method": method, "name": "ndf_a15_s20", "value": error},
                                {"method": method, "name": "best_a15_s20", "value": 2.25}]
         results = {"tool": {"version": "1"}, "backend": {"renderer": "r"}, "reference": {"spp": 4}, "footprint": "f",
-                   "experiment": {"title": title}, "records": records, "quantities": quantities}
-        folder = self.folder / f"engine_constants_{name}"
-        folder.mkdir(exist_ok=True)
+                   "scene": {"name": f"engine_constants_{name}"}, "records": records, "quantities": quantities}
+        folder = self.folder / "engine_constants" / name
+        folder.mkdir(parents=True, exist_ok=True)
         (folder / "results.json").write_text(json.dumps(results), encoding="utf-8")
 
     def run_script(self):
@@ -284,29 +285,27 @@ class EngineConstants(InFolder):
     def test_another_result_is_another_page(self):
         errors = {method: 0.5 for method in {**self.script.CONSTANTS, **self.script.BESIDE}.values()}
         errors[self.script.CONSTANTS["0.5"]] = 0.125
-        self.write("ggx_rough", "Constants, surface rough", errors, False)
+        self.write("ggx_rough", errors, False)
         self.assertIn("| 0.5 | 0 of 2 | 1 of 7 | 1 of 7 |", self.run_script().stdout)
 
     def test_what_is_missing_is_named(self):
-        (self.folder / "engine_constants_ggx_rough/results.json").unlink()
+        (self.folder / "engine_constants/ggx_rough/results.json").unlink()
         done = self.run_script()
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertIn("engine_constants_ggx_rough", done.stderr)
 
     def test_a_method_that_is_missing_is_named(self):
-        self.write("ggx_rough", "Constants, surface rough", {"direct": 0.5}, False)
+        self.write("ggx_rough", {"direct": 0.5}, False)
         done = self.run_script()
         self.assertEqual(done.returncode, 1)
         self.assertIn("engine_constants_ggx_rough has no record of roughness_bake", done.stderr)
 
     def test_every_method_of_the_page_is_one_of_the_experiments(self):
-        for name in self.script.SURFACES:
-            text = (SOURCE / f"experiments/engine_constants_{name}.toml").read_text(encoding="utf-8")
-            for method in {**self.script.CONSTANTS, **self.script.BESIDE}.values():
-                self.assertIn(f'"{method}"', text, name)
-        group = (SOURCE / "experiments/engine_constants.toml").read_text(encoding="utf-8")
-        for name in self.script.SURFACES + [self.script.SCREEN]:
-            self.assertIn(f'"engine_constants_{name}"', group)
+        experiment = tomllib.loads((SOURCE / "experiments/engine_constants.toml").read_text(encoding="utf-8"))
+        for method in {**self.script.CONSTANTS, **self.script.BESIDE}.values():
+            self.assertIn(method, experiment["experiment"]["methods"])
+        self.assertEqual([pathlib.Path(scene).name for scene in experiment["matrix"]["scene"]],
+                         list(self.script.SURFACES))
 
 
 class AccuracyVsTime(InFolder):
@@ -317,7 +316,8 @@ class AccuracyVsTime(InFolder):
     def setUp(self):
         super().setUp()
         self.script = module(SOURCE / "scripts/accuracy_vs_time")
-        for name in self.script.FILTERS:
+        self.filters = self.script.planned(self.script.EXPERIMENTS)["cost"]
+        for name in self.filters:
             for member in ("cost", "flicker", "bound", "bumps"):
                 self.write(name, member)
 
@@ -332,12 +332,18 @@ class AccuracyVsTime(InFolder):
                             "flicker": {"mean": 0.1 * error, "noise_floor": 0.002} if member == "flicker" else None,
                             "time": {"frame_ms": {"median": 2.0 * time}, "fetches": 1.0, "lobes": 1.0,
                                      "ratio_to_direct": {"median": time, "low": time, "high": time}}})
-        results = {"tool": {"version": "1"}, "backend": {"renderer": "r"}, "scene": {"materials": 1, "name": "disk"}, "reference": {"spp": 4},
+        scene = member if member in ("bumps", "scales") else "disk"
+        results = {"tool": {"version": "1"}, "backend": {"renderer": "r"}, "footprint": name,
+                   "scene": {"materials": 1, "name": scene}, "reference": {"spp": 4},
                    "supersampling": [{"spp": 64, "distance": 3.0, "ms": 64.0, "shading": 0.3, "normalized_color": 0.3}],
                    "records": records}
-        folder = self.script.part_folder(self.folder, name, "accuracy_vs_time_" + member)
+        folder = self.part_folder(name, member)
         folder.mkdir(parents=True, exist_ok=True)
         (folder / "results.json").write_text(json.dumps(results), encoding="utf-8")
+
+    def part_folder(self, name, member):
+        experiment = self.script.EXPERIMENTS.get(member, self.script.STUDY)
+        return self.folder / experiment / f"{member}-{name.replace(':', '_')}"
 
     def run_script(self, *options):
         return subprocess.run([SOURCE / "scripts/accuracy_vs_time", self.folder, *options], capture_output=True,
@@ -364,7 +370,7 @@ class AccuracyVsTime(InFolder):
         self.assertIn("</svg>", (self.folder / "fronts.svg").read_text(encoding="utf-8"))
 
     def test_other_results_are_another_page(self):
-        for name in self.script.FILTERS:
+        for name in self.filters:
             self.write(name, "bumps", by_filter=0.2)
         self.write("shaded:2", "bumps", factor=0.25)
         page = self.run_script().stdout
@@ -375,7 +381,7 @@ class AccuracyVsTime(InFolder):
 
     def test_what_no_paper_has_is_in_a_front_of_its_own(self):
         self.METHODS = {**self.METHODS, "tan_gmm:covariance=full": (4.0, 0.0625)}
-        for name in self.script.FILTERS:
+        for name in self.filters:
             for member in ("cost", "bumps"):
                 self.write(name, member)
         page = " ".join(self.run_script().stdout.split())
@@ -384,7 +390,7 @@ class AccuracyVsTime(InFolder):
         self.assertIn("0.8 of the front's error at 4 frames (interpolated in logarithms; the aim, 0.75, is missed)", page)
 
     def test_costs_are_means_over_distances(self):
-        folder = self.script.part_folder(self.folder, "trilinear", "accuracy_vs_time_cost")
+        folder = self.part_folder("trilinear", "cost")
         results = json.loads((folder / "results.json").read_text(encoding="utf-8"))
         for r in [r for r in results["records"] if r["method"] == "cells"]:
             ratio = {"median": 9.0, "low": 3.0, "high": 10.0}
@@ -394,21 +400,21 @@ class AccuracyVsTime(InFolder):
 
     def test_an_aim_that_is_missed_is_not_called_met(self):
         self.METHODS = {**self.METHODS, "cells": (4.4, 0.05)}
-        for name in self.script.FILTERS:
+        for name in self.filters:
             self.write(name, "cost")
         self.assertIn("- Both aims are met by none.", self.run_script().stdout)
 
     def test_exact_filtering_stands_beside_all_others(self):
         self.assertIn("### How far from exact?\n\nNot run: `bound`.", self.run_script().stdout)
         self.METHODS = {**self.METHODS, self.script.EXACT: (500.0, 0.01)}
-        for name in self.script.FILTERS:
+        for name in self.filters:
             self.write(name, "bound", by_filter=0.03)
         page = " ".join(self.run_script().stdout.split())
         self.assertIn("| `trilinear` | 0.03 | 3 | `cells`, 4 | 0.05 | 5 |", page)
         self.assertIn("the closest is 5 times as far off as exact filtering", page)
         self.assertIn("their kernels alone are 3 times off", page)
         self.assertIn("| cells * | trilinear | 4 | 0.05 ×/÷ 1.00 |", page, "it is no scene of the study")
-        for name in self.script.FILTERS:
+        for name in self.filters:
             self.write(name, "bound", by_filter=0.015)
         self.assertNotIn("their kernels alone", self.run_script().stdout)
 
@@ -419,33 +425,31 @@ class AccuracyVsTime(InFolder):
         self.assertIn("| `scales` | 3 |", page)
 
     def test_flicker_is_of_its_own_part(self):
-        for name in self.script.FILTERS:
-            shutil.rmtree(self.script.part_folder(self.folder, name, "accuracy_vs_time_flicker"))
+        for name in self.filters:
+            shutil.rmtree(self.part_folder(name, "flicker"))
         page = self.run_script().stdout
         self.assertIn("## Flicker\n\nNot run: `flicker`.", page)
         self.assertIn("| cells * | trilinear | 4 | 0.05 ×/÷ 1.00 |", page)
 
     def test_without_parts_there_is_no_page(self):
-        shutil.rmtree(self.folder / "trilinear")
-        for name in self.script.FILTERS[1:]:
-            shutil.rmtree(self.folder / name.replace(":", "-"))
+        for experiment in self.script.EXPERIMENTS.values():
+            shutil.rmtree(self.folder / experiment)
         done = self.run_script()
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertIn("make them with --run", done.stderr)
 
-    def test_a_part_that_fails_is_named_and_leaves_nothing(self):
-        folder = self.script.part_folder(self.folder, "trilinear", "accuracy_vs_time_bumps")
-        shutil.rmtree(folder)
+    def test_an_experiment_that_fails_is_named_and_leaves_nothing(self):
+        shutil.rmtree(self.part_folder("trilinear", "cost"))
         done = self.run_script("--run", "--footprint", "false")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("accuracy_vs_time_bumps under trilinear could not be run", done.stderr)
-        self.assertFalse(folder.exists())
+        self.assertRegex(done.stderr, "`footprint run .*accuracy_vs_time_cost.toml .*failed")
+        self.assertFalse(self.part_folder("trilinear", "cost").exists())
 
-    def test_every_member_is_there(self):
-        for member in self.script.members(False) + self.script.members(True):
-            text = (SOURCE / f"experiments/{member}.toml").read_text(encoding="utf-8")
-            self.assertIn("[experiment]\n", text)
-            self.assertNotIn("footprint =", text, "the script puts it there")
+    def test_every_experiment_varies_the_same_filters(self):
+        for experiments in (self.script.EXPERIMENTS, self.script.QUICK):
+            parts = self.script.planned(experiments)
+            self.assertEqual(len({tuple(filters) for filters in parts.values()}), 1)
+        self.assertEqual(len(self.script.planned(self.script.EXPERIMENTS)), 15)
 
 
 if __name__ == "__main__":

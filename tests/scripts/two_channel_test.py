@@ -15,7 +15,6 @@ class TwoChannelMaps(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.script = module(SOURCE / "scripts" / "two_channel_maps")
-        cls.script.PROGRAM = PROGRAM
 
     def test_every_method_of_the_program_is_named(self):
         listed = json.loads(subprocess.run([PROGRAM, "list", "methods", "--json"], check=True, capture_output=True).stdout)

@@ -1,5 +1,5 @@
 // Which picture is closer beyond noise, held against references whose noise and true colours are known.
-#include "experiments/studies/significance.hpp"
+#include "experiments/studies/score.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,11 @@
-// Reads, masks, and takes each measure from where it is.
-#include "experiments/studies/picture_score.hpp"
+// Reads and masks images, and takes each measure from its own function.
+#include "experiments/studies/score.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/file_names.hpp"
@@ -13,7 +15,7 @@
 namespace footprint {
 namespace {
 
-bool holds_radiance(const std::string& file) { return is_exr(file) || lower_extension(file) == ".hdr"; }
+bool stores_radiance(const std::string& file) { return is_exr(file) || lower_extension(file) == ".hdr"; }
 
 Image with_coverage(Image image, const std::string& file) {
   if (image.channels == 4) return image;
@@ -26,7 +28,7 @@ Image with_coverage(Image image, const std::string& file) {
   return out;
 }
 
-// What is displayed: black where nothing is covered.
+// Radiance times exposure; black where nothing is covered.
 Image shown(const Image& radiance, float exposure) {
   Image out(radiance.width, radiance.height, 3);
   for (std::size_t i = 0; i < out.texel_count(); ++i) {
@@ -36,7 +38,7 @@ Image shown(const Image& radiance, float exposure) {
   return out;
 }
 
-// The object's pixels in a row: a background would lead a median.
+// The object pixels in one row: a background would dominate a median.
 Image object_row(const Image& radiance, const Image& object) {
   Image row(0, 1, 4);
   for (std::size_t i = 0; i < object.texel_count(); ++i) {
@@ -65,16 +67,76 @@ void require_size(const Image& image, const Image& reference, const std::string&
       "give images of one size and view");
 }
 
-// The object has covered pixels alone; what is shown of this one stays.
+// Makes a pixel uncovered, and so not an object pixel, without changing its colour.
 void exclude(Image& reference, std::size_t pixel) {
   float& coverage = reference.texels[4 * pixel + 3];
   coverage = std::min(coverage, 0.5F);
 }
 
+std::optional<double> of_radiance(const PictureScore& score, double value) {
+  return score.displayed ? std::nullopt : std::optional(value);
+}
+
+constexpr std::array<ScoreMetric, 8> metrics{{
+    {"normalized_color", "Error", [](const PictureScore& s) { return std::optional(s.error.normalized_color); }},
+    {"relative_rmse", "Rel. RMSE", [](const PictureScore& s) { return of_radiance(s, s.error.relative_rmse); }},
+    {"relmse", "relMSE", [](const PictureScore& s) { return of_radiance(s, s.error.relmse); }},
+    {"psnr", "PSNR dB", [](const PictureScore& s) { return std::optional(s.error.psnr); }},
+    {"energy_bias", "Energy", [](const PictureScore& s) { return of_radiance(s, s.error.energy_bias); }},
+    {"luminance_distance", "Lum. dist.",
+     [](const PictureScore& s) { return std::optional(s.error.luminance_distance); }},
+    {"ldr_flip", "LDR-FLIP", [](const PictureScore& s) { return std::optional(s.ldr_flip); }},
+    {"hdr_flip", "HDR-FLIP", [](const PictureScore& s) { return s.hdr_flip; }},
+}};
+
+constexpr double standard_errors = 3.0;
+constexpr double rounding = 1e-5;  // of displayed values: the error of sums of 32-bit floats
+
+double displayed(float value, float exposure) {
+  return std::clamp(static_cast<double>(exposure) * static_cast<double>(value), 0.0, 1.0);
+}
+
+// Colours that are not covered count as black, as in errors.
+double channel(std::span<const float> texel, std::size_t c, float exposure) {
+  return texel[3] > 0.0F ? displayed(texel[c], exposure) : 0.0;
+}
+
+// Which of two displayed colours a, b is closer to r is a question of sides: |r - a| < |r - b| if
+//
+//   (r - (a + b) / 2) . (a - b) > 0,
+//
+// which is linear in r. Noise of standard error s_c per channel therefore gives the left side a standard error of at
+// most sum_c |a_c - b_c| s_c, which it has if the channels err together, as under one light.
+float verdict(std::span<const float> a, std::span<const float> b, std::span<const float> mean,
+              std::span<const float> standard_error, float exposure) {
+  double side = 0, noise = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double first = channel(a, c, exposure), second = channel(b, c, exposure);
+    const double error = static_cast<double>(exposure) * static_cast<double>(standard_error[c]);
+    side += (displayed(mean[c], exposure) - (first + second) / 2) * (first - second);
+    noise += std::abs(first - second) * (standard_errors * error + rounding);
+  }
+  if (std::abs(side) <= noise) return 0.0F;
+  return side > 0 ? 1.0F : -1.0F;
+}
+
+// Okabe and Ito's colours, which all kinds of colour vision can distinguish.
+using Color = std::array<float, 3>;  // display values; results/report/page.css has them too
+
+constexpr Color first_closer{0.0F, 0.447F, 0.698F}, second_closer{0.835F, 0.369F, 0.0F}, undecided{0.8F, 0.8F, 0.8F};
+constexpr Color outside{1.0F, 1.0F, 1.0F};
+
+Color color_of(float verdict, bool on_object) {
+  if (!on_object) return outside;
+  return verdict > 0.0F ? first_closer : verdict < 0.0F ? second_closer : undecided;
+}
+
 }  // namespace
 
+std::span<const ScoreMetric> score_metrics() { return metrics; }
+
 ScoredPicture read_scored(const std::string& file, float exposure) {
-  ScoredPicture out{file, with_coverage(read_image(file, Transfer::srgb), file), !holds_radiance(file)};
+  ScoredPicture out{file, with_coverage(read_image(file, Transfer::srgb), file), !stores_radiance(file)};
   if (!out.displayed) return out;
   for (std::size_t i = 0; i < out.radiance.texels.size(); ++i)
     if (i % 4 < 3) out.radiance.texels[i] /= exposure;
@@ -83,7 +145,7 @@ ScoredPicture read_scored(const std::string& file, float exposure) {
 
 Image read_reference(const std::string& file) {
   Image image = with_coverage(read_image(file, Transfer::srgb), file);
-  if (holds_radiance(file)) return image;
+  if (stores_radiance(file)) return image;
   throw Error(ErrorKind::usage, file, "it stores displayed colours, but a reference needs linear radiance",
               "give an EXR, as `footprint render SCENE --method reference -o reference.exr` writes it");
 }
@@ -139,6 +201,47 @@ PictureScore score_picture(const ScoredPicture& picture, const Image& reference,
   } catch (const Error& error) {
     throw error.within(picture.name);
   }
+}
+
+Image verdict_picture(const Image& verdicts, const Image& object) {
+  Image picture(verdicts.width, verdicts.height, 3);
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x)
+      std::ranges::copy(color_of(verdicts.at(x, y)[0], object.at(x, y)[0] > 0.0F), picture.at(x, y).begin());
+  }
+  return picture;
+}
+
+Image closer_beyond_noise(const Image& a, const Image& b, const Image& mean, const Image& standard_error,
+                          float exposure) {
+  const Image object = object_pixels(mean);
+  Image verdicts(object.width, object.height, 1);
+  for (int y = 0; y < object.height; ++y) {
+    for (int x = 0; x < object.width; ++x) {
+      if (object.at(x, y)[0] > 0.0F)
+        verdicts.at(x, y)[0] = verdict(a.at(x, y), b.at(x, y), mean.at(x, y), standard_error.at(x, y), exposure);
+    }
+  }
+  return verdicts;
+}
+
+std::optional<Image> closer_beyond_noise(const Image& a, const Image& b, const Supersampled& reference,
+                                         float exposure) {
+  if (!reference.halves) return std::nullopt;
+  return closer_beyond_noise(a, b, reference.mean, reference.standard_error, exposure);
+}
+
+std::optional<CloserShares> closer_shares(const Image& verdicts, const Image& mask) {
+  std::size_t pixels = 0, a = 0, b = 0;
+  for (std::size_t i = 0; i < mask.texel_count(); ++i) {
+    if (mask.texels[i] <= 0.0F) continue;
+    ++pixels;
+    a += verdicts.texels[i] > 0.0F ? 1 : 0;
+    b += verdicts.texels[i] < 0.0F ? 1 : 0;
+  }
+  if (pixels == 0) return std::nullopt;
+  const auto all = static_cast<double>(pixels);
+  return CloserShares{.a = static_cast<double>(a) / all, .b = static_cast<double>(b) / all};
 }
 
 PairScore score_pair(const ScoredPicture& a, const ScoredPicture& b, const Image& reference,

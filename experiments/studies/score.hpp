@@ -1,0 +1,95 @@
+// Images of any origin against a reference: every measure of docs/metrics.md, FLIP, and which of two images is closer
+// at each pixel.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "renderer/image/flip.hpp"
+#include "renderer/image/image.hpp"
+#include "renderer/image/metrics.hpp"
+#include "renderer/pipeline/supersample.hpp"
+
+namespace footprint {
+
+/// An image to be scored.
+struct ScoredPicture {
+  std::string name;        ///< as given
+  Image radiance;          ///< RGBA, linear; displayed colours are divided by the exposure
+  bool displayed = false;  ///< read from a format of displayed colours, which clip at white
+};
+
+/// Reads an image: EXR and Radiance HDR store linear radiance, other formats displayed colours in sRGB for a display of
+/// `exposure`. Three channels are covered everywhere. Errors (usage): those of read_image; other than 3 or 4 channels.
+[[nodiscard]] ScoredPicture read_scored(const std::string& file, float exposure);
+
+/// Reads a reference, which stores linear radiance. Errors (usage): as read_scored; a format of displayed colours.
+[[nodiscard]] Image read_reference(const std::string& file);
+
+/// The reference without the pixels at which `mask` (any channels, the size of the reference) is black: they are no
+/// longer object pixels. Errors (usage): sizes differ; no object pixel is left.
+[[nodiscard]] Image masked(Image reference, const Image& mask, const std::string& mask_name);
+
+/// Excludes the pixels that the reference does not resolve (renderer/pipeline/unresolved.hpp), as a comparison does,
+/// and returns their number. `standard_error`: RGB. Errors (usage): sizes differ.
+std::size_t leave_out_unresolved(Image& reference, const Image& standard_error, float exposure);
+
+struct PictureScore {
+  std::string name;
+  bool displayed = false;
+  ErrorFigures error;
+  double ldr_flip = 0;             ///< mean over object pixels
+  std::optional<double> hdr_flip;  ///< the same; none for displayed colours
+  Image ldr_map, hdr_map;          ///< over all pixels; hdr_map is empty if hdr_flip is none
+};
+
+/// A measure of a score, in the order of tables and of score.json.
+struct ScoreMetric {
+  std::string_view key, title;
+  std::optional<double> (*value)(const PictureScore& score);  ///< none for displayed colours if it needs radiance
+};
+
+[[nodiscard]] std::span<const ScoreMetric> score_metrics();
+
+/// `reference`: its coverage selects the object pixels. `pixels_per_degree`: for FLIP. Errors (usage) name the image:
+/// sizes differ, a value is not finite, there is no object pixel.
+[[nodiscard]] PictureScore score_picture(const ScoredPicture& picture, const Image& reference, float exposure,
+                                         double pixels_per_degree);
+
+/// Which of two RGBA images is closer to the reference, per pixel, by the normalised colour error (docs/metrics.md) and
+/// beyond three standard errors of the reference: one channel, 1 for `a`, -1 for `b`, 0 if noise does not decide or the
+/// pixel is not an object pixel. None if the reference does not know its noise (fewer than two passes).
+[[nodiscard]] std::optional<Image> closer_beyond_noise(const Image& a, const Image& b, const Supersampled& reference,
+                                                       float exposure);
+
+/// The same with the reference's mean and standard error (RGB) as images.
+[[nodiscard]] Image closer_beyond_noise(const Image& a, const Image& b, const Image& mean, const Image& standard_error,
+                                        float exposure);
+
+/// Verdicts as display values: blue where `a` is closer, vermilion where `b` is, grey where neither is, white outside
+/// `object` (one channel, above 0).
+[[nodiscard]] Image verdict_picture(const Image& verdicts, const Image& object);
+
+/// Shares of the mask's pixels (one channel, above 0) in which each image is closer.
+struct CloserShares {
+  double a = 0, b = 0;
+};
+
+/// None if the mask is empty.
+[[nodiscard]] std::optional<CloserShares> closer_shares(const Image& verdicts, const Image& mask);
+
+/// Which of two images is closer, pixel by pixel.
+struct PairScore {
+  CloserShares shares;
+  Image verdicts, object;
+  bool beyond_noise = false;  ///< by three standard errors of the reference; otherwise any difference counts
+};
+
+/// `standard_error`: RGB of the reference's size, or empty if it is not known. Errors (usage): its size differs.
+[[nodiscard]] PairScore score_pair(const ScoredPicture& a, const ScoredPicture& b, const Image& reference,
+                                   const Image& standard_error, float exposure);
+
+}  // namespace footprint

@@ -1,0 +1,182 @@
+// scales: hemispheres in staggered rows on a flat ground. Seen from above, a hemisphere has every normal, its x and y
+// uniform over the unit disc; the ground is a spike at the pole.
+// studs: metal domes, satin to polished, on a matt ground: normals and BRDF vary together.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <numbers>
+#include <optional>
+
+#include "renderer/core/random.hpp"
+#include "scenes/surfaces/meshes.hpp"
+#include "scenes/surfaces/texel_grid.hpp"
+
+namespace footprint {
+namespace {
+
+/// What of a dome covers a point.
+struct DomePart {
+  glm::dvec2 offset;  ///< from the dome's middle, as a share of its radius; shorter than 1
+  double chance;      ///< of this dome alone, 0 to 1, evenly spread over the domes
+
+  /// The unit normal there: as of a sphere whose tilt at the dome's edge has the sine `edge`, 1 a hemisphere.
+  [[nodiscard]] glm::dvec3 normal(double edge) const {
+    const glm::dvec2 tilt = edge * offset;
+    return glm::dvec3{tilt, std::sqrt(1.0 - glm::dot(tilt, tilt))};
+  }
+};
+
+/// Rows of domes over the unit square, each odd row moved by half a column.
+class DomeLattice {
+ public:
+  /// The number of rows is even, so that the map tiles, and makes the lattice as nearly hexagonal as it can be. `fill`:
+  /// radius of the largest dome as a share of that of touching ones; `variation`: how much smaller the smallest is.
+  DomeLattice(int columns, double fill, double variation, std::uint32_t seed);
+
+  /// The dome that covers `uv`, if any.
+  [[nodiscard]] std::optional<DomePart> at(const glm::dvec2& uv) const;
+
+ private:
+  struct Dome {
+    glm::dvec2 offset;  ///< from its point of the lattice
+    double radius = 0.0;
+    double chance = 0.0;
+  };
+  WrappedGrid<Dome> domes_;
+};
+
+DomeLattice::DomeLattice(int columns, double fill, double variation, std::uint32_t seed)
+    : domes_(columns, 2 * std::max(1, static_cast<int>(std::lround(columns / std::numbers::sqrt3)))) {
+  const double across = 1.0 / domes_.columns(), up = 1.0 / domes_.rows();
+  const double room = 0.5 * std::min({across, std::hypot(0.5 * across, up), 2.0 * up});  // radius of touching discs
+  std::mt19937_64 random(seed);
+  for (Dome& dome : domes_) {
+    dome.radius = fill * room * (1.0 - variation * uniform(random));
+    const double angle = 2.0 * std::numbers::pi * uniform(random);
+    dome.offset = (room - dome.radius) * uniform(random) * glm::dvec2{std::cos(angle), std::sin(angle)};
+  }
+  for (Dome& dome : domes_) dome.chance = uniform(random);
+}
+
+std::optional<DomePart> DomeLattice::at(const glm::dvec2& uv) const {
+  const int row = static_cast<int>(uv.y * domes_.rows()), column = static_cast<int>(uv.x * domes_.columns());
+  for (int y = row - 1; y <= row + 1; ++y) {
+    for (int x = column - 1; x <= column + 1; ++x) {
+      const Dome& dome = domes_.at(x, y);
+      const double shift = y % 2 == 0 ? 0.25 : 0.75;  // of a column
+      const glm::dvec2 centre{(x + shift) / domes_.columns(), (y + 0.5) / domes_.rows()};
+      const glm::dvec2 offset = (uv - centre - dome.offset) / dome.radius;
+      if (glm::dot(offset, offset) < 1.0) return DomePart{offset, dome.chance};
+    }
+  }
+  return std::nullopt;
+}
+
+DomeLattice lattice_of(const SurfaceSettings& settings, double variation) {
+  const Options& parameters = settings.parameters;
+  return {static_cast<int>(parameters.number("count")), parameters.number("fill"), variation, settings.seed};
+}
+
+Image dome_normals(const SurfaceSettings& settings, const DomeLattice& lattice) {
+  const double edge = std::sin(glm::radians(settings.parameters.number("edge_degrees")));
+  return fill_normals(settings.resolution, [&](const glm::dvec2& uv) {
+    const auto dome = lattice.at(uv);
+    return dome ? dome->normal(edge) : glm::dvec3{0.0, 0.0, 1.0};
+  });
+}
+
+}  // namespace
+
+namespace surfaces::scales {
+namespace {
+
+Image normals(const SurfaceSettings& settings) {
+  return dome_normals(settings, lattice_of(settings, settings.parameters.number("variation")));
+}
+
+}  // namespace
+
+Surface surface() {
+  return {
+      .name = "scales",
+      .summary = "hemispheres in staggered rows on a flat ground",
+      .parameters = {whole_option("count", 8, 1, 1024, "scales along the map's width"),
+                     number_option("fill", 0.95, 0.1, 1,
+                                   "radius of the largest scale as a share of that of touching ones"),
+                     number_option("variation", 0.2, 0, 0.9,
+                                   "how much smaller than the largest the smallest scale is, as a share of it"),
+                     number_option("edge_degrees", 90.0, 0, 90, "tilt at a scale's edge, degrees; 90: hemispheres")},
+      .normals = normals,
+      .mesh = square_mesh};
+}
+
+}  // namespace surfaces::scales
+
+namespace surfaces::studs {
+namespace {
+
+/// What a point is made of.
+struct Stuff {
+  glm::dvec3 albedo, specular;
+  double exponent;
+};
+
+constexpr Stuff ground{{0.02, 0.12, 0.20}, {0.04, 0.04, 0.04}, 12.0};
+constexpr Stuff gold{{0.16, 0.09, 0.02}, {0.72, 0.48, 0.16}, 0.0}, steel{{0.05, 0.05, 0.055}, {0.42, 0.43, 0.46}, 0.0};
+
+/// Exponents of the dullest and the most polished stud.
+constexpr double dullest = 24.0, glossiest = 600.0;
+
+DomeLattice studs(const SurfaceSettings& settings) { return lattice_of(settings, 0.15); }
+
+Stuff stuff_at(const DomeLattice& lattice, const glm::dvec2& uv) {
+  const auto dome = lattice.at(uv);
+  if (!dome) return ground;
+  Stuff stuff = dome->chance < 0.5 ? gold : steel;
+  const double polish = 2.0 * dome->chance - std::floor(2.0 * dome->chance);
+  stuff.exponent = dullest * std::pow(glossiest / dullest, polish);
+  return stuff;
+}
+
+Image normals(const SurfaceSettings& settings) { return dome_normals(settings, studs(settings)); }
+
+Image base_color(const SurfaceSettings& settings) {
+  const DomeLattice lattice = studs(settings);
+  return fill_colors(glm::ivec2{settings.resolution},
+                     [&](const glm::dvec2& uv) { return stuff_at(lattice, uv).albedo; });
+}
+
+Image specular(const SurfaceSettings& settings) {
+  const DomeLattice lattice = studs(settings);
+  return fill_rgb(glm::ivec2{settings.resolution},
+                  [&](const glm::dvec2& uv) { return stuff_at(lattice, uv).specular; });
+}
+
+Image exponents(const SurfaceSettings& settings) {
+  const DomeLattice lattice = studs(settings);
+  return fill_values(glm::ivec2{settings.resolution},
+                     [&](const glm::dvec2& uv) { return stuff_at(lattice, uv).exponent; });
+}
+
+}  // namespace
+
+Surface surface() {
+  return {.name = "studs",
+          .summary = "hemispherical metal studs, satin to polished, on a matt ground",
+          .parameters = {whole_option("count", 48, 1, 1024, "studs along the map's width"),
+                         number_option("fill", 0.85, 0.1, 1,
+                                       "radius of the largest stud as a share of that of touching ones"),
+                         number_option("edge_degrees", 90.0, 0, 90, "tilt at a stud's edge, degrees; 90: hemispheres")},
+          .default_resolution = 1024,
+          .normals = normals,
+          .base_color = base_color,
+          .specular = specular,
+          .lobe_parameter = exponents,
+          .distribution = NormalDistribution::blinn_phong,
+          .mesh = square_mesh};
+}
+
+}  // namespace surfaces::studs
+
+}  // namespace footprint

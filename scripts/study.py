@@ -1,0 +1,190 @@
+"""Shared by the scripts that run experiments and write pages from their results.
+
+It reads experiments and results.json, runs the program, formats numbers, tables and text, and has the Pareto front and
+the noise floors of claims.
+"""
+import json
+import math
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import textwrap
+import tomllib
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PROGRAM = pathlib.Path(os.environ.get("FOOTPRINT_PROGRAM", ROOT / "build/release/app/footprint"))
+PROSE_WIDTH = 120
+# Which noise floor of a record belongs to the errors that a function of claims compares.
+FLOOR_OF = {"error": "noise_floor", "shading_error": "shading_floor", "edge_error": "noise_floor",
+            "representation": "noise_floor", "filtering": "noise_floor"}
+FLOOR_SHARE = 3.0  # a reference has converged for a claim if its floor is under the difference over this
+
+
+class Missing(Exception):
+    """A result, method or figure that a page needs and the results lack."""
+
+
+def reported(name, work):
+    """The exit code of `work()`: its own, or 1 after a message if something is missing."""
+    try:
+        return work()
+    except Missing as missing:
+        print(f"{name}: {missing}", file=sys.stderr)
+        return 1
+
+
+# ---- experiments and results
+
+def load_toml(path):
+    return tomllib.loads(path.read_text(encoding="utf-8"))
+
+
+def matrix_of(name):
+    """The [matrix] of an experiment's file, over that of its presets."""
+    file = ROOT / "experiments" / f"{name}.toml"
+    content = load_toml(file)
+    presets = content["experiment"].get("presets")
+    shared = load_toml(file.parent / presets).get("matrix", {}) if presets else {}
+    return shared | content.get("matrix", {})
+
+
+def load_results(path):
+    """A results.json as a dictionary; Missing if it cannot be read."""
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise Missing(f"{path}: {error}") from error
+
+
+def run_footprint(*words, program=PROGRAM, cache=None):
+    """What the program prints; Missing if it fails. `cache` is a folder for bakes instead of the user's own."""
+    environment = os.environ | ({"FOOTPRINT_CACHE": str(cache.absolute())} if cache else {})
+    done = subprocess.run([program, *map(str, words)], stdout=subprocess.PIPE, text=True, check=False, env=environment)
+    if done.returncode != 0:
+        raise Missing(f"`footprint {' '.join(map(str, words))}` failed (exit code {done.returncode})")
+    return done.stdout
+
+
+# ---- numbers, tables and text
+
+def number(value, digits=3, unit=""):
+    """`value` with `digits` significant digits; "n/a" if there is none."""
+    if value is None:
+        return "n/a"
+    return f"{value:.{digits}g}{' ' + unit if unit else ''}"
+
+
+def geometric_mean(values):
+    """Geometric mean and geometric standard deviation."""
+    logs = [math.log(max(v, 1e-9)) for v in values]
+    middle = sum(logs) / len(logs)
+    return math.exp(middle), math.exp(math.sqrt(sum((v - middle) ** 2 for v in logs) / len(logs)))
+
+
+def spread(values):
+    middle, deviation = geometric_mean(values)
+    return f"{number(middle)} ×/÷ {deviation:.2f}"
+
+
+def cell(text):
+    return str(text).replace("|", "\\|").replace("\n", " ")
+
+
+def table_row(cells):
+    return "| " + " | ".join(cells) + " |"
+
+
+def table(titles, rows):
+    """A Markdown table without a final line break."""
+    return "\n".join([table_row(titles), "|" + "---|" * len(titles), *map(table_row, rows)])
+
+
+def wrapped(text):
+    """Paragraphs and items wrapped; tables, headings and images as they are."""
+    lines = []
+    for line in text.split("\n"):
+        indent = "  " if line.startswith("- ") else ""
+        is_prose = line and line[0] not in "|#!"
+        lines += (textwrap.wrap(line, PROSE_WIDTH, subsequent_indent=indent, break_on_hyphens=False) if is_prose
+                  else [line])
+    return "\n".join(lines)
+
+
+# ---- Pareto fronts
+
+def front_of(entries):
+    """The Pareto-optimal entries of (cost, error, ...), cheapest first."""
+    front = []
+    for entry in sorted(entries, key=lambda e: e[:2]):
+        if not front or entry[1] < front[-1][1]:
+            front.append(entry)
+    return front
+
+
+def error_on_front(front, cost):
+    """The front's error at a cost, interpolated in logarithms; its last error beyond its end, None before its start."""
+    before = [f for f in front if f[0] <= cost]
+    after = [f for f in front if f[0] > cost]
+    if not before:
+        return None
+    if not after:
+        return before[-1][1]
+    (c0, e0), (c1, e1) = before[-1][:2], after[0][:2]
+    t = (math.log(cost) - math.log(c0)) / (math.log(c1) - math.log(c0))
+    return math.exp(math.log(e0) + t * (math.log(e1) - math.log(e0)))
+
+
+# ---- noise floors of claims
+
+def calls_of(inequality):
+    """The calls of an inequality, also those within `abs`: (function, method, selectors)."""
+    found = []
+    for function, inside in re.findall(r"([a-z_0-9]+)\(((?:[^()]|\([^()]*\))*)\)", inequality):
+        if function == "abs":
+            found += calls_of(inside)
+            continue
+        method, *selectors = [part.strip() for part in inside.split(",")]
+        found.append((function, method, dict(selector.split("=", 1) for selector in selectors)))
+    return found
+
+
+def is_method(written, method):
+    """Whether a call means a record's method: by its full text, or by its name without options."""
+    return written == method or (":" not in method and written.split(":")[0] == method)
+
+
+def floor_of_call(records, function, method, selectors):
+    """The mean noise floor over the records that a call selects; None if a record has none."""
+    named = [r for r in records if r["method"] == method] or [r for r in records if is_method(r["method"], method)]
+    chosen = [r for r in named if ("frame" not in selectors or r["frame"] == int(selectors["frame"]))
+              and ("distance" not in selectors or math.isclose(r["distance"], float(selectors["distance"])))]
+    if function == "flicker":
+        floors = [r["flicker"]["noise_floor"] for r in chosen if r["flicker"]]
+    else:
+        floors = [r["error"][FLOOR_OF[function]] for r in chosen if r["error"]]
+    return None if not floors or None in floors else sum(floors) / len(floors)
+
+
+def claim_floors(document):
+    """(claim, difference of its sides, floor) of each claim of a results.json that has a floor.
+
+    Only claims that compare errors against the converged reference have one. Claims over times, bytes, quantities,
+    distributions or quotients have none, nor do claims against a reference of few samples (`spp=`).
+    """
+    for claim in document["experiment"]["claims"]:
+        calls = calls_of(claim["inequality"])
+        sides = (claim["left"], claim["right"])
+        of_errors = all(function in FLOOR_OF or function == "flicker" for function, _, _ in calls)
+        if not calls or not of_errors or "/" in claim["inequality"] or None in sides:
+            continue
+        if any("spp" in selectors for _, _, selectors in calls):
+            continue
+        floors = [floor_of_call(document["records"], *call) for call in calls]
+        if None not in floors:
+            yield claim["name"], abs(sides[0] - sides[1]), max(floors)
+
+
+def has_converged(difference, floor):
+    return FLOOR_SHARE * floor < difference

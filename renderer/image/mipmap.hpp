@@ -25,7 +25,7 @@ struct MipTaps {
 
 /// The whole chain, `finest` first, 1 x 1 last. Each coarse texel is the exact mean of the area that it covers of the
 /// finer level (mip_taps per axis), so every level has the same mean of each channel, but for rounding. Sums are in
-/// double precision. Errors (usage): an image without texels.
+/// double precision. Errors (usage): an image without texels; (machine): the chain does not fit in memory.
 [[nodiscard]] std::vector<Image> mip_chain(Image finest);
 
 /// As mip_chain, but the last channel is a weight: the other channels of a coarse texel are the weighted mean of those

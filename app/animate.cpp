@@ -18,7 +18,7 @@
 #include "app/standard_output.hpp"
 #include "app/written_animation.hpp"
 #include "experiments/studies/animate.hpp"
-#include "renderer/core/host.hpp"
+#include "renderer/core/process.hpp"
 
 namespace footprint {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "app/folders.hpp"
 #include "experiments/runner/run_experiment.hpp"
+#include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/file_bytes.hpp"
 #include "renderer/core/hash.hpp"
 
 namespace footprint {

@@ -18,9 +18,9 @@
 #include "renderer/baked_files/baked_files.hpp"
 #include "renderer/baked_files/bumpslopes.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/file_names.hpp"
 #include "renderer/core/memory.hpp"
-#include "renderer/pipeline/built_maps.hpp"
+#include "renderer/core/names.hpp"
+#include "renderer/pipeline/surface_program.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 
 namespace footprint {

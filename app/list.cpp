@@ -17,7 +17,7 @@
 #include "experiments/runner/experiment.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/memory.hpp"
-#include "renderer/core/words.hpp"
+#include "renderer/core/names.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "scenes/surfaces/registry.hpp"

@@ -7,7 +7,7 @@
 
 #include "app/cpu_info.hpp"
 #include "app/standard_output.hpp"
-#include "renderer/core/interrupt.hpp"
+#include "renderer/core/process.hpp"
 #include "results/report/report.hpp"
 #include "results/report/results_summary.hpp"
 

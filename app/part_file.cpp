@@ -9,7 +9,7 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
-#include "renderer/core/words.hpp"
+#include "renderer/core/names.hpp"
 
 namespace footprint {
 namespace {

@@ -20,9 +20,9 @@
 #include "app/messages.hpp"
 #include "app/standard_output.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/interrupt.hpp"
 #include "renderer/core/memory.hpp"
-#include "renderer/core/suggest.hpp"
+#include "renderer/core/names.hpp"
+#include "renderer/core/process.hpp"
 
 namespace footprint {
 namespace {

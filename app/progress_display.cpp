@@ -12,7 +12,7 @@
 #include <exception>
 #include <utility>
 
-#include "renderer/core/interrupt.hpp"
+#include "renderer/core/process.hpp"
 
 namespace footprint {
 namespace {

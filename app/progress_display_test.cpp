@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "renderer/core/error.hpp"
-#include "renderer/core/interrupt.hpp"
+#include "renderer/core/process.hpp"
 
 namespace footprint {
 namespace {

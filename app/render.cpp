@@ -17,7 +17,7 @@
 #include "experiments/studies/exposure.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/interrupt.hpp"
+#include "renderer/core/process.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 

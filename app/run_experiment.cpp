@@ -23,7 +23,7 @@
 #include "app/timing_process.hpp"
 #include "experiments/runner/run_experiment.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/host.hpp"
+#include "renderer/core/process.hpp"
 
 namespace footprint {
 namespace {

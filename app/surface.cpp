@@ -15,8 +15,8 @@
 #include "app/output.hpp"
 #include "app/standard_output.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/interrupt.hpp"
 #include "renderer/core/memory.hpp"
+#include "renderer/core/process.hpp"
 #include "renderer/image/image_io.hpp"
 #include "scenes/surfaces/registry.hpp"
 

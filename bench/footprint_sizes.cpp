@@ -10,7 +10,7 @@
 #include "bench/bench_scene.hpp"
 #include "bench/side_by_side.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/pipeline/pixel_work.hpp"
+#include "renderer/pipeline/frame.hpp"
 #include "renderer/scene/camera.hpp"
 #include "scenes/surfaces/registry.hpp"
 

@@ -5,8 +5,8 @@
 
 #include <functional>
 
-#include "renderer/gl/frame_timer.hpp"
 #include "renderer/gl/functions.hpp"
+#include "renderer/gl/objects.hpp"
 #include "renderer/pipeline/timing.hpp"
 
 namespace footprint::bench {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "methods/iwasaki_sg/material_table.hpp"
-#include "renderer/core/stage_clock.hpp"
+#include "renderer/core/progress.hpp"
 #include "renderer/microgeometry/patch_kinds.hpp"
 
 namespace footprint::bench {

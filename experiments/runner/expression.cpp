@@ -12,7 +12,7 @@
 
 #include "experiments/runner/functions.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/suggest.hpp"
+#include "renderer/core/names.hpp"
 
 namespace footprint {
 

@@ -17,7 +17,7 @@
 #include "experiments/studies/zoom.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/suggest.hpp"
+#include "renderer/core/names.hpp"
 #include "results/report/figures.hpp"
 
 namespace footprint {

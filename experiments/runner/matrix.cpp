@@ -12,7 +12,7 @@
 #include "experiments/settings/known_methods.hpp"
 #include "experiments/settings/setting.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/file_names.hpp"
+#include "renderer/core/names.hpp"
 #include "renderer/core/toml_table.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 

@@ -10,12 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "renderer/core/names.hpp"
 #include "renderer/core/options.hpp"
-#include "renderer/core/words.hpp"
 #include "renderer/effects/effects.hpp"
 #include "renderer/gl/context.hpp"
-#include "renderer/pipeline/environment_use.hpp"
-#include "renderer/pipeline/reference_filter.hpp"
+#include "renderer/pipeline/shader_flags.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "renderer/scene/footprint_filter.hpp"
 #include "renderer/scene/surface.hpp"

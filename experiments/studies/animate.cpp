@@ -17,7 +17,7 @@
 #include "experiments/studies/run_info.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/image/metrics.hpp"
-#include "renderer/pipeline/unresolved.hpp"
+#include "renderer/pipeline/supersample.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "results/report/ranking.hpp"
 

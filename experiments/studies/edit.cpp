@@ -13,10 +13,10 @@
 #include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/stage_clock.hpp"
+#include "renderer/core/progress.hpp"
 #include "renderer/gl/functions.hpp"
 #include "renderer/pipeline/frame.hpp"
-#include "renderer/pipeline/gpu_visibility.hpp"
+#include "renderer/pipeline/gpu_environment.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "renderer/scene/assembly/microgeometry_content.hpp"
 

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "renderer/image/metrics.hpp"
-#include "renderer/pipeline/unresolved.hpp"
+#include "renderer/pipeline/supersample.hpp"
 
 namespace footprint {
 namespace {

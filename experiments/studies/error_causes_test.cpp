@@ -9,7 +9,7 @@
 
 #include "experiments/studies/flicker_causes.hpp"
 #include "renderer/image/metrics.hpp"
-#include "renderer/pipeline/unresolved.hpp"
+#include "renderer/pipeline/supersample.hpp"
 
 namespace footprint {
 namespace {

@@ -12,8 +12,8 @@
 #include "experiments/studies/picture_files.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"
+#include "renderer/pipeline/supersample.hpp"
 #include "renderer/pipeline/timing.hpp"
-#include "renderer/pipeline/unresolved.hpp"
 
 namespace footprint {
 namespace {

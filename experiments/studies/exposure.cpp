@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "renderer/image/luminance.hpp"
+#include "renderer/image/image.hpp"
 
 namespace footprint {
 namespace {

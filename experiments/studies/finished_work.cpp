@@ -8,8 +8,8 @@
 #include <system_error>
 #include <utility>
 
+#include "renderer/core/bytes.hpp"
 #include "renderer/core/disk_cache.hpp"
-#include "renderer/core/file_bytes.hpp"
 #include "renderer/core/files.hpp"
 #include "renderer/core/hash.hpp"
 

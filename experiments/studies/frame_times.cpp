@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "renderer/core/host.hpp"
+#include "renderer/core/process.hpp"
 #include "renderer/pipeline/timing.hpp"
 
 namespace footprint {

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "experiments/studies/plain_supersampling.hpp"
-#include "renderer/core/host.hpp"
+#include "renderer/core/process.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/timing.hpp"
 

@@ -4,7 +4,7 @@
 #include "experiments/studies/reference_noise.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
-#include "renderer/pipeline/unresolved.hpp"
+#include "renderer/pipeline/supersample.hpp"
 #include "results/report/equivalent_spp.hpp"
 
 namespace footprint {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "experiments/studies/reference_view.hpp"
-#include "renderer/pipeline/pixel_work.hpp"
+#include "renderer/pipeline/frame.hpp"
 
 namespace footprint {
 

@@ -12,11 +12,11 @@
 #include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/file_names.hpp"
 #include "renderer/core/memory.hpp"
-#include "renderer/ndf/footprint_part.hpp"
+#include "renderer/core/names.hpp"
+#include "renderer/ndf/footprint_texels.hpp"
+#include "renderer/ndf/hemisphere_grid.hpp"
 #include "renderer/ndf/method_ndf.hpp"
-#include "renderer/ndf/ndf_figures.hpp"
 #include "renderer/ndf/true_ndf.hpp"
 
 namespace footprint {

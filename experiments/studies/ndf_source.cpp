@@ -6,8 +6,7 @@
 
 #include "experiments/studies/ndf_inspection.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/file_names.hpp"
-#include "renderer/core/suggest.hpp"
+#include "renderer/core/names.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "renderer/scene/assembly/surface_maps.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "renderer/core/error.hpp"
-#include "renderer/core/suggest.hpp"
+#include "renderer/core/names.hpp"
 
 namespace footprint {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "renderer/core/file_names.hpp"
+#include "renderer/core/names.hpp"
 #include "renderer/image/false_color.hpp"
 #include "renderer/image/image_io.hpp"
 

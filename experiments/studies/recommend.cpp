@@ -13,7 +13,7 @@
 #include "experiments/studies/run_fingerprint.hpp"
 #include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
-#include "renderer/core/file_names.hpp"
+#include "renderer/core/names.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/ranking.hpp"

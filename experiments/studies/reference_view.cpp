@@ -14,7 +14,7 @@
 #include "experiments/studies/reference_noise.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"
-#include "renderer/pipeline/unresolved.hpp"
+#include "renderer/pipeline/supersample.hpp"
 
 namespace footprint {
 namespace {
@@ -86,10 +86,7 @@ ReferenceRenderer::ReferenceRenderer(const RunSettings& settings, const Stage& s
       progress_(progress),
       interior_finder_(stage.interior_finder()),
       bound_(stage_bound(stage, settings.reference.bound, warnings_)),
-      shared_(shared != nullptr ? shared : &own_) {
-  if (settings.by_material)
-    material_finder_.emplace(stage.context().info(), stage.scene(), stage.view(1.0).size, settings.backend.tile);
-}
+      shared_(shared != nullptr ? shared : &own_) {}
 
 double ReferenceRenderer::weight(const RunSettings& settings) {
   const ReferenceSettings& reference = settings.reference;
@@ -250,7 +247,8 @@ void ReferenceRenderer::find_parts(ReferenceView& target, const std::string& pre
   const std::size_t left_out = target.parts.counts.unresolved;
   target.parts = pixel_parts(target.reference.mean, interior);
   target.parts.counts.unresolved = left_out;
-  if (material_finder_) target.materials = material_finder_->masks(target.view, target.parts.interior);
+  if (settings_.by_material)
+    target.materials = material_masks(interior.materials, target.parts.interior, stage_.scene().materials.size());
   target.shading_floor = noise_floor_over(target.reference, exposure_, target.parts.interior);
   target.files.interior = write_mask(folder_, distance_stem(target.distance, "interior"), target.parts.interior);
   if (has(stage_.effects(), Effect::environment_light)) {

@@ -10,7 +10,6 @@
 
 #include "experiments/studies/bound.hpp"
 #include "experiments/studies/error_causes.hpp"
-#include "experiments/studies/material_pixels.hpp"
 #include "experiments/studies/stage.hpp"
 
 namespace footprint {
@@ -126,7 +125,6 @@ class ReferenceRenderer {
   ProgressParts& progress_;
   float exposure_ = 1.0F;  // of the distance that is rendered
   InteriorFinder interior_finder_;
-  std::optional<MaterialFinder> material_finder_;  // where materials are told apart
   std::vector<std::string> warnings_;
   std::optional<StagedMethod> bound_;
   SharedReferences own_;  // of the distance that is rendered, if nothing is shared

@@ -9,7 +9,7 @@
 #include "experiments/studies/stage.hpp"
 #include "experiments/studies/zoom.hpp"
 #include "renderer/core/hash.hpp"
-#include "renderer/scene/material_content.hpp"
+#include "renderer/scene/scene.hpp"
 
 namespace footprint {
 namespace {

@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "renderer/core/error.hpp"
-#include "renderer/core/file_names.hpp"
+#include "renderer/core/names.hpp"
 #include "renderer/image/image_io.hpp"
-#include "renderer/pipeline/unresolved.hpp"
+#include "renderer/pipeline/supersample.hpp"
 
 namespace footprint {
 namespace {

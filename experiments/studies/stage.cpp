@@ -35,7 +35,7 @@ void require_upload(const Prefiltered& prefiltered) {
 PreparedMethod bake_and_upload(const GpuScene& gpu_scene, const Scene& scene, const EffectSet& effects,
                                const Method& method, const MethodSpec& spec, const BakeCache* cache,
                                const Progress& progress) {
-  auto baked = std::make_unique<BakedMethod>(unbaked(method, spec));
+  auto baked = std::make_unique<BakedMethod>(make_bake(method, spec));
   auto gpu = std::make_unique<GpuMethod>(gpu_scene, *baked);
   bake_materials(*baked, scene, effects, progress, cache, [&](std::size_t material) {
     require_upload(baked->materials[material]);
@@ -127,7 +127,7 @@ PreparedScene::PreparedScene(Scene loaded, const RunSettings& settings)
 
 StagedMethod::StagedMethod(const MethodSpec& spec, const Error& refusal)
     : prepared_(std::make_shared<const PreparedMethod>(PreparedMethod{
-          .baked = std::make_unique<BakedMethod>(unbaked(find_method(spec.name), spec)), .gpu = nullptr})),
+          .baked = std::make_unique<BakedMethod>(make_bake(find_method(spec.name), spec)), .gpu = nullptr})),
       refusal_(refusal) {}
 
 StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& scene, const Scene& values,

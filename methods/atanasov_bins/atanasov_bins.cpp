@@ -9,7 +9,7 @@
 #include "methods/atanasov_bins/bin_textures.hpp"
 #include "methods/atanasov_bins/bins.hpp"
 #include "methods/atanasov_bins/inverse_map.hpp"
-#include "renderer/bake/facet_lobes.hpp"
+#include "renderer/bake/facets.hpp"
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"

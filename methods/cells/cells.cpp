@@ -1,7 +1,5 @@
 // `cells`: the normals of a material in parts that are the same at every level; a texel stores weight, mean and
 // covariance of each, as moments that filter linearly. With one part it is LEAN mapping.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -93,13 +91,9 @@ void add_moments(const PartedNormals& normals, const Options& options, const Tex
                  Prefiltered& out) {
   const Covariance covariance = covariance_of(options);
   const auto frames = cells::part_frames(normals.points, normals.shares, normals.parts, covariance);
-  const auto add = [&](const char* name, std::size_t k, const glm::dvec2& value) {
-    out.scalars[fmt::format("cells_{}_x{}", name, k)] = static_cast<float>(value.x);
-    out.scalars[fmt::format("cells_{}_y{}", name, k)] = static_cast<float>(value.y);
-  };
-  for (std::size_t k = 0; k < frames.size(); ++k) {
-    add("centre", k, frames[k].centre);
-    if (covariance == Covariance::axes) add("axis", k, frames[k].axis);
+  for (const cells::PartFrame& frame : frames) {
+    out.vectors["cells_centres"].emplace_back(frame.centre);
+    if (covariance == Covariance::axes) out.vectors["cells_axes"].emplace_back(frame.axis);
   }
   const cells::PartedPoints map{normals.points, normals.shares, normals.parts, normals.width, normals.height};
   out.textures.push_back(

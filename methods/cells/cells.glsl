@@ -20,35 +20,19 @@ const int part_channels = 6;
 //? include parts_module.glsl
 
 //? if normal_variation
-vec2 centreOf(int i) {
-  vec2 centres[8] = vec2[8](vec2(cells_centre_x0, cells_centre_y0), vec2(cells_centre_x1, cells_centre_y1),
-                            vec2(cells_centre_x2, cells_centre_y2), vec2(cells_centre_x3, cells_centre_y3),
-                            vec2(cells_centre_x4, cells_centre_y4), vec2(cells_centre_x5, cells_centre_y5),
-                            vec2(cells_centre_x6, cells_centre_y6), vec2(cells_centre_x7, cells_centre_y7));
-  return centres[i];
-}
-
 //? if covariance_axes
-vec2 axisOf(int i) {
-  vec2 axes[8] =
-      vec2[8](vec2(cells_axis_x0, cells_axis_y0), vec2(cells_axis_x1, cells_axis_y1), vec2(cells_axis_x2, cells_axis_y2),
-              vec2(cells_axis_x3, cells_axis_y3), vec2(cells_axis_x4, cells_axis_y4), vec2(cells_axis_x5, cells_axis_y5),
-              vec2(cells_axis_x6, cells_axis_y6), vec2(cells_axis_x7, cells_axis_y7));
-  return axes[i];
-}
-
 // From the part's own axes to the plane's.
 vec2 meanOf(int i, vec2 own) {
-  vec2 a = axisOf(i);
-  return centreOf(i) + own.x * a + own.y * vec2(-a.y, a.x);
+  vec2 a = cells_axes[i];
+  return cells_centres[i] + own.x * a + own.y * vec2(-a.y, a.x);
 }
 vec3 spreadOf(int i, vec2 own_mean, vec3 second) {
-  vec2 a = axisOf(i);
+  vec2 a = cells_axes[i];
   vec2 own = max(second.xz - own_mean * own_mean, 0.0);
   return vec3(own.x * a.x * a.x + own.y * a.y * a.y, (own.x - own.y) * a.x * a.y, own.x * a.y * a.y + own.y * a.x * a.x);
 }
 //? else
-vec2 meanOf(int i, vec2 own) { return centreOf(i) + own; }
+vec2 meanOf(int i, vec2 own) { return cells_centres[i] + own; }
 vec3 spreadOf(int i, vec2 own_mean, vec3 second) { return covarianceOf(own_mean, second); }
 //? end
 
@@ -83,9 +67,9 @@ BaseLobe lobeOfPart(BaseLobe shared_lobe, float weight, float weighted_variance)
 
 // Of a part that is the surface's own normal, where no texel has a valid one.
 Moments flatMoments() {
-  vec2 own = -centreOf(0);
+  vec2 own = -cells_centres[0];
 //? if covariance_axes
-  vec2 a = axisOf(0);
+  vec2 a = cells_axes[0];
   own = vec2(dot(own, a), dot(own, vec2(-a.y, a.x)));
 //? end
   return Moments(vec3(1.0, own), vec3(0.0));

@@ -9,7 +9,7 @@
 
 #include "methods/fournier/normal_bins.hpp"
 #include "methods/fournier/peak_chain.hpp"
-#include "renderer/bake/facet_lobes.hpp"
+#include "renderer/bake/facets.hpp"
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"

@@ -75,7 +75,8 @@ std::vector<double> ndf(const Baked& baked, const SquareFootprint& footprint,
     const auto unit = static_cast<GLuint>(textures.size());
     textures.push_back(upload(texture));
     gl::api().BindTextureUnit(unit, textures.back().texture->name());
-    gl::api().BindSampler(unit, samplers.sampler(texture.coordinates, textures.back().lookup(Lookup::trilinear)));
+    gl::api().BindSampler(
+        unit, samplers.sampler(texture.coordinates, textures.back().sampler_state(SamplerState::trilinear)));
     text += "layout(binding = " + std::to_string(unit) + ") uniform sampler2DArray " + texture.name + ";\n";
   }
   text += "vec4 lobe_cutoff;\n" + shared_functions(flags, fournier_method().shader());

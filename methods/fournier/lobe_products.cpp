@@ -13,7 +13,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "renderer/lobes/vmf.hpp"
+#include "renderer/lobes/lobe.hpp"
 
 namespace footprint::fournier {
 namespace {

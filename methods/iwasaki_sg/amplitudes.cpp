@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-#include "renderer/lobes/vmf.hpp"
+#include "renderer/lobes/lobe.hpp"
 
 namespace footprint::iwasaki_sg {
 namespace {

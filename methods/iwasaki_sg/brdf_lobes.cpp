@@ -8,7 +8,7 @@
 
 #include "methods/iwasaki_sg/amplitudes.hpp"
 #include "methods/iwasaki_sg/spherical_gaussian.hpp"
-#include "renderer/lobes/vmf.hpp"
+#include "renderer/lobes/lobe.hpp"
 
 namespace footprint::iwasaki_sg {
 namespace {

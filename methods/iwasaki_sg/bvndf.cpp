@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "methods/iwasaki_sg/ndf_fit.hpp"
-#include "renderer/lobes/vmf.hpp"
+#include "renderer/lobes/lobe.hpp"
 
 namespace footprint::iwasaki_sg {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "methods/iwasaki_sg/normal_bins.hpp"
 #include "methods/iwasaki_sg/spherical_gaussian.hpp"
-#include "renderer/bake/patch_facets.hpp"
+#include "renderer/bake/facets.hpp"
 #include "renderer/core/progress.hpp"
 #include "renderer/microgeometry/facet_visibility.hpp"
 

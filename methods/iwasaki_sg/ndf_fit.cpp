@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "renderer/lobes/vmf.hpp"
+#include "renderer/lobes/lobe.hpp"
 
 namespace footprint::iwasaki_sg {
 namespace {

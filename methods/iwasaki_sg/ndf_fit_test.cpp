@@ -10,7 +10,7 @@
 
 #include "methods/iwasaki_sg/brdf_lobes.hpp"
 #include "renderer/core/random.hpp"
-#include "renderer/lobes/vmf.hpp"
+#include "renderer/lobes/lobe.hpp"
 
 namespace footprint::iwasaki_sg {
 namespace {

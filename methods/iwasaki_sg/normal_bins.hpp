@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "renderer/image/image.hpp"
-#include "renderer/microgeometry/facet_samples.hpp"
+#include "renderer/microgeometry/facet_visibility.hpp"
 #include "renderer/microgeometry/patch.hpp"
 
 namespace footprint::iwasaki_sg {

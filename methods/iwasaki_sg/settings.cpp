@@ -1,7 +1,7 @@
 // The table of options, and what a material adds to them.
 #include "methods/iwasaki_sg/settings.hpp"
 
-#include "renderer/bake/patch_facets.hpp"
+#include "renderer/bake/facets.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
 
 namespace footprint::iwasaki_sg {

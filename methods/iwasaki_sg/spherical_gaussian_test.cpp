@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "renderer/lobes/vmf.hpp"
+#include "renderer/lobes/lobe.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 #include "tests/methods/iwasaki_materials.hpp"

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "renderer/core/error.hpp"
-#include "renderer/lobes/vmf.hpp"
+#include "renderer/lobes/lobe.hpp"
 
 namespace footprint::roughness_bake {
 namespace {

@@ -49,7 +49,7 @@ std::vector<glm::vec4> probed(const PrefilteredTexture& mixture, const Given& gi
   const GpuTexture texture = upload(mixture);
   SamplerCache samplers;
   gl::api().BindTextureUnit(0, texture.texture->name());
-  gl::api().BindSampler(0, samplers.sampler(texture.coordinates, texture.lookup(Lookup::trilinear)));
+  gl::api().BindSampler(0, samplers.sampler(texture.coordinates, texture.sampler_state(SamplerState::trilinear)));
   const ShaderFlags flags = shader_flags(variant, options, {.textures = {mixture}, .scalars = {}});
   const std::string text =
       "layout(binding = 0) uniform sampler2DArray tan_gmm_mixture;\nconst float option_n = " + all["n"] + ".0;\n" +

@@ -45,7 +45,7 @@ Recovered recovered(const Material& material, const std::map<std::string, std::s
   const GpuTexture texture = upload(baked.textures.at(0));
   SamplerCache samplers;
   gl::api().BindTextureUnit(0, texture.texture->name());
-  gl::api().BindSampler(0, samplers.sampler(texture.coordinates, Lookup::trilinear));
+  gl::api().BindSampler(0, samplers.sampler(texture.coordinates, SamplerState::trilinear));
   const ShaderFlags flags = shader_flags(variant, options);
   const std::string text =
       "layout(binding = 0) uniform sampler2D mean_normal;\nconst float option_spread = 1.0;\n"

@@ -6,7 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "renderer/pipeline/frame.hpp"
-#include "renderer/scene/plane.hpp"
+#include "renderer/scene/geometry.hpp"
 #include "tests/methods/built_map.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/test_scenes.hpp"

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "renderer/pipeline/bindings.hpp"
-#include "renderer/pipeline/frame_build_job.hpp"
+#include "renderer/pipeline/shader_source.hpp"
+#include "renderer/pipeline/surface_program.hpp"
 #include "renderer/pipeline/view.hpp"
 
 namespace footprint {
@@ -145,7 +145,7 @@ void InstantMap::prepare_join(const FrameBuildJob& job, const gl::Program& progr
   constexpr std::array inputs{normals_name, variances_name, table_name};
   for (GLuint unit = 0; unit < inputs.size(); ++unit) {
     if (const GpuTexture* input = texture_of(job, inputs.at(unit)))
-      bind(unit, *input->texture, samplers_.sampler(input->coordinates, Lookup::nearest));
+      bind(unit, *input->texture, samplers_.sampler(input->coordinates, SamplerState::nearest));
   }
   gl::api().UseProgram(program.name());
   if (!camera) {

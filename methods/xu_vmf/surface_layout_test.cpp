@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "renderer/scene/plane.hpp"
+#include "renderer/scene/geometry.hpp"
 
 namespace footprint::xu_vmf {
 namespace {

@@ -10,7 +10,7 @@
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
 #include "renderer/image/mipmap.hpp"
-#include "renderer/lobes/vmf.hpp"
+#include "renderer/lobes/lobe.hpp"
 
 namespace footprint {
 

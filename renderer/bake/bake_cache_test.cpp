@@ -7,7 +7,6 @@
 #include <filesystem>
 
 #include "renderer/bake/baked_method.hpp"
-#include "renderer/bake/prefiltered_file.hpp"
 #include "renderer/image/mipmap.hpp"
 #include "tests/support/test_scenes.hpp"
 
@@ -27,6 +26,7 @@ Prefiltered example(float value = 1.0F) {
   return {.textures = {make_array_texture("mixture", layers, Storage::fp16, {.set = 1}, TextureFilter::nearest),
                        make_texture("plain", {Image(1, 1, 2, 0.5F)}, Storage::fp32, {})},
           .scalars = {{"scale", 2.0F}},
+          .vectors = {{"steps", {{1.0F, 2.0F}, {3.0F, 4.0F}}}},
           .notes = {"one fit of three stopped early"}};
 }
 
@@ -65,7 +65,7 @@ TEST(PrefilteredFile, EveryCutAndEveryFlippedBitIsNoticed) {
 TEST(BakeCache, FindsWhatItKeptAndNothingElse) {
   const BakeCache cache{DiskCache(fresh_cache("find"))};
   EXPECT_FALSE(cache.find("a"));
-  cache.keep("a", example());
+  cache.store("a", example());
   EXPECT_EQ(cache.find("a"), example());
   EXPECT_FALSE(cache.find("b"));
 }
@@ -73,7 +73,7 @@ TEST(BakeCache, FindsWhatItKeptAndNothingElse) {
 TEST(BakeCache, DamagedFileCountsAsAbsent) {
   const DiskCache files(fresh_cache("damaged"));
   const BakeCache cache(files);
-  cache.keep("a", example());
+  cache.store("a", example());
   fs::resize_file(files.folder() / "a.bake", 40);
   EXPECT_FALSE(cache.find("a"));
 }

@@ -1,18 +1,30 @@
-// One material after the other, each by the method or from the cache, with the time and bytes of all.
+// Bakes or reads one material after the other, with time, bytes, and notes on lobes that the storage cannot resolve.
 #include "renderer/bake/baked_method.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <set>
 #include <utility>
 
-#include "renderer/bake/storage_range.hpp"
+#include "renderer/bake/facets.hpp"
+#include "renderer/bake/normal_chain.hpp"
 #include "renderer/core/error.hpp"
 
 namespace footprint {
 namespace {
+
+// Slope variances from which on every method holds the lobe over a tilted map.
+constexpr double least_in_half_floats = 2e-4;
+constexpr double least_in_bytes = 0.02;
+
+double narrowest_variance(const Material& material) {
+  if (!material.lobes.empty()) return mean_lobe_variance(material);
+  const Image variances = lobe_variance_map(material);
+  return *std::ranges::min_element(variances.texels);
+}
 
 struct Outcome {
   Prefiltered prefiltered;
@@ -28,7 +40,7 @@ Outcome prefilter(const Method& method, const Scene& scene, std::size_t index, c
   const std::string key = cache->key(method.info().name, material, options, effects);
   if (std::optional<Prefiltered> kept = cache->find(key)) return {*std::move(kept), true};
   Outcome outcome{method.precompute_on(scene, index, options, effects, progress), false};
-  cache->keep(key, outcome.prefiltered);
+  cache->store(key, outcome.prefiltered);
   return outcome;
 }
 
@@ -53,7 +65,22 @@ std::size_t added_bytes(const BakedMethod& baked) {
 
 }  // namespace
 
-BakedMethod unbaked(const Method& method, const MethodSpec& spec) {
+std::optional<std::string> storage_range_note(const Material& material, const MethodInfo& info, const Options& options,
+                                              const EffectSet& effects) {
+  if (info.lobes_as_given || !has(effects, Effect::normal_variation) || !options.all().contains("storage")) return {};
+  const std::string& storage = options.word("storage");
+  const double least = storage == "unorm8" ? least_in_bytes : storage == "fp16" ? least_in_half_floats : 0.0;
+  if (least == 0.0) return {};
+  const double narrowest = narrowest_variance(material);
+  if (narrowest >= least) return {};
+  return fmt::format(
+      "storage={} can store slope variances from {:g} on, but this material's narrowest lobe has {:.2g}: its "
+      "highlights "
+      "are off (docs/stability.md)",
+      storage, least, narrowest);
+}
+
+BakedMethod make_bake(const Method& method, const MethodSpec& spec) {
   return {.method = &method,
           .spec = spec,
           .options = Options(method.info().options, spec.options, "method " + spec.name),
@@ -97,7 +124,7 @@ void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& eff
 
 BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scene, const EffectSet& effects,
                  const Progress& progress, const BakeCache* cache) {
-  BakedMethod baked = unbaked(method, spec);
+  BakedMethod baked = make_bake(method, spec);
   bake_materials(baked, scene, effects, progress, cache, [](std::size_t) {});
   return baked;
 }

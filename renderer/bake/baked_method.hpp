@@ -1,15 +1,26 @@
-// A method's precompute over a whole scene, from the disk where it is kept there.
+// A method's precompute over a whole scene, from the disk cache if possible.
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "renderer/bake/bake_cache.hpp"
 #include "renderer/bake/method.hpp"
+#include "renderer/core/options.hpp"
+#include "renderer/effects/effects.hpp"
+#include "renderer/scene/material.hpp"
 
 namespace footprint {
+
+/// A note for a material over whose normal map a lobe is narrower than the option `storage` resolves
+/// (docs/stability.md); none where the method has no such option or rounds no lobes by it, normals do not vary, or all
+/// lobes are wide enough.
+[[nodiscard]] std::optional<std::string> storage_range_note(const Material& material, const MethodInfo& info,
+                                                            const Options& options, const EffectSet& effects);
 
 /// A method's precompute for every material of a scene, with what it cost.
 struct BakedMethod {
@@ -17,7 +28,7 @@ struct BakedMethod {
   MethodSpec spec;
   Options options;
   std::vector<Prefiltered> materials;  ///< one for each material of the scene
-  /// Material and number of each texture whose texels a material before it has: on the GPU they lie once.
+  /// Material and number of each texture whose texels an earlier material has: on the GPU they are stored once.
   std::set<std::pair<std::size_t, std::size_t>> shared;
   double seconds = 0;
   std::size_t bytes = 0;   ///< as stored on the GPU: texels that several materials have count once
@@ -28,8 +39,8 @@ struct BakedMethod {
 /// Called when a material is baked, with its number; it may free the texels.
 using MaterialBaked = std::function<void(std::size_t)>;
 
-/// A method with its options, and nothing baked yet. Errors (usage): an option that it has not.
-[[nodiscard]] BakedMethod unbaked(const Method& method, const MethodSpec& spec);
+/// A method with its options, and nothing baked yet. Throws Error (usage): an option that it has not.
+[[nodiscard]] BakedMethod make_bake(const Method& method, const MethodSpec& spec);
 
 /// Runs the precompute of `baked` for one material after the other, as `bake` does. Seconds are those of the precompute
 /// alone.

@@ -1,5 +1,5 @@
 // Facets with several lobes: how axes turn, their mean width, and what is refused.
-#include "renderer/bake/facet_lobes.hpp"
+#include "renderer/bake/facets.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,8 @@
-// A material without a map has a constant one, or none to speak of, 1 x 1: a bake need not tell the two apart.
+// A material without a map has a constant one, 1 x 1, so that bakes need not distinguish the two.
 #include "renderer/bake/material_maps.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace footprint {
 namespace {
@@ -135,6 +136,18 @@ TextureCoordinates coat_normal_coordinates(const Material& material) {
 
 TextureCoordinates share_coordinates(const Material& material) {
   return material.share ? material.share->map.coordinates : TextureCoordinates{};
+}
+
+std::span<const SharedMap> shared_maps() {
+  static constexpr std::array<SharedMap, 7> maps{
+      {{Effect::base_color_variation, "base_color_map", base_color_map_of, base_color_coordinates},
+       {Effect::metallic_variation, "metallic_map", metallic_map_of, roughness_coordinates},
+       {Effect::specular_variation, "specular_map", specular_map_of, specular_coordinates},
+       {Effect::coat_weight_variation, "coat_weight_map", coat_weight_map_of, coat_weight_coordinates},
+       {Effect::coat_width_variation, "coat_width_map", coat_width_map_of, coat_width_coordinates},
+       {Effect::coat_normal_variation, "coat_normal_map", coat_normal_map_of, coat_normal_coordinates},
+       {Effect::material_index, "material_share", material_share_of, share_coordinates}}};
+  return maps;
 }
 
 }  // namespace footprint

@@ -1,6 +1,10 @@
-// The maps of a material as images of one form, and where they are looked up: what bakes start from.
+// The maps of a material as images of one form, their coordinates, and the table of those that all methods share.
 #pragma once
 
+#include <span>
+#include <string_view>
+
+#include "renderer/effects/effects.hpp"
 #include "renderer/image/image.hpp"
 #include "renderer/scene/material.hpp"
 
@@ -54,5 +58,16 @@ inline constexpr float smallest_coat_alpha = 1e-3F;
 [[nodiscard]] TextureCoordinates coat_width_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates coat_normal_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates share_coordinates(const Material& material);
+
+/// A map that the shared shaders read where an effect is on.
+struct SharedMap {
+  Effect effect;
+  std::string_view name;            ///< of its sampler
+  Image (*image)(const Material&);  ///< its finest level; a constant, 1 x 1, of a material that has none
+  TextureCoordinates (*coordinates)(const Material&);
+};
+
+/// In the order of their texture units.
+[[nodiscard]] std::span<const SharedMap> shared_maps();
 
 }  // namespace footprint

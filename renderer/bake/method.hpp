@@ -1,20 +1,71 @@
-// How a prefiltering method plugs in. The pipeline knows nothing more of a method than this interface.
+// The interface of a prefiltering method. The pipeline knows nothing else of a method.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
-#include "renderer/bake/frame_build.hpp"
 #include "renderer/bake/prefiltered.hpp"
-#include "renderer/bake/shader_module.hpp"
+#include "renderer/core/embedded_texts.hpp"
 #include "renderer/core/options.hpp"
 #include "renderer/core/progress.hpp"
 #include "renderer/effects/effects.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace footprint {
+
+/// Every flag that a text may ask for, and whether it is on.
+using ShaderFlags = std::map<std::string, bool, std::less<>>;
+
+/// A text with directives (renderer/shaders/README.md): a method's module, or a pass of its frame build.
+struct ShaderModule {
+  std::string_view file;  ///< messages name it
+  std::string_view text;
+  EmbeddedTexts folder{};  ///< what it may include, beside the shared texts
+  ShaderFlags flags{};     ///< of its own, beside those of scene, sampling and options
+};
+
+/// The module in a file of a folder. Throws std::logic_error where the folder has no such file.
+[[nodiscard]] inline ShaderModule module_of(EmbeddedTexts folder, std::string_view file, ShaderFlags flags = {}) {
+  const EmbeddedText* const found = find_text(folder, file);
+  if (found == nullptr) throw std::logic_error("no text `" + std::string(file) + "` is embedded");
+  return {found->file, found->text, folder, std::move(flags)};
+}
+
+struct FrameBuildJob;  // renderer/pipeline/surface_program.hpp: it names GL objects
+
+/// What of a frame goes into what is built.
+struct BuildInputs {
+  bool camera = false, geometry = false, materials = false, lights = false;
+};
+
+/// The passes of a method's frame build, compiled for one scene. They fill the textures that the precompute declared
+/// with make_built_texture, by drawing into them or by compute. A pass may bind what it likes (program, framebuffer,
+/// vertex array, texture and image units, uniform blocks), and change the viewport, the depth test, culling and
+/// blending: GpuMethod puts back what a draw does not set for itself. Of the rest of the GL's state nothing may change.
+class FrameBuild {
+ public:
+  FrameBuild() = default;
+  FrameBuild(const FrameBuild&) = delete;
+  FrameBuild& operator=(const FrameBuild&) = delete;
+  virtual ~FrameBuild() = default;
+
+  /// Issues the passes for one material. Whoever calls it puts memory barriers before and behind it.
+  virtual void run(const FrameBuildJob& job) const = 0;
+
+  /// Whether what is built differs from one view to another, so that it is no map of the material.
+  [[nodiscard]] virtual bool looks_from_view() const { return true; }
+
+  /// What a build may be kept for: as long as none of these changes, what was built serves the next frame too. None: it
+  /// is built for every frame, whatever moved.
+  [[nodiscard]] virtual std::optional<BuildInputs> kept_until_change_of() const { return {}; }
+};
 
 struct ShaderVariant;
 
@@ -30,11 +81,11 @@ struct MethodInfo {
   bool screen_derivatives = false;
   bool reads_finest_level = false;  ///< a frame filters nothing: clear coats are read at their finest level, too
   bool draws_directions = false;    ///< the module integrates an environment itself where many samples are taken
-  bool lobes_as_given = false;      ///< its option `storage` rounds nothing that lobes are made of (storage_range.hpp)
+  bool lobes_as_given = false;      ///< its option `storage` rounds nothing that lobes are made of (storage_range_note)
   bool sums_environment = false;    ///< a frame's environment light is summed by the module (`environmentSum`)
   bool slow_precompute = false;     ///< seconds, not milliseconds: kept on disk between runs (bake_cache.hpp)
   /// What is baked into a texel of a level depends, of the normal map, on the texels under it alone: of a map of which
-  /// one part is looked at, that part may be baked for itself (renderer/ndf/footprint_part.hpp).
+  /// one part is looked at, that part may be baked for itself (renderer/ndf/footprint_texels.hpp).
   bool bakes_by_texel = false;
   /// Seconds a frame, not milliseconds: a bound to hold others against. `all` methods are all but these.
   bool slow_frame = false;
@@ -69,7 +120,7 @@ class Method {
   }
 
   /// The passes that are repeated each frame, for a scene whose effects (those that the method honours) and base BRDF
-  /// `variant` has; null: there are none. A context is current. Errors (machine): a pass does not compile.
+  /// `variant` has; null: there are none. A context is current. Throws Error (machine): a pass does not compile.
   [[nodiscard]] virtual std::unique_ptr<FrameBuild> frame_build(const ShaderVariant& /*variant*/,
                                                                 const Options& /*options*/) const {
     return nullptr;
@@ -77,7 +128,7 @@ class Method {
 
   /// For a method that stands for what engines import: the perceptual roughness of every texel and level of a normal
   /// map's mip chain, one channel, 0 to 1, which goes beside the mean normal, renormalised. None of other methods, and
-  /// of a material without a normal map. Errors (usage): a roughness map that has no texel for each of the normal
+  /// of a material without a normal map. Throws Error (usage): a roughness map that has no texel for each of the normal
   /// map's.
   [[nodiscard]] virtual std::optional<std::vector<Image>> roughness_mips(const Material& /*material*/,
                                                                          const Options& /*options*/) const {

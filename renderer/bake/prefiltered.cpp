@@ -14,7 +14,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/core/hash.hpp"
 #include "renderer/core/memory.hpp"
-#include "renderer/core/words.hpp"
+#include "renderer/core/names.hpp"
 #include "renderer/image/mipmap.hpp"
 
 namespace footprint {
@@ -128,6 +128,7 @@ std::size_t byte_count(const PrefilteredTexture& texture) {
 
 std::size_t byte_count(const Prefiltered& prefiltered) {
   std::size_t bytes = prefiltered.scalars.size() * sizeof(float);
+  for (const auto& [name, values] : prefiltered.vectors) bytes += values.size() * sizeof(glm::vec2);
   if (prefiltered.surface_coordinates) bytes += prefiltered.surface_coordinates->size() * sizeof(glm::vec2);
   for (const PrefilteredTexture& texture : prefiltered.textures) bytes += byte_count(texture);
   return bytes;

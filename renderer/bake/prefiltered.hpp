@@ -19,7 +19,7 @@ enum class Storage { fp32, fp16, unorm8 };
 
 [[nodiscard]] std::string_view storage_name(Storage storage);
 
-/// Errors (usage) on a word that is no storage.
+/// Throws Error (usage) on a word that is no storage.
 [[nodiscard]] Storage parse_storage(std::string_view word);
 
 /// Whether texels are blended: as the program looks maps up; never (a mixture's lobes that have no counterpart in the
@@ -57,8 +57,9 @@ struct PrefilteredTexture {
 /// The outcome of a precompute: everything that the method's shader reads besides the shared material.
 struct Prefiltered {
   std::vector<PrefilteredTexture> textures;
-  std::map<std::string, float> scalars;  ///< uniform float NAME
-  std::vector<std::string> notes{};      ///< what a user should know of how it went, one sentence each; tables show it
+  std::map<std::string, float> scalars;                     ///< uniform float NAME
+  std::map<std::string, std::vector<glm::vec2>> vectors{};  ///< uniform vec2 NAME[size]; none is empty
+  std::vector<std::string> notes{};  ///< what a user should know of how it went, one sentence each; tables show it
   /// For each vertex of the material (triangles_of) its uv in textures that show each point of the surface once;
   /// none: the module looks at the maps' own coordinates alone.
   std::optional<std::vector<glm::vec2>> surface_coordinates{};
@@ -69,7 +70,7 @@ struct Prefiltered {
 /// Bytes of a texture as stored on the GPU, whether baked or built.
 [[nodiscard]] std::size_t byte_count(const PrefilteredTexture& texture);
 
-/// Bytes of all textures and scalars as stored on the GPU.
+/// Bytes of all textures, scalars and vectors, without what a uniform block pads.
 [[nodiscard]] std::size_t byte_count(const Prefiltered& prefiltered);
 
 /// Tells textures apart whose texels differ, in number, storage or value: 64 bits of a hash of them. Their names and
@@ -99,7 +100,7 @@ void free_texels(PrefilteredTexture& texture);
                                                     Storage storage, const TextureCoordinates& coordinates,
                                                     TextureFilter filter = TextureFilter::trilinear);
 
-/// An array texture whose texels a frame build writes (frame_build.hpp).
+/// An array texture whose texels a frame build writes (method.hpp).
 struct BuiltTexture {
   std::string name;
   int width = 1, height = 1, layers = 1;

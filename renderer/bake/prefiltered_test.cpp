@@ -51,8 +51,9 @@ TEST(MakeTexture, NamesTheTexelThatIsNotFinite) {
 TEST(ByteCount, IsWhatTheGpuHolds) {
   const Image fine(4, 2, 3), coarse(2, 1, 3), last(1, 1, 3);
   const Prefiltered p{.textures = {make_texture("t", {fine, coarse, last}, Storage::fp16, {})},
-                      .scalars = {{"s", 1.0F}}};
-  EXPECT_EQ(byte_count(p), (8U + 2U + 1U) * 3U * 2U + 4U);
+                      .scalars = {{"s", 1.0F}},
+                      .vectors = {{"v", {{1.0F, 2.0F}, {3.0F, 4.0F}}}}};
+  EXPECT_EQ(byte_count(p), (8U + 2U + 1U) * 3U * 2U + 4U + 2U * 8U);
 }
 
 TEST(FinestTexels, AreThoseOfTheLargestMap) {

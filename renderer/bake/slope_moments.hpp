@@ -39,8 +39,8 @@ inline constexpr int slope_x = 0, slope_y = 1, slope_xx = 2, slope_xy = 3, slope
 
 /// The mip chain of B and M, 5 channels, of RGBA normals (any length above 0, weight in alpha; weight 0 leaves the
 /// means untouched). `variance`, one channel of the normals' size or 1 x 1, is slope variance per axis that joins M
-/// before it is filtered: base roughness in the moments. Slopes are no longer than `steepest`. Errors (usage): another
-/// size.
+/// before it is filtered: base roughness in the moments. Slopes are no longer than `steepest`. Throws Error (usage):
+/// another size.
 [[nodiscard]] std::vector<Image> slope_moment_chain(const Image& normals, const Image& variance,
                                                     double steepest = steepest_slope);
 
@@ -69,8 +69,8 @@ struct KeptSlopes {
 /// `slope_moments` (Bx, By, Mxx, Myy; scalar: Bx, By, Mxx + Myy) and, of the same size, `slope_rest`, what that has no
 /// room for: Mxy (not scalar), then the mean normal where it is kept; neither: there is no such texture. Likewise
 /// `layer_moments` and `layer_rest` of a bump layer, without a normal. `lobe_variance` (bake_lobe_variance) where the
-/// roughness varies and the moments do not hold it. Errors (usage): roughness in the moments of maps that differ in
-/// size or coordinates. Texels that are steeper than `steepest` are counted in a note.
+/// roughness varies and the moments do not hold it. Throws Error (usage): roughness in the moments of maps that differ
+/// in size or coordinates. Texels that are steeper than `steepest` are counted in a note.
 [[nodiscard]] Prefiltered bake_slopes(const Material& material, const Options& options, const EffectSet& effects,
                                       const KeptSlopes& kept);
 

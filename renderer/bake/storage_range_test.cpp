@@ -1,5 +1,5 @@
 // The note stands where a lobe is too narrow for what a method stores, and nowhere else.
-#include "renderer/bake/storage_range.hpp"
+#include "renderer/bake/baked_method.hpp"
 
 #include <gtest/gtest.h>
 

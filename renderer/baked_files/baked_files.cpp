@@ -1,25 +1,53 @@
-// Textures one after the other, each as EXR and KTX2 and, where bytes hold it, as PNG.
+// Names the files, writes each texture in every format that can store it, and the module with its contract.
 #include "renderer/baked_files/baked_files.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <stdexcept>
+#include <utility>
 
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/bake/normal_chain.hpp"
 #include "renderer/baked_files/bumpslopes.hpp"
 #include "renderer/baked_files/ktx2.hpp"
-#include "renderer/baked_files/manifest.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/file_names.hpp"
 #include "renderer/core/files.hpp"
-#include "renderer/core/interrupt.hpp"
-#include "renderer/image/exr_chain.hpp"
+#include "renderer/core/names.hpp"
+#include "renderer/core/process.hpp"
 #include "renderer/image/image_io.hpp"
+#include "renderer/image/mipmap.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 
 namespace footprint {
 namespace {
+
+// Where all normals of a texel cancel the surface's own stands in.
+std::vector<Image> unit_normals(std::vector<Image> chain) {
+  for (Image& level : chain) {
+    for (std::size_t i = 0; i < level.texel_count(); ++i) {
+      float* const n = &level.texels[3 * i];
+      const float length = std::hypot(n[0], n[1], n[2]);
+      const bool has_direction = length > 1e-6F;
+      for (int c = 0; c < 3; ++c) n[c] = has_direction ? n[c] / length : (c == 2 ? 1.0F : 0.0F);
+    }
+  }
+  return chain;
+}
+
+// The level of a chain for a map of that size: as large, or the next smaller one with each texel several times.
+Image fitting(const std::vector<Image>& chain, int width, int height) {
+  const auto level =
+      std::ranges::find_if(chain, [&](const Image& each) { return each.width <= width && each.height <= height; });
+  Image out(width, height, level->channels);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x)
+      std::ranges::copy(level->at(x * level->width / width, y * level->height / height), out.at(x, y).begin());
+  }
+  return out;
+}
 
 // PNG has no two channels that every reader takes for two numbers.
 bool is_held_by_png(const PrefilteredTexture& texture) {
@@ -89,7 +117,7 @@ ShaderVariant variant_of(const BakeToFiles& bake) {
 
 constexpr const char* screen_contract =
     R"(//
-// This method looks at the next pixels. Between the first two lines, and in place of the last:
+// This method looks at the next pixels. Between the first two lines, and instead of the last:
 //
 //   lookAround(at, eye, frame, world_to_camera, f);  // in every pixel of a quad, before any is discarded
 //   vec3 f_cos = reflectedTowards(e, s, wi, wo, vec4(lamp, 1.0));   // vec4(direction, 0.0) of light without a place
@@ -103,7 +131,7 @@ std::string contract(const BakeToFiles& bake) {
 // the filter and wrap modes, and set the uniforms to the values, that manifest.json gives for each material. Then:
 //
 //   Footprints f = footprintsAt(uv);                 // or member by member, where maps have coordinates of their own
-//   Effective e = effective(f);                      // once a pixel
+//   Effective e = effective(f);                      // once per pixel
 //   Surface s = Surface(albedo, f0);                 // diffuse albedo, reflectance at normal incidence
 //   vec3 f_cos = reflectedTowards(e, s, wi, wo);     // for each light; f * cos
 //
@@ -114,6 +142,40 @@ std::string contract(const BakeToFiles& bake) {
 }
 
 }  // namespace
+
+EngineMaps engine_maps(const BakedMethod& baked, const Material& material) {
+  std::optional<std::vector<Image>> rough;
+  try {
+    rough = baked.method->roughness_mips(material, baked.options);
+  } catch (const Error& error) {
+    return {.textures = {}, .missing = error.message()};
+  }
+  if (!rough) return {};
+  const TextureCoordinates coordinates = normal_coordinates(material);
+  return {.textures = {make_texture("engine_normal", unit_normals(mean_normal_chain(material)), Storage::unorm8,
+                                    coordinates, true),
+                       make_texture("engine_roughness", *rough, Storage::unorm8, coordinates)},
+          .missing = {}};
+}
+
+ReplacedMaps replaced_maps(const EngineMaps& maps, const Material& material, int level, std::vector<std::string> mips) {
+  const PrefilteredTexture &normal = maps.textures.at(0), &rough = maps.textures.at(1);
+  const std::size_t at = std::min(static_cast<std::size_t>(level), normal.levels.size() - 1);
+  // Of a roughness map that is finer than the normal map the level as large as the normal map's; unless nothing is cut.
+  const std::size_t finer = at == 0 ? 0 : rough.levels.size() - normal.levels.size();
+  const Image roughness = decode_level(rough, at + finer);
+  ReplacedMaps replaced{.material = material.name,
+                        .normal = decode_level(normal, at),
+                        .rough_metallic = Image(roughness.width, roughness.height, 3, 1.0F),
+                        .metallic_in_map = metallic_map(material) != nullptr,
+                        .roughness_mips = std::move(mips)};
+  const Image metallic = fitting(mip_chain(metallic_map_of(material)), roughness.width, roughness.height);
+  for (std::size_t i = 0; i < roughness.texel_count(); ++i) {
+    replaced.rough_metallic.texels[3 * i + 1] = roughness.texels[i];
+    if (replaced.metallic_in_map) replaced.rough_metallic.texels[3 * i + 2] = metallic.texels[i];
+  }
+  return replaced;
+}
 
 BakeListing list_bake(const BakeToFiles& bake) {
   std::vector<std::string> names;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "renderer/bake/prefiltered.hpp"
-#include "renderer/image/exr_chain.hpp"
+#include "renderer/image/image_io.hpp"
 
 namespace footprint {
 
@@ -21,12 +21,12 @@ namespace footprint {
 
 /// The normals that the finest level's slopes stand for: 4 channels, as Material::normal_map. `file` is for messages.
 /// OpenImageIO's slopes of a height map are per texel and, along v, down the rows; those of a normal map up, as its
-/// green channel: the first are turned round. Errors (usage): other channels, a level that is missing, no finite
+/// green channel: the first are turned round. Throws Error (usage): other channels, a level that is missing, no finite
 /// number.
 [[nodiscard]] Image normals_of_bumpslopes(const ExrChain& chain, const std::string& file);
 
 /// Puts the chain's moments in the place of those that were baked from its finest level's normals, so that what its
-/// coarser levels hold beyond them counts. Storage, coordinates and a mean normal stay. Errors: std::logic_error where
+/// coarser levels hold beyond them counts. Storage, coordinates and a mean normal stay. Throws std::logic_error where
 /// the bake has no such textures, of that size.
 void replace_moments(const ExrChain& chain, Prefiltered& prefiltered);
 

@@ -7,10 +7,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/file_bytes.hpp"
-#include "renderer/core/file_names.hpp"
 #include "renderer/core/files.hpp"
+#include "renderer/core/names.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/gltf/document.hpp"
 
@@ -85,7 +85,7 @@ std::size_t add_texture(Json& document, const std::string& file, const Json& sam
   return document["textures"].size() - 1;
 }
 
-// As the normal texture is looked up, but with another picture.
+// As the normal texture is looked up, but with another image.
 Json looked_up_as(const Json& normal, std::size_t texture) {
   Json info{{"index", texture}};
   for (const char* member : {"texCoord", "extensions"}) {

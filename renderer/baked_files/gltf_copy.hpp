@@ -22,8 +22,8 @@ struct ReplacedMaps {
 };
 
 /// Writes `source` (.gltf or .glb) with these maps as FOLDER/NAME.gltf, its buffers and images as files beside it,
-/// where no path of the source leads. Returns the file's name. Errors (usage): the source cannot be read, two of its
-/// materials have one of these names, or none has; (machine): a file cannot be written.
+/// where no path of the source leads. Returns the file's name. Throws Error (usage): the source cannot be read, two of
+/// its materials have one of these names, or none has; (machine): a file cannot be written.
 std::string write_gltf_copy(const std::filesystem::path& source, std::span<const ReplacedMaps> maps,
                             const std::filesystem::path& folder);
 

@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "renderer/image/image_io.hpp"
-#include "renderer/scene/gltf/model.hpp"
+#include "renderer/scene/model.hpp"
 #include "tests/support/fresh_folder.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/says.hpp"

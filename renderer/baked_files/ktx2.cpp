@@ -43,7 +43,7 @@ std::size_t texel_size(const PrefilteredTexture& texture) {
 
 std::size_t rounded_up(std::size_t size, std::size_t step) { return (size + step - 1) / step * step; }
 
-// KDFS 1.3, section 5: one block, one sample a channel.
+// KDFS 1.3, section 5: one block, one sample per channel.
 std::vector<std::uint8_t> format_descriptor(const PrefilteredTexture& texture) {
   const bool is_float = texture.storage != Storage::unorm8;
   const auto bits = static_cast<std::uint32_t>(8 * channel_bytes(texture.storage));

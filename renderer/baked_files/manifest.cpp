@@ -1,5 +1,5 @@
 // One JSON object a material and a texture, and the uniforms that a module asks for.
-#include "renderer/baked_files/manifest.hpp"
+#include "renderer/baked_files/baked_files.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
-#include "renderer/bake/facet_lobes.hpp"
+#include "renderer/bake/facets.hpp"
 #include "renderer/bake/material_maps.hpp"
 
 namespace footprint {
@@ -98,11 +98,14 @@ Json textures_json(const std::vector<PrefilteredTexture>& textures, const std::v
   return list;
 }
 
-// What the module reads of the material: its scalars, its lobe and, where facets have several, those.
+// What the module reads of the material: its scalars and vectors, its lobe and, where facets have several, those.
 Json uniforms_json(const Material& material, const Prefiltered& prefiltered, bool several_lobes) {
   Json uniforms = Json::object();
   uniforms["lobe_cutoff"] = {lobe_of(material).parameter, material.alpha_cutoff.value_or(-1.0F), 0.0, 0.0};
   for (const auto& [name, value] : prefiltered.scalars) uniforms[name] = value;
+  for (const auto& [name, values] : prefiltered.vectors) {
+    for (std::size_t i = 0; i < values.size(); ++i) uniforms[fmt::format("{}[{}]", name, i)] = numbers(values[i]);
+  }
   if (!several_lobes) return uniforms;
   uniforms["facet_lobe_count"] = material.lobes.size();
   for (std::size_t k = 0; k < material.lobes.size(); ++k) {

@@ -10,10 +10,9 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/hash.hpp"
-#include "renderer/core/interrupt.hpp"
+#include "renderer/core/names.hpp"
 #include "renderer/core/options.hpp"
-#include "renderer/core/suggest.hpp"
-#include "renderer/core/words.hpp"
+#include "renderer/core/process.hpp"
 #include "tests/support/says.hpp"
 
 namespace footprint {
@@ -55,7 +54,7 @@ TEST(Error, KindsAreExitCodes) {
   EXPECT_EQ(static_cast<int>(ErrorKind::interrupted), 128 + SIGINT);
 }
 
-// --- suggest.hpp
+// --- names.hpp: suggestions
 
 const std::vector<std::string> methods{"direct", "naive_mip", "toksvig"};
 
@@ -94,7 +93,7 @@ TEST(Suggestion, ListsTheFirstOfMany) {
   EXPECT_EQ(std::ranges::count(text, ','), 19);
 }
 
-// --- words.hpp
+// --- names.hpp: words
 
 constexpr std::array<Word<int>, 3> sizes{{{10, "small"}, {20, "medium"}, {30, "large"}}};
 

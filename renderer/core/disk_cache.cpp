@@ -7,8 +7,8 @@
 #include <system_error>
 #include <utility>
 
+#include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/file_bytes.hpp"
 #include "renderer/core/files.hpp"
 
 namespace footprint {
@@ -36,9 +36,9 @@ void write_with_key(const ByteSink& out, const ByteWriter& write, const std::str
 }
 
 // The bytes before the key; none where the file ends in another.
-std::optional<StoredBytes> without_key(const StoredBytes& bytes, const std::string& key) {
+std::optional<ByteSource> without_key(const ByteSource& bytes, const std::string& key) {
   if (bytes.size() <= key.size()) return {};
-  StoredBytes before = bytes.first(bytes.size() - key.size());
+  ByteSource before = bytes.first(bytes.size() - key.size());
   std::string last(key.size(), '\0');
   if (!bytes.read(before.size(), {reinterpret_cast<std::uint8_t*>(last.data()), last.size()}) || last != key) return {};
   return before;
@@ -65,19 +65,19 @@ std::vector<KeptFile> kept_files(const fs::path& folder) {
 
 DiskCache::DiskCache(fs::path folder, std::uint64_t most_bytes) : folder_(std::move(folder)), most_bytes_(most_bytes) {}
 
-std::optional<StoredBytes> DiskCache::find(const std::string& key) const {
-  const std::optional<StoredBytes> whole = StoredBytes::of_file(file(key));
-  std::optional<StoredBytes> bytes = whole ? without_key(*whole, key) : std::nullopt;
+std::optional<ByteSource> DiskCache::find(const std::string& key) const {
+  const std::optional<ByteSource> whole = ByteSource::of_file(file(key));
+  std::optional<ByteSource> bytes = whole ? without_key(*whole, key) : std::nullopt;
   std::error_code ignored;  // a folder that cannot be written loses only the order of use
   if (bytes) fs::last_write_time(file(key), fs::file_time_type::clock::now(), ignored);
   return bytes;
 }
 
-void DiskCache::keep(const std::string& key, std::span<const std::uint8_t> bytes) const {
-  keep(key, bytes.size(), [&](const ByteSink& out) { out(bytes); });
+void DiskCache::store(const std::string& key, std::span<const std::uint8_t> bytes) const {
+  store(key, bytes.size(), [&](const ByteSink& out) { out(bytes); });
 }
 
-void DiskCache::keep(const std::string& key, std::uint64_t bytes, const ByteWriter& write) const {
+void DiskCache::store(const std::string& key, std::uint64_t bytes, const ByteWriter& write) const {
   if (bytes > most_bytes_) return;
   std::error_code failed;
   fs::create_directories(folder_, failed);

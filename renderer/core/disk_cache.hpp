@@ -7,9 +7,8 @@
 #include <span>
 #include <string>
 
-#include "renderer/core/byte_sink.hpp"
+#include "renderer/core/bytes.hpp"
 #include "renderer/core/hash.hpp"
-#include "renderer/core/stored_bytes.hpp"
 
 namespace footprint {
 
@@ -21,10 +20,10 @@ class DiskCache {
 
   /// The bytes kept under `key` (letters, digits, `-` and `_`), now the most recently used, to be read from the disk;
   /// none where there are none, or those in the file were kept under another.
-  [[nodiscard]] std::optional<StoredBytes> find(const std::string& key) const;
-  void keep(const std::string& key, std::span<const std::uint8_t> bytes) const;
+  [[nodiscard]] std::optional<ByteSource> find(const std::string& key) const;
+  void store(const std::string& key, std::span<const std::uint8_t> bytes) const;
   /// Keeps what `write` hands over, about so many bytes, without holding it in memory.
-  void keep(const std::string& key, std::uint64_t bytes, const ByteWriter& write) const;
+  void store(const std::string& key, std::uint64_t bytes, const ByteWriter& write) const;
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 

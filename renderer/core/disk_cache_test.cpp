@@ -10,8 +10,8 @@
 #include <fstream>
 #include <optional>
 
+#include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/sealed_bytes.hpp"
 
 namespace footprint {
 namespace {
@@ -44,7 +44,7 @@ const std::vector<std::uint8_t> some_bytes{1, 2, 3, 0, 255};
 
 // What is kept there, whole; empty where nothing is.
 std::vector<std::uint8_t> found(const DiskCache& cache, const std::string& key) {
-  const std::optional<StoredBytes> kept = cache.find(key);
+  const std::optional<ByteSource> kept = cache.find(key);
   if (!kept) return {};
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(kept->size()));
   EXPECT_TRUE(kept->read(0, bytes));
@@ -54,15 +54,15 @@ std::vector<std::uint8_t> found(const DiskCache& cache, const std::string& key) 
 TEST(DiskCache, FindsWhatItKeptAndNothingElse) {
   const DiskCache cache(fresh_folder("find"));
   EXPECT_FALSE(cache.find("a"));
-  cache.keep("a", some_bytes);
+  cache.store("a", some_bytes);
   EXPECT_EQ(found(cache, "a"), some_bytes);
   EXPECT_FALSE(cache.find("b"));
 }
 
 TEST(DiskCache, AFileUnderAnothersNameIsNone) {
   const DiskCache cache(fresh_folder("foreign"));
-  cache.keep("one", some_bytes);
-  cache.keep("two", std::vector<std::uint8_t>{9});
+  cache.store("one", some_bytes);
+  cache.store("two", std::vector<std::uint8_t>{9});
   fs::copy_file(cache.folder() / "one.bake", cache.folder() / "two.bake", fs::copy_options::overwrite_existing);
   fs::copy_file(cache.folder() / "one.bake", cache.folder() / "three.bake");
   EXPECT_FALSE(cache.find("two"));
@@ -81,19 +81,19 @@ TEST(DiskCache, FolderThatIsAFileCostsNoError) {
   const fs::path file = fresh_folder("closed");
   std::ofstream(file) << "a file";
   const DiskCache cache(file);
-  EXPECT_NO_THROW(cache.keep("a", some_bytes));
+  EXPECT_NO_THROW(cache.store("a", some_bytes));
   EXPECT_FALSE(cache.find("a"));
 }
 
 TEST(DiskCache, TheLeastRecentlyUsedGoes) {
   const DiskCache cache(fresh_folder("room"), 2 * some_bytes.size() + std::string("newold").size());
-  cache.keep("old", some_bytes);
-  cache.keep("new", some_bytes);
+  cache.store("old", some_bytes);
+  cache.store("new", some_bytes);
   const auto earlier = fs::file_time_type::clock::now() - std::chrono::hours(1);
   fs::last_write_time(cache.folder() / "old.bake", earlier);
   fs::last_write_time(cache.folder() / "new.bake", earlier - std::chrono::hours(1));
   EXPECT_TRUE(cache.find("new"));  // used just now
-  cache.keep("third", some_bytes);
+  cache.store("third", some_bytes);
   EXPECT_FALSE(cache.find("old"));
   EXPECT_TRUE(cache.find("new"));
   EXPECT_TRUE(cache.find("third"));
@@ -101,31 +101,31 @@ TEST(DiskCache, TheLeastRecentlyUsedGoes) {
 
 TEST(DiskCache, WhatIsLargerThanTheFolderMayBeIsNotKept) {
   const DiskCache cache(fresh_folder("large"), some_bytes.size() - 1);
-  cache.keep("a", some_bytes);
+  cache.store("a", some_bytes);
   EXPECT_FALSE(cache.find("a"));
 }
 
 TEST(DiskCache, WhatIsHandedOverInPiecesComesBackInPieces) {
   const DiskCache cache(fresh_folder("pieces"));
-  cache.keep("a", 3, [](const ByteSink& out) {
+  cache.store("a", 3, [](const ByteSink& out) {
     out(std::vector<std::uint8_t>{7, 8});
     out(std::vector<std::uint8_t>{9});
   });
   EXPECT_EQ(found(cache, "a"), (std::vector<std::uint8_t>{7, 8, 9}));
-  const std::optional<StoredBytes> kept = cache.find("a");
+  const std::optional<ByteSource> kept = cache.find("a");
   ASSERT_TRUE(kept);
   std::vector<std::uint8_t> piece(2);
   EXPECT_TRUE(kept->read(1, piece));
   EXPECT_EQ(piece, (std::vector<std::uint8_t>{8, 9}));
   EXPECT_FALSE(kept->read(2, piece)) << "the key behind the bytes is none of them";
-  cache.keep("a", some_bytes);
+  cache.store("a", some_bytes);
   EXPECT_TRUE(kept->read(0, piece)) << "replaced: what was opened stays";
   EXPECT_EQ(piece, (std::vector<std::uint8_t>{7, 8}));
 }
 
 TEST(DiskCache, WhatFailsHalfWayLeavesNothing) {
   const DiskCache cache(fresh_folder("half"));
-  cache.keep("a", 3, [](const ByteSink& out) {
+  cache.store("a", 3, [](const ByteSink& out) {
     out(some_bytes);
     throw Error(ErrorKind::machine, "", "no space left");
   });
@@ -133,19 +133,19 @@ TEST(DiskCache, WhatFailsHalfWayLeavesNothing) {
   EXPECT_TRUE(fs::is_empty(cache.folder()));
 }
 
-TEST(StoredBytes, OnlyRegularFilesAreRead) {
+TEST(ByteSource, OnlyRegularFilesAreRead) {
   const fs::path folder = fresh_folder("kinds");
   fs::create_directories(folder);
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
-  EXPECT_FALSE(StoredBytes::of_file(folder / "pipe")) << "nor waited for";
-  EXPECT_FALSE(StoredBytes::of_file(folder));
-  EXPECT_FALSE(StoredBytes::of_file(folder / "nothing"));
+  EXPECT_FALSE(ByteSource::of_file(folder / "pipe")) << "nor waited for";
+  EXPECT_FALSE(ByteSource::of_file(folder));
+  EXPECT_FALSE(ByteSource::of_file(folder / "nothing"));
 }
 
-TEST(StoredBytes, AFileThatWasCutMeanwhileIsNotRead) {
+TEST(ByteSource, AFileThatWasCutMeanwhileIsNotRead) {
   const fs::path file = fresh_folder("cut");
   std::ofstream(file) << "0123456789";
-  const std::optional<StoredBytes> bytes = StoredBytes::of_file(file);
+  const std::optional<ByteSource> bytes = ByteSource::of_file(file);
   ASSERT_TRUE(bytes);
   fs::resize_file(file, 4);
   std::vector<std::uint8_t> out(10);
@@ -154,12 +154,12 @@ TEST(StoredBytes, AFileThatWasCutMeanwhileIsNotRead) {
 }
 
 TEST(SealedBytes, ValuesComeBackAndNothingIsLeft) {
-  const std::vector<std::uint8_t> bytes = sealed("numbers 1", [](SealedWriter& out) {
+  const std::vector<std::uint8_t> bytes = write_checksummed("numbers 1", [](ChecksummedWriter& out) {
     out.add(7);
     out.add_text("seven");
     out.add_values(std::vector<float>{1.5F, -2.0F});
   });
-  std::optional<SealedReader> in = SealedReader::open(bytes, "numbers 1");
+  std::optional<ChecksummedReader> in = ChecksummedReader::open(bytes, "numbers 1");
   ASSERT_TRUE(in);
   EXPECT_EQ(in->get<int>(), 7);
   EXPECT_EQ(in->get_text(), "seven");
@@ -168,15 +168,15 @@ TEST(SealedBytes, ValuesComeBackAndNothingIsLeft) {
   EXPECT_TRUE(in->finished());
   EXPECT_EQ(in->get<int>(), 0) << "there is nothing more";
   EXPECT_FALSE(in->finished());
-  EXPECT_FALSE(SealedReader::open(bytes, "numbers 2"));
+  EXPECT_FALSE(ChecksummedReader::open(bytes, "numbers 2"));
 }
 
 // Found by scripts/fuzz: any byte was taken for a bool.
 TEST(SealedBytes, AByteThatIsNeither0Nor1IsNoBool) {
   for (const int byte : {0, 1, 2, 115, 255}) {
     const std::vector<std::uint8_t> bytes =
-        sealed("bools 1", [&](SealedWriter& out) { out.add(static_cast<std::uint8_t>(byte)); });
-    std::optional<SealedReader> in = SealedReader::open(bytes, "bools 1");
+        write_checksummed("bools 1", [&](ChecksummedWriter& out) { out.add(static_cast<std::uint8_t>(byte)); });
+    std::optional<ChecksummedReader> in = ChecksummedReader::open(bytes, "bools 1");
     ASSERT_TRUE(in);
     EXPECT_EQ(in->get<bool>(), byte == 1) << byte;
     EXPECT_EQ(in->finished(), byte <= 1) << byte;

@@ -1,5 +1,5 @@
 // File name parts: what no file system takes is gone, and no two names meet.
-#include "renderer/core/file_names.hpp"
+#include "renderer/core/names.hpp"
 
 #include <gtest/gtest.h>
 

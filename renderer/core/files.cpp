@@ -17,7 +17,7 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/hash.hpp"
-#include "renderer/core/host.hpp"
+#include "renderer/core/process.hpp"
 
 namespace footprint {
 namespace {
@@ -161,7 +161,7 @@ std::vector<fs::path> relative_entries(const fs::path& folder) {
   return entries;
 }
 
-// What lies on top of a folder tells what is below it, a page or a list of pictures.
+// What lies on top of a folder tells what is below it, a page or a list of images.
 bool lies_on_top(const fs::path& entry) { return !entry.has_parent_path(); }
 
 // Links everything of `target` into `staging` that is not there and not stale, so that the two can be exchanged.

@@ -9,8 +9,7 @@
 #include <set>
 
 #include "renderer/core/error.hpp"
-#include "renderer/core/suggest.hpp"
-#include "renderer/core/words.hpp"
+#include "renderer/core/names.hpp"
 
 namespace footprint {
 namespace {

@@ -39,7 +39,7 @@ struct OptionSpec {
 /// Values for a table of options: every option present, defaults filled in.
 class Options {
  public:
-  /// Checks `given` against `specs`. Errors (usage): unknown name or choice (with the nearest right one), not a
+  /// Checks `given` against `specs`. Throws Error (usage): unknown name or choice (with the nearest right one), not a
   /// number, out of range; `owner` is named in the text.
   Options(const std::vector<OptionSpec>& specs, const std::map<std::string, std::string>& given,
           std::string_view owner);
@@ -65,7 +65,7 @@ struct MethodSpec {
   std::map<std::string, std::string> options;
 };
 
-/// Splits "a,b:x=1:y=2". Errors (usage): empty names, an option without `=`, an option or a text given twice.
+/// Splits "a,b:x=1:y=2". Throws Error (usage): empty names, an option without `=`, an option or a text given twice.
 [[nodiscard]] std::vector<MethodSpec> parse_methods(std::string_view list);
 
 }  // namespace footprint

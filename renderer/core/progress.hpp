@@ -1,10 +1,12 @@
-// How long work reports how far it is; what becomes of the report is the caller's business.
+// Progress reports of long work, and the time that its stages take.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace footprint {
 
@@ -32,6 +34,35 @@ class ProgressParts {
   Progress whole_;
   double total_;
   double done_ = 0;
+};
+
+/// A stage by its name and the wall-clock seconds that it took.
+struct StageTime {
+  std::string stage;
+  double seconds = 0.0;
+};
+
+/// A stage lasts from the report that names it to the next report of another name. One that comes back adds to its
+/// time. Reports come from one thread.
+class StageClock {
+ public:
+  /// A Progress that takes the time and passes every report on to `next`. Refers to this clock.
+  [[nodiscard]] Progress callback(Progress next);
+
+  /// Ends the stage that is running, if one is.
+  void stop();
+
+  /// The stages in the order in which they first came.
+  [[nodiscard]] const std::vector<StageTime>& times() const { return times_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void report(std::string_view stage);
+
+  std::vector<StageTime> times_;
+  std::string running_;  // empty: none
+  Clock::time_point start_;
 };
 
 }  // namespace footprint

@@ -1,5 +1,5 @@
 // What a StageClock makes of progress reports.
-#include "renderer/core/stage_clock.hpp"
+#include "renderer/core/progress.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,9 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/core/file_bytes.hpp"
-#include "renderer/core/suggest.hpp"
-#include "renderer/core/words.hpp"
+#include "renderer/core/bytes.hpp"
+#include "renderer/core/names.hpp"
 
 namespace footprint {
 namespace {

@@ -25,7 +25,7 @@ struct NumberRange {
 class TomlTable {
  public:
   /// A whole file of at most 1 MiB. `known` are the keys that may stand in it: any other is an error that names the
-  /// nearest right one. Errors (usage): missing, empty, or not TOML, as "FILE:LINE: ...".
+  /// nearest right one. Throws Error (usage): missing, empty, or not TOML, as "FILE:LINE: ...".
   TomlTable(const std::filesystem::path& file, const std::vector<std::string>& known);
 
   /// A whole file over another, its presets: a table that `file` lacks is that of the presets, and in the tables that

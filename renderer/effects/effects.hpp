@@ -40,7 +40,7 @@ enum class Effect : std::size_t {
   environment_light,         ///< light from all directions
   microgeometry_visibility,  ///< small-scale geometry whose facets hide and shadow each other
   microgeometry_colour,      ///< small-scale geometry with colours of its own
-  tabulated_brdf,            ///< facets that reflect as a table says, in place of the base BRDF
+  tabulated_brdf,            ///< facets that reflect as a table says, instead of the base BRDF
 };
 
 inline constexpr std::size_t effect_count = static_cast<std::size_t>(Effect::tabulated_brdf) + 1;
@@ -83,7 +83,7 @@ struct EffectDecision {
 };
 
 /// Every effect with its decision, in the order of the enumeration. Pure: looks at the scene's values alone. Takes a
-/// moment where rays have to tell whether anything casts a shadow. Errors (machine): memory is out.
+/// moment where rays have to tell whether anything casts a shadow. Throws Error (machine): memory is out.
 [[nodiscard]] std::vector<EffectDecision> derive_effects(const Scene& scene);
 
 /// The effects that are on.

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <set>
 
-#include "renderer/scene/plane.hpp"
+#include "renderer/scene/geometry.hpp"
 
 namespace footprint {
 namespace {

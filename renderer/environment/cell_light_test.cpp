@@ -1,5 +1,5 @@
 // Light by cells of directions: all of it is there, and it comes from where it came.
-#include "renderer/environment/cell_light.hpp"
+#include "renderer/environment/reference_tables.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,9 +8,9 @@
 #include <random>
 
 #include "renderer/core/random.hpp"
-#include "renderer/environment/direction_table.hpp"
 #include "renderer/environment/octahedral.hpp"
 #include "renderer/environment/radiance_stack.hpp"
+#include "renderer/environment/reference_tables.hpp"
 
 namespace footprint {
 namespace {

@@ -1,5 +1,5 @@
 // The table of GGX lobes against sums over all of their normals, by equal parts of D (n.h) and not of what is visible.
-#include "renderer/environment/lobe_table.hpp"
+#include "renderer/environment/radiance_stack.hpp"
 
 #include <gtest/gtest.h>
 

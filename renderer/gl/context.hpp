@@ -1,4 +1,4 @@
-// A headless OpenGL 4.5 core context, by EGL surfaceless, EGL device or OSMesa.
+// A headless OpenGL 4.5 core context, and the messages of its debug output.
 #pragma once
 
 #include <array>
@@ -8,9 +8,31 @@
 #include <string_view>
 #include <vector>
 
-#include "renderer/core/words.hpp"
+#include "renderer/core/names.hpp"
 
 namespace footprint::gl {
+
+/// Errors and messages of high severity since the last `take`. Must outlive the context that it listens to.
+class DebugLog {
+ public:
+  DebugLog() = default;
+  DebugLog(const DebugLog&) = delete;
+  DebugLog& operator=(const DebugLog&) = delete;
+
+  /// Listens to the current context, synchronously: a message comes from within the call that is at fault.
+  void listen();
+  /// Keeps a message; only the first few, since a bad call in a loop would fill the memory.
+  void add(std::string message);
+  [[nodiscard]] std::vector<std::string> take();
+
+ private:
+  DebugLog* const self_ = this;  // GL hands its callback a pointer to const; the log behind this one can be written
+  std::vector<std::string> messages_;
+  std::size_t dropped_ = 0;
+};
+
+/// "GL_INVALID_ENUM" for 0x0500, and so on.
+[[nodiscard]] std::string gl_error_name(unsigned code);
 
 enum class Backend { egl, egl_device, osmesa };
 
@@ -31,7 +53,7 @@ struct ContextInfo {
   Backend backend = Backend::egl;
   std::string vendor, renderer, version, glsl_version;
   int max_texture_size = 0;
-  int max_framebuffer_size = 0;  ///< the smaller of the largest viewport and renderbuffer, texels a side
+  int max_framebuffer_size = 0;  ///< the smaller of the largest viewport and renderbuffer, texels per side
   int max_uniform_block_bytes = 0;
   int max_texture_units = 0;  ///< for the fragment stage
   int max_anisotropy = 1;     ///< probes of a sampler; 1: it has no anisotropic filter
@@ -53,7 +75,7 @@ struct ContextRequest {
 /// synchronous: messages of severity high or of type error are collected.
 class Context {
  public:
-  /// Errors (machine): says for each backend that was tried why it is not there; too little is left of a limited
+  /// Throws Error (machine): says for each backend that was tried why it is not there; too little is left of a limited
   /// address space, in which a driver may crash instead of failing; (usage): no such device, or a device other than 0
   /// for a backend that has none. What was current before stays so after an error.
   explicit Context(const ContextRequest& request);

@@ -14,7 +14,7 @@ class NativeContext {
   NativeContext& operator=(const NativeContext&) = delete;
   virtual ~NativeContext() = default;
 
-  /// Errors: Error{machine}.
+  /// Throws Error{machine}.
   virtual void make_current() = 0;
   /// Leaves the calling thread without a context; this context must be the current one.
   virtual void release() noexcept = 0;
@@ -27,7 +27,7 @@ class NativeContext {
 [[nodiscard]] std::unique_ptr<NativeContext> open_egl_device(int device);
 [[nodiscard]] std::unique_ptr<NativeContext> open_osmesa();
 
-/// How many EGL devices the machine has. Errors (machine): EGL cannot list devices here.
+/// How many EGL devices the machine has. Throws Error (machine): EGL cannot list devices here.
 [[nodiscard]] int egl_device_count();
 
 }  // namespace footprint::gl

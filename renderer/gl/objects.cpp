@@ -1,4 +1,4 @@
-// Buffers, textures, samplers and render targets; an allocation that fails is an Error that says what was asked for.
+// Buffers, textures, samplers, render targets and timers. A failed allocation is an Error that names its purpose.
 #include "renderer/gl/objects.hpp"
 
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "renderer/core/error.hpp"
-#include "renderer/gl/debug_log.hpp"
+#include "renderer/gl/context.hpp"
 
 namespace footprint::gl {
 namespace {
@@ -172,7 +172,7 @@ void Texture::upload(int level, int width, int height, GLenum format, GLenum typ
 
 RenderTarget::RenderTarget(int width, int height, std::span<const GLenum> color_formats, bool depth)
     : width_(width), height_(height) {
-  if (color_formats.size() > max_attachments) throw std::logic_error("a render target has at most 4 attachments");
+  if (color_formats.size() > max_attachments) throw std::logic_error("a render target has at most 5 attachments");
   GLuint name = 0;
   api().CreateFramebuffers(1, &name);
   framebuffer_ = Framebuffer(name);
@@ -207,6 +207,33 @@ void RenderTarget::read(std::size_t attachment, int channels, std::span<float> o
   api().PixelStorei(GL_PACK_ALIGNMENT, 1);
   api().ReadPixels(0, 0, width_, height_, format, GL_FLOAT, out.data());
   api().BindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+}
+
+FrameTimer::FrameTimer(const ContextInfo& info) {
+  if (info.software) return;
+  GLuint name = 0;
+  api().CreateQueries(GL_TIME_ELAPSED, 1, &name);
+  query_ = Query(name);
+}
+
+void FrameTimer::begin() {
+  if (query_) {
+    api().BeginQuery(GL_TIME_ELAPSED, query_.name());
+    return;
+  }
+  api().Finish();
+  start_ = std::chrono::steady_clock::now();
+}
+
+double FrameTimer::end_ms() {
+  if (query_) {
+    api().EndQuery(GL_TIME_ELAPSED);
+    GLuint64 nanoseconds = 0;
+    api().GetQueryObjectui64v(query_.name(), GL_QUERY_RESULT, &nanoseconds);
+    return 1e-6 * static_cast<double>(nanoseconds);
+  }
+  api().Finish();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
 }
 
 }  // namespace footprint::gl

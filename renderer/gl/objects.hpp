@@ -1,14 +1,18 @@
-// RAII owners of OpenGL objects. All need the context that made them to be current, also when destroyed, or to be gone
-// and no other current. Functions come from gl/functions.hpp.
+// RAII owners of OpenGL objects. The context that created an object must be current, also at destruction, or be gone
+// with no other one current. Functions come from gl/functions.hpp.
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
+#include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "renderer/gl/context.hpp"
 #include "renderer/gl/functions.hpp"
 
 namespace footprint::gl {
@@ -67,9 +71,9 @@ class Buffer {
 
   Buffer() = default;
   /// `bytes` are copied; an empty span makes a buffer of 16 zero bytes (GL has no empty ones). Content that is
-  /// `changing` may be written again. Errors (machine): memory is out.
+  /// `changing` may be written again. Throws Error (machine): memory is out.
   explicit Buffer(std::span<const std::byte> bytes, Content content = Content::constant);
-  /// Replaces all of the content. Errors: std::logic_error where it is constant or of another size.
+  /// Replaces all of the content. Throws std::logic_error where it is constant or of another size.
   void write(std::span<const std::byte> bytes) const;
   [[nodiscard]] GLuint name() const { return handle_.name(); }
 
@@ -83,7 +87,7 @@ class Texture {
  public:
   Texture() = default;
   /// `internal_format` sized (GL_RGBA32F, ...); `layers` 0: a plain 2D texture, else an array of so many.
-  /// Errors (machine): the size or the layers are over the GL limit, or memory is out.
+  /// Throws Error (machine): the size or the layers are over the GL limit, or memory is out.
   Texture(GLenum internal_format, int width, int height, int levels = 1, int layers = 0);
   /// Rows from v = 0, tightly packed, layer after layer, `format` and `type` as glTextureSubImage2D takes them.
   void upload(int level, int width, int height, GLenum format, GLenum type, const void* texels);
@@ -100,18 +104,18 @@ class Texture {
 class RenderTarget {
  public:
   RenderTarget() = default;
-  /// At most 4 colour formats. Errors (machine): as Texture, or the driver cannot draw into these together.
+  /// At most 5 colour formats. Throws Error (machine): as Texture, or the driver cannot draw into these together.
   RenderTarget(int width, int height, std::span<const GLenum> color_formats, bool depth);
   [[nodiscard]] GLuint framebuffer() const { return framebuffer_.name(); }
   [[nodiscard]] const Texture& color(std::size_t attachment) const { return colors_[attachment]; }
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
   /// Reads channels x width x height floats of an attachment, the row of window y = 0 first. Leaves framebuffer 0 bound
-  /// for reading. Errors: std::logic_error where `out` has another size.
+  /// for reading. Throws std::logic_error where `out` has another size.
   void read(std::size_t attachment, int channels, std::span<float> out) const;
 
  private:
-  static constexpr std::size_t max_attachments = 4;
+  static constexpr std::size_t max_attachments = 5;
   Framebuffer framebuffer_;
   std::array<Texture, max_attachments> colors_;
   Texture depth_;
@@ -122,16 +126,42 @@ class RenderTarget {
 class Program {
  public:
   Program() = default;
-  /// Errors (machine): the compiler's log with the offending source lines and their numbers; `name` names the program.
+  /// Throws Error (machine): the compiler's log with the offending source lines and their numbers; `name` names the
+  /// program.
   Program(const std::string& name, std::string_view vertex_source, std::string_view fragment_source);
   /// A compute program.
   Program(const std::string& name, std::string_view compute_source);
   [[nodiscard]] GLuint name() const { return handle_.name(); }
-  /// -1 where the program has no such active uniform (the compiler may drop one).
-  [[nodiscard]] GLint uniform(const char* uniform_name) const;
+
+  /// An active uniform that is not in a block.
+  struct Uniform {
+    GLenum type = 0;
+    GLint location = -1;
+  };
+  /// By name, found when the program was linked. An array is listed as `name` and as each `name[i]`.
+  [[nodiscard]] const std::map<std::string, Uniform, std::less<>>& uniforms() const { return uniforms_; }
+  /// A uniform's location; -1 where the program has no such active uniform (the compiler may drop one).
+  [[nodiscard]] GLint uniform(std::string_view uniform_name) const;
 
  private:
   Handle<delete_program> handle_;
+  std::map<std::string, Uniform, std::less<>> uniforms_;
+};
+
+/// Measures the GL work between `begin` and `end_ms`: by a GL_TIME_ELAPSED query on a GPU, by wall clock around
+/// glFinish on a software renderer, whose queries see the last tile alone. One measurement at a time in a context.
+class FrameTimer {
+ public:
+  /// For the current context, whose `info` this is.
+  explicit FrameTimer(const ContextInfo& info);
+
+  void begin();
+  /// Waits for the work; milliseconds since `begin`.
+  [[nodiscard]] double end_ms();
+
+ private:
+  Query query_;  ///< owns nothing on a software renderer
+  std::chrono::steady_clock::time_point start_;
 };
 
 }  // namespace footprint::gl

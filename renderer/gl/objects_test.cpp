@@ -11,7 +11,6 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/gl/context.hpp"
-#include "renderer/gl/frame_timer.hpp"
 #include "renderer/gl/objects.hpp"
 
 namespace footprint::gl {
@@ -193,6 +192,23 @@ TEST_F(Objects, TheDepthBufferHidesWhatIsBehind) {
   target.read(0, 1, red);
   EXPECT_THAT(red, testing::Each(1.0f));
   EXPECT_EQ(program.uniform("no_such_uniform"), -1);
+}
+
+// By its own name an array is its first element; members of blocks are bound, not set.
+TEST_F(Objects, AProgramKnowsItsUniforms) {
+  const Program program("uniforms", "#version 450\nvoid main() { gl_Position = vec4(0.0); }", R"(#version 450
+layout(std140, binding = 0) uniform Block { float in_block; };
+uniform vec2 steps[3];
+uniform sampler2D map;
+out vec4 color;
+void main() { color = vec4(steps[int(in_block)], texture(map, steps[0]).xy); })");
+  EXPECT_EQ(program.uniforms().at("map").type, static_cast<GLenum>(GL_SAMPLER_2D));
+  EXPECT_EQ(program.uniforms().at("steps[2]").type, static_cast<GLenum>(GL_FLOAT_VEC2));
+  EXPECT_EQ(program.uniform("steps"), program.uniform("steps[0]"));
+  for (const char* const name : {"steps", "steps[1]", "steps[2]", "map"})
+    EXPECT_EQ(program.uniform(name), api().GetUniformLocation(program.name(), name)) << name;
+  EXPECT_EQ(program.uniforms().size(), 5U);
+  EXPECT_EQ(program.uniform("in_block"), -1);
 }
 
 TEST_F(Objects, ABrokenShaderNamesItsLines) {

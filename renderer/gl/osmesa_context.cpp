@@ -33,7 +33,7 @@ constexpr int buffer_side = 16;
 /// that outlives the contexts.
 class Library {
  public:
-  /// Errors (machine): the library or one of the functions is not there; the next call tries again.
+  /// Throws Error (machine): the library or one of the functions is not there; the next call tries again.
   static const Library& instance() {
     static const Library library;
     return library;

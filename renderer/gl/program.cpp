@@ -156,14 +156,44 @@ Handle<delete_program> link(const std::string& name, std::initializer_list<Stage
   throw_broken(name, "stages do not link", info_log(program.name(), log_length, api().GetProgramInfoLog));
 }
 
+/// Asks for all uniforms once: a driver looks each name up as text, which is too slow for a timed draw.
+std::map<std::string, Program::Uniform, std::less<>> active_uniforms(GLuint program) {
+  GLint count = 0, longest = 0;
+  api().GetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
+  api().GetProgramiv(program, GL_ACTIVE_UNIFORM_MAX_LENGTH, &longest);
+  std::map<std::string, Program::Uniform, std::less<>> uniforms;
+  for (GLint i = 0; i < count; ++i) {
+    std::string name(static_cast<std::size_t>(longest), '\0');
+    GLsizei length = 0;
+    GLint elements = 0;
+    GLenum type = 0;
+    api().GetActiveUniform(program, static_cast<GLuint>(i), longest, &length, &elements, &type, name.data());
+    name.resize(static_cast<std::size_t>(length));
+    const auto add = [&](const std::string& uniform) {
+      const GLint location = api().GetUniformLocation(program, uniform.c_str());
+      if (location >= 0) uniforms.emplace(uniform, Program::Uniform{type, location});  // members of blocks have none
+    };
+    add(name);
+    if (!name.ends_with("[0]")) continue;
+    name.resize(name.size() - 3);
+    add(name);
+    for (GLint element = 1; element < elements; ++element) add(fmt::format("{}[{}]", name, element));
+  }
+  return uniforms;
+}
+
 }  // namespace
 
 Program::Program(const std::string& name, std::string_view vertex_source, std::string_view fragment_source)
-    : handle_(link(name, {{GL_VERTEX_SHADER, vertex_source}, {GL_FRAGMENT_SHADER, fragment_source}})) {}
+    : handle_(link(name, {{GL_VERTEX_SHADER, vertex_source}, {GL_FRAGMENT_SHADER, fragment_source}})),
+      uniforms_(active_uniforms(handle_.name())) {}
 
 Program::Program(const std::string& name, std::string_view compute_source)
-    : handle_(link(name, {{GL_COMPUTE_SHADER, compute_source}})) {}
+    : handle_(link(name, {{GL_COMPUTE_SHADER, compute_source}})), uniforms_(active_uniforms(handle_.name())) {}
 
-GLint Program::uniform(const char* uniform_name) const { return api().GetUniformLocation(name(), uniform_name); }
+GLint Program::uniform(std::string_view uniform_name) const {
+  const auto found = uniforms_.find(uniform_name);
+  return found != uniforms_.end() ? found->second.location : -1;
+}
 
 }  // namespace footprint::gl

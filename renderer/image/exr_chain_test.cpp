@@ -1,6 +1,6 @@
 // Mip-mapped EXR files: read back by OpenEXR itself and by the reader beside the writer, and refused where they are
 // none.
-#include "renderer/image/exr_chain.hpp"
+#include "renderer/image/image_io.hpp"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -13,7 +13,6 @@
 #include <stdexcept>
 
 #include "renderer/core/error.hpp"
-#include "renderer/image/image_io.hpp"
 #include "renderer/image/mipmap.hpp"
 #include "tests/support/fresh_folder.hpp"
 

@@ -1,6 +1,8 @@
-// Interpolates a fixed table of colours; puts pictures side by side, each over its caption.
+// The colour scale as a table, and text drawn by OpenImageIO into the image's own memory.
 #include "renderer/image/false_color.hpp"
 
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 #include <cmath>
 
 #include "renderer/core/error.hpp"
-#include "renderer/image/text.hpp"
 
 namespace footprint {
 namespace {
@@ -38,7 +39,7 @@ MapColor color_at(float value, float maximum) {
   return color;
 }
 
-// The picture over black as RGB, drawn with its top left corner in column `left` of row 0.
+// The image over black as RGB, drawn with its top left corner in column `left` of row 0.
 void place_picture(Image& canvas, const Image& picture, int left) {
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
@@ -62,6 +63,13 @@ void require_strip(const std::vector<Image>& pictures, const std::vector<std::st
       refuse(fmt::format("an image of {} x {} x {} channels", picture.width, picture.height, picture.channels));
     }
   }
+}
+
+using namespace OIIO::ImageBufAlgo;
+
+Error no_font(const std::string& font) {
+  return {ErrorKind::machine, "captions", fmt::format("the font {} was not found", font),
+          "install the package fonts-dejavu-core"};
 }
 
 }  // namespace
@@ -99,7 +107,7 @@ Image labelled_strip(const std::vector<Image>& pictures, const std::vector<std::
   const int height = pictures.front().height;
   const int font_size = std::clamp(height / 16, 11, 28);
   const int gap = font_size / 2;
-  std::vector<int> column_widths;  // a caption that is wider than its picture widens the column
+  std::vector<int> column_widths;  // a caption that is wider than its image widens the column
   int width = 0;
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     column_widths.push_back(std::max(pictures[i].width, text_width(captions[i], font_size)));
@@ -113,6 +121,20 @@ Image labelled_strip(const std::vector<Image>& pictures, const std::vector<std::
     left += column_widths[i] + gap;
   }
   return strip;
+}
+
+int text_width(const std::string& text, int size, const std::string& font) {
+  if (text.empty()) return 0;
+  const OIIO::ROI extent = text_size(text, size, font);
+  if (!extent.defined()) throw no_font(font);
+  return extent.width();
+}
+
+void draw_text(Image& picture, int x, int y, const std::string& text, int size, const std::string& font) {
+  if (text.empty()) return;
+  const OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, OIIO::TypeDesc::FLOAT);
+  OIIO::ImageBuf canvas(spec, picture.texels.data());  // draws into the image's own memory
+  if (!render_text(canvas, x, y, text, size, font, 1.0F, TextAlignX::Center, TextAlignY::Center)) throw no_font(font);
 }
 
 }  // namespace footprint

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "renderer/core/error.hpp"
-#include "renderer/image/text.hpp"
 
 namespace footprint {
 namespace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "renderer/core/error.hpp"
-#include "renderer/image/luminance.hpp"
+#include "renderer/image/image.hpp"
 
 namespace footprint {
 namespace {
@@ -66,7 +66,7 @@ Color hunt_lab(const Color& rgb) {
 
 double hyab(const Color& a, const Color& b) { return std::abs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]); }
 
-// One value a pixel.
+// One value per pixel.
 struct Plane {
   int width, height;
   std::vector<double> values;
@@ -80,31 +80,18 @@ struct Plane {
 // Weights of -radius to radius.
 using Kernel = std::vector<double>;
 
-Plane filtered_rows(const Plane& plane, const Kernel& kernel) {
+// Filters along rows, or along columns; the border's values continue beyond it.
+Plane filtered(const Plane& plane, const Kernel& kernel, bool along_rows) {
   Plane out(plane.width, plane.height);
   const int radius = static_cast<int>(kernel.size() / 2);
   tbb::parallel_for(0, plane.height, [&](int y) {
     for (int x = 0; x < plane.width; ++x) {
       double sum = 0;
       for (std::size_t i = 0; i < kernel.size(); ++i) {
-        const int at = x + static_cast<int>(i) - radius;
-        sum += kernel[i] * plane.values[plane.index(std::clamp(at, 0, plane.width - 1), y)];
-      }
-      out.values[out.index(x, y)] = sum;
-    }
-  });
-  return out;
-}
-
-Plane filtered_columns(const Plane& plane, const Kernel& kernel) {
-  Plane out(plane.width, plane.height);
-  const int radius = static_cast<int>(kernel.size() / 2);
-  tbb::parallel_for(0, plane.height, [&](int y) {
-    for (int x = 0; x < plane.width; ++x) {
-      double sum = 0;
-      for (std::size_t i = 0; i < kernel.size(); ++i) {
-        const int at = y + static_cast<int>(i) - radius;
-        sum += kernel[i] * plane.values[plane.index(x, std::clamp(at, 0, plane.height - 1))];
+        const int step = static_cast<int>(i) - radius;
+        const int column = along_rows ? std::clamp(x + step, 0, plane.width - 1) : x;
+        const int row = along_rows ? y : std::clamp(y + step, 0, plane.height - 1);
+        sum += kernel[i] * plane.values[plane.index(column, row)];
       }
       out.values[out.index(x, y)] = sum;
     }
@@ -113,7 +100,7 @@ Plane filtered_columns(const Plane& plane, const Kernel& kernel) {
 }
 
 Plane filtered(const Plane& plane, const Kernel& along_x, const Kernel& along_y) {
-  return filtered_columns(filtered_rows(plane, along_x), along_y);
+  return filtered(filtered(plane, along_x, true), along_y, false);
 }
 
 template <typename Weight>

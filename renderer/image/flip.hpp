@@ -1,4 +1,4 @@
-// FLIP: how different two pictures look to an observer who alternates between them. Andersson, Nilsson,
+// FLIP: how different two images look to an observer who alternates between them. Andersson, Nilsson,
 // Akenine-Moeller, Oskarsson, Astrom, Fairchild 2020, "FLIP: A Difference Evaluator for Alternating Images", HPG; and
 // for high dynamic range Andersson, Nilsson, Shirley, Akenine-Moeller 2021, "Visualizing Errors in Rendered High
 // Dynamic Range Images".
@@ -12,9 +12,8 @@ namespace footprint {
 inline constexpr double flip_pixels_per_degree = 67.02064327658226;
 
 /// LDR-FLIP of every pixel, one channel, 0 (no difference is seen) to 1. Three or four channels, the fourth is not
-/// looked at; linear RGB as displayed, clamped to 0 to 1. Beyond the border pictures go on as at it.
-/// `pixels_per_degree` above 0. Errors (usage): pictures of different sizes, other than 3 or 4 channels, a value that
-/// is not finite.
+/// looked at; linear RGB as displayed, clamped to 0 to 1. Beyond the border images go on as at it. `pixels_per_degree`
+/// above 0. Throws Error (usage): images of different sizes, other than 3 or 4 channels, a value that is not finite.
 [[nodiscard]] Image ldr_flip(const Image& picture, const Image& reference,
                              double pixels_per_degree = flip_pixels_per_degree);
 
@@ -32,7 +31,7 @@ struct FlipExposures {
 [[nodiscard]] FlipExposures flip_exposures(const Image& reference);
 
 /// HDR-FLIP of every pixel, one channel: of linear radiance, whatever its exposure. Negative radiance counts as none.
-/// Errors as ldr_flip's.
+/// Throws as ldr_flip's.
 [[nodiscard]] Image hdr_flip(const Image& picture, const Image& reference, const FlipExposures& exposures,
                              double pixels_per_degree = flip_pixels_per_degree);
 

@@ -1,4 +1,4 @@
-// A picture or a map as a plain value: interleaved floats, row 0 first.
+// An image or a map as a plain value: interleaved floats, row 0 first.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace footprint {
 
-/// width x height texels of `channels` floats. Row 0 is the top of a picture and v = 0 of a glTF texture.
+/// width x height texels of `channels` floats. Row 0 is the top of an image and v = 0 of a glTF texture.
 struct Image {
   int width = 0;
   int height = 0;
@@ -43,5 +43,10 @@ struct Image {
            static_cast<std::size_t>(channels);
   }
 };
+
+template <typename Value>
+[[nodiscard]] Value luminance(Value red, Value green, Value blue) {
+  return static_cast<Value>(0.2126) * red + static_cast<Value>(0.7152) * green + static_cast<Value>(0.0722) * blue;
+}
 
 }  // namespace footprint

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "renderer/core/error.hpp"
-#include "renderer/image/luminance.hpp"
+#include "renderer/image/image.hpp"
 
 namespace footprint {
 namespace {
@@ -58,7 +58,7 @@ void require_mask(const Image& mask, const Image& reference) {
   throw Error(ErrorKind::usage, "comparison", "the mask is not an image of one channel and the reference's size");
 }
 
-template <typename Visit>  // visit(column, row, picture's rgb, reference's rgb), row by row
+template <typename Visit>  // visit(column, row, image's rgb, reference's rgb), row by row
 void visit_object_pixels(const Image& picture, const Image& reference, Visit visit) {
   require_comparable(picture, reference);
   for (int y = 0; y < reference.height; ++y) {

@@ -1,9 +1,11 @@
-// A lobe of normals as a value: a distribution with its parameter, its density, width and energy, and conversions
-// between what it is told by.
+// The base lobes: densities of normals of a facet, von Mises-Fisher formulas, and tables for fast evaluation.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace footprint {
 
@@ -30,7 +32,7 @@ inline constexpr double smallest_alpha = 1e-3;
 /// exponents below 1: to 1e-6) for alpha from 1e-3 and exponents and kappa to 1e6. Above 1 for kappa below 2.
 [[nodiscard]] float lobe_roughness(const Lobe& lobe);
 
-/// Reads `blinn_phong:64`, `beckmann:0.2`, `ggx:0.2` or `vmf:64`. Errors (usage), which name `option`: no such
+/// Reads `blinn_phong:64`, `beckmann:0.2`, `ggx:0.2` or `vmf:64`. Throws Error (usage) that names `option`: no such
 /// distribution (with the nearest right name), no parameter, one out of range (exponent and kappa 0.001 to 1e6, alpha
 /// `smallest_alpha` to 1).
 [[nodiscard]] Lobe parse_lobe(std::string_view option, const std::string& text);
@@ -57,5 +59,52 @@ inline constexpr double lobe_cutoff = 1e-12;
 /// The lobe's integral over the directions above the surface, about a normal with cosine `n_z` to the surface's own:
 /// rings about the normal, each counted by the share of it that lies above the horizon. To 1e-3.
 [[nodiscard]] double lobe_energy(const Lobe& lobe, double n_z);
+
+/// The integral of e^{kappa (cos - 1)} over the sphere, 2 pi (1 - e^{-2 kappa}) / kappa (Iwasaki 2012, equation 9);
+/// 4 pi for kappa = 0.
+[[nodiscard]] double vmf_integral(double kappa);
+
+/// The density at the axis, 1/sr.
+[[nodiscard]] double vmf_peak(double kappa);
+
+/// 2 pi times the density at the axis, kappa / (1 - e^{-2 kappa}): 1/2 for kappa = 0.
+[[nodiscard]] double vmf_amplitude(double kappa);
+
+/// The length of the lobe's mean vector, A = coth kappa - 1 / kappa, over kappa, and the derivative of that quotient
+/// over kappa: 1/3 and -2/45 for kappa = 0.
+struct VmfMean {
+  double by_kappa, slope_by_kappa;
+};
+[[nodiscard]] VmfMean vmf_mean(double kappa);
+
+/// Banerjee et al. 2005 (p = 3): kappa = (3 r - r^3) / (1 - r^2) of the mean vector's length r, in q = 1 - r, which
+/// keeps its digits where r is near 1. 0 < q <= 1.
+[[nodiscard]] double vmf_kappa_of_shortfall(double q);
+
+/// The inverse: the root in (0, 1] of q^3 + (kappa - 3) q^2 - 2 kappa q + 2 = 0, by Newton's steps. kappa >= 0.
+[[nodiscard]] double vmf_shortfall(double kappa);
+
+/// `lobe_shape` of one lobe, within 2e-9. Cubics between even nodes in u up to the lobe's support, by the values and
+/// slopes there; the lobe itself where a table gains nothing (GGX needs no exponential) or cannot follow (lobes so wide
+/// that the horizon cuts them).
+class LobeProfile {
+ public:
+  explicit LobeProfile(const Lobe& lobe);
+
+  [[nodiscard]] double operator()(double u) const {
+    if (cubics_.empty()) return lobe_shape(lobe_, u);
+    const double position = u * scale_;
+    const auto i = static_cast<std::size_t>(position);
+    if (i >= cubics_.size()) return 0.0;
+    const double t = position - static_cast<double>(i);
+    const std::array<double, 4>& c = cubics_[i];
+    return ((c[3] * t + c[2]) * t + c[1]) * t + c[0];
+  }
+
+ private:
+  Lobe lobe_;
+  double scale_ = 0.0;  // intervals per u
+  std::vector<std::array<double, 4>> cubics_;
+};
 
 }  // namespace footprint

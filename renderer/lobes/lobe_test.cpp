@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "renderer/core/error.hpp"
-#include "renderer/lobes/lobe_profile.hpp"
 
 namespace footprint {
 namespace {

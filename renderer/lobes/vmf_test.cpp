@@ -1,5 +1,5 @@
 // The von Mises-Fisher lobe against sums over the sphere, and its inverses against themselves.
-#include "renderer/lobes/vmf.hpp"
+#include "renderer/lobes/lobe.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Which facets of a tiled patch see which directions: exact, by projecting the patch along each direction.
+// Facets of equal area on a patch, and the directions that each of them sees.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,22 @@
 #include <vector>
 
 #include "renderer/core/progress.hpp"
-#include "renderer/microgeometry/facet_samples.hpp"
 #include "renderer/microgeometry/patch.hpp"
 
 namespace footprint {
+
+/// Facets of equal area, each on a triangle of the patch.
+struct FacetSamples {
+  std::vector<glm::vec3> positions;
+  std::vector<std::uint32_t> triangles;  ///< what each lies on
+  double facet_area = 0.0;               ///< of each, in the patch's units
+
+  [[nodiscard]] std::size_t size() const { return positions.size(); }
+};
+
+/// `count` >= 1 samples, one in each of `count` equal shares of the area (stratified), in the order of the triangles:
+/// a triangle gets its share to within one. Same seed, same samples. The patch is as check_patch wants it.
+[[nodiscard]] FacetSamples sample_facets(const Patch& patch, std::size_t count, std::uint64_t seed);
 
 /// Vs(x, w) of Iwasaki 2012, Eq. 2, one bit for each direction and sample.
 class FacetVisibility {

@@ -1,11 +1,14 @@
-// A patch of small-scale geometry: triangles that tile the plane, too small to be seen one by one.
+// A patch of small-scale geometry: triangles that tile the plane, and builders of grids.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <string>
 #include <vector>
+
+#include "renderer/core/options.hpp"
 
 namespace footprint {
 
@@ -44,5 +47,19 @@ inline constexpr float most_patch_rise = 16.0F;
 /// Errors (usage), naming the patch and `place`: no triangle with an area, a period that is not above 0, an index or a
 /// paint out of range, a position that is not finite, too many triangles, too tall or reaching too far for its period.
 void check_patch(const Patch& patch, const std::string& place);
+
+/// Triangles of z = height(x, y) over [0, 1) x [0, 1), which `height` must repeat; columns x rows squares, each cut
+/// along the diagonal from its lower left.
+[[nodiscard]] Patch height_field_patch(std::string name, int columns, int rows,
+                                       const std::function<double(double, double)>& height);
+
+/// Adds the quadrilaterals between the points of a grid, two triangles each, counter-clockwise in (u, v): point(u, v)
+/// for u in 0..columns, v in 0..rows. Triangles without area are left out.
+void add_grid(Patch& patch, int columns, int rows, std::uint8_t paint, const std::function<glm::vec3(int, int)>& point);
+
+/// The generators behind `patch_kinds`.
+[[nodiscard]] Patch weave_patch(const Options& parameters, std::uint64_t seed);
+[[nodiscard]] Patch noise_patch(const Options& parameters, std::uint64_t seed);
+[[nodiscard]] Patch spheres_patch(const Options& parameters, std::uint64_t seed);
 
 }  // namespace footprint

@@ -1,4 +1,4 @@
-// The kinds of small-scale geometry that come with the renderer, each a table of parameters and a generator.
+// The kinds of patches that a scene.toml may name.
 #pragma once
 
 #include <cstdint>

@@ -149,7 +149,7 @@ std::vector<glm::vec4> by_shader(const FootprintFilter& filter, const Image& map
   const GpuTexture texture = upload(prefiltered.textures[0]);
   SamplerCache samplers;
   gl::api().BindTextureUnit(0, texture.texture->name());
-  gl::api().BindSampler(0, samplers.sampler(texture.coordinates, Lookup::nearest));
+  gl::api().BindSampler(0, samplers.sampler(texture.coordinates, SamplerState::nearest));
   ShaderVariant variant;
   variant.footprint = filter;
   const std::string text = "layout(binding = 0) uniform sampler2DArray map;\n" + footprint_constants(filter) +

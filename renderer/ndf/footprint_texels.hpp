@@ -1,11 +1,13 @@
-// The texels under a footprint: which facets it holds, and how much of it each of them covers.
+// The facets under a footprint, and the part of a normal map that a footprint needs.
 #pragma once
 
 #include <array>
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "renderer/lobes/lobe.hpp"
+#include "renderer/scene/footprint_filter.hpp"
 #include "renderer/scene/material.hpp"
 
 namespace footprint {
@@ -36,18 +38,19 @@ struct FootprintTexels {
   std::vector<WeightedFacet> facets;  ///< distinct ones, sorted
 };
 
-/// Errors (usage): `place` names the rectangle that is empty, reversed, not finite or beyond `farthest_footprint`.
+/// Throws Error (usage): `place` names the rectangle that is empty, reversed, not finite or beyond
+/// `farthest_footprint`.
 void check_footprint(const FootprintRect& rect, const std::string& place);
 
 /// Every facet of a material under `rect`: each texel of the normal map with the part of the rectangle that it covers,
 /// wrapped as its coordinates say, with the roughness texels that lie over it where the roughness varies. Equal facets
 /// are one; a facet with lobes of its own stands once for each of them; texels of weight 0 (no normal) do not count.
-/// Errors (usage): no texel has a normal; the maps are turned against each other or use different sets of coordinates;
-/// (machine): memory does not hold the facets.
+/// Throws Error (usage): no texel has a normal; the maps are turned against each other or use different sets of
+/// coordinates; (machine): memory does not hold the facets.
 [[nodiscard]] FootprintTexels texels_under(const Material& material, const FootprintRect& rect);
 
 /// The footprint of the roughness map under the same surface: centre and edges (columns) in its own coordinates.
-/// Errors (usage): as texels_under.
+/// Throws Error (usage): as texels_under.
 struct MappedFootprint {
   glm::dvec2 centre, along_u, along_v;
 };
@@ -57,5 +60,18 @@ struct MappedFootprint {
 /// renormalised, stands for them. A lobe's density is smooth, so its mean over a cell is that at the mean normal but
 /// for (spacing / width)^2 / 4 of its peak at most, width being the lobe's.
 [[nodiscard]] std::vector<WeightedFacet> merged_facets(const std::vector<WeightedFacet>& facets, double spacing);
+
+/// A material whose normal map is a part of another's, and the same footprint in the part's own coordinates.
+struct FootprintPart {
+  Material material;
+  FootprintRect rect;
+};
+
+/// The smallest part of the normal map whose mip levels are those of the whole map wherever `filter` looks for `rect`:
+/// whole texels of the coarsest level that it takes, cut out across the border where the map repeats. The other maps
+/// stay whole. None where the part would be more than half of the map, where sizes are no multiples of those texels,
+/// and where the driver chooses the lookups (`hardware`).
+[[nodiscard]] std::optional<FootprintPart> part_under(const Material& material, const FootprintRect& rect,
+                                                      const FootprintFilter& filter);
 
 }  // namespace footprint

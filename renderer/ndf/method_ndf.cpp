@@ -1,4 +1,4 @@
-// The method's module over a square of directions, in place of a frame.
+// The method's module over a square of directions, instead of a frame.
 #include "renderer/ndf/method_ndf.hpp"
 
 #include <fmt/format.h>
@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "renderer/bake/material_maps.hpp"
-#include "renderer/pipeline/bindings.hpp"
-#include "renderer/scene/plane.hpp"
+#include "renderer/pipeline/shader_source.hpp"
+#include "renderer/scene/geometry.hpp"
 
 namespace footprint {
 namespace {
@@ -82,7 +82,7 @@ MethodNdf::MethodNdf(const gl::ContextInfo& context, GpuScene& scene, const Bake
     : scene_(&scene),
       material_(&material),
       gpu_(scene, baked),
-      lookup_(frame_lookup(filter, context)),
+      sampler_state_(frame_sampler_state(filter, context)),
       directions_unit_(static_cast<GLuint>(TextureUnits(scene.effects(), baked.materials.front()).size())),
       edge_(std::min({tile > 0 ? tile : largest_edge, context.max_framebuffer_size, context.max_texture_size})),
       program_(program_of(scene, baked, filter)) {
@@ -120,7 +120,7 @@ void MethodNdf::draw(const gl::RenderTarget& target, const gl::Texture& directio
   gl::api().Disable(GL_CULL_FACE);
   gl::api().UseProgram(program_.name());
   gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::material, batch.material_block.name());
-  gpu_.bind(batch, *scene_, lookup_);
+  gpu_.bind(batch, *scene_, sampler_state_);
   gl::api().BindTextureUnit(directions_unit_, directions.name());
   gl::api().BindSampler(directions_unit_, 0);
   gl::api().Uniform1i(program_.uniform("ndf_directions"), static_cast<GLint>(directions_unit_));

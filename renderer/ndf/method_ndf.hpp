@@ -22,8 +22,8 @@ namespace footprint {
 /// the material must outlive it.
 class MethodNdf {
  public:
-  /// `tile`: side of the square of directions that is evaluated at once; 0: 1024. Errors (machine): the module does not
-  /// compile, the textures do not fit, the samplers have no such filter.
+  /// `tile`: side of the square of directions that is evaluated at once; 0: 1024. Throws Error (machine): the module
+  /// does not compile, the textures do not fit, the samplers have no such filter.
   MethodNdf(const gl::ContextInfo& context, GpuScene& scene, const BakedMethod& baked, const Material& material,
             const FootprintFilter& filter, int tile = 0);
 
@@ -38,7 +38,7 @@ class MethodNdf {
   GpuScene* scene_;
   const Material* material_;
   GpuMethod gpu_;
-  Lookup lookup_;
+  SamplerState sampler_state_;
   GLuint directions_unit_;
   int edge_;
   gl::Program program_;

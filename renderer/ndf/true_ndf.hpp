@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "renderer/core/progress.hpp"
-#include "renderer/lobes/lobe_profile.hpp"
+#include "renderer/lobes/lobe.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
 
 namespace footprint {
@@ -20,7 +20,7 @@ class TrueNdf {
 
   /// The density at each direction. A facet farther from a direction than its lobe's support does not enter: what is
   /// left out is below `lobe_cutoff` of the lobe's peak, and what stays is within 2e-9 of it. Directions of length 0
-  /// give 0. Errors: those of `progress`.
+  /// give 0. Throws as `progress`.
   [[nodiscard]] std::vector<double> densities(std::span<const glm::vec3> directions, const Progress& progress) const;
 
   /// The integral over the upper hemisphere that the lobes' own integrals give (`lobe_energy`): one, but for what lies

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "renderer/bake/facets.hpp"
 #include "renderer/bake/material_maps.hpp"
-#include "renderer/bake/patch_facets.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
 
 namespace footprint {

@@ -1,11 +1,11 @@
-// The base BRDF as a method: what the reference averages. It reads the finest level alone.
+// The base BRDF as a method, which the reference averages. It reads only the finest level.
 #pragma once
 
 #include "renderer/bake/method.hpp"
 
 namespace footprint {
 
-/// The module of the reference. `direct` shades the same, once a pixel.
+/// The module of the reference. `direct` evaluates the same, once per pixel.
 [[nodiscard]] const Method& base_surface();
 
 }  // namespace footprint

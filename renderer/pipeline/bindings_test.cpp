@@ -1,5 +1,5 @@
 // Texture units and block bindings: what is declared, and what ends with an error.
-#include "renderer/pipeline/bindings.hpp"
+#include "renderer/pipeline/shader_source.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <string>
 #include <tuple>
 
-#include "renderer/bake/shared_maps.hpp"
+#include "renderer/bake/material_maps.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/pipeline/base_surface.hpp"
 #include "tests/support/rendering.hpp"
@@ -52,6 +52,12 @@ Error error_of(const Method& method) {
     return error;
   }
   return {ErrorKind::machine, "nothing", "was thrown"};
+}
+
+std::string fragment_text(const ShaderVariant& variant, const Prefiltered& prefiltered) {
+  return forward_shaders(variant, forward_units(variant, prefiltered), base_surface().shader(), Options({}, {}, "test"),
+                         prefiltered)
+      .fragment.text();
 }
 
 // The lights of one kind lie in one uniform block.
@@ -117,9 +123,7 @@ TEST(TextureUnits, SharedMapsComeFirstWhereTheirEffectsAreOn) {
 
 // What the shared shaders read of a material's maps has a row: without one the name would not be declared.
 TEST(TextureUnits, EveryMapOfTheSharedShadersHasARow) {
-  const EffectSet all = EffectSet{}.set();
-  const std::string text =
-      fragment_shader({.effects = all, .brdf = {}}, base_surface().shader(), Options({}, {}, "test"), {}).text();
+  const std::string text = fragment_text({.effects = EffectSet{}.set(), .brdf = {}}, {});
   const std::regex lookup(
       R"(\b(?:texture|textureGrad|textureLod|texelFetch|fetch|fetchCoat)\((\w*_map|material_share),)");
   std::size_t found = 0;
@@ -137,9 +141,8 @@ TEST(BlockBindings, AreThoseOfTheShaders) {
                                                {"DirectionalLights", block_binding::directional_lights},
                                                {"EnvironmentBlock", block_binding::environment},
                                                {"ShadowViews", block_binding::shadow_views}};
-  const std::string text = fragment_shader({.effects = EffectSet{}.set(), .brdf = {}}, base_surface().shader(),
-                                           Options({}, {}, "test"), {.textures = {}, .scalars = {{"own", 1.0F}}})
-                               .text();
+  const std::string text =
+      fragment_text({.effects = EffectSet{}.set(), .brdf = {}}, {.textures = {}, .scalars = {{"own", 1.0F}}});
   std::map<std::string, GLuint> found;
   const std::regex block(R"(layout\(std140, binding = (\d+)\) uniform (\w+))");
   for (auto i = std::sregex_iterator(text.begin(), text.end(), block); i != std::sregex_iterator(); ++i)

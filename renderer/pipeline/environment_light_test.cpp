@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "renderer/environment/octahedral.hpp"
-#include "renderer/pipeline/bindings.hpp"
 #include "renderer/pipeline/gpu_environment.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 #include "tests/support/rendering.hpp"

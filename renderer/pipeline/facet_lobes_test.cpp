@@ -1,6 +1,6 @@
 // Facets with several lobes as the shaders have them: how axes turn, against the C++ twin, and what is shaded, against
 // sums written out by hand.
-#include "renderer/bake/facet_lobes.hpp"
+#include "renderer/bake/facets.hpp"
 
 #include <gtest/gtest.h>
 

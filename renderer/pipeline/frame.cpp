@@ -1,4 +1,4 @@
-// Tiles drawn into one target and read back into the picture.
+// Draws tiles into one target and reads them back into the image.
 #include "renderer/pipeline/frame.hpp"
 
 #include <algorithm>
@@ -72,6 +72,20 @@ void clear_target() {
   gl::api().DepthMask(GL_TRUE);
   gl::api().ClearBufferfv(GL_COLOR, 0, nothing.data());
   gl::api().ClearBufferfv(GL_DEPTH, 0, &far_plane);
+}
+
+PixelWork pixel_work(const FrameRenderer& counting, const View& view) {
+  const Image counts = counting.render(view);
+  PixelWork sum;
+  std::size_t pixels = 0;
+  for (std::size_t i = 0; i < counts.texels.size(); i += 4) {
+    if (counts.texels[i + 3] < 1.0F) continue;
+    sum.lookups += counts.texels[i];
+    sum.lobes += counts.texels[i + 1];
+    ++pixels;
+  }
+  if (pixels == 0) return {};
+  return {sum.lookups / static_cast<double>(pixels), sum.lobes / static_cast<double>(pixels)};
 }
 
 }  // namespace footprint

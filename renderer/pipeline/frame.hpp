@@ -1,4 +1,4 @@
-// One picture by one method: one sample a pixel over the pixel's footprint, in tiles where GL's limit asks for them.
+// One image by one method: one sample per pixel over the pixel's footprint, in tiles if the GL's limits require them.
 #pragma once
 
 #include <span>
@@ -7,25 +7,25 @@
 
 namespace footprint {
 
-/// A method ready to draw frames of one size.
+/// Draws frames of one size by one method.
 class FrameRenderer {
  public:
-  /// `tile_edge` bounds the pixels drawn at once; 0: as many as the GL takes, 4096 at most.
+  /// tile_edge: largest tile drawn at once, pixels; 0: as large as the GL supports, at most 4096.
   FrameRenderer(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method, const glm::ivec2& size,
                 const ProgramSettings& settings, int tile_edge = 0);
 
-  /// Runs the method's frame build, where one is due, and draws a view; the pixels stay on the GPU. What a frame costs
-  /// is the time of this call up to glFinish.
+  /// Runs the method's frame build if one is due, and draws a view; the pixels stay on the GPU. The cost of a frame is
+  /// the time of this call up to glFinish.
+  /// offset: of the samples from the pixels' centres, pixels.
   void draw(const View& view, const glm::dvec2& offset = {0.0, 0.0}) const;
 
-  /// Builds, draws and reads: RGBA, linear radiance and coverage, row 0 at the top. `offset` moves the samples from the
-  /// pixels' centres, in pixels.
+  /// Draws and reads back: RGBA, linear radiance and coverage, row 0 at the top.
   [[nodiscard]] Image render(const View& view, const glm::dvec2& offset = {0.0, 0.0}) const;
 
-  /// Some rectangles of that picture alone, each no larger than a tile; 0 elsewhere.
+  /// Only some rectangles of that image, each no larger than a tile; 0 elsewhere.
   [[nodiscard]] Image render(const View& view, std::span<const Tile> parts) const;
 
-  /// Draws `method` from here on: another bake of the same method with the same options.
+  /// Draws `method` from now on: another bake of the same method with the same options.
   void exchange(const GpuMethod& method) { method_ = &method; }
 
   [[nodiscard]] const SurfaceProgram& program() const { return program_; }
@@ -41,11 +41,20 @@ class FrameRenderer {
   gl::RenderTarget target_;
 };
 
-/// Reads a tile of `target`'s attachment, as many channels as `picture` has, into its part of that, whose row 0 is the
-/// top one.
+/// Reads a tile of `target`'s attachment into its place in `picture`, whose row 0 is at the top. Reads as many channels
+/// as `picture` has.
 void read_tile(const gl::RenderTarget& target, std::size_t attachment, const Tile& tile, Image& picture);
 
 /// Clears the bound framebuffer to no radiance, no coverage, and the far plane.
 void clear_target();
+
+/// Counted work per pixel: means over the pixels that the object covers wholly. All materials of a surface count.
+struct PixelWork {
+  double lookups = 0.0;  ///< texture lookups, including shared textures and the environment's
+  double lobes = 0.0;    ///< lobe evaluations, over all lights
+};
+
+/// Counts one frame of a program whose settings are `counting`. Both are 0 if no pixel is covered.
+[[nodiscard]] PixelWork pixel_work(const FrameRenderer& counting, const View& view);
 
 }  // namespace footprint

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "renderer/bake/prefiltered_file.hpp"
+#include "renderer/bake/bake_cache.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/pipeline/base_surface.hpp"
 #include "renderer/pipeline/frame.hpp"
-#include "renderer/pipeline/frame_build_job.hpp"
+#include "renderer/pipeline/surface_program.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/test_scenes.hpp"
 

@@ -1,4 +1,4 @@
-// Uploads, the blocks of constants, and what may change between frames.
+// Uploads triangles, textures and uniform blocks, and updates them between frames.
 #include "renderer/pipeline/gpu_scene.hpp"
 
 #include <fmt/format.h>
@@ -9,18 +9,17 @@
 #include <span>
 #include <string_view>
 
-#include "renderer/bake/facet_lobes.hpp"
+#include "renderer/bake/facets.hpp"
 #include "renderer/bake/material_maps.hpp"
-#include "renderer/bake/shared_maps.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/mipmap.hpp"
-#include "renderer/pipeline/bindings.hpp"
+#include "renderer/pipeline/shader_source.hpp"
 #include "renderer/scene/geometry.hpp"
 
 namespace footprint {
 namespace {
 
-constexpr float never_cut = -1.0F;  // no alpha lies below it
+constexpr float never_cut = -1.0F;  // no alpha is below it
 
 GLenum gl_wrap(Wrap wrap) {
   switch (wrap) {
@@ -53,11 +52,11 @@ glm::vec4 linear_part(const TextureCoordinates& c) { return {c.transform[0], c.t
 
 glm::vec4 offset_and_set(const TextureCoordinates& c) { return {c.transform[2], static_cast<float>(c.set), 0.0F}; }
 
-// Whether others of its surface are drawn before it.
+// Whether other materials of its surface are drawn before it.
 bool adds_to_surface(const Material& material) { return material.share && !material.share->first; }
 
-// The std140 members of MaterialBlock in surface_material.glsl. What multi_lobe adds comes last: a program whose method
-// leaves it out has a block without it.
+// The std140 members of MaterialBlock in surface_material.glsl. Those of multi_lobe come last, because the block of a
+// method without that effect ends before them.
 std::vector<glm::vec4> material_block(const Material& material, const EffectSet& effects) {
   const bool specular_varies = has(effects, Effect::specular_variation);
   glm::vec3 specular = material.dielectric_specular;
@@ -74,7 +73,7 @@ std::vector<glm::vec4> material_block(const Material& material, const EffectSet&
     block.push_back(offset_and_set(specular_coordinates(material)));
   }
   if (has(effects, Effect::clear_coat)) {
-    // Where a map varies it is read in their place, and need not be decoded for a number.
+    // If a map varies, shaders read it instead of the constant, so it need not be decoded here.
     const bool weight_varies = has(effects, Effect::coat_weight_variation);
     const bool width_varies = has(effects, Effect::coat_width_variation);
     block.emplace_back(weight_varies ? 0.0F : coat_weight_map_of(material).texels.front(),
@@ -102,12 +101,12 @@ bool maps_share_coordinates(const Material& m) {
   if (m.metallic_roughness_map || m.lobe_parameter_map) used.push_back(roughness_coordinates(m));
   if (m.base_color_map) used.push_back(m.base_color_map->coordinates);
   if (m.specular_map) used.push_back(m.specular_map->coordinates);
-  // Slot 0 serves every map: a material without a normal map has the default there.
+  // Slot 0 is used for every map: without a normal map it has the default coordinates.
   const TextureCoordinates first = normal_coordinates(m);
   return std::ranges::all_of(used, [&](const TextureCoordinates& c) { return same_uv(c, first); });
 }
 
-// A block without lights holds one dark one, since the shader's array has at least one member.
+// A block without lights stores one dark light, because the shader's array has at least one element.
 gl::Buffer light_buffer(std::span<const glm::vec4> values) {
   static constexpr std::array<glm::vec4, 4> dark{};
   return gl::Buffer(std::as_bytes(values.empty() ? std::span<const glm::vec4>(dark) : values),
@@ -126,9 +125,9 @@ std::size_t most_lobes_of(std::span<const Material> materials) {
   return most;
 }
 
-void count_in(std::uint64_t& hash, std::span<const std::byte> bytes) { hash = fnv1a(bytes, hash); }
+void add_to_hash(std::uint64_t& hash, std::span<const std::byte> bytes) { hash = fnv1a(bytes, hash); }
 
-// All triangles of a material in one draw call, counted into `content`.
+// All triangles of a material in one draw call, hashed into `content`.
 GpuBatch batch_of(const Scene& scene, std::size_t material, const EffectSet& effects, SceneContent& content) {
   const auto [vertices, indices] = triangles_of(scene, material);
   if (indices.empty()) return {};
@@ -147,12 +146,12 @@ GpuBatch batch_of(const Scene& scene, std::size_t material, const EffectSet& eff
   batch.adds = adds_to_surface(scene.materials[material]);
   const std::vector<glm::vec4> block = material_block(scene.materials[material], effects);
   batch.material_block = gl::Buffer(std::as_bytes(std::span(block)), gl::Buffer::Content::changing);
-  count_in(content.geometry, std::as_bytes(std::span(vertices)));
-  count_in(content.materials, std::as_bytes(std::span(block)));
+  add_to_hash(content.geometry, std::as_bytes(std::span(vertices)));
+  add_to_hash(content.materials, std::as_bytes(std::span(block)));
   return batch;
 }
 
-// Uploads the maps that every method reads one after the other, and gives their bytes.
+// Uploads the maps that every method reads.
 void add_shared_textures(const Material& material, const EffectSet& effects, SharedUploads& uploads, GpuBatch& batch) {
   for (const SharedMap& map : shared_maps()) {
     if (!has(effects, map.effect)) continue;
@@ -162,12 +161,12 @@ void add_shared_textures(const Material& material, const EffectSet& effects, Sha
   }
 }
 
-// Lights of one kind, of so many vectors each, lie in one uniform block.
+// All lights of one kind must fit into one uniform block.
 void require_capacity(const gl::ContextInfo& context, std::string_view kind, std::span<const glm::vec4> block,
-                      std::size_t vectors_a_light, const std::string& source) {
+                      std::size_t vectors_per_light, const std::string& source) {
   const std::size_t most =
-      static_cast<std::size_t>(context.max_uniform_block_bytes) / sizeof(glm::vec4) / vectors_a_light;
-  const std::size_t lights = block.size() / vectors_a_light;
+      static_cast<std::size_t>(context.max_uniform_block_bytes) / sizeof(glm::vec4) / vectors_per_light;
+  const std::size_t lights = block.size() / vectors_per_light;
   if (lights <= most) return;
   throw Error(ErrorKind::machine, source, fmt::format("has {} {} lights", lights, kind),
               fmt::format("the OpenGL of this machine takes {} at once: leave the others out", most));
@@ -205,14 +204,14 @@ void add_visibility(const gl::VertexArray& array, const gl::Buffer& visibility) 
   for (GLuint i = 0; i < vectors; ++i) add_attribute(array.name(), first_location + i, 4, i * sizeof(glm::vec4), 2);
 }
 
-GLuint SamplerCache::sampler(const TextureCoordinates& coordinates, Lookup lookup) {
+GLuint SamplerCache::sampler(const TextureCoordinates& coordinates, SamplerState state) {
   for (const Entry& entry : entries_) {
-    if (entry.wrap == coordinates.wrap && entry.lookup == lookup) return entry.sampler.name();
+    if (entry.wrap == coordinates.wrap && entry.state == state) return entry.sampler.name();
   }
   const GLenum along_u = gl_wrap(coordinates.wrap[0]), along_v = gl_wrap(coordinates.wrap[1]);
-  entries_.push_back(
-      {coordinates.wrap, lookup,
-       lookup.blends ? gl::trilinear_sampler(along_u, along_v, lookup.probes) : gl::nearest_sampler(along_u, along_v)});
+  entries_.push_back({coordinates.wrap, state,
+                      state.linear ? gl::trilinear_sampler(along_u, along_v, state.max_anisotropy)
+                                   : gl::nearest_sampler(along_u, along_v)});
   return entries_.back().sampler.name();
 }
 
@@ -252,12 +251,12 @@ GpuTexture SharedUploads::upload(const PrefilteredTexture& texture) {
     bytes_ += byte_count(texture);
     return footprint::upload(texture);
   }
-  const auto [kept, is_new] = kept_.try_emplace(texel_content(texture));
+  const auto [entry, is_new] = uploaded_.try_emplace(texel_content(texture));
   if (is_new) {
-    kept->second = std::make_shared<const gl::Texture>(upload_texels(texture));
+    entry->second = std::make_shared<const gl::Texture>(upload_texels(texture));
     bytes_ += byte_count(texture);
   }
-  return {kept->second, texture.coordinates, texture.filter};
+  return {entry->second, texture.coordinates, texture.filter};
 }
 
 GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects,
@@ -280,6 +279,7 @@ GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const Eff
     GpuBatch batch = batch_of(scene, i, effects, content_);
     if (batch.index_count == 0) continue;
     add_shared_textures(scene.materials[i], effects, uploads, batch);
+    batch.index = batches_.size();
     batches_.push_back(std::move(batch));
   }
   shared_bytes_ = uploads.bytes();
@@ -339,7 +339,7 @@ void GpuScene::make_lights(const gl::ContextInfo& context, const Scene& scene) {
     environment_ = std::make_shared<GpuEnvironment>(scene.environment.value_or(constant_environment(glm::vec3(0.0F))));
   }
   for (const auto* block : {&blocks.point, &blocks.spot, &blocks.directional})
-    count_in(content_.lights, std::as_bytes(std::span(*block)));
+    add_to_hash(content_.lights, std::as_bytes(std::span(*block)));
 }
 
 void GpuScene::update(const Scene& scene) {
@@ -358,8 +358,8 @@ void GpuScene::update(const Scene& scene) {
     const std::vector<glm::vec4> block = material_block(scene.materials[batch.material], effects_);
     batch.vertices.write(vertices);
     batch.material_block.write(std::as_bytes(std::span(block)));
-    count_in(content.geometry, vertices);
-    count_in(content.materials, std::as_bytes(std::span(block)));
+    add_to_hash(content.geometry, vertices);
+    add_to_hash(content.materials, std::as_bytes(std::span(block)));
   }
   if (shadow_maps_) {
     shadow_maps_.emplace(*context_, scene, effects_, batches_, samplers_);
@@ -370,7 +370,7 @@ void GpuScene::update(const Scene& scene) {
   const auto write = [&](const gl::Buffer& buffer, std::span<const glm::vec4> values, std::size_t count) {
     require(values.size() == count, "lights");
     if (count > 0) buffer.write(std::as_bytes(values));
-    count_in(content.lights, std::as_bytes(values));
+    add_to_hash(content.lights, std::as_bytes(values));
   };
   write(point_lights_, blocks.point, 2 * light_counts_.point);
   write(spot_lights_, blocks.spot, 4 * light_counts_.spot);

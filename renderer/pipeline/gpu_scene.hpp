@@ -1,4 +1,4 @@
-// A scene on the GPU: triangles, lights and the textures that every method shares.
+// A scene on the GPU: triangles, lights, and the textures that all methods share.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,7 @@
 #include "renderer/gl/context.hpp"
 #include "renderer/gl/objects.hpp"
 #include "renderer/pipeline/gpu_environment.hpp"
-#include "renderer/pipeline/gpu_visibility.hpp"
-#include "renderer/pipeline/light_blocks.hpp"
+#include "renderer/pipeline/lights.hpp"
 #include "renderer/pipeline/shadow_maps.hpp"
 #include "renderer/scene/scene.hpp"
 
@@ -23,110 +22,111 @@ namespace footprint {
 
 class TextureUnits;
 
-/// How a program's samplers look textures up.
-struct Lookup {
-  bool blends = true;  ///< trilinear; else the nearest texel of the nearest level
-  int probes = 1;      ///< of the sampler's own anisotropic filter, at most
+/// How a program's samplers filter.
+struct SamplerState {
+  bool linear = true;      ///< trilinear; else the nearest texel of the nearest level
+  int max_anisotropy = 1;  ///< of the sampler's own filter; 1: isotropic
 
-  friend bool operator==(const Lookup&, const Lookup&) = default;
-  static const Lookup trilinear, nearest;
+  friend bool operator==(const SamplerState&, const SamplerState&) = default;
+  static const SamplerState trilinear, nearest;
 };
-inline constexpr Lookup Lookup::trilinear{.blends = true, .probes = 1};
-inline constexpr Lookup Lookup::nearest{.blends = false, .probes = 1};
+inline constexpr SamplerState SamplerState::trilinear{.linear = true, .max_anisotropy = 1};
+inline constexpr SamplerState SamplerState::nearest{.linear = false, .max_anisotropy = 1};
 
-/// A sampler for the wrap modes of some coordinates. Owned by GpuScene's cache: one for each kind.
+/// Samplers by wrap modes and state, each created once.
 class SamplerCache {
  public:
-  [[nodiscard]] GLuint sampler(const TextureCoordinates& coordinates, Lookup lookup);
+  [[nodiscard]] GLuint sampler(const TextureCoordinates& coordinates, SamplerState state);
 
  private:
   struct Entry {
     std::array<Wrap, 2> wrap;
-    Lookup lookup;
+    SamplerState state;
     gl::Sampler sampler;
   };
   std::vector<Entry> entries_;
 };
 
-/// A texture bound with the sampler that its coordinates and its filter ask for.
+/// A texture with the coordinates and the filter that select its sampler.
 struct GpuTexture {
-  std::shared_ptr<const gl::Texture> texture;  ///< never null; materials of the same texels share it
+  std::shared_ptr<const gl::Texture> texture;  ///< never null; shared by materials with the same texels
   TextureCoordinates coordinates;
   TextureFilter filter = TextureFilter::trilinear;
 
-  /// The program's lookup, unless this texture says itself whether its texels are blended.
-  [[nodiscard]] Lookup lookup(Lookup wanted) const {
-    if (filter == TextureFilter::linear) return Lookup::trilinear;
-    if (filter == TextureFilter::by_level) return {.blends = wanted.blends, .probes = 1};
-    return filter == TextureFilter::nearest ? Lookup::nearest : wanted;
+  /// The program's state, unless this texture's own filter replaces it.
+  [[nodiscard]] SamplerState sampler_state(SamplerState wanted) const {
+    if (filter == TextureFilter::linear) return SamplerState::trilinear;
+    if (filter == TextureFilter::by_level) return {.linear = wanted.linear, .max_anisotropy = 1};
+    return filter == TextureFilter::nearest ? SamplerState::nearest : wanted;
   }
 };
 
 /// Whether two maps are looked up at the same uv.
 [[nodiscard]] bool same_uv(const TextureCoordinates& a, const TextureCoordinates& b);
 
-/// Uploads a prefiltered texture with its whole chain; of a built one it makes the storage alone. Errors (machine):
-/// over the GL limits, out of memory.
+/// Uploads a texture with its whole chain. Of a built one it only allocates the storage. Throws Error (machine): over
+/// the GL limits, out of memory.
 [[nodiscard]] gl::Texture upload_texels(const PrefilteredTexture& texture);
 [[nodiscard]] GpuTexture upload(const PrefilteredTexture& texture);
 
-/// Takes the texels of `from`, which has the sizes of `into`'s levels, into it: a built texture counts as baked then.
+/// Reads the texels of `from`, which has the sizes of `into`'s levels, into `into`, which then counts as baked.
 void read_texels(const gl::Texture& from, PrefilteredTexture& into);
 
-/// Uploads textures, those of the same texels once. What a frame build writes is never shared.
+/// Uploads textures, those with the same texels once. Textures of a frame build are never shared.
 class SharedUploads {
  public:
-  /// As `upload`; `bytes` grow by what was not there before.
+  /// As `upload`; `bytes` grows only by new texels.
   [[nodiscard]] GpuTexture upload(const PrefilteredTexture& texture);
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:
-  std::map<std::uint64_t, std::shared_ptr<const gl::Texture>> kept_;
+  std::map<std::uint64_t, std::shared_ptr<const gl::Texture>> uploaded_;
   std::size_t bytes_ = 0;
 };
 
-/// A vertex array over vertices and indices, and over one pair of surface coordinates a vertex where `surface` is
-/// given.
+/// A vertex array over vertices and indices.
+/// surface: one pair of surface coordinates per vertex, or null.
 [[nodiscard]] gl::VertexArray vertex_array(const gl::Buffer& vertices, const gl::Buffer& indices,
                                            const gl::Buffer* surface = nullptr);
 
-/// Adds the visibility of the environment to a vertex array: five vectors a vertex.
+/// Adds the visibility of the environment to a vertex array: five vectors per vertex.
 void add_visibility(const gl::VertexArray& array, const gl::Buffer& visibility);
 
-/// Hashes of what a scene's parts hold: one that differs tells that the part has changed.
+/// Hashes of a scene's parts, to detect changes.
 struct SceneContent {
   std::uint64_t geometry = fnv1a_start, materials = fnv1a_start, lights = fnv1a_start;
 
   friend bool operator==(const SceneContent&, const SceneContent&) = default;
 };
 
-/// The triangles of one material, and what is constant over it.
+/// The triangles of one material, and its constants.
 struct GpuBatch {
   gl::VertexArray vertex_array;
-  gl::Buffer visibility;  ///< of the environment, at the vertices; none where nothing hides it
+  gl::Buffer visibility;  ///< of the environment, at the vertices; none if nothing hides it
   gl::Buffer vertices, indices, material_block;
   GLsizei index_count = 0;
   std::size_t vertex_count = 0;
+  std::size_t index = 0;  ///< among the scene's batches
   std::size_t material = 0;
   bool double_sided = false;
-  bool adds = false;                        ///< to what the material before it left on the same triangles
-  TextureCoordinates coordinates;           ///< of the normal map, or where it would be looked up
-  std::vector<GpuTexture> shared_textures;  ///< of the rows of shared_maps() whose effects are on
+  bool adds = false;                        ///< adds its share to the material before it, on the same triangles
+  TextureCoordinates coordinates;           ///< of the normal map, or of a missing one
+  std::vector<GpuTexture> shared_textures;  ///< those of shared_maps() whose effects are on
 };
 
-/// The whole scene. Needs the context that made it to be current, also when destroyed.
+/// The whole scene. The context that created it must be current, also at destruction.
 class GpuScene {
  public:
-  /// Errors (usage): materials with different base BRDFs (a comparison needs one); (machine): over GL's limits; those
-  /// of `progress`, which is called where the visibility of an environment takes time. It is kept in `cache`, where
-  /// there is one. The environment and its visibility are those of `same`, where that is given: the same scene with
-  /// other effects.
+  /// progress: called while the visibility of an environment is computed; may throw.
+  /// cache: stores that visibility; may be null.
+  /// same: the same scene with other effects, whose environment and visibility are shared; may be null.
+  /// Throws Error (usage): materials with different base BRDFs; (machine): over the GL limits.
   GpuScene(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects,
            const Progress& progress = no_progress, const DiskCache* cache = nullptr, const GpuScene* same = nullptr);
 
-  /// Takes over vertices, lights and the constants of materials as `scene` has them: the next frame of what moves.
-  /// Maps, environment and base BRDF stay; visibility is asked anew where vertices moved. Errors (usage): another
-  /// number of materials, vertices or lights of a kind than before.
+  /// Uploads the vertices, lights and material constants of the next frame of an animated scene. Maps, environment and
+  /// base BRDF stay; visibility is computed again if vertices moved. Throws Error (usage): another number of materials,
+  /// vertices or lights of a kind than before.
   void update(const Scene& scene);
   [[nodiscard]] const SceneContent& content() const { return content_; }
 
@@ -135,23 +135,23 @@ class GpuScene {
   [[nodiscard]] const EffectSet& effects() const { return effects_; }
   [[nodiscard]] const BaseBrdf& brdf() const { return brdf_; }
   [[nodiscard]] Horizon horizon() const { return horizon_; }
-  /// Every map of every material is looked up at the same uv.
+  /// Whether all maps of all materials are looked up at the same uv.
   [[nodiscard]] bool shared_coordinates() const { return shared_coordinates_; }
-  /// None where the effect is off, or without lights but an environment.
+  /// None if the effect is off, or without point, spot and directional lights.
   [[nodiscard]] const std::optional<ShadowMaps>& shadow_maps() const { return shadow_maps_; }
-  /// Bytes of what every method reads: shared textures, shadow maps, the environment's visibility and, once a method's
-  /// program is there, the prefiltered environment.
+  /// Bytes that every method reads: shared textures, shadow maps, the environment's visibility and, once a method's
+  /// program exists, the prefiltered environment.
   [[nodiscard]] std::size_t shared_bytes() const {
     return shared_bytes_ + (environment_ ? environment_->stack_bytes() : 0);
   }
-  /// None without its light.
+  /// Null without environment light.
   [[nodiscard]] const GpuEnvironment* environment() const { return environment_.get(); }
   [[nodiscard]] GpuEnvironment* environment() { return environment_.get(); }
-  /// None where nothing hides a part of the environment.
+  /// Null if nothing hides a part of the environment.
   [[nodiscard]] const GpuVisibility* visibility() const { return visibility_.get(); }
   [[nodiscard]] SamplerCache& samplers() { return samplers_; }
 
-  /// Binds the light blocks, their shadow maps at their unit of `units`, and sets the light counts of `program`.
+  /// Binds the light blocks and the shadow maps at their unit of `units`, and sets the light counts of `program`.
   void bind_lights(const gl::Program& program, const TextureUnits& units) const;
 
   struct LightCounts {
@@ -159,7 +159,7 @@ class GpuScene {
     std::size_t shadow_maps = 0;
   };
   [[nodiscard]] const LightCounts& light_counts() const { return light_counts_; }
-  /// The most lobes that a facet of any material has, at least 1.
+  /// The largest number of lobes per facet of any material, at least 1.
   [[nodiscard]] std::size_t facet_lobes() const { return facet_lobes_; }
 
  private:

@@ -1,5 +1,5 @@
 // What large bodies hide of an environment, in methods and in the reference, against what geometry and rays tell.
-#include "renderer/pipeline/gpu_visibility.hpp"
+#include "renderer/pipeline/gpu_environment.hpp"
 
 #include <gtest/gtest.h>
 

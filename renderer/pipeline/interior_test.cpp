@@ -314,5 +314,70 @@ TEST(Interior, LeavesOutEdgesOfAlpha) {
       << "without the criterion";
 }
 
+// The square, its left quarter of another material that lies just above it.
+Scene two_materials() {
+  Scene scene = square_scene(random_normals(16, 16, 0.8F, 1), {});
+  scene.materials.push_back(scene.materials.front());
+  Mesh left = scene.meshes.front();
+  left.material = 1;
+  for (Vertex& v : left.vertices) v.position = {0.25F * v.position.x - 0.75F, v.position.y, 0.01F};
+  scene.meshes.push_back(left);
+  return scene;
+}
+
+TEST(Interior, TellsMaterialsApart) {
+  const Interior found = interior_of(two_materials(), 32);
+  Image pixels(32, 32, 1, 1.0F);
+  pixels.at(30, 5)[0] = 0.0F;
+  const auto masks = material_masks(found.materials, pixels, 2);
+  ASSERT_EQ(masks.size(), 2U);
+  EXPECT_EQ(count(masks[1]), 32 * 8);
+  EXPECT_EQ(count(masks[0]), 32 * 24 - 1);
+  EXPECT_EQ(masks[1].at(3, 3)[0], 1.0F);
+  EXPECT_EQ(masks[0].at(3, 3)[0], 0.0F);
+  EXPECT_EQ(masks[0].at(30, 5)[0], 0.0F) << "not one of the pixels";
+}
+
+TEST(Interior, HasNoMaterialBesideTheSurface) {
+  Scene scene = two_materials();
+  scene.camera.world[3].z = 12.0F;
+  const auto masks = material_masks(interior_of(scene, 32).materials, Image(32, 32, 1, 1.0F), 2);
+  EXPECT_LT(count(masks[0]) + count(masks[1]), 100);
+  EXPECT_GT(count(masks[0]), 20);
+}
+
+TEST(Interior, HasNoMaterialWhereTheNormalTurnsAway) {
+  Scene scene = two_materials();
+  for (Vertex& v : scene.meshes[1].vertices) v.normal = {0, 0.6F, -0.8F};
+  const auto masks = material_masks(interior_of(scene, 32).materials, Image(32, 32, 1, 1.0F), 2);
+  EXPECT_EQ(count(masks[1]), 0);
+  EXPECT_EQ(count(masks[0]), 32 * 24);
+}
+
+// A map of 4 x 1 indices over 34 pixels: the second material has the last two texels. Of the columns, those within the
+// blend of two texels show both materials.
+TEST(Interior, HasOneMaterialOfThoseThatShareASurface) {
+  Scene scene = square_scene({}, {});
+  scene.materials.push_back(scene.materials.front());
+  for (const bool first : {true, false}) {
+    Image share(4, 1, 1);
+    share.texels = first ? std::vector{1.0F, 1.0F, 0.0F, 0.0F} : std::vector{0.0F, 0.0F, 1.0F, 1.0F};
+    TextureMap map{"share", std::make_shared<const Image>(share), {}};
+    map.coordinates.wrap = {Wrap::clamp_to_edge, Wrap::clamp_to_edge};
+    scene.materials[first ? 0 : 1].share = SurfaceShare{map, first};
+  }
+  Mesh again = scene.meshes.front();
+  again.material = 1;
+  scene.meshes.push_back(again);
+  const Interior found = interior_of(scene, 34);
+  EXPECT_EQ(count(found.mask), 34 * 34) << "a map is no edge";
+  const auto masks = material_masks(found.materials, found.mask, 2);
+  for (int x = 0; x < 34; ++x) {
+    const double u = (x + 0.5) / 34;
+    EXPECT_EQ(column_sum(masks[0], x), u < 0.375 ? 34 : 0) << x;
+    EXPECT_EQ(column_sum(masks[1], x), u > 0.625 ? 34 : 0) << x;
+  }
+}
+
 }  // namespace
 }  // namespace footprint::testing

@@ -38,7 +38,7 @@ double variance_at(const Material& material, Storage storage, float u) {
   const GpuTexture texture = upload(baked.textures.at(0));
   SamplerCache samplers;
   gl::api().BindTextureUnit(0, texture.texture->name());
-  gl::api().BindSampler(0, samplers.sampler(texture.coordinates, Lookup::trilinear));
+  gl::api().BindSampler(0, samplers.sampler(texture.coordinates, SamplerState::trilinear));
   ShaderVariant variant;
   variant.brdf = material.brdf;
   variant.effects = varying_roughness();

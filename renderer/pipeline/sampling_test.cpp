@@ -10,7 +10,7 @@
 #include <span>
 
 #include "renderer/core/error.hpp"
-#include "renderer/pipeline/sample_grid.hpp"
+#include "renderer/pipeline/sample_sequence.hpp"
 #include "renderer/pipeline/timing.hpp"
 #include "renderer/pipeline/view.hpp"
 

@@ -1,4 +1,4 @@
-// The table of flags: a row has a flag's name and when it is on, so that no text can ask for what is never set.
+// A table of flags with their conditions, so that no text can ask for a flag that is never set.
 #include "renderer/pipeline/shader_flags.hpp"
 
 #include <algorithm>

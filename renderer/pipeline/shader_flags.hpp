@@ -1,48 +1,75 @@
-// What a program is made for, and the flags that its text may ask for.
+// What a program is compiled for, and the flags that shader texts may ask for.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
+#include "renderer/bake/method.hpp"
 #include "renderer/bake/prefiltered.hpp"
-#include "renderer/bake/shader_module.hpp"
+#include "renderer/core/names.hpp"
 #include "renderer/core/options.hpp"
 #include "renderer/effects/effects.hpp"
-#include "renderer/pipeline/environment_use.hpp"
 #include "renderer/scene/footprint_filter.hpp"
 #include "renderer/scene/material.hpp"
 
 namespace footprint {
 
-/// Which texels a sample reads.
+/// The texels that a sample reads.
 enum class Sampling {
-  frame,  ///< the pixel's footprint: one sample a pixel, prefiltered
-  texel,  ///< one texel of the finest level, drawn with the bilinear weights: filter after shading
+  frame,  ///< the pixel's footprint, prefiltered: one sample per pixel
+  texel,  ///< one texel of the finest level, drawn with the bilinear weights: filters after shading
   point,  ///< the finest level at a point; the sampler decides between nearest and bilinear
 };
 
-/// What a program is made for. Equal variants give equal text.
+/// How one sample of the reference filters the maps.
+enum class ReferenceFilter {
+  after_shading,  ///< shades one texel's own base BRDF; the texel is drawn with the bilinear weights
+  nearest,        ///< shades the nearest texel
+  bilinear,       ///< shades the bilinear mean of the map's values, so it interpolates the normal first
+};
+
+inline constexpr std::array<Word<ReferenceFilter>, 3> reference_filters{{
+    {ReferenceFilter::after_shading, "after_shading"},
+    {ReferenceFilter::nearest, "nearest"},
+    {ReferenceFilter::bilinear, "bilinear"},
+}};
+
+/// How a program integrates the light of an environment.
+enum class EnvironmentUse {
+  prefiltered,  ///< methods: by the module's lobes and prefiltered maps
+  sampled,      ///< reference: directions drawn for each sample
+  dense,        ///< reference: 6 x 32 x 32 directional lights, all of them for each sample
+};
+
+/// How the reference integrates.
+inline constexpr std::array<Word<EnvironmentUse>, 2> reference_integrals{{
+    {EnvironmentUse::sampled, "sampled"},
+    {EnvironmentUse::dense, "dense"},
+}};
+
+/// What a program is compiled for. Equal variants give equal text.
 struct ShaderVariant {
   EffectSet effects;
   BaseBrdf brdf;
   Sampling sampling = Sampling::frame;
   FootprintFilter footprint{};  ///< of a frame
-  bool counting = false;        ///< writes what a pixel looks up and evaluates, in place of its radiance
+  bool counting = false;        ///< writes counts of lookups and lobe evaluations instead of radiance
   bool orthographic = false;
   bool horizon_open = false;         ///< light from below the vertices' plane arrives (Horizon::open)
-  bool shared_coordinates = false;   ///< every map of the scene is looked up at one uv
-  bool surface_coordinates = false;  ///< the method has coordinates of its own (Prefiltered::surface_coordinates)
-  bool screen_derivatives = false;   ///< a frame whose module asks how the next pixels lie (MethodInfo)
-  bool finest_coat = false;          ///< a frame of a method that filters nothing (MethodInfo::reads_finest_level)
-  EnvironmentUse environment = EnvironmentUse::prefiltered;  ///< sampled: of a module with `draws_directions`
-  bool sums_environment = false;                             ///< the method's (MethodInfo)
-  std::size_t environment_suns = 0;                          ///< what of the environment is told apart (small_sun.hpp)
-  std::size_t facet_lobes = most_facet_lobes;  ///< room for so many a material: what has less compiles faster
+  bool shared_coordinates = false;   ///< all maps of the scene are looked up at one uv
+  bool surface_coordinates = false;  ///< the method has its own coordinates (Prefiltered::surface_coordinates)
+  bool screen_derivatives = false;   ///< of a frame: MethodInfo::screen_derivatives
+  bool finest_coat = false;          ///< of a frame: MethodInfo::reads_finest_level
+  EnvironmentUse environment = EnvironmentUse::prefiltered;  ///< sampled only if the module draws directions
+  bool sums_environment = false;                             ///< MethodInfo::sums_environment
+  std::size_t environment_suns = 0;                          ///< suns separated from the environment (small_sun.hpp)
+  std::size_t facet_lobes = most_facet_lobes;                ///< capacity per material; a smaller one compiles faster
   std::size_t point_lights = 0, spot_lights = 0, directional_lights = 0;
   std::size_t shadow_maps = 0;
 };
 
-/// All flags of the shared texts and of a method's word options (`storage_fp16`), each on or off: what the scene, the
-/// sampling and the options say, and what the shared functions must offer for the method's textures.
+/// All flags of the shared texts and of a method's word options (`storage_fp16`), each on or off. They depend on the
+/// variant, on the options, and on the kinds of the method's textures.
 [[nodiscard]] ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options,
                                        const Prefiltered& prefiltered = {});
 

@@ -58,7 +58,9 @@ TEST(ShaderFlags, FollowTextures) {
 TEST(ShaderSource, CountsTheCallsOfAPixel) {
   ShaderVariant variant;
   const auto has_calls = [&](int count) {
-    const std::string text = fragment_shader(variant, {"m.glsl", "\n"}, Options({}, {}, "t"), {}).text();
+    const std::string text =
+        forward_shaders(variant, forward_units(variant, {}), {"m.glsl", "\n"}, Options({}, {}, "t"), {})
+            .fragment.text();
     return text.find("const int shade_calls = " + std::to_string(count) + ";") != std::string::npos;
   };
   EXPECT_TRUE(has_calls(1)) << "no light";

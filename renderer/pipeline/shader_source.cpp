@@ -1,20 +1,35 @@
-// The order in which a stage's texts and declarations follow one another.
+// The order of texts and declarations in each stage, and of texture units.
 #include "renderer/pipeline/shader_source.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <stdexcept>
 
-#include "renderer/pipeline/bindings.hpp"
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/pipeline/gpu_environment.hpp"
 #include "renderer/pipeline/shadow_maps.hpp"
 
 namespace footprint {
 namespace {
 
 constexpr std::string_view version_line = "#version 450 core\n";
+constexpr std::string_view screen_vertices =
+    "void main() { gl_Position = vec4(vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0), 0.0, 1.0); "
+    "}\n";
 
-// Of stages without a method.
-Options no_options() { return {{}, {}, "no options"}; }
+// The flags of stages without a method.
+ShaderFlags plain_flags(const ShaderVariant& variant) { return shader_flags(variant, {{}, {}, "no options"}); }
+
+// A stage of one shared file.
+std::string plain_stage(const ShaderFlags& flags, std::string_view file) {
+  ShaderText text(flags);
+  text.add(version_line);
+  text.include(file);
+  return text.text();
+}
 
 std::string light_capacities(const ShaderVariant& v) {
   std::string text;
@@ -40,31 +55,38 @@ std::string number_options(const Options& options) {
   return text;
 }
 
-std::string scalar_declarations(const Prefiltered& prefiltered) {
-  if (prefiltered.scalars.empty()) return {};
-  std::string text = fmt::format("layout(std140, binding = {}) uniform MethodBlock {{\n", block_binding::method);
-  for (const auto& [name, value] : prefiltered.scalars) text += fmt::format("  float {};\n", name);
-  return text + "};\n";
+// A method's scalars and vectors, each behind `qualifier`.
+std::string value_declarations(const Prefiltered& prefiltered, std::string_view qualifier) {
+  std::string text;
+  for (const auto& [name, value] : prefiltered.scalars) text += fmt::format("{}float {};\n", qualifier, name);
+  for (const auto& [name, values] : prefiltered.vectors)
+    text += fmt::format("{}vec2 {}[{}];\n", qualifier, name, values.size());
+  return text;
 }
 
-// What is uploaded for a bare module: no bindings, so that whoever sets them finds them by their names.
+std::string method_block(const Prefiltered& prefiltered) {
+  const std::string values = value_declarations(prefiltered, "  ");
+  if (values.empty()) return {};
+  return fmt::format("layout(std140, binding = {}) uniform MethodBlock {{\n{}}};\n", block_binding::method, values);
+}
+
+// The textures and values of a bare module, without bindings, so that other programs find them by name.
 std::string plain_declarations(const Prefiltered& prefiltered) {
   std::string text;
   for (const PrefilteredTexture& texture : prefiltered.textures)
     text += fmt::format("uniform {} {};\n", texture.layers > 0 ? "sampler2DArray" : "sampler2D", texture.name);
-  for (const auto& [name, value] : prefiltered.scalars) text += fmt::format("uniform float {};\n", name);
-  return text;
+  return text + value_declarations(prefiltered, "uniform ");
 }
 
-// The lines that tell a compiler whose lines follow are of no use to who has one file.
+// #line directives are useless in a single file.
 std::string without_line_numbers(const std::string& text) {
-  std::string kept;
+  std::string out;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
-    if (text.compare(at, 6, "#line ") != 0) kept.append(text, at, end - at);
+    if (text.compare(at, 6, "#line ") != 0) out.append(text, at, end - at);
     at = end;
   }
-  return kept;
+  return out;
 }
 
 void add_material_block(ShaderText& text, const ShaderFlags& flags, std::size_t facet_lobes) {
@@ -72,7 +94,7 @@ void add_material_block(ShaderText& text, const ShaderFlags& flags, std::size_t 
   text.include("surface_material.glsl");
 }
 
-// How often a pixel calls a module's `shade` at most: for every light, in every part of a `shaded` footprint.
+// The most calls of a module's `shade` per pixel: once per light and part of a `shaded` footprint.
 int shade_calls(const ShaderVariant& v) {
   const std::size_t lights = v.point_lights + v.spot_lights + v.directional_lights + v.environment_suns;
   const int parts = v.footprint.kind == FootprintFilterKind::shaded ? v.footprint.count * v.footprint.count : 1;
@@ -87,26 +109,28 @@ void add_shared_functions(ShaderText& text, const ShaderFlags& flags, int calls 
   if (flags.at("environment_light")) text.include("normal_lobes.glsl");
 }
 
-// The beginning of a stage that has a module.
-ShaderText begun(const ShaderFlags& flags, const ShaderModule& module) {
+// The start of a stage with a module.
+ShaderText module_text(const ShaderFlags& flags, const ShaderModule& module) {
   ShaderText text(flags, module);
   text.add(fmt::format("{}#line {}\n", version_line, first_shared_line));
   return text;
 }
 
-// A pass around a method's module, behind what the module reads (its textures, scalars and options, the material's
-// block) and may call.
+// A pass around a method's module, after everything that the module reads or calls.
 void add_method_pass(ShaderText& text, const ShaderVariant& variant, const ShaderFlags& flags, const Options& options,
                      const Prefiltered& prefiltered, std::string_view pass) {
-  text.add(footprint_constants(variant.footprint) + number_options(options) + scalar_declarations(prefiltered));
+  text.add(footprint_constants(variant.footprint) + number_options(options) + method_block(prefiltered));
   add_material_block(text, flags, variant.facet_lobes);
   add_shared_functions(text, flags, shade_calls(variant));
   text.include(pass);
 }
 
+constexpr std::array<GLenum, 5> sampler_types{GL_SAMPLER_2D, GL_SAMPLER_2D_ARRAY, GL_SAMPLER_2D_ARRAY_SHADOW,
+                                              GL_SAMPLER_3D, GL_SAMPLER_CUBE};
+
 }  // namespace
 
-// The parts are no constant: a loop whose rounds are known is unrolled, which takes compilers seconds.
+// The number of parts is a uniform, because compilers take seconds to unroll loops of a constant count.
 std::string footprint_constants(const FootprintFilter& filter) {
   return fmt::format("const int most_probes = {0};\nuniform int footprint_parts = {0};\n", filter.count);
 }
@@ -124,22 +148,17 @@ std::string material_block(const ShaderFlags& flags) {
   return text.text();
 }
 
-std::string vertex_shader(const ShaderVariant& variant) {
-  ShaderText text(shader_flags(variant, no_options()));
-  text.add(version_line);
-  text.include("surface_vertex.glsl");
-  return text.text();
-}
-
-ShaderText fragment_shader(const ShaderVariant& variant, const ShaderModule& module, const Options& options,
-                           const Prefiltered& prefiltered) {
+ForwardShaders forward_shaders(const ShaderVariant& variant, const TextureUnits& units, const ShaderModule& module,
+                               const Options& options, const Prefiltered& prefiltered) {
   const ShaderFlags flags = shader_flags(variant, options, prefiltered);
-  ShaderText text = begun(flags, module);
-  text.add(forward_units(variant, prefiltered).declarations() + light_capacities(variant));
-  text.include("surface_lights.glsl");
-  if (calls_for_shadow_maps(variant.effects)) text.include("surface_shadows.glsl");
-  add_method_pass(text, variant, flags, options, prefiltered, "surface_fragment.glsl");
-  return text;
+  ShaderText vertex(flags);
+  vertex.add(version_line);
+  vertex.include("surface_vertex.glsl");
+  ShaderText fragment = module_text(flags, module);
+  fragment.add(units.declarations() + light_capacities(variant));
+  fragment.include("surface_lights.glsl");
+  add_method_pass(fragment, variant, flags, options, prefiltered, "surface_fragment.glsl");
+  return {vertex.text(), std::move(fragment)};
 }
 
 std::string bare_module(const ShaderVariant& variant, const ShaderModule& module, const Options& options,
@@ -157,7 +176,7 @@ std::string bare_module(const ShaderVariant& variant, const ShaderModule& module
 ShaderText ndf_shader(const ShaderVariant& variant, const ShaderModule& module, const Options& options,
                       const Prefiltered& prefiltered) {
   const ShaderFlags flags = shader_flags(variant, options, prefiltered);
-  ShaderText text = begun(flags, module);
+  ShaderText text = module_text(flags, module);
   text.add(TextureUnits(variant.effects, prefiltered).declarations());
   add_method_pass(text, variant, flags, options, prefiltered, "ndf_fragment.glsl");
   return text;
@@ -166,7 +185,7 @@ ShaderText ndf_shader(const ShaderVariant& variant, const ShaderModule& module, 
 ShaderText frame_build_shader(const ShaderVariant& variant, const ShaderModule& pass, const Options& options,
                               std::string_view constants) {
   const ShaderFlags flags = shader_flags(variant, options);
-  ShaderText text = begun(flags, pass);
+  ShaderText text = module_text(flags, pass);
   text.add(number_options(options));
   add_material_block(text, flags, variant.facet_lobes);
   add_shared_functions(text, flags);
@@ -176,14 +195,11 @@ ShaderText frame_build_shader(const ShaderVariant& variant, const ShaderModule& 
 }
 
 std::string shadow_vertex_shader(const EffectSet& effects) {
-  ShaderText text(shader_flags({.effects = effects, .brdf = {}}, no_options()));
-  text.add(version_line);
-  text.include("shadow_vertex.glsl");
-  return text.text();
+  return plain_stage(plain_flags({.effects = effects, .brdf = {}}), "shadow_vertex.glsl");
 }
 
 std::string shadow_fragment_shader(const EffectSet& effects) {
-  const ShaderFlags flags = shader_flags({.effects = effects, .brdf = {}}, no_options());
+  const ShaderFlags flags = plain_flags({.effects = effects, .brdf = {}});
   ShaderText text(flags);
   text.add(version_line);
   if (has(effects, Effect::alpha_mask)) {
@@ -195,22 +211,16 @@ std::string shadow_fragment_shader(const EffectSet& effects) {
 }
 
 std::string interior_vertex_shader(const ShaderVariant& variant) {
-  ShaderText text(shader_flags(variant, no_options()));
-  text.add(version_line);
-  text.include("interior_vertex.glsl");
-  return text.text();
+  return plain_stage(plain_flags(variant), "interior_vertex.glsl");
 }
 
 std::string interior_fragment_shader(const ShaderVariant& variant, std::string_view textures) {
-  const ShaderFlags flags = shader_flags(variant, no_options());
+  const ShaderFlags flags = plain_flags(variant);
   ShaderText text(flags);
   text.add(version_line);
   text.add(std::string(textures) + light_capacities(variant));
   add_material_block(text, flags, variant.facet_lobes);
-  if (calls_for_shadow_maps(variant.effects)) {
-    text.include("surface_lights.glsl");
-    text.include("surface_shadows.glsl");
-  }
+  if (calls_for_shadow_maps(variant.effects)) text.include("surface_lights.glsl");
   text.include("interior_fragment.glsl");
   return text.text();
 }
@@ -218,24 +228,78 @@ std::string interior_fragment_shader(const ShaderVariant& variant, std::string_v
 std::string interior_compare_shader(bool shadows) {
   EffectSet effects;
   effects.set(static_cast<std::size_t>(Effect::cast_shadow), shadows);
-  ShaderText text(shader_flags({.effects = effects, .brdf = {}}, no_options()));
-  text.add(version_line);
-  text.include("interior_compare.glsl");
-  return text.text();
+  return plain_stage(plain_flags({.effects = effects, .brdf = {}}), "interior_compare.glsl");
 }
 
-std::string screen_vertex_shader() {
-  ShaderText text({});
-  text.add(version_line);
-  text.include("screen_vertex.glsl");
-  return text.text();
+std::string screen_vertex_shader() { return std::string(version_line).append(screen_vertices); }
+
+std::string resolve_shader() { return plain_stage({}, "resolve_samples.glsl"); }
+
+TextureUnits::TextureUnits(const EffectSet& effects, const Prefiltered& prefiltered) {
+  for (const SharedMap& map : shared_maps()) {
+    if (has(effects, map.effect)) add(map.name, "sampler2D");
+  }
+  for (const PrefilteredTexture& texture : prefiltered.textures)
+    add(texture.name, texture.layers > 0 ? "sampler2DArray" : "sampler2D");
 }
 
-std::string resolve_shader() {
-  ShaderText text({});
-  text.add(version_line);
-  text.include("resolve_samples.glsl");
-  return text.text();
+void TextureUnits::add(std::string_view name, std::string_view sampler) {
+  textures_.push_back({std::string(name), sampler});
+}
+
+GLuint TextureUnits::unit(std::string_view name) const {
+  const auto found = std::ranges::find(textures_, name, &Texture::name);
+  if (found == textures_.end()) throw std::logic_error(fmt::format("no texture unit is given to `{}`", name));
+  return static_cast<GLuint>(found - textures_.begin());
+}
+
+std::string TextureUnits::declarations() const {
+  std::string text;
+  for (std::size_t unit = 0; unit < textures_.size(); ++unit)
+    text += fmt::format("layout(binding = {}) uniform {} {};\n", unit, textures_[unit].sampler, textures_[unit].name);
+  return text;
+}
+
+void TextureUnits::require_room(const gl::ContextInfo& context, const std::string& method) const {
+  if (size() <= static_cast<std::size_t>(context.max_texture_units)) return;
+  std::string names;
+  for (const Texture& texture : textures_) names += (names.empty() ? "" : ", ") + texture.name;
+  throw Error(ErrorKind::machine, fmt::format("method {}", method),
+              fmt::format("its program reads {} textures ({})", size(), names),
+              fmt::format("this GL has {} units: pack the method's textures into fewer", context.max_texture_units));
+}
+
+void TextureUnits::require_all_of(const gl::Program& program, const std::string& method) const {
+  for (const auto& [name, uniform] : program.uniforms()) {
+    if (std::ranges::find(sampler_types, uniform.type) == sampler_types.end()) continue;
+    if (std::ranges::find(textures_, name, &Texture::name) != textures_.end()) continue;
+    throw Error(ErrorKind::usage, fmt::format("method {}", method),
+                fmt::format("its program reads the texture `{}`, which has no unit", name),
+                "bake it in the precompute, or give it a row in renderer/bake/material_maps.cpp");
+  }
+}
+
+TextureUnits forward_units(const ShaderVariant& variant, const Prefiltered& prefiltered) {
+  TextureUnits units(variant.effects, prefiltered);
+  if (has(variant.effects, Effect::environment_light)) {
+    for (const std::string_view name : environment_textures(variant.environment))
+      units.add(name, name == "environment_stack" || name == "environment_lobes" ? "sampler2DArray" : "sampler2D");
+  }
+  if (hides_environment(variant.effects)) units.add("visibility_maps", "sampler2DArray");
+  if (calls_for_shadow_maps(variant.effects)) units.add("shadow_maps", "sampler2DArrayShadow");
+  return units;
+}
+
+std::vector<std::string_view> environment_textures(EnvironmentUse use) {
+  switch (use) {
+    case EnvironmentUse::prefiltered:
+      break;
+    case EnvironmentUse::sampled:
+      return {"environment_radiance", "environment_sums"};
+    case EnvironmentUse::dense:
+      return {"environment_lights", "environment_directions"};
+  }
+  return {"environment_stack", "environment_irradiance", "environment_lobes"};
 }
 
 }  // namespace footprint

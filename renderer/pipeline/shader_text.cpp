@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "renderer/core/error.hpp"
-#include "renderer/core/suggest.hpp"
+#include "renderer/core/names.hpp"
 
 namespace footprint {
 

@@ -1,4 +1,4 @@
-// The text of one stage: put together from shared files and a module, without what the scene does not call for.
+// The text of one stage: shared files and a module, without the parts that the scene does not need.
 #pragma once
 
 #include <cstddef>
@@ -6,33 +6,33 @@
 #include <string>
 #include <string_view>
 
-#include "renderer/bake/shader_module.hpp"
+#include "renderer/bake/method.hpp"
 
 namespace footprint {
 
-/// The compiler's numbers of the shared lines begin here. A module's lines have the numbers of its own file; those of
-/// files of its folder that it includes follow, each file from a number of its own. (Source strings would tell files
-/// apart, but Mesa's messages always name string 0.)
+/// The compiler's line numbers of shared text start here. A module's lines have the numbers of its own file, and the
+/// files of its folder that it includes follow at further numbers. (Source strings would separate files, but Mesa's
+/// messages always name string 0.)
 inline constexpr int first_shared_line = 100001;
 
-/// Puts a stage together. Directives are those of renderer/shaders/README.md; each file is included once.
-/// Errors (usage) name file and line: a flag that is not known, with the nearest that is; a directive that is unknown,
-/// out of its order or not closed; an `include` of what is no text.
+/// Assembles a stage. renderer/shaders/README.md documents the directives; each file is included once. Throws Error
+/// (usage) with file and line: an unknown flag, with the nearest known one; a directive that is unknown, out of order
+/// or not closed; an `include` of an unknown file.
 class ShaderText {
  public:
-  /// `flags`: all that may be asked for. `module`, whose own flags come to them, takes the place of the directive
-  /// `module`; one without a file is none.
+  /// flags: all known flags, to which those of `module` are added.
+  /// module: replaces the directive `module`; none if it has no file.
   explicit ShaderText(ShaderFlags flags, ShaderModule module = {});
 
-  /// Adds text as it is.
+  /// Adds text without reading directives.
   void add(std::string_view text);
-  /// Adds the shared text of a file, unless it is there.
+  /// Adds a shared file, unless it was added before.
   void include(std::string_view file);
   /// Adds the module.
   void include_module();
 
   [[nodiscard]] const std::string& text() const { return text_; }
-  /// Whose the lines of a compiler's message are: "lines from 1 on are of lean.glsl, from 100001 on shared".
+  /// The files behind line numbers: "lines from 1 on are of lean.glsl, from 100001 on shared".
   [[nodiscard]] const std::string& lines() const { return lines_; }
 
  private:

@@ -7,7 +7,6 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
-#include "renderer/pipeline/bindings.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 
@@ -59,7 +58,7 @@ void draw_batch(const GpuBatch& batch, const EffectSet& effects, SamplerCache& s
   if (has(effects, Effect::alpha_mask) && has(effects, Effect::base_color_variation)) {
     const GpuTexture& base_color = batch.shared_textures.front();
     gl::api().BindTextureUnit(0, base_color.texture->name());
-    gl::api().BindSampler(0, samplers.sampler(base_color.coordinates, Lookup::trilinear));
+    gl::api().BindSampler(0, samplers.sampler(base_color.coordinates, SamplerState::trilinear));
   }
   gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::material, batch.material_block.name());
   gl::api().BindVertexArray(batch.vertex_array.name());

@@ -1,4 +1,4 @@
-// The shadow maps of a scene's lights on the GPU: drawn once, since neither lights nor surfaces move.
+// The shadow maps of a scene's lights on the GPU.
 #pragma once
 
 #include <span>
@@ -7,32 +7,32 @@
 #include "renderer/effects/effects.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/gl/objects.hpp"
-#include "renderer/pipeline/shadow_views.hpp"
+#include "renderer/pipeline/lights.hpp"
 
 namespace footprint {
 
 struct GpuBatch;
 class SamplerCache;
 
-/// Whether a scene's effects ask for shadow maps: something casts shadows, and there are lights that it may hide.
+/// Whether a scene's effects need shadow maps: something casts shadows, and there are lights other than environments.
 [[nodiscard]] bool calls_for_shadow_maps(const EffectSet& effects);
 
-/// Depth maps of all lights in the layers of one array, 32-bit floats, and how to look them up. Needs the context that
-/// made it to be current, also when destroyed.
+/// Depth maps of all lights in the layers of one array of 32-bit floats. The context that created it must be current,
+/// also at destruction.
 class ShadowMaps {
  public:
-  /// Draws them. Leaves framebuffer, viewport, depth test and culling changed. Errors (machine): more maps than the
-  /// GL or the memory holds.
+  /// Draws the maps. Changes framebuffer, viewport, depth test and culling. Throws Error (machine): more maps than the
+  /// GL or the memory supports.
   ShadowMaps(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects,
              std::span<const GpuBatch> batches, SamplerCache& samplers);
 
-  /// Binds the maps to a texture unit, and the views, for a program whose effects call for them.
+  /// Binds the maps to a texture unit, and the block of views.
   void bind(GLuint unit) const;
 
   [[nodiscard]] const ShadowViews& views() const { return views_; }
   [[nodiscard]] int resolution() const { return resolution_; }
   [[nodiscard]] std::size_t bytes() const;
-  /// Draw calls that it took: one a map and material.
+  /// Draw calls: one per map and material.
   [[nodiscard]] std::size_t draws() const { return draws_; }
 
  private:

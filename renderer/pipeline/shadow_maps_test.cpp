@@ -9,7 +9,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/pipeline/base_surface.hpp"
 #include "renderer/scene/camera.hpp"
-#include "renderer/visibility/light_ray.hpp"
+#include "renderer/visibility/cast_shadows.hpp"
 #include "renderer/visibility/occluders.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/shadow_scenes.hpp"

@@ -1,4 +1,5 @@
-// Passes of samples drawn tile by tile and added up on the GPU, block by block; sample_blocks.hpp has their means.
+// Passes of samples are drawn tile by tile and added up on the GPU, block by block. The spread of the block means gives
+// the standard error.
 #include "renderer/pipeline/supersample.hpp"
 
 #include <fmt/format.h>
@@ -7,8 +8,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-
-#include "renderer/pipeline/sample_blocks.hpp"
+#include <span>
 
 namespace footprint {
 namespace {
@@ -17,14 +17,14 @@ constexpr int default_tile_edge = 512;
 
 ProgramSettings settings_of(ReferenceFilter filter, bool orthographic, EnvironmentUse environment) {
   return {.sampling = filter == ReferenceFilter::after_shading ? Sampling::texel : Sampling::point,
-          .lookup = filter == ReferenceFilter::bilinear ? Lookup::trilinear : Lookup::nearest,
+          .sampler_state = filter == ReferenceFilter::bilinear ? SamplerState::trilinear : SamplerState::nearest,
           .footprint = {},
           .counting = false,
           .orthographic = orthographic,
           .environment = environment};
 }
 
-// `tile` has row 0 at the bottom, the pictures at the top.
+// `tile` has row 0 at the bottom, the images at the top.
 void copy_tile(const Image& from, const Tile& tile, Image& to) {
   for (int y = 0; y < tile.size.y; ++y) {
     const int row = to.height - 1 - (tile.origin.y + y);
@@ -34,6 +34,100 @@ void copy_tile(const Image& from, const Tile& tile, Image& to) {
     std::copy_n(from.texels.begin() + static_cast<std::ptrdiff_t>(first), tile.size.x * to.channels,
                 to.texels.begin() + static_cast<std::ptrdiff_t>(first));
   }
+}
+
+struct Pixel {
+  glm::dvec3 mean{0};
+  double count = 0;
+};
+
+Pixel merged(const Pixel& a, const Pixel& b) {
+  const double count = a.count + b.count;
+  if (count <= 0.0) return {};
+  return {(a.count * a.mean + b.count * b.mean) / count, count};
+}
+
+Pixel pixel_of(const Image& mean, std::size_t i) {
+  const float* const texel = &mean.texels[4 * i];
+  return {{texel[0], texel[1], texel[2]}, texel[3]};
+}
+
+void set(Image& image, std::size_t i, const Pixel& pixel, float coverage) {
+  for (int c = 0; c < 3; ++c) image.texels[4 * i + static_cast<std::size_t>(c)] = static_cast<float>(pixel.mean[c]);
+  image.texels[4 * i + 3] = pixel.count > 0.0 ? coverage : 0.0F;
+}
+
+// The variance of the mean of blocks that are estimates of their own, B of them with weights w that sum to one:
+// B / (B - 1) of the sum of w^2 (m - mean)^2.
+glm::dvec3 variance_of(std::span<const Pixel> blocks, const Pixel& all) {
+  glm::dvec3 sum(0);
+  double filled = 0;
+  for (const Pixel& block : blocks) {
+    if (block.count <= 0.0) continue;
+    const glm::dvec3 off = block.count / all.count * (block.mean - all.mean);
+    sum += off * off;
+    filled += 1.0;
+  }
+  return filled < 2.0 ? glm::dvec3(0) : sum * (filled / (filled - 1.0));
+}
+
+// The mean of each of the two sequences' two blocks, pixel by pixel.
+class SampleBlocks {
+ public:
+  explicit SampleBlocks(const glm::ivec2& size) {
+    for (Block& block : blocks_) block = {Image(size.x, size.y, 4), Image(size.x, size.y, 1), 0.0};
+  }
+
+  // Reads a tile of a block of `samples` samples per pixel from the sums of resolve_samples.glsl.
+  void add(const gl::RenderTarget& sums, const Tile& tile, int half, int block, double samples) {
+    Block& into = blocks_.at(static_cast<std::size_t>(2 * half + block));
+    into.samples = samples;
+    read_tile(sums, 0, tile, into.mean);
+    read_tile(sums, 1, tile, into.covered);
+  }
+
+  // Weighted means over the blocks, and their spread.
+  [[nodiscard]] Supersampled result(int spp) const {
+    const int width = blocks_[0].mean.width, height = blocks_[0].mean.height;
+    Supersampled out{
+        .spp = spp, .mean = Image(width, height, 4), .standard_error = Image(width, height, 3), .halves = {}};
+    Image first(width, height, 4), second(width, height, 4);
+    for (std::size_t i = 0; i < out.mean.texel_count(); ++i) {
+      std::array<Pixel, block_count> blocks;
+      std::ranges::transform(blocks_, blocks.begin(), [&](const Block& block) { return pixel_of(block.mean, i); });
+      double covered = 0;
+      for (const Block& block : blocks_) covered += block.covered.texels[i];
+      const auto coverage = static_cast<float>(covered / spp);
+      const Pixel even = merged(blocks[0], blocks[1]), odd = merged(blocks[2], blocks[3]);
+      const Pixel all = merged(even, odd);
+      set(first, i, even, coverage);
+      set(second, i, odd, coverage);
+      set(out.mean, i, all, coverage);
+      if (all.count <= 0.0) continue;
+      const glm::dvec3 variance = variance_of(blocks, all);
+      for (int c = 0; c < 3; ++c)
+        out.standard_error.texels[3 * i + static_cast<std::size_t>(c)] = static_cast<float>(std::sqrt(variance[c]));
+    }
+    if (blocks_[2].samples > 0.0) out.halves.emplace(std::move(first), std::move(second));
+    return out;
+  }
+
+ private:
+  static constexpr std::size_t block_count = 4;
+  struct Block {
+    Image mean;      // and the number of samples with a radiance
+    Image covered;   // the number of samples that the surface covers, one channel
+    double samples;  // per pixel; 0: the block is empty
+  };
+  std::array<Block, block_count> blocks_;
+};
+
+bool is_unresolved(std::span<const float> mean, std::span<const float> error, float exposure,
+                   const UnresolvedLimits& limits) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (error[c] > limits.relative * mean[c] && exposure * error[c] > limits.displayed) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -113,7 +207,7 @@ Supersampler::Accumulator& Supersampler::accumulator(const glm::ivec2& tile, int
   return *accumulator_;
 }
 
-// What is the same for all passes of a picture.
+// What is the same for all passes of an image.
 struct Supersampler::Sampling {
   const View* view;
   int grid;
@@ -128,13 +222,13 @@ void Supersampler::accumulate(Accumulator& sums, const Sampling& sampling, const
   gl::api().BindFramebuffer(GL_FRAMEBUFFER, sums.samples().framebuffer());
   gl::api().Viewport(0, 0, size.x, size.y);
   clear_target();
-  program_.set_samples({.origin = tile.origin * grid,
-                        .grid = grid,
-                        .seed = half_seed(sampling.seed, pass.half),
-                        .first = pass.number * static_cast<std::uint32_t>(grid * grid),
-                        .texels = sampling.texels});
   program_.draw(*scene_, *method_, *sampling.view,
-                tile_matrix(*sampling.view, tile, pass.offset / static_cast<double>(grid)));
+                tile_matrix(*sampling.view, tile, pass.offset / static_cast<double>(grid)),
+                {.origin = tile.origin * grid,
+                 .grid = grid,
+                 .seed = half_seed(sampling.seed, pass.half),
+                 .first = pass.number * static_cast<std::uint32_t>(grid * grid),
+                 .texels = sampling.texels});
   sums.add(resolve_, tile);
 }
 
@@ -219,6 +313,39 @@ std::optional<double> relative_standard_error(const Supersampled& reference) {
   if (values == 0 || radiance <= 0.0) return {};
   const auto n = static_cast<double>(values);
   return std::sqrt(squares / n) / (radiance / n);
+}
+
+Image unresolved(const Supersampled& reference, float exposure, const UnresolvedLimits& limits) {
+  const Image& mean = reference.mean;
+  Image mask(mean.width, mean.height, 1);
+  std::size_t object = 0;
+  for (int y = 0; y < mean.height; ++y) {
+    for (int x = 0; x < mean.width; ++x) {
+      if (mean.at(x, y)[3] <= 0.0F) continue;
+      ++object;
+      if (is_unresolved(mean.at(x, y), reference.standard_error.at(x, y), exposure, limits)) mask.at(x, y)[0] = 1.0F;
+    }
+  }
+  // A reference that is noisy all over has no such pixels: what is left of it would be its dark ones.
+  const bool is_noise = static_cast<double>(pixel_count(mask)) > limits.most * static_cast<double>(object);
+  return is_noise ? Image(mean.width, mean.height, 1) : mask;
+}
+
+void uncover(Image& picture, const Image& mask) {
+  for (std::size_t i = 0; i < mask.texels.size(); ++i) {
+    if (mask.texels[i] > 0.0F) picture.texels[4 * i + 3] = 0.0F;
+  }
+}
+
+void leave_out(Supersampled& reference, const Image& mask) {
+  uncover(reference.mean, mask);
+  if (!reference.halves) return;
+  uncover(reference.halves->first, mask);
+  uncover(reference.halves->second, mask);
+}
+
+std::size_t pixel_count(const Image& mask) {
+  return static_cast<std::size_t>(std::ranges::count_if(mask.texels, [](float value) { return value > 0.0F; }));
 }
 
 }  // namespace footprint

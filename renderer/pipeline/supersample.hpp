@@ -1,62 +1,67 @@
-// The reference accumulator: many samples a pixel, their mean, and how far that mean can be trusted.
+// The reference: many samples per pixel, their mean, how far that mean can be trusted, and pixels where it cannot.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 
+#include "renderer/gl/objects.hpp"
 #include "renderer/pipeline/frame.hpp"
-#include "renderer/pipeline/reference_filter.hpp"
-#include "renderer/pipeline/sample_grid.hpp"
+#include "renderer/pipeline/sample_sequence.hpp"
+#include "renderer/pipeline/shader_flags.hpp"
 
 namespace footprint {
 
-/// A supersampled picture. All images have the view's size, row 0 at the top.
+/// A supersampled image. All images have the view's size, row 0 at the top.
 struct Supersampled {
   int spp = 0;
-  /// RGBA: mean radiance over the samples that have one, and the share 0..1 that the surface covers. Samples of invalid
-  /// texels (docs/base-brdf.md) are covered and enter no mean; a pixel that has no other has coverage 0.
+  /// RGBA: mean radiance over the samples that have one, and the share 0..1 of samples that the surface covers. Samples
+  /// of invalid texels (docs/base-brdf.md) cover but enter no mean; a pixel with no other samples has coverage 0.
   Image mean;
-  /// RGB: what the mean is off by, root mean square, from how far the means of the sequences' blocks lie apart
-  /// (docs/metrics.md). 0 with one block.
+  /// RGB: standard error of the mean, from the spread of the sequences' block means (docs/metrics.md); 0 with one
+  /// block.
   Image standard_error;
-  /// RGBA means of the two sequences, which share no random number, with the coverage of both; none with fewer than two
-  /// passes. Their difference tells the noise.
+  /// RGBA: means of the two sequences, which share no random number, with the coverage of both. Their difference
+  /// estimates the noise. None with fewer than two passes.
   std::optional<std::pair<Image, Image>> halves;
 };
 
-/// A method (or the base surface) ready to be supersampled at its finest level.
+/// Supersamples a method, or the base surface, at its finest level.
 class Supersampler {
  public:
-  /// `tile_edge` bounds the pixels accumulated at once; 0: 512. The result does not depend on it but for rounding.
-  /// `environment` is for the base surface alone: `sampled` or `dense`.
+  /// tile_edge: largest tile accumulated at once, pixels; 0: 512. It changes the result by rounding only.
+  /// environment: `sampled` or `dense`; for the base surface only.
   Supersampler(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method, ReferenceFilter filter,
                bool orthographic, int tile_edge = 0, EnvironmentUse environment = EnvironmentUse::sampled);
   Supersampler(Supersampler&&) noexcept;
   ~Supersampler();
 
-  /// Deterministic for a seed. Plain supersampling takes texels as `drawn`. Errors (usage): spp outside 1 to 4096;
-  /// (interrupted) by `progress`.
+  /// Deterministic for a seed.
+  /// spp: samples per pixel, 1 to 4096; otherwise throws Error (usage).
+  /// texels: plain supersampling takes them as `drawn`.
+  /// progress: may throw Error (interrupted).
   [[nodiscard]] Supersampled render(const View& view, int spp, std::uint64_t seed, const Progress& progress,
                                     TexelUse texels = TexelUse::filtered) const;
 
-  /// The mean alone, which nothing tells the noise of: samples of one sequence in as few draws as they fit in, quicker
-  /// than `render`, and not the samples that it takes. Errors: likewise.
+  /// The mean only, without a noise estimate: samples of one sequence in as few draws as possible. Faster than
+  /// `render`, with different samples. Throws as `render`.
   [[nodiscard]] Image render_mean(const View& view, int spp, std::uint64_t seed, const Progress& progress) const;
 
-  /// Takes `tiles` of a picture of the same view and seed anew, with `spp` samples a pixel.
+  /// Renders `tiles` of an image of the same view and seed again, with `spp` samples per pixel.
   void refine(Supersampled& picture, const View& view, std::span<const Tile> tiles, int spp, std::uint64_t seed,
               const Progress& progress) const;
 
-  /// Draws and accumulates without reading back: what plain supersampling costs is the time of this call up to
+  /// Draws and accumulates without reading back. The cost of plain supersampling is the time of this call up to
   /// glFinish.
   void draw(const View& view, int spp, std::uint64_t seed) const;
 
  private:
   class Accumulator;
   struct Sampling;
-  /// The sums of a tile, cleared; made anew where the size changes.
+  /// The sums of a tile, cleared; allocated again if the size changed.
   Accumulator& accumulator(const glm::ivec2& tile, int grid) const;
   [[nodiscard]] Supersampled render_tiles(const Sampling& sampling, const SampleGrid& samples,
                                           std::span<const Tile> tiles, int spp, const Progress& progress) const;
@@ -65,13 +70,34 @@ class Supersampler {
   GpuScene* scene_;
   const GpuMethod* method_;
   int tile_edge_;
-  mutable SurfaceProgram program_;
+  SurfaceProgram program_;
   gl::Program resolve_;
-  mutable std::unique_ptr<Accumulator> accumulator_;  // kept from picture to picture: its memory is what it costs
+  mutable std::unique_ptr<Accumulator> accumulator_;  // reused between images, because allocating it is expensive
 };
 
-/// Root mean square of the standard error over object pixels and channels, over the mean radiance; docs/metrics.md.
-/// None where the object covers no whole pixel, or spp is 1.
+/// Root mean square of the standard error over object pixels and channels, relative to the mean radiance
+/// (docs/metrics.md). None if the object covers no whole pixel, or spp is 1.
 [[nodiscard]] std::optional<double> relative_standard_error(const Supersampled& reference);
+
+/// A pixel is unresolved if, in any channel, its standard error is above `relative` of its mean and, once exposed,
+/// above `displayed`, so that it is visible.
+struct UnresolvedLimits {
+  double relative = 0.5;    ///< 1 if one block of four has all of the light, 0.58 if two have
+  double displayed = 0.01;  ///< of a display's peak of 1
+  double most = 0.05;       ///< of the object's pixels; with more of them the reference is noisy, and none counts
+};
+
+/// A mask, one channel: 1 in the object's unresolved pixels, else 0. There a few samples, which another seed would not
+/// have, carry nearly all of the light, as in highlights of punctual lights on a mirror.
+[[nodiscard]] Image unresolved(const Supersampled& reference, float exposure, const UnresolvedLimits& limits = {});
+
+/// Excludes the pixels of `mask` from all figures: sets their coverage to 0 in the reference's mean and halves.
+void leave_out(Supersampled& reference, const Image& mask);
+
+/// Sets the coverage of the pixels of `mask` to 0 in one image.
+void uncover(Image& picture, const Image& mask);
+
+/// The number of pixels in which a mask is above 0.
+[[nodiscard]] std::size_t pixel_count(const Image& mask);
 
 }  // namespace footprint

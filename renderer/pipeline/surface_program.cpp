@@ -1,4 +1,4 @@
-// Uploads what was baked, and draws: programs, bindings, and the state that a frame build may not leave behind.
+// Uploads bakes, runs frame builds, and draws. Restores the GL state that a frame build may change.
 #include "renderer/pipeline/surface_program.hpp"
 
 #include <fmt/format.h>
@@ -7,12 +7,13 @@
 #include <array>
 #include <glm/gtc/type_ptr.hpp>
 #include <numeric>
+#include <span>
 
-#include "renderer/bake/shared_maps.hpp"
+#include "renderer/bake/material_maps.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/pipeline/frame_build_job.hpp"
-#include "renderer/pipeline/sample_grid.hpp"
+#include "renderer/pipeline/gpu_scene.hpp"
 #include "renderer/pipeline/sample_sequence.hpp"
+#include "renderer/pipeline/view.hpp"
 
 namespace footprint {
 namespace {
@@ -28,7 +29,7 @@ EffectSet effects_of(const GpuScene& scene, const Method& method) {
   return scene.effects() & (method.info().honours | shared);
 }
 
-// A method whose samples are many, and whose module can, integrates itself; drawn for one sample a pixel, directions
+// A method whose samples are many, and whose module can, integrates itself; drawn for one sample per pixel, directions
 // would be all noise. Directional lights serve every module.
 EnvironmentUse environment_of(const Method& method, const ProgramSettings& settings) {
   if (settings.environment == EnvironmentUse::dense) return EnvironmentUse::dense;
@@ -58,27 +59,25 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
           .shadow_maps = scene.light_counts().shadow_maps};
 }
 
-ProgramSettings with_lookup(ProgramSettings settings, const gl::ContextInfo& context) {
-  if (settings.sampling == Sampling::frame) settings.lookup = frame_lookup(settings.footprint, context);
-  return settings;
+SamplerState sampler_state_of(const ProgramSettings& settings, const gl::ContextInfo& context) {
+  return settings.sampling == Sampling::frame ? frame_sampler_state(settings.footprint, context)
+                                              : settings.sampler_state;
 }
 
-TextureUnits units_of(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings) {
-  TextureUnits units = forward_units(variant_of(scene, baked, settings), baked.materials.front());
-  units.require_room(scene.context(), baked.spec.text);
-  return units;
+// The method's block in std140: floats next to each other, up to 16 bytes, then vectors 16 bytes apart.
+std::vector<float> block_values(const Prefiltered& prefiltered) {
+  std::vector<float> block;
+  for (const auto& [name, value] : prefiltered.scalars) block.push_back(value);
+  block.resize((block.size() + 3) / 4 * 4);
+  for (const auto& [name, values] : prefiltered.vectors) {
+    for (const glm::vec2& v : values) block.insert(block.end(), {v.x, v.y, 0.0F, 0.0F});
+  }
+  return block;
 }
 
-std::vector<float> scalar_block(const Prefiltered& prefiltered) {
-  std::vector<float> values;
-  for (const auto& [name, value] : prefiltered.scalars) values.push_back(value);
-  values.resize((values.size() + 3) / 4 * 4);  // std140 blocks end on 16 bytes
-  return values;
-}
-
-void bind_texture(GLuint unit, const GpuTexture& texture, GpuScene& scene, Lookup lookup) {
+void bind_texture(GLuint unit, const GpuTexture& texture, GpuScene& scene, SamplerState state) {
   gl::api().BindTextureUnit(unit, texture.texture->name());
-  gl::api().BindSampler(unit, scene.samplers().sampler(texture.coordinates, texture.lookup(lookup)));
+  gl::api().BindSampler(unit, scene.samplers().sampler(texture.coordinates, texture.sampler_state(state)));
 }
 
 // Directions of each kind that a sample draws from an environment, its texels together: powers of two. docs/metrics.md
@@ -131,10 +130,21 @@ void set_state(const GpuBatch& batch) {
   gl::api().DepthFunc(batch.adds ? GL_EQUAL : GL_GREATER);
 }
 
+bool waits(const Prefiltered& prefiltered) {
+  return std::ranges::any_of(prefiltered.textures, &PrefilteredTexture::built);
+}
+
+void take(std::span<const GpuTexture> from, Prefiltered& into) {
+  if (from.empty()) into.textures.clear();
+  for (std::size_t i = 0; i < into.textures.size(); ++i) {
+    if (into.textures[i].built) read_texels(*from[i].texture, into.textures[i]);
+  }
+}
+
 }  // namespace
 
-Lookup frame_lookup(const FootprintFilter& filter, const gl::ContextInfo& context) {
-  if (filter.kind != FootprintFilterKind::hardware) return Lookup::trilinear;
+SamplerState frame_sampler_state(const FootprintFilter& filter, const gl::ContextInfo& context) {
+  if (filter.kind != FootprintFilterKind::hardware) return SamplerState::trilinear;
   if (filter.count > context.max_anisotropy) {
     throw Error(ErrorKind::machine, footprint_filter_text(filter),
                 context.max_anisotropy > 1
@@ -142,7 +152,7 @@ Lookup frame_lookup(const FootprintFilter& filter, const gl::ContextInfo& contex
                     : "this OpenGL has no anisotropic samplers",
                 fmt::format("take anisotropic:{}, whose probes are in the shader", filter.count));
   }
-  return {.blends = true, .probes = filter.count};
+  return {.linear = true, .max_anisotropy = filter.count};
 }
 
 GpuMethod::GpuMethod(const GpuScene& scene, const BakedMethod& baked)
@@ -159,13 +169,13 @@ void GpuMethod::upload_material(std::size_t material, const TextureUploaded& upl
   const Prefiltered& prefiltered = baked_->materials.at(material);
   for (const GpuBatch& batch : scene_->batches()) {
     if (batch.material != material) continue;
-    PerBatch& part = batches_.at(static_cast<std::size_t>(&batch - scene_->batches().data()));
+    PerBatch& part = batches_.at(batch.index);
     for (std::size_t i = 0; i < prefiltered.textures.size(); ++i) {
       part.textures.push_back(uploads_.upload(prefiltered.textures[i]));
       uploaded(i);
     }
-    const std::vector<float> scalars = scalar_block(prefiltered);
-    if (!scalars.empty()) part.scalars = gl::Buffer(std::as_bytes(std::span(scalars)));
+    const std::vector<float> block = block_values(prefiltered);
+    if (!block.empty()) part.block = gl::Buffer(std::as_bytes(std::span(block)));
     if (prefiltered.surface_coordinates) {
       part.surface_coordinates = gl::Buffer(std::as_bytes(std::span(*prefiltered.surface_coordinates)));
       part.vertex_array = footprint::vertex_array(batch.vertices, batch.indices, &part.surface_coordinates);
@@ -174,19 +184,15 @@ void GpuMethod::upload_material(std::size_t material, const TextureUploaded& upl
   }
 }
 
-const GpuMethod::PerBatch& GpuMethod::part_of(const GpuBatch& batch) const {
-  return batches_.at(static_cast<std::size_t>(&batch - scene_->batches().data()));
-}
-
 std::span<const GpuTexture> GpuMethod::textures(std::size_t material) const {
   const std::vector<GpuBatch>& batches = scene_->batches();
   const auto found = std::ranges::find(batches, material, &GpuBatch::material);
   if (found == batches.end()) return {};
-  return part_of(*found).textures;
+  return batches_.at(found->index).textures;
 }
 
 GLuint GpuMethod::vertex_array(const GpuBatch& batch) const {
-  const gl::VertexArray& own = part_of(batch).vertex_array;
+  const gl::VertexArray& own = batches_.at(batch.index).vertex_array;
   return own ? own.name() : batch.vertex_array.name();
 }
 
@@ -200,7 +206,7 @@ glm::ivec2 GpuMethod::texels(const GpuBatch& batch) const {
     }
   };
   look_at(batch.shared_textures);
-  look_at(part_of(batch).textures);
+  look_at(batches_.at(batch.index).textures);
   return largest;
 }
 
@@ -226,36 +232,36 @@ void GpuMethod::rebuild(const View& view) const {
     build_->run({.batch = batch,
                  .vertex_array = vertex_array(batch),
                  .baked = baked_->materials.at(batch.material),
-                 .textures = part_of(batch).textures,
+                 .textures = batches_.at(batch.index).textures,
                  .view = view});
   }
   gl::api().MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   built_ = {.camera = view.camera, .content = scene_->content()};
 }
 
-void GpuMethod::bind(const GpuBatch& batch, GpuScene& scene, Lookup lookup) const {
-  const PerBatch& part = part_of(batch);
+void GpuMethod::bind(const GpuBatch& batch, GpuScene& scene, SamplerState state) const {
+  const PerBatch& part = batches_.at(batch.index);
   auto unit = static_cast<GLuint>(batch.shared_textures.size());
-  for (const GpuTexture& texture : part.textures) bind_texture(unit++, texture, scene, lookup);
-  if (part.scalars.name() != 0) gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::method, part.scalars.name());
+  for (const GpuTexture& texture : part.textures) bind_texture(unit++, texture, scene, state);
+  if (part.block.name() != 0) gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::method, part.block.name());
 }
 
 SurfaceProgram::SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings)
-    : settings_(with_lookup(settings, scene.context())),
-      environment_light_(has(effects_of(scene, *baked.method), Effect::environment_light)),
-      environment_(environment_of(*baked.method, settings)),
-      effects_(scene.effects()),
-      units_(units_of(scene, baked, settings)),
-      fragment_(fragment_shader(variant_of(scene, baked, settings), baked.method->shader(), baked.options,
-                                baked.materials.front())),
-      program_(fmt::format("{} ({})", baked.spec.text, fragment_.lines()),
-               vertex_shader(variant_of(scene, baked, settings)), fragment_.text()) {
+    : variant_(variant_of(scene, baked, settings)),
+      sampler_state_(sampler_state_of(settings, scene.context())),
+      scene_effects_(scene.effects()),
+      units_(forward_units(variant_, baked.materials.front())) {
+  units_.require_room(scene.context(), baked.spec.text);
+  const ForwardShaders shaders =
+      forward_shaders(variant_, units_, baked.method->shader(), baked.options, baked.materials.front());
+  fragment_text_ = shaders.fragment.text();
+  program_ =
+      gl::Program(fmt::format("{} ({})", baked.spec.text, shaders.fragment.lines()), shaders.vertex, fragment_text_);
   units_.require_all_of(program_, baked.spec.text);
-  if (environment_light_) scene.environment()->prepare(environment_);
+  if (has(variant_.effects, Effect::environment_light)) scene.environment()->prepare(variant_.environment);
 }
 
-void SurfaceProgram::set_samples(const SampleDraw& samples) {
-  texels_ = samples.texels;
+void SurfaceProgram::set_samples(const SampleDraw& samples) const {
   const auto cells = static_cast<std::size_t>(samples.grid) * static_cast<std::size_t>(samples.grid);
   std::vector<glm::uvec2> texels(cells);
   for (std::size_t cell = 0; cell < cells; ++cell) {
@@ -281,7 +287,7 @@ void SurfaceProgram::set_samples(const SampleDraw& samples) {
 // Sample i takes the directions of the points n i to n i + n - 1, n a power of two: an aligned block, whose digits are
 // its first one's with those of the points 0 to n - 1 added without carry.
 void SurfaceProgram::set_directions(const SampleDraw& samples) const {
-  const std::uint32_t count = has_patches(effects_) ? directions_of_a_patch : directions_a_sample;
+  const std::uint32_t count = has_patches(scene_effects_) ? directions_of_a_patch : directions_a_sample;
   const int cells = samples.grid * samples.grid;
   std::vector<std::uint32_t> cell_firsts;
   cell_firsts.reserve(static_cast<std::size_t>(cells));
@@ -312,20 +318,22 @@ void SurfaceProgram::set_digits(const char* directions, const char* choices,
   gl::api().ProgramUniform1uiv(name, program_.uniform(choices), size, single.data());
 }
 
-// The size of the map whose texels a sample of this batch tells apart, and how many it shades.
-glm::vec3 SurfaceProgram::drawn_texels(const GpuMethod& method, const GpuBatch& batch) const {
+// The size of the map whose texels a sample of this batch separates, and how many it shades.
+glm::vec3 SurfaceProgram::drawn_texels(const GpuMethod& method, const GpuBatch& batch, TexelUse texels) const {
   const glm::ivec2 size = method.texels(batch);
-  const bool one =
-      texels_ == TexelUse::drawn || has(effects_, Effect::alpha_mask) || has_patches(effects_) || size == glm::ivec2(1);
+  const bool one = texels == TexelUse::drawn || has(scene_effects_, Effect::alpha_mask) ||
+                   has_patches(scene_effects_) || size == glm::ivec2(1);
   return {size, one ? 1.0F : 4.0F};
 }
 
-void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& view,
-                          const glm::mat4& world_to_clip) const {
+void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& view, const glm::mat4& world_to_clip,
+                          const SampleDraw& samples) const {
+  const bool environment_light = has(variant_.effects, Effect::environment_light);
+  if (variant_.sampling != Sampling::frame) set_samples(samples);
   gl::api().UseProgram(program_.name());
   gl::api().UniformMatrix4fv(program_.uniform("world_to_clip"), 1, GL_FALSE, glm::value_ptr(world_to_clip));
-  const glm::vec3 camera = settings_.orthographic ? direction_to_camera(view.camera) : camera_position(view.camera);
-  const char* const camera_name = settings_.orthographic ? "to_camera" : "camera_position";
+  const glm::vec3 camera = variant_.orthographic ? direction_to_camera(view.camera) : camera_position(view.camera);
+  const char* const camera_name = variant_.orthographic ? "to_camera" : "camera_position";
   gl::api().Uniform3fv(program_.uniform(camera_name), 1, glm::value_ptr(camera));
   const GLint to_camera_space = program_.uniform("world_to_camera");
   if (to_camera_space >= 0) {
@@ -333,21 +341,37 @@ void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& 
     gl::api().UniformMatrix3fv(to_camera_space, 1, GL_FALSE, glm::value_ptr(rotation));
   }
   scene.bind_lights(program_, units_);
-  if (environment_light_ && scene.visibility()) scene.visibility()->bind(units_.unit("visibility_maps"));
+  if (environment_light && scene.visibility()) scene.visibility()->bind(units_.unit("visibility_maps"));
   const GLint texels_location = program_.uniform("drawn_texels");
   gl::api().Enable(GL_DEPTH_TEST);
   for (const GpuBatch& batch : scene.batches()) {
     set_state(batch);
-    if (texels_location >= 0) gl::api().Uniform3fv(texels_location, 1, glm::value_ptr(drawn_texels(method, batch)));
+    if (texels_location >= 0)
+      gl::api().Uniform3fv(texels_location, 1, glm::value_ptr(drawn_texels(method, batch, samples.texels)));
     gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::material, batch.material_block.name());
     GLuint unit = 0;
-    for (const GpuTexture& texture : batch.shared_textures) bind_texture(unit++, texture, scene, settings_.lookup);
-    method.bind(batch, scene, settings_.lookup);
-    if (environment_light_) scene.environment()->bind(units_, environment_);
+    for (const GpuTexture& texture : batch.shared_textures) bind_texture(unit++, texture, scene, sampler_state_);
+    method.bind(batch, scene, sampler_state_);
+    if (environment_light) scene.environment()->bind(units_, variant_.environment);
     gl::api().BindVertexArray(method.vertex_array(batch));
     gl::api().DrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT, nullptr);
   }
   gl::api().Disable(GL_BLEND);
+}
+
+bool waits_for_build(const BakedMethod& baked) { return std::ranges::any_of(baked.materials, waits); }
+
+void take_built_maps(const gl::Context& context, const Scene& scene, const EffectSet& effects, BakedMethod& baked) {
+  GpuScene gpu_scene(context.info(), scene, effects);
+  const GpuMethod gpu(gpu_scene, baked);
+  if (gpu.looks_from_view()) {
+    throw Error(ErrorKind::usage, fmt::format("method {}", baked.spec.text),
+                "builds its maps for each view, so they cannot be written to files",
+                "take options whose maps serve every view (of xu_vmf space=tangent), or another method");
+  }
+  gpu.rebuild({.size = glm::ivec2(1), .camera = scene.camera});
+  for (std::size_t i = 0; i < baked.materials.size(); ++i) take(gpu.textures(i), baked.materials[i]);
+  context.check("reading what a frame build wrote");
 }
 
 }  // namespace footprint

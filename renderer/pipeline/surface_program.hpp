@@ -1,4 +1,5 @@
-// A method on the GPU: its textures for every material of a scene, and one program for one way of sampling.
+// A method on the GPU: its textures for every material of a scene, its frame build, and a program for each way of
+// sampling.
 #pragma once
 
 #include <functional>
@@ -9,57 +10,67 @@
 #include <vector>
 
 #include "renderer/bake/baked_method.hpp"
-#include "renderer/pipeline/bindings.hpp"
+#include "renderer/gl/context.hpp"
+#include "renderer/gl/functions.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 #include "renderer/pipeline/view.hpp"
+#include "renderer/scene/scene.hpp"
 
 namespace footprint {
 
-/// Told the number of a texture that was uploaded.
+/// The arguments of FrameBuild::run: one material on the GPU.
+struct FrameBuildJob {
+  const GpuBatch& batch;                 ///< the material's block, and whether its triangles are double-sided
+  GLuint vertex_array;                   ///< its triangles, with surface coordinates if the method has some
+  const Prefiltered& baked;              ///< the result of the precompute
+  std::span<const GpuTexture> textures;  ///< the textures of `baked`, in its order
+  const View& view;                      ///< to be drawn
+};
+
+/// Called with the number of a texture when it was uploaded.
 using TextureUploaded = std::function<void(std::size_t texture)>;
 
-/// A baked method's textures and scalars on the GPU, shared by its programs.
+/// A baked method's textures and values on the GPU, shared by its programs.
 class GpuMethod {
  public:
-  /// Uploads what was baked by now. What a frame build fills is empty until the first one.
+  /// Uploads the materials that are baked by now. Textures of a frame build are empty until the first build.
   GpuMethod(const GpuScene& scene, const BakedMethod& baked);
-  /// Uploads what was baked for one material since, and tells of each of its textures when that lies on the GPU.
+  /// Uploads a material that was baked since.
   void upload_material(
       std::size_t material, const TextureUploaded& uploaded = [](std::size_t) {});
-  /// Whether the method has a frame build, and whether a frame in which nothing moved keeps what was built before.
   [[nodiscard]] bool has_frame_build() const { return build_ != nullptr; }
+  /// Whether a frame in which nothing changed reuses the last build.
   [[nodiscard]] bool keeps_builds() const { return build_ && build_->kept_until_change_of(); }
-  /// Whether what is built depends on where the scene is seen from.
+  /// Whether the build depends on the view.
   [[nodiscard]] bool looks_from_view() const { return build_ && build_->looks_from_view(); }
-  /// The textures of a material, in the order of what was baked; none where it has no triangle.
+  /// The textures of a material in the order of its bake; empty if it has no triangle.
   [[nodiscard]] std::span<const GpuTexture> textures(std::size_t material) const;
-  /// Runs the frame build of every material for a view, if there is one and what was last built does not serve it too.
-  /// Leaves framebuffers, viewport, vertex array, depth test, culling and blending as they are.
+  /// Runs the frame build of every material, unless there is none or the last one is valid for this view too.
+  /// Preserves framebuffers, viewport, vertex array, depth test, culling and blending.
   void build_frame(const View& view) const;
-  /// Runs it whatever was built before.
+  /// Runs the frame build even if the last one is valid.
   void rebuild(const View& view) const;
-  /// The size of the largest map of a batch that is looked up as the normal map is: whose texels a sample tells apart.
-  /// (1, 1) where there is none.
+  /// The size of a batch's largest map with the normal map's coordinates: samples of the reference separate its texels.
+  /// (1, 1) without such a map.
   [[nodiscard]] glm::ivec2 texels(const GpuBatch& batch) const;
-  /// Binds textures (after the shared ones) and scalars of a batch.
-  void bind(const GpuBatch& batch, GpuScene& scene, Lookup lookup) const;
-  /// The triangles of a batch, with this method's surface coordinates where it has some.
+  /// Binds the textures of a batch (after the shared ones) and its values.
+  void bind(const GpuBatch& batch, GpuScene& scene, SamplerState state) const;
+  /// The triangles of a batch, with this method's surface coordinates if it has some.
   [[nodiscard]] GLuint vertex_array(const GpuBatch& batch) const;
   [[nodiscard]] const BakedMethod& baked() const { return *baked_; }
 
  private:
   struct PerBatch {
     std::vector<GpuTexture> textures;
-    gl::Buffer scalars, surface_coordinates;
+    gl::Buffer block, surface_coordinates;
     gl::VertexArray vertex_array;
   };
-  // What the last build was for.
+  // The inputs of the last build.
   struct Built {
     Camera camera;
     SceneContent content;
   };
-  [[nodiscard]] const PerBatch& part_of(const GpuBatch& batch) const;
   [[nodiscard]] bool is_built_for(const View& view) const;
 
   const BakedMethod* baked_;
@@ -70,30 +81,30 @@ class GpuMethod {
   mutable std::optional<Built> built_;
 };
 
-/// How the samplers of a frame look up. Errors (machine): they have no such filter.
-[[nodiscard]] Lookup frame_lookup(const FootprintFilter& filter, const gl::ContextInfo& context);
+/// The sampler state of a frame. Throws Error (machine): the samplers have no such filter.
+[[nodiscard]] SamplerState frame_sampler_state(const FootprintFilter& filter, const gl::ContextInfo& context);
 
-/// What one sample of a texel shades where a filter blends four.
+/// Which texels one sample shades if a filter blends four.
 enum class TexelUse {
-  drawn,     ///< one of them, drawn with the filter's weights
-  filtered,  ///< all four, their radiances weighed; one where texels are cut out or hold facets of their own
+  drawn,     ///< one, drawn with the filter's weights
+  filtered,  ///< all four, then the weighted mean of their radiance; one if texels are cut out or have facets
 };
 
-/// The samples that one draw takes.
+/// The samples of one draw.
 struct SampleDraw {
-  glm::ivec2 origin{0};     ///< of the tile in the whole picture's sample grid
-  int grid = 1;             ///< samples a pixel each way, 1 to 4
-  std::uint32_t seed = 0;   ///< of the sequence, for this picture
-  std::uint32_t first = 0;  ///< the number in it of a pixel's first sample
+  glm::ivec2 origin{0};     ///< of the tile in the whole image's sample grid
+  int grid = 1;             ///< samples along a pixel's edge, 1 to 4
+  std::uint32_t seed = 0;   ///< of the sequence, for this image
+  std::uint32_t first = 0;  ///< the number in the sequence of a pixel's first sample
   TexelUse texels = TexelUse::drawn;
 };
 
-/// How a program samples, and what the scene's camera asks of it.
+/// How a program samples.
 struct ProgramSettings {
   Sampling sampling = Sampling::frame;
-  Lookup lookup = Lookup::trilinear;  ///< of samples; that of a frame follows from its footprint filter
-  FootprintFilter footprint{};        ///< of a frame
-  bool counting = false;              ///< writes texture lookups and lobe evaluations a pixel, in place of radiance
+  SamplerState sampler_state = SamplerState::trilinear;  ///< of samples; a frame's follows from its footprint
+  FootprintFilter footprint{};                           ///< of a frame
+  bool counting = false;  ///< writes texture lookups and lobe evaluations per pixel instead of radiance
   bool orthographic = false;
   EnvironmentUse environment = EnvironmentUse::sampled;  ///< dense for all; sampled: of a module that draws directions
 };
@@ -101,32 +112,38 @@ struct ProgramSettings {
 /// One compiled forward pass.
 class SurfaceProgram {
  public:
-  /// Makes what the scene's environment lacks for it. Errors (machine): the module does not compile (the log names its
-  /// lines); those of TextureUnits.
+  /// Prepares the scene's environment for this program. Throws Error (machine): the module does not compile (the log
+  /// names its lines); as TextureUnits.
   SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings);
 
-  /// Draws the scene into the bound framebuffer, whose viewport is the tile's (times the sample grid). Other programs
-  /// than Sampling::frame's draw the samples that `set_samples` was told last.
-  void draw(GpuScene& scene, const GpuMethod& method, const View& view, const glm::mat4& world_to_clip) const;
+  /// Draws the scene into the bound framebuffer. The viewport is the tile's, times the sample grid.
+  /// samples: ignored with Sampling::frame.
+  void draw(GpuScene& scene, const GpuMethod& method, const View& view, const glm::mat4& world_to_clip,
+            const SampleDraw& samples = {}) const;
 
-  /// Sets what samples draw from. Not for Sampling::frame.
-  void set_samples(const SampleDraw& samples);
-
-  [[nodiscard]] const std::string& fragment_text() const { return fragment_.text(); }
+  [[nodiscard]] const std::string& fragment_text() const { return fragment_text_; }
 
  private:
+  void set_samples(const SampleDraw& samples) const;
   void set_directions(const SampleDraw& samples) const;
   void set_digits(const char* directions, const char* choices, std::span<const std::uint32_t> indices) const;
-  [[nodiscard]] glm::vec3 drawn_texels(const GpuMethod& method, const GpuBatch& batch) const;
+  [[nodiscard]] glm::vec3 drawn_texels(const GpuMethod& method, const GpuBatch& batch, TexelUse texels) const;
 
-  ProgramSettings settings_;
-  bool environment_light_;
-  EnvironmentUse environment_;
-  EffectSet effects_;  // of the scene
-  TexelUse texels_ = TexelUse::drawn;
+  ShaderVariant variant_;
+  SamplerState sampler_state_;
+  EffectSet scene_effects_;
   TextureUnits units_;
-  ShaderText fragment_;
+  std::string fragment_text_;
   gl::Program program_;
 };
+
+/// Whether textures of `baked` wait for a frame build.
+[[nodiscard]] bool waits_for_build(const BakedMethod& baked);
+
+/// Runs the frame build of `baked` and reads the result back into its textures, so that none is `built` afterwards. A
+/// material without triangles loses its textures.
+/// scene, effects: those that `baked` is for.
+/// Throws Error (usage): the build depends on the view; as GpuScene.
+void take_built_maps(const gl::Context& context, const Scene& scene, const EffectSet& effects, BakedMethod& baked);
 
 }  // namespace footprint

@@ -28,7 +28,7 @@ std::vector<glm::vec4> looked_up(const Prefiltered& prefiltered, const std::stri
   const GpuTexture texture = upload(prefiltered.textures[0]);
   SamplerCache samplers;
   gl::api().BindTextureUnit(0, texture.texture->name());
-  gl::api().BindSampler(0, samplers.sampler(texture.coordinates, texture.lookup(Lookup::trilinear)));
+  gl::api().BindSampler(0, samplers.sampler(texture.coordinates, texture.sampler_state(SamplerState::trilinear)));
   ShaderVariant variant;
   variant.footprint = filter;
   const ShaderFlags flags = shader_flags(variant, Options({}, {}, "test"), prefiltered);
@@ -85,12 +85,14 @@ TEST(TextureArrays, LayersAreApart) {
 }
 
 TEST(TextureArrays, ProgramsDeclareWhatTheyNeedAndNoMore) {
-  const Options options({}, {}, "test");
-  const ShaderModule empty{"m.glsl", ""};
-  const std::string with = fragment_shader({}, empty, options, three_layers(TextureFilter::nearest)).text();
+  const auto text = [](const Prefiltered& prefiltered) {
+    return forward_shaders({}, forward_units({}, prefiltered), {"m.glsl", ""}, Options({}, {}, "test"), prefiltered)
+        .fragment.text();
+  };
+  const std::string with = text(three_layers(TextureFilter::nearest));
   EXPECT_NE(with.find("uniform sampler2DArray map;"), std::string::npos);
   EXPECT_NE(with.find("footprintTexel"), std::string::npos);
-  const std::string without = fragment_shader({}, empty, options, {}).text();
+  const std::string without = text({});
   EXPECT_EQ(without.find("sampler2DArray"), std::string::npos);
   EXPECT_EQ(without.find("footprintTexel"), std::string::npos);
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "renderer/gl/frame_timer.hpp"
+#include "renderer/gl/objects.hpp"
 
 namespace footprint {
 

@@ -1,5 +1,5 @@
-// Frame times that compare: frames of all candidates interleaved in one process, so that whatever else the machine does
-// falls on all of them alike.
+// Comparable frame times: frames of all candidates are interleaved in one process, so that other load on the machine
+// affects all of them equally.
 #pragma once
 
 #include <functional>
@@ -11,38 +11,38 @@
 
 namespace footprint {
 
-/// Draws one frame, without waiting for it and without reading it.
+/// Draws one frame without waiting for it or reading it back.
 using DrawFrame = std::function<void()>;
 
 /// Times by candidate and repeat, milliseconds.
 using RepeatedTimes = std::vector<std::vector<double>>;
 
-/// One untimed round warms up; then each repeat draws one frame of every candidate, starting each time with another
-/// one, until there are `repeats` or `is_enough` says so after one. Software renderers: wall clock around glFinish;
-/// GPUs: timer queries.
+/// One untimed round warms up. Then each repeat draws one frame of every candidate, each time in another order.
+/// Software renderers use the wall clock around glFinish, GPUs timer queries.
+/// repeats: at most so many; stops earlier if `is_enough` returns true.
 [[nodiscard]] RepeatedTimes interleaved_times(const gl::ContextInfo& context, std::span<const DrawFrame> candidates,
                                               int repeats, const Progress& progress,
                                               const std::function<bool(const RepeatedTimes&)>& is_enough = {});
 
-/// Milliseconds of each of `repeats` draws of one candidate that has been drawn before: no warming up, nothing
-/// interleaved.
+/// Milliseconds of each of `repeats` draws of one candidate, without a warm-up round.
 [[nodiscard]] std::vector<double> repeated_times(const gl::ContextInfo& context, const DrawFrame& draw, int repeats,
                                                  const Progress& progress);
 
-/// The q-quantile, 0 to 1, of a sample by linear interpolation between order statistics. `values` must not be empty.
+/// The q-quantile by linear interpolation between order statistics.
+/// values: not empty. q: 0 to 1.
 [[nodiscard]] double quantile(std::vector<double> values, double q);
 
-/// An interval of a sample, by two of its order statistics.
+/// An interval between two order statistics of a sample.
 struct MedianInterval {
   double low = 0, high = 0;
 };
 
-/// The interval that has the population's median with a probability of at least 95%, whatever the distribution: from
-/// the k-th smallest to the k-th largest value, k by the binomial distribution (of 9 the 2nd to the 8th). Fewer than 6
-/// values have none: their least and most. `values` must not be empty.
+/// A confidence interval of at least 95% for the median of any distribution: from the k-th smallest to the k-th largest
+/// value, k by the binomial distribution (of 9 values the 2nd to the 8th). Of fewer than 6 values, the whole range.
+/// values: not empty.
 [[nodiscard]] MedianInterval median_interval(std::vector<double> values);
 
-/// a[i] / b[i] for frames drawn in the same repeat.
+/// a[i] / b[i], for frames of the same repeat.
 [[nodiscard]] std::vector<double> paired_ratios(std::span<const double> a, std::span<const double> b);
 
 }  // namespace footprint

@@ -1,5 +1,5 @@
 // Which pixels a reference does not resolve: a mirror under a punctual light, and nothing where it converges.
-#include "renderer/pipeline/unresolved.hpp"
+#include "renderer/pipeline/supersample.hpp"
 
 #include <gtest/gtest.h>
 

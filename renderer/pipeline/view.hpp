@@ -1,4 +1,4 @@
-// From a camera and a picture's size to the matrices of its tiles.
+// The matrices of an image's tiles, from camera and size.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -8,35 +8,35 @@
 
 namespace footprint {
 
-/// A picture to be taken: size in pixels, from a camera.
+/// An image to render: size in pixels, and camera.
 struct View {
   glm::ivec2 size{512, 512};
   Camera camera;
 };
 
-/// A rectangle of the picture that is drawn at once; pixels, row 0 at the bottom as in a GL window.
+/// A rectangle of the image that is drawn at once; pixels, row 0 at the bottom as in a GL window.
 struct Tile {
   glm::ivec2 origin{0};
   glm::ivec2 size{0};
 };
 
-/// The picture in tiles of at most `edge` pixels a side, from the bottom left.
+/// The image in tiles of at most `edge` pixels per side, from the bottom left.
 [[nodiscard]] std::vector<Tile> tiles_of(const glm::ivec2& size, int edge);
 
-/// The same of a part of it.
+/// A part of the image in tiles.
 [[nodiscard]] std::vector<Tile> tiles_in(const Tile& part, int edge);
 
-/// World to clip space for a tile, its samples moved by `offset` pixels (0, 0: pixel centres). Depth is reversed, 1 at
-/// the near plane and 0 at the far one: what is nearer is GL_GREATER (contexts have clip depths of 0 to 1). In double:
-/// the parts of a large picture differ in the last digits of the whole picture's matrix.
+/// World to clip space for a tile. Depth is reversed, 1 at the near plane and 0 at the far one, so nearer is
+/// GL_GREATER. Computed in double precision, because the tiles of a large image differ in the last digits of its
+/// matrix. offset: of the samples from the pixels' centres, pixels.
 [[nodiscard]] glm::mat4 tile_matrix(const View& view, const Tile& tile, const glm::dvec2& offset);
 
-/// The rotation from world axes to the camera's: x right, y up, z towards the viewer.
+/// The rotation from world axes to camera axes: x right, y up, z towards the viewer.
 [[nodiscard]] glm::mat3 world_to_camera(const Camera& camera);
 
 [[nodiscard]] glm::vec3 camera_position(const Camera& camera);
 
-/// The direction to an orthographic camera, the same from everywhere.
+/// The direction to an orthographic camera, equal at all points.
 [[nodiscard]] glm::vec3 direction_to_camera(const Camera& camera);
 
 }  // namespace footprint

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "renderer/lobes/vmf.hpp"
+#include "renderer/lobes/lobe.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 #include "tests/support/shader_probe.hpp"
 

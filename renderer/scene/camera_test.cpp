@@ -9,7 +9,6 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
-#include "renderer/scene/light_rig.hpp"
 
 namespace footprint {
 namespace {

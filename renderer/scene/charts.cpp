@@ -1,13 +1,23 @@
-// Vertices joined by what they are and by their triangles: a forest of sets (Galler and Fischer 1964).
+// Charts are connected pieces of similar normals that do not overlap, packed on shelves.
 #include "renderer/scene/charts.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
 #include <numeric>
+#include <span>
 #include <unordered_map>
+#include <utility>
 
 #include "renderer/core/hash.hpp"
+#include "renderer/core/process.hpp"
+#include "renderer/scene/geometry.hpp"
+#include "renderer/scene/shelves.hpp"
 
 namespace footprint {
 namespace {
@@ -51,6 +61,284 @@ class Forest {
   std::vector<std::uint32_t> parents_;
 };
 
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+/// The least cosine between a triangle's normal and its chart's axis.
+constexpr double least_facing = 0.5;
+
+/// The gap around a chart, as a share of the packed square's side.
+constexpr double gap = 1.0 / 1024.0;
+
+using FlatTriangle = std::array<glm::dvec2, 3>;
+
+/// Whether the insides of two triangles share a point: no edge of either has the other wholly on its far side, but for
+/// what rounding of positions and cracks between patches of a mesh amount to.
+bool overlap(const FlatTriangle& a, const FlatTriangle& b) {
+  const auto is_apart = [](const FlatTriangle& from, const FlatTriangle& other) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::dvec2 edge = from[(i + 1) % 3] - from[i],
+                       normal{edge.y, -edge.x};  // outwards of a triangle that turns left
+      const double tolerance = 1e-5 * glm::dot(edge, edge);
+      const bool beyond = std::ranges::all_of(
+          other, [&](const glm::dvec2& corner) { return glm::dot(corner - from[i], normal) >= -tolerance; });
+      if (beyond) return true;
+    }
+    return false;
+  };
+  return !is_apart(a, b) && !is_apart(b, a);
+}
+
+/// The axes of the plane that a chart is laid flat on: right, and up.
+struct Plane {
+  explicit Plane(const glm::dvec3& axis) {
+    const glm::dvec3 upwards = std::abs(axis.y) < 0.9 ? glm::dvec3{0.0, 1.0, 0.0} : glm::dvec3{0.0, 0.0, -axis.y};
+    right = glm::normalize(glm::cross(upwards, axis));
+    up = glm::cross(axis, right);
+  }
+  [[nodiscard]] glm::dvec2 flat(const glm::dvec3& point) const { return {glm::dot(point, right), glm::dot(point, up)}; }
+  glm::dvec3 right, up;
+};
+
+/// What a growing chart covers, in square cells.
+class CoveredCells {
+ public:
+  explicit CoveredCells(double cell) : cell_(cell) {}
+
+  /// Adds a triangle unless it overlaps one that is there.
+  bool add(const FlatTriangle& triangle) {
+    const auto cells = cells_of(triangle);
+    for (const std::uint64_t cell : cells) {
+      const auto found = cells_.find(cell);
+      if (found == cells_.end()) continue;
+      const auto hit = [&](std::size_t i) { return overlap(triangle, triangles_[i]); };
+      if (std::ranges::any_of(found->second, hit)) return false;
+    }
+    for (const std::uint64_t cell : cells) cells_[cell].push_back(triangles_.size());
+    triangles_.push_back(triangle);
+    return true;
+  }
+
+ private:
+  [[nodiscard]] std::vector<std::uint64_t> cells_of(const FlatTriangle& triangle) const {
+    const glm::dvec2 low = glm::floor(glm::min(glm::min(triangle[0], triangle[1]), triangle[2]) / cell_);
+    const glm::dvec2 high = glm::floor(glm::max(glm::max(triangle[0], triangle[1]), triangle[2]) / cell_);
+    std::vector<std::uint64_t> cells;
+    for (double y = low.y; y <= high.y; ++y) {
+      for (double x = low.x; x <= high.x; ++x) {
+        cells.push_back(static_cast<std::uint64_t>(static_cast<std::int32_t>(x)) << 32U |
+                        static_cast<std::uint32_t>(static_cast<std::int32_t>(y)));
+      }
+    }
+    return cells;
+  }
+
+  double cell_;
+  std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells_;
+  std::vector<FlatTriangle> triangles_;
+};
+
+struct Chart {
+  Plane plane;
+  std::vector<std::uint32_t> triangles;
+};
+
+/// Cuts a mesh into charts.
+class ChartCutter {
+ public:
+  explicit ChartCutter(const Mesh& mesh)
+      : mesh_(mesh), taken_(mesh.indices.size() / 3, false), seen_(taken_.size(), 0) {
+    find_normals();
+    find_neighbours();
+  }
+
+  /// The charts; triangles without area are in none.
+  std::vector<Chart> cut() {
+    std::vector<Chart> charts;
+    for (std::uint32_t seed = 0; seed < taken_.size(); ++seed) {
+      if (taken_[seed]) continue;
+      throw_if_interrupted();
+      // Twice: around the seed's normal, then around the mean of what that reached.
+      glm::dvec3 mean{0.0};
+      for (const std::uint32_t triangle : grow(seed, axis_of(area_normals_[seed]))) mean += area_normals_[triangle];
+      const glm::dvec3 axis = axis_of(mean);
+      charts.push_back({Plane(axis), grow(seed, axis)});
+      for (const std::uint32_t triangle : charts.back().triangles) taken_[triangle] = true;
+    }
+    return charts;
+  }
+
+ private:
+  static glm::dvec3 axis_of(const glm::dvec3& area_normal) {
+    const double length = glm::length(area_normal);
+    return length > 0.0 && std::isfinite(1.0 / length) ? area_normal / length : glm::dvec3{0.0, 0.0, 1.0};
+  }
+
+  [[nodiscard]] const glm::vec3& corner(std::size_t index) const {
+    return mesh_.vertices[mesh_.indices[index]].position;
+  }
+
+  void find_normals() {
+    glm::vec3 low = corner(0), high = low;
+    for (const Vertex& vertex : mesh_.vertices) {
+      low = glm::min(low, vertex.position);
+      high = glm::max(high, vertex.position);
+    }
+    double edges = 0.0;
+    for (std::size_t i = 0; i < mesh_.indices.size(); i += 3) {
+      const glm::dvec3 a{corner(i)}, b{corner(i + 1)}, c{corner(i + 2)};
+      area_normals_.push_back(glm::cross(b - a, c - a));
+      taken_[i / 3] = area_normals_.back() == glm::dvec3{0.0};
+      edges += glm::length(b - a);
+    }
+    // Some triangles a cell; but a large triangle among tiny ones must not lie in millions of cells.
+    const double extent = glm::length(glm::dvec3{high} - glm::dvec3{low});
+    origin_ = low;
+    cell_ = std::max(2.0 * edges / static_cast<double>(area_normals_.size()), extent / 256.0);
+    if (!(cell_ > 0.0)) cell_ = 1.0;
+  }
+
+  /// Triangles beside each other share two positions; an edge of more than two triangles joins none of them.
+  void find_neighbours() {
+    using Position = std::array<float, 3>;
+    std::map<Position, std::uint32_t> known;
+    std::vector<std::uint32_t> position_of;
+    for (const Vertex& vertex : mesh_.vertices) {
+      const Position position{vertex.position.x, vertex.position.y, vertex.position.z};
+      position_of.push_back(known.emplace(position, static_cast<std::uint32_t>(known.size())).first->second);
+    }
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> edges;
+    for (std::size_t i = 0; i < mesh_.indices.size(); ++i) {
+      if (taken_[i / 3]) continue;  // without area it lies on an edge of others
+      const std::uint32_t a = position_of[mesh_.indices[i]];
+      const std::uint32_t b = position_of[mesh_.indices[i / 3 * 3 + (i + 1) % 3]];
+      edges[std::minmax(a, b)].push_back(i);
+    }
+    neighbours_.assign(mesh_.indices.size(), none);
+    for (const auto& [edge, sides] : edges) {
+      if (sides.size() != 2) continue;
+      neighbours_[sides[0]] = static_cast<std::uint32_t>(sides[1] / 3);
+      neighbours_[sides[1]] = static_cast<std::uint32_t>(sides[0] / 3);
+    }
+  }
+
+  /// The triangles around `seed`, and it, that face `axis` and lie side by side seen along it, nearest ones first.
+  [[nodiscard]] std::vector<std::uint32_t> grow(std::uint32_t seed, const glm::dvec3& axis) {
+    const Plane plane(axis);
+    CoveredCells covered(cell_);
+    std::vector<std::uint32_t> chart{seed};
+    seen_[seed] = ++growths_;
+    covered.add(flat(seed, plane));
+    for (std::size_t next = 0; next < chart.size(); ++next) {
+      for (std::size_t side = 0; side < 3; ++side) {
+        const std::uint32_t beside = neighbours_[3 * static_cast<std::size_t>(chart[next]) + side];
+        if (beside == none || taken_[beside] || seen_[beside] == growths_) continue;
+        seen_[beside] = growths_;
+        const glm::dvec3& normal = area_normals_[beside];
+        if (glm::dot(normal, axis) < least_facing * glm::length(normal)) continue;
+        if (covered.add(flat(beside, plane))) chart.push_back(beside);
+      }
+    }
+    return chart;
+  }
+
+  [[nodiscard]] FlatTriangle flat(std::uint32_t triangle, const Plane& plane) const {
+    const std::size_t first = 3 * static_cast<std::size_t>(triangle);
+    const auto flat = [&](std::size_t index) { return plane.flat(glm::dvec3{corner(index)} - glm::dvec3{origin_}); };
+    return {flat(first), flat(first + 1), flat(first + 2)};
+  }
+
+  const Mesh& mesh_;
+  std::vector<bool> taken_;          ///< whether a triangle is in a chart yet
+  std::vector<std::uint64_t> seen_;  ///< the last growth that looked at a triangle
+  std::uint64_t growths_ = 0;
+  std::vector<glm::dvec3> area_normals_;
+  std::vector<std::uint32_t> neighbours_;  ///< beside each side of each triangle
+  glm::vec3 origin_{0.0F};                 ///< cells are counted from here
+  double cell_ = 1.0;
+};
+
+/// A rectangle to pack, and where its lower left corner went.
+struct Rectangle {
+  glm::dvec2 size;
+  glm::dvec2 corner{0.0};
+};
+
+/// Puts rectangles, the highest first, side by side on shelves of `width`, each with `margin` around it. Returns the
+/// height that they take.
+double pack_shelves(std::span<Rectangle*> by_height, double width, double margin) {
+  Shelves<double> shelves(width);
+  for (Rectangle* rectangle : by_height) rectangle->corner = shelves.place(rectangle->size + 2.0 * margin) + margin;
+  return shelves.height();
+}
+
+/// Packs rectangles into a square and returns its side.
+double pack(std::vector<Rectangle>& rectangles) {
+  std::vector<Rectangle*> by_height;
+  double area = 0.0, widest = 0.0;
+  for (Rectangle& rectangle : rectangles) {
+    by_height.push_back(&rectangle);
+    area += rectangle.size.x * rectangle.size.y;
+    widest = std::max({widest, rectangle.size.x, rectangle.size.y});
+  }
+  std::ranges::stable_sort(by_height, std::ranges::greater{}, [](const Rectangle* r) { return r->size.y; });
+  // The smallest side, within 1%, that takes them all.
+  double side = std::max({std::sqrt(area), widest / (1.0 - 2.0 * gap), 1e-30});
+  while (pack_shelves(by_height, side, gap * side) > side) side *= 1.01;
+  return side;
+}
+
+/// A chart's bounds on its plane.
+struct FlatBounds {
+  glm::dvec2 low{std::numeric_limits<double>::max()}, high{std::numeric_limits<double>::lowest()};
+};
+
+FlatBounds bounds_of(const Chart& chart, const Mesh& mesh) {
+  FlatBounds bounds;
+  for (const std::uint32_t triangle : chart.triangles) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const Vertex& vertex = mesh.vertices[mesh.indices[3 * std::size_t{triangle} + corner]];
+      const glm::dvec2 point = chart.plane.flat(glm::dvec3{vertex.position});
+      bounds.low = glm::min(bounds.low, point);
+      bounds.high = glm::max(bounds.high, point);
+    }
+  }
+  return bounds;
+}
+
+/// Gives every chart that meets at a vertex a vertex of its own there, with its position in the square as uv.
+/// What no chart has stays at (0, 0).
+void lay_out(const std::vector<Chart>& charts, Mesh& mesh) {
+  std::vector<Rectangle> rectangles;
+  std::vector<glm::dvec2> corners;  // lower left of each chart on its plane
+  for (const Chart& chart : charts) {
+    const FlatBounds bounds = bounds_of(chart, mesh);
+    rectangles.push_back({bounds.high - bounds.low});
+    corners.push_back(bounds.low);
+  }
+  const double side = pack(rectangles);
+  for (Vertex& vertex : mesh.vertices) vertex.uv0 = vertex.uv1 = glm::vec2{0.0F};
+  std::vector<std::pair<std::size_t, std::uint32_t>> latest(mesh.vertices.size(), {charts.size(), none});
+  for (std::size_t i = 0; i < charts.size(); ++i) {
+    for (const std::uint32_t triangle : charts[i].triangles) {
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        std::uint32_t& index = mesh.indices[3 * std::size_t{triangle} + corner];
+        auto& [chart, copy] = latest[index];
+        if (chart != i) {
+          Vertex vertex = mesh.vertices[index];
+          const glm::dvec2 on_plane = charts[i].plane.flat(glm::dvec3{vertex.position}) - corners[i];
+          const glm::dvec2 on_square = (on_plane + rectangles[i].corner) / side;
+          vertex.uv0 = vertex.uv1 = glm::vec2{on_square.x, 1.0 - on_square.y};
+          chart = i;
+          copy = static_cast<std::uint32_t>(mesh.vertices.size());
+          mesh.vertices.push_back(vertex);
+        }
+        index = copy;
+      }
+    }
+  }
+  drop_unused_vertices(mesh.vertices, mesh.indices);
+}
+
 }  // namespace
 
 Charts charts_of(std::span<const Vertex> vertices, std::span<const std::uint32_t> indices, const Material& material) {
@@ -71,6 +359,12 @@ Charts charts_of(std::span<const Vertex> vertices, std::span<const std::uint32_t
     charts.of_vertex.push_back(number->second);
   }
   return charts;
+}
+
+void unwrap(Mesh& mesh) {
+  if (mesh.indices.empty()) return;
+  lay_out(ChartCutter(mesh).cut(), mesh);
+  compute_tangents(mesh.vertices, mesh.indices, {});
 }
 
 }  // namespace footprint

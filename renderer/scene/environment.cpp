@@ -1,9 +1,14 @@
-// Maps uv to directions and back, and resamples a map by the solid angle that old and new texels share.
+// Image files, constants and an analytic sky as equirectangular maps; halving and solid angles of their texels.
 #include "renderer/scene/environment.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "renderer/core/error.hpp"
+#include "renderer/image/image_io.hpp"
 
 namespace footprint {
 namespace {
@@ -43,6 +48,96 @@ std::vector<double> row_edges(int height) {
   edges.reserve(static_cast<std::size_t>(height) + 1);
   for (int i = 0; i <= height; ++i) edges.push_back(-std::cos(pi * i / height));
   return edges;
+}
+
+void require_finite(const Image& image, const std::string& name) {
+  const auto bad = std::ranges::find_if_not(image.texels, [](float value) { return std::isfinite(value); });
+  if (bad == image.texels.end()) return;
+  const auto texel = static_cast<std::size_t>(bad - image.texels.begin()) / static_cast<std::size_t>(image.channels);
+  const auto width = static_cast<std::size_t>(image.width);
+  throw Error(ErrorKind::usage, name,
+              fmt::format("the texel in column {}, row {} is {}", texel % width, texel / width, *bad),
+              "radiance must be finite: fix the image");
+}
+
+// Three channels of an image that has one or four; of four in place, as the largest take gigabytes.
+Image with_three_channels(Image image) {
+  if (image.channels == 1) {
+    Image out(image.width, image.height, 3);
+    for (std::size_t i = 0; i < out.texels.size(); ++i) out.texels[i] = image.texels[i / 3];
+    return out;
+  }
+  for (std::size_t i = 0; i < image.texel_count(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) image.texels[3 * i + c] = image.texels[4 * i + c];
+  }
+  image.channels = 3;
+  image.texels.resize(3 * image.texel_count());
+  return image;
+}
+
+std::size_t clamp_negative(Image& image) {
+  std::size_t count = 0;
+  for (float& value : image.texels) {
+    if (value >= 0.0F) continue;
+    value = 0.0F;
+    ++count;
+  }
+  return count;
+}
+
+constexpr int sky_width = 1024;
+using std::numbers::pi;
+
+// CIE S 011 / ISO 15469, standard general sky 12: "CIE standard clear sky, low illuminance turbidity".
+constexpr double gradation_a = -1.0, gradation_b = -0.32;
+constexpr double indicatrix_c = 10.0, indicatrix_d = -3.0, indicatrix_e = 0.45;
+
+// Colours of unit luminance (Rec. 709), chosen by eye: zenith, horizon, and the light around the sun.
+const glm::dvec3 zenith_color{0.45, 1.0, 2.6};
+const glm::dvec3 horizon_color{0.85, 1.0, 1.45};
+const glm::dvec3 sun_color{1.15, 1.0, 0.55};
+const glm::dvec3 ground_color{1.0, 1.0, 1.0};
+
+// A von Mises-Fisher lobe instead of the disc: what texels of a third of a degree resolve. It gives a surface that
+// faces it `sun_share` times what the mean radiance of the sky would from a whole hemisphere.
+constexpr double sun_sharpness = 3000.0;
+constexpr double sun_share = 3.0;
+constexpr double ground_albedo = 0.2;
+
+double gradation(double cosine) { return 1.0 + gradation_a * std::exp(gradation_b / std::max(cosine, 0.01)); }
+
+double indicatrix(double angle) {
+  const double cosine = std::cos(angle);
+  return 1.0 + indicatrix_c * (std::exp(indicatrix_d * angle) - std::exp(indicatrix_d * pi / 2.0)) +
+         indicatrix_e * cosine * cosine;
+}
+
+glm::dvec3 sky_radiance(const glm::dvec3& direction, const glm::dvec3& sun) {
+  const double angle = std::acos(std::clamp(glm::dot(direction, sun), -1.0, 1.0));
+  const double zenith = gradation(1.0) * indicatrix(std::acos(std::clamp(sun.y, -1.0, 1.0)));
+  const double luminance = gradation(direction.y) * indicatrix(angle) / zenith;
+  const double low = std::pow(1.0 - direction.y, 4.0);
+  const double near = std::exp(-4.0 * angle);
+  return luminance * glm::mix(glm::mix(zenith_color, horizon_color, low), sun_color, near);
+}
+
+// Adds the sun and the ground that both light, to a map that holds the sky alone.
+void add_sun_and_ground(Environment& sky, Image& map, const glm::dvec3& sun) {
+  const glm::dvec3 mean = 2.0 * mean_radiance(map);  // over the upper half: the lower one is still black
+  const glm::dvec3 irradiance = sun_share * pi * mean;
+  const glm::dvec3 ground = ground_albedo * ground_color * (mean + irradiance * sun.y / pi);
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      const glm::dvec3 direction = environment_direction(sky, (x + 0.5) / map.width, (y + 0.5) / map.height);
+      glm::dvec3 added = ground;
+      if (direction.y >= 0.0) {
+        const glm::dvec3 offset = direction - sun;
+        added = irradiance * sun_color * sun_sharpness / (2.0 * pi) *
+                std::exp(-0.5 * sun_sharpness * glm::dot(offset, offset));
+      }
+      for (int c = 0; c < 3; ++c) map.at(x, y)[static_cast<std::size_t>(c)] += static_cast<float>(added[c]);
+    }
+  }
 }
 
 }  // namespace
@@ -110,6 +205,40 @@ Environment constant_environment(const glm::vec3& radiance) {
   Image map(1, 1, 3);
   map.texels = {radiance.r, radiance.g, radiance.b};
   return {.name = "constant", .radiance = std::make_shared<const Image>(std::move(map))};
+}
+
+Environment load_environment(const std::filesystem::path& file, std::vector<std::string>& warnings) {
+  Image image = read_image(file, Transfer::srgb);
+  const std::string name = file.filename().string();
+  if (image.channels == 2) {
+    throw Error(ErrorKind::usage, file.string(), "has 2 channels", "give an environment with 1, 3 or 4 channels");
+  }
+  if (image.channels != 3) image = with_three_channels(std::move(image));
+  require_finite(image, file.string());
+  if (const std::size_t negative = clamp_negative(image); negative > 0)
+    warnings.push_back(fmt::format("{}: {} negative values of radiance are taken as 0", name, negative));
+  if (image.width > largest_environment_width || image.height > largest_environment_width / 2) {
+    warnings.push_back(fmt::format("{}: {} x {} texels are averaged down to {} x {}", name, image.width, image.height,
+                                   largest_environment_width, largest_environment_width / 2));
+    image = resampled_environment(image, largest_environment_width, largest_environment_width / 2);
+  }
+  return {.name = name, .radiance = std::make_shared<const Image>(std::move(image))};
+}
+
+Environment sky_environment(const SkySettings& settings) {
+  const glm::dvec3 sun = glm::normalize(settings.sun_direction);
+  Environment sky{.name = "sky", .radiance = nullptr};
+  Image map(sky_width, sky_width / 2, 3);
+  for (int y = 0; y < map.height / 2; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      const glm::dvec3 radiance =
+          sky_radiance(environment_direction(sky, (x + 0.5) / map.width, (y + 0.5) / map.height), sun);
+      for (int c = 0; c < 3; ++c) map.at(x, y)[static_cast<std::size_t>(c)] = static_cast<float>(radiance[c]);
+    }
+  }
+  add_sun_and_ground(sky, map, sun);
+  sky.radiance = std::make_shared<const Image>(std::move(map));
+  return sky;
 }
 
 }  // namespace footprint

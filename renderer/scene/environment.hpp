@@ -1,4 +1,4 @@
-// Light from all directions, infinitely far: a latitude-longitude map of radiance as a plain value.
+// Light from all directions: an equirectangular map, from a file, a constant or an analytic sky.
 #pragma once
 
 #include <filesystem>
@@ -54,8 +54,8 @@ struct SkySettings {
 /// Maps wider than this are averaged down to it: 2048 x 1024 texels hold what the sampling tables hold.
 inline constexpr int largest_environment_width = 2048;
 
-/// A latitude-longitude picture (EXR, Radiance HDR; integer formats are taken as sRGB) of 1 or 3 channels, or 4 whose
-/// last is left out. Negative values become 0 and add a line to `warnings`. Errors (usage): as read_image; two
+/// A latitude-longitude image (EXR, Radiance HDR; integer formats are taken as sRGB) of 1 or 3 channels, or 4 whose
+/// last is left out. Negative values become 0 and add a line to `warnings`. Throws Error (usage): as read_image; two
 /// channels; a value that is not finite, with the file and the texel.
 [[nodiscard]] Environment load_environment(const std::filesystem::path& file, std::vector<std::string>& warnings);
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "renderer/core/error.hpp"
-#include "renderer/core/words.hpp"
+#include "renderer/core/names.hpp"
 
 namespace footprint {
 namespace {

@@ -42,8 +42,8 @@ struct FootprintFilterWord {
 /// "trilinear, anisotropic:N (1 to 16), ...": what a filter can be written as.
 [[nodiscard]] std::string footprint_filter_choices();
 
-/// Reads "anisotropic:8". Errors (usage) name `place`: no such kind (with the nearest), a number that is missing, out
-/// of range or not asked for.
+/// Reads "anisotropic:8". Throws Error (usage) that names `place`: no such kind (with the nearest), a number that is
+/// missing, out of range or not asked for.
 [[nodiscard]] FootprintFilter parse_footprint_filter(std::string_view text, std::string_view place);
 
 /// What parse_footprint_filter reads back.

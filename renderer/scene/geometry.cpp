@@ -1,4 +1,4 @@
-// Sums run in double: thin triangles far from the origin lose their direction in float.
+// Tangents from texture coordinates, and new vertices with the means of their edge's ends.
 #include "renderer/scene/geometry.hpp"
 
 #include <algorithm>
@@ -79,7 +79,7 @@ struct Gathered {
   std::uint32_t twin = unused;
 };
 
-/// The vertex that takes a triangle of `handedness` in place of `index`: itself, or a twin made on first need.
+/// The vertex that takes a triangle of `handedness` instead of `index`: itself, or a twin made on first need.
 std::uint32_t vertex_for(std::uint32_t index, int handedness, std::vector<Vertex>& vertices,
                          std::vector<Gathered>& gathered) {
   Gathered& own = gathered[index];
@@ -216,6 +216,23 @@ void compute_tangents(std::vector<Vertex>& vertices, std::vector<std::uint32_t>&
     vertices[i].tangent = {found ? glm::vec3{tangent} : any_perpendicular(vertices[i].normal),
                            gathered[i].handedness < 0 ? -1.0F : 1.0F};
   }
+}
+
+Mesh make_plane(glm::vec2 size, glm::vec2 uv_tiling) {
+  constexpr std::array<glm::vec2, 4> corners{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};  // uv, v downwards
+  Mesh mesh;
+  mesh.name = "plane";
+  for (const glm::vec2& corner : corners) {
+    Vertex vertex;
+    vertex.position = {(corner.x - 0.5F) * size.x, (0.5F - corner.y) * size.y, 0.0F};
+    vertex.uv0 = corner * uv_tiling;
+    vertex.uv1 = vertex.uv0;
+    // v runs against y, so the bitangent (the direction in which v's green channel counts as up) is +y: w = +1.
+    vertex.tangent = {1.0F, 0.0F, 0.0F, 1.0F};
+    mesh.vertices.push_back(vertex);
+  }
+  mesh.indices = {0, 3, 2, 0, 2, 1};
+  return mesh;
 }
 
 }  // namespace footprint

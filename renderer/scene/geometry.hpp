@@ -1,4 +1,4 @@
-// Vertex frames that a file leaves out or gets wrong: normals, tangents, and triangle lists.
+// Meshes: triangles of a material, tangents, joining, splitting of edges, and planes.
 #pragma once
 
 #include <cstddef>
@@ -52,5 +52,10 @@ std::size_t repair_tangents(std::span<Vertex> vertices);
 /// gets any frame around its normal.
 void compute_tangents(std::vector<Vertex>& vertices, std::vector<std::uint32_t>& indices,
                       const TextureCoordinates& coordinates);
+
+/// A rectangle of `size` (metres) in the xy plane, centred on the origin: normal +z, tangent +x, four vertices, two
+/// triangles, material 0. Texture coordinates run from (0, 0) at the top left to `uv_tiling` at the bottom right (glTF:
+/// v points down), in both sets.
+[[nodiscard]] Mesh make_plane(glm::vec2 size, glm::vec2 uv_tiling);
 
 }  // namespace footprint

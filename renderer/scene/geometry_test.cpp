@@ -7,7 +7,6 @@
 #include <limits>
 #include <numbers>
 
-#include "renderer/scene/plane.hpp"
 #include "tests/support/expect_near.hpp"
 
 namespace footprint {

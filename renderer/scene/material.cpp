@@ -1,4 +1,4 @@
-// The one lobe that stands for all of a material's.
+// The base lobe of a material, and access to its maps.
 #include "renderer/scene/material.hpp"
 
 namespace footprint {

@@ -1,4 +1,4 @@
-// What a surface is made of: the base BRDF of its facets and the maps that vary it.
+// A surface's material as a plain value.
 #pragma once
 
 #include <array>
@@ -12,6 +12,12 @@
 #include "renderer/scene/map_texels.hpp"
 
 namespace footprint {
+
+/// What the channels of a stored normal map are.
+enum class NormalChannels {
+  xyz,  ///< of a file of two channels none the less x and y
+  xy,   ///< as BC5 has it: z is what makes the normal a unit vector, and what the file has beyond y does not count
+};
 
 struct Microgeometry;
 
@@ -47,7 +53,7 @@ struct TextureMap {
   TextureCoordinates coordinates;
 };
 
-/// One of several lobes that a facet reflects with. Its axis turns with the facet's normal (facet_lobes.hpp).
+/// One of several lobes that a facet reflects with. Its axis turns with the facet's normal (facets.hpp).
 struct FacetLobe {
   glm::vec3 axis{0.0F, 0.0F, 1.0F};  ///< unit, z > 0: x along the tangent, y along the bitangent, z along the normal
   float parameter = 1.0F;            ///< exponent (blinn_phong), alpha (beckmann, ggx), kappa (vmf)
@@ -86,13 +92,13 @@ struct Material {
   float roughness = 1.0F;                ///< perceptual, 0..1; alpha = roughness^2 (glTF 2.0, appendix B)
   std::optional<float>
       lobe_parameter;            ///< overrides roughness: exponent (blinn_phong), alpha (beckmann, ggx), kappa (vmf)
-  std::vector<FacetLobe> lobes;  ///< in place of the one lobe about the normal; empty: that lobe. Overrides all width
+  std::vector<FacetLobe> lobes;  ///< instead of the one lobe about the normal; empty: that lobe. Overrides all width
 
   std::optional<TextureMap> base_color_map;  ///< RGBA, linear
   std::optional<TextureMap>
       metallic_roughness_map;  ///< 2 channels: roughness, metallic (0..1), already times the factors
   std::optional<TextureMap>
-      lobe_parameter_map;  ///< 1 channel, as lobe_parameter: in place of metallic_roughness_map, `metallic` stays
+      lobe_parameter_map;  ///< 1 channel, as lobe_parameter: instead of metallic_roughness_map, `metallic` stays
   std::optional<TextureMap> specular_map;  ///< RGB, linear: times dielectric_specular
   std::optional<TextureMap> normal_map;    ///< 4 channels: unit normal xyz (z > 0 out of the surface), weight 0 or 1
   std::optional<TextureMap> layer_map;     ///< detail over the normal map, of the same kind: their slopes add

@@ -1,5 +1,5 @@
 // Every field of a material or a scene, and of what it refers to, in one order.
-#include "renderer/scene/material_content.hpp"
+#include "renderer/scene/scene.hpp"
 
 #include <memory>
 #include <optional>

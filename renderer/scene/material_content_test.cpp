@@ -1,5 +1,5 @@
 // What tells materials and scenes apart: every field does, a material's names do not.
-#include "renderer/scene/material_content.hpp"
+#include "renderer/scene/scene.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Files of the MERL format, written from a known BRDF: what comes back, and what is refused.
-#include "renderer/scene/merl_file.hpp"
+#include "renderer/scene/assembly/microgeometry_content.hpp"
 
 #include <gtest/gtest.h>
 

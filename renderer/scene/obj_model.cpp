@@ -1,6 +1,6 @@
 // Reads statement by statement; faces become fans of triangles, corners with equal indices share a vertex. A reader of
 // our own: tinyobjloader 2.0.0rc10 takes `v 0 0`, `v 0 1x 0` and `v 0 nan 0` for zeros without an error or a warning.
-#include "renderer/scene/obj_model.hpp"
+#include "renderer/scene/model.hpp"
 
 #include <fmt/format.h>
 
@@ -11,9 +11,9 @@
 #include <span>
 #include <string_view>
 
+#include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/file_bytes.hpp"
-#include "renderer/core/interrupt.hpp"
+#include "renderer/core/process.hpp"
 #include "renderer/scene/geometry.hpp"
 
 namespace footprint {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "renderer/core/error.hpp"
-#include "renderer/scene/obj_model.hpp"
+#include "renderer/scene/model.hpp"
 
 namespace footprint {
 namespace {

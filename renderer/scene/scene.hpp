@@ -1,6 +1,7 @@
-// A scene as a plain value: what is drawn, lit by what, seen from where. No GL, no file.
+// A scene as a plain value: meshes, materials, lights and camera. No GL, no files.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -8,12 +9,30 @@
 #include <variant>
 #include <vector>
 
+#include "renderer/core/hash.hpp"
 #include "renderer/scene/environment.hpp"
 #include "renderer/scene/footprint_filter.hpp"
 #include "renderer/scene/material.hpp"
-#include "renderer/scene/model_selection.hpp"
 
 namespace footprint {
+
+/// Each by its name or by its number from 0; none: the file's own choice (docs/scenes.md).
+struct ModelSelection {
+  std::optional<std::string> scene, camera, variant;
+
+  [[nodiscard]] bool empty() const { return !scene && !camera && !variant; }
+};
+
+/// What a file offers of one kind, and which of it is taken.
+struct ModelChoice {
+  std::string kind;                  ///< "scene", "camera", "variant"
+  std::vector<std::string> names;    ///< in the file's order; "camera 2" for one without a name
+  std::optional<std::size_t> taken;  ///< none: the file has none to take, or its own materials are taken
+};
+
+/// The place in `choice` of what `wanted` names. Throws Error (usage): neither a name nor a number of it, with the
+/// nearest.
+[[nodiscard]] std::size_t find_choice(const ModelChoice& choice, const std::string& wanted);
 
 /// A vertex in world space (node transforms applied). Tangent w is the bitangent's sign (glTF 2.0).
 struct Vertex {
@@ -77,14 +96,14 @@ struct Bounds {
   [[nodiscard]] float radius() const { return 0.5F * glm::length(upper - lower); }
 };
 
-/// The texels a side that a shadow map may have.
+/// The texels per side that a shadow map may have.
 inline constexpr int smallest_shadow_map = 16, largest_shadow_map = 16384;
 
 /// What a scene says about large-scale visibility (docs/shadows.md).
 struct ShadowSettings {
   std::optional<bool> cast;  ///< none: where something stands between a surface and a light
   bool both_sides = false;   ///< a one-sided triangle keeps light from behind too, from where it is not drawn
-  int resolution = 2048;     ///< texels a side of each shadow map
+  int resolution = 2048;     ///< texels per side of each shadow map
 };
 
 /// What becomes of light from below the plane of a vertex normal, where a facet of the normal map still faces it.
@@ -108,7 +127,7 @@ struct Scene {
   std::optional<Environment> environment;
   Camera camera;
   Bounds bounds;
-  std::optional<FootprintFilter> footprint;  ///< that its pictures are meant for; none: default_footprint_filter
+  std::optional<FootprintFilter> footprint;  ///< that its images are meant for; none: default_footprint_filter
   std::optional<float> exposure;  ///< multiplies radiance before display and the clamped measures; none: automatic
   std::vector<double> distances{
       1.0};  ///< the default zoom path: factors on the camera's distance to the bounds' centre
@@ -117,5 +136,12 @@ struct Scene {
   std::vector<std::string> defaults;     ///< what was supplied because the input has none, one line each
   std::vector<std::string> warnings;     ///< what the input has and Footprint leaves out, one line each
 };
+
+/// Counts everything of a material but the names in it: materials that differ in any field give different hashes.
+void add_content(ContentHash& hash, const Material& material);
+
+/// Counts everything of a loaded scene, the names and notes that reports print too, but for where it was loaded from
+/// and the choices that its model files offered.
+void add_content(ContentHash& hash, const Scene& scene);
 
 }  // namespace footprint

@@ -5,7 +5,7 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
-#include "renderer/core/words.hpp"
+#include "renderer/core/names.hpp"
 
 namespace footprint {
 namespace {

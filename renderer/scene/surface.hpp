@@ -14,12 +14,12 @@
 
 namespace footprint {
 
-/// The most texels a side of a surface's maps, as of any texture file.
+/// The most texels per side of a surface's maps, as of any texture file.
 inline constexpr int largest_surface_resolution = 16384;
 
 /// What a surface's maps and mesh are a pure function of.
 struct SurfaceSettings {
-  int resolution = 512;    ///< texels a side, 1 to `largest_surface_resolution`
+  int resolution = 512;    ///< texels per side, 1 to `largest_surface_resolution`
   std::uint32_t seed = 1;  ///< same seed, same bytes, at any number of threads
   Options parameters;      ///< of the surface's own table
 };
@@ -54,16 +54,16 @@ struct SceneLibrary {
   std::span<const Surface> surfaces;
 };
 
-/// The surface of a name. Errors (usage): unknown, with the nearest right one.
+/// The surface of a name. Throws Error (usage): unknown, with the nearest right one.
 [[nodiscard]] const Surface& find_surface(std::span<const Surface> surfaces, const std::string& name);
 
-/// The default settings of a surface, with `given` parameters by name. Errors (usage): as of Options.
+/// The default settings of a surface, with `given` parameters by name. Throws Error (usage): as of Options.
 [[nodiscard]] SurfaceSettings surface_settings(const Surface& surface, const std::map<std::string, std::string>& given);
 
-/// The normal map. Errors (usage): a resolution out of range; (machine): more than memory holds.
+/// The normal map. Throws Error (usage): a resolution out of range; (machine): more than memory holds.
 [[nodiscard]] Image surface_normals(const Surface& surface, const SurfaceSettings& settings);
 
-/// The colour map; empty where the surface has none. Errors: as of `surface_normals`.
+/// The colour map; empty where the surface has none. Throws as `surface_normals`.
 [[nodiscard]] Image surface_base_color(const Surface& surface, const SurfaceSettings& settings);
 
 /// The map of reflectance at normal incidence and that of the lobe; likewise.

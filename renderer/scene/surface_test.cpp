@@ -6,7 +6,7 @@
 #include <array>
 
 #include "renderer/scene/assembly/load_scene.hpp"
-#include "renderer/scene/plane.hpp"
+#include "renderer/scene/geometry.hpp"
 #include "tests/support/gltf_builder.hpp"
 
 namespace footprint {

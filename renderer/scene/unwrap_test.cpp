@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "renderer/scene/charts.hpp"
 #include "renderer/scene/geometry.hpp"
-#include "renderer/scene/unwrap.hpp"
 #include "tests/support/texture_coverage.hpp"
 
 namespace footprint {

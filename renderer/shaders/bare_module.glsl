@@ -1,7 +1,7 @@
 // A method's module for programs of others: the module, and what they call.
 //? module
-// A map's footprint where it is looked up at `uv`: the pixel's own derivatives, so that all pixels of a quad have to come
-// here.
+// A map's footprint where it is looked up at `uv`: the pixel's own derivatives, so that all pixels of a quad have to
+// come here.
 Footprint footprintAt(vec2 uv) { return Footprint(uv, dFdx(uv), dFdy(uv)); }
 
 // Every map of the material at one uv; set members one by one where they differ.
@@ -52,7 +52,7 @@ void lookAround(vec3 at, vec3 eye, mat3 frame, mat3 world_to_camera, inout Footp
   world_position = at;
   camera_position = eye;
   tangent_to_camera = world_to_camera * frame;
-  lookBeside(frame, f);
+  fetchNeighbourFrames(frame, f);
 }
 
 // The same of a light whose half vector changes over the screen: at source.xyz (w 1), or in that direction (w 0).

@@ -1,4 +1,4 @@
-// The base BRDF itself: what the reference averages, and `direct` shades once a pixel.
+// The base BRDF itself: what the reference averages, and `direct` shades once per pixel.
 //? if normal_layers
 //? include normal_layers.glsl
 //? end

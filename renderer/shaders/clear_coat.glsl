@@ -1,7 +1,6 @@
-// The clear coat over what a point reflects (KHR_materials_clearcoat; docs/base-brdf.md, Clear coat): one filter for every
-// method that filters. The reference, and a method that filters nothing, read the finest level.
-//? include ggx_density.glsl
-//? include ggx_geometry.glsl
+// The clear coat over what a point reflects (KHR_materials_clearcoat; docs/base-brdf.md, Clear coat): one filter for
+// every method that filters. The reference, and a method that filters nothing, read the finest level.
+//? include ggx.glsl
 //? include length_shortfall.glsl
 
 struct Coat {
@@ -59,8 +58,8 @@ Coat coatUnder(Footprints f, vec3 wo) {
 }
 
 // The share of the normals that mirror light by h, where they are spread: of Gaussian slopes about a mean, each with a
-// lobe of its own, the mean of those that have h in their lobe lies between the two, as far towards h as their spread is
-// of the whole. At grazing views, of normals that few mirror by, it is far less than the mean normal's.
+// lobe of its own, the mean of those that have h in their lobe lies between the two, as far towards h as their spread
+// is of the whole. At grazing views, of normals that few mirror by, it is far less than the mean normal's.
 float coatShare(Coat coat, vec3 h, vec3 wo) {
 //? if coat_normal_variation and sampling_frame and not finest_coat
   return coat.weight * coatFresnel(dot(normalize(mix(coat.normal, h, coat.spread)), wo));

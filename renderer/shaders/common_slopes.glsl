@@ -20,7 +20,7 @@ mat2 slopeCovariance(vec2 mean, vec3 second) {
 }
 
 //? if variant_clean
-// Per axis, for E[b.b] in place of M.
+// Per axis, for E[b.b] instead of M.
 float scalarCovariance(vec2 mean, float trace) { return max(0.5 * (trace - dot(mean, mean)), 0.0); }
 
 //? end

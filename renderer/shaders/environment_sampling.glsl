@@ -1,4 +1,7 @@
-// Environment light for the reference: each sample integrates the environment itself.
+// Environment light for the reference: each sample integrates the environment itself, by directions drawn from its
+// texels and from the module's own lobe, weighed by the balance heuristic (Veach and Guibas 1995), or with
+// `environment_dense` by directional lights, all of them for every sample (Iwasaki et al. 2012). Both agree where no
+// lobe is narrower than a light's cell.
 //? if environment_visibility
 //? include octahedral.glsl
 //? include environment_visibility.glsl
@@ -14,7 +17,142 @@ bool arrives(vec3 direction) {
 }
 
 //? if environment_dense
-//? include environment_dense.glsl
+vec3 environmentIntegral(SurfacePoint p) {
+  vec3 radiance = vec3(0.0);
+  int count = textureSize(environment_lights, 0).x;
+  int i = 0;
+  for (; i < count; ++i) {
+    vec3 direction = texelFetch(environment_directions, ivec2(i, 0), 0).xyz;
+    vec3 wi = direction * p.frame;
+    if (!reachesFacets(wi) || !arrives(direction)) continue;
+    radiance += reflectance(p, wi) * texelFetch(environment_lights, ivec2(i, 0), 0).rgb;
+  }
+  // llvmpipe ends loops after 65535 rounds per pixel, those within `reflectance` among them: part of a sum is no
+  // figure.
+  if (i < count) return vec3(uintBitsToFloat(0x7fc00000u));
+  return radiance;
+}
 //? else
-//? include environment_drawn.glsl
+layout(std140, binding = 5) uniform EnvironmentBlock {
+  vec4 environment_size;  // columns, rows; turn of the map about +y in radians
+};
+
+uniform int directions_a_sample;
+// Digits of each cell's first direction, and of directions by their number in the sample: those of any direction are
+// the two added without carry. Out of the environment, out of the lobe; choices are among lobes.
+uniform uvec4 cell_directions[16], direction_steps[16];
+uniform uint cell_choices[16], choice_steps[16];
+
+struct DrawnDirection {
+  vec3 direction;  // world
+  vec3 radiance;
+  float density;  // over solid angle, of drawing it from the environment
+};
+
+float azimuthOf(float column) { return 2.0 * pi * (column / environment_size.x - 0.5) - environment_size.z; }
+
+// Of a distribution over `count` entries, that which holds u: a guide tells where to begin (Chen and Asau 1974), and
+// the entries hold sums up to and with their own. Then u is where in the entry it lies, 0 to 1. `at` and `step` lead
+// through the table.
+int drawnEntry(ivec2 at, ivec2 step, int count, inout float u) {
+  int entry = int(texelFetch(environment_sums, at + step * min(int(u * float(count)), count - 1), 0).g);
+  float below = entry > 0 ? texelFetch(environment_sums, at + step * (entry - 1), 0).r : 0.0;
+  float above = texelFetch(environment_sums, at + step * entry, 0).r;
+  while (above <= u && entry < count - 1) {
+    ++entry;
+    below = above;
+    above = texelFetch(environment_sums, at + step * entry, 0).r;
+  }
+  u = clamp((u - below) / max(above - below, 1e-30), 0.0, 1.0);
+  return entry;
+}
+
+// A row, a texel of it, and a point of that, uniform in solid angle: monotonous in both numbers, so that points which
+// fill the square evenly fill the sky evenly.
+DrawnDirection drawFromEnvironment(vec2 u) {
+  ivec2 size = ivec2(environment_size.xy);
+  int row = drawnEntry(ivec2(size.x, 0), ivec2(0, 1), size.y, u.y);
+  int column = drawnEntry(ivec2(0, row), ivec2(1, 0), size.x, u.x);
+  vec4 held = texelFetch(environment_radiance, ivec2(column, row), 0);
+  float upper = cos(pi * float(row) / environment_size.y);
+  float lower = cos(pi * float(row + 1) / environment_size.y);
+  float y = mix(upper, lower, u.y);
+  float sine = sqrt(max(1.0 - y * y, 0.0));
+  float azimuth = azimuthOf(float(column) + u.x);
+  return DrawnDirection(vec3(sine * sin(azimuth), y, -sine * cos(azimuth)), held.rgb, held.a);
+}
+
+// Radiance and density of the texel in a direction of the world.
+vec4 environmentTexel(vec3 d) {
+  float u = fract(0.5 + (atan(d.x, -d.z) + environment_size.z) / (2.0 * pi));
+  float v = acos(clamp(d.y, -1.0, 1.0)) / pi;
+  ivec2 texel = min(ivec2(vec2(u, v) * environment_size.xy), ivec2(environment_size.xy) - 1);
+  return texelFetch(environment_radiance, texel, 0);
+}
+
+//? if clear_coat
+const float coat_draws = 0.25;  // of the directions that lobes draw, where there is a coat
+
+// The mirror image of wo about a normal drawn from the coat's facets.
+vec3 coatDirection(Coat coat, vec3 wo, vec2 u) {
+  float tilt = tiltOf(coat.alpha2 * u.x / max(1.0 - u.x, 1e-7));
+  float sine = sqrt(max(tilt * (2.0 - tilt), 0.0));
+  float azimuth = 2.0 * pi * u.y;
+  vec3 h = frameAbout(coat.normal) * vec3(sine * cos(azimuth), sine * sin(azimuth), 1.0 - tilt);
+  float cosine = dot(h, wo);
+  return cosine > 0.0 ? 2.0 * cosine * h - wo : vec3(0.0);
+}
+
+float coatDirectionDensity(Coat coat, vec3 wi, vec3 wo) {
+  if (!halfVectorIsDefined(wi, wo)) return 0.0;
+  vec3 h = halfVector(wi, wo);
+  return ggxDensity(coat.alpha2, coat.normal, h) * max(dot(coat.normal, h), 0.0) / (4.0 * max(dot(h, wo), 1e-6));
+}
+//? end
+
+// A direction from the lobes of the point, and the density of drawing it.
+vec3 lobeDirection(SurfacePoint p, vec3 u) {
+//? if clear_coat
+  if (p.coat.share > 0.0) {
+    if (u.z < coat_draws) return coatDirection(p.coat, p.wo, u.xy);
+    u.z = (u.z - coat_draws) / (1.0 - coat_draws);
+  }
+//? end
+  return drawDirection(p.effective, p.wo, u);
+}
+
+float lobeDirectionDensity(SurfacePoint p, vec3 wi) {
+  float density = directionDensity(p.effective, wi, p.wo);
+//? if clear_coat
+  if (p.coat.share > 0.0) density = mix(density, coatDirectionDensity(p.coat, wi, p.wo), coat_draws);
+//? end
+  return density;
+}
+
+// The texels of a sample share its directions.
+vec3 environmentIntegral(SurfacePoint p) {
+  vec3 radiance = vec3(0.0);
+  uvec3 seed = hashed(sample_pixel);
+  uvec3 lobe_seed = hashed(seed);
+  int texels = int(drawn_texels.z);
+  int count = max(directions_a_sample / texels, 1);
+  int i = sample_texel * count;
+  int end = i + count;
+  do {
+    uvec4 digits = cell_directions[sample_cell] ^ direction_steps[i];
+    DrawnDirection light = drawFromEnvironment(scrambledPair(digits.xy, seed.xy));
+    vec3 wi = light.direction * p.frame;
+    if (reachesFacets(wi) && light.density > 0.0 && arrives(light.direction)) {
+      radiance += reflectance(p, wi) * light.radiance / (light.density + lobeDirectionDensity(p, wi));
+    }
+    float choice = unitInterval(scrambled(cell_choices[sample_cell] ^ choice_steps[i], seed.z));
+    wi = lobeDirection(p, vec3(scrambledPair(digits.zw, lobe_seed.xy), choice));
+    float density = reachesFacets(wi) ? lobeDirectionDensity(p, wi) : 0.0;
+    if (density > 0.0 && arrives(p.frame * wi)) {
+      vec4 held = environmentTexel(p.frame * wi);
+      radiance += reflectance(p, wi) * held.rgb / (held.a + density);
+    }
+  } while (++i < end);
+  return radiance / float(count);
+}
 //? end

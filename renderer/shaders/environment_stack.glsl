@@ -2,7 +2,7 @@
 // lobe that its mirror images make about the viewer (Wang 2009), from a stack of prefiltered maps (Kautz 2000).
 layout(std140, binding = 5) uniform EnvironmentBlock {
   vec4 environment_mean;         // radiance over all directions
-  vec4 environment_stack_range;  // sharpness of the finest map's lobe, number of maps: two a level
+  vec4 environment_stack_range;  // sharpness of the finest map's lobe, number of maps: two per level
 //? if environment_suns
   vec4 environment_suns[2 * environment_sun_count];  // each: towards it, world space; irradiance on what faces it
 //? end
@@ -77,7 +77,7 @@ vec3 sunLit(SurfacePoint p, vec3 direction, vec3 irradiance) {
   return reflected(p, incident(direction * p.frame, irradiance, vec4(direction, 0.0)));
 }
 
-vec3 sunsLit(SurfacePoint p) {
+vec3 sunRadiance(SurfacePoint p) {
   vec3 radiance = vec3(0.0);
   int i = 0;
   do {
@@ -87,8 +87,8 @@ vec3 sunsLit(SurfacePoint p) {
 }
 //? end
 
-// The normal of the plane below which no light counts for a lobe: the surface's own, or with an open horizon that of the
-// lobe's facets.
+// The normal of the plane below which no light counts for a lobe: the surface's own, or with an open horizon that of
+// the lobe's facets.
 vec3 horizonNormal(NormalLobe lobe) {
 //? if horizon_open
   return lobe.normal;
@@ -164,8 +164,8 @@ vec3 lobeRadiance(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wo, mat3 fr
 //? if distribution_ggx or clear_coat
 // GGX has a tail that no Gaussian has, and wide facets of it reflect below the horizon, where masking is strongest. So
 // the half of its visible normals that is nearest to the axis and the other half look the environment up apart, as vMF
-// lobes that a table has by view and alpha: their energy, direction and sharpness (lobe_table.hpp).
-const float smith_steps = 4.0;  // of lobe_table.hpp
+// lobes that a table has by view and alpha: their energy, direction and sharpness (radiance_stack.hpp).
+const float smith_steps = 4.0;  // of radiance_stack.hpp
 
 // Where the table has the base BRDF's geometry factor.
 float geometryStep(NormalLobe lobe, float alpha) {
@@ -322,8 +322,8 @@ DiffuseFacets diffuseFacets(Effective e, vec3 wo) {
 }
 
 // Lambert's term over all directions. Irradiance is close to linear in the normal, so that normals with the mean m get
-// the mean over all directions and |m| of the difference to it. Where the horizon cuts, a facet that leans loses what its
-// surface hides: of a constant environment (1 - n_z) / 2.
+// the mean over all directions and |m| of the difference to it. Where the horizon cuts, a facet that leans loses what
+// its surface hides: of a constant environment (1 - n_z) / 2.
 vec3 environmentDiffuse(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) {
   DiffuseFacets facets = diffuseFacets(e, wo);
   float size = length(facets.mean_normal);

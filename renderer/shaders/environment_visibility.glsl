@@ -13,8 +13,8 @@ float signedDistance(vec3 direction) {
   return distance;
 }
 
-// Whether nothing but its own horizon hides light from the surface. Nothing is known of the back of one that is seen from
-// both sides.
+// Whether nothing but its own horizon hides light from the surface. Nothing is known of the back of one that is seen
+// from both sides.
 bool isOpen() {
 //? if double_sided
   if (!gl_FrontFacing) return true;

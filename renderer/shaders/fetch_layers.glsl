@@ -1,6 +1,6 @@
 // All layers of an array texture under a footprint. In a frame one loop over the probes reads them together: their
-// places, their weights and their level are those of all, and a loop of its own for each would find them again. Who takes
-// it in has `const int fetched_layers`.
+// places, their weights and their level are those of all, and a loop of its own for each would find them again. Who
+// takes it in has `const int fetched_layers`.
 
 // As `fetchUpTo`, of all layers.
 void fetchLayers(sampler2DArray map, Footprint f, float coarsest, out vec4 layers[fetched_layers]) {

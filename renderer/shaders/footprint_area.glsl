@@ -160,7 +160,7 @@ struct AreaLookup {
 AreaLookup areaLookup(Probes p, int i) {
   float strip = floor((float(i) + 0.5) * p.per_pairs);
   float row = p.first_row + 2.0 * strip;
-  PairShare rows = pairShare(p.rows, row + 0.5, strip<0.5, strip> p.strips - 1.5);
+  PairShare rows = pairShare(p.rows, row + 0.5, (strip < 0.5), (strip > p.strips - 1.5));
   float low = max(row - 0.5, -p.reach);
   float high = min(row + 1.5, p.reach);
   float halfway = clamp(0.5 * (low + high), -p.reach, p.reach);
@@ -171,7 +171,7 @@ AreaLookup areaLookup(Probes p, int i) {
   Boxes section = boxesOf(abs(p.across) * (to - from), length(vec2(p.lean * max(high - low, 0.0), p.smear)));
   float pair = float(i) - strip * p.pairs;
   float column = floor(p.centre.x + middle - section.reach + p.hem + 0.5) - p.centre.x + 2.0 * pair;
-  PairShare columns = pairShare(section, column + 0.5 - middle, pair<0.5, pair> p.pairs - 1.5);
+  PairShare columns = pairShare(section, column + 0.5 - middle, (pair < 0.5), (pair > p.pairs - 1.5));
   return AreaLookup(vec2(column + columns.second, row + rows.second), rows.whole * columns.whole);
 }
 

@@ -1,6 +1,6 @@
 // The footprint filters (docs/filters.md): the trilinear lookups that stand for a footprint, their places, their one
-// level and their weights, which sum to one. There is one at least, so that a loop over them may test at its end: Mesa's
-// llvmpipe goes through all of a body once more, for no pixel, where a loop tests at its head.
+// level and their weights, which sum to one. There is one at least, so that a loop over them may test at its end:
+// Mesa's llvmpipe goes through all of a body once more, for no pixel, where a loop tests at its head.
 
 //? if filter_area
 //? include footprint_area.glsl

@@ -15,8 +15,8 @@ Incident incident(vec3 wi, vec3 irradiance_at_normal, vec4 source) {
 //? end
 }
 
-// Whether light from a direction of the tangent frame reaches the surface's facets, the scene's rule (docs/base-brdf.md,
-// Horizon). No direction at all is the zero vector.
+// Whether light from a direction of the tangent frame reaches the surface's facets, the scene's rule
+// (docs/base-brdf.md, Horizon). No direction at all is the zero vector.
 bool reachesFacets(vec3 wi) {
 //? if horizon_open
   return dot(wi, wi) > 0.0;

@@ -1,6 +1,6 @@
 // Whether all samples of a pixel see one smooth piece of surface: each is compared with the pixel's first, the one at
-// the lower left of the first pass, so that what comes out depends neither on tiles nor on the order of passes. The
-// result is multiplied into that of the passes before: 1 where nothing speaks against it.
+// the lower left of the first pass, so that the result depends neither on tiles nor on the order of passes. Blending
+// takes the least over all passes: 1 where all of them agree.
 //? if cast_shadow
 layout(binding = 0) uniform sampler2D shares;
 layout(binding = 4) uniform sampler2D first_shares;
@@ -13,17 +13,20 @@ layout(binding = 4) uniform sampler2D first_positions;
 layout(binding = 5) uniform sampler2D first_facets;
 layout(binding = 6) uniform sampler2D first_normals;
 layout(binding = 7) uniform sampler2D first_mapped;
+layout(binding = 8) uniform sampler2D first_material;
 uniform bool by_coverage, by_material, by_chart, by_cut, by_normal, by_depth;
 uniform float rounding;  // of positions, metres
 //? end
 uniform int grid;
 
-layout(location = 0) out vec4 smooth_texels;  // 1 or 0; alpha: the footprint's longer edge in texels
+// 1 or 0; the number of the pixel's only material; unused; the footprint's longer edge in texels.
+layout(location = 0) out vec4 smooth_material_texels;
 
 // Half of what normals, and directions within the surface, may differ by (interior.hpp).
 const float least_cosine = 0.98480775;  // of 10 degrees
 const float most_sine = 0.17364818;
 const float most_share = 1.0 / 16.0;     // of a light
+const float unbounded = 3e38;            // leaves what other passes wrote
 
 //? if cast_shadow
 bool agrees(ivec2 at, ivec2 first) {
@@ -69,8 +72,9 @@ void main() {
     for (int x = 0; x < grid; ++x) all_agree = all_agree && agrees(corner + ivec2(x, y), corner);
   }
 //? if cast_shadow
-  smooth_texels = vec4(all_agree ? 1.0 : 0.0);
+  smooth_material_texels = vec4(all_agree ? 1.0 : 0.0, vec3(unbounded));
 //? else
-  smooth_texels = vec4(vec3(all_agree ? 1.0 : 0.0), texelFetch(first_mapped, corner, 0).w);
+  smooth_material_texels = vec4(all_agree ? 1.0 : 0.0, texelFetch(first_material, corner, 0).r, 0.0,
+                                texelFetch(first_mapped, corner, 0).w);
 //? end
 }

@@ -17,8 +17,10 @@ layout(location = 0) out vec4 position_chart;   // world space; 0: nothing is th
 layout(location = 1) out vec4 facet_material;  // the triangle's own normal, towards the viewer
 layout(location = 2) out vec4 normal_extent;    // the vertices' normal; what the pixel spans on the surface, metres
 layout(location = 3) out vec4 mapped_stretch;   // uv, their gradient's length in 1/m, the footprint's longer edge in texels
-uniform float grid;     // samples along a pixel's edge
-uniform vec2 map_size;  // of the normal map, texels; 0: there is none
+layout(location = 4) out float material_alone;  // number of the only material that the pixel shows; 0: several, or back
+uniform float grid;      // samples along a pixel's edge
+uniform vec2 map_size;   // of the normal map, texels; 0: there is none
+uniform vec2 to_centre;  // from the pixel's first sample to its centre, in samples
 //? end
 //? if orthographic
 uniform vec3 to_camera;
@@ -26,7 +28,12 @@ uniform vec3 to_camera;
 uniform vec3 camera_position;
 //? end
 
+const float least_alone = 0.99;  // share of a pixel from which one material counts as alone
+
 //? include facet_normal.glsl
+//? if alpha_mask
+//? include alpha_mask.glsl
+//? end
 
 //? if cast_shadow
 // Where the horizon cuts, a light below it does not reach the surface (docs/base-brdf.md), whatever its map says.
@@ -62,6 +69,17 @@ vec4 lightShares(vec3 facet, vec3 normal) {
 }
 //? end
 
+//? if material_index and not cast_shadow
+// Whether the pixel around a sample shows nothing of the surface's other materials.
+bool isAlone() {
+  vec2 uv = share_uv_offset_set.z < 0.5 ? uv0 : uv1;
+  vec2 mapped = mat2(share_uv_linear.xy, share_uv_linear.zw) * uv + share_uv_offset_set.xy;
+  vec2 mapped_x = dFdx(mapped), mapped_y = dFdy(mapped);
+  vec2 centre = mapped + to_centre.x * mapped_x + to_centre.y * mapped_y;
+  return textureGrad(material_share, centre, grid * mapped_x, grid * mapped_y).r > least_alone;
+}
+//? end
+
 void main() {
   vec3 along_x = dFdx(world_position);  // before any pixel is discarded
   vec3 along_y = dFdy(world_position);
@@ -69,17 +87,16 @@ void main() {
   vec2 mapped = mat2(uv_linear[0].xy, uv_linear[0].zw) * (uv_offset_set[0].z < 0.5 ? uv0 : uv1) + uv_offset_set[0].xy;
   vec2 mapped_x = dFdx(mapped);
   vec2 mapped_y = dFdy(mapped);
+//? if material_index
+  bool is_alone = isAlone();
+  // A further material of a surface only writes its number, where the first has left 0.
+  if (share_uv_offset_set.w < 0.5 && !is_alone) discard;
+//? else
+  const bool is_alone = true;
+//? end
 //? end
 //? if alpha_mask
-  float alpha = base_color_factor.a;
-//? if base_color_variation
-  vec2 uv = uv_offset_set[2].z < 0.5 ? uv0 : uv1;
-  alpha *= textureLod(base_color_map, mat2(uv_linear[2].xy, uv_linear[2].zw) * uv + uv_offset_set[2].xy, 0.0).a;
-//? end
-//? if vertex_color
-  alpha *= vertex_alpha;
-//? end
-  if (alpha < lobe_cutoff.y) discard;
+  if (isCutOut()) discard;
 //? end
 //? if orthographic
   vec3 to_viewer = to_camera;
@@ -101,5 +118,6 @@ void main() {
   normal_extent = vec4(normal, grid * (length(along_x) + length(along_y)));
   mapped_stretch = vec4(mapped, length(vec2(length(gradient_u), length(gradient_v))),
                         grid * max(length(mapped_x * map_size), length(mapped_y * map_size)));
+  material_alone = is_alone && dot(normal, to_viewer) > 0.0 ? piece.y : 0.0;
 //? end
 }

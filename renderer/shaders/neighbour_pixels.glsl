@@ -7,7 +7,7 @@ struct Neighbour {
 Neighbour beside[2];  // of the pixel
 
 // Before any pixel is discarded. A frame's axes are unit and orthogonal, its inverse is its transpose.
-void lookBeside(mat3 frame, inout Footprints f) {
+void fetchNeighbourFrames(mat3 frame, inout Footprints f) {
   mat3 right = mat3(dFdx(frame[0]), dFdx(frame[1]), dFdx(frame[2]));
   mat3 up = mat3(dFdy(frame[0]), dFdy(frame[1]), dFdy(frame[2]));
   f.frame_dx = transpose(frame) * right;

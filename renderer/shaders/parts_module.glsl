@@ -1,6 +1,6 @@
 // A module whose pixel is some parts of the normals under a footprint, each with a share, mean and covariance, and a
-// stretched base lobe. Who takes it in has `const int parts`, `Part` and what goes with it (stretched_part.glsl); what is
-// missing is `effective`.
+// stretched base lobe. Who takes it in has `const int parts`, `Part` and what goes with it (stretched_part.glsl); what
+// is missing is `effective`.
 //? include part_moments.glsl
 
 struct Effective {

@@ -5,7 +5,7 @@
 const int facets_per_sample = 32;  // each from another share of the facets, which lie in the order of their normals
 const int facets_per_row = 128;
 const int visibility_side = 32;    // of the grid of directions
-const int bits_per_texel = 96;     // 24 a channel: what a float holds exactly
+const int bits_per_texel = 96;     // 24 per channel: what a float holds exactly
 const int texels_per_facet = (visibility_side * visibility_side + bits_per_texel - 1) / bits_per_texel;
 
 // What one sample draws.

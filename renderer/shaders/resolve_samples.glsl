@@ -3,7 +3,7 @@
 //
 // A sample's alpha is 0 beside the surface and 1 on it. 1 + x, up to 2 and more, where a share x of it fell on invalid
 // texels: the surface covers it, but that share has no radiance and enters no mean.
-layout(binding = 0) uniform sampler2D samples;         // grid x grid samples a pixel
+layout(binding = 0) uniform sampler2D samples;         // grid x grid samples per pixel
 layout(binding = 1) uniform sampler2D old_mean_count;  // mean radiance over samples that have one, their number
 layout(binding = 2) uniform sampler2D old_covered;     // number of covered samples
 

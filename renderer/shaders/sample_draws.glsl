@@ -1,13 +1,13 @@
 // What a sample of the reference draws: a texel of the maps, and directions. Its points are those of two Owen-scrambled
-// sequences (renderer/pipeline/sample_grid.hpp), each scrambled anew for every pixel.
+// sequences (renderer/pipeline/sample_sequence.hpp), each scrambled again for every pixel.
 //? include sample_sequence.glsl
 //? include random_numbers.glsl
 
-uniform ivec2 sample_origin;  // of this tile in the whole picture's sample grid
+uniform ivec2 sample_origin;  // of this tile in the whole image's sample grid
 uniform int sample_grid;
-uniform uint sample_seed;     // of the picture's sequence
+uniform uint sample_seed;     // of the image's sequence
 uniform uvec2 sample_texels[16];  // digits for each cell of the grid
-uniform vec3 drawn_texels;    // of the material: size of the map whose texels are told apart; 4 texels a sample, or 1
+uniform vec3 drawn_texels;    // of the material: size of the map whose texels are told apart; 4 texels per sample, or 1
 
 uvec3 sample_pixel;  // the pixel's own seeds
 int sample_cell;
@@ -25,8 +25,9 @@ void drawPoint() {
 
 //? if sampling_texel
 // Draws texel i of those that a sample may fall on at a footprint's centre, and returns its weight of the bilinear
-// filter. With 4 a sample the draw's square is cut where another texel of the map begins, and the point is put into the
-// part; maps of the same size and coordinates then take each of the 4 texels once, and others take theirs at random.
+// filter. With 4 per sample the draw's square is cut where another texel of the map begins, and the point is put into
+// the part; maps of the same size and coordinates then take each of the 4 texels once, and others take theirs at
+// random.
 float drawTexel(Footprint f, int i) {
   drawPoint();
   if (drawn_texels.z < 2.0) return 1.0;

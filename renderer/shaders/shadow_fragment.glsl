@@ -6,19 +6,13 @@ in vec2 uv1;
 //? if vertex_color
 in float vertex_alpha;
 //? end
+
+//? include alpha_mask.glsl
 //? end
 
 void main() {
 //? if alpha_mask
-  float alpha = base_color_factor.a;
-//? if base_color_variation
-  vec2 uv = uv_offset_set[2].z < 0.5 ? uv0 : uv1;
-  alpha *= textureLod(base_color_map, mat2(uv_linear[2].xy, uv_linear[2].zw) * uv + uv_offset_set[2].xy, 0.0).a;
-//? end
-//? if vertex_color
-  alpha *= vertex_alpha;
-//? end
-  if (alpha < lobe_cutoff.y) discard;
+  if (isCutOut()) discard;
 //? end
   gl_FragDepth = depth;
 }

@@ -57,10 +57,10 @@ Part stretchedPart(float share, vec2 mean, vec3 spread, float lobe, float varian
 }
 
 //? if diffuse
-// The mean of the unit normals (2 p, 1 - |p|^2) / q, q = 1 + |p|^2, of a part. With the mean m of q, which is known, 1/q
-// about 1/m to the second order of q - m is (1 + var q / m^2) / m, p / q likewise (mean (1 + var q / m^2) - cov(p, q) /
-// m) / m; to the second order of the spread cov(p, q) = 2 S mean and var q = 4 mean^T S mean. About m nothing runs away
-// where the spread is wide: two walls that face each other have var q = 0, and theirs is exact.
+// The mean of the unit normals (2 p, 1 - |p|^2) / q, q = 1 + |p|^2, of a part. With the mean m of q, which is known,
+// 1/q about 1/m to the second order of q - m is (1 + var q / m^2) / m, p / q likewise (mean (1 + var q / m^2) - cov(p,
+// q) / m) / m; to the second order of the spread cov(p, q) = 2 S mean and var q = 4 mean^T S mean. About m nothing runs
+// away where the spread is wide: two walls that face each other have var q = 0, and theirs is exact.
 vec3 meanNormalOf(vec2 mean, vec3 spread) {
   vec2 along = vec2(dot(spread.xy, mean), dot(spread.yz, mean));
   float m = 1.0 + dot(mean, mean) + spread.x + spread.z;

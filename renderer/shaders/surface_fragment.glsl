@@ -101,7 +101,7 @@ struct SurfacePoint {
 };
 
 // Both terms together, and the coat over them: f * cos.
-vec3 layered(SurfacePoint p, Reflected r, vec3 wi) {
+vec3 withCoat(SurfacePoint p, Reflected r, vec3 wi) {
 //? if diffuse
   vec3 base = r.specular + r.diffuse;
 //? else
@@ -114,7 +114,7 @@ vec3 layered(SurfacePoint p, Reflected r, vec3 wi) {
 //? end
 }
 
-vec3 reflectance(SurfacePoint p, vec3 wi) { return layered(p, shade(p.effective, p.surface, wi, p.wo), wi); }
+vec3 reflectance(SurfacePoint p, vec3 wi) { return withCoat(p, shade(p.effective, p.surface, wi, p.wo), wi); }
 
 // One light's share.
 vec3 reflected(SurfacePoint p, Incident light) {
@@ -124,7 +124,7 @@ vec3 reflected(SurfacePoint p, Incident light) {
 //? else
   Reflected r = shade(p.effective, p.surface, light.wi, p.wo);
 //? end
-  return layered(p, r, light.wi) * light.irradiance_at_normal;
+  return withCoat(p, r, light.wi) * light.irradiance_at_normal;
 }
 
 //? if environment_sampled
@@ -134,7 +134,7 @@ vec3 reflected(SurfacePoint p, Incident light) {
 //? end
 
 //? if filter_shaded
-// Every light once a pixel, whatever the number of its parts.
+// Every light once per pixel, whatever the number of its parts.
 Incident arriving[max(light_capacity, 1)];
 int arriving_count = 0;
 
@@ -157,7 +157,7 @@ void findLight(mat3 frame) {
 
 //? if environment_light and not environment_sampled
 // The environment's light by lobes.
-vec3 skyLit(SurfacePoint p) {
+vec3 environmentRadiance(SurfacePoint p) {
 //? if environment_summed
   vec3 base = environmentSum(p.effective, p.surface, p.wo, p.frame);
 //? else
@@ -198,10 +198,10 @@ vec3 lit(SurfacePoint p) {
 //? if environment_sampled
   radiance += environmentIntegral(p);
 //? elif environment_light
-  radiance += skyLit(p);
+  radiance += environmentRadiance(p);
 //? end
 //? if environment_suns
-  radiance += sunsLit(p);
+  radiance += sunRadiance(p);
 //? end
   return radiance;
 }
@@ -313,7 +313,7 @@ void main() {
   mat3 frame = tangentFrame(world_normal, world_tangent);
 //? end
 //? if screen_derivatives
-  lookBeside(frame, f);
+  fetchNeighbourFrames(frame, f);
 //? end
 //? if random_draws
   drawPoint();

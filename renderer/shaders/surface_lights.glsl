@@ -1,5 +1,6 @@
-// Punctual lights in the units of KHR_lights_punctual: candela and lux. Their counts are uniforms: one program serves any
-// number of lights. llvmpipe knows their values when it compiles, and unrolls loops over few lights and little else.
+// Punctual lights in the units of KHR_lights_punctual: candela and lux. Their counts are uniforms: one program serves
+// any number of lights. llvmpipe knows their values when it compiles, and unrolls loops over few lights and little
+// else.
 
 //? if point_light
 struct PointLight {
@@ -35,3 +36,35 @@ float distanceAttenuation(float squared_distance, float range) {
   float ratio = squared_distance / (range * range);
   return falloff * clamp(1.0 - ratio * ratio, 0.0, 1.0);
 }
+
+//? if cast_shadow and (point_light or spot_light or directional_light)
+// Large-scale visibility of point, spot and directional lights: shadow maps (docs/shadows.md).
+struct ShadowView {
+  mat4 world_to_map;    // to (u w, v w, linear depth, w)
+  vec4 axis_texel;      // where the map looks; edge of a texel in metres at w = 1
+  vec4 faces_rounding;  // maps of the light: 1 or 6; what rounding moves a point by, metres
+};
+layout(std140, binding = 6) uniform ShadowViews { ShadowView shadow_views[shadow_view_capacity]; };
+
+// The face of a cube that a direction meets, in the order +x, -x, +y, -y, +z, -z.
+int cubeFace(vec3 direction) {
+  vec3 size = abs(direction);
+  int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
+  return 2 * axis + (direction[axis] < 0.0 ? 1 : 0);
+}
+
+// The share of a light that nothing keeps from a point: four texels compared, and blended. A comparison looks at the
+// surface up to sqrt(2) texels beside the point, so the point is first moved along its geometric normal `n` until it
+// lies before its own plane there: by sqrt(2) texels times the sine between normal and axis, and a little for what a
+// rasteriser rounds. `from_light` leads from the light to the point; only a light with six maps looks at it.
+float clearOfShadow(float first_view, vec3 point, vec3 n, vec3 from_light) {
+  int view = int(first_view);
+  if (shadow_views[view].faces_rounding.x > 1.0) view += cubeFace(from_light);
+  vec4 axis_texel = shadow_views[view].axis_texel;
+  float along = dot(n, axis_texel.xyz);
+  float texel = axis_texel.w * (shadow_views[view].world_to_map * vec4(point, 1.0)).w;
+  float moved = 1.45 * texel * sqrt(max(1.0 - along * along, 0.0)) + shadow_views[view].faces_rounding.y;
+  vec4 on_map = shadow_views[view].world_to_map * vec4(point + moved * n, 1.0);
+  return texture(shadow_maps, vec4(on_map.xy / on_map.w, float(view), on_map.z));
+}
+//? end

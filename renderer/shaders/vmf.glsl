@@ -1,5 +1,5 @@
 // The von Mises-Fisher distribution of unit vectors h about an axis, of density proportional to e^{kappa (axis.h)}, and
-// the Gaussian that it is in the plane which touches the sphere at the axis. Twin of renderer/lobes/vmf.hpp.
+// the Gaussian that it is in the plane which touches the sphere at the axis. Twin of renderer/lobes/lobe.hpp.
 
 // 1 - e^{-2 x} for x >= 0: a series where the difference would cancel.
 float oneMinusExp2(float x) { return x < 0.02 ? 2.0 * x * (1.0 - x * (1.0 - x * (2.0 / 3.0 - x / 3.0))) : 1.0 - exp(-2.0 * x); }
@@ -23,8 +23,8 @@ float meanCosine(float kappa) {
 // of 1, which keeps its digits where lobes are narrow: q = 1 - |r|, 0 < q <= 1.
 float kappaOf(float q) { return (1.0 - q) * (2.0 + q * (2.0 - q)) / (q * (2.0 - q)); }
 
-// Its inverse: the root in (0, 1] of q^3 + (kappa - 3) q^2 - 2 kappa q + 2 = 0 (Xu 2017, equation 9, in q), by two steps
-// of Newton. The closed form with an arc cosine has lost kappa = 1000 in 32 bits.
+// Its inverse: the root in (0, 1] of q^3 + (kappa - 3) q^2 - 2 kappa q + 2 = 0 (Xu 2017, equation 9, in q), by two
+// steps of Newton. The closed form with an arc cosine has lost kappa = 1000 in 32 bits.
 float shortfallOf(float kappa) {
   float q = kappa >= 1.0 ? 1.0 / (kappa + 0.5) : 1.0 / (1.0 + kappa / 3.0);
   for (int i = 0; i < 2; ++i) {

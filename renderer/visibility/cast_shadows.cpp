@@ -1,4 +1,4 @@
-// Rays from points spread over all triangles to each light, until one is blocked.
+// Rays from points on the surface to the lights, and away from them.
 #include "renderer/visibility/cast_shadows.hpp"
 
 #include <tbb/blocked_range.h>
@@ -8,12 +8,34 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <numbers>
-
-#include "renderer/visibility/light_ray.hpp"
 
 namespace footprint {
 namespace {
+
+struct RayFrom {
+  glm::vec3 point;
+
+  [[nodiscard]] std::optional<LightRay> operator()(const PointLight& light) const {
+    const glm::vec3 way = light.position - point;
+    const float distance = glm::length(way);
+    const bool reaches = distance > 0.0F && (!light.range || distance < *light.range);
+    if (!reaches || light.intensity == glm::vec3(0.0F)) return {};
+    return LightRay{way / distance, distance};
+  }
+
+  [[nodiscard]] std::optional<LightRay> operator()(const SpotLight& light) const {
+    const auto ray = (*this)(light.point);
+    if (!ray || -glm::dot(ray->direction, light.direction) <= std::cos(light.outer_cone_angle)) return {};
+    return ray;
+  }
+
+  [[nodiscard]] std::optional<LightRay> operator()(const DirectionalLight& light) const {
+    if (light.illuminance == glm::vec3(0.0F)) return {};
+    return LightRay{-light.direction, std::numeric_limits<float>::infinity()};
+  }
+};
 
 constexpr std::size_t fewest_area_points = 4096;  // so that large triangles are looked at closely
 constexpr float near_corner = 0.9F;               // of the way from the middle to a corner
@@ -144,6 +166,10 @@ bool sees_something(const Scene& scene, const Occluders& occluders, const Surfac
 }
 
 }  // namespace
+
+std::optional<LightRay> ray_to_light(const Light& light, const glm::vec3& point) {
+  return std::visit(RayFrom{point}, light);
+}
 
 bool hides_surroundings(const Scene& scene, const Occluders& occluders, std::size_t limit) {
   const std::vector<SurfacePoint> points = spread_points(scene, occluders, limit);

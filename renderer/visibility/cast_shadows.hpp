@@ -1,12 +1,25 @@
-// Whether anything in a scene casts a shadow on anything else, found by rays.
+// Whether anything in a scene casts shadows.
 #pragma once
 
 #include <cstddef>
+#include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
+#include "renderer/scene/scene.hpp"
 #include "renderer/visibility/occluders.hpp"
 
 namespace footprint {
+
+/// A straight way from a point to a light.
+struct LightRay {
+  glm::vec3 direction;  ///< from the point to the light, unit
+  float distance;       ///< metres, infinite for a directional light
+};
+
+/// The way from `point` to `light`; none where the light sends nothing there (outside of its cone or beyond its range,
+/// or black) or stands at the point itself.
+[[nodiscard]] std::optional<LightRay> ray_to_light(const Light& light, const glm::vec3& point);
 
 /// The points of a scene that the search looks at: at most `limit` triangles, spread over all, by their middle and by
 /// points near their corners, and as many points again, spread over the area. Deterministic. Triangles without an area

@@ -1,14 +1,14 @@
 // Visibility on disk: a second run has the bytes of the first, what is damaged or foreign is asked anew, and the key
 // follows all that the field depends on.
-#include "renderer/visibility/kept_visibility.hpp"
+#include "renderer/visibility/visibility_field.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 
+#include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/file_bytes.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint {
@@ -42,7 +42,7 @@ struct Asked {
 Asked ask(const Scene& scene, const DiskCache* cache) {
   Asked asked;
   const Progress notice = [&](std::string_view /*what*/, double /*fraction*/) { asked.anew = true; };
-  asked.field = kept_visibility_field(scene, white_sky, cache, notice);
+  asked.field = cached_visibility_field(scene, white_sky, cache, notice);
   return asked;
 }
 
@@ -82,7 +82,7 @@ TEST(KeptVisibility, ADamagedFileIsAskedAnewAndReplaced) {
 TEST(KeptVisibility, AFieldOfAnotherSceneUnderThisNameIsAskedAnew) {
   const DiskCache cache(fresh_visibility_folder("foreign"));
   const Scene scene = two_squares(), other = testing::square_scene({}, {});
-  cache.keep(visibility_key(scene, white_sky), to_bytes(ask(other, nullptr).field));
+  cache.store(visibility_key(scene, white_sky), to_bytes(ask(other, nullptr).field));
   EXPECT_TRUE(ask(scene, &cache).anew);
   EXPECT_EQ(ask(scene, &cache).field.meshes.size(), 2U);
 }
@@ -92,7 +92,7 @@ TEST(KeptVisibility, AnInterruptLeavesNothing) {
   const Progress stop = [](std::string_view /*what*/, double /*fraction*/) {
     throw Error(ErrorKind::interrupted, "", "interrupted");
   };
-  EXPECT_THROW((void)kept_visibility_field(two_squares(), white_sky, &cache, stop), Error);
+  EXPECT_THROW((void)cached_visibility_field(two_squares(), white_sky, &cache, stop), Error);
   EXPECT_FALSE(fs::exists(cache.folder()));
 }
 

@@ -29,14 +29,14 @@ class Occluders {
  public:
   static constexpr float unlimited = std::numeric_limits<float>::infinity();
 
-  /// Errors (machine): memory is out.
+  /// Throws Error (machine): memory is out.
   explicit Occluders(const Scene& scene);
 
   /// Whether anything keeps light from `origin` that comes against the unit vector `direction`, from nearer than
   /// `distance`.
   [[nodiscard]] bool blocked(const glm::vec3& origin, const glm::vec3& direction, float distance = unlimited) const;
 
-  /// The same for many rays without an end from one point; a value a direction.
+  /// The same for many rays without an end from one point; a value per direction.
   [[nodiscard]] std::vector<bool> blocked(const glm::vec3& origin, std::span<const glm::vec3> directions) const;
 
   /// The first point that keeps light which goes along the ray from going on, at `least` or further.

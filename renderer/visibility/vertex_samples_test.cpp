@@ -1,5 +1,5 @@
 // Samples of a fine sphere: how many, how near, and that a smooth function of the surface is interpolated.
-#include "renderer/visibility/vertex_samples.hpp"
+#include "renderer/visibility/signed_distance.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Signed distances by rays at every vertex, compressed by their principal components.
+// Principal components of the signed distances of some vertices, interpolated at the others.
 #include "renderer/visibility/visibility_field.hpp"
 
 #include <fmt/format.h>
@@ -9,14 +9,19 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
+#include <utility>
 
+#include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/core/hash.hpp"
 #include "renderer/core/memory.hpp"
-#include "renderer/environment/cell_light.hpp"
 #include "renderer/environment/octahedral.hpp"
-#include "renderer/visibility/vertex_samples.hpp"
+#include "renderer/environment/reference_tables.hpp"
+#include "renderer/scene/scene.hpp"
+#include "renderer/visibility/signed_distance.hpp"
 
 namespace footprint {
 namespace {
@@ -161,6 +166,49 @@ std::vector<Image> make_layers(const Eigen::RowVectorXf& mean, const Eigen::Matr
   return layers;
 }
 
+constexpr std::string_view form = "footprint visibility 2";  // another layout below: another number here
+
+template <class Value>
+void add_values(ContentHash& hash, const std::vector<Value>& values) {
+  hash.add(std::as_bytes(std::span(values)));
+}
+
+void add_mesh(ContentHash& hash, const Mesh& mesh, const Material& material, bool both_sides) {
+  std::vector<glm::vec3> points, normals;
+  for (const Vertex& vertex : mesh.vertices) {
+    points.push_back(vertex.position);
+    normals.push_back(vertex.normal);
+  }
+  add_values(hash, points);
+  add_values(hash, normals);
+  add_values(hash, mesh.indices);
+  hash.add(material.double_sided || both_sides ? "both sides" : "front");
+  hash.add(material.alpha_cutoff ? "cut out" : "whole");
+  if (!material.alpha_cutoff) return;
+  std::vector<glm::vec2> coordinates;
+  std::vector<float> alphas;
+  for (const Vertex& vertex : mesh.vertices) {
+    coordinates.insert(coordinates.end(), {vertex.uv0, vertex.uv1});
+    alphas.push_back(vertex.color.a);
+  }
+  add_values(hash, coordinates);
+  add_values(hash, alphas);
+  add_content(hash, material);
+}
+
+// Whether a field has layers of one size and a value for each vertex.
+bool fits(const VisibilityField& field, const Scene& scene) {
+  const Image& first = field.layers.front();
+  const auto like_first = [&](const Image& layer) {
+    return layer.width == first.width && layer.height == first.height && layer.channels == first.channels &&
+           layer.texels.size() == layer.texel_count() * static_cast<std::size_t>(layer.channels);
+  };
+  const auto vertices = [](const Mesh& mesh) { return mesh.vertices.size(); };
+  return first.width > 0 && first.height > 0 && first.channels > 0 && std::ranges::all_of(field.layers, like_first) &&
+         std::ranges::equal(field.meshes, scene.meshes, std::ranges::equal_to(), &std::vector<VertexVisibility>::size,
+                            vertices);
+}
+
 }  // namespace
 
 std::vector<glm::dvec3> visibility_light(const Environment& environment) {
@@ -188,6 +236,55 @@ VisibilityField visibility_field(const Scene& scene, const Occluders& occluders,
   }
   const double left_out = (measured.distances - weights * components.transpose()).squaredNorm();
   field.error = std::sqrt(left_out / static_cast<double>(measured.distances.size()));
+  return field;
+}
+
+std::string visibility_key(const Scene& scene, const Environment& environment) {
+  ContentHash hash;
+  add_program(hash);
+  hash.add(std::as_bytes(std::span(&scene.bounds, 1)));  // rays start off the surface by a share of it
+  for (const Mesh& mesh : scene.meshes) {
+    add_mesh(hash, mesh, scene.materials[static_cast<std::size_t>(mesh.material)], scene.shadows.both_sides);
+  }
+  hash.add(scene.horizon == Horizon::open ? "open" : "cut");
+  add_values(hash, visibility_light(environment));
+  return fmt::format("visibility-{}", hash.hex());
+}
+
+// Found by the archives of core/bytes.hpp.
+template <class Archive>
+void fields(Archive& archive, Image& image) {
+  auto& [width, height, channels, texels] = image;
+  archive(width, height, channels, texels);
+}
+
+template <class Archive>
+void fields(Archive& archive, VisibilityField& field) {
+  auto& [layers, meshes, error] = field;
+  archive(layers, meshes, error);
+}
+
+std::vector<std::uint8_t> to_bytes(const VisibilityField& field) {
+  return write_checksummed(form, [&](ChecksummedWriter& out) { out(field); });
+}
+
+std::optional<VisibilityField> visibility_from_bytes(const ByteSource& bytes, const Scene& scene) {
+  std::optional<ChecksummedReader> in = ChecksummedReader::open(bytes, form);
+  if (!in) return {};
+  VisibilityField field;
+  (*in)(field);
+  if (!in->finished() || field.layers.empty() || !fits(field, scene)) return {};
+  return field;
+}
+
+VisibilityField cached_visibility_field(const Scene& scene, const Environment& environment, const DiskCache* cache,
+                                        const Progress& progress) {
+  if (cache == nullptr) return visibility_field(scene, Occluders(scene), environment, progress);
+  const std::string key = visibility_key(scene, environment);
+  const std::optional<ByteSource> bytes = cache->find(key);
+  if (auto cached = bytes ? visibility_from_bytes(*bytes, scene) : std::nullopt) return *std::move(cached);
+  VisibilityField field = visibility_field(scene, Occluders(scene), environment, progress);
+  cache->store(key, to_bytes(field));
   return field;
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/core/stage_clock.hpp"
+#include "renderer/core/progress.hpp"
 #include "results/report/records.hpp"
 
 namespace footprint {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/core/words.hpp"
+#include "renderer/core/names.hpp"
 
 namespace footprint {
 

@@ -19,7 +19,7 @@
 #include <variant>
 #include <vector>
 
-#include "renderer/core/words.hpp"
+#include "renderer/core/names.hpp"
 
 namespace footprint {
 

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "renderer/core/words.hpp"
+#include "renderer/core/names.hpp"
 #include "results/report/experiment_report.hpp"
 
 namespace footprint {

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "renderer/scene/geometry.hpp"
-#include "renderer/scene/plane.hpp"
 
 namespace footprint {
 namespace {

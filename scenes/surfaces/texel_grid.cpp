@@ -4,7 +4,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "renderer/core/interrupt.hpp"
+#include "renderer/core/process.hpp"
 
 namespace footprint {
 namespace {

@@ -10,13 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "renderer/bake/prefiltered_file.hpp"
+#include "renderer/bake/bake_cache.hpp"
 #include "renderer/core/hash.hpp"
 #include "renderer/image/image_io.hpp"
+#include "renderer/scene/assembly/microgeometry_content.hpp"
 #include "renderer/scene/environment.hpp"
-#include "renderer/scene/gltf/model.hpp"
-#include "renderer/scene/merl_file.hpp"
-#include "renderer/scene/obj_model.hpp"
+#include "renderer/scene/model.hpp"
 #include "renderer/scene/settings/scene.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 

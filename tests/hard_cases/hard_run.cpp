@@ -13,7 +13,7 @@
 
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/file_names.hpp"
+#include "renderer/core/names.hpp"
 #include "renderer/image/false_color.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "renderer/scene/plane.hpp"
+#include "renderer/scene/geometry.hpp"
 
 namespace footprint::hard_cases {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "renderer/core/file_names.hpp"
+#include "renderer/core/names.hpp"
 #include "renderer/scene/camera.hpp"
 #include "tests/hard_cases/hard_case.hpp"
 #include "tests/hard_cases/hard_maps.hpp"

@@ -10,9 +10,8 @@
 
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/image/exr_chain.hpp"
 #include "renderer/image/image_io.hpp"
-#include "renderer/pipeline/built_maps.hpp"
+#include "renderer/pipeline/surface_program.hpp"
 #include "tests/methods/bare_renderer.hpp"
 #include "tests/support/fresh_folder.hpp"
 #include "tests/support/rendering.hpp"

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "renderer/gl/objects.hpp"
-#include "renderer/image/exr_chain.hpp"
+#include "renderer/image/image_io.hpp"
 #include "renderer/pipeline/view.hpp"
 #include "tests/support/ktx2_reader.hpp"
 #include "tests/support/rendering.hpp"
@@ -147,6 +147,7 @@ void set_uniform(const gl::Program& program, const std::string& name, const Json
   const auto v = value.get<std::vector<float>>();
   if (v.size() == 4) gl::api().ProgramUniform4f(program.name(), place, v[0], v[1], v[2], v[3]);
   if (v.size() == 3) gl::api().ProgramUniform3f(program.name(), place, v[0], v[1], v[2]);
+  if (v.size() == 2) gl::api().ProgramUniform2f(program.name(), place, v[0], v[1]);
 }
 
 // Rows from the top.

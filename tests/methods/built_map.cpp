@@ -7,7 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
-#include "renderer/pipeline/frame_build_job.hpp"
+#include "renderer/pipeline/surface_program.hpp"
 #include "tests/support/method_probe.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/shader_probe.hpp"
@@ -127,7 +127,7 @@ std::string BuiltMap::shader_text() const {
 std::vector<glm::vec4> BuiltMap::probe(const std::string& body, const ProbeInputs& inputs) const {
   for (GLuint unit = 0; unit < textures_.size(); ++unit) {
     gl::api().BindTextureUnit(unit, textures_[unit].texture->name());
-    gl::api().BindSampler(unit, samplers_.sampler(textures_[unit].coordinates, Lookup::trilinear));
+    gl::api().BindSampler(unit, samplers_.sampler(textures_[unit].coordinates, SamplerState::trilinear));
   }
   std::string setting =
       "Footprint whole_map = Footprint(vec2(0.5), vec2(1.0, 0.0), vec2(0.0, 1.0));\n"

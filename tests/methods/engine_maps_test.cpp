@@ -1,6 +1,6 @@
 // Roughness mips as engines import them, and the model with them written back: a plain viewer of the smaller model
 // draws what the method draws of the large one.
-#include "renderer/baked_files/engine_maps.hpp"
+#include "renderer/baked_files/baked_files.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,9 +12,9 @@
 #include <tuple>
 
 #include "methods/registry.hpp"
-#include "renderer/ndf/footprint_part.hpp"
+#include "renderer/ndf/footprint_texels.hpp"
+#include "renderer/ndf/hemisphere_grid.hpp"
 #include "renderer/ndf/method_ndf.hpp"
-#include "renderer/ndf/ndf_figures.hpp"
 #include "renderer/ndf/true_ndf.hpp"
 #include "scenes/surfaces/registry.hpp"
 #include "tests/support/rendering.hpp"

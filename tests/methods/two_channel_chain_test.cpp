@@ -10,7 +10,7 @@
 #include "methods/registry.hpp"
 #include "renderer/bake/normal_chain.hpp"
 #include "renderer/baked_files/baked_files.hpp"
-#include "renderer/image/exr_chain.hpp"
+#include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"
 #include "tests/methods/bare_renderer.hpp"
 #include "tests/support/fresh_folder.hpp"

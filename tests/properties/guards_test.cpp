@@ -21,7 +21,6 @@
 #include "renderer/bake/slope_moments.hpp"
 #include "renderer/image/mipmap.hpp"
 #include "renderer/lobes/lobe.hpp"
-#include "renderer/lobes/vmf.hpp"
 
 namespace footprint::testing {
 namespace {

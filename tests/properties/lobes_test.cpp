@@ -5,7 +5,6 @@
 
 #include "methods/iwasaki_sg/spherical_gaussian.hpp"
 #include "renderer/lobes/lobe.hpp"
-#include "renderer/lobes/vmf.hpp"
 #include "tests/properties/inputs.hpp"
 
 namespace footprint::testing {

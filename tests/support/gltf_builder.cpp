@@ -7,7 +7,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "renderer/core/file_bytes.hpp"
+#include "renderer/core/bytes.hpp"
 #include "renderer/image/image_io.hpp"
 
 namespace footprint::test {

@@ -37,7 +37,7 @@ std::vector<glm::vec4> probe_method(const ProbedMethod& probed, const std::strin
     textures.push_back(upload(texture));
     gl::api().BindTextureUnit(unit, textures.back().texture->name());
     const GpuTexture& bound = textures.back();
-    gl::api().BindSampler(unit, samplers.sampler(bound.coordinates, bound.lookup(Lookup::trilinear)));
+    gl::api().BindSampler(unit, samplers.sampler(bound.coordinates, bound.sampler_state(SamplerState::trilinear)));
     text += fmt::format("layout(binding = {}) uniform sampler2D{} {};\n", unit, texture.layers > 0 ? "Array" : "",
                         texture.name);
   }
@@ -46,6 +46,11 @@ std::vector<glm::vec4> probe_method(const ProbedMethod& probed, const std::strin
       text += fmt::format("const float option_{} = {:e};\n", name, *number);
   }
   for (const auto& [name, value] : baked.scalars) text += fmt::format("const float {} = {:e};\n", name, value);
+  for (const auto& [name, values] : baked.vectors) {
+    std::string list;
+    for (const glm::vec2& v : values) list += fmt::format("{}vec2({:e}, {:e})", list.empty() ? "" : ", ", v.x, v.y);
+    text += fmt::format("const vec2 {0}[{1}] = vec2[{1}]({2});\n", name, values.size(), list);
+  }
   text += fmt::format("const vec4 lobe_cutoff = vec4({:e});\n", lobe_of(*probed.material).parameter) +
           shared_functions(shader_flags(variant, options, baked), probed.method->shader());
   const std::string footprint = fmt::format(

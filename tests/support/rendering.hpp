@@ -8,7 +8,6 @@
 
 #include "renderer/gl/context.hpp"
 #include "renderer/pipeline/frame.hpp"
-#include "renderer/pipeline/pixel_work.hpp"
 #include "renderer/pipeline/supersample.hpp"
 
 namespace footprint::testing {

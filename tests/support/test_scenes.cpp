@@ -8,7 +8,7 @@
 #include <random>
 
 #include "renderer/scene/camera.hpp"
-#include "renderer/scene/plane.hpp"
+#include "renderer/scene/geometry.hpp"
 
 namespace footprint::testing {
 

@@ -8,7 +8,7 @@
 #include "methods/iwasaki_sg/ndf_fit.hpp"
 #include "methods/iwasaki_sg/settings.hpp"
 #include "methods/iwasaki_sg/spherical_gaussian.hpp"
-#include "renderer/lobes/vmf.hpp"
+#include "renderer/lobes/lobe.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
 

@@ -14,7 +14,7 @@
 #include "methods/iwasaki_sg/study/fit_error.hpp"
 #include "methods/iwasaki_sg/table_textures.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/stage_clock.hpp"
+#include "renderer/core/progress.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
 
 namespace footprint::iwasaki_sg {

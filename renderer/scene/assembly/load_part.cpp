@@ -1,5 +1,5 @@
 // Loads a part's content, lays BRDF, patches, layer and maps over each of its materials, then moves it into the world.
-#include "renderer/scene/assembly/load_part.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -12,10 +12,10 @@
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/assembly/microgeometry_content.hpp"
 #include "renderer/scene/assembly/surface_maps.hpp"
+#include "renderer/scene/charts.hpp"
 #include "renderer/scene/geometry.hpp"
-#include "renderer/scene/model_file.hpp"
-#include "renderer/scene/plane.hpp"
-#include "renderer/scene/unwrap.hpp"
+#include "renderer/scene/model.hpp"
+#include "renderer/scene/settings/toml_values.hpp"
 
 namespace footprint {
 namespace {
@@ -33,10 +33,7 @@ Model load_content(const ModelSettings& settings) {
       throw Error(failed.kind(), failed.place(), failed.message(), "install the package " + settings.package);
     }
   }
-  std::string tried;
-  for (const auto& candidate : settings.candidates) tried += (tried.empty() ? "" : ", ") + candidate.string();
-  throw Error(ErrorKind::usage, tried, "none of these files exists",
-              settings.package.empty() ? "check the paths" : "install the package " + settings.package);
+  throw missing_candidates(settings.candidates, "none of these files exists", settings.package, "check the paths");
 }
 
 MapTexels computed(Image image) { return std::make_shared<const Image>(std::move(image)); }
@@ -225,7 +222,7 @@ Image read_lobe_parameter(const std::filesystem::path& file, NormalDistribution 
   }
 }
 
-// The maps of [maps], each over a whole material; read once and shared.
+// The loaded maps of MapSettings, each over a whole material; shared by all materials.
 struct LaidMaps {
   std::optional<TextureMap> roughness, lobe_parameter, specular, diffuse;
 };
@@ -276,7 +273,7 @@ std::optional<ClearCoat> load_coat(const CoatSettings& settings, std::vector<std
   return coat;
 }
 
-// The shares of several materials of a surface. An 8-bit picture holds a number in the 255 steps of its red channel.
+// The shares of several materials of a surface. An 8-bit image holds a number in the 255 steps of its red channel.
 std::vector<TextureMap> load_shares(const MapFile& from, glm::vec2 tiling, std::size_t count) {
   Image stored = read_image(from.file, Transfer::linear);
   if (!is_exr(from.file)) {

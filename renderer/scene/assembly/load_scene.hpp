@@ -1,4 +1,4 @@
-// From a scene folder, a scene.toml or a glTF file to a Scene.
+// From a scene folder, a scene.toml or a model file to a Scene.
 #pragma once
 
 #include <filesystem>
@@ -6,11 +6,17 @@
 #include <string>
 #include <vector>
 
+#include "renderer/scene/model.hpp"
 #include "renderer/scene/scene.hpp"
+#include "renderer/scene/settings/part.hpp"
 #include "renderer/scene/settings/scene.hpp"
 #include "renderer/scene/surface.hpp"
 
 namespace footprint {
+
+/// Loads what `settings` names. May hold no triangle. Throws Error (usage): no candidate file exists, whatever loading
+/// it refuses, lobes of another distribution than the surface's own.
+[[nodiscard]] Model load_part(const PartSettings& settings);
 
 /// A scene before it is assembled: its settings, which may be changed first.
 struct SceneSource {
@@ -24,21 +30,22 @@ struct SceneSource {
 struct SceneOverrides {
   CameraSettings camera;  ///< where it says anything
   ModelSelection model;   ///< of the scene's only model file; a camera of it goes before the scene's own
-  std::optional<std::filesystem::path> environment;  ///< picture in place of the scene's own environment
-  std::optional<int> most_texels;  ///< a side, of surfaces that are made: those that ask for more have as many
+  std::optional<std::filesystem::path> environment;  ///< image instead of the scene's own environment
+  std::optional<int> most_texels;  ///< per side, of surfaces that are made: those that ask for more have as many
 };
 
-/// What SCENE names, read but not assembled. Errors (usage) as of load_scene, but for those of assembling.
+/// What SCENE names, read but not assembled. Throws Error (usage) as of load_scene, but for those of assembling.
 [[nodiscard]] SceneSource read_scene(const std::string& scene, const SceneLibrary& library,
                                      const SceneOverrides& overrides = {});
 
-/// The scene of a source. Errors (usage) of assemble_scene, naming the file.
+/// The scene of a source. Throws Error (usage) of assemble_scene, naming the file.
 [[nodiscard]] Scene assemble(const SceneSource& source);
 
 /// Loads SCENE as the command line takes it: a folder of `library.folder`, a folder with a scene.toml, a path to a
 /// scene.toml, or a .gltf / .glb file (camera framed on its bounds and a light rig supplied where the file has none).
-/// Errors (usage) name file, place and hint; an unknown key in scene.toml names its line and the nearest right key, and
-/// so does a surface that is not in the library; a selection of a scene without a model file, or with several.
+/// Throws Error (usage) that names file, place and hint; an unknown key in scene.toml names its line and the nearest
+/// right key, and so does a surface that is not in the library; a selection of a scene without a model file, or with
+/// several.
 [[nodiscard]] Scene load_scene(const std::string& scene, const SceneLibrary& library,
                                const SceneOverrides& overrides = {});
 

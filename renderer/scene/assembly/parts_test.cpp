@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/scene/assembly/load_scene.hpp"
-#include "renderer/scene/plane.hpp"
+#include "renderer/scene/geometry.hpp"
 #include "tests/support/gltf_builder.hpp"
 
 namespace footprint {

@@ -17,8 +17,8 @@
 namespace footprint {
 namespace {
 
-/// NaN comes out as the lower end, which std::clamp would let through.
-float unit_range(float value) { return value > 0.0F ? std::min(value, 1.0F) : 0.0F; }
+/// Clamps to [0, 1]. NaN becomes 0, which std::clamp would not do.
+float clamped_to_unit(float value) { return value > 0.0F ? std::min(value, 1.0F) : 0.0F; }
 
 void require_two_channels(const Image& stored) {
   if (stored.channels >= 2) return;
@@ -186,8 +186,8 @@ Image decode_metallic_roughness(const Image& stored, float roughness_factor, flo
   for (int y = 0; y < stored.height; ++y) {
     for (int x = 0; x < stored.width; ++x) {
       const auto in = stored.at(x, y);
-      map.at(x, y)[0] = roughness_factor * unit_range(in[color ? 1 : 0]);
-      map.at(x, y)[1] = metallic_factor * unit_range(in[color ? 2 : 0]);
+      map.at(x, y)[0] = roughness_factor * clamped_to_unit(in[color ? 1 : 0]);
+      map.at(x, y)[1] = metallic_factor * clamped_to_unit(in[color ? 2 : 0]);
     }
   }
   return map;
@@ -197,7 +197,7 @@ Image decode_factor(const Image& stored, int channel, float factor) {
   const auto from = static_cast<std::size_t>(stored.channels >= 3 ? channel : 0);
   Image map(stored.width, stored.height, 1);
   for (int y = 0; y < stored.height; ++y) {
-    for (int x = 0; x < stored.width; ++x) map.at(x, y)[0] = factor * unit_range(stored.at(x, y)[from]);
+    for (int x = 0; x < stored.width; ++x) map.at(x, y)[0] = factor * clamped_to_unit(stored.at(x, y)[from]);
   }
   return map;
 }
@@ -243,7 +243,7 @@ Image to_rgb(const Image& stored) {
   Image map(stored.width, stored.height, 3);
   for (int y = 0; y < stored.height; ++y) {
     for (int x = 0; x < stored.width; ++x) {
-      for (std::size_t c = 0; c < 3; ++c) map.at(x, y)[c] = unit_range(stored.at(x, y)[color ? c : 0]);
+      for (std::size_t c = 0; c < 3; ++c) map.at(x, y)[c] = clamped_to_unit(stored.at(x, y)[color ? c : 0]);
     }
   }
   return map;
@@ -257,8 +257,8 @@ Image to_rgba(const Image& stored) {
     for (int x = 0; x < stored.width; ++x) {
       const auto in = stored.at(x, y);
       const auto out = map.at(x, y);
-      for (std::size_t c = 0; c < 3; ++c) out[c] = unit_range(in[color ? c : 0]);
-      if (alpha) out[3] = unit_range(in.back());
+      for (std::size_t c = 0; c < 3; ++c) out[c] = clamped_to_unit(in[color ? c : 0]);
+      if (alpha) out[3] = clamped_to_unit(in.back());
     }
   }
   return map;

@@ -9,7 +9,7 @@
 
 #include "renderer/image/image.hpp"
 #include "renderer/scene/map_texels.hpp"
-#include "renderer/scene/normal_channels.hpp"
+#include "renderer/scene/material.hpp"
 
 namespace footprint {
 
@@ -22,17 +22,17 @@ struct NormalMap {
 
 /// Decodes stored normals, 2 c - 1 per channel; x and y are multiplied by `scale`, then the vector is renormalised
 /// (glTF 2.0, normalTexture). A texel shorter than 1e-3 or not finite becomes (0, 0, 1) with weight 0; z <= 0 becomes a
-/// tiny positive z, and so do x and y that leave nothing for z. Errors (usage): one channel.
+/// tiny positive z, and so do x and y that leave nothing for z. Throws Error (usage): one channel.
 [[nodiscard]] NormalMap decode_normal_map(const Image& stored, double scale,
                                           NormalChannels channels = NormalChannels::xyz);
 
-/// Takes unit normals as they are, x, y, z of -1 to 1; the rest as above. Errors (usage): one channel; most texels hold
-/// no unit vector, with a word on values that are encoded as 0 to 1.
+/// Takes unit normals as they are, x, y, z of -1 to 1; the rest as above. Throws Error (usage): one channel; most
+/// texels hold no unit vector, with a word on values that are encoded as 0 to 1.
 [[nodiscard]] NormalMap decode_unit_normals(const Image& stored, double scale = 1.0,
                                             NormalChannels channels = NormalChannels::xyz);
 
 /// The one rule for files of normals: an EXR holds unit normals as they are, every other format encodes them as
-/// (n + 1) / 2. What is wrong with it is added to `faults`. Errors (usage), which name the file: as above, and of
+/// (n + 1) / 2. What is wrong with it is added to `faults`. Throws Error (usage) that names the file: as above, and of
 /// read_image.
 [[nodiscard]] MapTexels read_normal_map(const std::filesystem::path& file, double scale, NormalChannels channels,
                                         std::vector<std::string>& faults);
@@ -59,12 +59,12 @@ void scale_slopes(Image& normals, double strength);
 /// One channel of a stored image within 0 to 1, times a factor; that of a grey image, whichever is asked for.
 [[nodiscard]] Image decode_factor(const Image& stored, int channel, float factor);
 
-/// One channel, the lobe parameter as stored in the first one. Errors (usage), which name the texel: a value that is
-/// not within `least` to `most`.
+/// One channel, the lobe parameter as stored in the first one. Throws Error (usage) that names the texel: a value that
+/// is not within `least` to `most`.
 [[nodiscard]] Image decode_lobe_parameter(const Image& stored, double least, double most);
 
 /// A map of whole numbers 0 to `count` - 1 in the first channel, as a map for each: 1 where the number is its own, else
-/// 0. Errors (usage), which name the texel: a value that is no whole number within that range.
+/// 0. Throws Error (usage) that names the texel: a value that is no whole number within that range.
 [[nodiscard]] std::vector<Image> decode_indices(const Image& stored, std::size_t count);
 
 /// Three channels, each clamped to [0, 1], from one (grey), two (grey, alpha), three or four.

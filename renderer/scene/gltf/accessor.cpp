@@ -1,5 +1,5 @@
 // Finds elements within their buffer view, checks their ends against its length, copies and converts them one by one.
-#include "renderer/scene/gltf/accessor.hpp"
+#include "renderer/scene/gltf/document.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cstring>
 #include <string>
 
-#include "renderer/scene/gltf/refusal.hpp"
+#include "renderer/scene/gltf/check.hpp"
 
 namespace footprint {
 namespace {

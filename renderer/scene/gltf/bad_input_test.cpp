@@ -7,7 +7,7 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
-#include "renderer/scene/gltf/model.hpp"
+#include "renderer/scene/model.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/png_file.hpp"
 

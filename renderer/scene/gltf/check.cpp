@@ -1,17 +1,15 @@
-// One table of rules says what each member must be; a walker applies them.
+// A table of rules gives the type of each member; a walker applies them.
 #include "renderer/scene/gltf/check.hpp"
 
 #include <fmt/format.h>
 #include <tiny_gltf.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-
-#include "renderer/scene/gltf/refusal.hpp"
+#include <nlohmann/json.hpp>
 
 namespace footprint {
 namespace {
@@ -31,7 +29,7 @@ enum class JsonKind {
 
 enum class Need { optional, required };
 
-/// What the members that `path` names must be: "[]" stands for every element, "*" for every member.
+/// The type of the members that `path` names: "[]" is every element, "*" every member, "{a,b}" both a and b.
 struct Rule {
   std::string_view path;
   JsonKind kind;
@@ -40,161 +38,114 @@ struct Rule {
   std::size_t count = 0;
 };
 
-constexpr std::string_view lights = "extensions.KHR_lights_punctual.lights";
-constexpr std::string_view variants = "extensions.KHR_materials_variants.variants";
+/// Rules whose paths start with `path`.
+struct RuleGroup {
+  std::string_view path;
+  std::vector<Rule> rules;
+};
 
-constexpr auto rules = std::to_array<Rule>({
-    {"extensionsUsed[]", JsonKind::string},
-    {"extensionsRequired[]", JsonKind::string},
-    {"extensions", JsonKind::object},
-    {"scene", JsonKind::index, Need::optional, "scenes"},
-    {"scenes[]", JsonKind::object},
-    {"scenes[].nodes[]", JsonKind::index, Need::optional, "nodes"},
-    {"nodes[]", JsonKind::object},
-    {"nodes[].name", JsonKind::string},
-    {"nodes[].children[]", JsonKind::index, Need::optional, "nodes"},
-    {"nodes[].mesh", JsonKind::index, Need::optional, "meshes"},
-    {"nodes[].camera", JsonKind::index, Need::optional, "cameras"},
-    {"nodes[].skin", JsonKind::index, Need::optional, "skins"},
-    {"nodes[].matrix", JsonKind::numbers, Need::optional, "", 16},
-    {"nodes[].translation", JsonKind::numbers, Need::optional, "", 3},
-    {"nodes[].rotation", JsonKind::numbers, Need::optional, "", 4},
-    {"nodes[].scale", JsonKind::numbers, Need::optional, "", 3},
-    {"nodes[].extensions", JsonKind::object},
-    {"nodes[].extensions.KHR_lights_punctual.light", JsonKind::index, Need::required, lights},
-    {"meshes[]", JsonKind::object},
-    {"meshes[].name", JsonKind::string},
-    {"meshes[].primitives", JsonKind::array, Need::required},
-    {"meshes[].primitives[]", JsonKind::object},
-    {"meshes[].primitives[].attributes", JsonKind::object, Need::required},
-    {"meshes[].primitives[].attributes.*", JsonKind::index, Need::optional, "accessors"},
-    {"meshes[].primitives[].indices", JsonKind::index, Need::optional, "accessors"},
-    {"meshes[].primitives[].material", JsonKind::index, Need::optional, "materials"},
-    {"meshes[].primitives[].mode", JsonKind::size},
-    {"meshes[].primitives[].extensions", JsonKind::object},
-    {"meshes[].primitives[].extensions.KHR_materials_variants", JsonKind::object},
-    {"meshes[].primitives[].extensions.KHR_materials_variants.mappings", JsonKind::array, Need::required},
-    {"meshes[].primitives[].extensions.KHR_materials_variants.mappings[]", JsonKind::object},
-    {"meshes[].primitives[].extensions.KHR_materials_variants.mappings[].material", JsonKind::index, Need::required,
-     "materials"},
-    {"meshes[].primitives[].extensions.KHR_materials_variants.mappings[].variants", JsonKind::array, Need::required},
-    {"meshes[].primitives[].extensions.KHR_materials_variants.mappings[].variants[]", JsonKind::index, Need::optional,
-     variants},
-    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression", JsonKind::object},
-    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression.bufferView", JsonKind::index, Need::required,
-     "bufferViews"},
-    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression.attributes", JsonKind::object, Need::required},
-    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression.attributes.*", JsonKind::size},
-    {"accessors[]", JsonKind::object},
-    {"accessors[].bufferView", JsonKind::index, Need::optional, "bufferViews"},
-    {"accessors[].byteOffset", JsonKind::size},
-    {"accessors[].componentType", JsonKind::size, Need::required},
-    {"accessors[].normalized", JsonKind::boolean},
-    {"accessors[].count", JsonKind::size, Need::required},
-    {"accessors[].type", JsonKind::string, Need::required},
-    {"accessors[].sparse", JsonKind::object},
-    {"accessors[].sparse.count", JsonKind::size, Need::required},
-    {"accessors[].sparse.indices", JsonKind::object, Need::required},
-    {"accessors[].sparse.indices.bufferView", JsonKind::index, Need::required, "bufferViews"},
-    {"accessors[].sparse.indices.byteOffset", JsonKind::size},
-    {"accessors[].sparse.indices.componentType", JsonKind::size, Need::required},
-    {"accessors[].sparse.values", JsonKind::object, Need::required},
-    {"accessors[].sparse.values.bufferView", JsonKind::index, Need::required, "bufferViews"},
-    {"accessors[].sparse.values.byteOffset", JsonKind::size},
-    {"bufferViews[]", JsonKind::object},
-    {"bufferViews[].buffer", JsonKind::index, Need::required, "buffers"},
-    {"bufferViews[].byteOffset", JsonKind::size},
-    {"bufferViews[].byteLength", JsonKind::size, Need::required},
-    {"bufferViews[].byteStride", JsonKind::size},
-    {"bufferViews[].extensions", JsonKind::object},
-    {"bufferViews[].extensions.EXT_meshopt_compression", JsonKind::object},
-    {"bufferViews[].extensions.EXT_meshopt_compression.buffer", JsonKind::index, Need::required, "buffers"},
-    {"bufferViews[].extensions.EXT_meshopt_compression.byteOffset", JsonKind::size},
-    {"bufferViews[].extensions.EXT_meshopt_compression.byteLength", JsonKind::size, Need::required},
-    {"bufferViews[].extensions.EXT_meshopt_compression.byteStride", JsonKind::size, Need::required},
-    {"bufferViews[].extensions.EXT_meshopt_compression.count", JsonKind::size, Need::required},
-    {"bufferViews[].extensions.EXT_meshopt_compression.mode", JsonKind::string, Need::required},
-    {"bufferViews[].extensions.EXT_meshopt_compression.filter", JsonKind::string},
-    {"buffers[]", JsonKind::object},
-    {"buffers[].byteLength", JsonKind::size, Need::required},
-    {"buffers[].uri", JsonKind::string},
-    {"images[]", JsonKind::object},
-    {"images[].name", JsonKind::string},
-    {"images[].uri", JsonKind::string},
-    {"images[].bufferView", JsonKind::index, Need::optional, "bufferViews"},
-    {"textures[]", JsonKind::object},
-    {"textures[].source", JsonKind::index, Need::optional, "images"},
-    {"textures[].sampler", JsonKind::index, Need::optional, "samplers"},
-    {"samplers[]", JsonKind::object},
-    {"samplers[].wrapS", JsonKind::size},
-    {"samplers[].wrapT", JsonKind::size},
-    {"materials[]", JsonKind::object},
-    {"materials[].name", JsonKind::string},
-    {"materials[].doubleSided", JsonKind::boolean},
-    {"materials[].alphaMode", JsonKind::string},
-    {"materials[].alphaCutoff", JsonKind::number},
-    {"materials[].emissiveFactor", JsonKind::numbers, Need::optional, "", 3},
-    {"materials[].extensions", JsonKind::object},
-    {"materials[].extensions.*", JsonKind::object},
-    {"materials[].extensions.KHR_materials_ior.ior", JsonKind::number},
-    {"materials[].extensions.KHR_materials_clearcoat.clearcoatFactor", JsonKind::number},
-    {"materials[].extensions.KHR_materials_clearcoat.clearcoatRoughnessFactor", JsonKind::number},
-    {"materials[].extensions.KHR_materials_clearcoat.clearcoatNormalTexture.scale", JsonKind::number},
-    {"materials[].pbrMetallicRoughness", JsonKind::object},
-    {"materials[].pbrMetallicRoughness.baseColorFactor", JsonKind::numbers, Need::optional, "", 4},
-    {"materials[].pbrMetallicRoughness.metallicFactor", JsonKind::number},
-    {"materials[].pbrMetallicRoughness.roughnessFactor", JsonKind::number},
-    {"materials[].normalTexture.scale", JsonKind::number},
-    {"cameras[]", JsonKind::object},
-    {"cameras[].type", JsonKind::string, Need::required},
-    {"cameras[].perspective", JsonKind::object},
-    {"cameras[].perspective.*", JsonKind::number},
-    {"cameras[].orthographic", JsonKind::object},
-    {"cameras[].orthographic.*", JsonKind::number},
-    {"extensions.KHR_lights_punctual", JsonKind::object},
-    {"extensions.KHR_lights_punctual.lights", JsonKind::array, Need::required},
-    {"extensions.KHR_lights_punctual.lights[]", JsonKind::object},
-    {"extensions.KHR_lights_punctual.lights[].type", JsonKind::string, Need::required},
-    {"extensions.KHR_lights_punctual.lights[].color", JsonKind::numbers, Need::optional, "", 3},
-    {"extensions.KHR_lights_punctual.lights[].intensity", JsonKind::number},
-    {"extensions.KHR_lights_punctual.lights[].range", JsonKind::number},
-    {"extensions.KHR_lights_punctual.lights[].spot", JsonKind::object},
-    {"extensions.KHR_lights_punctual.lights[].spot.*", JsonKind::number},
-    {"extensions.KHR_materials_variants", JsonKind::object},
-    {"extensions.KHR_materials_variants.variants", JsonKind::array, Need::required},
-    {"extensions.KHR_materials_variants.variants[]", JsonKind::object},
-    {"extensions.KHR_materials_variants.variants[].name", JsonKind::string},
-    {"scenes[].name", JsonKind::string},
-    {"cameras[].name", JsonKind::string},
-    {"animations[]", JsonKind::object},
-    {"animations[].channels[]", JsonKind::object},
-    {"animations[].samplers[]", JsonKind::object},
-    {"skins[]", JsonKind::object},
-});
-
-constexpr auto texture_paths = std::to_array<std::string_view>({
-    "materials[].pbrMetallicRoughness.baseColorTexture",
-    "materials[].pbrMetallicRoughness.metallicRoughnessTexture",
-    "materials[].normalTexture",
-    "materials[].occlusionTexture",
-    "materials[].emissiveTexture",
-    "materials[].extensions.KHR_materials_clearcoat.clearcoatTexture",
-    "materials[].extensions.KHR_materials_clearcoat.clearcoatRoughnessTexture",
-    "materials[].extensions.KHR_materials_clearcoat.clearcoatNormalTexture",
-});
-
-/// What stands under each of `texture_paths`.
-constexpr auto texture_rules = std::to_array<Rule>({
-    {"", JsonKind::object},
-    {".index", JsonKind::index, Need::required, "textures"},
-    {".texCoord", JsonKind::size},
-    {".extensions", JsonKind::object},
-    {".extensions.KHR_texture_transform", JsonKind::object},
-    {".extensions.KHR_texture_transform.offset", JsonKind::numbers, Need::optional, "", 2},
-    {".extensions.KHR_texture_transform.rotation", JsonKind::number},
-    {".extensions.KHR_texture_transform.scale", JsonKind::numbers, Need::optional, "", 2},
-    {".extensions.KHR_texture_transform.texCoord", JsonKind::size},
-});
+// The first group is the core of glTF 2.0; then a group per extension, and one for references to textures.
+const std::vector<RuleGroup>& rule_groups() {
+  using enum JsonKind;
+  using enum Need;
+  static const std::vector<RuleGroup> groups{
+      {"",
+       {{"{extensionsUsed,extensionsRequired}[]", string},
+        {"{extensions,nodes[].extensions,bufferViews[].extensions,materials[].extensions}", object},
+        {"{scenes,nodes,meshes,accessors,bufferViews,buffers,images,textures,samplers,materials,cameras}[]", object},
+        {"{animations,skins,animations[].channels,animations[].samplers}[]", object},
+        {"{scenes,nodes,meshes,images,materials,cameras}[].name", string},
+        {"scene", index, optional, "scenes"},
+        {"{scenes[].nodes,nodes[].children}[]", index, optional, "nodes"},
+        {"nodes[].mesh", index, optional, "meshes"},
+        {"nodes[].camera", index, optional, "cameras"},
+        {"nodes[].skin", index, optional, "skins"},
+        {"nodes[].matrix", numbers, optional, "", 16},
+        {"nodes[].{translation,scale}", numbers, optional, "", 3},
+        {"nodes[].rotation", numbers, optional, "", 4},
+        {"meshes[].primitives", array, required},
+        {"meshes[].primitives[]", object},
+        {"meshes[].primitives[].attributes", object, required},
+        {"meshes[].primitives[].{attributes.*,indices}", index, optional, "accessors"},
+        {"meshes[].primitives[].material", index, optional, "materials"},
+        {"meshes[].primitives[].mode", size},
+        {"meshes[].primitives[].extensions", object},
+        {"accessors[].bufferView", index, optional, "bufferViews"},
+        {"accessors[].{byteOffset,sparse.indices.byteOffset,sparse.values.byteOffset}", size},
+        {"accessors[].{componentType,count,sparse.count,sparse.indices.componentType}", size, required},
+        {"accessors[].normalized", boolean},
+        {"accessors[].type", string, required},
+        {"accessors[].sparse", object},
+        {"accessors[].sparse.{indices,values}", object, required},
+        {"accessors[].sparse.{indices,values}.bufferView", index, required, "bufferViews"},
+        {"bufferViews[].buffer", index, required, "buffers"},
+        {"bufferViews[].{byteOffset,byteStride}", size},
+        {"{bufferViews,buffers}[].byteLength", size, required},
+        {"{buffers,images}[].uri", string},
+        {"images[].bufferView", index, optional, "bufferViews"},
+        {"textures[].source", index, optional, "images"},
+        {"textures[].sampler", index, optional, "samplers"},
+        {"samplers[].{wrapS,wrapT}", size},
+        {"materials[].doubleSided", boolean},
+        {"materials[].alphaMode", string},
+        {"materials[].{alphaCutoff,normalTexture.scale}", number},
+        {"materials[].emissiveFactor", numbers, optional, "", 3},
+        {"materials[].pbrMetallicRoughness", object},
+        {"materials[].pbrMetallicRoughness.baseColorFactor", numbers, optional, "", 4},
+        {"materials[].pbrMetallicRoughness.{metallicFactor,roughnessFactor}", number},
+        {"materials[].extensions.*", object},
+        {"cameras[].type", string, required},
+        {"cameras[].{perspective,orthographic}", object},
+        {"cameras[].{perspective,orthographic}.*", number}}},
+      {"nodes[].extensions.KHR_lights_punctual",
+       {{".light", index, required, "extensions.KHR_lights_punctual.lights"}}},
+      {"extensions.KHR_lights_punctual",
+       {{"", object},
+        {".lights", array, required},
+        {".lights[]", object},
+        {".lights[].type", string, required},
+        {".lights[].color", numbers, optional, "", 3},
+        {".lights[].{intensity,range}", number},
+        {".lights[].spot", object},
+        {".lights[].spot.*", number}}},
+      {"extensions.KHR_materials_variants",
+       {{"", object}, {".variants", array, required}, {".variants[]", object}, {".variants[].name", string}}},
+      {"meshes[].primitives[].extensions.KHR_materials_variants",
+       {{"", object},
+        {".mappings", array, required},
+        {".mappings[]", object},
+        {".mappings[].material", index, required, "materials"},
+        {".mappings[].variants", array, required},
+        {".mappings[].variants[]", index, optional, "extensions.KHR_materials_variants.variants"}}},
+      {"meshes[].primitives[].extensions.KHR_draco_mesh_compression",
+       {{"", object},
+        {".bufferView", index, required, "bufferViews"},
+        {".attributes", object, required},
+        {".attributes.*", size}}},
+      {"bufferViews[].extensions.EXT_meshopt_compression",
+       {{"", object},
+        {".buffer", index, required, "buffers"},
+        {".byteOffset", size},
+        {".{byteLength,byteStride,count}", size, required},
+        {".mode", string, required},
+        {".filter", string}}},
+      {"materials[].extensions.KHR_materials_ior", {{".ior", number}}},
+      {"materials[].extensions.KHR_materials_clearcoat",
+       {{".{clearcoatFactor,clearcoatRoughnessFactor,clearcoatNormalTexture.scale}", number}}},
+      {"materials[].{pbrMetallicRoughness.baseColorTexture,pbrMetallicRoughness.metallicRoughnessTexture,normalTexture,"
+       "occlusionTexture,emissiveTexture,extensions.KHR_materials_clearcoat.clearcoatTexture,"
+       "extensions.KHR_materials_clearcoat.clearcoatRoughnessTexture,"
+       "extensions.KHR_materials_clearcoat.clearcoatNormalTexture}",
+       {{"", object},
+        {".index", index, required, "textures"},
+        {".texCoord", size},
+        {".extensions", object},
+        {".extensions.KHR_texture_transform", object},
+        {".extensions.KHR_texture_transform.{offset,scale}", numbers, optional, "", 2},
+        {".extensions.KHR_texture_transform.rotation", number},
+        {".extensions.KHR_texture_transform.texCoord", size}}}};
+  return groups;
+}
 
 constexpr auto supported = std::to_array<std::string_view>(
     {"EXT_meshopt_compression", "KHR_draco_mesh_compression", "KHR_lights_punctual", "KHR_materials_clearcoat",
@@ -285,8 +236,8 @@ void check_value(const json& value, const Rule& rule, const std::string& where, 
   }
 }
 
-/// Applies `rule` to what `path` (the rest of its path) names below `value`. `where` is a stack of place names: it is
-/// joined only for an error, as large files have many places and few errors.
+/// Applies `rule` to the members that `path`, the rest of its path, names below `value`. `where` is a stack of names,
+/// joined only for an error, because large files have many places and few errors.
 void walk(const json& value, std::string_view path, const Rule& rule, std::uint64_t end, std::string& where) {
   if (path.empty()) return check_value(value, rule, where, end);
   const std::size_t depth = where.size();
@@ -318,11 +269,20 @@ void walk(const json& value, std::string_view path, const Rule& rule, std::uint6
   if (name_end == path.size() && rule.need == Need::required) refuse_gltf(where + dotted, "is missing");
 }
 
-void apply_rule(const json& document, const Rule& rule) {
+/// Applies `rule` to each path that `path` expands to.
+void apply_rule(const json& document, const Rule& rule, const std::string& path) {
+  if (const std::size_t open = path.find('{'); open != std::string::npos) {
+    const std::size_t close = path.find('}', open);
+    for (std::size_t at = open + 1, end = 0; at <= close; at = end + 1) {
+      end = std::min(path.find(',', at), close);
+      apply_rule(document, rule, path.substr(0, open) + path.substr(at, end - at) + path.substr(close + 1));
+    }
+    return;
+  }
   const std::uint64_t end = rule.kind == JsonKind::index ? array_size(document, rule.target)
                                                          : std::uint64_t{std::numeric_limits<std::int32_t>::max()};
   std::string where;
-  walk(document, rule.path, rule, end, where);
+  walk(document, path, rule, end, where);
 }
 
 void check_version(const json& document) {
@@ -421,13 +381,8 @@ json parse_gltf_json(std::string_view text) {
 void check_gltf_json(const json& document) {
   if (!document.is_object()) refuse_gltf({}, "the JSON is not an object, so this is not a glTF file");
   check_version(document);
-  for (const Rule& rule : rules) apply_rule(document, rule);
-  for (const std::string_view texture : texture_paths) {
-    for (Rule rule : texture_rules) {
-      const std::string path = std::string{texture} + std::string{rule.path};
-      rule.path = path;
-      apply_rule(document, rule);
-    }
+  for (const RuleGroup& group : rule_groups()) {
+    for (const Rule& rule : group.rules) apply_rule(document, rule, fmt::format("{}{}", group.path, rule.path));
   }
   check_required_extensions(document);
   check_buffer_views(document);

@@ -1,4 +1,4 @@
-// Refuses glTF JSON that is ill-typed or points outside itself, before tinygltf and we rely on it.
+// Checks of glTF JSON, because tinygltf 2.7 and this loader rely on its types and indices.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -6,14 +6,21 @@
 #include <string_view>
 #include <vector>
 
+#include "renderer/core/error.hpp"
+
 namespace footprint {
 
-/// Parses JSON with a limit on its nesting. Errors (usage): not JSON, nested over 64 deep.
+[[noreturn]] inline void refuse_gltf(const std::string& place, const std::string& message,
+                                     const std::string& hint = "repair the file or export it again") {
+  throw Error(ErrorKind::usage, place, message, hint);
+}
+
+/// Parses JSON with a limit on its nesting. Throws Error (usage): not JSON, nested over 64 deep.
 [[nodiscard]] nlohmann::json parse_gltf_json(std::string_view text);
 
 /// Checks all of a glTF 2.0 document that Footprint or tinygltf reads: version, required extensions, types, numbers of
 /// array elements, indices within the arrays that they point into, buffer views within their buffers, URIs.
-/// Errors (usage) name the place as "meshes[0].primitives[1].indices".
+/// Throws Error (usage) that names the place as "meshes[0].primitives[1].indices".
 void check_gltf_json(const nlohmann::json& document);
 
 /// Whether an extension is honoured.

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "renderer/scene/assembly/load_scene.hpp"
-#include "renderer/scene/gltf/model.hpp"
+#include "renderer/scene/model.hpp"
 #include "tests/support/gltf_builder.hpp"
 
 namespace footprint {

@@ -1,23 +1,22 @@
-// Checks container and JSON before tinygltf parses them; images stay encoded, files come from the model's folder alone.
+// Checks container and JSON before tinygltf parses them. Images stay encoded; files come from the model's folder only.
 #include "renderer/scene/gltf/document.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/file_bytes.hpp"
 #include "renderer/scene/gltf/check.hpp"
-#include "renderer/scene/gltf/draco.hpp"
-#include "renderer/scene/gltf/meshopt.hpp"
+#include "renderer/scene/gltf/compressed.hpp"
 
 namespace footprint {
 namespace {

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "renderer/core/error.hpp"
-#include "renderer/scene/gltf/model.hpp"
+#include "renderer/scene/model.hpp"
 #include "tests/support/gltf_builder.hpp"
 
 namespace footprint {

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "renderer/scene/gltf/model.hpp"
+#include "renderer/scene/model.hpp"
 #include "tests/support/expect_near.hpp"
 #include "tests/support/gltf_builder.hpp"
 

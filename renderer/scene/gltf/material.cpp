@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "renderer/core/error.hpp"
-#include "renderer/image/image_header.hpp"
+#include "renderer/image/image_io.hpp"
 #include "renderer/scene/assembly/surface_maps.hpp"
-#include "renderer/scene/gltf/refusal.hpp"
+#include "renderer/scene/gltf/check.hpp"
 #include "renderer/scene/model.hpp"
 
 namespace footprint {

@@ -22,8 +22,9 @@ class GltfMaterials {
   GltfMaterials(const GltfDocument& document, std::vector<std::string>& warnings)
       : document_(document), warnings_(warnings) {}
 
-  /// The index in `materials()` of glTF material `gltf_index`; -1 is glTF's default material. Errors (usage) name
-  /// material and texture: an image that is missing, empty, no image or of hostile size, factors that are not finite.
+  /// The index in `materials()` of glTF material `gltf_index`; -1 is glTF's default material. Throws Error (usage) that
+  /// names material and texture: an image that is missing, empty, no image or of hostile size, factors that are not
+  /// finite.
   [[nodiscard]] int use(int gltf_index);
 
   [[nodiscard]] const std::vector<Material>& materials() const { return materials_; }

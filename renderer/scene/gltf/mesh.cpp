@@ -8,8 +8,8 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/scene/geometry.hpp"
-#include "renderer/scene/gltf/accessor.hpp"
-#include "renderer/scene/gltf/refusal.hpp"
+#include "renderer/scene/gltf/check.hpp"
+#include "renderer/scene/gltf/document.hpp"
 #include "renderer/scene/model.hpp"
 
 namespace footprint {

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "renderer/core/suggest.hpp"
+#include "renderer/core/names.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
-#include "renderer/scene/gltf/model.hpp"
+#include "renderer/scene/model.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/says.hpp"
 

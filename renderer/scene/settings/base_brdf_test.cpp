@@ -5,7 +5,7 @@
 
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
-#include "renderer/scene/plane.hpp"
+#include "renderer/scene/geometry.hpp"
 #include "tests/support/gltf_builder.hpp"
 
 namespace footprint {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "renderer/core/words.hpp"
+#include "renderer/core/names.hpp"
 #include "renderer/scene/settings/toml_values.hpp"
 
 namespace footprint {
@@ -24,12 +24,8 @@ constexpr std::array<Word<NormalChannels>, 2> normal_channels{
     {{NormalChannels::xyz, "xyz"}, {NormalChannels::xy, "xy"}}};
 
 ModelSettings read_model(const TomlTable& table, const std::filesystem::path& folder) {
-  if (table.has("file") == table.has("files")) {
-    throw table.error_at("file", "or `files` must be given, and only one of them", "name the model file to draw");
-  }
   ModelSettings model;
-  const auto files = table.has("file") ? std::vector{*table.word("file")} : *table.words("files");
-  for (const std::string& name : files) model.candidates.push_back(folder / name);
+  model.candidates = read_candidates(table, folder, "name the model file to draw");
   model.package = table.word("package").value_or("");
   model.unwrap = table.boolean("unwrap").value_or(false);
   model.selection = {table.word("scene"), table.word("camera"), table.word("variant")};

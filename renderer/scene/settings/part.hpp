@@ -14,8 +14,7 @@
 #include "renderer/core/toml_table.hpp"
 #include "renderer/microgeometry/patch_kinds.hpp"
 #include "renderer/scene/material.hpp"
-#include "renderer/scene/model_selection.hpp"
-#include "renderer/scene/normal_channels.hpp"
+#include "renderer/scene/scene.hpp"
 #include "renderer/scene/surface.hpp"
 
 namespace footprint {
@@ -24,7 +23,7 @@ namespace footprint {
 struct ModelSettings {
   std::vector<std::filesystem::path> candidates;
   std::string package;  ///< Debian package that brings it, for the error text; may be empty
-  bool unwrap = false;  ///< new texture coordinates in place of the file's (unwrap.hpp)
+  bool unwrap = false;  ///< new texture coordinates instead of the file's (charts.hpp)
   ModelSelection selection;
 };
 
@@ -63,7 +62,7 @@ struct BrdfSettings {
   std::optional<FresnelTerm> fresnel;
   std::optional<bool> diffuse;
   std::optional<float> lobe_parameter;
-  std::vector<FacetLobe> lobes;  ///< in place of the one about the normal
+  std::vector<FacetLobe> lobes;  ///< instead of the one about the normal
   std::optional<glm::vec3> specular, base_color;
 };
 
@@ -79,7 +78,7 @@ struct MapSettings {
   std::optional<MapFile> material;  ///< whole numbers that choose among several patches; there where there are several
 };
 
-/// A clear coat in place of what the materials have: weight 0 takes it off.
+/// A clear coat instead of what the materials have: weight 0 takes it off.
 struct CoatSettings {
   float weight = 1.0F, roughness = 0.0F;
   std::optional<std::filesystem::path> normal_map;  ///< none: the mesh's own normals
@@ -100,13 +99,13 @@ struct MicrogeometrySettings {
   std::map<std::string, std::string> parameters;  ///< of the kind, those that are given
   std::filesystem::path model;                    ///< glTF file; its y axis points out of the surface
   std::optional<glm::vec2> period;                ///< of the model's tiles; else its bounds
-  std::optional<std::filesystem::path> measured;  ///< MERL file in place of the base BRDF of the facets
+  std::optional<std::filesystem::path> measured;  ///< MERL file instead of the base BRDF of the facets
   std::optional<WardSettings> ward;               ///< or Ward's BRDF
   std::uint64_t seed = 1;
-  int resolution = 256;  ///< texels a side of the normal map that methods see which know no patches
+  int resolution = 256;  ///< texels per side of the normal map that methods see which know no patches
 };
 
-/// A model's triangles under the maps of a surface, in place of the model's own materials.
+/// A model's triangles under the maps of a surface, instead of the model's own materials.
 struct DressedModel {
   ModelSettings model;
   SurfaceContent surface;
@@ -135,7 +134,7 @@ struct PartSettings {
 /// What a lobe parameter may be: exponent (blinn_phong) and kappa (vmf), or alpha (beckmann, ggx).
 [[nodiscard]] NumberRange lobe_range(NormalDistribution distribution);
 
-/// The parts of a scene.toml: those of [[part]], or the one that the file itself is. Errors as of read_scene_settings.
+/// The parts of a scene.toml: those of [[part]], or the one that the file itself is. Throws as read_scene_settings.
 [[nodiscard]] std::vector<PartSettings> read_parts(const TomlTable& root, const std::filesystem::path& folder,
                                                    std::span<const Surface> surfaces);
 

@@ -8,11 +8,35 @@
 
 #include "renderer/core/toml_table.hpp"
 #include "renderer/scene/camera.hpp"
+#include "renderer/scene/environment.hpp"
 #include "renderer/scene/scene.hpp"
-#include "renderer/scene/settings/environment.hpp"
 #include "renderer/scene/settings/part.hpp"
 
 namespace footprint {
+
+enum class EnvironmentKind { file, constant, sky };
+
+/// What lights a scene from everywhere.
+struct EnvironmentSettings {
+  EnvironmentKind kind = EnvironmentKind::file;
+  std::vector<std::filesystem::path> candidates;  ///< of a file: the first that exists
+  std::string package;                            ///< Debian package that brings it, for the error text; may be empty
+  SkySettings sky;
+  glm::vec3 color{1.0F};  ///< of the constant
+  double intensity = 1.0;
+  double rotation_degrees = 0.0;  ///< about +y, counter-clockwise seen from above
+};
+
+class TomlTable;
+
+/// The keys of an [environment] table.
+[[nodiscard]] const std::vector<std::string>& environment_keys();
+
+/// Relative paths start from `folder`. Throws Error (usage) that reads "FILE:LINE: ...".
+[[nodiscard]] EnvironmentSettings read_environment(const TomlTable& table, const std::filesystem::path& folder);
+
+/// Reads or computes it. Throws Error (usage): none of the files exists (the package is named); as load_environment.
+[[nodiscard]] Environment make_environment(const EnvironmentSettings& settings, std::vector<std::string>& warnings);
 
 /// All of a scene.toml; a default value is what a bare glTF file gets.
 struct SceneSettings {
@@ -36,12 +60,12 @@ struct SceneSettings {
 /// The keys of a [camera] table.
 [[nodiscard]] const std::vector<std::string>& camera_keys();
 
-/// Reads a [camera] table, of a scene.toml or of whatever else places a camera. Errors (usage) as below.
+/// Reads a [camera] table, of a scene.toml or of whatever else places a camera. Throws Error (usage) as below.
 [[nodiscard]] CameraSettings read_camera(const TomlTable& table);
 
-/// Reads a scene.toml, which may name one of `surfaces`. Relative paths in it start from its folder. Errors (usage)
-/// read "FILE:LINE: ...": not TOML, unknown keys with the nearest right one, wrong types, values out of range, settings
-/// that exclude each other.
+/// Reads a scene.toml, which may name one of `surfaces`. Relative paths in it start from its folder. Throws Error
+/// (usage) read "FILE:LINE: ...": not TOML, unknown keys with the nearest right one, wrong types, values out of range,
+/// settings that exclude each other.
 [[nodiscard]] SceneSettings read_scene_settings(const std::filesystem::path& file, std::span<const Surface> surfaces);
 
 }  // namespace footprint

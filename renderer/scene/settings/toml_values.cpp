@@ -25,6 +25,23 @@ std::optional<glm::dvec3> read_direction(const TomlTable& table, std::string_vie
   return glm::normalize(*value);
 }
 
+std::vector<std::filesystem::path> read_candidates(const TomlTable& table, const std::filesystem::path& folder,
+                                                   const std::string& hint) {
+  if (table.has("file") == table.has("files"))
+    throw table.error_at("file", "or `files` must be given, and only one of them", hint);
+  std::vector<std::filesystem::path> candidates;
+  for (const std::string& name : table.has("file") ? std::vector{*table.word("file")} : *table.words("files"))
+    candidates.push_back(folder / name);
+  return candidates;
+}
+
+Error missing_candidates(std::span<const std::filesystem::path> candidates, const std::string& message,
+                         const std::string& package, const std::string& check) {
+  std::string tried;
+  for (const auto& candidate : candidates) tried += (tried.empty() ? "" : ", ") + candidate.string();
+  return {ErrorKind::usage, tried, message, package.empty() ? check : "install the package " + package};
+}
+
 void refuse_missing(const TomlTable& table, std::string_view key, std::string_view document) {
   throw table.error_at(key, "is missing", fmt::format("add it ({})", document));
 }

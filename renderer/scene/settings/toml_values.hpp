@@ -1,9 +1,13 @@
 // Directions, colours and points of TOML tables, which several readers share.
 #pragma once
 
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "renderer/core/toml_table.hpp"
 
@@ -21,6 +25,17 @@ inline constexpr NumberRange coordinate_range{-1e9, 1e9};  ///< metres
 
 /// A unit vector, from one of any length but 0.
 [[nodiscard]] std::optional<glm::dvec3> read_direction(const TomlTable& table, std::string_view key);
+
+/// The paths under `file` or `files`, of which a table must have one, relative to `folder`.
+/// hint: of the error if it has neither or both.
+[[nodiscard]] std::vector<std::filesystem::path> read_candidates(const TomlTable& table,
+                                                                 const std::filesystem::path& folder,
+                                                                 const std::string& hint);
+
+/// The error if none of `candidates` exists.
+/// package: the Debian package to install; without one `check` is the hint.
+[[nodiscard]] Error missing_candidates(std::span<const std::filesystem::path> candidates, const std::string& message,
+                                       const std::string& package, const std::string& check);
 
 /// Refuses a table without a key that it must have, which `document` explains.
 [[noreturn]] void refuse_missing(const TomlTable& table, std::string_view key,

@@ -1,0 +1,312 @@
+// Checks all sizes, counts and indices around the two libraries, which trust their input.
+#include "renderer/scene/gltf/compressed.hpp"
+
+#include <draco/compression/decode.h>
+#include <fmt/format.h>
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "renderer/core/error.hpp"
+#include "renderer/core/memory.hpp"
+#include "renderer/scene/gltf/check.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr const char* meshopt_extension = "EXT_meshopt_compression";
+
+bool is_fallback(const nlohmann::json& buffer) {
+  const auto extensions = buffer.find("extensions");
+  if (buffer.contains("uri") || extensions == buffer.end() || !extensions->is_object()) return false;
+  const auto extension = extensions->find(meshopt_extension);
+  return extension != extensions->end() && extension->is_object() && extension->contains("fallback");
+}
+
+bool is_compressed(const nlohmann::json& view) {
+  const auto extensions = view.find("extensions");
+  return extensions != view.end() && extensions->contains(meshopt_extension);
+}
+
+// What the extension says of one buffer view.
+struct Encoding {
+  std::size_t count = 0, stride = 0;
+  std::string mode, filter;
+  const unsigned char* data = nullptr;
+  std::size_t size = 0;
+};
+
+std::size_t whole(const tinygltf::Value& extension, const char* key) {
+  return extension.Has(key) ? static_cast<std::size_t>(extension.Get(key).GetNumberAsInt()) : 0;
+}
+
+Encoding encoding_of(const tinygltf::Model& model, const tinygltf::Value& extension) {
+  Encoding out{.count = whole(extension, "count"),
+               .stride = whole(extension, "byteStride"),
+               .mode = extension.Get("mode").Get<std::string>(),
+               .filter = extension.Has("filter") ? extension.Get("filter").Get<std::string>() : "NONE",
+               .data = nullptr,
+               .size = whole(extension, "byteLength")};
+  const auto& bytes = model.buffers[whole(extension, "buffer")].data;
+  const std::size_t offset = whole(extension, "byteOffset");
+  if (offset > bytes.size() || out.size > bytes.size() - offset)
+    refuse_gltf(meshopt_extension, "its data does not lie within its buffer");
+  out.data = bytes.data() + offset;
+  return out;
+}
+
+// The table of the extension's section "Fallback buffers": what each mode and filter may be used with.
+void check(const Encoding& encoding, std::size_t length) {
+  const auto& [count, stride, mode, filter, data, size] = encoding;
+  if (count * stride != length)
+    refuse_gltf(meshopt_extension,
+                fmt::format("{} elements of {} bytes are not the {} bytes of the buffer view", count, stride, length));
+  if (mode == "ATTRIBUTES") {
+    if (stride % 4 != 0 || stride == 0 || stride > 256)
+      refuse_gltf(meshopt_extension, fmt::format("a stride of {} bytes is not allowed", stride));
+    const bool fits = filter == "NONE" || filter == "EXPONENTIAL" ||
+                      (filter == "OCTAHEDRAL" && (stride == 4 || stride == 8)) ||
+                      (filter == "QUATERNION" && stride == 8);
+    if (!fits)
+      refuse_gltf(meshopt_extension,
+                  fmt::format("filter `{:.20}` does not go with a stride of {} bytes", filter, stride));
+  } else if (mode == "TRIANGLES" || mode == "INDICES") {
+    if (stride != 2 && stride != 4)
+      refuse_gltf(meshopt_extension, fmt::format("indices of {} bytes are not allowed", stride));
+    if (mode == "TRIANGLES" && count % 3 != 0)
+      refuse_gltf(meshopt_extension, fmt::format("{} indices are not whole triangles", count));
+    if (filter != "NONE") refuse_gltf(meshopt_extension, "indices have no filter");
+  } else {
+    refuse_gltf(meshopt_extension, fmt::format("`{:.20}` is none of ATTRIBUTES, TRIANGLES, INDICES", mode));
+  }
+}
+
+std::vector<unsigned char> decoded(const Encoding& encoding) {
+  const auto& [count, stride, mode, filter, data, size] = encoding;
+  require_memory(count * stride, "decoding a compressed buffer view", "use a smaller model, or free memory");
+  std::vector<unsigned char> out(count * stride);
+  const int failed = mode == "ATTRIBUTES"  ? meshopt_decodeVertexBuffer(out.data(), count, stride, data, size)
+                     : mode == "TRIANGLES" ? meshopt_decodeIndexBuffer(out.data(), count, stride, data, size)
+                                           : meshopt_decodeIndexSequence(out.data(), count, stride, data, size);
+  if (failed != 0) refuse_gltf(meshopt_extension, "its data is damaged");
+  if (filter == "OCTAHEDRAL") meshopt_decodeFilterOct(out.data(), count, stride);
+  if (filter == "QUATERNION") meshopt_decodeFilterQuat(out.data(), count, stride);
+  if (filter == "EXPONENTIAL") meshopt_decodeFilterExp(out.data(), count, stride);
+  return out;
+}
+
+constexpr const char* draco_extension = "KHR_draco_mesh_compression";
+
+using Bytes = std::vector<unsigned char>;
+
+std::unique_ptr<draco::Mesh> decoded(const tinygltf::Model& model, int view_index) {
+  const auto& view = model.bufferViews[static_cast<std::size_t>(view_index)];
+  const auto& bytes = model.buffers[static_cast<std::size_t>(view.buffer)].data;
+  if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset)
+    refuse_gltf(draco_extension, "its data does not lie within its buffer");
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(bytes.data()) + view.byteOffset, view.byteLength);
+  draco::Decoder decoder;
+  try {
+    auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
+    if (!mesh.ok())
+      refuse_gltf(draco_extension, fmt::format("its data cannot be decoded: {:.200}", mesh.status().error_msg()));
+    return std::move(mesh).value();
+  } catch (const std::bad_alloc&) {
+    refuse_gltf(draco_extension, "its data cannot be decoded: it asks for more memory than there is");
+  } catch (const std::length_error&) {
+    refuse_gltf(draco_extension, "its data cannot be decoded: it asks for more memory than there is");
+  }
+}
+
+// Appends a buffer with one view of all of it; gives the view's index.
+int add_view(tinygltf::Model& model, Bytes bytes) {
+  tinygltf::BufferView view;
+  view.buffer = static_cast<int>(model.buffers.size());
+  view.byteLength = bytes.size();
+  model.buffers.emplace_back().data = std::move(bytes);
+  model.bufferViews.push_back(std::move(view));
+  return static_cast<int>(model.bufferViews.size()) - 1;
+}
+
+void point_at(tinygltf::Accessor& accessor, int view) {
+  accessor.bufferView = view;
+  accessor.byteOffset = 0;
+}
+
+// Whether the values of every point lie within the attribute's buffer.
+bool is_whole(const draco::PointAttribute& attribute, std::uint32_t points) {
+  const auto stride = static_cast<std::uint64_t>(attribute.byte_stride());
+  const auto offset = static_cast<std::uint64_t>(attribute.byte_offset());
+  if (attribute.buffer() == nullptr || stride == 0) return false;
+  if (offset + attribute.size() * stride > attribute.buffer()->data_size()) return false;
+  if (!attribute.is_mapping_identity() && attribute.indices_map_size() < points) return false;
+  for (std::uint32_t i = 0; i < points; ++i)
+    if (attribute.mapped_index(draco::PointIndex(i)).value() >= attribute.size()) return false;
+  return true;
+}
+
+template <typename T>
+Bytes values_of(const draco::PointAttribute& attribute, std::uint32_t points) {
+  const auto components = static_cast<std::size_t>(attribute.num_components());
+  Bytes bytes(points * components * sizeof(T));
+  std::vector<T> values(components);
+  for (std::uint32_t i = 0; i < points; ++i) {
+    if (!attribute.ConvertValue<T>(attribute.mapped_index(draco::PointIndex(i)), static_cast<std::int8_t>(components),
+                                   values.data()))
+      refuse_gltf(draco_extension, "an attribute has values of another type than its accessor");
+    std::memcpy(&bytes[i * components * sizeof(T)], values.data(), components * sizeof(T));
+  }
+  return bytes;
+}
+
+Bytes values_of(const draco::PointAttribute& attribute, std::uint32_t points, int component_type) {
+  switch (component_type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return values_of<std::int8_t>(attribute, points);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return values_of<std::uint8_t>(attribute, points);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return values_of<std::int16_t>(attribute, points);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return values_of<std::uint16_t>(attribute, points);
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+      return values_of<float>(attribute, points);
+    default:
+      refuse_gltf(draco_extension, fmt::format("{} is not a component type of an attribute", component_type));
+  }
+}
+
+void take_attribute(tinygltf::Model& model, const draco::Mesh& mesh, const std::string& name, int id, int accessor) {
+  auto& target = model.accessors[static_cast<std::size_t>(accessor)];
+  const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
+  if (attribute == nullptr) refuse_gltf(draco_extension, fmt::format("{}: its data has no attribute {}", name, id));
+  if (target.count != mesh.num_points())
+    refuse_gltf(draco_extension, fmt::format("{}: {} elements are decoded, accessors[{}] has {}", name,
+                                             mesh.num_points(), accessor, target.count));
+  const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(target.type));
+  if (attribute->num_components() != components)
+    refuse_gltf(draco_extension, fmt::format("{}: {} components are decoded, accessors[{}] has {}", name,
+                                             attribute->num_components(), accessor, components));
+  if (!is_whole(*attribute, mesh.num_points()))
+    refuse_gltf(draco_extension, fmt::format("{}: its data is damaged", name));
+  Bytes bytes = values_of(*attribute, mesh.num_points(), target.componentType);
+  point_at(target, add_view(model, std::move(bytes)));
+}
+
+void take_indices(tinygltf::Model& model, const draco::Mesh& mesh, int accessor) {
+  auto& target = model.accessors[static_cast<std::size_t>(accessor)];
+  const std::uint64_t count = std::uint64_t{3} * mesh.num_faces();
+  if (target.count != count)
+    refuse_gltf(draco_extension,
+                fmt::format("indices: {} are decoded, accessors[{}] has {}", count, accessor, target.count));
+  Bytes bytes(count * sizeof(std::uint32_t));
+  for (std::uint32_t i = 0; i < mesh.num_faces(); ++i) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::uint32_t index = mesh.face(draco::FaceIndex(i))[corner].value();
+      std::memcpy(&bytes[(3 * std::size_t{i} + corner) * sizeof index], &index, sizeof index);
+    }
+  }
+  target.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+  point_at(target, add_view(model, std::move(bytes)));
+}
+
+void decode_primitive(tinygltf::Model& model, const tinygltf::Primitive& primitive, const tinygltf::Value& extension) {
+  const auto position = primitive.attributes.find("POSITION");
+  if (position == primitive.attributes.end() || primitive.indices < 0)
+    refuse_gltf(draco_extension, "a compressed primitive needs accessors for POSITION and indices");
+  if (model.accessors[static_cast<std::size_t>(position->second)].bufferView >= 0) return;
+  if (primitive.mode != TINYGLTF_MODE_TRIANGLES) refuse_gltf(draco_extension, "only triangles are read, no strips");
+  const std::unique_ptr<draco::Mesh> mesh = decoded(model, extension.Get("bufferView").GetNumberAsInt());
+  const tinygltf::Value& ids = extension.Get("attributes");
+  for (const std::string& name : ids.Keys()) {
+    const auto accessor = primitive.attributes.find(name);
+    if (accessor != primitive.attributes.end())
+      take_attribute(model, *mesh, name, ids.Get(name).GetNumberAsInt(), accessor->second);
+  }
+  take_indices(model, *mesh, primitive.indices);
+}
+
+}  // namespace
+
+bool fill_fallback_buffers(nlohmann::json& document) {
+  const nlohmann::json buffers = document.value("buffers", nlohmann::json::array());
+  if (std::ranges::none_of(buffers, is_fallback)) return false;
+  const nlohmann::json views = document.value("bufferViews", nlohmann::json::array());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const auto buffer = views[i]["buffer"].get<std::size_t>();
+    if (is_fallback(buffers[buffer]) && !is_compressed(views[i]))
+      refuse_gltf(fmt::format("bufferViews[{}]", i),
+                  fmt::format("is not compressed, and buffers[{}] has no bytes of its own", buffer));
+  }
+  for (const auto& image : document.value("images", nlohmann::json::array())) {
+    if (image.contains("bufferView") && is_compressed(views[image["bufferView"].get<std::size_t>()]))
+      refuse_gltf(meshopt_extension, "an image lies in a compressed buffer view");
+  }
+  for (auto& buffer : document["buffers"]) {
+    if (!is_fallback(buffer)) continue;
+    buffer["uri"] = "data:application/octet-stream;base64,AA==";
+    buffer["byteLength"] = 1;
+  }
+  return true;
+}
+
+void decode_meshopt(tinygltf::Model& model) {
+  for (std::size_t i = 0; i < model.bufferViews.size(); ++i) {
+    tinygltf::BufferView& view = model.bufferViews[i];
+    const auto extension = view.extensions.find(meshopt_extension);
+    if (extension == view.extensions.end()) continue;
+    try {
+      const Encoding encoding = encoding_of(model, extension->second);
+      check(encoding, view.byteLength);
+      std::vector<unsigned char> bytes = decoded(encoding);
+      view.buffer = static_cast<int>(model.buffers.size());
+      view.byteOffset = 0;
+      model.buffers.emplace_back().data = std::move(bytes);
+    } catch (const Error& error) {
+      throw error.within(fmt::format("bufferViews[{}]", i));
+    }
+  }
+}
+
+bool fill_draco_indices(nlohmann::json& document) {
+  bool filled = false;
+  for (const auto& mesh : document.value("meshes", nlohmann::json::array())) {
+    for (const auto& primitive : mesh["primitives"]) {
+      const auto extensions = primitive.find("extensions");
+      if (extensions == primitive.end() || !extensions->contains(draco_extension) || !primitive.contains("indices"))
+        continue;
+      nlohmann::json& accessor = document["accessors"][primitive["indices"].get<std::size_t>()];
+      if (accessor.contains("bufferView")) continue;
+      accessor["bufferView"] = (*extensions)[draco_extension]["bufferView"];
+      filled = true;
+    }
+  }
+  return filled;
+}
+
+void decode_draco(tinygltf::Model& model) {
+  for (std::size_t m = 0; m < model.meshes.size(); ++m) {
+    for (std::size_t p = 0; p < model.meshes[m].primitives.size(); ++p) {
+      const tinygltf::Primitive& primitive = model.meshes[m].primitives[p];
+      const auto extension = primitive.extensions.find(draco_extension);
+      if (extension == primitive.extensions.end()) continue;
+      try {
+        decode_primitive(model, primitive, extension->second);
+      } catch (const Error& error) {
+        throw error.within(fmt::format("mesh {} `{:.80}`, primitive {}", m, model.meshes[m].name, p));
+      }
+    }
+  }
+}
+
+}  // namespace footprint

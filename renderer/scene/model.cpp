@@ -1,0 +1,32 @@
+// Selects the loader by the file's extension, and scenes, cameras or variants by name or number.
+#include "renderer/scene/model.hpp"
+
+#include <fmt/format.h>
+
+#include "renderer/core/error.hpp"
+#include "renderer/core/names.hpp"
+
+namespace footprint {
+
+std::size_t find_choice(const ModelChoice& choice, const std::string& wanted) {
+  if (const auto found = find_entry(wanted, choice.names)) return *found;
+  throw Error(ErrorKind::usage, choice.kind, fmt::format("the model has none that is called `{:.80}`", wanted),
+              choice.names.empty() ? fmt::format("it has no {} to choose: leave it out", choice.kind)
+                                   : suggestion(wanted, choice.names) + fmt::format("; or a number from 0"));
+}
+
+bool names_model(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  return extension == ".gltf" || extension == ".glb" || extension == ".obj";
+}
+
+Model load_model(const std::filesystem::path& file, const ModelSelection& selection) {
+  if (lower_extension(file) != ".obj") return load_gltf(file, selection);
+  if (!selection.empty()) {
+    throw Error(ErrorKind::usage, file.string(), "an OBJ file has no scenes, cameras or variants to choose from",
+                "leave the choice out, or give a glTF file");
+  }
+  return load_obj(file);
+}
+
+}  // namespace footprint

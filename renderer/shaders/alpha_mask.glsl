@@ -1,0 +1,12 @@
+// Alpha at a point of the finest level, and whether the mask cuts it out: for passes without footprints.
+bool isCutOut() {
+  float alpha = base_color_factor.a;
+//? if base_color_variation
+  vec2 uv = uv_offset_set[2].z < 0.5 ? uv0 : uv1;
+  alpha *= textureLod(base_color_map, mat2(uv_linear[2].xy, uv_linear[2].zw) * uv + uv_offset_set[2].xy, 0.0).a;
+//? end
+//? if vertex_color
+  alpha *= vertex_alpha;
+//? end
+  return alpha < lobe_cutoff.y;
+}

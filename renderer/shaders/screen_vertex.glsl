@@ -1,2 +1,0 @@
-// One triangle that covers the screen, without any buffer.
-void main() { gl_Position = vec4(vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0), 0.0, 1.0); }

@@ -3,16 +3,16 @@
 
 footprint_root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 
-# Says what is done next.
+# Prints the next step.
 step() { printf '\n==> %s\n' "$*"; }
 
-# Ends the script: what is wrong, and how to mend it.
+# Ends the script with a message: the fault and its remedy.
 die() {
   printf '%s: %s\n' "$(basename -- "$0")" "$*" >&2
   exit 3
 }
 
-# Runs a command as root: with sudo only where the user is not root.
+# Runs a command as root, by sudo if the user is not root.
 as_root() {
   if [ "$(id -u)" -eq 0 ]; then
     "$@"
@@ -29,8 +29,8 @@ configure() {
   cmake --preset "$1" -S "$footprint_root"
 }
 
-# list_sources [PATH...]: the C++ sources that git tracks, or all where there is no git checkout, each with a trailing
-# zero byte; of all folders or, seen from the root, of the files and folders named.
+# list_sources [PATH...]: the C++ sources that git tracks, or all without a git checkout, each followed by a zero byte;
+# of all folders, or of the files and folders named, relative to the root.
 list_sources() {
   (
     cd -- "$footprint_root" || exit
@@ -43,13 +43,13 @@ list_sources() {
   )
 }
 
-# check_format [PATH...]: fails, naming files and lines, if a source is not laid out as .clang-format says.
+# check_format [PATH...]: fails, naming files and lines, if a source is not formatted by .clang-format.
 check_format() {
   step "Checking the layout of the sources with clang-format"
   (cd -- "$footprint_root" && list_sources "$@" | xargs -0 -r clang-format --dry-run -Werror)
 }
 
-# expect_output FOLDER PROGRAM: dies unless the folder has all that a comparison at distance 1 leaves.
+# expect_output FOLDER PROGRAM: dies unless the folder has all files of a comparison at distance 1.
 expect_output() {
   local file
   for file in results.json results.csv table.md index.html images/d1_all.png; do

@@ -1,7 +1,7 @@
-"""The environment in which a program's OpenGL is Mesa's zink, which draws by Vulkan, over lavapipe, Vulkan on a processor.
+"""The environment in which a program's OpenGL is Mesa's zink, which renders by Vulkan, over lavapipe, Vulkan on the CPU.
 
-It shares no driver with llvmpipe above its rasteriser: what OpenGL leaves undefined comes out otherwise there, or ends the
-program.
+Above the rasteriser it shares no driver with llvmpipe, so undefined behaviour of OpenGL has another result there, or ends
+the program.
 """
 
 import os
@@ -11,13 +11,13 @@ ICD_FOLDERS = ("/usr/share/vulkan/icd.d", "/usr/local/share/vulkan/icd.d", "/etc
 
 
 def lavapipe():
-    """The file by which the Vulkan loader finds lavapipe; None where it is not installed."""
+    """The manifest by which the Vulkan loader finds lavapipe; None if it is not installed."""
     found = [file for folder in ICD_FOLDERS for file in sorted(pathlib.Path(folder).glob("lvp_icd*.json"))]
     return found[0] if found else None
 
 
 def environment(icd, runtime_folder):
-    """The variables of this process with those that choose zink over lavapipe's `icd`; `runtime_folder` is private."""
+    """This process's variables, and those that select zink over lavapipe's `icd`. `runtime_folder` must be private."""
     return os.environ | {
         "LIBGL_ALWAYS_SOFTWARE": "1",
         "GALLIUM_DRIVER": "zink",

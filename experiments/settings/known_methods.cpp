@@ -1,4 +1,4 @@
-// The methods of a text, each held against the table of its options.
+// Checks the options of each method against its table.
 #include "experiments/settings/known_methods.hpp"
 
 #include "methods/registry.hpp"

@@ -1,4 +1,4 @@
-// Methods as they are written, held against those that the program has.
+// Reads methods, and checks them against those of the program.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace footprint {
 
-/// Methods with their options, commas between, known to be right before anything is loaded. Errors (usage): unknown
-/// method or option, with the nearest.
+/// Comma-separated methods with their options, checked before anything is loaded. Errors (usage): unknown method or
+/// option, with the nearest name.
 [[nodiscard]] std::vector<MethodSpec> parse_known_methods(const std::string& text);
 
 /// The methods as they were written.
 [[nodiscard]] std::vector<std::string> texts_of(const std::vector<MethodSpec>& methods);
 
-/// Every method of the program but those that are slow (MethodInfo::slow_frame), with its own defaults.
+/// Every method of the program except slow ones (MethodInfo::slow_frame), with its defaults.
 [[nodiscard]] std::vector<MethodSpec> every_method();
 
 }  // namespace footprint

@@ -1,4 +1,4 @@
-// What a run over a scene is asked for, whoever asks: the command line or an experiment's file.
+// The settings of a run over a scene, from the command line or from an experiment's file.
 #pragma once
 
 #include <array>
@@ -42,14 +42,14 @@ struct Exposure {
 struct ZoomSettings {
   int frames = 0;              ///< 0: there is no zoom; else 2 or more
   std::optional<double> from;  ///< factor on the camera's distance; none: the first of the scene's zoom path
-  std::optional<double> to;    ///< none: the last of it; 8 times `from` where it has one only
+  std::optional<double> to;    ///< none: the last of it, or 8 times `from` if it has only one
 };
 
-/// What moves from frame to frame of an animation.
+/// The part that moves from frame to frame of an animation.
 enum class AnimationPath {
   zoom,   ///< the camera along its own axis
   orbit,  ///< the camera around the centre of the bounds
-  light   ///< all lights around it, together
+  light   ///< all lights together, around it
 };
 
 /// As users write it.
@@ -59,29 +59,28 @@ inline constexpr std::array<Word<AnimationPath>, 3> animation_paths{{
     {AnimationPath::light, "light"},
 }};
 
-/// The path of an animation; how many frames it has, and from where to where a zoom leads, says ZoomSettings.
+/// The path of an animation. ZoomSettings has the number of frames and the ends of a zoom.
 struct PathSettings {
   AnimationPath kind = AnimationPath::zoom;
-  std::optional<double> degrees;   ///< from the first frame to the last, of what turns; none: 60
-  std::optional<glm::dvec3> axis;  ///< of the turn, unit, in the world; none: the camera's up
+  std::optional<double> degrees;   ///< angle from the first frame to the last; none: 60
+  std::optional<glm::dvec3> axis;  ///< of the rotation, unit, in world space; none: the camera's up
 };
 
-/// What is seen of the scene.
+/// The view of the scene.
 struct ViewSettings {
-  std::optional<glm::ivec2> size;        ///< pixels; none: the scene's own, or 512 wide in the camera's aspect
-  std::optional<glm::ivec2> quick_size;  ///< of a run that is cut short; none: a quarter of `size`
+  std::optional<glm::ivec2> size;        ///< pixels; none: the scene's own, else 512 wide in the camera's aspect ratio
+  std::optional<glm::ivec2> quick_size;  ///< of a quick run; none: a quarter of `size`
   std::vector<double> distances;         ///< factors on the camera's distance; empty: the scene's zoom path
-  ZoomSettings zoom;                 ///< in place of `distances`; consecutive frames, between which flicker is measured
-  std::optional<Exposure> exposure;  ///< none: the scene's own, else automatic
-  /// The error at the top of every error picture, for pictures of several runs on one scale; none: what the run calls
-  /// for.
+  ZoomSettings zoom;                     ///< instead of `distances`; flicker is measured between its frames
+  std::optional<Exposure> exposure;      ///< none: the scene's own, else automatic
+  /// The error at the top of the scale of every error image, to compare several runs; none: derived from the run.
   std::optional<double> error_scale;
 };
 
-/// Whether the picture of the method `exact` is drawn beside the others: what the footprint filter leaves of the error.
+/// Whether `exact` is rendered too, which separates the footprint filter's error from the methods' own.
 enum class BoundUse {
-  automatic,  ///< of as many pixels as are cheap
-  on,         ///< of all of them
+  automatic,  ///< on as many pixels as are cheap
+  on,         ///< on all of them
   off
 };
 
@@ -92,21 +91,21 @@ inline constexpr std::array<Word<BoundUse>, 3> bound_uses{{
     {BoundUse::off, "off"},
 }};
 
-/// What errors are measured against.
+/// The reference that errors are measured against.
 struct ReferenceSettings {
-  int spp = 64;                 ///< samples a pixel, 1 to 4096; where `by_noise`, those to begin with
-  bool by_noise = false;        ///< goes on tile by tile, 4096 samples at most, until the noise floor is `noise`
-  bool fixed_spp = false;       ///< `spp` was asked for, so that `by_noise` has no say
-  std::optional<double> noise;  ///< normalised colour error; none: a fifth of the least difference between methods
+  int spp = 64;                 ///< samples per pixel, 1 to 4096; the first ones if `by_noise`
+  bool by_noise = false;        ///< refine it tile by tile, up to `spp_max` samples, until the noise floor is `noise`
+  bool fixed_spp = false;       ///< `spp` was given, and overrides `by_noise`
+  std::optional<double> noise;  ///< normalised colour error; none: a fifth of the smallest difference between methods
   int spp_max = 4096;
   std::vector<int> other_spp;                              ///< of further references that errors are measured against
-  std::vector<int> supersampling{1, 2, 4, 8, 16, 32, 64};  ///< samples a pixel of the measured curve
+  std::vector<int> supersampling{1, 2, 4, 8, 16, 32, 64};  ///< samples per pixel of the measured curve
   std::uint64_t seed = 1;                                  ///< same seed, same bytes
   ReferenceFilter filter = ReferenceFilter::after_shading;
-  EnvironmentUse environment = EnvironmentUse::sampled;  ///< how it integrates one
+  EnvironmentUse environment = EnvironmentUse::sampled;  ///< how it integrates an environment
   BoundUse bound = BoundUse::automatic;
-  /// Whether the errors of representation, filtering and the environment's lookup are measured, for which more is drawn
-  /// than a method's frame.
+  /// Whether the errors of representation, filtering and the environment's lookup are measured, which needs further
+  /// images besides each method's frame.
   bool by_cause = true;
 };
 
@@ -114,23 +113,22 @@ struct ReferenceSettings {
 struct TimingSettings {
   int repeats = 9;                      ///< timed frames of each method and distance in each process
   int processes = 1;                    ///< one after the other
-  std::optional<FootprintFilter> unit;  ///< of the `direct` that ratios are taken to; none: that of the methods
+  std::optional<FootprintFilter> unit;  ///< of the `direct` frame that costs 1; none: that of the methods
 };
 
-/// Where a run is drawn.
+/// How and where a run is rendered.
 struct BackendSettings {
   gl::ContextRequest context;
-  int tile = 0;  ///< pixels a side drawn at once; 0: as many as fit
+  int tile = 0;  ///< side of the tiles in pixels; 0: as large as fits
 };
 
-/// All that a run over a scene can be asked for; each study heeds what it has a use for. setting.hpp has the words
-/// that users write for it.
+/// All settings of a run; each study uses those that concern it. setting.hpp defines how users write them.
 struct RunSettings {
   std::string scene;           ///< as load_scene takes it
-  SceneLibrary scene_library;  ///< what it may name
-  SceneOverrides overrides;    ///< of the scene's own words
+  SceneLibrary scene_library;  ///< the scenes and surfaces that have names
+  SceneOverrides overrides;    ///< of the scene's own settings
   std::vector<MethodSpec> methods;
-  bool by_material = false;  ///< errors are told by material too
+  bool by_material = false;  ///< also measure errors by material
   EffectSet without;         ///< effects that every method and the reference leave out
   ViewSettings view;
   PathSettings path;
@@ -138,7 +136,7 @@ struct RunSettings {
   ReferenceSettings reference;
   TimingSettings timing;
   BackendSettings backend;
-  std::optional<std::filesystem::path> cache;  ///< folder where slow precomputes are kept; none: they are not
+  std::optional<std::filesystem::path> cache;  ///< folder of cached bakes; none: they are not cached
 };
 
 }  // namespace footprint

@@ -32,9 +32,9 @@ struct Setting {
   std::vector<std::string_view> commands{};  ///< subcommands that have the option
   std::string_view table{}, key{};           ///< in an experiment's file; empty: on the command line alone
   SettingType type{};
-  std::string_view help{};       ///< what it is, as a clause without a full stop; in lower case
-  std::string_view start{};      ///< value where none is given, as an option takes it; empty: RunSettings' own
-  std::string_view otherwise{};  ///< what counts without a value, in words: "the scene's"
+  std::string_view help{};       ///< a clause in lower case, without a full stop
+  std::string_view start{};      ///< default value, as an option takes it; empty: that of RunSettings
+  std::string_view otherwise{};  ///< the default in words: "the scene's"
   bool required = false;
   std::string_view group{};  ///< heading in the help
 };
@@ -42,20 +42,20 @@ struct Setting {
 /// The document that explains an experiment's file.
 inline constexpr std::string_view experiments_document = "docs/experiments.md";
 
-/// Every setting, in the order of the help and of the docs.
+/// Every setting, in the order of the help and of the documents.
 [[nodiscard]] std::span<const Setting> run_settings();
 
 /// The name of a setting's option: "--method" of "--method,--methods".
 [[nodiscard]] std::string_view option_name(const Setting& setting);
 
-/// What is there where a user gives nothing, as an option takes it; empty: no value.
+/// The default value, as an option takes it; empty: no value.
 [[nodiscard]] std::string default_text(const Setting& setting);
 
 /// The keys of [`table`] in an experiment's file.
 [[nodiscard]] std::vector<std::string> setting_keys(std::string_view table);
 
-/// Reads the settings of [`name`] from an experiment's file. Errors (usage) name file, line and key: a value that does
-/// not fit, a required key that is missing and not among those that are `given` elsewhere.
+/// Reads the settings of [`name`] from an experiment's file. Errors (usage) name file, line and key: a value is not
+/// valid, or a required key is missing and not among those `given` elsewhere.
 void read_settings(const TomlTable& table, std::string_view name, RunSettings& run,
                    const std::vector<std::string>& given = {});
 

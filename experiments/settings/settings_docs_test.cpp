@@ -1,4 +1,4 @@
-// docs/command-line.md and docs/experiments.md say of a run's settings what the table says.
+// The tables of settings in docs/command-line.md and docs/experiments.md are those of the program.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace footprint {
 namespace {
 
-// What counts where nothing is given: a value, or words for it.
+// The default: a value, or words for it.
 std::string default_cell(const Setting& setting) {
   if (setting.required) return "required";
   if (!setting.otherwise.empty()) return std::string(setting.otherwise);

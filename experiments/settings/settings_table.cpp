@@ -11,7 +11,7 @@ using namespace setting_types;
 using Run = RunSettings;
 using Commands = std::vector<std::string_view>;
 
-// Subcommands by what they have in common.
+// Groups of subcommands.
 const Commands of_a_scene{"compare", "recommend", "render", "animate", "edit", "bake", "explain"};
 const Commands of_a_picture{"compare", "recommend", "render", "animate", "edit", "explain"};
 const Commands that_compare{"compare", "recommend"};
@@ -34,7 +34,7 @@ int& zoom_frames(Run& run) { return run.view.zoom.frames; }
 std::optional<Exposure>& exposure_of(Run& run) { return run.view.exposure; }
 int& repeats(Run& run) { return run.timing.repeats; }
 
-std::vector<Setting> what_is_drawn() {
+std::vector<Setting> scene_settings() {
   return {
       {.option = "scene",
        .commands = of_a_scene,
@@ -121,7 +121,7 @@ std::vector<Setting> what_is_drawn() {
   };
 }
 
-std::vector<Setting> what_is_seen() {
+std::vector<Setting> view_settings() {
   return {
       {.option = "--size",
        .commands = of_a_picture,
@@ -225,7 +225,7 @@ std::vector<Setting> what_is_seen() {
   };
 }
 
-std::vector<Setting> what_errors_are_measured_against() {
+std::vector<Setting> reference_settings() {
   return {
       {.option = "--spp",
        .commands = with_a_reference,
@@ -290,7 +290,7 @@ std::vector<Setting> what_errors_are_measured_against() {
   };
 }
 
-std::vector<Setting> how_it_runs() {
+std::vector<Setting> timing_settings() {
   return {
       {.option = "--repeats",
        .commands = that_compare,
@@ -346,10 +346,10 @@ std::span<const Setting> run_settings() {
       for (Setting& setting : part) setting.group = group;
       all.insert(all.end(), part.begin(), part.end());
     };
-    add("Scene and methods", what_is_drawn());
-    add("View", what_is_seen());
-    add("Reference", what_errors_are_measured_against());
-    add("Timing and OpenGL", how_it_runs());
+    add("Scene and methods", scene_settings());
+    add("View", view_settings());
+    add("Reference", reference_settings());
+    add("Timing and OpenGL", timing_settings());
     return all;
   }();
   return settings;

@@ -1,4 +1,4 @@
-// The table of a run's settings: what options take and refuse, with words that help, and that every row can be read.
+// The table of a run's settings: values that options take and refuse, and that every row is complete.
 #include <gtest/gtest.h>
 
 #include <algorithm>

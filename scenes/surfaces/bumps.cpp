@@ -16,14 +16,14 @@ struct Bump {
 
 using Bumps = WrappedGrid<Bump>;
 
-/// How fast one bump takes over from the next: the height field is log(sum exp(blend h)) / blend, a rounded maximum.
+/// Sharpness of the valleys: the height field is log(sum exp(blend h)) / blend, a rounded maximum.
 constexpr double blend = 10.0;
 
 /// Bumps this many cells away count. Those beyond are 2.2 cells or more away and, at `blend`, less than 1e-7 of the
 /// sum.
 constexpr int reach = 2;
 
-/// One bump a cell of a count x count grid, within 0.3 of its cell's centre.
+/// One bump per cell of a count x count grid, within 0.3 of the cell's centre.
 Bumps scatter(int count, std::uint32_t seed) {
   std::mt19937_64 random(seed);
   Bumps bumps(count, count);
@@ -36,7 +36,7 @@ Bumps scatter(int count, std::uint32_t seed) {
   return bumps;
 }
 
-/// The slope at `point`, in cells, for steepness 1: the bumps' slopes weighed by exp(blend h).
+/// The slope at `point`, in cells, for steepness 1: the bumps' slopes weighted by exp(blend h).
 glm::dvec2 slope_at(const Bumps& bumps, const glm::dvec2& point) {
   glm::dvec2 sum{0.0};
   double weights = 0.0;

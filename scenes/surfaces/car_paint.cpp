@@ -1,4 +1,4 @@
-// car_paint: small flat flakes that lean each its own way, in a coat of paint that is smooth but for long waves. After
+// car_paint: small flat flakes, each tilted in its own direction, in paint that is smooth except for long waves. After
 // the car paint of Atanasov et al. 2020, Figure 1, whose normal maps are not published.
 #include <array>
 #include <cmath>

@@ -45,7 +45,7 @@ Height beads(const Polar& at, double ring, double bead, int count, double shift 
   return 0.6 * bead * inside * sqrt(inside + 0.05);
 }
 
-/// The carver's hand: what differs from one petal, tongue or stroke to the next.
+/// Random differences between petals, tongues and strokes, as a carver's hand leaves them.
 class Hand {
  public:
   Hand(std::uint32_t seed, double unevenness) : Hand(std::mt19937_64(seed), unevenness) {}
@@ -103,7 +103,7 @@ Height turned_grooves(const Polar& at, double low, double high, int count) {
   return engraved_wave((at.radius - low) / period, period, 0.7) * smooth_band(at.radius, low, high, 0.3 * period);
 }
 
-/// One strand of the plait: a wave around the ring, high where it crosses over and low where it passes under.
+/// One strand of the plait: a wave around the ring, high where it crosses over another and low where it passes under.
 Height strand(const Polar& at, double side) {
   constexpr double ring = 0.615, swing = 0.06, half_width = 0.026;
   constexpr int waves = 16;
@@ -147,7 +147,7 @@ Height rope(const Polar& at) {
   return smooth_ridge(across) * (0.022 + 0.0055 * twist);
 }
 
-/// The rings lie side by side: a point belongs to one of them, or to the plain strips between them.
+/// A point belongs to one of the rings, which are side by side, or to the plain strips between them.
 Height ring_at(const Polar& at, const Hand& hand) {
   const double radius = at.radius.value();
   if (radius < 0.17) return boss(at);
@@ -161,7 +161,7 @@ Height ring_at(const Polar& at, const Hand& hand) {
 
 Height carving(const HeightPoint& at, const Hand& hand) {
   const Height squared = at.x * at.x + at.y * at.y;
-  // No direction leads out of the very middle; nothing is carved beyond the rim, where there is no disk.
+  // The middle has no direction outwards; beyond the rim there is no disk.
   if (squared.value() < 1e-12 || squared.value() >= 1.0) return Height{0.0};
   return ring_at(Polar{sqrt(squared), atan2(at.y, at.x)}, hand) + hand.hammering(at);
 }

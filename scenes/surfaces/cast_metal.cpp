@@ -1,5 +1,4 @@
-// cast_metal: bronze from a sand mould, grained and pitted, with stains of patina on a smaller map of its own that
-// repeats.
+// cast_metal: bronze from a sand mould, grained and pitted, with stains of patina on a smaller map that repeats.
 #include <array>
 #include <cmath>
 
@@ -14,7 +13,7 @@ namespace {
 constexpr std::array<Octave, 4> grain{{{50, 0.03}, {180, 0.08}, {420, 0.18}, {700, 0.22}}};
 constexpr std::array<Octave, 4> stains{{{3, 0.9}, {7, 0.6}, {19, 0.45}, {60, 0.35}}};
 
-/// The map of stains beside a map of 2048 normals a side; smaller in proportion beside others.
+/// Size of the map of stains for 2048 x 2048 normals; in proportion for other resolutions.
 constexpr glm::ivec2 stain_size{671, 457};
 constexpr int grain_size = 2048;
 
@@ -32,7 +31,7 @@ Image normals(const SurfaceSettings& settings) {
   });
 }
 
-/// How far the patina covers a point of the map of stains: 0 bare and rubbed bright, 1 crusted.
+/// The patina at a point of the map of stains: 0 bare and polished, 1 crusted.
 class Patina {
  public:
   explicit Patina(const SurfaceSettings& settings)

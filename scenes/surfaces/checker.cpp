@@ -5,7 +5,7 @@
 namespace footprint::surfaces::checker {
 namespace {
 
-/// Whether a point lies on a glossy square; the others are dull.
+/// Whether a point is on a glossy square; the others are dull.
 class Board {
  public:
   explicit Board(const SurfaceSettings& settings) : squares_(settings.parameters.number("squares")) {}

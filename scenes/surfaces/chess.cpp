@@ -233,7 +233,7 @@ namespace {
 
 constexpr int squares = 8;
 
-/// Metres; the field lies a little over its frame.
+/// Metres. The field is slightly higher than its frame.
 constexpr double square = 0.057, frame = 0.024, inlay = 0.0015, thickness = 0.02;
 
 Image base_color(const SurfaceSettings& settings) {
@@ -243,7 +243,7 @@ Image base_color(const SurfaceSettings& settings) {
   });
 }
 
-/// A flat side: its middle, and half its width and height. The part of the map is the lower left square's or all.
+/// A flat side: its middle, and half its width and height. `part` of the map covers it: the lower left square, or all.
 Mesh side(const glm::dvec3& middle, const glm::dvec3& right, const glm::dvec3& up, double part) {
   return grid_mesh(24, 24, [&](const glm::dvec2& st) {
     const HeightPoint at{2.0 * st - 1.0};

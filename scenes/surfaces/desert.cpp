@@ -32,7 +32,7 @@ struct Grains {
 };
 constexpr std::array<Grains, 3> grains{{{64, 0.05}, {160, 0.07}, {400, 0.09}}};
 
-/// Noise of so many cells along the map's width.
+/// Noise by its cells along the map's width.
 class MapNoise {
  public:
   MapNoise(int cells, std::mt19937_64& random) : cells_(cells), noise_(cells, random) {}

@@ -15,10 +15,10 @@
 namespace footprint {
 namespace {
 
-/// What of a dome covers a point.
+/// The part of a dome that covers a point.
 struct DomePart {
   glm::dvec2 offset;  ///< from the dome's middle, as a share of its radius; shorter than 1
-  double chance;      ///< of this dome alone, 0 to 1, evenly spread over the domes
+  double chance;      ///< random number of this dome, uniform in 0 to 1
 
   /// The unit normal there: as of a sphere whose tilt at the dome's edge has the sine `edge`, 1 a hemisphere.
   [[nodiscard]] glm::dvec3 normal(double edge) const {
@@ -30,8 +30,8 @@ struct DomePart {
 /// Rows of domes over the unit square, each odd row moved by half a column.
 class DomeLattice {
  public:
-  /// The number of rows is even, so that the map tiles, and makes the lattice as nearly hexagonal as it can be. `fill`:
-  /// radius of the largest dome as a share of that of touching ones; `variation`: how much smaller the smallest is.
+  /// The number of rows is even, so that the map tiles, and makes the lattice nearly hexagonal. `fill`: radius of the
+  /// largest dome as a share of that of touching ones; `variation`: how much smaller the smallest is.
   DomeLattice(int columns, double fill, double variation, std::uint32_t seed);
 
   /// The dome that covers `uv`, if any.
@@ -116,7 +116,7 @@ Surface surface() {
 namespace surfaces::studs {
 namespace {
 
-/// What a point is made of.
+/// The material of a point.
 struct Stuff {
   glm::dvec3 albedo, specular;
   double exponent;

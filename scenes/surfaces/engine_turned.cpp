@@ -11,12 +11,12 @@
 namespace footprint::surfaces::engine_turned {
 namespace {
 
-/// Lengths on the map are in discs: each is set down one from the next and covers this radius.
+/// Lengths on the map are in distances between discs; a disc has this radius.
 constexpr double disc_radius = 0.74;
 
 /// The scratches of one disc, from its middle outwards.
 struct Disc {
-  std::array<double, 64> ends{};    ///< where each scratch ends, rising
+  std::array<double, 64> ends{};    ///< radius at which each scratch ends, ascending
   std::array<double, 64> slopes{};  ///< of its flanks
 };
 
@@ -33,7 +33,7 @@ Disc draw_disc(int scratches, double tilt, std::mt19937_64& random) {
   return disc;
 }
 
-/// The discs in their rows. Each lies over its neighbours to the left and below, so that the map tiles.
+/// The discs in their rows. Each covers its neighbours to the left and below, so that the map tiles.
 class EngineTurning {
  public:
   explicit EngineTurning(const SurfaceSettings& settings)
@@ -48,7 +48,7 @@ class EngineTurning {
   [[nodiscard]] glm::dvec3 normal(const glm::dvec2& uv) const {
     const glm::dvec2 at = static_cast<double>(discs_.columns()) * uv;
     const int column = static_cast<int>(std::floor(at.x)), row = static_cast<int>(std::floor(at.y));
-    // From the uppermost disc that can reach the point downwards; the last one, in whose square it lies, always does.
+    // From the top disc that can reach the point to the bottom one, which is in the point's square and always does.
     for (int y = row + 1; y >= row - 1; --y) {
       for (int x = column + 1; x >= column - 1; --x) {
         const glm::dvec2 offset = at - (glm::dvec2(x, y) + 0.5);

@@ -15,10 +15,10 @@ namespace {
 /// moved by half a scale. A scale is a disc of this radius, of which the rows above leave the lower part to be seen.
 constexpr double scale_radius = 0.6;
 
-/// Where the dome of a scale is highest: in the middle of what is seen of it, below the disc's centre.
+/// The highest point of a scale's dome: the middle of its visible part, below the disc's centre.
 constexpr double dome_drop = 0.24;
 
-/// From there, within this radius, lies all that is seen.
+/// Radius around it that contains the visible part.
 constexpr double dome_radius = 0.56;
 
 /// The outer share of the disc that is bent down to an edge.
@@ -49,7 +49,7 @@ glm::dvec2 lean_of(const glm::dvec2& offset, double edge) {
 
 /// The normal at `point`, in columns of scales.
 glm::dvec3 normal_at(const glm::dvec2& point, double edge, const Tilts& tilts) {
-  // From the highest row that can reach the point downwards: the first scale found lies on top.
+  // From the highest row that can reach the point downwards, so that the first scale found is on top.
   const int top = static_cast<int>(std::floor(2.0 * (point.y + scale_radius)));
   for (int row = top;; --row) {
     const double shift = row % 2 == 0 ? 0.0 : 0.5;

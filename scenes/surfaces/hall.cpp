@@ -24,13 +24,13 @@ inline constexpr double bay = 3.0, length = bay * bays;
 inline constexpr double arcade = 2.6;                      ///< from the nave's middle line to the columns' axes
 inline constexpr double arcade_half_thickness = 0.28;      ///< of the wall over the columns
 inline constexpr double outer_wall = 5.2;                  ///< from the middle line
-inline constexpr double spring = 3.7, arch_radius = 1.12;  ///< where arches begin, and their radius
+inline constexpr double spring = 3.7, arch_radius = 1.12;  ///< height at which arches begin, and their radius
 inline constexpr double aisle_ceiling = 5.6, vault_spring = 6.6;
 
 /// The middle of a bay, 0 the nearest.
 [[nodiscard]] constexpr double bay_middle(int index) { return -bay * (index + 0.5); }
 
-/// A plane of the hall: where (0, 0) lies on it, and which way right and up are for whoever looks at it.
+/// A plane of the hall: its origin, and the directions right and up as a viewer sees them.
 struct Wall {
   glm::dvec3 origin, right, up;
 
@@ -50,7 +50,7 @@ struct Wall {
 namespace surfaces::hall_stone {
 namespace {
 
-/// The map covers so many metres: four courses of two blocks.
+/// Metres that the map covers: four courses of two blocks.
 constexpr double map_size = 2.0;
 constexpr int courses = 4, blocks = 2;
 
@@ -79,7 +79,7 @@ class Ashlar {
     return nearest_line(row).value() < joint || nearest_line(column).value() * courses / blocks < joint;
   }
 
-  /// -1 to 1: of this block alone, with stains that run over all.
+  /// The tone of the block, with stains that cross blocks: -1 to 1.
   [[nodiscard]] double tone(const glm::dvec2& uv) const {
     const int row = static_cast<int>(std::floor(courses * uv.y));
     const int column = static_cast<int>(std::floor(blocks * uv.x + (wrap(row, 2) == 0 ? 0.0 : 0.5)));
@@ -227,7 +227,7 @@ Surface surface() {
 namespace surfaces::hall_floor {
 namespace {
 
-/// The map covers so many metres, of so many squares each way; an even number, so that they alternate.
+/// Metres and squares that the map covers in each direction; the squares are even in number, so that they alternate.
 constexpr double map_size = 3.0;
 constexpr int squares = 8;
 
@@ -239,7 +239,7 @@ constexpr std::array<Octave, 4> veins{{{4, 1.0}, {11, 0.5}, {31, 0.25}, {90, 0.1
 
 enum class Stone { black, white, red, cement };
 
-/// What lies at a point, and how its square is tilted.
+/// The stone at a point, and the tilt of its square.
 struct Slab {
   Stone stone;
   glm::dvec2 slope;
@@ -338,7 +338,7 @@ namespace {
 
 const std::vector<std::string> dyes{"red", "green", "blue"};
 
-/// Metres: the cloth's rail, its lower edge, and its width where it is gathered at the rail.
+/// Metres: the height of the cloth's rail and of its lower edge, and its gathered width at the rail.
 constexpr double rail = 3.55, edge = 1.15, width = 1.9;
 
 /// How much wider the cloth is than its curtain, and how wide the map is on it.

@@ -13,7 +13,7 @@ namespace footprint {
 /// A number and its derivatives by the two coordinates that a formula starts from.
 using Height = Eigen::AutoDiffScalar<Eigen::Vector2d>;
 
-/// The coordinates of a point, each with its own derivative 1.
+/// The coordinates of a point, with derivative 1 by themselves.
 struct HeightPoint {
   explicit HeightPoint(const glm::dvec2& point) : x(point.x, 2, 0), y(point.y, 2, 1) {}
   Height x, y;
@@ -43,12 +43,12 @@ struct HeightPoint {
   return 0.5 + 0.5 * cos(std::numbers::pi * t);
 }
 
-/// A wave of period 1 and slope up to about `slope`: its height is what it takes.
+/// A wave of period 1 in `phase`, as high as a slope of up to about `slope` needs.
 [[nodiscard]] inline Height engraved_wave(const Height& phase, double period, double slope) {
   return slope * period / (2.0 * std::numbers::pi) * cos(2.0 * std::numbers::pi * phase);
 }
 
-/// The larger of two heights, with its own gradient.
+/// The larger of two heights, with its gradient.
 [[nodiscard]] inline Height higher(const Height& a, const Height& b) { return a.value() >= b.value() ? a : b; }
 
 }  // namespace footprint

@@ -1,4 +1,4 @@
-// The figure and the binding of a satin decide which thread lies on top of a crossing.
+// The figure and the binding of a satin decide which thread is on top at a crossing.
 #include "scenes/surfaces/jacquard.hpp"
 
 #include <cmath>
@@ -31,13 +31,13 @@ bool in_figure(const glm::dvec2& point) {
   if (std::abs(edge + 0.02) < 0.055) return true;
   if (std::abs(edge + 0.17) < 0.02) return true;
   if (edge < -0.19) return in_flower(point / glm::dvec2{0.62, 0.5});
-  // Between the ovals lie those of the rows beside, half a repeat away.
+  // Between the ovals are those of the neighbouring rows, half a repeat away.
   const glm::dvec2 other{point.x - std::copysign(1.0, point.x), point.y - std::copysign(1.0, point.y)};
   if (std::abs(oval(other) + 0.17) < 0.02) return true;
   return oval(other) < -0.19 && in_flower(other / glm::dvec2{0.62, 0.5});
 }
 
-/// Where the binding points of a satin of five lie: two threads on in every row.
+/// Whether a crossing is a binding point of a satin of five, which shifts by two threads per row.
 bool is_binding(int column, int row) { return wrap(column - 2 * row, 5) == 0; }
 
 }  // namespace
@@ -51,7 +51,7 @@ Jacquard::Jacquard(glm::ivec2 threads, glm::ivec2 figures, std::uint32_t seed) :
 Thread Jacquard::at(const glm::dvec2& uv) const {
   const glm::dvec2 cell = uv * glm::dvec2(threads_);
   const int column = static_cast<int>(std::floor(cell.x)), row = static_cast<int>(std::floor(cell.y));
-  // The loom decides for whole crossings: the figure's outline is stepped.
+  // A crossing is one thread or the other, so that the figure's outline has steps.
   const glm::dvec2 crossing = (glm::dvec2(column, row) + 0.5) / glm::dvec2(threads_);
   const glm::dvec2 repeat = glm::fract(crossing * glm::dvec2(figures_));
   Thread thread;
@@ -68,7 +68,7 @@ Thread Jacquard::at(const glm::dvec2& uv) const {
 }
 
 glm::dvec3 Jacquard::normal(const Thread& thread, double roundness) {
-  // A thread is round across; along it, it dives where it ends, at a binding point.
+  // A thread is round across its width; along its length it dives at its ends, the binding points.
   const double across = roundness * thread.across, along = 0.35 * roundness * thread.along;
   const glm::dvec2 tilt = thread.weft ? glm::dvec2{along, across} : glm::dvec2{across, along};
   return glm::dvec3{tilt, std::sqrt(std::max(0.0, 1.0 - glm::dot(tilt, tilt)))};

@@ -1,4 +1,4 @@
-// A figured cloth as a loom weaves it: which of two threads lies on top at every crossing, and how it is bent there.
+// A figured cloth as a loom weaves it: the thread on top at every crossing, and its bend.
 #pragma once
 
 #include <cstdint>
@@ -7,18 +7,18 @@
 
 namespace footprint {
 
-/// What lies on top at a point of the cloth.
+/// The thread on top at a point of the cloth.
 struct Thread {
   bool weft = false;    ///< a weft thread, which runs along x; else a warp thread, along y
   bool figure = false;  ///< within the woven figure; else of its ground
   double across = 0.0;  ///< from the thread's middle line, -1 to 1 at its edges
   double along = 0.0;   ///< from the middle of the crossing, -1 to 1 at its ends
-  double uneven = 0.0;  ///< of this thread alone, 0 to 1: no two are dyed and spun the same
+  double uneven = 0.0;  ///< random number of this thread, 0 to 1: the unevenness of its dye and spinning
 };
 
-/// A cloth over the unit square: `threads.x` warp and `threads.y` weft threads, multiples of five where it is to tile,
-/// with a whole number of `figures` each way. The ground is warp satin of five; the figure, in which weft and warp
-/// change places, is a lattice of pointed ovals with a flower in each.
+/// A cloth over the unit square: `threads.x` warp and `threads.y` weft threads, multiples of five for a cloth that
+/// tiles, with a whole number of `figures` each way. The ground is warp satin of five; the figure, in which weft and
+/// warp change places, is a lattice of pointed ovals with a flower in each.
 class Jacquard {
  public:
   Jacquard(glm::ivec2 threads, glm::ivec2 figures, std::uint32_t seed);

@@ -13,7 +13,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Between two rows of an arc.
+/// Largest angle between two rows of an arc.
 constexpr double widest_turn = pi / 10.0;
 
 /// A point of a profile as a formula.
@@ -33,7 +33,7 @@ double cut_length(const glm::dvec2& from, const Cut& cut) {
 ProfilePoint along(const glm::dvec2& from, const Cut& cut, const Height& share) {
   const glm::dvec2 chord = cut.to - from;
   if (cut.bulge == 0.0) return {from.x + chord.x * share, from.y + chord.y * share};
-  // The centre lies to the left of the chord of an arc that bulges to the right.
+  // The centre is to the left of the chord of an arc that bulges to the right.
   const double aside = (1.0 - cut.bulge * cut.bulge) / (4.0 * cut.bulge);
   const glm::dvec2 center = 0.5 * (from + cut.to) + aside * glm::dvec2(-chord.y, chord.x);
   const glm::dvec2 spoke = from - center;
@@ -41,7 +41,7 @@ ProfilePoint along(const glm::dvec2& from, const Cut& cut, const Height& share) 
   return {center.x + spoke.x * c - spoke.y * s, center.y + spoke.x * s + spoke.y * c};
 }
 
-/// Whether two corners of a triangle lie in one point.
+/// Whether two corners of a triangle coincide.
 bool is_pinched(const Mesh& mesh, std::size_t first) {
   const auto corner = [&](std::size_t i) { return mesh.vertices[mesh.indices[first + i % 3]].position; };
   float shortest = glm::distance(corner(0), corner(1)), longest = shortest;
@@ -89,7 +89,7 @@ Mesh grid_mesh(int columns, int rows, const std::function<Vertex(const glm::dvec
 
 Mesh pinched_grid_mesh(int columns, int rows, const std::function<BentPoint(const HeightPoint&)>& point,
                        const std::function<glm::dvec2(const glm::dvec2&)>& uv_of) {
-  // So near to its end a row has a direction still, and for the picture no length.
+  // This close to its end, a row still has a direction, but no visible length.
   constexpr double end = 1e-6;
   const Mesh grid = grid_mesh(columns, rows, [&](const glm::dvec2& st) {
     return bent_vertex(point(HeightPoint{{st.x, std::clamp(st.y, end, 1.0 - end)}}), uv_of(st));

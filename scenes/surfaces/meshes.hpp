@@ -21,19 +21,19 @@ struct BentPoint {
 /// A square of 2 x 2 m in the xy plane, facing +z, which the maps cover once. Surface::mesh of the flat surfaces.
 [[nodiscard]] Mesh square_mesh(const SurfaceSettings& settings);
 
-/// Rows and columns of cells, two triangles each, over the unit square: `vertex_at` gives the vertex at (s, t), s to
-/// the right and t upwards as seen from outside. Vertices that are not finite are a fault of the caller.
+/// Rows and columns of cells, two triangles each, over the unit square. `vertex_at` returns the vertex at (s, t), s to
+/// the right and t upwards as seen from outside; it must be finite.
 [[nodiscard]] Mesh grid_mesh(int columns, int rows, const std::function<Vertex(const glm::dvec2& st)>& vertex_at);
 
-/// One step of a profile, from where the last one ended.
+/// One step of a profile, from the end of the previous one.
 struct Cut {
   glm::dvec2 to;  ///< distance from the axis, height
   double bulge =
       0.0;            ///< of an arc, the tangent of a quarter of its angle: above 0 the solid bulges out; 0 is straight
-  double wave = 0.0;  ///< how high the waves of the solid's edge are there
+  double wave = 0.0;  ///< height of the waves of the solid's edge there
 };
 
-/// What turns about the y axis: from the axis at `start` along the cuts to the axis.
+/// The profile of a solid that is turned about the y axis: from the axis at `start` along the cuts to the axis.
 struct Profile {
   double start = 0.0;  ///< height
   std::span<const Cut> cuts;

@@ -12,7 +12,7 @@
 
 namespace footprint {
 
-/// Smooth noise with one hill or hollow a cell or so; values lie within about -0.7 to 0.7, their mean is 0.
+/// Smooth noise with about one hill or hollow per cell; values are within about -0.7 to 0.7, with mean 0.
 class PeriodicNoise {
  public:
   /// Repeats after `period` >= 1 cells each way. The gradients at the cells' corners are drawn from `random`.
@@ -38,14 +38,14 @@ class OctaveNoise {
     for (const Octave& octave : octaves_) noises_.emplace_back(octave.cells, random);
   }
 
-  /// Octaves weighed by strength: values, of about the size of the strongest.
+  /// The sum of the octaves weighted by strength; about as large as the strongest.
   [[nodiscard]] double value(const glm::dvec2& uv) const {
     double sum = 0.0;
     for (std::size_t i = 0; i < noises_.size(); ++i) sum += octaves_[i].strength * at(i, HeightPoint{uv}).value();
     return sum;
   }
 
-  /// Octaves whose slope is of about their strength: a height in widths of the map.
+  /// A height in map widths: the sum of the octaves, each with a slope of about its strength.
   [[nodiscard]] Height relief(const HeightPoint& point) const {
     Height sum{0.0};
     for (std::size_t i = 0; i < noises_.size(); ++i) sum += octaves_[i].strength / octaves_[i].cells * at(i, point);

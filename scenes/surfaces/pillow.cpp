@@ -12,7 +12,7 @@
 namespace footprint::surfaces::pillow {
 namespace {
 
-/// Metres. The map's upper half lies on the front, its lower half on the back.
+/// Metres. The map's upper half covers the front, its lower half the back.
 constexpr double half_width = 0.30, half_height = 0.15, half_thickness = 0.085;
 
 constexpr glm::dvec3 warp_color{0.30, 0.012, 0.035}, weft_color{0.42, 0.25, 0.06};
@@ -39,7 +39,7 @@ Image specular(const SurfaceSettings& settings) {
   });
 }
 
-/// Silk is glossy along the weft's long floats and dull where a thread has been worked harder.
+/// Silk is glossy along the weft's long floats, and dull on the warp.
 Image exponents(const SurfaceSettings& settings) {
   const Jacquard silk = cloth(settings);
   return fill_values(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
@@ -68,7 +68,7 @@ class Stuffing {
 
   static constexpr double quarter = std::numbers::pi / 2.0;
 
-  /// Close together near the seams, where the side turns; never quite standing still, so that corners have a normal.
+  /// Denser near the seams, where the side turns. The slope is never 0, so that corners have a normal.
   [[nodiscard]] static Height spread(const Height& x) { return 0.9 * sin(quarter * x) + 0.1 * x; }
 
   /// Short creases across the seams and long ones out of the corners.

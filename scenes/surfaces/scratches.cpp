@@ -17,7 +17,7 @@
 namespace footprint {
 namespace {
 
-/// What scratches there are. Lengths are in map widths.
+/// The distribution of scratches. Lengths are in map widths.
 struct ScratchSettings {
   int count = 0;
   double length = 0.0;      ///< of the longest; others from two fifths of it
@@ -33,12 +33,13 @@ struct Scratch {
   double depth = 0.0;  ///< at its middle line
 };
 
-/// Scratches with places, directions, sizes and depths drawn from a seed, in a grid that a texel asks few of them by.
+/// Scratches with positions, directions, sizes and depths drawn from a seed, in a grid so that a texel tests few of
+/// them.
 class ScratchField {
  public:
   ScratchField(const ScratchSettings& settings, std::uint64_t seed);
 
-  /// The gradient of the deepest scratch at `uv`, within (0, 1); 0 where there is none.
+  /// The gradient of the deepest scratch at `uv`, within (0, 1); 0 if there is none.
   [[nodiscard]] glm::dvec2 slope_at(const glm::dvec2& uv) const;
 
  private:
@@ -49,7 +50,7 @@ class ScratchField {
   WrappedGrid<std::vector<Scratch>> cells_{side, side};  ///< the scratches that may reach each cell
 };
 
-/// How deep and how steep a point is cut; a flat one is not.
+/// Depth and slope of the cut at a point; 0 without one.
 struct CutSlope {
   double depth = 0.0;
   glm::dvec2 slope{0.0};
@@ -76,7 +77,7 @@ CutSlope cut_at(const Scratch& scratch, const glm::dvec2& uv) {
   const double along = glm::dot(offset, scratch.direction) / scratch.half_length;
   const double across = glm::dot(offset, across_direction) / scratch.half_width;
   if (std::abs(along) >= 1.0 || std::abs(across) >= 1.0) return {};
-  // Height -depth (1 - across^2); a scratch's ends are too small a part of it to be given a shape.
+  // Height -depth (1 - across^2). The ends are too small to need a shape.
   return {scratch.depth * (1.0 - across * across),
           2.0 * scratch.depth * across / scratch.half_width * across_direction};
 }

@@ -34,7 +34,7 @@ class Drape {
  public:
   explicit Drape(std::uint32_t seed) : Drape(std::mt19937_64(seed)) {}
 
-  /// Where the point of the cloth comes to lie that is `at` from its middle, metres: x to the right, y to the back.
+  /// The position of the cloth's point at `at`, metres from its middle: x to the right, y to the back.
   [[nodiscard]] BentPoint at(const HeightPoint& at) const {
     const Height radius = sqrt(at.x * at.x + at.y * at.y + 1e-18);
     if (radius.value() <= table_radius) return {at.x, Height{table_height}, -at.y};

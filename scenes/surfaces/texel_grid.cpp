@@ -9,7 +9,7 @@
 namespace footprint {
 namespace {
 
-/// `Count` channels, computed; one more holds 1 where `channels` asks for it.
+/// Fills `Count` channels; a further one, if `channels` is larger, is 1.
 template <int Count, typename ValueAtUv>
 Image fill(glm::ivec2 size, int channels, const ValueAtUv& value_at) {
   Image image(size.x, size.y, channels, 1.0F);

@@ -24,13 +24,13 @@ using ValueAt = std::function<double(const glm::dvec2& uv)>;
 /// The normals at the texels' centres, with weight 1. The functions are called from several threads at once.
 [[nodiscard]] Image fill_normals(int resolution, const NormalAt& normal_at);
 
-/// Those of a surface without relief: (0, 0, 1). Surface::normals of what has colours or a shape alone.
+/// Normals without relief, (0, 0, 1): Surface::normals of a surface that has only colours or a shape.
 [[nodiscard]] Image flat_normals(const SurfaceSettings& settings);
 
 /// The colours at the texels' centres of a map of any width and height, with alpha 1 in a fourth channel.
 [[nodiscard]] Image fill_colors(glm::ivec2 size, const ColorAt& color_at);
 
-/// The colours in three channels alone, and values in one.
+/// The colours in three channels, and values in one.
 [[nodiscard]] Image fill_rgb(glm::ivec2 size, const ColorAt& color_at);
 [[nodiscard]] Image fill_values(glm::ivec2 size, const ValueAt& value_at);
 
@@ -39,7 +39,7 @@ using ValueAt = std::function<double(const glm::dvec2& uv)>;
   return glm::normalize(glm::dvec3{-slope, 1.0});
 }
 
-/// `index` as that of 0 to `count` - 1 on which it falls after whole turns.
+/// `index` modulo `count`, 0 to `count` - 1.
 [[nodiscard]] inline int wrap(int index, int count) { return (index % count + count) % count; }
 
 /// `columns` x `rows` values, both >= 1.

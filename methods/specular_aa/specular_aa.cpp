@@ -2,7 +2,7 @@
 // The roughness mips below it may be those that engines bake.
 #include <optional>
 
-#include "methods/roughness_bake/baked_maps.hpp"
+#include "methods/roughness_bake/roughness_bake.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
 #include "renderer/core/error.hpp"
@@ -54,8 +54,7 @@ class SpecularAa final : public Method {
     const auto [bake, storage] = settings_of(options);
     if (bake) return roughness_bake::bake_roughness(material, *bake, storage, effects);
     Prefiltered out = bake_mean_normal(material, storage, effects);
-    for (PrefilteredTexture& texture : roughness_bake::bake_mean_roughness(material, storage, effects).textures)
-      out.textures.push_back(std::move(texture));
+    append(out.textures, roughness_bake::bake_mean_roughness(material, storage, effects).textures);
     return out;
   }
 

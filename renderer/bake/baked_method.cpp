@@ -80,10 +80,14 @@ std::optional<std::string> storage_range_note(const Material& material, const Me
       storage, least, narrowest);
 }
 
+Options options_of(const Method& method, const MethodSpec& spec) {
+  return {method.info().options, spec.options, "method " + spec.name};
+}
+
 BakedMethod make_bake(const Method& method, const MethodSpec& spec) {
   return {.method = &method,
           .spec = spec,
-          .options = Options(method.info().options, spec.options, "method " + spec.name),
+          .options = options_of(method, spec),
           .materials = {},
           .shared = {},
           .seconds = 0,

@@ -18,7 +18,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/image/mipmap.hpp"
-#include "renderer/ndf/filter_kernel.hpp"
+#include "renderer/ndf/filter_probes.hpp"
 
 namespace footprint {
 namespace {

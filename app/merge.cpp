@@ -12,6 +12,7 @@
 #include "app/asked_experiments.hpp"
 #include "app/commands.hpp"
 #include "app/experiment_runs.hpp"
+#include "app/output.hpp"
 #include "app/part_file.hpp"
 #include "app/run_options.hpp"
 #include "app/written_animation.hpp"

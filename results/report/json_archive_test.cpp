@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/report/example_results.hpp"
 #include "results/report/record_fields.hpp"
+#include "tests/report/example_results.hpp"
 
 namespace footprint {
 namespace {

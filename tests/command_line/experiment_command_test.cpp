@@ -66,7 +66,7 @@ const std::vector<Case> experiment_cases{
      .arguments = {"run", "{}/all", "-o", "{}/out"},
      .exit_code = 3,
      .output_has = {"## Experiment b"},
-     .errors_have = {"1 of 2 experiments were not run: a", "finished experiments are kept"},
+     .errors_have = {"1 of 2 experiments were not run: a", "finished experiments are reused"},
      .files = {{"all/a.toml",
                 "[experiment]\ntitle = \"t\"\nscene = \"ribbed_plane\"\nsize = [9000000, 9000000]\n"
                 "methods = [\"direct\"]\n"},
@@ -180,8 +180,7 @@ const std::vector<Case> experiment_cases{
      .arguments = {"check", "{}/mine.toml", "-o", "{}/out"},
      .exit_code = 2,
      .errors_have = {"mine.toml:12", "error(direct) = 1e-09 lies within the reference's noise", "more samples"},
-     .files = {{"mine.toml", within_noise}},
-     .keeps_work = true},
+     .files = {{"mine.toml", within_noise}}},
     {.name = "AQuickRunRefusesNoThreshold",
      .arguments = {"run", "{}/mine.toml", "--quick", "-o", "{}/out"},
      .output_has = {"the limit lies within the reference's noise", "failed"},

@@ -1,6 +1,7 @@
 // The clear coat over what a point reflects (KHR_materials_clearcoat; docs/base-brdf.md, Clear coat): one filter for
 // every method that filters. The reference, and a method that filters nothing, read the finest level.
-//? include ggx.glsl
+//? include ggx_density.glsl
+//? include ggx_geometry.glsl
 //? include length_shortfall.glsl
 
 struct Coat {

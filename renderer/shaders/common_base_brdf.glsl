@@ -41,7 +41,7 @@ vec3 transmitted(vec3 f0, vec3 wi, vec3 wo) { return vec3(1.0); }
 // The geometry factor of f * cos = F * D * factor, for facets about n with a lobe. Where the surface's horizon cuts no
 // light off, the facets' own does, also under terms that know none.
 //? if masking_shadowing and geometry_smith and distribution_ggx
-//? include ggx.glsl
+//? include ggx_geometry.glsl
 float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) { return ggxGeometry(lobe * lobe, n, wi, wo); }
 //? elif masking_shadowing and geometry_smith
 //? include beckmann_lambda.glsl

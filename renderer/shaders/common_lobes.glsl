@@ -82,7 +82,7 @@ float lobeEnergy(float alpha) {
 //? end
 
 //? if distribution_ggx
-//? include ggx.glsl
+//? include ggx_density.glsl
 float lobeDensity(float alpha, vec3 n, vec3 h) {
   countLobes(1);
   return ggxDensity(alpha * alpha, n, h);

@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -20,6 +18,7 @@
 #include "renderer/baked_files/baked_files.hpp"
 #include "renderer/baked_files/bumpslopes.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/core/file_names.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/pipeline/built_maps.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
@@ -67,14 +66,8 @@ BakedMethod bake_settings(const RunSettings& run, const Scene& scene, const Effe
   return bake(find_method(spec.name), spec, scene, effects, progress, cache ? &*cache : nullptr);
 }
 
-std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  return extension;
-}
-
 void require_gltf(const std::string& scene) {
-  if (extension_of(scene) == ".gltf" || extension_of(scene) == ".glb") return;
+  if (lower_extension(scene) == ".gltf" || lower_extension(scene) == ".glb") return;
   throw Error(ErrorKind::usage, "--gltf", fmt::format("{} is not a glTF file, so it cannot be copied", scene),
               "name the .gltf or .glb itself, or leave --gltf out");
 }
@@ -160,7 +153,7 @@ void run_bake(const BakeArguments& arguments) {
   ProgressDisplay display(progress_style(arguments.quiet));
   const auto [text, path] = write_whole(arguments.output, [&](OutputFolder& folder) {
     const std::optional<ExrChain> slopes =
-        extension_of(run.scene) == ".exr" ? std::optional(read_exr_chain(run.scene)) : std::nullopt;
+        lower_extension(run.scene) == ".exr" ? std::optional(read_exr_chain(run.scene)) : std::nullopt;
     const Scene scene =
         slopes ? scene_of_slopes(run.scene, *slopes) : load_scene(run.scene, run.scene_library, run.overrides);
     const EffectSet effects = effects_on(derive_effects(scene));

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -24,6 +23,7 @@
 #include "experiments/studies/picture_score.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/core/file_names.hpp"
 #include "renderer/core/files.hpp"
 #include "renderer/image/false_color.hpp"
 #include "renderer/image/image_io.hpp"
@@ -71,8 +71,7 @@ struct Reference {
 
 // By its name: a scene is a folder's, or a file of these kinds.
 bool names_a_scene(const std::string& reference) {
-  std::string extension = std::filesystem::path(reference).extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string extension = lower_extension(reference);
   constexpr std::array<std::string_view, 4> scenes{".toml", ".gltf", ".glb", ".obj"};
   return extension.empty() || std::ranges::find(scenes, extension) != scenes.end();
 }

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "experiments/studies/ndf_inspection.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/core/file_names.hpp"
 #include "renderer/core/suggest.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "renderer/scene/assembly/surface_maps.hpp"
@@ -21,15 +21,9 @@ constexpr std::array<std::string_view, 10> map_extensions{".exr",  ".png", ".jpg
                                                           ".tiff", ".bmp", ".webp", ".hdr",  ".tga"};
 constexpr double default_exponent = 64.0;
 
-std::string extension_of(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  return extension;
-}
-
 // By its name, or, where that tells nothing, because it is a file and no scene.
 bool names_a_map(const std::string& path) {
-  const std::string extension = extension_of(path);
+  const std::string extension = lower_extension(path);
   if (std::ranges::find(map_extensions, extension) != map_extensions.end()) return true;
   std::error_code ignored;
   return fs::is_regular_file(path, ignored) && std::ranges::find(scene_extensions, extension) == scene_extensions.end();

@@ -4,21 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "renderer/core/error.hpp"
+#include "renderer/core/file_names.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/pipeline/unresolved.hpp"
 
 namespace footprint {
 namespace {
 
-bool holds_radiance(const std::string& file) {
-  if (is_exr(file)) return true;
-  std::string extension = std::filesystem::path(file).extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  return extension == ".hdr";
-}
+bool holds_radiance(const std::string& file) { return is_exr(file) || lower_extension(file) == ".hdr"; }
 
 Image with_coverage(Image image, const std::string& file) {
   if (image.channels == 4) return image;

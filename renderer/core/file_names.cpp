@@ -12,12 +12,14 @@ namespace {
 
 constexpr std::size_t longest_stem = 100;  // file systems take 255 bytes, and what is added needs some
 
+}  // namespace
+
 std::string lower_case(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
-}  // namespace
+std::string lower_extension(const std::filesystem::path& path) { return lower_case(path.extension().string()); }
 
 std::string file_stem(const std::string& text) {
   std::string stem = text;

@@ -1,10 +1,17 @@
-// Parts of file names made of what users call things.
+// Names in lower case, and parts of file names made of what users call things.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace footprint {
+
+/// ASCII letters in lower case; all else stays.
+[[nodiscard]] std::string lower_case(std::string text);
+
+/// A path's extension in lower case, with its dot.
+[[nodiscard]] std::string lower_extension(const std::filesystem::path& path);
 
 /// A file name part from any text: letters, digits, '-', '.' and '_' stay, all else becomes '_'.
 [[nodiscard]] std::string file_stem(const std::string& text);

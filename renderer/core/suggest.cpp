@@ -2,20 +2,15 @@
 #include "renderer/core/suggest.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cstddef>
 #include <string>
 #include <vector>
 
+#include "renderer/core/file_names.hpp"
+
 namespace footprint {
 namespace {
-
-std::string lowered(std::string_view text) {
-  std::string out(text);
-  std::ranges::transform(out, out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return out;
-}
 
 // Optimal string alignment: insertions, deletions, substitutions and swaps of neighbours each cost one.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -41,7 +36,7 @@ std::string nearest_name(std::string_view wrong, std::span<const std::string> ca
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, wrong.size() / 2) + 1;
   for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(lowered(wrong), lowered(candidate));
+    const std::size_t distance = edit_distance(lower_case(std::string(wrong)), lower_case(candidate));
     if (distance < best_distance) {
       best_distance = distance;
       best = candidate;

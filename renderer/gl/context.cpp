@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <stdexcept>
 #include <thread>
 #include <utility>
 
 #include "renderer/core/error.hpp"
+#include "renderer/core/file_names.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/gl/debug_log.hpp"
 #include "renderer/gl/functions.hpp"
@@ -119,8 +119,7 @@ bool is_software_renderer(std::string_view renderer) {
   constexpr std::array<std::string_view, 9> names = {"llvmpipe",   "lavapipe",    "softpipe", "swrast",
                                                      "openswr",    "swiftshader", "software", "basic render driver",
                                                      "gdi generic"};
-  std::string lower(renderer);
-  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = lower_case(std::string(renderer));
   return std::ranges::any_of(names, [&](std::string_view name) { return lower.find(name) != std::string::npos; });
 }
 

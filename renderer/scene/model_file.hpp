@@ -2,14 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include "renderer/scene/model.hpp"
 
 namespace footprint {
-
-/// A path's ending in small letters, with its dot.
-[[nodiscard]] std::string lower_extension(const std::filesystem::path& path);
 
 /// Whether a path ends as a model file does: .gltf, .glb or .obj.
 [[nodiscard]] bool names_model(const std::filesystem::path& path);

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "renderer/core/error.hpp"
+#include "renderer/core/file_names.hpp"
 #include "renderer/core/suggest.hpp"
 #include "renderer/scene/assembly/assemble.hpp"
 #include "renderer/scene/model_file.hpp"

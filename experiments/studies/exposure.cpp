@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "renderer/image/luminance.hpp"
+
 namespace footprint {
 namespace {
 
@@ -17,8 +19,7 @@ float automatic_exposure(const Image& reference) {
   std::vector<float> luminances;
   for (std::size_t i = 0; i < reference.texels.size(); i += 4) {
     const float* const p = &reference.texels[i];
-    // Rec. 709 luminance
-    if (p[3] == 1.0F) luminances.push_back(0.2126F * p[0] + 0.7152F * p[1] + 0.0722F * p[2]);
+    if (p[3] == 1.0F) luminances.push_back(luminance(p[0], p[1], p[2]));
   }
   if (luminances.empty()) return 1.0F;
   const auto nth =

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "renderer/core/error.hpp"
+#include "renderer/image/luminance.hpp"
 
 namespace footprint {
 namespace {
@@ -297,7 +298,7 @@ FlipExposures flip_exposures(const Image& reference) {
   std::vector<double> luminances;
   for (std::size_t i = 0; i < reference.texel_count(); ++i) {
     const float* const rgb = &reference.texels[i * static_cast<std::size_t>(reference.channels)];
-    luminances.push_back(std::max(0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2], 0.0));
+    luminances.push_back(std::max(luminance<double>(rgb[0], rgb[1], rgb[2]), 0.0));
   }
   std::ranges::sort(luminances);
   if (luminances.empty() || luminances.back() <= 0.0) return {};

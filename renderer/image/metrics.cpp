@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "renderer/core/error.hpp"
+#include "renderer/image/luminance.hpp"
 
 namespace footprint {
 namespace {
@@ -71,8 +72,6 @@ void visit_object_pixels(const Image& picture, const Image& reference, Visit vis
 
 double squared(double value) { return value * value; }
 
-double luminance(const Rgb& rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }  // Rec. 709
-
 // What a display of peak 1 shows.
 double displayed(double value, double exposure) { return std::clamp(exposure * value, 0.0, 1.0); }
 
@@ -109,7 +108,8 @@ double ratio(double difference, double scale) {
 
 double mean_luminance(const Image& reference) {
   double sum = 0;
-  visit_object_pixels(reference, reference, [&](int, int, const Rgb&, const Rgb& r) { sum += luminance(r); });
+  visit_object_pixels(reference, reference,
+                      [&](int, int, const Rgb&, const Rgb& r) { sum += luminance(r[0], r[1], r[2]); });
   return sum / static_cast<double>(object_pixel_count(reference));
 }
 
@@ -124,7 +124,7 @@ std::optional<ErrorFigures> compare_images(const Image& picture, const Image& re
   double distance = 0, shown_squares = 0, squares = 0, reference_squares = 0, relative = 0, sum = 0, reference_sum = 0;
   std::vector<double> shown_luminances, true_luminances;
   const auto shown_luminance = [&](const Rgb& rgb) {
-    return luminance({displayed(rgb[0], exposure), displayed(rgb[1], exposure), displayed(rgb[2], exposure)});
+    return luminance(displayed(rgb[0], exposure), displayed(rgb[1], exposure), displayed(rgb[2], exposure));
   };
   visit_object_pixels(picture, reference, [&](int, int, const Rgb& x, const Rgb& r) {
     shown_luminances.push_back(shown_luminance(x));
@@ -207,7 +207,7 @@ std::optional<double> highlight_energy(const Image& picture, const Image& refere
   double sum = 0;
   std::size_t pixels = 0;
   visit_object_pixels(picture, reference, [&](int, int, const Rgb& x, const Rgb&) {
-    sum += std::max(exposure * luminance(x) - highlight_level, 0.0);
+    sum += std::max(exposure * luminance(x[0], x[1], x[2]) - highlight_level, 0.0);
     ++pixels;
   });
   return pixels > 0 ? std::optional(sum / static_cast<double>(pixels)) : std::nullopt;

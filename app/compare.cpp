@@ -49,9 +49,8 @@ void add_options(CLI::App& command, CompareArguments& arguments) {
 // Everything is written to a hidden folder and moved to its place at the end. The hidden folder has a page after the
 // first distance.
 Results compare_into(OutputFolder& folder, const RunSettings& settings, bool quiet, const Progress& progress) {
-  constexpr double weight = 10;  // of the main process's work, where a further process's is 1
   const int others = settings.timing.processes - 1;
-  ProgressParts parts(progress, weight + others);
+  ProgressParts parts(progress, main_process_weight + others);
   const Progress of_others = parts.next(others, "");
   const FurtherTimes further = [&] { return times_of_processes(others, {}, folder.path(), of_others); };
   bool is_told = false;
@@ -63,7 +62,8 @@ Results compare_into(OutputFolder& folder, const RunSettings& settings, bool qui
       write_message(fmt::format("page of the finished distances, until the run ends: {}",
                                 (folder.path() / "index.html").string()));
   };
-  Results results = run_compare(settings, folder.path(), further, parts.next(weight, ""), nullptr, nullptr, {}, so_far);
+  Results results =
+      run_compare(settings, folder.path(), further, parts.next(main_process_weight, ""), nullptr, nullptr, {}, so_far);
   keep_results(results, folder, write_report);
   return results;
 }

@@ -26,8 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double weight = 10;  // of the main process's work, where a further process's is 1
-
 // The times of the further processes of an experiment, taken when they are asked for.
 FurtherTimes further_times_of(const Experiment& experiment, const fs::path& scratch, const Progress& progress) {
   const int others = experiment.run.timing.processes - 1;
@@ -39,10 +37,11 @@ FurtherTimes further_times_of(const Experiment& experiment, const fs::path& scra
 
 Results run_into(const Experiment& experiment, OutputFolder& folder, const KeptWork& kept, const Progress& progress,
                  const RecordWatch& watch) {
-  ProgressParts parts(progress, weight + experiment.run.timing.processes - 1);
+  ProgressParts parts(progress, main_process_weight + experiment.run.timing.processes - 1);
   const FurtherTimes further =
       further_times_of(experiment, folder.path(), parts.next(experiment.run.timing.processes - 1, ""));
-  Results results = run_experiment(experiment, further, folder.path(), parts.next(weight, ""), &kept, watch);
+  Results results =
+      run_experiment(experiment, further, folder.path(), parts.next(main_process_weight, ""), &kept, watch);
   keep_results(results, folder, write_report);
   return results;
 }

@@ -16,6 +16,9 @@ inline constexpr const char* timing_file_option = "--timing-file";
 /// Of `run` and `check`: which of an experiment's members such a process times.
 inline constexpr const char* timing_member_option = "--timing-member";
 
+/// Weight of the main process in the progress of a run; a further process has 1.
+inline constexpr double main_process_weight = 10;
+
 /// Writes times for the process that asked for them. Errors (machine): the file cannot be written.
 void write_frame_times(const std::filesystem::path& file, const FrameTimes& times);
 

@@ -136,7 +136,7 @@ class Animator {
     now.truth.parts.counts.unresolved = whole - now.truth.parts.counts.object;
     if (!drawing.bound) return;
     now.truth.bound = draw_bound(drawing.stage, *drawing.bound, asked.bound, view, now.truth.parts, interior.texels);
-    now.truth.parts.counts.bound = count_pixels(now.truth.bound->pixels);
+    now.truth.parts.counts.bound = pixel_count(now.truth.bound->pixels);
     drawing.stage.context().check("drawing the bound");
   }
 

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "renderer/image/metrics.hpp"
+#include "renderer/pipeline/unresolved.hpp"
 
 namespace footprint {
 namespace {
@@ -32,8 +33,8 @@ PixelParts pixel_parts(const Image& reference, const Interior& interior) {
     (interior.mask.texels[i] > 0.0F ? parts.edges : parts.interior).texels[i] = 0.0F;
     if (parts.interior.texels[i] > 0.0F && interior.texels.texels[i] > 1.0F) ++parts.counts.minified;
   }
-  parts.counts.object = count_pixels(object);
-  parts.counts.interior = count_pixels(parts.interior);
+  parts.counts.object = pixel_count(object);
+  parts.counts.interior = pixel_count(parts.interior);
   return parts;
 }
 
@@ -47,11 +48,14 @@ ErrorCauses error_causes(const CausePictures& pictures, const PixelParts& parts,
   return causes;
 }
 
+Image as_reference(Image picture, const Image& reference) {
+  for (std::size_t i = 3; i < picture.texels.size(); i += 4) picture.texels[i] = reference.texels[i];
+  return picture;
+}
+
 std::optional<double> error_between(const Image& picture, const Image& other, const Image& reference, float exposure,
                                     const Image& mask) {
-  Image covered = other;
-  for (std::size_t i = 3; i < covered.texels.size(); i += 4) covered.texels[i] = reference.texels[i];
-  return normalized_color_over(picture, covered, exposure, mask);
+  return normalized_color_over(picture, as_reference(other, reference), exposure, mask);
 }
 
 std::optional<double> error_noise(const Image& picture, const std::pair<Image, Image>& halves, float exposure,
@@ -107,10 +111,6 @@ void leave_out_infinite(const Image& picture, Image& mask) {
     const std::span<const float> texel = std::span(picture.texels).subspan(4 * i, 4);
     if (!std::ranges::all_of(texel, [](float value) { return std::isfinite(value); })) mask.texels[i] = 0.0F;
   }
-}
-
-std::size_t count_pixels(const Image& mask) {
-  return static_cast<std::size_t>(std::ranges::count_if(mask.texels, [](float value) { return value > 0.0F; }));
 }
 
 Image within(const Image& mask, std::span<const Tile> tiles) {

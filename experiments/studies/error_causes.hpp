@@ -44,8 +44,10 @@ struct CausePictures {
 [[nodiscard]] std::optional<double> error_noise(const Image& picture, const std::pair<Image, Image>& halves,
                                                 float exposure, const Image& mask);
 
-/// E between two pictures of methods over a mask. Which pixels count is the reference's to say: its coverage stands for
-/// theirs.
+/// `picture` with the coverage of the reference, to take its place: the reference decides which pixels count.
+[[nodiscard]] Image as_reference(Image picture, const Image& reference);
+
+/// E between two pictures of methods over a mask, `other` in place of the reference.
 [[nodiscard]] std::optional<double> error_between(const Image& picture, const Image& other, const Image& reference,
                                                   float exposure, const Image& mask);
 
@@ -76,9 +78,6 @@ using PixelCost = std::function<double(int, int)>;
 
 /// Takes out of a mask the pixels at which the picture has a value that is no finite number.
 void leave_out_infinite(const Image& picture, Image& mask);
-
-/// Pixels at which a mask is above 0.
-[[nodiscard]] std::size_t count_pixels(const Image& mask);
 
 /// The mask's pixels that lie in the tiles.
 [[nodiscard]] Image within(const Image& mask, std::span<const Tile> tiles);

@@ -9,6 +9,7 @@
 
 #include "experiments/studies/flicker_causes.hpp"
 #include "renderer/image/metrics.hpp"
+#include "renderer/pipeline/unresolved.hpp"
 
 namespace footprint {
 namespace {
@@ -41,7 +42,7 @@ TEST(PixelParts, ShareOutTheObject) {
   EXPECT_EQ(parts.counts.object, 15U);
   EXPECT_EQ(parts.counts.interior, 7U);
   EXPECT_EQ(parts.counts.bound, std::nullopt);
-  EXPECT_EQ(count_pixels(parts.edges), 8U);
+  EXPECT_EQ(pixel_count(parts.edges), 8U);
   EXPECT_EQ(parts.interior.at(0, 0)[0] + parts.edges.at(0, 0)[0], 0.0F);
 }
 
@@ -144,7 +145,7 @@ TEST(LeaveOutInfinite, TakesOnlyThosePixels) {
   picture.at(1, 2)[0] = std::nanf("");
   picture.at(3, 0)[2] = INFINITY;
   leave_out_infinite(picture, mask);
-  EXPECT_EQ(count_pixels(mask), 14U);
+  EXPECT_EQ(pixel_count(mask), 14U);
   EXPECT_EQ(mask.at(1, 2)[0] + mask.at(3, 0)[0], 0.0F);
 }
 
@@ -164,7 +165,7 @@ TEST(CheapParts, SpreadOverThePictureUpToWhatTheyMayCost) {
   }
   EXPECT_GE(columns.size(), 6U);
   EXPECT_GE(rows.size(), 6U);
-  EXPECT_EQ(count_pixels(within(parts.interior, some)), 16U * bound_tile * bound_tile / 2);
+  EXPECT_EQ(pixel_count(within(parts.interior, some)), 16U * bound_tile * bound_tile / 2);
 }
 
 // Tiles count from the bottom, pictures from the top.
@@ -178,7 +179,7 @@ TEST(CheapParts, LieWhereThePictureHasThem) {
       parts, bound_tile, [](int, int) { return 1.0; }, 1e9);
   ASSERT_EQ(tiles.size(), 1U);
   EXPECT_EQ(tiles[0].origin, glm::ivec2(32, 32));
-  EXPECT_EQ(count_pixels(within(parts.interior, tiles)), 1024U);
+  EXPECT_EQ(pixel_count(within(parts.interior, tiles)), 1024U);
 }
 
 FrameTruth truth_of(const Image& reference, const Interior& interior) {

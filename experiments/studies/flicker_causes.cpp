@@ -22,13 +22,6 @@ Image without(const Image& mask, const Image& left_out) {
   return rest;
 }
 
-// `picture` in the reference's place: it covers what the reference does.
-Image as_reference(const Image& picture, const Image& reference) {
-  Image covered = picture;
-  for (std::size_t i = 3; i < covered.texels.size(); i += 4) covered.texels[i] = reference.texels[i];
-  return covered;
-}
-
 std::optional<PartFlicker> part_of(const std::optional<FlickerFigures>& figures) {
   if (!figures) return {};
   return PartFlicker{.mean = figures->mean, .p99 = figures->p99};

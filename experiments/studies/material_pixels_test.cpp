@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "experiments/studies/error_causes.hpp"
+#include "renderer/pipeline/unresolved.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/test_scenes.hpp"
 
@@ -35,8 +35,8 @@ TEST(MaterialPixels, AreWhereEachMaterialIsSeen) {
   interior.at(30, 5)[0] = 0.0F;
   const auto masks = finder.masks({.size = {32, 32}, .camera = scene.camera}, interior);
   ASSERT_EQ(masks.size(), 2U);
-  EXPECT_EQ(count_pixels(masks[1]), 32U * 8U);
-  EXPECT_EQ(count_pixels(masks[0]), 32U * 24U - 1U);
+  EXPECT_EQ(pixel_count(masks[1]), 32U * 8U);
+  EXPECT_EQ(pixel_count(masks[0]), 32U * 24U - 1U);
   EXPECT_EQ(masks[1].at(3, 3)[0], 1.0F);
   EXPECT_EQ(masks[0].at(3, 3)[0], 0.0F);
   EXPECT_EQ(masks[0].at(30, 5)[0], 0.0F);
@@ -48,8 +48,8 @@ TEST(MaterialPixels, AreNowhereBesideTheObject) {
   View view{.size = {32, 32}, .camera = scene.camera};
   view.camera.world[3].z = 12.0F;
   const auto masks = finder.masks(view, Image(32, 32, 1, 1.0F));
-  EXPECT_LT(count_pixels(masks[0]) + count_pixels(masks[1]), 100U);
-  EXPECT_GT(count_pixels(masks[0]), 20U);
+  EXPECT_LT(pixel_count(masks[0]) + pixel_count(masks[1]), 100U);
+  EXPECT_GT(pixel_count(masks[0]), 20U);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "experiments/studies/reference_noise.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
+#include "renderer/pipeline/unresolved.hpp"
 #include "results/report/equivalent_spp.hpp"
 
 namespace footprint {
@@ -93,7 +94,7 @@ void MethodMeasurer::set_material_errors(Record& record, const Truth& truth, con
     const Image& reference = truth.reference.mean;
     MaterialError& error = record.materials.emplace_back();
     error.material = stage_.scene().materials[i].name;
-    error.pixels = count_pixels(mask);
+    error.pixels = pixel_count(mask);
     error.bytes = byte_count(method.baked().materials[i]);
     error.shading = error_between(picture, reference, reference, exposure, mask);
     if (truth.reference.halves) error.noise = error_noise(picture, *truth.reference.halves, exposure, mask);
@@ -132,7 +133,7 @@ void MethodMeasurer::set_light_error(Record& record, const Truth& truth, const I
   const Image lit = dense_frames_.at(&method).render(truth.view, truth.light.tiles);
   Image pixels = truth.light.pixels;
   leave_out_infinite(lit, pixels);
-  record.pixels.light = count_pixels(pixels);
+  record.pixels.light = pixel_count(pixels);
   record.error->causes.light = error_between(picture, lit, truth.reference.mean, exposure, pixels);
 }
 

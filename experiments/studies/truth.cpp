@@ -244,13 +244,13 @@ void TruthFinder::find_parts(Truth& truth, const std::string& prefix) {
   truth.files.interior = write_mask(folder_, distance_stem(truth.distance, "interior"), truth.parts.interior);
   if (has(stage_.effects(), Effect::environment_light)) {
     truth.light = light_part(truth.parts);
-    truth.parts.counts.light = count_pixels(truth.light.pixels);
+    truth.parts.counts.light = pixel_count(truth.light.pixels);
   }
   const Progress progress = progress_.next(interior_weight, prefix);
   if (!bound_) return;
   progress("exact", 0.0);
   truth.bound = draw_bound(stage_, *bound_, settings_.reference.bound, truth.view, truth.parts, interior.texels);
-  truth.parts.counts.bound = count_pixels(truth.bound->pixels);
+  truth.parts.counts.bound = pixel_count(truth.bound->pixels);
   stage_.context().check("drawing the bound");
 }
 

@@ -23,7 +23,7 @@ void leave_out(Supersampled& reference, const Image& mask);
 /// The same for one picture.
 void uncover(Image& picture, const Image& mask);
 
-/// The pixels of a mask of zeros and ones that are 1.
+/// Pixels at which a mask is above 0.
 [[nodiscard]] std::size_t pixel_count(const Image& mask);
 
 }  // namespace footprint

@@ -94,10 +94,7 @@ struct EditedDrawing {
         gpu_scene(context.info(), scene, effects),
         baked(std::make_unique<BakedMethod>(std::move(first))),
         method(std::make_unique<GpuMethod>(gpu_scene, *baked)),
-        frames(context.info(), gpu_scene, *method, size,
-               ProgramSettings{.sampling = Sampling::frame,
-                               .footprint = footprint_filter_of(settings, scene),
-                               .orthographic = scene.camera.orthographic},
+        frames(context.info(), gpu_scene, *method, size, frame_program(scene, footprint_filter_of(settings, scene)),
                settings.backend.tile) {}
 
   // Takes over what an edit changed. Waits until the GPU has it.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
 #include "renderer/bake/material_maps.hpp"
 
@@ -55,8 +56,7 @@ MaterialFinder::MaterialFinder(const gl::ContextInfo& context, const Scene& scen
   const MethodSpec direct{.text = "direct", .name = "direct", .options = {}};
   baked_ = std::make_unique<BakedMethod>(bake(find_method("direct"), direct, scene_, effects, no_progress));
   gpu_ = std::make_unique<GpuMethod>(*gpu_scene_, *baked_);
-  frames_ = std::make_unique<FrameRenderer>(context, *gpu_scene_, *gpu_, size,
-                                            ProgramSettings{.orthographic = scene_.camera.orthographic}, tile);
+  frames_ = std::make_unique<FrameRenderer>(context, *gpu_scene_, *gpu_, size, frame_program(scene_, {}), tile);
 }
 
 std::vector<Image> MaterialFinder::masks(const View& view, const Image& interior) {

@@ -47,12 +47,10 @@ PreparedMethod bake_and_upload(const GpuScene& gpu_scene, const Scene& scene, co
 }
 
 std::unique_ptr<FrameRenderer> frames_of(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method,
-                                         const Camera& camera, const FootprintFilter& filter, const glm::ivec2& size,
+                                         const Scene& values, const FootprintFilter& filter, const glm::ivec2& size,
                                          const RunSettings& settings) {
-  return std::make_unique<FrameRenderer>(
-      context, scene, method, size,
-      ProgramSettings{.sampling = Sampling::frame, .footprint = filter, .orthographic = camera.orthographic},
-      settings.backend.tile);
+  return std::make_unique<FrameRenderer>(context, scene, method, size, frame_program(values, filter),
+                                         settings.backend.tile);
 }
 
 // The scene's own maps are there already, and available memory knows it.
@@ -96,6 +94,10 @@ glm::ivec2 frame_size(const Scene& scene, const std::optional<glm::ivec2>& wante
 
 FootprintFilter footprint_filter_of(const RunSettings& settings, const Scene& scene) {
   return settings.footprint.value_or(scene.footprint.value_or(default_footprint_filter));
+}
+
+ProgramSettings frame_program(const Scene& scene, const FootprintFilter& filter) {
+  return {.sampling = Sampling::frame, .footprint = filter, .orthographic = scene.camera.orthographic};
 }
 
 std::optional<DiskCache> cache_of(const RunSettings& settings) {
@@ -142,14 +144,13 @@ StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& scene, cons
                            const glm::ivec2& size, const RunSettings& settings, const Progress& progress) {
   prepared_ = std::make_shared<const PreparedMethod>(
       bake_and_upload(scene, values, effects, spec, cache_of(settings), progress));
-  frames_ = frames_of(context, scene, *prepared_->gpu, values.camera, filter, size, settings);
+  frames_ = frames_of(context, scene, *prepared_->gpu, values, filter, size, settings);
 }
 
 StagedMethod::StagedMethod(PreparedScene& scene, std::shared_ptr<const PreparedMethod> prepared,
                            const FootprintFilter& filter, const glm::ivec2& size, const RunSettings& settings)
     : prepared_(std::move(prepared)),
-      frames_(
-          frames_of(scene.context.info(), *scene.gpu, *prepared_->gpu, scene.scene.camera, filter, size, settings)) {}
+      frames_(frames_of(scene.context.info(), *scene.gpu, *prepared_->gpu, scene.scene, filter, size, settings)) {}
 
 Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress, int pictures, Unit unit,
              Refusal refusal)
@@ -240,27 +241,15 @@ StagedMethod Stage::stage(const MethodSpec& method, const Progress& progress) co
 InteriorFinder Stage::interior_finder() const { return {*prepared_->gpu, scene()}; }
 
 FrameRenderer Stage::dense_frames(const StagedMethod& method) const {
-  return {context().info(),
-          *prepared_->gpu,
-          method.gpu(),
-          size_,
-          ProgramSettings{.sampling = Sampling::frame,
-                          .footprint = footprint_filter_of(settings_, scene()),
-                          .orthographic = scene().camera.orthographic,
-                          .environment = EnvironmentUse::dense},
-          settings_.backend.tile};
+  ProgramSettings program = frame_program(scene(), footprint_filter_of(settings_, scene()));
+  program.environment = EnvironmentUse::dense;
+  return {context().info(), *prepared_->gpu, method.gpu(), size_, program, settings_.backend.tile};
 }
 
 FrameRenderer Stage::counting_frames(const StagedMethod& method) const {
-  return {context().info(),
-          *prepared_->gpu,
-          method.gpu(),
-          size_,
-          ProgramSettings{.sampling = Sampling::frame,
-                          .footprint = footprint_filter_of(settings_, scene()),
-                          .counting = true,
-                          .orthographic = scene().camera.orthographic},
-          settings_.backend.tile};
+  ProgramSettings program = frame_program(scene(), footprint_filter_of(settings_, scene()));
+  program.counting = true;
+  return {context().info(), *prepared_->gpu, method.gpu(), size_, program, settings_.backend.tile};
 }
 
 Supersampler Stage::finest_level(const StagedMethod& method) const {

@@ -32,6 +32,9 @@ inline constexpr int pictures_of_a_frame = 3;
 /// The footprint filter: the settings', else the scene's, else default_footprint_filter.
 [[nodiscard]] FootprintFilter footprint_filter_of(const RunSettings& settings, const Scene& scene);
 
+/// How a program draws frames of a scene.
+[[nodiscard]] ProgramSettings frame_program(const Scene& scene, const FootprintFilter& filter);
+
 /// What becomes of a method that this machine has no memory for, or whose textures or program its OpenGL refuses.
 enum class Refusal {
   ends_the_run,  ///< an error

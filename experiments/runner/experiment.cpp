@@ -12,6 +12,7 @@
 
 #include "experiments/runner/functions.hpp"
 #include "experiments/runner/quantities.hpp"
+#include "experiments/settings/known_methods.hpp"
 #include "experiments/settings/setting.hpp"
 #include "experiments/settings/toml_reading.hpp"
 #include "experiments/studies/zoom.hpp"
@@ -54,13 +55,6 @@ std::string required_word(const TomlTable& table, std::string_view key) {
 int whole_number(const TomlTable& table, std::string_view key, NumberRange range, int otherwise) {
   const auto value = table.whole_number(key, range);
   return value ? static_cast<int>(*value) : otherwise;
-}
-
-std::vector<std::string> texts_of(const std::vector<MethodSpec>& methods) {
-  std::vector<std::string> texts;
-  texts.reserve(methods.size());
-  for (const MethodSpec& method : methods) texts.push_back(method.text);
-  return texts;
 }
 
 // The keys of [`name`] that [matrix] gives. Errors (usage): one stands in both.

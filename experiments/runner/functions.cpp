@@ -8,10 +8,12 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <ranges>
 #include <utility>
 
 #include "experiments/runner/experiment.hpp"
 #include "experiments/runner/quantities.hpp"
+#include "experiments/settings/known_methods.hpp"
 #include "experiments/studies/zoom.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
@@ -23,22 +25,6 @@ namespace {
 
 [[noreturn]] void refuse(const Measure& measure, const std::string& message, const std::string& hint) {
   throw Error(ErrorKind::usage, measure_text(measure), message, hint);
-}
-
-std::vector<std::string> methods_of(const Experiment& experiment) {
-  std::vector<std::string> texts;
-  for (const MethodSpec& method : experiment.run.methods) texts.push_back(method.text);
-  return texts;
-}
-
-std::vector<std::string> methods_of(std::span<const Results> runs) {
-  std::vector<std::string> methods;
-  for (const Results& run : runs) {
-    for (const Record& record : run.records) {
-      if (std::ranges::find(methods, record.method) == methods.end()) methods.push_back(record.method);
-    }
-  }
-  return methods;
 }
 
 // The runs that a measure is over.
@@ -93,7 +79,8 @@ void a_quantity(const Measure& measure, const Experiment& experiment) {
   if (named == experiment.quantities.end()) {
     refuse(measure, fmt::format("there is no quantity `{:.80}`", *measure.name), "use the name of one of [[quantity]]");
   }
-  const std::string& method = experiment.run.methods[select_method(measure.method, methods_of(experiment))].name;
+  const std::string& method =
+      experiment.run.methods[select_method(measure.method, texts_of(experiment.run.methods))].name;
   if (find_quantity(find_method(method), named->quantity) != nullptr) return;
   refuse(measure, fmt::format("{} has no figure `{}`", method, named->quantity), "ask a method that has it");
 }
@@ -372,7 +359,7 @@ std::span<const FigureFunction> figure_functions() {
 }
 
 void check_measure(const Measure& measure, const Experiment& experiment) {
-  (void)select_method(measure.method, methods_of(experiment));
+  (void)select_method(measure.method, texts_of(experiment.run.methods));
   check_slice(measure, experiment);
   measure.function->needs(measure, experiment);
   const std::vector<double> distances = given_distances(experiment.run.view);
@@ -390,7 +377,8 @@ void check_distance(const Measure& measure, const std::vector<double>& distances
 }
 
 Measured measured(const Measure& measure, std::span<const Results> runs) {
-  const std::vector<std::string> methods = methods_of(runs);
+  const std::vector<std::string> methods =
+      methods_in_order(runs | std::views::transform(&Results::records) | std::views::join);
   return measure.function->evaluate(measure, methods[select_method(measure.method, methods)], runs);
 }
 

@@ -11,6 +11,7 @@
 
 #include "experiments/runner/experiment.hpp"
 #include "experiments/runner/judge.hpp"
+#include "experiments/settings/known_methods.hpp"
 #include "renderer/core/error.hpp"
 #include "scenes/surfaces/registry.hpp"
 #include "tests/support/source_folder.hpp"
@@ -62,12 +63,6 @@ class MatrixFile : public ::testing::Test {
   fs::path folder_;
 };
 
-std::vector<std::string> methods_of(const Experiment& experiment) {
-  std::vector<std::string> texts;
-  for (const MethodSpec& method : experiment.run.methods) texts.push_back(method.text);
-  return texts;
-}
-
 std::string claim(const std::string& inequality) {
   return "[[claim]]\nname = \"n\"\ntext = \"t\"\nreason = \"r\"\nexpect = \"reproduced\"\ninequality = \"" +
          inequality + "\"\n";
@@ -99,7 +94,7 @@ TEST_F(MatrixFile, MethodsAreMultipliedByTheirOptions) {
       read(no_scene + "scene = \"bumps\"\n[matrix.options]\ntan_gmm = { n = [1, 2], align = [\"on\", \"off\"] }\n");
   const std::vector<std::string> expected{"direct", "tan_gmm:align=on:n=1", "tan_gmm:align=on:n=2",
                                           "tan_gmm:align=off:n=1", "tan_gmm:align=off:n=2"};
-  EXPECT_EQ(methods_of(experiment), expected);
+  EXPECT_EQ(texts_of(experiment.run.methods), expected);
   EXPECT_TRUE(experiment.axes.empty()) << "one run: no members";
 }
 
@@ -218,7 +213,7 @@ TEST_F(MatrixFile, PresetsStandWhereTheFileSaysNothing) {
   const std::string with_presets = "[experiment]\ntitle = \"T\"\npresets = \"shared.toml\"\n";
   const Experiment experiment =
       read(with_presets + "repeats = 2\n[reference]\nspp = 4\n[matrix]\nscene = [\"ribbed_plane\"]\n");
-  EXPECT_EQ(methods_of(experiment), std::vector<std::string>{"direct"});
+  EXPECT_EQ(texts_of(experiment.run.methods), std::vector<std::string>{"direct"});
   EXPECT_EQ(experiment.run.timing.repeats, 2);
   EXPECT_EQ(experiment.run.reference.spp, 4);
   EXPECT_EQ(experiment.run.reference.seed, 5U);

@@ -13,6 +13,13 @@ std::vector<MethodSpec> parse_known_methods(const std::string& text) {
   return methods;
 }
 
+std::vector<std::string> texts_of(const std::vector<MethodSpec>& methods) {
+  std::vector<std::string> texts;
+  texts.reserve(methods.size());
+  for (const MethodSpec& method : methods) texts.push_back(method.text);
+  return texts;
+}
+
 std::vector<MethodSpec> every_method() {
   std::vector<MethodSpec> methods;
   for (const Method* method : all_methods()) {

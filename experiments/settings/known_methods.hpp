@@ -12,6 +12,9 @@ namespace footprint {
 /// method or option, with the nearest.
 [[nodiscard]] std::vector<MethodSpec> parse_known_methods(const std::string& text);
 
+/// The methods as they were written.
+[[nodiscard]] std::vector<std::string> texts_of(const std::vector<MethodSpec>& methods);
+
 /// Every method of the program but those that are slow (MethodInfo::slow_frame), with its own defaults.
 [[nodiscard]] std::vector<MethodSpec> every_method();
 

@@ -408,12 +408,7 @@ SettingType methods(Field<std::vector<MethodSpec>> field) {
                            const std::string& text) { field(run) = parse_known_methods(text); },
           .read_file = [=](RunSettings& run, const TomlTable& table,
                            std::string_view key) { field(run) = read_methods(table, key); },
-          .text =
-              [=](RunSettings run) {
-                std::vector<std::string> texts;
-                for (const MethodSpec& method : field(run)) texts.push_back(method.text);
-                return fmt::format("{}", fmt::join(texts, ","));
-              }};
+          .text = [=](RunSettings run) { return fmt::format("{}", fmt::join(texts_of(field(run)), ",")); }};
 }
 
 SettingType effects(Field<EffectSet> field) {

@@ -103,10 +103,7 @@ Candidate candidate_of(const FilterRun& run, const std::string& method, const st
 }
 
 std::vector<std::string> methods_of(const Results& results) {
-  std::vector<std::string> methods;
-  for (const Record& record : results.records) {
-    if (std::ranges::find(methods, record.method) == methods.end()) methods.push_back(record.method);
-  }
+  std::vector<std::string> methods = methods_in_order(results.records);
   for (const Record& record : results.records) {
     if (record.failure) std::erase(methods, record.method);
   }

@@ -115,14 +115,6 @@ struct Summary {
   [[nodiscard]] std::string largest_text() const { return count > 0 ? error_text(largest) : "n/a"; }
 };
 
-std::vector<std::string> methods_of(const Animation& animation) {
-  std::vector<std::string> methods;
-  for (const AnimationRecord& record : animation.records) {
-    if (std::ranges::find(methods, record.method) == methods.end()) methods.push_back(record.method);
-  }
-  return methods;
-}
-
 std::vector<std::string> table_row(const Animation& animation, const std::string& method) {
   Summary error, floor, flicker, p99, flicker_floor, highlights;
   for (const AnimationRecord& record : animation.records) {
@@ -201,7 +193,7 @@ std::string animation_csv(const Animation& animation) {
 
 std::string animation_table(const Animation& animation) {
   std::vector<std::vector<std::string>> rows, causes;
-  for (const std::string& method : methods_of(animation)) {
+  for (const std::string& method : methods_in_order(animation.records)) {
     rows.push_back(table_row(animation, method));
     causes.push_back(cause_row(animation, method));
   }

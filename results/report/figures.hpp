@@ -1,6 +1,7 @@
 // Figures as readers see them: one way to write a number, shared by the table and the page.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -67,5 +68,15 @@ struct Provenance {
 
 /// The distances of the records, in the order in which they first appear.
 [[nodiscard]] std::vector<double> distances_of(const Results& results);
+
+/// The methods of any records, in the order in which they first appear.
+template <typename Records>
+[[nodiscard]] std::vector<std::string> methods_in_order(const Records& records) {
+  std::vector<std::string> methods;
+  for (const auto& record : records) {
+    if (std::ranges::find(methods, record.method) == methods.end()) methods.push_back(record.method);
+  }
+  return methods;
+}
 
 }  // namespace footprint

@@ -14,7 +14,6 @@
 #include "experiments/runner/quantities.hpp"
 #include "experiments/settings/known_methods.hpp"
 #include "experiments/settings/setting.hpp"
-#include "experiments/settings/toml_reading.hpp"
 #include "experiments/studies/zoom.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
@@ -23,6 +22,7 @@
 #include "renderer/core/toml_table.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "renderer/scene/settings/scene.hpp"
+#include "renderer/scene/settings/toml_values.hpp"
 
 namespace footprint {
 namespace {
@@ -47,7 +47,7 @@ std::vector<std::string> with(std::vector<std::string> keys, const std::vector<s
 
 std::string required_word(const TomlTable& table, std::string_view key) {
   const auto word = table.word(key);
-  if (!word) refuse_absent(table, key);
+  if (!word) refuse_missing(table, key, experiments_document);
   if (word->empty()) throw table.error_at(key, "is empty", "fill it in");
   return *word;
 }
@@ -83,7 +83,7 @@ void read_zoom(const TomlTable& table, RunSettings& run) {
   for (const char* key : {"from", "to", "frames"}) {
     if (table.has(key) && table.has("distances"))
       throw table.error_at(key, "excludes distances", "give one or the other");
-    if (!table.has(key) && !table.has("distances")) refuse_absent(table, key);
+    if (!table.has(key) && !table.has("distances")) refuse_missing(table, key, experiments_document);
   }
   const ZoomSettings& zoom = run.view.zoom;
   if (zoom.frames > 0 && zoom.from == zoom.to)
@@ -113,7 +113,7 @@ Claim read_claim(const TomlTable& table, const Experiment& experiment) {
     return parsed;
   });
   const auto expect = table.choice("expect", {"reproduced", "not_reproduced"});
-  if (!expect) refuse_absent(table, "expect");
+  if (!expect) refuse_missing(table, "expect", experiments_document);
   std::string name = required_word(table, "name");
   std::string words = required_word(table, "text");
   std::string reason = required_word(table, "reason");
@@ -155,7 +155,7 @@ void read_thresholds(const TomlTable& root, Experiment& experiment) {
 void read_published(const TomlTable& table, Experiment& experiment) {
   const fs::path file = experiment.file.parent_path() / required_word(table, "file");
   const auto figures = table.words("figures");
-  if (!figures) refuse_absent(table, "figures");
+  if (!figures) refuse_missing(table, "figures", experiments_document);
   const TomlTable root(file, {"paper", "note", "value"});
   std::vector<std::string> known;
   for (const TomlTable& value : root.tables("value", {"figure", "measure", "value", "unit", "note"})) {
@@ -163,7 +163,7 @@ void read_published(const TomlTable& table, Experiment& experiment) {
     known.push_back(figure);
     if (std::ranges::find(*figures, figure) == figures->end()) continue;
     const auto number = value.number("value", any_number);
-    if (!number) refuse_absent(value, "value");
+    if (!number) refuse_missing(value, "value", experiments_document);
     Expression measure = read_expression(value, "measure", required_word(value, "measure"), experiment);
     std::string unit = value.word("unit").value_or(""), note = value.word("note").value_or("");
     experiment.published.push_back({.figure = figure,
@@ -190,7 +190,7 @@ void read_footprints(const TomlTable& root, Experiment& experiment) {
       throw table.error_at("name", fmt::format("is `{:.80}` as of another footprint", name), "name it otherwise");
     }
     const auto sides = table.numbers("footprint", 4, {-1e6, 1e6});
-    if (!sides) refuse_absent(table, "footprint");
+    if (!sides) refuse_missing(table, "footprint", experiments_document);
     const FootprintRect rect{{(*sides)[0], (*sides)[1]}, {(*sides)[2], (*sides)[3]}};
     at_key(table, "footprint", [&] { check_footprint(rect, ""); });
     experiment.footprints.push_back({.name = name, .rect = rect});
@@ -270,10 +270,10 @@ void read_figure(const TomlTable& table, Experiment& experiment) {
     for (const TomlTable& picture : row.tables("pictures", {"method", "frame", "label", "crop"})) {
       pictures.push_back(read_picture(picture, experiment));
     }
-    if (pictures.empty()) refuse_absent(row, "pictures");
+    if (pictures.empty()) refuse_missing(row, "pictures", experiments_document);
     experiment.figure.rows.push_back(std::move(pictures));
   }
-  if (experiment.figure.rows.empty()) refuse_absent(table, "row");
+  if (experiment.figure.rows.empty()) refuse_missing(table, "row", experiments_document);
 }
 
 // A file, over its presets where it names some.
@@ -407,7 +407,7 @@ Experiment read_experiment(const fs::path& file) {
   experiment.file = file;
   const TomlTable root = root_of(experiment);
   const auto head = root.table("experiment", with(setting_keys("experiment"), head_keys));
-  if (!head) refuse_absent(root, "experiment");
+  if (!head) refuse_missing(root, "experiment", experiments_document);
   if (head->has("members")) {
     experiment.title = required_word(*head, "title");
     experiment.description = head->word("description").value_or("");

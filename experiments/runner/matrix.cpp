@@ -11,7 +11,6 @@
 #include "experiments/runner/experiment.hpp"
 #include "experiments/settings/known_methods.hpp"
 #include "experiments/settings/setting.hpp"
-#include "experiments/settings/toml_reading.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/file_names.hpp"
 #include "renderer/core/toml_table.hpp"

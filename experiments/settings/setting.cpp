@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-#include "experiments/settings/toml_reading.hpp"
+#include "renderer/core/toml_table.hpp"
+#include "renderer/scene/settings/toml_values.hpp"
 
 namespace footprint {
 
@@ -28,7 +29,7 @@ void read_settings(const TomlTable& table, std::string_view name, RunSettings& r
     if (table.has(setting.key)) {
       setting.type.read_file(run, table, setting.key);
     } else if (setting.required && std::ranges::find(given, setting.key) == given.end()) {
-      refuse_absent(table, setting.key);
+      refuse_missing(table, setting.key, experiments_document);
     }
   }
 }

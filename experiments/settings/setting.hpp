@@ -39,6 +39,9 @@ struct Setting {
   std::string_view group{};  ///< heading in the help
 };
 
+/// The document that explains an experiment's file.
+inline constexpr std::string_view experiments_document = "docs/experiments.md";
+
 /// Every setting, in the order of the help and of the docs.
 [[nodiscard]] std::span<const Setting> run_settings();
 

@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "experiments/settings/known_methods.hpp"
-#include "experiments/settings/toml_reading.hpp"
 #include "renderer/core/memory.hpp"
+#include "renderer/core/toml_table.hpp"
 
 namespace footprint::setting_types {
 namespace {

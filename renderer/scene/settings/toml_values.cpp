@@ -1,6 +1,8 @@
 // Lists of three numbers as vectors, colours and unit directions.
 #include "renderer/scene/settings/toml_values.hpp"
 
+#include <fmt/format.h>
+
 namespace footprint {
 
 std::optional<glm::dvec3> read_vector(const TomlTable& table, std::string_view key, NumberRange range) {
@@ -23,8 +25,8 @@ std::optional<glm::dvec3> read_direction(const TomlTable& table, std::string_vie
   return glm::normalize(*value);
 }
 
-void refuse_missing(const TomlTable& table, std::string_view key) {
-  throw table.error_at(key, "is missing", "add it (docs/scenes.md)");
+void refuse_missing(const TomlTable& table, std::string_view key, std::string_view document) {
+  throw table.error_at(key, "is missing", fmt::format("add it ({})", document));
 }
 
 }  // namespace footprint

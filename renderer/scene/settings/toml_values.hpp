@@ -22,7 +22,8 @@ inline constexpr NumberRange coordinate_range{-1e9, 1e9};  ///< metres
 /// A unit vector, from one of any length but 0.
 [[nodiscard]] std::optional<glm::dvec3> read_direction(const TomlTable& table, std::string_view key);
 
-/// Refuses a table without a key that it must have.
-[[noreturn]] void refuse_missing(const TomlTable& table, std::string_view key);
+/// Refuses a table without a key that it must have, which `document` explains.
+[[noreturn]] void refuse_missing(const TomlTable& table, std::string_view key,
+                                 std::string_view document = "docs/scenes.md");
 
 }  // namespace footprint

@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,7 +17,6 @@
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
 #include "app/standard_output.hpp"
-#include "experiments/studies/memory_estimate.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
@@ -47,6 +47,26 @@ struct TextureUse {
   std::size_t bytes = 0;
 };
 
+// Bytes of the scene's maps, each once however many materials share it.
+struct MapBytes {
+  std::size_t decoded = 0;  // as 32-bit floats
+  std::size_t stored = 0;   // at their own depth
+};
+
+MapBytes map_bytes(const Scene& scene) {
+  MapBytes bytes;
+  std::set<MapTexels> counted;
+  for (const Material& material : scene.materials) {
+    for (const TextureMap* map : maps_of(material)) {
+      const MapTexels& texels = map->image;
+      if (!counted.insert(texels).second) continue;
+      bytes.decoded += texels.texel_count() * static_cast<std::size_t>(texels.channels()) * sizeof(float);
+      bytes.stored += texels.byte_count();
+    }
+  }
+  return bytes;
+}
+
 // The shadow maps, rendered once before the first frame; none where nothing casts a shadow.
 struct ShadowPass {
   std::size_t maps = 0, draws = 0, bytes = 0;
@@ -64,7 +84,7 @@ struct Explanation {
   std::vector<ModelChoice> choices;
   std::vector<std::string> warnings, supplied;
   std::vector<EffectDecision> effects;
-  MemoryEstimate memory;
+  MapBytes maps;
   std::string method;
   std::vector<std::string> left_out;  // effects that the scene calls for and the method cannot honour
   std::size_t draws = 0;              // of the forward pass: one a material
@@ -100,7 +120,7 @@ Explanation explain(const ExplainArguments& arguments, const Progress& progress)
   out.warnings = stage.scene().warnings;
   out.supplied = stage.scene().defaults;
   out.effects = stage.decisions();
-  out.memory = estimate_memory(stage.scene(), stage.effects(), normal_memory_of(run.methods, stage.effects()));
+  out.maps = map_bytes(stage.scene());
   out.method = run.methods.front().text;
   out.left_out = effect_names(stage.effects() & ~method.baked().method->info().honours);
   out.draws = stage.gpu_scene().batches().size();
@@ -177,11 +197,9 @@ std::string text_of(const Explanation& explanation) {
   if (!explanation.left_out.empty()) {
     text += fmt::format("  {:<24} {}\n", "left out", fmt::join(explanation.left_out, ", "));
   }
-  text += fmt::format("\nmemory for maps, estimated\n  {:<24} {}\n  {:<24} {}\n  {:<24} {}\n  {:<24} {}\n",
-                      "as 32-bit floats", readable_bytes(explanation.memory.maps), "kept, at their own depth",
-                      readable_bytes(explanation.memory.kept), "peak with this method",
-                      readable_bytes(explanation.memory.peak()), "each further method",
-                      readable_bytes(explanation.memory.methods.front().kept));
+  text += fmt::format("\nmemory of the maps\n  {:<24} {}\n  {:<24} {}\n", "as 32-bit floats",
+                      readable_bytes(explanation.maps.decoded), "stored, at their own depth",
+                      readable_bytes(explanation.maps.stored));
   if (explanation.costs.empty()) return text;
   text += fmt::format("\n{:<23} {:>10} {:>12} {:>10}\n", "cost, ms per frame", "with", "without", "adds");
   for (const EffectCost& cost : explanation.costs) {
@@ -224,10 +242,7 @@ std::string json_of(const Explanation& explanation) {
   }
   json["passes"].push_back(
       {{"name", "forward"}, {"draws", explanation.draws}, {"shader_lines", explanation.shader_lines}});
-  json["memory"] = {{"decoded_maps", explanation.memory.maps},
-                    {"kept_maps", explanation.memory.kept},
-                    {"estimated_peak", explanation.memory.peak()},
-                    {"each_further_method", explanation.memory.methods.front().kept}};
+  json["memory"] = {{"decoded_maps", explanation.maps.decoded}, {"kept_maps", explanation.maps.stored}};
   json["shared_bytes"] = explanation.shared_bytes;
   json["method_bytes"] = explanation.method_bytes;
   json["textures"] = Json::array();

@@ -21,6 +21,14 @@ constexpr int default_width = 512;
 constexpr float highest_default = 1 << 20;  // of a camera narrower than a hair
 constexpr std::uint64_t pixel_bytes = 16;   // RGBA, 32-bit floats
 
+// Textures are freed one after the other as they are uploaded: at most one is in memory twice.
+void require_upload(const Prefiltered& prefiltered) {
+  for (const PrefilteredTexture& texture : prefiltered.textures) {
+    const TextureLevel& finest = texture.levels.front();
+    require_texels(finest.width, finest.height, byte_count(texture), "texture " + texture.name + " on the GPU");
+  }
+}
+
 // A method on the GPU, baked and uploaded one material after the other, so that what is baked lies in memory twice for
 // one texture at most. A frame build may read what was baked; of every other method the GPU has all that a frame
 // needs.
@@ -30,6 +38,7 @@ PreparedMethod bake_and_upload(const GpuScene& gpu_scene, const Scene& scene, co
   auto baked = std::make_unique<BakedMethod>(unbaked(method, spec));
   auto gpu = std::make_unique<GpuMethod>(gpu_scene, *baked);
   bake_materials(*baked, scene, effects, progress, cache, [&](std::size_t material) {
+    require_upload(baked->materials[material]);
     gpu->upload_material(material, [&](std::size_t texture) {
       if (!gpu->has_frame_build()) free_texels(baked->materials[material].textures[texture]);
     });
@@ -53,13 +62,6 @@ std::unique_ptr<FrameRenderer> frames_of(const gl::ContextInfo& context, GpuScen
                                          settings.backend.tile);
 }
 
-// The scene's own maps are there already, and available memory knows it.
-void require_maps(const MemoryEstimate& estimate) {
-  require_memory(estimate.peak() - estimate.kept,
-                 fmt::format("what {} methods make of the maps", estimate.methods.size()),
-                 "compare fewer methods at once, use smaller textures, or free memory");
-}
-
 // Whether the context is lost.
 bool clear_errors(const gl::Context& context) {
   const std::vector<std::string> errors = context.take_debug_errors();
@@ -67,17 +69,6 @@ bool clear_errors(const gl::Context& context) {
 }
 
 }  // namespace
-
-std::vector<NormalMemory> normal_memory_of(std::span<const MethodSpec> methods, const EffectSet& effects) {
-  std::vector<NormalMemory> memory;
-  for (const MethodSpec& spec : methods) {
-    const Method& method = find_method(spec.name);
-    const BakedMethod unmade = unbaked(method, spec);
-    memory.emplace_back([&method, options = unmade.options, on = effects & method.info().honours](
-                            const Material& material) { return method.normal_memory(material, options, on); });
-  }
-  return memory;
-}
 
 glm::ivec2 frame_size(const Scene& scene, const std::optional<glm::ivec2>& wanted) {
   glm::ivec2 size(default_width, default_width);
@@ -162,9 +153,6 @@ Stage::Stage(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, 
   require_pictures(size_, pictures);
   PreparedScene& shared = *prepared_;
   const std::vector<Wanted> wanted = wanted_methods(unit);
-  std::vector<MethodSpec> specs;
-  for (const Wanted& method : wanted) specs.push_back(method.spec);
-  const MemoryEstimate memory = estimate_memory(shared.scene, shared.effects, normal_memory_of(specs, shared.effects));
   const bool is_first = shared.gpu == nullptr;
   const auto bakes = static_cast<double>(wanted.size() + 1);
   // Visibility takes as long as all bakes, or longer.
@@ -172,21 +160,18 @@ Stage::Stage(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, 
   ProgressParts parts(progress, upload + bakes);
   const Progress of_upload = parts.next(upload, "");
   if (is_first) {
-    require_maps(memory);
     shared.scene = refined_for_visibility(std::move(shared.scene), shared.effects);
     const std::optional<DiskCache> cache = cache_of(settings);
     shared.gpu = std::make_unique<GpuScene>(shared.context.info(), shared.scene, shared.effects, of_upload,
                                             cache ? &*cache : nullptr);
   }
-  std::vector<std::optional<StagedMethod>> all(wanted.size());
-  for (const std::size_t i : memory.bake_order()) {
+  for (const Wanted& method : wanted) {
     const auto failure =
-        failure_of(shared.context, wanted[i].spec, [&] { all[i].emplace(staged(wanted[i], parts.next(1, "bake "))); });
+        failure_of(shared.context, method.spec, [&] { methods_.push_back(staged(method, parts.next(1, "bake "))); });
     if (!failure) continue;
-    if (i >= settings.methods.size() || refusal == Refusal::ends_the_run) throw *failure;
-    all[i].emplace(wanted[i].spec, *failure);
+    if (methods_.size() >= settings.methods.size() || refusal == Refusal::ends_the_run) throw *failure;
+    methods_.emplace_back(method.spec, *failure);
   }
-  for (std::optional<StagedMethod>& method : all) methods_.push_back(*std::move(method));
   if (is_first)
     shared.base =
         bake_and_upload(*shared.gpu, shared.scene, shared.effects, base_surface(),

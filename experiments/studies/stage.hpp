@@ -11,7 +11,6 @@
 
 #include "experiments/settings/run_settings.hpp"
 #include "experiments/studies/exposure.hpp"
-#include "experiments/studies/memory_estimate.hpp"
 #include "renderer/core/disk_cache.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/gl/context.hpp"
@@ -54,10 +53,6 @@ enum class Unit {
 
 /// Where slow work is kept between runs; none where the settings name no folder.
 [[nodiscard]] std::optional<DiskCache> cache_of(const RunSettings& settings);
-
-/// What each method takes for a normal map in a scene with `effects`, for estimate_memory. Errors (usage): there is no
-/// such method, or it has no such option.
-[[nodiscard]] std::vector<NormalMemory> normal_memory_of(std::span<const MethodSpec> methods, const EffectSet& effects);
 
 /// Errors (machine): so many pictures (RGBA, 32-bit floats) of this size are more than memory holds.
 void require_pictures(const glm::ivec2& size, int count);
@@ -110,8 +105,7 @@ class StagedMethod {
   std::optional<Error> refusal_;
 };
 
-/// A scene with its methods and its reference on one context. Everything is made in the constructor, the methods in the
-/// order that takes the least memory.
+/// A scene with its methods and its reference on one context. Everything is made in the constructor.
 class Stage {
  public:
   /// The settings' methods over `scene`, which need not be the settings' own. `pictures` as large as the frame are in

@@ -169,28 +169,6 @@ class Cells final : public Method {
 
   [[nodiscard]] int lobe_count(const Options& options) const override { return static_cast<int>(options.number("k")); }
 
-  // Points and shares stay throughout; beside them the decoded map and the blocks that labels are asked of, or all
-  // that is baked and what the last of it is made from.
-  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
-                                                        const EffectSet& effects) const override {
-    const int parts = static_cast<int>(options.number("k"));
-    const auto channel = static_cast<double>(channel_bytes(parse_storage(options.word("storage"))));
-    double channels = 4.0 * moment_layer_count(options);
-    if (keeps_mean_normals(options, effects)) channels += 3.0;
-    if (has(effects, Effect::roughness_variation) && options.word("roughness") == "joint" &&
-        roughness_lies_on_normals(material))
-      channels += 4.0 * cells::layer_count(parts);
-    const double kept = channels * channel * mip_chain_share;
-    const double points = sizeof(PlanePoint) + sizeof(float) * static_cast<double>(parts);
-    const double labelling = decoded_normal + cells::label_block_bytes(parts);
-    // Layers of moments are all there as floats before the first is encoded.
-    const double moments = 4.0 * moment_layer_count(options) * sizeof(float) * mip_chain_share;
-    const double means = keeps_mean_normals(options, effects) ? kept + mean_normals_in_the_making : 0.0;
-    const double baking = std::max(moments + decoded_normal, means);
-    return bake_memory(normal_texels(material) * kept,
-                       normal_texels(material) * (points + std::max(labelling, baking)));
-  }
-
   // The flags are lean's, which common_slopes.glsl asks for.
   [[nodiscard]] ShaderModule shader() const override {
     return module_of(embedded::cells_glsl, "cells.glsl",

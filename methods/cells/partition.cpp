@@ -237,11 +237,6 @@ int finest_of(int round, int rounds) { return std::max(0, block_sizes - 1 - 2 * 
 
 }  // namespace
 
-// A third of a block a texel: a quarter of the smallest size, and all larger ones.
-double label_block_bytes(int parts) {
-  return parts == 1 ? 0.0 : static_cast<double>(parts) * (sizeof(PlaneSums) + sizeof(Quadratic)) / 3.0;
-}
-
 std::vector<float> partition(std::span<const PlanePoint> points, int width, int height,
                              const PartitionSettings& settings, const Progress& progress) {
   const auto parts = static_cast<std::size_t>(settings.parts);

@@ -29,7 +29,4 @@ struct PartitionSettings {
 [[nodiscard]] std::vector<float> partition(std::span<const PlanePoint> points, int width, int height,
                                            const PartitionSettings& settings, const Progress& progress);
 
-/// Bytes a texel that `partition` takes beside points and labels.
-[[nodiscard]] double label_block_bytes(int parts);
-
 }  // namespace footprint::cells

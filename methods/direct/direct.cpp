@@ -14,11 +14,6 @@ class Direct final : public Method {
     return base_surface().precompute(material, options, effects, progress);
   }
 
-  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
-                                                        const EffectSet& effects) const override {
-    return base_surface().normal_memory(material, options, effects);
-  }
-
   [[nodiscard]] ShaderModule shader() const override { return base_surface().shader(); }
 
  private:

@@ -32,11 +32,6 @@ class Exact final : public Method {
     return out;
   }
 
-  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
-                                                        const EffectSet& effects) const override {
-    return base_surface().normal_memory(material, options, effects);
-  }
-
   [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::exact_glsl, "exact.glsl"); }
 
  private:

@@ -66,19 +66,6 @@ class Fournier final : public Method {
     return 8 * static_cast<int>(options.number("peaks"));
   }
 
-  // Above the finest level a texel has bins for its normals until the next level is done, at worst one a normal.
-  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
-                                                        const EffectSet& effects) const override {
-    const double rest = std::max(options.number("peaks"), 2.0) - 1.0;
-    const double channels = 4.0 * mip_chain_share * (1.0 + rest / 4.0);
-    const double diffuse = has(effects, Effect::diffuse) ? 3.0 * mip_chain_share : 0.0;
-    const auto channel = static_cast<double>(channel_bytes(parse_storage(options.word("storage"))));
-    const double bins = 2.0 * sizeof(fournier::NormalBin);
-    const double texels = normal_texels(material);
-    return bake_memory(texels * (channels + diffuse) * channel,
-                       texels * (decoded_normal + channels * sizeof(float) + bins));
-  }
-
   [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::fournier_glsl, "fournier.glsl"); }
 
  private:

@@ -78,11 +78,6 @@ class Leadr final : public Method {
     return out;
   }
 
-  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
-                                                        const EffectSet& /*effects*/) const override {
-    return slope_memory(material, options, {});
-  }
-
   // `variant` is an option of lean's, and a mean normal its diffuse term's: footprint_slopes.glsl asks for both.
   [[nodiscard]] ShaderModule shader() const override {
     return module_of(embedded::leadr_glsl, "leadr.glsl", {{"variant_clean", false}, {"mean_normal_kept", false}});

@@ -26,11 +26,6 @@ class Lean final : public Method {
     return bake_slopes(material, options, effects, kept_slopes(options, effects));
   }
 
-  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
-                                                        const EffectSet& effects) const override {
-    return slope_memory(material, options, kept_slopes(options, effects));
-  }
-
   // footprint_slopes.glsl asks which of the two methods' textures there are.
   [[nodiscard]] ShaderModule shader() const override {
     return module_of(embedded::lean_glsl, "lean.glsl", {{"mean_normal_kept", true}});

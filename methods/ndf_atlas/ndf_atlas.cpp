@@ -163,28 +163,6 @@ class NdfAtlas final : public Method {
 
   [[nodiscard]] int lobe_count(const Options& options) const override { return static_cast<int>(options.number("k")); }
 
-  // First the mean normals and, of the parts, what labels are asked of or the moments of all of them; then the tables,
-  // which are there as floats too.
-  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
-                                                        const EffectSet& effects) const override {
-    const int parts = static_cast<int>(options.number("k"));
-    const auto channel = static_cast<double>(channel_bytes(parse_storage(options.word("storage"))));
-    const double layers = cells::layer_count(cells::part_channels(kept_moments) * parts);
-    const double mean = 3.0 * channel * mip_chain_share;
-    const double moments = 4.0 * layers * mip_chain_share;
-    const double points = decoded_normal + sizeof(cells::PlanePoint) + sizeof(float) * static_cast<double>(parts);
-    const double parted =
-        mean + points + std::max(cells::label_block_bytes(parts), moments * sizeof(float) + 4.0 * sizeof(float));
-    const Plan plan = plan_tables(material, options, effects);
-    const Storage storage = parse_storage(options.word("tables"));
-    const double tables = plan.facets ? static_cast<double>(plan.layout.byte_count(storage)) : 0.0;
-    const double blocks = plan.facets ? 2.0 * 4.0 * sizeof(float) * plan.layout.columns * plan.layout.rows : 0.0;
-    const double texels = normal_texels(material);
-    const double kept = texels * (mean + moments * channel) + tables + blocks;
-    const double floats = tables / static_cast<double>(channel_bytes(storage)) + texels * sizeof(glm::vec3);
-    return bake_memory(kept, std::max(texels * parted, kept + floats));
-  }
-
   [[nodiscard]] ShaderModule shader() const override {
     return module_of(embedded::ndf_atlas_glsl, "ndf_atlas.glsl", {{"density_fast", true}, {"storage_unorm8", false}});
   }

@@ -57,12 +57,4 @@ Prefiltered bake_roughness(const Material& material, Preset preset, Storage stor
   return out;
 }
 
-BakeMemory roughness_memory(const Material& material, Storage storage) {
-  const BakeMemory normals = mean_normal_memory(material, channel_bytes(storage));
-  const double texels = normal_texels(material);
-  const auto mean = static_cast<double>(normals.kept);
-  const double spread = texels * static_cast<double>(channel_bytes(spread_storage(storage))) * mip_chain_share;
-  return bake_memory(mean + spread, mean + texels * mean_normals_in_the_making);
-}
-
 }  // namespace footprint::roughness_bake

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "methods/roughness_bake/presets.hpp"
-#include "renderer/bake/bake_memory.hpp"
 #include "renderer/bake/prefiltered.hpp"
 #include "renderer/effects/effects.hpp"
 #include "renderer/scene/material.hpp"
@@ -23,8 +22,5 @@ namespace footprint::roughness_bake {
 /// in bytes, which hold no sum of variances.
 [[nodiscard]] Prefiltered bake_roughness(const Material& material, Preset preset, Storage storage,
                                          const EffectSet& effects);
-
-/// What that takes for the normals.
-[[nodiscard]] BakeMemory roughness_memory(const Material& material, Storage storage);
 
 }  // namespace footprint::roughness_bake

@@ -118,11 +118,6 @@ class RoughnessBake final : public Method {
     return joined_chain(formula, material, *fine_rough, *fine_spread);
   }
 
-  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
-                                                        const EffectSet& /*effects*/) const override {
-    return roughness_memory(material, parse_storage(options.word("storage")));
-  }
-
   [[nodiscard]] ShaderModule shader() const override {
     return module_of(embedded::roughness_bake_glsl, "roughness_bake.glsl");
   }

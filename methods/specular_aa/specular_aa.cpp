@@ -52,13 +52,6 @@ class SpecularAa final : public Method {
     return out;
   }
 
-  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
-                                                        const EffectSet& /*effects*/) const override {
-    const Storage storage = parse_storage(options.word("storage"));
-    if (options.word("bake") != "none") return roughness_bake::roughness_memory(material, storage);
-    return mean_normal_memory(material, channel_bytes(storage));
-  }
-
   [[nodiscard]] ShaderModule shader() const override {
     return module_of(embedded::specular_aa_glsl, "specular_aa.glsl");
   }

@@ -89,18 +89,6 @@ class TanGmm final : public Method {
 
   [[nodiscard]] int lobe_count(const Options& options) const override { return static_cast<int>(options.number("n")); }
 
-  // While the finest level is fitted: normals, samples of tiles, the mixtures of two levels, and what is stored of all.
-  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
-                                                        const EffectSet& /*effects*/) const override {
-    const tan_gmm::FitSettings settings = fit_settings(options);
-    const double texels = normal_texels(material);
-    const double channels = 4.0 * static_cast<double>(tan_gmm::layers_of(settings)) * mip_chain_share;
-    const double mixtures = 1.25 * static_cast<double>(settings.components * sizeof(tan_gmm::Gaussian));
-    const double normals = 3.0 * sizeof(float), samples = 4.0 * sizeof(float);
-    const auto channel = static_cast<double>(channel_bytes(parse_storage(options.word("storage"))));
-    return bake_memory(texels * channels * channel, texels * (normals + samples + mixtures + channels * sizeof(float)));
-  }
-
   [[nodiscard]] ShaderModule shader() const override {
     return module_of(embedded::tan_gmm_glsl, "tan_gmm.glsl", {{"density_fast", true}});
   }

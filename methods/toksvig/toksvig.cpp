@@ -26,11 +26,6 @@ class Toksvig final : public Method {
     return out;
   }
 
-  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
-                                                        const EffectSet& /*effects*/) const override {
-    return mean_normal_memory(material, channel_bytes(parse_storage(options.word("storage"))));
-  }
-
   [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::toksvig_glsl, "toksvig.glsl"); }
 
  private:

@@ -187,19 +187,6 @@ class XuVmf final : public Method {
     return out;
   }
 
-  // The maps that are built, and what they are built from, on the GPU and, for the build, in memory. For
-  // space=camera as many texels as the normal map has stand for those of the mesh's own layout.
-  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& options,
-                                                        const EffectSet& effects) const override {
-    if (!material.normal_map) return BakeMemory{};
-    const MapTexels& map = material.normal_map->image;
-    Prefiltered built;
-    declare_maps(built, {map.width(), map.height()}, {}, layers_of(material, effects), options, effects);
-    const auto input = static_cast<std::uint64_t>(normal_texels(material) * decoded_normal);
-    const std::uint64_t kept = byte_count(built) + 2 * input;
-    return BakeMemory{.kept = kept, .baking = kept};
-  }
-
   [[nodiscard]] const MethodInfo& info() const override { return info_; }
 
   [[nodiscard]] std::unique_ptr<FrameBuild> frame_build(const ShaderVariant& variant,

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "renderer/bake/bake_memory.hpp"
 #include "renderer/bake/frame_build.hpp"
 #include "renderer/bake/prefiltered.hpp"
 #include "renderer/bake/shader_module.hpp"
@@ -67,14 +66,6 @@ class Method {
   [[nodiscard]] virtual Prefiltered precompute_on(const Scene& scene, std::size_t material, const Options& options,
                                                   const EffectSet& effects, const Progress& progress) const {
     return precompute(scene.materials.at(material), options, effects, progress);
-  }
-
-  /// What `precompute` takes of memory for the normal map of a material that varies: what the estimate of memory goes
-  /// by (memory_estimate.hpp), which takes LEAN's where a method says nothing. Maps of widths count apart.
-  [[nodiscard]] virtual std::optional<BakeMemory> normal_memory(const Material& /*material*/,
-                                                                const Options& /*options*/,
-                                                                const EffectSet& /*effects*/) const {
-    return {};
   }
 
   /// The passes that are repeated each frame, for a scene whose effects (those that the method honours) and base BRDF

@@ -13,6 +13,7 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/hash.hpp"
+#include "renderer/core/memory.hpp"
 #include "renderer/core/words.hpp"
 #include "renderer/image/mipmap.hpp"
 
@@ -61,8 +62,15 @@ void require_finite(const std::string& name, const Image& level) {
               "fix the map that it was baked from");
 }
 
+// Before a level of `layers` layers is encoded.
+void require_level(const std::string& name, const Image& layer, std::size_t layers, Storage storage) {
+  require_texels(layer.width, layer.height, layer.texels.size() * layers * channel_bytes(storage),
+                 "a level of texture " + name);
+}
+
 TextureLevel encode_level(const std::string& name, const Image& image, Storage storage, bool signed_range) {
   require_finite(name, image);
+  require_level(name, image, 1, storage);
   TextureLevel level{.width = image.width, .height = image.height, .bytes = {}};
   encode(image, storage, signed_range, level.bytes);
   return level;
@@ -75,6 +83,7 @@ std::vector<TextureLevel> encode_levels(const std::string& name, std::vector<std
   for (std::size_t i = 0; i < layers.front().size(); ++i) {
     const Image& first = layers.front()[i];
     const int width = first.width, height = first.height, channels = first.channels;
+    require_level(name, first, layers.size(), storage);
     TextureLevel level{.width = width, .height = height, .bytes = {}};
     level.bytes.reserve(first.texels.size() * channel_bytes(storage) * layers.size());
     for (std::vector<Image>& layer : layers) {

@@ -84,8 +84,8 @@ void free_texels(PrefilteredTexture& texture);
 [[nodiscard]] std::size_t finest_texels(const Prefiltered& prefiltered);
 
 /// Encodes a mip chain: fp16 and unorm8 round to nearest; unorm8 maps [-1,1] to 0..255 where `signed_range` (a
-/// normal), else [0,1]. fp16 clamps to +-65504. Values must be finite. Each level is given back once it is encoded:
-/// move a chain in that is needed no more.
+/// normal), else [0,1]. fp16 clamps to +-65504. Values must be finite. Each level is freed after it is encoded, so move
+/// the chain in if nothing else reads it. Errors (machine): the encoded level does not fit in memory.
 [[nodiscard]] PrefilteredTexture make_texture(std::string name, std::vector<Image> chain, Storage storage,
                                               const TextureCoordinates& coordinates, bool signed_range = false);
 

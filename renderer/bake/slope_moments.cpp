@@ -184,20 +184,6 @@ OptionSpec steepest_slope_option() {
                        "has the second moment of 10000 of slope 0.5.");
 }
 
-BakeMemory slope_memory(const Material& material, const Options& options, const KeptSlopes& kept) {
-  const auto channel = static_cast<double>(channel_bytes(parse_storage(options.word("storage"))));
-  const double channels = (kept.variant == SlopeVariant::scalar ? 3.0 : 5.0) + (kept.mean_normal ? 3.0 : 0.0);
-  // Normals, moments of all texels with their weights, and these without. Later the normals are a chain of mean normals
-  // and there are the channels of one texture, and no weights.
-  const double moments = moment_channels * sizeof(float) * mip_chain_share;
-  const double chain = decoded_normal + (moment_channels + 1) * sizeof(float) * mip_chain_share + moments;
-  const double normals = kept.mean_normal ? 3.0 * sizeof(float) * mip_chain_share : decoded_normal;
-  const double encoding =
-      normals + moments + 4.0 * sizeof(float) * mip_chain_share + channels * channel * mip_chain_share;
-  return bake_memory(normal_texels(material) * channels * channel * mip_chain_share,
-                     normal_texels(material) * std::max(chain, encoding));
-}
-
 Prefiltered bake_slopes(const Material& material, const Options& options, const EffectSet& effects,
                         const KeptSlopes& kept) {
   const Storage storage = parse_storage(options.word("storage"));

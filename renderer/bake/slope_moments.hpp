@@ -5,7 +5,6 @@
 #include <initializer_list>
 #include <vector>
 
-#include "renderer/bake/bake_memory.hpp"
 #include "renderer/bake/prefiltered.hpp"
 #include "renderer/core/options.hpp"
 #include "renderer/effects/effects.hpp"
@@ -74,8 +73,5 @@ struct KeptSlopes {
 /// size or coordinates. Texels that are steeper than `steepest` are counted in a note.
 [[nodiscard]] Prefiltered bake_slopes(const Material& material, const Options& options, const EffectSet& effects,
                                       const KeptSlopes& kept);
-
-/// What that takes for the normals.
-[[nodiscard]] BakeMemory slope_memory(const Material& material, const Options& options, const KeptSlopes& kept);
 
 }  // namespace footprint

@@ -1,5 +1,4 @@
-// The least of MemAvailable in /proc/meminfo and what the limits of control groups (versions 1 and 2) and of the
-// address space leave.
+// Reads the limits of memory from /proc and /sys.
 #include "renderer/core/memory.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
-// The files of one version of control groups that limit memory.
+// The files that limit memory in one version of control groups.
 struct GroupFiles {
   std::string_view mount, limit, usage, reclaimable;  // `reclaimable` is a key of the group's memory.stat
 };
@@ -33,10 +32,10 @@ std::optional<std::uint64_t> read_number(const fs::path& file) {
   std::ifstream in(file);
   std::uint64_t number = 0;
   if (in >> number) return number;
-  return std::nullopt;  // also for the word `max`, which is no limit
+  return std::nullopt;  // also for the word `max`: unlimited
 }
 
-// The number behind `key` in a file of "key number" lines.
+// The number after `key` in a file of "key number" lines.
 std::optional<std::uint64_t> read_keyed_number(const fs::path& file, std::string_view key) {
   std::ifstream in(file);
   std::string word, rest;
@@ -48,7 +47,8 @@ std::optional<std::uint64_t> read_keyed_number(const fs::path& file, std::string
   return std::nullopt;
 }
 
-// What a group leaves to its processes. Cached file pages count as used, though the kernel gives them up on demand.
+// Bytes that a group leaves to its processes. Cached file pages count as available, because the kernel frees them on
+// demand.
 std::uint64_t left_in_group(const fs::path& folder, const GroupFiles& files) {
   const auto limit = read_number(folder / files.limit);
   const auto usage = read_number(folder / files.usage);
@@ -58,8 +58,8 @@ std::uint64_t left_in_group(const fs::path& folder, const GroupFiles& files) {
   return *limit - std::min(*limit, used);
 }
 
-// The tightest limit from the group `group` up to the root. A group whose folder is not there (a container shows
-// its own group as the root) is skipped, its parents are not.
+// The tightest limit from the group `group` up to the root. Only groups that have a folder count, because a container
+// shows its own group as the root.
 std::uint64_t left_in_groups(const fs::path& root, const GroupFiles& files, std::string_view group) {
   const fs::path mount = root / files.mount;
   std::uint64_t left = left_in_group(mount, files);
@@ -146,6 +146,12 @@ void require_memory(std::uint64_t bytes, std::string_view what, std::string_view
               fmt::format("{} needs {} of memory, and {}{} is available", what, readable_bytes(bytes),
                           readable_bytes(available), limit),
               std::string(hint));
+}
+
+void require_texels(int width, int height, std::uint64_t bytes, std::string_view what) {
+  constexpr std::uint64_t least_checked = std::uint64_t{64} << 20;
+  if (bytes < least_checked) return;
+  require_memory(bytes, fmt::format("{} of {}x{} texels", what, width, height), "use smaller textures, or free memory");
 }
 
 }  // namespace footprint

@@ -1,4 +1,4 @@
-// How much memory there is left, asked before a frame takes more than that.
+// Available memory, which is checked before a large allocation.
 #pragma once
 
 #include <cstdint>
@@ -14,26 +14,31 @@ struct AddressSpace {
   std::uint64_t limit = 0, left = 0;
 };
 
-/// Nothing where there is no such limit. Files are looked up under `root`.
+/// The limit of the address space; none if it is unlimited. Files are read under `root`.
 [[nodiscard]] std::optional<AddressSpace> limited_address_space(const std::filesystem::path& root = "/");
 
-/// Bytes that this process may still take without swapping: /proc/meminfo's MemAvailable, or what the limits of its
-/// control groups (versions 1 and 2, every parent counted) or of its address space leave, where that is less. Files are
-/// looked up under `root`. The largest std::uint64_t where the system tells nothing.
+/// Bytes that this process can allocate without swapping: the least of MemAvailable in /proc/meminfo and what the
+/// limits of its control groups (versions 1 and 2, with all parents) and of its address space leave. The largest
+/// std::uint64_t if the system reports none of them. Files are read under `root`.
 [[nodiscard]] std::uint64_t available_memory(const std::filesystem::path& root = "/");
 
-/// Bytes of width x height pixels of `bytes_per_pixel`; the largest std::uint64_t if that does not fit.
+/// Bytes of width x height pixels of `bytes_per_pixel`; the largest std::uint64_t if the product overflows.
 [[nodiscard]] std::uint64_t frame_bytes(std::uint64_t width, std::uint64_t height, std::uint64_t bytes_per_pixel);
 
-/// "0 B", "640 B", "1.50 KiB", "12.3 MiB", "640 GiB": three figures, binary multiples.
+/// "0 B", "640 B", "1.50 KiB", "12.3 MiB", "640 GiB": three digits, binary multiples.
 [[nodiscard]] std::string readable_bytes(std::uint64_t bytes);
 
-/// What was taken at most, and what limits it: for one who is told that there was no more.
+/// The peak of this process and its limit, for the message of a failed allocation. Files are read under `root`.
 [[nodiscard]] std::string taken_memory_text(const std::filesystem::path& root = "/");
 
-/// Throws Error{machine} if `bytes` is more than `available_memory()`; `what` is what they are for ("a frame of 8192 x
-/// 8192") and `hint` says how to need less.
+/// Errors (machine): `bytes` exceed available_memory(). The message begins with `what`, such as "a frame of 8192 x
+/// 8192"; `hint` says how to need less.
 void require_memory(std::uint64_t bytes, std::string_view what,
                     std::string_view hint = "ask for a smaller --size, or free memory");
+
+/// Checks an allocation of `bytes` for a map, mip chain or texture of width x height texels, which `what` names.
+/// Allocations below 64 MiB are not checked, because reading the limits would take longer than filling them.
+/// Errors (machine): as require_memory.
+void require_texels(int width, int height, std::uint64_t bytes, std::string_view what);
 
 }  // namespace footprint

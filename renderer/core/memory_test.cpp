@@ -2,6 +2,8 @@
 #include "renderer/core/memory.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <limits>
@@ -97,6 +99,42 @@ TEST(RequireMemory, RefusesWhatNoMachineHas) {
     EXPECT_EQ(error.kind(), ErrorKind::machine);
     EXPECT_NE(error.message().find("a frame of 1000000 x 1000000 needs 14.6 TiB"), std::string::npos) << error.what();
     EXPECT_NE(error.hint().find("--size"), std::string::npos);
+  }
+}
+
+// The soft limit of this process's address space, lowered to what it uses now and `more`; restored at the end.
+class LoweredLimit {
+ public:
+  explicit LoweredLimit(std::uint64_t more) {
+    getrlimit(RLIMIT_AS, &before_);
+    std::ifstream status("/proc/self/statm");
+    std::uint64_t pages = 0;
+    status >> pages;
+    rlimit lowered = before_;
+    lowered.rlim_cur = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) + more;
+    setrlimit(RLIMIT_AS, &lowered);
+  }
+  LoweredLimit(const LoweredLimit&) = delete;
+  LoweredLimit& operator=(const LoweredLimit&) = delete;
+  ~LoweredLimit() { setrlimit(RLIMIT_AS, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+TEST(RequireTexels, RefusesWhatTheAddressSpaceDoesNotHave) {
+  constexpr std::uint64_t mebibyte = 1 << 20;
+  const LoweredLimit limit(100 * mebibyte);
+  EXPECT_NO_THROW(require_texels(2048, 2048, 64 * mebibyte, "a map"));
+  EXPECT_NO_THROW(require_texels(1, 1, 64 * mebibyte - 1, "a small map"));
+  try {
+    require_texels(4096, 4096, 256 * mebibyte, "a map");
+    FAIL() << "256 MiB were granted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::machine);
+    EXPECT_NE(error.message().find("a map of 4096x4096 texels needs 256 MiB"), std::string::npos) << error.what();
+    EXPECT_NE(error.message().find("`ulimit -v`"), std::string::npos) << error.what();
+    EXPECT_NE(error.hint().find("smaller textures"), std::string::npos);
   }
 }
 

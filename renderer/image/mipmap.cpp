@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "renderer/core/error.hpp"
+#include "renderer/core/memory.hpp"
 
 namespace footprint {
 namespace {
@@ -65,6 +66,7 @@ Image reduced(const Image& fine, Reduce reduce) {
 template <typename Reduce>
 std::vector<Image> chain(Image finest, Reduce reduce) {
   if (finest.empty()) throw Error(ErrorKind::usage, "mip chain", "the image has no texels");
+  require_texels(finest.width, finest.height, finest.texels.size() * sizeof(float) / 3, "the mip chain of a map");
   std::vector<Image> levels;
   levels.reserve(static_cast<std::size_t>(mip_level_count(finest.width, finest.height)));
   levels.push_back(std::move(finest));

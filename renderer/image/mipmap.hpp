@@ -28,7 +28,8 @@ struct MipTaps {
 /// every level to rounding. Sums are taken in double. A 1 x 1 image is returned as it is.
 [[nodiscard]] Image downsample(const Image& fine);
 
-/// The whole chain, `finest` first, 1 x 1 last. Plain means of every channel.
+/// The whole chain, `finest` first, 1 x 1 last. Plain means of every channel. Errors (machine): it does not fit in
+/// memory.
 [[nodiscard]] std::vector<Image> mip_chain(Image finest);
 
 /// As mip_chain, but the last channel is a weight: the other channels of a coarse texel are the weighted mean of those

@@ -47,12 +47,6 @@ class BaseSurface final : public Method {
     return out;
   }
 
-  // The finest level, as it is decoded.
-  [[nodiscard]] std::optional<BakeMemory> normal_memory(const Material& material, const Options& /*options*/,
-                                                        const EffectSet& /*effects*/) const override {
-    return bake_memory(normal_texels(material) * decoded_normal, 0.0);
-  }
-
   [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::shared_glsl, "base_surface.glsl"); }
 
  private:

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "renderer/core/memory.hpp"
 #include "renderer/image/packed_image.hpp"
 
 namespace footprint {
@@ -66,7 +67,10 @@ std::size_t MapTexels::texel_count() const {
 
 std::span<const float> MapTexels::first() const { return kept_->first; }
 
-Image MapTexels::decoded() const { return kept_->decoded(); }
+Image MapTexels::decoded() const {
+  require_texels(width(), height(), texel_count() * kept_->first.size() * sizeof(float), "a decoded map");
+  return kept_->decoded();
+}
 
 const void* MapTexels::identity() const {
   if (!kept_) return nullptr;

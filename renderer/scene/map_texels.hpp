@@ -38,7 +38,7 @@ class MapTexels {
   [[nodiscard]] std::size_t texel_count() const;
   /// The channels of the texel in the first column and row.
   [[nodiscard]] std::span<const float> first() const;
-  /// The whole map: equal at every call, to the last bit.
+  /// The whole map, bit-identical at every call. Errors (machine): it does not fit in memory.
   [[nodiscard]] Image decoded() const;
   /// Bytes that are kept.
   [[nodiscard]] std::size_t byte_count() const;

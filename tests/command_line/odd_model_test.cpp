@@ -100,9 +100,9 @@ std::vector<Case> choices() {
                        "*0 `camera 0`, 1 `near`",
                        "the first of 2 cameras is used",
                        "KHR_materials_sheen is left out: sheen",
-                       "memory for maps, estimated"};
+                       "memory of the maps"};
   Case in_json = of_two_scenes("ListedInJson", {"explain", "--camera", "near", "--model-scene", "1", "--json"});
-  in_json.output_has = {"\"taken\": 1", "\"warnings\"", "\"estimated_peak\""};
+  in_json.output_has = {"\"taken\": 1", "\"warnings\"", "\"decoded_maps\""};
   Case taken = of_two_scenes("Taken", {"render", "--method", "direct", "--model-scene", "1", "--camera", "near",
                                        "--size", "8x8", "-o", "{}/a.exr"});
   taken.leaves = {"a.exr"};

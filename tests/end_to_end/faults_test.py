@@ -120,6 +120,26 @@ class Faults(WholeRunTest):
         done = self.limited(1000, "surface", "bumps", "--resolution", "16384", "-o", self.folder / "none.png")
         self.assert_fails(done, 3, "a map of 16384 x 16384 texels needs", "of the 1000 MiB that `ulimit -v` grants is available")
 
+    def grooves(self, resolution):
+        scene = self.folder / f"grooves{resolution}.toml"
+        scene.write_text(f'[surface]\nname = "v_grooves"\nresolution = {resolution}\n[[light]]\ntype = "directional"\ndirection = [0, 0, -1]\n')
+        return scene
+
+    def test_a_scene_whose_map_exceeds_the_address_space(self):
+        done = self.limited(1000, "compare", self.grooves(16384), "--methods", "lean", "-q", "-o", self.folder / "none")
+        self.assert_fails(done, 3, "surface v_grooves: a map of 16384 x 16384 texels needs 4.00 GiB of memory",
+                          "of the 1000 MiB that `ulimit -v` grants is available")
+        self.assertFalse((self.folder / "none").exists())
+
+    def test_bakes_under_any_limit_of_the_address_space_end_without_a_crash(self):
+        scene, settings = self.grooves(4096), ["--method", "lean", "--size", "32x32", "--distance", "2", "--exposure", "1", "--no-cache", "-q"]
+        for mebibytes in (1800, 2100, 2400):  # of which the maps of the bake exceed at least one
+            with self.subTest(mebibytes=mebibytes):
+                done = self.limited(mebibytes, "render", scene, *settings, "-o", self.folder / "limited.exr")
+                if done.returncode != 0:
+                    self.assert_fails(done, 3, "memory" if "OpenGL" not in done.stderr else "address space")
+        self.assertNotEqual(self.limited(1800, "render", scene, *settings, "-o", self.folder / "limited.exr").returncode, 0)
+
     def test_interrupted_before_main(self):
         self.assert_fails(self.with_fault("early_interrupt", "--version"), 130, "interrupted")
 

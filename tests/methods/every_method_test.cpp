@@ -148,63 +148,6 @@ TEST_P(EveryMethod, TakesAnisotropicProbes) {
   for (const float value : probed.texels) ASSERT_TRUE(std::isfinite(value));
 }
 
-// On the GPU, and in memory where a frame build reads it there.
-std::size_t kept_bytes(const Prefiltered& baked) {
-  std::size_t bytes = 0, in_memory = 0;
-  bool built = false;
-  for (const PrefilteredTexture& texture : baked.textures) {
-    bytes += byte_count(texture);
-    for (const TextureLevel& level : texture.levels) in_memory += level.bytes.size();
-    built = built || texture.built;
-  }
-  return built ? bytes + in_memory : bytes;
-}
-
-// By default and with each option that changes it, where a method has that.
-std::vector<std::map<std::string, std::string>> ways_to_keep(const MethodInfo& info) {
-  std::vector<std::map<std::string, std::string>> ways{{}};
-  for (const auto& [name, value] : std::vector<std::pair<std::string, std::string>>{{"storage", "fp16"},
-                                                                                    {"n", "2"},
-                                                                                    {"covariance", "full"},
-                                                                                    {"k", "2"},
-                                                                                    {"j", "1"},
-                                                                                    {"j", "8"},
-                                                                                    {"peaks", "3"},
-                                                                                    {"variant", "clean"},
-                                                                                    {"bake", "fit"},
-                                                                                    {"level", "3"},
-                                                                                    {"tables", "fp16"},
-                                                                                    {"nodes", "8"}}) {
-    const auto option = std::ranges::find(info.options, name, &OptionSpec::name);
-    if (option == info.options.end()) continue;
-    const bool is_choice = std::ranges::find(option->choices, value) != option->choices.end();
-    if (option->choices.empty() || is_choice) ways.push_back({{name, value}});
-  }
-  return ways;
-}
-
-// What the estimate of memory goes by: what is said is what is baked.
-TEST_P(EveryMethod, KeepsOfNormalsWhatItSays) {
-  const MethodInfo& info = GetParam()->info();
-  const Material material = square_scene(random_normals(64, 64, 0.5F, 5), {}).materials.front();
-  EffectSet normals;
-  normals.set(static_cast<std::size_t>(Effect::normal_variation));
-  EffectSet with_diffuse = normals;
-  with_diffuse.set(static_cast<std::size_t>(Effect::diffuse));
-  for (const EffectSet& effects : {normals, with_diffuse}) {
-    for (const auto& given : ways_to_keep(info)) {
-      const Options options(info.options, given, info.name);
-      const auto said = GetParam()->normal_memory(material, options, effects);
-      if (!said) GTEST_SKIP() << "says nothing of them";
-      const auto kept =
-          static_cast<double>(kept_bytes(GetParam()->precompute(material, options, effects, no_progress)));
-      EXPECT_NEAR(static_cast<double>(said->kept) / kept, 1.0, 0.01)
-          << (given.empty() ? "default" : given.begin()->first + "=" + given.begin()->second);
-      EXPECT_GE(said->baking, said->kept);
-    }
-  }
-}
-
 TEST_P(EveryMethod, DescribesItself) {
   const MethodInfo& info = GetParam()->info();
   EXPECT_EQ(&find_method(info.name), GetParam());

@@ -24,8 +24,36 @@ namespace {
 
 using namespace atanasov_bins;
 
-// Where texels reflect by lobes, a bin is as wide as this share of a lobe's standard deviation, or wider.
+constexpr int bins_as_published = 127;
+
+// If texels reflect by lobes, the least width of a bin in standard deviations of a lobe.
 constexpr double bin_width = 1.5;
+
+enum class Roughness { lobe, bin, flakes };
+
+// The options that the bake reads.
+struct Settings {
+  int most_across;     // bins along an edge
+  int across_as_bins;  // the same with roughness=bin
+  Roughness roughness;
+  double flake_variance;  // slope variance of the lobe of a flake
+  bool microfacets;
+  Storage storage;
+};
+
+Settings settings_of(const Options& options) {
+  const auto m = static_cast<int>(options.number("m"));
+  const std::string& roughness = options.word("roughness");
+  const double alpha = options.number("alpha");
+  return {.most_across = m > 0 ? m : most_bins_across,
+          .across_as_bins = m > 0 ? m : bins_as_published,
+          .roughness = roughness == "lobe"  ? Roughness::lobe
+                       : roughness == "bin" ? Roughness::bin
+                                            : Roughness::flakes,
+          .flake_variance = 0.5 * alpha * alpha,
+          .microfacets = options.word("surface") == "microfacets",
+          .storage = parse_storage(options.word("storage"))};
+}
 
 // Texels whose lobes differ more are in lists of their own, so that a list's mean width is that of each.
 constexpr double class_ratio = 4.0;  // of slope variances
@@ -48,26 +76,15 @@ double narrow_variance(const Material& material) {
   return narrowest;
 }
 
-constexpr int bins_as_published = 127;
-
-// The most bins along an edge where lobes call for them.
-int most_across(const Options& options) {
-  const int m = static_cast<int>(options.number("m"));
-  return m > 0 ? m : most_bins_across;
-}
-
-int bins_across(const Material& material, const Options& options) {
-  const std::string roughness = options.word("roughness");
-  const double alpha = options.number("alpha");
-  if (roughness == "bin") return options.number("m") > 0 ? most_across(options) : bins_as_published;
-  const double variance = roughness == "flakes" ? 0.5 * alpha * alpha : narrow_variance(material);
-  return bins_across_for(variance, bin_width, most_across(options));
+int bins_across(const Material& material, const Settings& settings) {
+  if (settings.roughness == Roughness::bin) return settings.across_as_bins;
+  const bool flakes = settings.roughness == Roughness::flakes;
+  return bins_across_for(flakes ? settings.flake_variance : narrow_variance(material), bin_width, settings.most_across);
 }
 
 // Flakes have a lobe of their own, and mirrors that face h need none.
-bool reads_base_lobe(const Options& options) {
-  const std::string roughness = options.word("roughness");
-  return roughness == "lobe" || (roughness == "bin" && options.word("surface") == "microfacets");
+bool reads_base_lobe(const Settings& settings) {
+  return settings.roughness == Roughness::lobe || (settings.roughness == Roughness::bin && settings.microfacets);
 }
 
 float wrap_number(Wrap wrap) {
@@ -135,17 +152,16 @@ class AtanasovBins final : public Method {
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                                        const Progress& progress) const override {
     Prefiltered out;
-    const int across = bins_across(material, options);
+    const Settings settings = settings_of(options);
+    const int across = bins_across(material, settings);
     out.scalars["bins_across"] = static_cast<float>(across);
-    if (reads_base_lobe(options)) {
+    if (reads_base_lobe(settings)) {
       std::ranges::move(bake_lobe_variance(material, Storage::fp32, effects).textures,
                         std::back_inserter(out.textures));
     }
     if (!has(effects, Effect::normal_variation)) return out;
-    if (has(effects, Effect::diffuse))
-      out.textures.push_back(mean_normal_texture(material, parse_storage(options.word("storage"))));
-    const std::string roughness = options.word("roughness");
-    const bool by_width = roughness == "lobe" && has(effects, Effect::roughness_variation);
+    if (has(effects, Effect::diffuse)) out.textures.push_back(mean_normal_texture(material, settings.storage));
+    const bool by_width = settings.roughness == Roughness::lobe && has(effects, Effect::roughness_variation);
     if (by_width) out.scalars["bins_own_roughness"] = knows_widths(material) ? 1.0F : 0.0F;
     const Image normals = normal_map_of(material);
     const BinMap bins = bin_map(normals, across, progress);
@@ -155,13 +171,13 @@ class AtanasovBins final : public Method {
     Image widths(normals.width, normals.height, 1);
     if (by_width && knows_widths(material)) {
       widths = widths_of_texels(material, {normals.width, normals.height});
-      classes = classes_of(widths, most_across(options));
+      classes = classes_of(widths, settings.most_across);
       texels = texels_of(classes, widths);
     }
     const InverseMap inverse = inverse_of(bins, progress, texels);
     add_inverse_map(inverse, out);
     if (by_width) add_list_values("bins_widths", list_means(inverse, widths), 1, out);
-    if (roughness != "bin") {
+    if (settings.roughness != Roughness::bin) {
       const std::vector<glm::vec2> roundings = list_roundings(inverse, bins, normals);
       add_list_values("bins_roundings", {&roundings.front().x, 2 * roundings.size()}, 2, out);
       out.scalars["bins_list_count"] = static_cast<float>(inverse.lists.size());

@@ -22,7 +22,20 @@ extern const EmbeddedTexts fournier_glsl;
 
 namespace {
 
-// The lobe that is fitted with; where the roughness varies, that of the mean slope variance, as where there are several
+// The options that the bake reads.
+struct Settings {
+  std::size_t peaks;
+  fournier::Start start;
+  Storage storage;
+};
+
+Settings settings_of(const Options& options) {
+  return {.peaks = static_cast<std::size_t>(options.number("peaks")),
+          .start = options.word("starts") == "own" ? fournier::Start::own : fournier::Start::inherited,
+          .storage = parse_storage(options.word("storage"))};
+}
+
+// The slope variance of the lobe that peaks are fitted with: the mean if the roughness varies or facets have several
 // lobes.
 double base_variance(const Material& material) {
   if (width_map(material) == nullptr) return mean_lobe_variance(material);
@@ -49,40 +62,39 @@ class Fournier final : public Method {
 
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                                        const Progress& progress) const override {
-    const Storage storage = parse_storage(options.word("storage"));
+    const Settings settings = settings_of(options);
     Prefiltered out;
     if (has(effects, Effect::normal_variation)) {
-      add_peaks(material, options, progress, out);
+      add_peaks(material, settings, progress, out);
       if (has(effects, Effect::diffuse)) {
         out.textures.push_back(
-            make_texture("fournier_mean", mean_normal_chain(material), storage, normal_coordinates(material)));
+            make_texture("fournier_mean", mean_normal_chain(material), settings.storage, normal_coordinates(material)));
       }
     }
-    std::ranges::move(bake_lobe_variance(material, storage, effects).textures, std::back_inserter(out.textures));
+    std::ranges::move(bake_lobe_variance(material, settings.storage, effects).textures,
+                      std::back_inserter(out.textures));
     return out;
   }
 
   [[nodiscard]] int lobe_count(const Options& options) const override {
-    return 8 * static_cast<int>(options.number("peaks"));
+    return 8 * static_cast<int>(settings_of(options).peaks);
   }
 
   [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::fournier_glsl, "fournier.glsl"); }
 
  private:
-  static void add_peaks(const Material& material, const Options& options, const Progress& progress, Prefiltered& out) {
-    const Storage storage = parse_storage(options.word("storage"));
-    const auto start = options.word("starts") == "own" ? fournier::Start::own : fournier::Start::inherited;
-    fournier::PeakChain chain =
-        fournier::fit_peak_chain(normal_map_of(material), base_variance(material),
-                                 static_cast<std::size_t>(options.number("peaks")), start, progress);
+  static void add_peaks(const Material& material, const Settings& settings, const Progress& progress,
+                        Prefiltered& out) {
+    fournier::PeakChain chain = fournier::fit_peak_chain(normal_map_of(material), base_variance(material),
+                                                         settings.peaks, settings.start, progress);
     if (chain.statistics.not_converged > 0) out.notes.push_back(note_on(chain.statistics));
     const TextureCoordinates coordinates = normal_coordinates(material);
     std::vector<std::vector<Image>> first;  // a list in braces would copy it
     first.push_back(std::move(chain.first));
     out.textures.push_back(
-        make_array_texture("fournier_first", std::move(first), storage, coordinates, TextureFilter::nearest));
-    out.textures.push_back(
-        make_array_texture("fournier_rest", std::move(chain.rest), storage, coordinates, TextureFilter::nearest));
+        make_array_texture("fournier_first", std::move(first), settings.storage, coordinates, TextureFilter::nearest));
+    out.textures.push_back(make_array_texture("fournier_rest", std::move(chain.rest), settings.storage, coordinates,
+                                              TextureFilter::nearest));
   }
 
   MethodInfo info_{

@@ -45,7 +45,28 @@ std::vector<OptionSpec> option_table() {
           word_option("storage", {"fp32", "fp16"}, "How the moments of parts and the mean normals are stored.")};
 }
 
-// Lattice and layout of a material's tables, or the reason why it has none.
+// The options that the bake reads.
+struct Settings {
+  int level;
+  double step;
+  int nodes;
+  double megabytes;
+  Storage tables;
+  int parts;
+  Storage storage;
+};
+
+Settings settings_of(const Options& options) {
+  return {.level = static_cast<int>(options.number("level")),
+          .step = options.number("step"),
+          .nodes = static_cast<int>(options.number("nodes")),
+          .megabytes = options.number("megabytes"),
+          .tables = parse_storage(options.word("tables")),
+          .parts = static_cast<int>(options.number("k")),
+          .storage = parse_storage(options.word("storage"))};
+}
+
+// Lattice and layout of a material's tables; without facets the material has no tables, and a note gives the reason.
 struct Plan {
   std::optional<Facets> facets{};
   Lattice lattice{};
@@ -53,16 +74,16 @@ struct Plan {
   std::vector<std::string> notes{};
 };
 
-// The first level from `wanted` on whose tables take no more than is allowed; one table always does.
-int affordable_level(const Facets& facets, const Lattice& lattice, const Options& options, Storage storage) {
+// The finest level, not finer than the option `level`, whose tables fit into `megabytes`; at worst the coarsest level.
+int affordable_level(const Facets& facets, const Lattice& lattice, const Settings& settings) {
   const int levels = mip_level_count(facets.width, facets.height);
-  int level = std::min(static_cast<int>(options.number("level")), levels - 1);
-  const double most = options.number("megabytes") * 1e6 / static_cast<double>(channel_bytes(storage));
+  int level = std::min(settings.level, levels - 1);
+  const double most = settings.megabytes * 1e6 / static_cast<double>(channel_bytes(settings.tables));
   while (level + 1 < levels && node_count(facets.width, facets.height, lattice, level) > most) ++level;
   return level;
 }
 
-Plan plan_tables(const Material& material, const Options& options, const EffectSet& effects) {
+Plan plan_tables(const Material& material, const Settings& settings, const EffectSet& effects) {
   Plan plan;
   plan.facets = facets_of(material, has(effects, Effect::roughness_variation));
   if (!plan.facets) {
@@ -70,21 +91,19 @@ Plan plan_tables(const Material& material, const Options& options, const EffectS
         "the roughness map does not lie on the normal map's texels: lobes at all levels, no tables");
     return plan;
   }
-  plan.lattice = lattice_over(*plan.facets, options.number("step"));
+  plan.lattice = lattice_over(*plan.facets, settings.step);
   const int needed = std::max(plan.lattice.nodes.x, plan.lattice.nodes.y);
-  const auto most = static_cast<int>(options.number("nodes"));
-  if (needed > most) {
+  if (needed > settings.nodes) {
     plan.notes.push_back(fmt::format(
         "the narrowest lobe needs tables of {} nodes along an edge, and `nodes` allows {}: lobes at all levels", needed,
-        most));
+        settings.nodes));
     plan.facets.reset();
     plan.lattice = {};
     return plan;
   }
-  const Storage storage = parse_storage(options.word("tables"));
-  const int level = affordable_level(*plan.facets, plan.lattice, options, storage);
+  const int level = affordable_level(*plan.facets, plan.lattice, settings);
   plan.layout = layout_for(plan.facets->width, plan.facets->height, plan.lattice, level);
-  if (level > static_cast<int>(options.number("level")))
+  if (level > settings.level)
     plan.notes.push_back(fmt::format("tables start at level {}: `megabytes` allows no finer one", level));
   return plan;
 }
@@ -94,11 +113,9 @@ float wrap_number(Wrap wrap) {
   return wrap == Wrap::mirrored_repeat ? 1.0F : 2.0F;
 }
 
-// A material without tables has their textures, of one texel, for the program that it shares with others.
-void add_tables(Plan plan, const Material& material, const Options& options, const Progress& progress,
-                Prefiltered& out) {
+// All materials share a program: one without tables has textures of one texel.
+void add_tables(Plan plan, const Material& material, Storage storage, const Progress& progress, Prefiltered& out) {
   const TextureCoordinates coordinates = normal_coordinates(material);
-  const Storage storage = parse_storage(options.word("tables"));
   const bool tabulated = plan.facets.has_value();
   LevelTables finest{.width = 1, .height = 1, .nodes = 4, .density = std::vector<float>(4), .coverage = {0.0F}};
   if (tabulated) finest = tables_of(*plan.facets, plan.lattice, plan.layout.first_level, progress);
@@ -119,13 +136,13 @@ void add_tables(Plan plan, const Material& material, const Options& options, con
 
 constexpr cells::Covariance kept_moments = cells::Covariance::full;
 
-// The moments of `cells`, by its partition of the same name.
-void add_parts(const Material& material, const Options& options, const Progress& progress, Prefiltered& out) {
+// Partitions the normals and adds the moments of each part, as `cells` does.
+void add_parts(const Material& material, const Settings& settings, const Progress& progress, Prefiltered& out) {
   const Image normals = normal_map_of(material);
   const auto points = cells::plane_points(normals, cells::Coordinates::stereographic, steepest_slope);
-  const cells::PartitionSettings settings{.parts = static_cast<int>(options.number("k")),
-                                          .variance = lobe_variance_chain(material).back().texels[0]};
-  const std::vector<float> shares = cells::partition(points, normals.width, normals.height, settings, progress);
+  const cells::PartitionSettings partition{.parts = settings.parts,
+                                           .variance = lobe_variance_chain(material).back().texels[0]};
+  const std::vector<float> shares = cells::partition(points, normals.width, normals.height, partition, progress);
   const auto parts = static_cast<std::size_t>(settings.parts);
   const auto frames = cells::part_frames(points, shares, parts, kept_moments);
   for (std::size_t k = 0; k < most_parts; ++k) {
@@ -138,11 +155,9 @@ void add_parts(const Material& material, const Options& options, const Progress&
   const cells::PartedPoints map{points, shares, parts, normals.width, normals.height};
   for (int layer = 0; layer < layers; ++layer)
     chains.push_back(mip_chain(cells::moment_layer(map, frames, kept_moments, layer)));
-  // Read from no level that has tables.
-  out.textures.push_back(make_array_texture("ndf_atlas_moments", std::move(chains),
-                                            parse_storage(options.word("storage")), normal_coordinates(material),
-                                            TextureFilter::by_level));
-  out.textures.back().filter = TextureFilter::by_level;
+  // The shader reads them by level, because the levels that have tables do not need them.
+  out.textures.push_back(make_array_texture("ndf_atlas_moments", std::move(chains), settings.storage,
+                                            normal_coordinates(material), TextureFilter::by_level));
 }
 
 class NdfAtlas final : public Method {
@@ -151,17 +166,17 @@ class NdfAtlas final : public Method {
 
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                                        const Progress& progress) const override {
-    const Storage storage = parse_storage(options.word("storage"));
-    Prefiltered out = bake_lobe_variance(material, storage, effects);
+    const Settings settings = settings_of(options);
+    Prefiltered out = bake_lobe_variance(material, settings.storage, effects);
     if (!has(effects, Effect::normal_variation)) return out;
-    std::ranges::move(bake_mean_normal(material, storage, effects).textures, std::back_inserter(out.textures));
+    std::ranges::move(bake_mean_normal(material, settings.storage, effects).textures, std::back_inserter(out.textures));
     ProgressParts steps(progress, 2);
-    add_parts(material, options, steps.next(1, ""), out);
-    add_tables(plan_tables(material, options, effects), material, options, steps.next(1, ""), out);
+    add_parts(material, settings, steps.next(1, ""), out);
+    add_tables(plan_tables(material, settings, effects), material, settings.tables, steps.next(1, ""), out);
     return out;
   }
 
-  [[nodiscard]] int lobe_count(const Options& options) const override { return static_cast<int>(options.number("k")); }
+  [[nodiscard]] int lobe_count(const Options& options) const override { return settings_of(options).parts; }
 
   [[nodiscard]] ShaderModule shader() const override {
     return module_of(embedded::ndf_atlas_glsl, "ndf_atlas.glsl", {{"density_fast", true}, {"storage_unorm8", false}});

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "renderer/core/error.hpp"
 #include "renderer/lobes/vmf.hpp"
 
 namespace footprint::roughness_bake {
@@ -68,6 +69,17 @@ Preset preset_of(std::string_view name) {
   const auto* const found = std::ranges::find(preset_names, name);
   if (found == preset_names.end()) throw std::out_of_range("no preset " + std::string(name));
   return static_cast<Preset>(found - preset_names.begin());
+}
+
+Formula formula_of(const Options& options) {
+  const std::string& preset = options.word("preset");
+  const Formula formula{
+      .preset = preset_of(preset), .constant = options.number("constant"), .cap = options.number("cap")};
+  if (formula.preset != Preset::free && (formula.constant != Formula{}.constant || formula.cap != Formula{}.cap)) {
+    throw Error(ErrorKind::usage, "roughness_bake", "preset=" + preset + " has its own constant and cap",
+                "give preset=free for others, or leave `constant` and `cap` out");
+  }
+  return formula;
 }
 
 double inverse_kappa(double q) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "renderer/core/options.hpp"
 #include "renderer/lobes/lobe.hpp"
 
 namespace footprint::roughness_bake {
@@ -41,6 +42,10 @@ struct Formula {
   double constant = 2;  ///< of free: alpha'^2 = alpha^2 + min(constant / kappa, cap)
   double cap = 1;       ///< of free
 };
+
+/// The options `preset`, `constant` and `cap`. Errors (usage): a constant or cap of a preset other than `free`, because
+/// results would name a preset that was not used.
+[[nodiscard]] Formula formula_of(const Options& options);
 
 /// What is stored of a texel, of which mip maps and texture filters take means: of normals whose mean is short of
 /// length 1 by `shortfall` (0 to 1).

@@ -22,20 +22,6 @@ namespace {
 
 using namespace roughness_bake;
 
-constexpr double free_constant = 2.0, free_cap = 1.0;  // the options' defaults
-
-// Another preset with a constant of its own would be that preset in name alone.
-Preset checked_preset(const Options& options) {
-  const Preset preset = preset_of(options.word("preset"));
-  const bool has_own = options.number("constant") != free_constant || options.number("cap") != free_cap;
-  if (preset != Preset::free && has_own) {
-    throw Error(ErrorKind::usage, "roughness_bake",
-                "preset=" + options.word("preset") + " has its own constant and cap",
-                "give preset=free for others, or leave `constant` and `cap` out");
-  }
-  return preset;
-}
-
 // A texel of the coarse one for each of the fine one's.
 Image repeated(const Image& coarse, int width, int height) {
   Image fine(width, height, coarse.channels);
@@ -100,21 +86,21 @@ class RoughnessBake final : public Method {
 
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                                        const Progress& /*progress*/) const override {
-    const Preset preset = checked_preset(options);
-    return bake_roughness(material, preset, parse_storage(options.word("storage")), effects);
+    const Formula formula = formula_of(options);
+    return bake_roughness(material, formula.preset, parse_storage(options.word("storage")), effects);
   }
 
   [[nodiscard]] std::optional<std::vector<Image>> roughness_mips(const Material& material,
                                                                  const Options& options) const override {
     if (!material.normal_map) return {};
+    const Formula formula = formula_of(options);
     const Image rough = roughness_map_of(material);
-    const std::vector<Image> spread = spread_chain(normal_map_of(material), checked_preset(options));
+    const std::vector<Image> spread = spread_chain(normal_map_of(material), formula.preset);
     const int width = std::max(rough.width, spread.front().width),
               height = std::max(rough.height, spread.front().height);
     const auto fine_spread = extended_chain(spread, width, height);
     const auto fine_rough = extended_chain(mip_chain(rough), width, height);
     require_one_map(material, fine_spread && fine_rough);
-    const Formula formula{checked_preset(options), options.number("constant"), options.number("cap")};
     return joined_chain(formula, material, *fine_rough, *fine_spread);
   }
 
@@ -132,12 +118,12 @@ class RoughnessBake final : public Method {
                                   "Whose formula: engines', or `fit`, the constant that is closest to the true "
                                   "distribution of normals by roughness and distribution, or `free`."),
                       "bake"),
-                  named_in_shaders(number_option("constant", free_constant, 0.0, 8.0,
+                  named_in_shaders(number_option("constant", Formula{}.constant, 0.0, 8.0,
                                                  "Of preset=free: alpha^2 + min(constant / kappa, cap)."),
                                    "bake_constant"),
-                  named_in_shaders(
-                      number_option("cap", free_cap, 0.0, 1.0, "Of preset=free: the most that is added to alpha^2."),
-                      "bake_cap"),
+                  named_in_shaders(number_option("cap", Formula{}.cap, 0.0, 1.0,
+                                                 "Of preset=free: the most that is added to alpha^2."),
+                                   "bake_cap"),
                   storage_option()},
       .honours = map_effects_but({})};
 };

@@ -1,5 +1,7 @@
 // `specular_aa`: the mean normal under a lobe that is widened where normals change over the screen, by an engine's
 // formula; over roughness mips as engines bake them, where that is asked for.
+#include <optional>
+
 #include "methods/roughness_bake/baked_maps.hpp"
 #include "methods/specular_aa/screen_presets.hpp"
 #include "renderer/bake/method.hpp"
@@ -18,16 +20,26 @@ using namespace specular_aa;
 
 constexpr Formula defaults{};
 
-// Another preset with a constant of its own would be that preset in name alone.
-void check(const Options& options) {
+// The options that the bake reads.
+struct Settings {
+  std::optional<roughness_bake::Preset> bake;  // of the roughness mips
+  Storage storage;
+};
+
+// Refuses `constant` and `cap` of any preset but `free`, because results would name a preset that was not used.
+Settings settings_of(const Options& options) {
+  const std::string &preset = options.word("preset"), &bake = options.word("bake");
   const bool has_own = options.number("constant") != defaults.constant || options.number("cap") != defaults.cap;
-  if (preset_of(options.word("preset")) != Preset::free && has_own) {
-    throw Error(ErrorKind::usage, "specular_aa", "preset=" + options.word("preset") + " has its own constant and cap",
+  if (preset != "free" && has_own) {
+    throw Error(ErrorKind::usage, "specular_aa", "preset=" + preset + " has its own constant and cap",
                 "give preset=free for others, or leave `constant` and `cap` out");
   }
+  Settings settings{.bake = {}, .storage = parse_storage(options.word("storage"))};
+  if (bake != "none") settings.bake = roughness_bake::preset_of(bake);
+  return settings;
 }
 
-// `none`, and every preset of roughness_bake but the one that takes numbers besides.
+// `none` and every preset of roughness_bake except `free`, which takes numbers.
 std::vector<std::string> bakes() {
   std::vector<std::string> words{"none"};
   for (const std::string_view name : roughness_bake::preset_names)
@@ -41,11 +53,8 @@ class SpecularAa final : public Method {
 
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                                        const Progress& /*progress*/) const override {
-    check(options);
-    const Storage storage = parse_storage(options.word("storage"));
-    const std::string& bake = options.word("bake");
-    if (bake != "none")
-      return roughness_bake::bake_roughness(material, roughness_bake::preset_of(bake), storage, effects);
+    const auto [bake, storage] = settings_of(options);
+    if (bake) return roughness_bake::bake_roughness(material, *bake, storage, effects);
     Prefiltered out = bake_mean_normal(material, storage, effects);
     for (PrefilteredTexture& texture : roughness_bake::bake_mean_roughness(material, storage, effects).textures)
       out.textures.push_back(std::move(texture));

@@ -51,16 +51,27 @@ std::vector<OptionSpec> option_table() {
                   "lost, or cut off there, as in the paper.")};
 }
 
-tan_gmm::FitSettings fit_settings(const Options& options) {
-  tan_gmm::FitSettings settings;
-  settings.components = static_cast<std::size_t>(options.number("n"));
-  settings.align = options.word("align") == "on";
-  settings.m_step = options.word("m_step") == "exact" ? tan_gmm::MStep::exact : tan_gmm::MStep::published;
-  if (options.word("init") == "dense_seed") settings.start = tan_gmm::Start::dense_seed;
-  if (options.word("init") == "kmeans") settings.start = tan_gmm::Start::clusters;
-  settings.prior_weight = options.number("c");
-  settings.full_covariance = options.word("covariance") == "full";
-  return settings;
+// The options that the bake reads.
+struct Settings {
+  tan_gmm::FitSettings fit;
+  tan_gmm::Moment moment;
+  Storage storage;
+};
+
+tan_gmm::Start start_of(const std::string& init) {
+  if (init == "dense_seed") return tan_gmm::Start::dense_seed;
+  return init == "kmeans" ? tan_gmm::Start::clusters : tan_gmm::Start::inherit;
+}
+
+Settings settings_of(const Options& options) {
+  return {.fit = {.components = static_cast<std::size_t>(options.number("n")),
+                  .align = options.word("align") == "on",
+                  .m_step = options.word("m_step") == "exact" ? tan_gmm::MStep::exact : tan_gmm::MStep::published,
+                  .start = start_of(options.word("init")),
+                  .full_covariance = options.word("covariance") == "full",
+                  .prior_weight = options.number("c")},
+          .moment = options.word("moment") == "corrected" ? tan_gmm::Moment::corrected : tan_gmm::Moment::published,
+          .storage = parse_storage(options.word("storage"))};
 }
 
 class TanGmm final : public Method {
@@ -69,25 +80,25 @@ class TanGmm final : public Method {
 
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                                        const Progress& progress) const override {
-    const Storage storage = parse_storage(options.word("storage"));
-    if (options.word("covariance") == "full" && has(effects, Effect::multi_lobe)) {
+    const auto [fit, moment, storage] = settings_of(options);
+    if (fit.full_covariance && has(effects, Effect::multi_lobe)) {
       throw Error(ErrorKind::usage, "tan_gmm:covariance=full", "the scene's facets have several lobes each",
                   "use covariance=isotropic");
     }
     Prefiltered out;
     if (has(effects, Effect::normal_variation)) {
-      const auto moment =
-          options.word("moment") == "corrected" ? tan_gmm::Moment::corrected : tan_gmm::Moment::published;
-      const tan_gmm::NormalField normals(normal_map_of(material));  // the decoded map is gone from here on
-      tan_gmm::MixtureChain chain = tan_gmm::mixture_chain(normals, fit_settings(options), moment, progress);
-      const char* const name = options.word("covariance") == "full" ? "tan_gmm_moments" : "tan_gmm_mixture";
+      const tan_gmm::NormalField normals(normal_map_of(material));  // and the decoded map is freed
+      tan_gmm::MixtureChain chain = tan_gmm::mixture_chain(normals, fit, moment, progress);
+      const char* const name = fit.full_covariance ? "tan_gmm_moments" : "tan_gmm_mixture";
       out.textures.push_back(make_array_texture(name, std::move(chain), storage, normal_coordinates(material)));
     }
     std::ranges::move(bake_lobe_variance(material, storage, effects).textures, std::back_inserter(out.textures));
     return out;
   }
 
-  [[nodiscard]] int lobe_count(const Options& options) const override { return static_cast<int>(options.number("n")); }
+  [[nodiscard]] int lobe_count(const Options& options) const override {
+    return static_cast<int>(settings_of(options).fit.components);
+  }
 
   [[nodiscard]] ShaderModule shader() const override {
     return module_of(embedded::tan_gmm_glsl, "tan_gmm.glsl", {{"density_fast", true}});

@@ -74,26 +74,24 @@ int whole_layers(const Material& material) {
   return material.lobes.empty() ? 1 : static_cast<int>(material.lobes.size()) + 1;
 }
 
-int most_lobes(const Options& options) {
+Settings settings_of(const Options& options) {
   const std::string& j = options.word("j");
-  return j == "1" ? 1 : j == "4" ? 4 : 8;
-}
-
-int part_count(const Options& options) {
-  const std::string& j = options.word("j");
-  return j == "1" ? 0 : j == "adaptive" ? 13 : most_lobes(options);
-}
-
-bool keeps_guard(const Options& options, const EffectSet& effects) {
-  return options.word("storage") == "fp16" && has(effects, Effect::roughness_variation);
+  return {.adaptive = j == "adaptive",
+          .most_lobes = j == "1"   ? 1
+                        : j == "4" ? 4
+                                   : 8,
+          .camera_space = options.word("space") == "camera",
+          .table = options.word("conversion") == "table",
+          .always_built = options.word("rebuild") == "always",
+          .storage = parse_storage(options.word("storage"))};
 }
 
 InstantMap::InstantMap(const ShaderVariant& variant, const Options& options)
-    : options_(options),
+    : settings_(settings_of(options)),
       effects_(variant.effects),
-      parts_(part_count(options)),
-      first_cut_(options.word("j") == "adaptive" ? 1 : 0),
-      guards_(keeps_guard(options, variant.effects)),
+      parts_(settings_.part_layers()),
+      first_cut_(settings_.adaptive ? 1 : 0),
+      guards_(settings_.has_guards(variant.effects)),
       no_vertices_(empty_vertex_array()),
       joined_(framebuffer(guards_ ? 2 : 1)) {
   const auto pass = [&](std::string_view file, bool guard, bool camera, std::string_view constants = {}) {
@@ -113,7 +111,7 @@ InstantMap::InstantMap(const ShaderVariant& variant, const Options& options)
   join_flat_ = program("xu_vmf_join", screen_vertex_shader(), pass("xu_vmf_join.glsl", guards_, false));
   whole_ = stage(1);
   if (parts_ > 0) {
-    const GLuint at_once = options.word("j") == "adaptive" ? 6 : static_cast<GLuint>(parts_);
+    const GLuint at_once = settings_.adaptive ? 6 : static_cast<GLuint>(parts_);
     const auto split = [&](std::string_view title, bool guard) {
       return program(title, screen_vertex_shader(), pass("xu_vmf_split.glsl", guard, false, layer_count(at_once)));
     };
@@ -121,13 +119,13 @@ InstantMap::InstantMap(const ShaderVariant& variant, const Options& options)
     split_.emplace(split("xu_vmf_split", false));
     if (guards_) split_guard_.emplace(split("xu_vmf_split, guard", true));
   }
-  if (options.word("space") != "camera") return;
+  if (!settings_.camera_space) return;
   join_surface_.emplace(program("xu_vmf_join, camera space", pass("xu_vmf_raster_vertex.glsl", guards_, true).text(),
                                 pass("xu_vmf_join.glsl", guards_, true)));
 }
 
 std::optional<BuildInputs> InstantMap::kept_until_change_of() const {
-  if (options_.word("rebuild") == "always") return {};
+  if (settings_.always_built) return {};
   const bool camera = join_surface_.has_value();
   return BuildInputs{.camera = camera, .geometry = camera, .materials = true, .lights = false};
 }

@@ -17,26 +17,39 @@ inline constexpr std::string_view whole_name = "xu_vmf_whole", parts_name = "xu_
 inline constexpr std::string_view whole_guard_name = "xu_vmf_whole_guard", parts_guard_name = "xu_vmf_parts_guard";
 inline constexpr std::string_view normals_name = "xu_vmf_normals", variances_name = "xu_vmf_variances";
 inline constexpr std::string_view table_name = "xu_vmf_shortfalls";
-/// Layers of the whole hemisphere's texture: facets with one lobe have one; of others it has one for each of their
-/// lobes, and one of normals alone.
+
+/// Layers of the texture of the whole hemisphere: 1 if facets have one lobe, otherwise one for each of their lobes and
+/// one of normals alone.
 [[nodiscard]] int whole_layers(const Material& material);
 
-/// The scalar that tells whether a material's map has the camera's axes.
+/// The scalar that says whether a material's map is in camera space: 1 or 0.
 inline constexpr std::string_view camera_space_name = "xu_vmf_in_camera_space";
 
-/// Lobes that a pixel can have of one of its facets': the whole hemisphere's, or one of each of 4 or 8 parts.
-[[nodiscard]] int most_lobes(const Options& options);
+/// The options that the bake and the passes read.
+struct Settings {
+  bool adaptive;   ///< each footprint chooses its own number of parts
+  int most_lobes;  ///< of a pixel, for one lobe of its facets: 1, 4 or 8 parts
+  bool camera_space;
+  bool table;         ///< |r| of kappa from a table, otherwise by Newton's steps
+  bool always_built;  ///< for every frame, otherwise only when an input has changed
+  Storage storage;
 
-/// Layers of the parts' texture for one of the facets' lobes: none, 4 or 8 parts, or the tree of `adaptive`: the whole
-/// hemisphere, 4 parts and their 8 cells, as xu_vmf_cells.glsl numbers them.
-[[nodiscard]] int part_count(const Options& options);
+  /// Layers of the parts' texture for one lobe of the facets: 0, 4 or 8 parts, or the tree of `adaptive`: the whole
+  /// hemisphere, 4 parts and their 8 cells, in the order of xu_vmf_cells.glsl.
+  [[nodiscard]] int part_layers() const { return adaptive ? 13 : most_lobes == 1 ? 0 : most_lobes; }
 
-/// Whether a guard is kept beside r: in half floats, where 1 - |r| of the texels is not one for all.
-[[nodiscard]] bool keeps_guard(const Options& options, const EffectSet& effects);
+  /// Whether textures of guards accompany those of r. Half floats need them if 1 - |r| differs between texels.
+  [[nodiscard]] bool has_guards(const EffectSet& effects) const {
+    return storage == Storage::fp16 && has(effects, Effect::roughness_variation);
+  }
+};
+
+[[nodiscard]] Settings settings_of(const Options& options);
 
 /// The passes of one scene.
 class InstantMap final : public FrameBuild {
  public:
+  /// Compiles the passes for the options of the method, which become constants of the shaders.
   InstantMap(const ShaderVariant& variant, const Options& options);
 
   void run(const FrameBuildJob& job) const override;
@@ -58,10 +71,10 @@ class InstantMap final : public FrameBuild {
   void coarsen(const FrameBuildJob& job, std::string_view name) const;
   void draw_into(const Stage& stage, const gl::Texture& target, const glm::ivec2& size, int first_layer) const;
 
-  Options options_;
+  Settings settings_;
   EffectSet effects_;
-  int parts_;  // layers of each of the facets' lobes, and the first of them that is a cut of the hemisphere
-  int first_cut_;
+  int parts_;      // layers for each lobe of the facets
+  int first_cut_;  // the first of them that is a part of the hemisphere
   bool guards_;
   gl::VertexArray no_vertices_;
   gl::Framebuffer joined_;

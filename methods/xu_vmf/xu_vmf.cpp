@@ -98,9 +98,9 @@ int layers_of(const Material& material, const EffectSet& effects) {
 // The maps that the frame build fills, for a finest level of `size`. The walk over the parts gathers texels of the
 // whole hemisphere's and looks parts up at levels of its own, neither of which is an anisotropic sampler's business.
 void declare_maps(Prefiltered& out, const glm::ivec2& size, const TextureCoordinates& coordinates, int layers,
-                  const Options& options, const EffectSet& effects) {
-  const int parts = xu_vmf::part_count(options);
-  const bool guard = xu_vmf::keeps_guard(options, effects);
+                  const xu_vmf::Settings& settings, const EffectSet& effects) {
+  const int parts = settings.part_layers();
+  const bool guard = settings.has_guards(effects);
   const bool whole_is_averaged = parts == 0 || layers > 1;
   const auto declare = [&](std::string_view name, const glm::ivec2& texels, int count, int channels, bool whole_chain) {
     out.textures.push_back(make_built_texture({.name = std::string(name),
@@ -108,7 +108,7 @@ void declare_maps(Prefiltered& out, const glm::ivec2& size, const TextureCoordin
                                                .height = texels.y,
                                                .layers = count,
                                                .channels = channels,
-                                               .storage = parse_storage(options.word("storage")),
+                                               .storage = settings.storage,
                                                .whole_chain = whole_chain},
                                               coordinates));
     if (parts > 0) out.textures.back().filter = TextureFilter::by_level;
@@ -121,8 +121,8 @@ void declare_maps(Prefiltered& out, const glm::ivec2& size, const TextureCoordin
   if (guard) declare(xu_vmf::parts_guard_name, half, parts, 1, true);
 }
 
-// Takes the maps out of `inputs`: in memory they are there once.
-void add_inputs(Prefiltered& out, Inputs& inputs, const Material& material, const Options& options) {
+// Moves the maps out of `inputs`, so that they are in memory once.
+void add_inputs(Prefiltered& out, Inputs& inputs, const Material& material, const xu_vmf::Settings& settings) {
   const auto add = [&](std::string_view name, std::vector<Image> levels, const TextureCoordinates& coordinates) {
     out.textures.push_back(make_texture(std::string(name), std::move(levels), Storage::fp32, coordinates));
   };
@@ -134,10 +134,10 @@ void add_inputs(Prefiltered& out, Inputs& inputs, const Material& material, cons
   // Its further levels are for shading, which asks what of a lobe's width is the facets' own.
   if (inputs.roughness_varies)
     add(xu_vmf::variances_name, mip_chain(std::move(inputs.variances)), roughness_coordinates(material));
-  if (options.word("conversion") == "table") add(xu_vmf::table_name, {shortfall_table()}, {});
+  if (settings.table) add(xu_vmf::table_name, {shortfall_table()}, {});
 }
 
-Prefiltered in_tangent_space(Inputs inputs, const Material& material, const Options& options,
+Prefiltered in_tangent_space(Inputs inputs, const Material& material, const xu_vmf::Settings& settings,
                              const EffectSet& effects) {
   Prefiltered out;
   if (inputs.normals_vary && inputs.roughness_varies && !can_join(material)) {
@@ -146,8 +146,8 @@ Prefiltered in_tangent_space(Inputs inputs, const Material& material, const Opti
         "the roughness map has other texture coordinates than the normal map and cannot be joined with it; its mean "
         "variance stands in");
   }
-  declare_maps(out, inputs.size(), inputs.coordinates, layers_of(material, effects), options, effects);
-  add_inputs(out, inputs, material, options);
+  declare_maps(out, inputs.size(), inputs.coordinates, layers_of(material, effects), settings, effects);
+  add_inputs(out, inputs, material, settings);
   return out;
 }
 
@@ -157,15 +157,16 @@ class XuVmf final : public Method {
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                                        const Progress& /*progress*/) const override {
     Inputs inputs(material, effects);
-    return inputs.anything() ? in_tangent_space(std::move(inputs), material, options, effects) : Prefiltered{};
+    if (!inputs.anything()) return {};
+    return in_tangent_space(std::move(inputs), material, xu_vmf::settings_of(options), effects);
   }
 
   [[nodiscard]] Prefiltered precompute_on(const Scene& scene, std::size_t index, const Options& options,
                                           const EffectSet& effects, const Progress& progress) const override {
     const Material& material = scene.materials.at(index);
+    const xu_vmf::Settings settings = xu_vmf::settings_of(options);
     Inputs inputs(material, effects);
-    if (options.word("space") == "tangent" || !inputs.anything())
-      return precompute(material, options, effects, progress);
+    if (!settings.camera_space || !inputs.anything()) return precompute(material, options, effects, progress);
     xu_vmf::SurfaceLayout layout = xu_vmf::lay_out(triangles_of(scene, index), inputs.coordinates, inputs.size());
     // A material without maps among others with them: its one texel would show one normal of the whole mesh.
     if (inputs.size() == glm::ivec2(1)) {
@@ -176,10 +177,10 @@ class XuVmf final : public Method {
     if (layout.unique) {
       TextureCoordinates coordinates;
       coordinates.wrap = {Wrap::clamp_to_edge, Wrap::clamp_to_edge};
-      declare_maps(out, layout.size, coordinates, layers_of(material, effects), options, effects);
-      add_inputs(out, inputs, material, options);
+      declare_maps(out, layout.size, coordinates, layers_of(material, effects), settings, effects);
+      add_inputs(out, inputs, material, settings);
     } else {
-      out = in_tangent_space(std::move(inputs), material, options, effects);
+      out = in_tangent_space(std::move(inputs), material, settings, effects);
     }
     if (!layout.note.empty()) out.notes.push_back(std::move(layout.note));
     out.scalars.emplace(xu_vmf::camera_space_name, layout.unique ? 1.0F : 0.0F);
@@ -196,7 +197,9 @@ class XuVmf final : public Method {
     return anything ? std::make_unique<xu_vmf::InstantMap>(variant, options) : nullptr;
   }
 
-  [[nodiscard]] int lobe_count(const Options& options) const override { return xu_vmf::most_lobes(options); }
+  [[nodiscard]] int lobe_count(const Options& options) const override {
+    return xu_vmf::settings_of(options).most_lobes;
+  }
 
   [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::xu_vmf_glsl, "xu_vmf.glsl"); }
 

@@ -24,9 +24,7 @@ double measured_best(const Material& material, const Options& /*options*/, const
 }
 
 double measured_error(const Material& material, const Options& options, const Options& parameters) {
-  const Formula formula{.preset = preset_of(options.word("preset")),
-                        .constant = options.number("constant"),
-                        .cap = options.number("cap")};
+  const Formula formula = formula_of(options);
   const double alpha = parameters.number("alpha");
   const WidenedLobe lobe(material.brdf.distribution, alpha, parameters.number("sigma"));
   const double stored = stored_spread(formula.preset, lobe.shortfall());

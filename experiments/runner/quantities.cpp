@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "methods/registry.hpp"
+#include "renderer/bake/baked_method.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/suggest.hpp"
 
@@ -53,7 +54,7 @@ std::vector<QuantityFigure> measure_quantities(const Experiment& experiment, con
       const Quantity* const quantity = find_quantity(method, named.quantity);
       if (quantity == nullptr) continue;
       try {
-        const Options options(method.info().options, spec.options, "method " + spec.name);
+        const Options options = options_of(method, spec);
         const Options parameters(quantity->parameters, named.parameters, "figure " + named.quantity);
         const double value = quantity->measure(material_of(named, scene), options, parameters);
         figures.push_back({.name = named.name, .method = spec.text, .quantity = named.quantity, .value = value});

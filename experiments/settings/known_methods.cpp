@@ -1,15 +1,14 @@
-// The methods of a text, each held against the table of its options.
+// Checks the options of each method in a text.
 #include "experiments/settings/known_methods.hpp"
 
 #include "methods/registry.hpp"
+#include "renderer/bake/baked_method.hpp"
 
 namespace footprint {
 
 std::vector<MethodSpec> parse_known_methods(const std::string& text) {
   std::vector<MethodSpec> methods = parse_methods(text);
-  for (const MethodSpec& method : methods) {
-    (void)Options(find_method(method.name).info().options, method.options, "method " + method.name);
-  }
+  for (const MethodSpec& method : methods) (void)options_of(find_method(method.name), method);
   return methods;
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "methods/atanasov_bins/bin_textures.hpp"
 #include "methods/atanasov_bins/bins.hpp"
@@ -87,11 +86,6 @@ bool reads_base_lobe(const Settings& settings) {
   return settings.roughness == Roughness::lobe || (settings.roughness == Roughness::bin && settings.microfacets);
 }
 
-float wrap_number(Wrap wrap) {
-  if (wrap == Wrap::repeat) return 0.0F;
-  return wrap == Wrap::mirrored_repeat ? 1.0F : 2.0F;
-}
-
 // Means of 4 x 4 texels and coarser: of fewer the shader takes the texels' own.
 PrefilteredTexture mean_normal_texture(const Material& material, Storage storage) {
   std::vector<Image> chain = mean_normal_chain(material);
@@ -156,8 +150,7 @@ class AtanasovBins final : public Method {
     const int across = bins_across(material, settings);
     out.scalars["bins_across"] = static_cast<float>(across);
     if (reads_base_lobe(settings)) {
-      std::ranges::move(bake_lobe_variance(material, Storage::fp32, effects).textures,
-                        std::back_inserter(out.textures));
+      append(out.textures, bake_lobe_variance(material, Storage::fp32, effects).textures);
     }
     if (!has(effects, Effect::normal_variation)) return out;
     if (has(effects, Effect::diffuse)) out.textures.push_back(mean_normal_texture(material, settings.storage));

@@ -1,18 +1,186 @@
 // Atanasov et al. 2020: the normals under a pixel are counted by bins of the half vector. The density of normals at h
 // is the area of the texels under the footprint whose normals are in h's bin, over the footprint's area and the bin's
 // solid angle; or, where texels reflect by a lobe, the mean of the lobes about the normals of the bins around h.
-//? include atanasov_bins_words.glsl
+//? include direction_grid.glsl
 //? if roughness_lobe or roughness_bin and surface_microfacets
 //? include lobe_variance.glsl
 //? end
-//? include atanasov_bins_reflectance.glsl
-//? if environment_light
-//? include atanasov_bins_sampling.glsl
+
+// The integers of the precompute, four bytes each: packed normals and their bins.
+
+uint wordOf(vec4 bytes) {
+  uvec4 b = uvec4(bytes * 255.0 + 0.5);
+  return b.x | b.y << 8 | b.z << 16 | b.w << 24;
+}
+
+// Word i of many, in rows as long as a power of two.
+uint wordAt(sampler2D words, uint i) {
+  countLookups(1);
+  uint columns = uint(textureSize(words, 0).x);
+  return wordOf(texelFetch(words, ivec2(i & (columns - 1u), i >> findMSB(columns)), 0));
+}
+
+ivec2 unpacked(uint code) { return ivec2(code & 0xFFFFu, code >> 16); }
+
+// A texel's normal as its point of the square, 16 bits an axis.
+const uint no_normal = 0xFFFFFFFFu;
+const uint up_code = 0x80008000u;  // (0, 0, 1)
+
+ivec2 cellOfPacked(uint code, float across) {
+  uint m = uint(across);
+  return ivec2((code & 0xFFFFu) * m >> 16, (code >> 16) * m >> 16);
+}
+
+uint binOfPacked(uint code) {
+  ivec2 cell = cellOfPacked(code, bins_across);
+  return uint(cell.y) * uint(bins_across) + uint(cell.x);
+}
+
+vec3 unpackedNormal(uint code) { return squareToHemisphere((vec2(unpacked(code)) + 0.5) / 65536.0); }
+
+ivec2 cellOf(vec3 direction) {
+  return clamp(ivec2(floor(hemisphereToSquare(direction) * bins_across)), ivec2(0), ivec2(int(bins_across) - 1));
+}
+
+uint binIn(ivec2 cell) { return uint(cell.y) * uint(bins_across) + uint(cell.x); }
+
+// What normals stand for, a texel's own or those of a bin together: a density at h, and what it reflects.
+
+struct Query {
+  bool reflects;  // f * cos but for the Fresnel term, else the density alone
+  vec3 h;
+  vec3 wi;
+  vec3 wo;
+  uint bin;       // of h
+};
+
+Query queryFor(bool reflects, vec3 h, vec3 wi, vec3 wo) { return Query(reflects, h, wi, wo, binIn(cellOf(h))); }
+
+float binSolidAngle() { return 2.0 * pi / (bins_across * bins_across); }
+
+//? if roughness_flakes
+// Beckmann's density about a flake's normal, over solid angle (Walter 2007, equation 25).
+float flakeDensity(float alpha, vec3 n, vec3 h) {
+  countLobes(1);
+  float c = dot(n, h);
+  if (c <= 1e-3) return 0.0;
+  vec3 s = cross(n, h);
+  float c2 = c * c;
+  float a2 = alpha * alpha;
+  return exp(-dot(s, s) / (c2 * a2)) / (pi * a2 * c2 * c2);
+}
+
+float baseVariance(Footprints f) { return 0.5 * option_alpha * option_alpha; }
+
+// Of normals with a slope variance per axis of `spread` about one.
+float valueAbout(float variance, vec3 normal, float spread, Query q) {
+  float alpha = sqrt(2.0 * (variance + spread));
+  float density = flakeDensity(alpha, normal, q.h);
+//? if surface_facets
+  if (q.reflects) density *= geometryFactor(lobeFromAlpha(alpha), normal, q.h, q.wi, q.wo);
+//? end
+  return density;
+}
+//? elif roughness_bin and surface_facets
+float baseVariance(Footprints f) { return binSolidAngle() / 12.0; }  // a square of area |H| along an axis
+//? elif roughness_lobe
+float valueAbout(float variance, vec3 normal, float spread, Query q) {
+  Facets facets = spreadFacets(normal, variance, spread);
+//? if surface_facets
+  if (q.reflects) return facetReflectance(facets, q.h, q.wi, q.wo);
+//? end
+  return facetDensity(facets, q.h);
+}
+//? end
+
+// What is the same for all normals: `value` is their mean density or, of facets with lobes, reflectance.
+float finishedValue(float variance, float value, Query q) {
+  if (!q.reflects || value == 0.0) return value;
+//? if surface_microfacets
+  // Walter 2007: D cos integrates to one over a surface about its own normal, D over solid angle does here.
+  vec3 up = vec3(0.0, 0.0, 1.0);
+  return value / max(q.h.z, 1e-3) * geometryFactor(lobeFromVariance(variance), up, q.h, q.wi, q.wo);
+//? elif roughness_bin
+  // Mirrors that face h, spread over their bin.
+  return value * geometryFactor(lobeFromVariance(variance), q.h, q.h, q.wi, q.wo);
+//? else
+  return value;
+//? end
+}
+
+//? if environment_light or sampling_frame and normal_variation and not roughness_bin
+// Section 2.1: normals drawn from D. A point of the footprint, the bin of its texel, a normal anywhere in that bin.
+
+// A texel that is drawn, and the share of the footprint that it stands for: 0 where there is none, or no normal.
+struct DrawnTexel {
+  uint code;
+  float variance;  // of the lobe about it
+  float share;
+};
+
+// Point i of a sequence that fills [0, 1)^4 evenly: multiples of powers of 1 / g with g^5 = g + 1 (Roberts 2018).
+vec4 evenPoint(int i) { return fract(0.5 + float(i + 1) * vec4(0.85667488, 0.73389186, 0.62870672, 0.53859726)); }
+
+// The normal that a texel reflects about: its own or, where the bin is all that is known of it, at a place of that.
+vec3 normalOf(uint code, vec2 place) {
+//? if roughness_bin
+  return squareToHemisphere((vec2(cellOfPacked(code, bins_across)) + place) / bins_across);
+//? else
+  return unpackedNormal(code);
+//? end
+}
 //? end
 //? if sampling_frame and normal_variation
 //? include atanasov_bins_footprint.glsl
 //? else
-//? include atanasov_bins_texel.glsl
+// One texel of the finest level, or a surface without a normal map: one normal a sample.
+struct Effective {
+  vec3 normal;
+  uint code;       // that, packed
+  float variance;  // of the base lobe
+};
+
+Effective effective(Footprints f) {
+  Effective e;
+  e.variance = baseVariance(f);
+//? if normal_variation
+  uint code = wordOf(fetchFinest(bins_map, f.normal));
+//? if not sampling_frame
+  nothing_to_shade = code == no_normal;
+//? end
+  e.normal = unpackedNormal(code);
+  e.code = code;
+//? else
+  e.normal = vec3(0.0, 0.0, 1.0);
+  e.code = up_code;
+//? end
+  return e;
+}
+
+float meanValue(Effective e, Query q) {
+//? if roughness_bin
+  countLobes(1);
+  float value = q.bin == binOfPacked(e.code) ? 1.0 / binSolidAngle() : 0.0;
+//? else
+  float value = valueAbout(e.variance, e.normal, 0.0, q);
+//? end
+  return finishedValue(e.variance, value, q);
+}
+
+vec3 meanNormal(Effective e) { return e.normal; }
+
+//? if environment_light
+// Of one texel nothing is drawn but the place in its bin.
+int drawCount(Effective e) {
+//? if roughness_bin
+  return int(option_draws);
+//? else
+  return 1;
+//? end
+}
+
+DrawnTexel drawnTexel(Effective e, int i) { return DrawnTexel(e.code, e.variance, 1.0 / float(drawCount(e))); }
+//? end
 //? end
 
 Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
@@ -32,5 +200,43 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
 float ndf(Effective e, vec3 h) { return meanValue(e, queryFor(false, h, h, h)); }
 
 //? if environment_light
-//? include atanasov_bins_environment.glsl
+// Environment light: drawn normals, each with what a texel reflects by, are the lobes of the NDF.
+
+//? if roughness_lobe
+int lobesOfTexel() { return facetLobeCount(); }
+
+NormalLobe lobeOfTexel(float variance, vec3 normal, int k, float share) {
+  return facetNormalLobe(spreadFacets(normal, variance, 0.0), k, share);
+}
+//? else
+int lobesOfTexel() { return 1; }
+
+NormalLobe lobeOfTexel(float variance, vec3 normal, int k, float share) {
+//? if roughness_bin
+  const float sharpness = 1e6;  // a mirror: no map of an environment is as sharp
+//? else
+  float sharpness = 1.0 / variance;
+//? end
+  return NormalLobe(normal, sharpness, share, lobeFromVariance(variance), false, normal);
+}
+//? end
+
+int lobeCount(Effective e) { return lobesOfTexel() * drawCount(e); }
+
+NormalLobe normalLobe(Effective e, int i) {
+  int number = i / lobesOfTexel();
+  DrawnTexel texel = drawnTexel(e, number);
+  vec3 normal = normalOf(texel.code, evenPoint(number).zw);
+  NormalLobe lobe = lobeOfTexel(texel.variance, normal, i - number * lobesOfTexel(), texel.share);
+//? if surface_microfacets
+  // Walter 2007: D over the cosine, masked about the surface's own normal.
+  lobe.weight /= max(lobe.axis.z, 1e-3);
+  lobe.normal = vec3(0.0, 0.0, 1.0);
+//? end
+  return lobe;
+}
+
+float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
+  return geometryFactor(lobe.base, lobe.normal, h, wi, wo);
+}
 //? end

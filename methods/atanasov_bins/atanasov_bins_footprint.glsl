@@ -100,9 +100,98 @@ Sum sumOfTexels(Effective e, Region r, Query q) {
   return seen < box.count ? notWhole() : sum;
 }
 
-//? include atanasov_bins_beyond.glsl
+// A footprint that reaches beyond a map that does not repeat, whose outermost texels go on there.
+
+bvec2 endsAlong() { return equal(vec2(bins_wrap_u, bins_wrap_v), vec2(2.0)); }
+
+bool isBeyond(ivec2 texel) {
+  bvec2 outer = bvec2(texel.x < 0 || texel.x >= int(mapSize().x), texel.y < 0 || texel.y >= int(mapSize().y));
+  return outer.x && endsAlong().x || outer.y && endsAlong().y;
+}
+
+// The rectangle of a region that the map is in, as far as it repeats.
+vec4 mapUnder(Region r) {
+  vec2 lower = r.centre - r.reach;
+  vec2 upper = r.centre + r.reach;
+  return vec4(mix(lower, clamp(lower, vec2(0.0), mapSize()), endsAlong()),
+              mix(upper, clamp(upper, vec2(0.0), mapSize()), endsAlong()));
+}
+
+float areaOnMap(Region r) {
+  vec4 map = mapUnder(r);
+  return any(endsAlong()) ? coveredOf(r, map.xy, map.zw) : areaOf(r);
+}
+
+void addPiece(inout Sum sum, Effective e, Region r, Query q, vec2 lower, vec2 upper, vec2 place) {
+  if (any(greaterThanEqual(lower, upper))) return;
+  float area = coveredOf(r, lower, upper);
+  ivec2 texel = ivec2(floor(place));  // the sampler puts it on the map
+  uint code = packedAt(texel);
+  if (area <= 0.0 || code == no_normal) return;
+  sum.value += area * texelValue(e, texel, code, q);
+  sum.area += area;
+}
+
+// A piece for every texel along the map's edges, but for so many that rounds are enough for at most, of which each counts
+// as the texel in its middle; and one beyond each corner.
+Sum sumBeyond(Effective e, Region r, Query q, float rounds, inout bool finished) {
+  Sum sum = Sum(0.0, 0.0);
+  if (!any(endsAlong())) return sum;
+  vec2 lower = r.centre - r.reach;
+  vec2 upper = r.centre + r.reach;
+  vec4 map = mapUnder(r);
+  vec2 first = floor(map.xy);
+  vec2 count = min(ceil(map.zw) - first, clamp(floor(0.004 * rounds), 1.0, 256.0));
+  vec2 each = (ceil(map.zw) - first) / count;
+  int pieces = int(max(count.x, count.y)) + 2;
+  int seen = 0;
+  for (int i = 0; i < pieces; ++i) {
+    ++seen;
+    // Of the edges along x and y: a piece each, or before and behind all of these the corners, which are beyond both.
+    vec2 begin = first + float(i - 2) * each;
+    vec2 end = begin + each;
+    vec2 middle = begin + 0.5 * each;
+    bvec2 is_along = lessThan(vec2(i - 2), count);
+    if (i < 2) {
+      begin.x = i == 0 ? lower.x : map.z;
+      end.x = i == 0 ? map.x : upper.x;
+      middle.x = 0.5 * (begin.x + end.x);
+      is_along = bvec2(true, false);
+    }
+    if (is_along.x) {
+      addPiece(sum, e, r, q, vec2(begin.x, lower.y), vec2(end.x, map.y), vec2(middle.x, 0.5 * (lower.y + map.y)));
+      addPiece(sum, e, r, q, vec2(begin.x, map.w), vec2(end.x, upper.y), vec2(middle.x, 0.5 * (map.w + upper.y)));
+    }
+    if (is_along.y) {
+      addPiece(sum, e, r, q, vec2(lower.x, begin.y), vec2(map.x, end.y), vec2(0.5 * (lower.x + map.x), middle.y));
+      addPiece(sum, e, r, q, vec2(map.z, begin.y), vec2(upper.x, end.y), vec2(0.5 * (map.z + upper.x), middle.y));
+    }
+  }
+  finished = finished && seen == pieces;
+  return sum;
+}
 //? if roughness_bin
-//? include atanasov_bins_bins.glsl
+// The density of a bin over a large footprint: its list's share of the area. The texels without a normal are a list too,
+// which takes from that.
+float listCount(Effective e, Query q, float rounds) { return 1.0; }
+
+Sum sumOfLists(Effective e, Region r, Query q, float rounds) {
+  bool finished = true;
+  Sum sum = sumBeyond(e, r, q, rounds, finished);
+  sum.area += areaOnMap(r);
+  float walk = walkRounds(rounds, bins_invalid_list < 0.0 ? 1.0 : 2.0);
+  int i = bins_invalid_list < 0.0 ? 1 : 0;
+  do {
+    int list = i == 0 ? int(bins_invalid_list) : listOfKey(q.bin);
+    ++i;
+    if (list < 0) continue;
+    ListSum part = sumOfList(r, listAt(uint(list)), ListBin(vec2(0.0), 1.0), walk, finished);
+    if (i == 1) sum.area -= part.area;
+    else sum.value += part.area / binSolidAngle();
+  } while (i < 2);
+  if (sum.area < 1e-4 * areaOf(r)) sum = Sum(0.0, 0.0);
+  return finished && i == 2 ? sum : notWhole();
+}
 //? else
 //? include atanasov_bins_lobes.glsl
 //? end
@@ -175,7 +264,45 @@ vec3 meanNormal(Effective e) { return e.mean; }
 //? end
 
 //? if environment_light
-//? include atanasov_bins_draws.glsl
+// What is drawn from under a footprint (section 2.1): texels at points that fill it evenly or, of a region that has no
+// more texels than are drawn, these, by their areas.
+
+// All regions share the draws.
+int drawsEach(Footprint f) { return max(int(option_draws) / regionCount(f), 1); }
+
+DrawnTexel drawnUnder(Effective e, int i) {
+  int each = drawsEach(e.footprint);
+  int own = i % each;
+  Region r = regionAt(e.footprint, i / each);
+  TexelBox box = texelsAbout(r);
+  ivec2 texel = texelAt(r, evenPoint(i).xy);
+  float share = 1.0 / float(each);
+  if (box.count <= each) {
+    texel = texelIn(box, own);
+    share = own < box.count ? areaOfTexel(r, texel) / areaOf(r) : 0.0;
+  }
+  uint code = packedAt(texel);
+  return DrawnTexel(code, varianceAt(e, texel), code == no_normal ? 0.0 : r.weight * share);
+}
+
+int drawCount(Effective e) { return regionCount(e.footprint) * drawsEach(e.footprint); }
+
+// Of all draws those that have a normal.
+float drawnShare(Effective e) {
+  if (bins_invalid_list < 0.0) return 1.0;
+  float share = 0.0;
+  int count = drawCount(e);
+  for (int i = 0; i < count; ++i) share += drawnUnder(e, i).share;
+  return share;
+}
+
+// Where none has, the surface's own.
+DrawnTexel drawnTexel(Effective e, int i) {
+  if (e.drawn <= 0.0) return DrawnTexel(up_code, e.variance, 1.0 / float(drawCount(e)));
+  DrawnTexel texel = drawnUnder(e, i);
+  texel.share /= e.drawn;
+  return texel;
+}
 //? end
 
 Effective effective(Footprints f) {

@@ -1,9 +1,8 @@
-// `cells`: the normals of a material in parts that are the same at every level; a texel stores weight, mean and
-// covariance of each, as moments that filter linearly. With one part it is LEAN mapping.
+// `cells`: divides the normals of a material into parts, the same parts at every level. A texel stores weight, mean and
+// covariance of each part as moments, which filter linearly. With one part it is LEAN mapping.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "methods/cells/cell_moments.hpp"
@@ -42,31 +41,51 @@ std::vector<OptionSpec> option_table() {
           steepest_slope_option()};
 }
 
-// The parts and what they are of, for one material.
+// The options that the bake reads.
+struct Settings {
+  int parts;
+  cells::Labels labels;
+  Storage storage;
+  Covariance covariance;
+  cells::Coordinates coordinates;
+  bool joint_roughness;  // one mean of the base lobe's variance per part
+  double steepest;
+};
+
+Settings settings_of(const Options& options) {
+  return {.parts = static_cast<int>(options.number("k")),
+          .labels = options.word("labels") == "joint" ? cells::Labels::joint : cells::Labels::global,
+          .storage = parse_storage(options.word("storage")),
+          .covariance = options.word("covariance") == "axes" ? Covariance::axes : Covariance::full,
+          .coordinates =
+              options.word("coordinates") == "slopes" ? cells::Coordinates::slopes : cells::Coordinates::stereographic,
+          .joint_roughness = options.word("roughness") == "joint",
+          .steepest = options.number("steepest")};
+}
+
+// The normals of one material and their shares in the parts.
 struct PartedNormals {
   int width, height;
   std::size_t parts;
-  std::vector<PlanePoint> points;  // over the plane that moments are of
+  std::vector<PlanePoint> points;  // over the plane of the moments
   std::vector<float> shares;
 };
 
-PartedNormals parted(const Material& material, const Options& options, const Progress& progress) {
+PartedNormals parted(const Material& material, const Settings& settings, const Progress& progress) {
   const Image normals = normal_map_of(material);
-  const double steepest = options.number("steepest");
-  std::vector<PlanePoint> points = cells::plane_points(normals, cells::Coordinates::stereographic, steepest);
-  const cells::PartitionSettings settings{
-      .parts = static_cast<int>(options.number("k")),
-      .labels = options.word("labels") == "joint" ? cells::Labels::joint : cells::Labels::global,
-      .variance = lobe_variance_chain(material).back().texels[0]};
-  std::vector<float> shares = cells::partition(points, normals.width, normals.height, settings, progress);
-  if (options.word("coordinates") == "slopes")
-    points = cells::plane_points(normals, cells::Coordinates::slopes, steepest);
+  std::vector<PlanePoint> points = cells::plane_points(normals, cells::Coordinates::stereographic, settings.steepest);
+  std::vector<float> shares = cells::partition(
+      points, normals.width, normals.height,
+      {.parts = settings.parts, .labels = settings.labels, .variance = lobe_variance_chain(material).back().texels[0]},
+      progress);
+  if (settings.coordinates == cells::Coordinates::slopes)
+    points = cells::plane_points(normals, cells::Coordinates::slopes, settings.steepest);
   return {normals.width, normals.height, static_cast<std::size_t>(settings.parts), std::move(points),
           std::move(shares)};
 }
 
-// An array texture whose layers are made one after the other: the finest levels of all at once would be the largest
-// thing in memory.
+// Makes the layers of an array texture one after the other, because the finest levels of all of them would be the
+// largest allocation of the bake.
 template <typename Finest>
 PrefilteredTexture layered_texture(const std::string& name, int layers, Storage storage,
                                    const TextureCoordinates& coordinates, const Finest& finest) {
@@ -76,22 +95,9 @@ PrefilteredTexture layered_texture(const std::string& name, int layers, Storage 
   return make_array_texture(name, std::move(chains), storage, coordinates);
 }
 
-Covariance covariance_of(const Options& options) {
-  return options.word("covariance") == "axes" ? Covariance::axes : Covariance::full;
-}
-
-int moment_layer_count(const Options& options) {
-  return cells::layer_count(cells::part_channels(covariance_of(options)) * static_cast<int>(options.number("k")));
-}
-
-// Of the mean of the unit normals: over the stereographic plane the moments tell it.
-bool keeps_mean_normals(const Options& options, const EffectSet& effects) {
-  return has(effects, Effect::diffuse) && options.word("coordinates") == "slopes";
-}
-
-void add_moments(const PartedNormals& normals, const Options& options, const TextureCoordinates& coordinates,
+void add_moments(const PartedNormals& normals, const Settings& settings, const TextureCoordinates& coordinates,
                  Prefiltered& out) {
-  const Covariance covariance = covariance_of(options);
+  const Covariance covariance = settings.covariance;
   const auto frames = cells::part_frames(normals.points, normals.shares, normals.parts, covariance);
   const auto add = [&](const char* name, std::size_t k, const glm::dvec2& value) {
     out.scalars[fmt::format("cells_{}_x{}", name, k)] = static_cast<float>(value.x);
@@ -102,27 +108,17 @@ void add_moments(const PartedNormals& normals, const Options& options, const Tex
     if (covariance == Covariance::axes) add("axis", k, frames[k].axis);
   }
   const cells::PartedPoints map{normals.points, normals.shares, normals.parts, normals.width, normals.height};
-  out.textures.push_back(
-      layered_texture("cells_moments", moment_layer_count(options), parse_storage(options.word("storage")), coordinates,
-                      [&](int layer) { return cells::moment_layer(map, frames, covariance, layer); }));
+  const int layers = cells::layer_count(cells::part_channels(covariance) * settings.parts);
+  out.textures.push_back(layered_texture("cells_moments", layers, settings.storage, coordinates, [&](int layer) {
+    return cells::moment_layer(map, frames, covariance, layer);
+  }));
 }
 
-glm::ivec2 size_of(const TextureMap* map) {
-  return map == nullptr ? glm::ivec2(1) : glm::ivec2(map->image.width(), map->image.height());
-}
-
-bool roughness_lies_on_normals(const Material& material) {
-  const glm::ivec2 roughness = size_of(width_map(material));
-  const glm::ivec2 normals = size_of(material.normal_map ? &*material.normal_map : nullptr);
-  return roughness_coordinates(material) == normal_coordinates(material) && roughness.x <= normals.x &&
-         roughness.y <= normals.y;
-}
-
-// A texel of the roughness map can be counted with the part of the normal above it where the maps lie on each other and
-// nothing finer than a normal is lost. Else, as with `separate`, it has a chain of its own; a texture that a material
-// has no use for is one texel.
-void add_roughness(const Material& material, const Options& options, const PartedNormals& normals, Storage storage,
-                   const EffectSet& effects, Prefiltered& out) {
+// Adds the variance of the base lobe. Each texel counts with the part of its normal if the maps have the same
+// coordinates and the roughness map is not finer. Otherwise it has a chain of its own, as with `separate`. All
+// materials share a program and therefore have both textures; the unused one is a single texel.
+void add_roughness(const Material& material, const PartedNormals& normals, Storage storage, const EffectSet& effects,
+                   Prefiltered& out) {
   Image variance = lobe_variance_map(material);
   const bool joint = roughness_lies_on_normals(material);
   out.scalars["cells_joint"] = joint ? 1.0F : 0.0F;
@@ -139,8 +135,8 @@ void add_roughness(const Material& material, const Options& options, const Parte
     separate.textures.front() =
         make_texture(separate.textures.front().name, {Image(1, 1, 1)}, storage, roughness_coordinates(material));
   }
-  std::ranges::move(separate.textures, std::back_inserter(out.textures));
-  if (!joint && options.word("roughness") == "joint" && normals.parts > 1)
+  append(out.textures, std::move(separate.textures));
+  if (!joint && normals.parts > 1)
     out.notes.emplace_back("the roughness map does not lie on the normal map's texels: all parts have one variance");
 }
 
@@ -150,26 +146,28 @@ class Cells final : public Method {
 
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                                        const Progress& progress) const override {
-    const Storage storage = parse_storage(options.word("storage"));
+    const Settings settings = settings_of(options);
+    const Storage storage = settings.storage;
     if (!has(effects, Effect::normal_variation)) return bake_lobe_variance(material, storage, effects);
     Prefiltered out;
-    const PartedNormals normals = parted(material, options, progress);
-    add_moments(normals, options, normal_coordinates(material), out);
-    if (keeps_mean_normals(options, effects))
+    const PartedNormals normals = parted(material, settings, progress);
+    add_moments(normals, settings, normal_coordinates(material), out);
+    // Stereographic moments give the mean of the unit normals; moments of slopes do not.
+    if (has(effects, Effect::diffuse) && settings.coordinates == cells::Coordinates::slopes)
       out.textures.push_back(
           make_texture("cells_normal", mean_normal_chain(material), storage, normal_coordinates(material)));
     if (!has(effects, Effect::roughness_variation)) return out;
-    if (options.word("roughness") == "joint") {
-      add_roughness(material, options, normals, storage, effects, out);
+    if (settings.joint_roughness) {
+      add_roughness(material, normals, storage, effects, out);
     } else {
-      std::ranges::move(bake_lobe_variance(material, storage, effects).textures, std::back_inserter(out.textures));
+      append(out.textures, bake_lobe_variance(material, storage, effects).textures);
     }
     return out;
   }
 
-  [[nodiscard]] int lobe_count(const Options& options) const override { return static_cast<int>(options.number("k")); }
+  [[nodiscard]] int lobe_count(const Options& options) const override { return settings_of(options).parts; }
 
-  // The flags are lean's, which common_slopes.glsl asks for.
+  // common_slopes.glsl reads these flags of `lean`.
   [[nodiscard]] ShaderModule shader() const override {
     return module_of(embedded::cells_glsl, "cells.glsl",
                      {{"variant_clean", false}, {"roughness_stretched", true}, {"roughness_moments", false}});

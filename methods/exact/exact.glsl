@@ -9,7 +9,257 @@ vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame);  // environmen
 vec3 environmentSum(Effective e, Surface s, vec3 wo, mat3 frame) { return environmentLit(e, s, wo, frame); }
 //? end
 //? else
-//? include exact_facets.glsl
+// The facet at a place of the finest level, and sums over facets. Places lie on a grid over one map, the normal map
+// where there is one: its texels, or parts of them where another map has finer ones.
+//? if normal_layers
+//? include normal_layers.glsl
+//? end
+
+// Where another map is looked up, from the distance to the pixel's centre on the grid's map: all coordinates are linear
+// over a pixel.
+struct Mapped {
+  vec2 centre;
+  mat2 turn;
+};
+
+struct Effective {
+  Footprint footprint;  // on the grid's map
+  vec2 size;            // of the whole map, in places
+//? if environment_summed
+  Facets facets;  // those that the environment lights just now
+//? end
+//? if normal_variation and normal_layers
+  Mapped layer;
+//? end
+//? if roughness_variation
+  Mapped roughness;
+//? end
+};
+
+// A position q of the pixel's centre and edges (dx, dy), q in [-1/2, 1/2]^2, is at uv + (dx dy) q on each map.
+Mapped mappedFrom(Footprint grid, Footprint other) {
+  mat2 edges = mat2(grid.dx, grid.dy);
+  if (determinant(edges) == 0.0) return Mapped(other.uv, mat2(0.0));  // seen edge-on: a line, or nothing
+  return Mapped(other.uv, mat2(other.dx, other.dy) * inverse(edges));
+}
+
+// Places a texel of the grid's map is cut into along each axis, so that one is no larger than another map's texel. Of
+// one part in fifty more than a whole number nothing is made: footprints are differences in 32 bits.
+vec2 partsOf(vec2 grid_size, Mapped other, vec2 other_size) {
+  vec2 along_u = other.turn[0] * other_size / grid_size.x;
+  vec2 along_v = other.turn[1] * other_size / grid_size.y;
+  vec2 texels = vec2(max(abs(along_u.x), abs(along_u.y)), max(abs(along_v.x), abs(along_v.y)));
+  const float finest = 16384.0;  // places along an axis
+  return clamp(ceil(texels - 0.02), vec2(1.0), max(floor(finest / grid_size), 1.0));
+}
+
+Effective effective(Footprints f) {
+  Effective e;
+  vec2 parts = vec2(1.0);
+//? if normal_variation
+  e.footprint = f.normal;
+  e.size = vec2(textureSize(base_normal, 0));
+//? if normal_layers
+  e.layer = mappedFrom(f.normal, f.layer);
+  parts = max(parts, partsOf(e.size, e.layer, vec2(textureSize(base_layer, 0))));
+//? end
+//? elif normal_layers
+  e.footprint = f.layer;
+  e.size = vec2(textureSize(base_layer, 0));
+//? else
+  e.footprint = f.roughness;
+  e.size = vec2(textureSize(base_roughness, 0));
+//? end
+//? if roughness_variation
+//? if shared_coordinates and normal_variation
+  e.roughness = Mapped(f.roughness.uv, mat2(1.0));
+//? else
+  e.roughness = mappedFrom(e.footprint, f.roughness);
+//? end
+  parts = max(parts, partsOf(e.size, e.roughness, vec2(textureSize(base_roughness, 0))));
+//? end
+  e.size *= parts;
+  return e;
+}
+
+// What is asked of each facet: its reflectance but for the Fresnel term, its density of normals at h, or what it
+// reflects of the environment.
+struct Query {
+  bool reflects;
+  bool has_half_vector;
+  vec3 h;
+  vec3 wi;
+  vec3 wo;
+//? if environment_summed
+  bool surrounded;  // the environment is asked for, and nothing else
+  Surface surface;
+  mat3 frame;
+//? end
+};
+
+Query reflectanceQuery(vec3 wi, vec3 wo) {
+  Query q;
+  q.reflects = true;
+  q.has_half_vector = halfVectorIsDefined(wi, wo);
+  q.h = halfVector(wi, wo);
+  q.wi = wi;
+  q.wo = wo;
+//? if environment_summed
+  q.surrounded = false;
+//? end
+  return q;
+}
+
+Query densityQuery(vec3 h) {
+  Query q = reflectanceQuery(h, h);
+  q.reflects = false;
+  q.has_half_vector = true;
+  q.h = h;
+  return q;
+}
+
+struct Sum {
+  float specular;  // densities, times geometry factors where it reflects
+  float facing;    // cosines to wi of facets that face it
+  float weight;
+//? if environment_summed
+  vec3 radiance;
+//? end
+};
+
+// Facets are added up in groups: of many thousand terms added to one sum in 32 bits each would be off by a part in a
+// hundred.
+Sum evenSum(float value) {
+  Sum sum;
+  sum.specular = value;
+  sum.facing = value;
+  sum.weight = value;
+//? if environment_summed
+  sum.radiance = vec3(value);
+//? end
+  return sum;
+}
+
+Sum zeroSum() { return evenSum(0.0); }
+
+void addSum(inout Sum sum, Sum part, float weight) {
+  sum.specular += weight * part.specular;
+  sum.facing += weight * part.facing;
+  sum.weight += weight * part.weight;
+//? if environment_summed
+  sum.radiance += weight * part.radiance;
+//? end
+}
+
+vec4 normalAt(Effective e, vec2 uv) {
+//? if normal_variation
+  countLookups(1);
+  vec4 normal = textureLod(base_normal, uv, 0.0);
+//? if normal_layers
+  vec4 layer = textureLod(base_layer, e.layer.centre + e.layer.turn * (uv - e.footprint.uv), 0.0);
+  return vec4(withSlopesAdded(normal.xyz, layer.xyz), min(normal.w, layer.w));
+//? else
+  return normal;
+//? end
+//? elif normal_layers
+  vec4 layer = textureLod(base_layer, uv, 0.0);
+  return vec4(withSlopesAdded(vec3(0.0, 0.0, 1.0), layer.xyz), layer.w);
+//? else
+  return vec4(0.0, 0.0, 1.0, 1.0);
+//? end
+}
+
+Facets facetsAbout(Effective e, vec3 normal, vec2 uv) {
+//? if roughness_variation
+  vec2 at = e.roughness.centre + e.roughness.turn * (uv - e.footprint.uv);
+  return evenFacets(normal, lobeFromRoughness(textureLod(base_roughness, at, 0.0).r));
+//? else
+  return evenFacets(normal, lobe_cutoff.x);
+//? end
+}
+
+//? if environment_summed
+//? include facet_normal_lobes.glsl
+
+vec3 meanNormal(Effective e) { return e.facets.normal; }
+
+vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame);  // of e's facets: environment_stack.glsl
+
+//? end
+void addFacets(inout Sum sum, Effective e, Facets facets, float weight, Query q) {
+  sum.weight += weight;
+//? if environment_summed
+  if (q.surrounded) {
+    e.facets = facets;
+    sum.radiance += weight * environmentLit(e, q.surface, q.wo, q.frame);
+    return;
+  }
+//? end
+//? if diffuse
+  sum.facing += weight * max(dot(facets.normal, q.wi), 0.0);
+//? end
+  if (!q.has_half_vector) return;
+  sum.specular += weight * (q.reflects ? facetReflectance(facets, q.h, q.wi, q.wo) : facetDensity(facets, q.h));
+}
+
+// Adds the facet at a place; none is there where the map has no normal.
+void addPlace(inout Sum sum, Effective e, vec2 place, float weight, Query q) {
+  vec2 uv = place / e.size;
+  vec4 normal = normalAt(e, uv);
+  if (normal.w < 0.5 || weight <= 0.0) return;
+  addFacets(sum, e, facetsAbout(e, normal.xyz, uv), weight, q);
+}
+
+// Of loops that the driver has ended early. llvmpipe does after 65535 rounds of all loops of a pixel together, over all
+// lights: no picture may pass for whole then. (Four places a round make that enough for seven lights and more.)
+Sum notWhole() { return evenSum(uintBitsToFloat(0x7fc00000u)); }
+
+// A mean; over nothing but texels without a normal that of an even facet, as methods have it that blend normals.
+Sum meanOf(Sum sum, Effective e, Query q) {
+  if (sum.weight <= 0.0) {
+    sum = zeroSum();
+    addFacets(sum, e, facetsAbout(e, vec3(0.0, 0.0, 1.0), e.footprint.uv), 1.0, q);
+  }
+  Sum mean = zeroSum();
+  addSum(mean, sum, 1.0 / sum.weight);
+  return mean;
+}
+
+//? include random_numbers.glsl
+
+// Where in a cell of places, `edge` on each side, its one place lies: anywhere in a cell of several, by numbers of the
+// cell's own, so that tiles and neighbouring pixels agree.
+vec2 placeIn(ivec2 cell, float edge) {
+  if (edge <= 1.0) return vec2(cell) + 0.5;
+  uvec3 bits = hashed(uvec3(cell, int(edge)));
+  return (vec2(cell) + (vec2(bits.xy >> 8u) + 0.5) * (1.0 / 16777216.0)) * edge;
+}
+
+//? if environment_summed
+// Of texels that the environment lights: 1 round of loops each, 14 for a lobe with a tail, of a pixel's 65535 (notWhole).
+// What a lobe sees of an environment differs less between texels than what a light makes of it.
+float mostSurroundedTexels() {
+//? if distribution_ggx
+  const float rounds = 14.0;
+//? else
+  const float rounds = 1.0;
+//? end
+  return 20000.0 / (rounds * float(facetLobeCount()));
+}
+
+//? end
+// How many texels may be looked at one by one: all parts of a pixel share them.
+float mostTexels(Query q) {
+  float most = option_texels * option_texels;
+//? if environment_summed
+  if (q.surrounded) most = min(most, mostSurroundedTexels());
+//? end
+//? if filter_shaded
+  return most / float(footprint_parts * footprint_parts);
+//? else
+  return most;
+//? end
+}
 //? if kernel_filter
 //? include exact_filter.glsl
 //? else

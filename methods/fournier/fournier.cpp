@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 #include <vector>
 
-#include "methods/fournier/normal_bins.hpp"
 #include "methods/fournier/peak_chain.hpp"
+#include "methods/fournier/peaks.hpp"
 #include "renderer/bake/facet_lobes.hpp"
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
@@ -42,13 +41,6 @@ double base_variance(const Material& material) {
   return lobe_variance_chain(material).back().texels.front();
 }
 
-OptionSpec peak_storage_option() {
-  OptionSpec option = storage_option();
-  option.choices = {"fp32", "fp16"};
-  option.meaning = "How the baked textures are stored: 32-bit floats or 16-bit floats.";
-  return option;
-}
-
 std::string note_on(const fournier::FitStatistics& statistics) {
   return fmt::format(
       "{} of {} fits of peaks stopped before they converged; the mean error of all is {:.2g} of the distribution's "
@@ -71,8 +63,7 @@ class Fournier final : public Method {
             make_texture("fournier_mean", mean_normal_chain(material), settings.storage, normal_coordinates(material)));
       }
     }
-    std::ranges::move(bake_lobe_variance(material, settings.storage, effects).textures,
-                      std::back_inserter(out.textures));
+    append(out.textures, bake_lobe_variance(material, settings.storage, effects).textures);
     return out;
   }
 
@@ -108,7 +99,7 @@ class Fournier final : public Method {
                   word_option("starts", {"inherited", "own"},
                               "Where the fit of a texel starts from: the peaks of the finer texels below it, or the "
                               "heaviest of its own normals, each with those nearest to it."),
-                  peak_storage_option()},
+                  float_storage_option()},
       .honours = map_effects_but({Effect::normal_layers}),
       .slow_precompute = true,
       .bakes_by_texel = true};

@@ -1,5 +1,5 @@
 // Products of lobes against the integral over the sphere, and their derivatives against differences.
-#include "methods/fournier/lobe_products.hpp"
+#include "methods/fournier/peak_fit.hpp"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <utility>
 
-#include "methods/fournier/normal_bins.hpp"
 #include "methods/fournier/peak_fit.hpp"
+#include "methods/fournier/peaks.hpp"
 #include "renderer/image/mipmap.hpp"
 
 namespace footprint::fournier {

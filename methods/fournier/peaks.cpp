@@ -1,4 +1,5 @@
-// Merges sets of normals pair by pair, the cheapest first, and maps directions to the disc and back.
+// Merges sets of normals pair by pair, the cheapest pair first, and pools normals in square cells of Lambert's disc
+// that are as wide as the base lobe.
 #include "methods/fournier/peaks.hpp"
 
 #include <algorithm>
@@ -72,6 +73,10 @@ std::vector<std::size_t> seeds_of(const std::vector<Peak>& normals, std::size_t 
   return seeds;
 }
 
+constexpr double disc_radius = 2.0;
+constexpr double smallest_edge = 1.0 / 16.0;
+constexpr double largest_edge = 0.5;
+
 }  // namespace
 
 std::vector<Peak> clustered_peaks(const std::vector<Peak>& normals, std::size_t count, double apart) {
@@ -122,6 +127,41 @@ Eigen::Vector3d direction_from_disc(const Eigen::Vector2d& point) {
   const double quarter = std::min(0.25 * point.squaredNorm(), 1.0);
   const double scale = std::sqrt(1.0 - quarter);
   return {point.x() * scale, point.y() * scale, 1.0 - 2.0 * quarter};
+}
+
+NormalCells::NormalCells(double base_variance)
+    : cells_per_unit_(1.0 / std::clamp(std::sqrt(base_variance), smallest_edge, largest_edge)),
+      cells_per_edge_(static_cast<std::uint32_t>(2.0 * disc_radius * cells_per_unit_) + 1) {}
+
+std::uint32_t NormalCells::cell_of(const Eigen::Vector3d& normal) const {
+  const Eigen::Vector2d point = disc_from_direction(normal);
+  const auto index = [&](double coordinate) {
+    const auto cell = static_cast<std::uint32_t>(std::max((coordinate + disc_radius) * cells_per_unit_, 0.0));
+    return std::min(cell, cells_per_edge_ - 1);
+  };
+  return index(point.y()) * cells_per_edge_ + index(point.x());
+}
+
+void unite_cells(NormalBins& bins) {
+  std::ranges::stable_sort(bins, {}, &NormalBin::cell);
+  auto last = bins.begin();
+  for (auto bin = bins.begin(); bin != bins.end(); ++bin) {
+    if (bin == last) continue;
+    if (bin->cell == last->cell) {
+      last->moments.add(bin->moments);
+    } else {
+      *++last = *bin;
+    }
+  }
+  if (last != bins.end()) bins.erase(last + 1, bins.end());
+  bins.shrink_to_fit();
+}
+
+std::vector<Peak> target_of(const NormalBins& bins) {
+  std::vector<Peak> target;
+  target.reserve(bins.size());
+  for (const NormalBin& bin : bins) target.push_back(peak_of(bin.moments));
+  return target;
 }
 
 }  // namespace footprint::fournier

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <tuple>
 
-#include "methods/iwasaki_sg/settings.hpp"
-#include "methods/iwasaki_sg/study/dense_brdf.hpp"
+#include "methods/iwasaki_sg/material_table.hpp"
+#include "methods/iwasaki_sg/study/effective_brdf.hpp"
 #include "methods/iwasaki_sg/test_materials.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "renderer/scene/camera.hpp"

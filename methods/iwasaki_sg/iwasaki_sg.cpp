@@ -2,7 +2,7 @@
 // BRDF. Iwasaki, Dobashi, Nishita 2012, "Interactive Bi-scale Editing of Highly Glossy Materials".
 #include <string>
 
-#include "methods/iwasaki_sg/settings.hpp"
+#include "methods/iwasaki_sg/material_table.hpp"
 #include "methods/iwasaki_sg/table_textures.hpp"
 #include "renderer/bake/method.hpp"
 

@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "methods/iwasaki_sg/material_table.hpp"
-#include "methods/iwasaki_sg/settings.hpp"
 #include "methods/iwasaki_sg/test_materials.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"

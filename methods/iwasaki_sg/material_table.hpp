@@ -1,4 +1,5 @@
-// Everything that the shader needs of one material: the stages from a patch to amplitudes, one after the other.
+// The table of one material that the shader needs: its settings from the options, and the stages from a patch to
+// amplitudes.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +10,22 @@
 #include "methods/iwasaki_sg/amplitudes.hpp"
 #include "methods/iwasaki_sg/bvndf.hpp"
 #include "methods/iwasaki_sg/ndf_fit.hpp"
+#include "renderer/core/options.hpp"
 #include "renderer/core/progress.hpp"
+#include "renderer/effects/effects.hpp"
 #include "renderer/microgeometry/patch.hpp"
+#include "renderer/scene/material.hpp"
 
 namespace footprint::iwasaki_sg {
+
+/// The options of the method.
+[[nodiscard]] std::vector<OptionSpec> option_table();
+
+/// Whether the facets have a BRDF of their own, in a table.
+[[nodiscard]] bool is_tabulated(const Material& material);
+
+/// The effects of small-scale geometry that a material calls for by itself.
+[[nodiscard]] EffectSet patch_effects(const Material& material);
 
 struct TableSettings {
   int lobes = 8;                ///< at most; 1 to `most_lobes`
@@ -24,6 +37,9 @@ struct TableSettings {
   std::size_t channels = 1;            ///< 3 in colour
   std::vector<PaintFactors> paints{};  ///< of each paint of the patch
 };
+
+/// The settings of a material's table by the options of the method. `effects`: those of the scene.
+[[nodiscard]] TableSettings table_settings(const Material& material, const Options& options, const EffectSet& effects);
 
 struct MaterialTable {
   Amplitudes amplitudes;

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "methods/iwasaki_sg/normal_bins.hpp"
+#include "methods/iwasaki_sg/bvndf.hpp"
 #include "methods/iwasaki_sg/spherical_gaussian.hpp"
 
 namespace footprint::iwasaki_sg {

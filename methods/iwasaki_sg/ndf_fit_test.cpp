@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "methods/iwasaki_sg/brdf_lobes.hpp"
+#include "methods/iwasaki_sg/spherical_gaussian.hpp"
 #include "renderer/core/random.hpp"
 #include "renderer/lobes/vmf.hpp"
 

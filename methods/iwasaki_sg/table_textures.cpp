@@ -10,9 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "methods/iwasaki_sg/brdf_lobes.hpp"
 #include "methods/iwasaki_sg/material_table.hpp"
-#include "methods/iwasaki_sg/settings.hpp"
+#include "methods/iwasaki_sg/spherical_gaussian.hpp"
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
@@ -171,7 +170,7 @@ Prefiltered baked_material(const Material& material, const Options& options, con
   }
   if (options.word("lobe") == "sg") out.textures.push_back(brdf_texture(material));
   if (has(effects, Effect::tabulated_brdf)) {
-    for (PrefilteredTexture& texture : table_textures(material)) out.textures.push_back(std::move(texture));
+    append(out.textures, table_textures(material));
     out.scalars["iwasaki_tabulated"] = is_tabulated(material) ? 1.0F : 0.0F;
   }
   return out;

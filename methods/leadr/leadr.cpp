@@ -89,7 +89,7 @@ class Leadr final : public Method {
                    .paper =
                        "Dupuy et al. 2013, Linear Efficient Antialiased Displacement and Reflectance Mapping, "
                        "ACM TOG 32(6)",
-                   .options = {slope_storage_option(), slope_roughness_option(), steepest_slope_option(),
+                   .options = {float_storage_option(), slope_roughness_option(), steepest_slope_option(),
                                word_option("weighting", {"bump", "displacement"},
                                            "What a texel counts for: all the same, as in a normal map, or its true and "
                                            "visible area, as on a displaced surface.")},

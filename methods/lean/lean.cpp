@@ -1,6 +1,7 @@
 // `lean`: first and second moments of slope filter linearly and give a footprint's mean slope and covariance; one
 // anisotropic lobe stands over them. Olano and Baker 2010, "LEAN Mapping"; CLEAN is its scalar variant.
 #include "renderer/bake/method.hpp"
+#include "renderer/bake/normal_chain.hpp"
 #include "renderer/bake/slope_moments.hpp"
 
 namespace footprint {
@@ -35,7 +36,7 @@ class Lean final : public Method {
   MethodInfo info_{.name = "lean",
                    .summary = "One anisotropic lobe over the mean and the covariance of the footprint's slopes.",
                    .paper = "Olano and Baker 2010, LEAN Mapping, I3D",
-                   .options = {slope_storage_option(), slope_roughness_option(), steepest_slope_option(),
+                   .options = {float_storage_option(), slope_roughness_option(), steepest_slope_option(),
                                word_option("variant", {"lean", "clean"},
                                            "The whole covariance of slopes, or its trace alone (CLEAN): a round lobe "
                                            "and three channels instead of five.")},

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "methods/ndf_atlas/facets.hpp"
 #include "methods/ndf_atlas/lattice.hpp"
 #include "renderer/core/progress.hpp"
 

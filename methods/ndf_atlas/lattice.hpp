@@ -1,13 +1,31 @@
-// The lattice that densities of normals are tabulated over: a rectangle of Lambert's equal-area map, as wide as a
-// material's normals and their lobes, as fine as its narrowest lobe.
+// The facets of a material and the lattice that their densities are tabulated over: a rectangle of Lambert's equal-area
+// map, as wide as the normals with their lobes, and as fine as the narrowest lobe.
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
+#include <vector>
 
-#include "methods/ndf_atlas/facets.hpp"
 #include "renderer/lobes/lobe.hpp"
+#include "renderer/scene/material.hpp"
 
 namespace footprint::ndf_atlas {
+
+struct Facets {
+  int width = 0, height = 0;
+  NormalDistribution distribution = NormalDistribution::blinn_phong;
+  std::vector<glm::vec3> normals;  ///< unit, row by row; zero where the map has none
+  std::vector<float> parameters;   ///< of each facet's lobe, or one for all
+
+  [[nodiscard]] bool is_valid(std::size_t i) const { return normals[i] != glm::vec3(0.0F); }
+  [[nodiscard]] Lobe lobe(std::size_t i) const {
+    return {distribution, static_cast<double>(parameters[parameters.size() == 1 ? 0 : i])};
+  }
+};
+
+/// Those of a material; `rough`: each with the lobe of the texel of the roughness map above it. None where that map
+/// does not lie on the normal map's texels, or is finer.
+[[nodiscard]] std::optional<Facets> facets_of(const Material& material, bool rough);
 
 /// n_xy sqrt(2 / (1 + n_z)) of a unit vector: Lambert's azimuthal equal-area map from the surface's normal. The horizon
 /// is at the radius sqrt(2), the direction below at 2.

@@ -108,19 +108,13 @@ Plan plan_tables(const Material& material, const Settings& settings, const Effec
   return plan;
 }
 
-float wrap_number(Wrap wrap) {
-  if (wrap == Wrap::repeat) return 0.0F;
-  return wrap == Wrap::mirrored_repeat ? 1.0F : 2.0F;
-}
-
 // All materials share a program: one without tables has textures of one texel.
 void add_tables(Plan plan, const Material& material, Storage storage, const Progress& progress, Prefiltered& out) {
   const TextureCoordinates coordinates = normal_coordinates(material);
   const bool tabulated = plan.facets.has_value();
   LevelTables finest{.width = 1, .height = 1, .nodes = 4, .density = std::vector<float>(4), .coverage = {0.0F}};
   if (tabulated) finest = tables_of(*plan.facets, plan.lattice, plan.layout.first_level, progress);
-  auto textures = atlas_textures(std::move(finest), plan.lattice, plan.layout, storage, coordinates.wrap);
-  std::ranges::move(textures, std::back_inserter(out.textures));
+  append(out.textures, atlas_textures(std::move(finest), plan.lattice, plan.layout, storage, coordinates.wrap));
   out.scalars["ndf_atlas_level"] = tabulated ? static_cast<float>(plan.layout.first_level) : 1e3F;
   out.scalars["ndf_atlas_column_bits"] = std::log2(static_cast<float>(plan.layout.columns));
   out.scalars["ndf_atlas_nodes_x"] = static_cast<float>(plan.lattice.nodes.x);
@@ -169,7 +163,7 @@ class NdfAtlas final : public Method {
     const Settings settings = settings_of(options);
     Prefiltered out = bake_lobe_variance(material, settings.storage, effects);
     if (!has(effects, Effect::normal_variation)) return out;
-    std::ranges::move(bake_mean_normal(material, settings.storage, effects).textures, std::back_inserter(out.textures));
+    append(out.textures, bake_mean_normal(material, settings.storage, effects).textures);
     ProgressParts steps(progress, 2);
     add_parts(material, settings, steps.next(1, ""), out);
     add_tables(plan_tables(material, settings, effects), material, settings.tables, steps.next(1, ""), out);

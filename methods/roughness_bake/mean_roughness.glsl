@@ -1,4 +1,4 @@
-// The base lobe of the mean roughness under a footprint, from the texture of bake_mean_roughness (baked_maps.hpp).
+// The base lobe of the mean roughness under a footprint, from the texture of bake_mean_roughness (roughness_bake.hpp).
 float baseLobe(Footprints f) {
 //? if roughness_variation
   return lobeFromRoughness(fetch(baked_roughness, f.roughness).r);

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "methods/roughness_bake/baked_maps.hpp"
+#include "methods/roughness_bake/roughness_bake.hpp"
 
 namespace footprint::roughness_bake {
 namespace {

@@ -2,7 +2,7 @@
 // formula; over roughness mips as engines bake them, where that is asked for.
 #include <optional>
 
-#include "methods/roughness_bake/baked_maps.hpp"
+#include "methods/roughness_bake/roughness_bake.hpp"
 #include "methods/specular_aa/screen_presets.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
@@ -56,8 +56,7 @@ class SpecularAa final : public Method {
     const auto [bake, storage] = settings_of(options);
     if (bake) return roughness_bake::bake_roughness(material, *bake, storage, effects);
     Prefiltered out = bake_mean_normal(material, storage, effects);
-    for (PrefilteredTexture& texture : roughness_bake::bake_mean_roughness(material, storage, effects).textures)
-      out.textures.push_back(std::move(texture));
+    append(out.textures, roughness_bake::bake_mean_roughness(material, storage, effects).textures);
     return out;
   }
 

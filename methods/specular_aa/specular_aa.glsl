@@ -7,9 +7,119 @@
 //? end
 
 //? if preset_tokuyoshi_kaplanyan_2019 or preset_tokuyoshi_kaplanyan_2021
-//? include half_vector_kernel.glsl
+// Tokuyoshi and Kaplanyan 2019, 2021: half vectors of a light spread over the pixel, in the frame of the normal, and
+// the lobe takes their covariance. Matrices are alpha^2, twice the covariance of slopes.
+//? include facet_frame.glsl
+
+// What of a half vector is spread: its slope in 2019, its projection on the disc in 2021.
+vec2 spreadOf(vec3 h) {
+//? if preset_tokuyoshi_kaplanyan_2019
+  return h.xy / max(abs(h.z), 1e-4);
 //? else
-//? include normal_kernel.glsl
+  return h.xy;
+//? end
+}
+
+// For the unit half vectors of one light at the pixel and the next ones, each in its own frame.
+mat2 widenedMatrix(float alpha2, vec3 here, vec3 right, vec3 above) {
+  const float gaussian_pixel = 0.5 / pi;  // variance of the pixel's filter
+  vec2 at = spreadOf(here);
+  vec2 dx = spreadOf(right) - at;
+  vec2 dy = spreadOf(above) - at;
+  mat2 kernel = 2.0 * gaussian_pixel * (outerProduct(dx, dx) + outerProduct(dy, dy));
+//? if preset_tokuyoshi_kaplanyan_2019
+  return mat2(alpha2) + kernel;
+//? else
+  // (P'^-1 + 1)^-1 of P' = alpha^2 / (1 - alpha^2) + kernel, without a quotient that grows.
+  mat2 scaled = max(1.0 - alpha2, 0.0) * kernel;
+  return (mat2(alpha2) + scaled) * inverse(mat2(1.0) + scaled);
+//? end
+}
+
+//? if screen_derivatives
+// Where there is no light: for a half vector along the normal, which stays while the frames turn about it.
+mat2 matrixAboutNormal(float alpha2, vec3 n, vec3 n_right, vec3 n_above, Footprints f) {
+  vec3 right = n + transpose(f.frame_dx) * n;
+  vec3 above = n + transpose(f.frame_dy) * n;
+  return widenedMatrix(alpha2, vec3(0.0, 0.0, 1.0), inFacetFrame(right, n_right), inFacetFrame(above, n_above));
+}
+//? end
+
+// Density over solid angle about z: the round lobe of the same determinant, with its slopes stretched. A microfacet
+// density times the cosine is one over slopes (dh = cos^3 dslope), Blinn-Phong's and vMF's without it.
+float matrixDensity(mat2 alpha2, vec3 h) {
+  if (h.z <= 0.0) return 0.0;
+  float size = sqrt(max(determinant(alpha2), 1e-24));
+  float lobe = lobeFromVariance(0.5 * size);
+  float own = 2.0 * lobeVariance(lobe);
+  float stretched = own * max(dot(h.xy, inverse(alpha2) * h.xy), 0.0);
+  float ratio = inversesqrt(h.z * h.z + stretched);
+//? if distribution_ggx or distribution_beckmann
+  float jacobian = ratio * ratio * ratio * ratio;
+//? else
+  float jacobian = ratio * ratio * ratio;
+//? end
+  vec3 turned = ratio * vec3(sqrt(stretched), 0.0, h.z);
+  return lobeDensity(lobe, vec3(0.0, 0.0, 1.0), turned) * (jacobian * own / size);
+}
+//? else
+// Presets that widen a round lobe by the normal's changes dx and dy to the next pixels.
+float sumSquared(vec3 dx, vec3 dy) { return dot(dx, dx) + dot(dy, dy); }
+float longestSquared(vec3 dx, vec3 dy) { return max(dot(dx, dx), dot(dy, dy)); }
+
+// Lobes beyond 1 (Blinn-Phong's and vMF's have no such end) stay as they are.
+float saturated(float value, float before) { return min(value, max(before, 1.0)); }
+
+float addedTo(float before, float constant, float cap, vec3 dx, vec3 dy) {
+  return saturated(before + min(constant * sumSquared(dx, dy), cap), before);
+}
+
+float fourth(float x) { return x * x * x * x; }
+
+//? if preset_unreal or preset_babylon
+// On perceptual roughness.
+float curvatureRoughness(float rho, vec3 dx, vec3 dy) {
+  return max(rho, min(pow(max(longestSquared(dx, dy), 1e-30), 0.333), 1.0));
+}
+//? end
+
+// alpha'^2 of alpha^2, which is twice the lobe's slope variance; under punctual lights.
+float screenWidened(float alpha2, vec3 dx, vec3 dy) {
+//? if preset_filament
+  return addedTo(alpha2, 0.3, 0.04, dx, dy);
+//? elif preset_unity
+  return addedTo(alpha2, 0.2, 0.04, dx, dy);
+//? elif preset_o3de
+  return addedTo(alpha2, 0.5, 0.18, dx, dy);
+//? elif preset_godot
+  float alpha = addedTo(sqrt(alpha2), 0.5, 0.18, dx, dy);  // on rho^2
+  return alpha * alpha;
+//? elif preset_bevy
+  return addedTo(alpha2, 0.25, 0.18, dx, dy);
+//? elif preset_unreal
+  float rho = sqrt(sqrt(alpha2));
+  return max(fourth(curvatureRoughness(rho, dx, dy)), alpha2);  // no less by rounding
+//? elif preset_three
+  float least = max(sqrt(sqrt(alpha2)), 0.0525);
+  vec3 largest = max(abs(dx), abs(dy));
+  return max(fourth(saturated(least + max(max(largest.x, largest.y), largest.z), least)), alpha2);
+//? elif preset_babylon
+  float alpha = sqrt(alpha2);
+  float rho = curvatureRoughness(sqrt(alpha), dx, dy);
+  float wide = saturated(rho * rho + 5e-4, alpha);
+  return max(wide * wide, alpha2);
+//? else
+  return addedTo(alpha2, option_constant, option_cap, dx, dy);
+//? end
+}
+
+//? if preset_babylon
+float screenWidenedForEnvironment(float alpha2, vec3 dx, vec3 dy) {
+  float alpha = sqrt(alpha2);
+  float wide = saturated(alpha + 5e-4 + 0.75 * sqrt(longestSquared(dx, dy)), alpha);
+  return max(wide * wide, alpha2);
+}
+//? end
 //? end
 
 // The lobe before: the mean roughness, as it is or with what was baked into it.

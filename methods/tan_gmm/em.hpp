@@ -1,10 +1,10 @@
-// Expectation-maximisation of a mixture of isotropic Gaussians over the unit disc with Tan's prior, for one texel.
+// Expectation-maximisation with Tan's prior for one texel: a mixture of isotropic Gaussians over the unit disc, or of
+// Gaussians with a full covariance.
 #pragma once
 
 #include <array>
 #include <span>
 
-#include "methods/tan_gmm/sample_sums.hpp"
 #include "methods/tan_gmm/samples.hpp"
 
 namespace footprint::tan_gmm {
@@ -48,6 +48,23 @@ class Prior {
 /// prior by c in place of 2 sigma^2 c.
 enum class MStep { exact, published };
 
+/// Where EM starts. inherit: from the coarser texel's mixture where it is known, so that components keep their meaning
+/// from level to level, else as dense_seed. dense_seed: the best of clusters, a seed on the densest spot and, where it
+/// is known, the coarser texel's mixture. clusters: clusters alone, as the paper has it.
+enum class Start { inherit, dense_seed, clusters };
+
+struct FitSettings {
+  std::size_t components = 4;  ///< 1 to most_components
+  bool align = true;           ///< neighbours draw the means; else each texel on its own
+  MStep m_step = MStep::exact;
+  Start start = Start::inherit;
+  bool full_covariance = false;  ///< a whole covariance each, by EM from the isotropic mixture on
+  double prior_weight = 1.0;     ///< c of the prior
+  int most_iterations = 40;      ///< EM steps from the best start
+  int trial_iterations = 4;      ///< EM steps that each start is judged by
+  double tolerance = 1e-4;       ///< gain of the log posterior, a unit of sample weight, that ends EM
+};
+
 /// What the E-step leaves of the samples for one component: sums over samples of weight * responsibility.
 struct Moments {
   double weight = 0;
@@ -76,5 +93,22 @@ void maximise(const Expectation& e, const Prior& prior, MStep step, std::span<Ga
 /// the posterior before the last step.
 double iterate(const Samples& samples, const Prior& prior, MStep step, int most_iterations, double tolerance,
                std::span<Gaussian> mixture);
+
+/// alpha times a Gaussian over the disc.
+struct FullGaussian {
+  double alpha = 0.0;
+  double x = 0.0, y = 0.0;              ///< mean
+  double xx = 0.0, xy = 0.0, yy = 0.0;  ///< covariance, without the floor that EM keeps it above
+};
+
+/// Fits `mixture` to the samples, from `start`, component by component; means are drawn to the prior's as those of
+/// isotropic Gaussians are, by what is the exact M-step here: (N I + 2 w S) mu = N m + 2 w S mu_0, S the covariance
+/// before the step, w the prior's weight. Steps and tolerance are those of `settings`. A component without samples
+/// keeps what it has, with alpha 0; without any samples all do.
+void fit_full(const Samples& samples, const Prior& prior, const FitSettings& settings, std::span<const Gaussian> start,
+              std::span<FullGaussian> mixture);
+
+/// The round Gaussian of the same mean spread: what neighbours and finer levels see of it.
+[[nodiscard]] Gaussian rounded(const FullGaussian& full);
 
 }  // namespace footprint::tan_gmm

@@ -11,7 +11,6 @@
 #include <random>
 #include <vector>
 
-#include "methods/tan_gmm/starts.hpp"
 #include "methods/tan_gmm/texel_fit.hpp"
 
 namespace footprint::tan_gmm {

@@ -1,6 +1,6 @@
 // EM with whole covariances: the samples' own moments, the objective that it climbs, and the cases that divide by
 // little.
-#include "methods/tan_gmm/full_covariance.hpp"
+#include "methods/tan_gmm/em.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include <array>
 #include <utility>
 
-#include "methods/tan_gmm/full_covariance.hpp"
+#include "methods/tan_gmm/em.hpp"
 #include "renderer/image/mipmap.hpp"
 
 namespace footprint::tan_gmm {

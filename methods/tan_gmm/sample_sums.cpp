@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "methods/tan_gmm/sample_sums.hpp"
+#include "methods/tan_gmm/samples.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace footprint::tan_gmm::HWY_NAMESPACE {

@@ -1,6 +1,7 @@
 // The normals that a texel of a mip level covers, as weighted points of the unit disc.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -8,6 +9,9 @@
 #include "renderer/image/image.hpp"
 
 namespace footprint::tan_gmm {
+
+/// Gaussians of a mixture at most.
+inline constexpr std::size_t most_components = 8;
 
 /// Weighted points (n_x, n_y) of the unit disc. A point may stand for several that lie close together: `spread` is
 /// then their mean squared distance from it (both axes together), else 0.
@@ -84,5 +88,22 @@ class PooledTiles {
   int across_, down_;  // tiles
   std::vector<Samples> tiles_;
 };
+
+/// log(alpha g) = constant - factor |n - mu|^2 of each component, with its mean mu.
+struct Terms {
+  std::array<float, most_components> x{}, y{}, constant{}, factor{};
+};
+
+/// Sums over the samples of weight * responsibility, alone and times the distance from the component's mean: along each
+/// axis, and squared with the sample's spread.
+struct Sums {
+  std::array<double, most_components> weight{}, dx{}, dy{}, square{};
+  double log_likelihood = 0;
+};
+
+/// Over all samples, for the first `components` (2 to most_components) of `terms`. Responsibilities in 32 bits by
+/// log-sum-exp, sums of 256 samples in 32 bits, then in 64. The last bits depend on the processor's vector
+/// instructions, never on the number of threads.
+[[nodiscard]] Sums sums_over(const Samples& samples, const Terms& terms, std::size_t components);
 
 }  // namespace footprint::tan_gmm

@@ -1,7 +1,6 @@
 // `tan_gmm`: a mixture of Gaussians over the normals of every texel of every level, aligned between neighbours so that
 // the texture filter can blend it. Tan, Lin, Quan, Guo, Shum 2005, "Multiresolution Reflectance Filtering".
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "methods/tan_gmm/mixture_chain.hpp"
@@ -92,7 +91,7 @@ class TanGmm final : public Method {
       const char* const name = fit.full_covariance ? "tan_gmm_moments" : "tan_gmm_mixture";
       out.textures.push_back(make_array_texture(name, std::move(chain), storage, normal_coordinates(material)));
     }
-    std::ranges::move(bake_lobe_variance(material, storage, effects).textures, std::back_inserter(out.textures));
+    append(out.textures, bake_lobe_variance(material, storage, effects).textures);
     return out;
   }
 

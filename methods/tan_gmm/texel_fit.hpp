@@ -7,22 +7,17 @@
 
 namespace footprint::tan_gmm {
 
-/// Where EM starts. inherit: from the coarser texel's mixture where it is known, so that components keep their meaning
-/// from level to level, else as dense_seed. dense_seed: the best of clusters, a seed on the densest spot and, where it
-/// is known, the coarser texel's mixture. clusters: clusters alone, as the paper has it.
-enum class Start { inherit, dense_seed, clusters };
+/// Clusters of the samples as components (Tan 2005, section 4.1): centres farthest from one another, then Lloyd's
+/// steps. Where the samples have fewer distinct points than `mixture` components, the others get alpha 0.
+void cluster_start(const Samples& samples, std::span<Gaussian> mixture);
 
-struct FitSettings {
-  std::size_t components = 4;  ///< 1 to most_components
-  bool align = true;           ///< neighbours draw the means; else each texel on its own
-  MStep m_step = MStep::exact;
-  Start start = Start::inherit;
-  bool full_covariance = false;  ///< a whole covariance each, by EM from the isotropic mixture on
-  double prior_weight = 1.0;     ///< c of the prior
-  int most_iterations = 40;      ///< EM steps from the best start
-  int trial_iterations = 4;      ///< EM steps that each start is judged by
-  double tolerance = 1e-4;       ///< gain of the log posterior, a unit of sample weight, that ends EM
-};
+/// Components one less than `mixture` from clusters, and one of variance 1e-4 on the cell of a histogram that holds the
+/// most weight: clusters miss spikes of equal normals inside of a wider spread. Needs two components.
+void dense_start(const Samples& samples, std::span<Gaussian> mixture);
+
+/// Orders the components so that the prior is greatest: which cluster is which is free until neighbours tell. Those
+/// of alpha 0 take the prior's mean.
+void match_order(const Prior& prior, std::span<Gaussian> mixture);
 
 /// Fits `mixture` to the samples. `parent`: the coarser texel's mixture, or empty. Without samples: every alpha is 0.
 void fit_texel(const Samples& samples, const Prior& prior, std::span<const Gaussian> parent,

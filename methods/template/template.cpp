@@ -7,7 +7,6 @@
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
-#include "renderer/image/mipmap.hpp"
 
 namespace footprint {
 
@@ -36,13 +35,6 @@ std::vector<Image> normal_and_spread(const Material& material) {
     for (std::size_t i = 0; i < level.texel_count(); ++i) std::copy_n(&level.texels[3 * i], 3, &out.texels[4 * i]);
   }
   return chain;
-}
-
-// This method leaves out that the roughness may vary: it takes its mean.
-Lobe mean_lobe(const Material& material) {
-  if (width_map(material) == nullptr) return lobe_of(material);
-  const float roughness = mip_chain(roughness_map_of(material)).back().texels.front();
-  return lobe_from_alpha(material.brdf.distribution, roughness * roughness);
 }
 
 class IndependentTexels final : public Method {

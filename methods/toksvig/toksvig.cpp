@@ -1,7 +1,6 @@
 // `toksvig`: the mean resultant length of the normals under a footprint tells their spread; one lobe about the mean
 // normal takes that spread into its width. Toksvig 2004/2005, "Mipmapping Normal Maps".
 #include <algorithm>
-#include <iterator>
 
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
@@ -22,7 +21,7 @@ class Toksvig final : public Method {
                                        const Progress& /*progress*/) const override {
     const Storage storage = parse_storage(options.word("storage"));
     Prefiltered out = bake_mean_normal(material, storage, effects);
-    std::ranges::move(bake_lobe_variance(material, storage, effects).textures, std::back_inserter(out.textures));
+    append(out.textures, bake_lobe_variance(material, storage, effects).textures);
     return out;
   }
 

@@ -1,7 +1,6 @@
 // Xu, Wang, Zhao, Bao 2017: the effective BRDF is a mixture of von Mises-Fisher lobes, one for each part of the
 // hemisphere of normals; each is recovered from its characteristic vector, which the texture filter averages.
 //? include xu_vmf_conversion.glsl
-//? include xu_vmf_facets.glsl
 //? include xu_vmf_lobes.glsl
 //? if texture_arrays
 //? include xu_vmf_parts.glsl

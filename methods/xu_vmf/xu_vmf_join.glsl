@@ -3,7 +3,6 @@
 // faces away, or is not at all. Means of texels are (w r, w): the share of the footprint that is covered, and its
 // lobes' mean.
 //? include xu_vmf_conversion.glsl
-//? include xu_vmf_table.glsl
 //? include xu_vmf_storing.glsl
 
 layout(location = 0) out vec4 joined;

@@ -55,7 +55,165 @@ KeptLobe lobeOfPart(FacetsLobe own, Part part, float weight) {
 }
 
 //? if sampling_frame and not j_1
-//? include xu_vmf_tree.glsl
+// Algorithm 1: the parts of the hemisphere, cut as long as one lobe does not serve them.
+//? include xu_vmf_cells.glsl
+
+// Where a part of one of the facets' lobes is looked up. Its finest level is not stored: the texels of the whole
+// hemisphere's stand in for it below level 1, each for the part that its lobe is in.
+struct Probe {
+  int own;
+  vec2 uv;
+  float level;
+  mat4 texel;    // a column each, by its share
+  vec4 guard;
+  ivec4 part;
+};
+
+// The four texels about a point come by their channels, gathered from the middle between them, where no hardware rounds
+// to others. Each is (r, 1), or 0: the fourth channel needs no look.
+mat4 texelsAbout(sampler2DArray map, vec3 middle) {
+  vec4 x = textureGather(map, middle, 0);
+  vec4 y = textureGather(map, middle, 1);
+  vec4 z = textureGather(map, middle, 2);
+  vec4 covered = vec4(notEqual(abs(x) + abs(y) + abs(z), vec4(0.0)));
+  return transpose(mat4(x, y, z, covered));
+}
+
+Probe probeAt(int own, vec2 uv, float level) {
+  Probe p;
+  p.own = own;
+  p.uv = uv;
+  p.level = level;
+  vec2 size = vec2(textureSize(xu_vmf_whole, 0).xy);
+  vec2 in_texels = uv * size - 0.5;
+  vec2 corner = floor(in_texels);
+  vec2 beyond = in_texels - corner;
+  vec3 middle = vec3((corner + 1.0) / size, own);
+  vec4 share = vec4(1.0 - beyond.x, beyond.x, beyond.x, 1.0 - beyond.x) *
+               vec4(beyond.y, beyond.y, 1.0 - beyond.y, 1.0 - beyond.y);  // in the order of textureGather
+  share *= 1.0 - clamp(level, 0.0, 1.0);
+  p.texel = texelsAbout(xu_vmf_whole, middle);
+  countLookups(4);
+  for (int i = 0; i < 4; ++i) {
+    p.part[i] = partOfCell(cellOf(p.texel[i].xyz));
+    p.texel[i] *= share[i];
+  }
+  p.guard = vec4(0.0);
+//? if storage_fp16 and roughness_variation
+  p.guard = share * textureGather(xu_vmf_whole_guard, middle, 0);
+  countLookups(1);
+//? end
+  return p;
+}
+
+// One part under one probe.
+Part partAt(Probe p, float facet_shortfall, int part) {
+  float share = clamp(p.level, 0.0, 1.0);
+  int layers = textureSize(xu_vmf_parts, 0).z / facetsLobeCount();
+  vec3 at = vec3(p.uv, p.own * layers + part);
+  vec4 r = share * textureLod(xu_vmf_parts, at, p.level - 1.0);
+  countLookups(1);
+  float guard = 0.0;
+//? if storage_fp16 and roughness_variation
+  guard = share * textureLod(xu_vmf_parts_guard, at, p.level - 1.0).r;
+  countLookups(1);
+//? end
+  int beyond = beyondPart(part);
+  for (int i = 0; i < 4; ++i) {
+    bool holds = part <= p.part[i] && p.part[i] < beyond;
+    r += holds ? p.texel[i] : vec4(0.0);
+    guard += holds ? p.guard[i] : 0.0;
+  }
+  return partOf(r, guard, facet_shortfall);
+}
+
+// Where a walk over the parts of one of the facets' lobes is.
+struct Walk {
+  Footprint footprint;
+  int own;
+  float facet_shortfall;
+  int next;  // part; from `parts` on the walk is over
+  int parts;
+//? if not several_probes
+  Probe probe;
+//? end
+//? if j_adaptive and thresholds_blended
+  float coarse_weight, cell_weight;  // what the hemisphere leaves to the coarse parts, and such a part to its cells
+//? end
+};
+
+//? if several_probes
+Part partUnder(Walk walk, int part) {
+  Footprint f = walk.footprint;
+  Probes p = probesOf(vec2(textureSize(xu_vmf_whole, 0).xy), f);
+  vec4 r = vec4(0.0);
+  float least = 0.0;
+  int i = 0;
+  do {
+    Part one = partAt(probeAt(walk.own, probeUv(f, p, i), p.level), walk.facet_shortfall, part);
+    r += probeWeight(p, i) * one.r;
+    least += probeWeight(p, i) * one.least;
+  } while (++i < p.count);
+  return Part(r, least);
+}
+//? end
+
+//? if j_adaptive
+// How far one lobe serves a part: 1 wholly, 0 not at all. Algorithm 1 steps at the threshold. A cell is not cut, nor
+// what nothing is in.
+float unityOf(Part part, int i) {
+  if (beyondPart(i) == i + 1 || part.r.w < least_share) return 1.0;
+  float size = length(part.r.xyz) / part.r.w;
+  float threshold = i == 0 ? option_eps0 : option_eps1;
+//? if thresholds_blended
+  return clamp((size - threshold) / 0.02 + 1.0, 0.0, 1.0);
+//? else
+  return size > threshold ? 1.0 : 0.0;
+//? end
+}
+//? end
+
+Walk walkOver(Footprint f, int own, float facet_shortfall) {
+  Walk walk;
+  walk.footprint = f;
+  walk.own = own;
+  walk.facet_shortfall = facet_shortfall;
+  walk.next = 0;
+  walk.parts = textureSize(xu_vmf_parts, 0).z / facetsLobeCount();
+//? if not several_probes
+  walk.probe = probeAt(own, f.uv, probesOf(vec2(textureSize(xu_vmf_whole, 0).xy), f).level);
+//? end
+//? if j_adaptive and thresholds_blended
+  walk.coarse_weight = 0.0;
+  walk.cell_weight = 0.0;
+//? end
+  return walk;
+}
+
+Part nextPart(inout Walk walk, out float weight) {
+  int i = walk.next;
+//? if several_probes
+  Part part = partUnder(walk, i);
+//? else
+  Part part = partAt(walk.probe, walk.facet_shortfall, i);
+//? end
+  weight = 1.0;
+  ++walk.next;
+//? if j_adaptive
+  weight = unityOf(part, i);
+  int beyond = beyondPart(i);
+  if (weight >= 1.0) walk.next = beyond;
+//? end
+//? if j_adaptive and thresholds_blended
+  float unity = weight;
+  bool is_cell = beyond == i + 1;
+  float whole = i == 0 ? 1.0 : is_cell ? walk.cell_weight : walk.coarse_weight;
+  weight = whole * unity;
+  if (!is_cell) walk.cell_weight = whole * (1.0 - unity);
+  if (i == 0) walk.coarse_weight = 1.0 - unity;
+//? end
+  return part;
+}
 //? else
 // One part: a sample of the finest level has one texel, or what is blended of texels.
 struct Walk {
@@ -65,15 +223,7 @@ struct Walk {
   int next, parts;
 };
 
-Walk walkOver(Footprint f, int own, float facet_shortfall) {
-  Walk walk;
-  walk.footprint = f;
-  walk.own = own;
-  walk.facet_shortfall = facet_shortfall;
-  walk.next = 0;
-  walk.parts = 1;
-  return walk;
-}
+Walk walkOver(Footprint f, int own, float facet_shortfall) { return Walk(f, own, facet_shortfall, 0, 1); }
 
 Part nextPart(inout Walk walk, out float weight) {
   float guard = 0.0;

@@ -1,6 +1,6 @@
 // The hierarchy holds every point once, within its bounds, and is the same at any number of threads; elements have the
 // slopes of their map.
-#include "methods/yan_gaussians/element_tree.hpp"
+#include "methods/yan_gaussians/elements.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -10,8 +10,6 @@
 #include <memory>
 #include <random>
 #include <vector>
-
-#include "methods/yan_gaussians/elements.hpp"
 
 namespace footprint {
 namespace {

@@ -4,7 +4,6 @@
 #include <array>
 #include <limits>
 
-#include "methods/yan_gaussians/element_tree.hpp"
 #include "methods/yan_gaussians/elements.hpp"
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
@@ -25,13 +24,6 @@ constexpr int order_width = 4096, nodes_width = 2048;
 
 int rows_for(std::size_t count, int width) {
   return static_cast<int>((count + static_cast<std::size_t>(width) - 1) / static_cast<std::size_t>(width));
-}
-
-// The lobe of every element where the roughness varies, which this method leaves out: of the mean roughness.
-Lobe mean_lobe(const Material& material) {
-  if (width_map(material) == nullptr) return lobe_of(material);
-  const float roughness = mip_chain(roughness_map_of(material)).back().texels.front();
-  return lobe_from_alpha(material.brdf.distribution, roughness * roughness);
 }
 
 ElementTree tree_over(const Elements& elements, double cutoff) {

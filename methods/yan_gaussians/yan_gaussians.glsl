@@ -10,9 +10,101 @@ Footprint folded(Footprint f) {
 }
 
 //? end
-//? include yan_element.glsl
+// What the normals of one element reflect: their mean and covariance on the disc, and the roughness of each.
+
+// What is asked of each element: its reflectance but for the Fresnel term, or its density of normals at h.
+struct Query {
+  bool reflects;
+  vec3 h;
+  vec3 wi;
+  vec3 wo;
+};
+
+// The unit normal over a point of the disc, at least a hundredth above the horizon.
+vec3 onSphere(vec2 disc) {
+  float squared = dot(disc, disc);
+  if (squared > 0.9999) return vec3(disc * sqrt(0.9999 / squared), 0.01);
+  return vec3(disc, sqrt(1.0 - squared));
+}
+
+//? if roughness_intrinsic
+const vec3 no_spread = vec3(0.0);
+
+// A Gaussian on the disc (Yan 2016), whose covariance is that of the element's normals, (xx, xy, yy), and sigma_r^2
+// along both axes; times h_z it is a density over solid angle. The determinant is summed from parts of one sign.
+float elementDensity(vec3 normal, vec3 spread, vec3 h) {
+  countLobes(1);
+  float rough = option_sigma_r * option_sigma_r;
+  float both = spread.x + spread.z;
+  float det = rough * rough + rough * both + max(spread.x * spread.z - spread.y * spread.y, 0.0);
+  vec2 d = h.xy - normal.xy;
+  float q = (spread.z + rough) * d.x * d.x - 2.0 * spread.y * d.x * d.y + (spread.x + rough) * d.y * d.y;
+  return max(h.z, 0.0) * exp(-0.5 * q / det) / (2.0 * pi * sqrt(det));
+}
+
+float elementValue(vec3 normal, vec3 spread, Query q) {
+  float density = elementDensity(normal, spread, q.h);
+  if (!q.reflects || density <= 0.0) return density;
+  return density * geometryFactor(lobeFromVariance(option_sigma_r * option_sigma_r), normal, q.h, q.wi, q.wo);
+}
+
+// How far from h on the disc a normal may lie whose roughness still reaches h.
+float normalReach() { return option_cutoff * option_sigma_r; }
+//? else
+const float no_spread = 0.0;
+
+// The base lobe about the mean, widened alike in all directions by the mean of the element's variances on the sphere.
+float elementValue(vec3 normal, float variance, Query q) {
+  Facets facets = spreadFacets(normal, lobeVariance(yan_lobe), variance);
+  return q.reflects ? facetReflectance(facets, q.h, q.wi, q.wo) : facetDensity(facets, q.h);
+}
+
+// How far from h, as a chord, the normal of a facet may lie whose lobe has exp(-cutoff^2 / 2) of its peak at h.
+float normalReach() {
+  float most = 0.5 * option_cutoff * option_cutoff;
+//? if multi_lobe or distribution_ggx
+  return 4.0;  // a tail that no cut-off leaves whole, or axes anywhere
+//? elif distribution_blinn_phong
+  return sqrt(2.0 * (1.0 - exp(-most / yan_lobe)));
+//? elif distribution_vmf
+  return sqrt(min(2.0 * most / yan_lobe, 4.0));
+//? else
+  // exp(-t / alpha^2) (1 + t)^2 with t the squared tangent: a step of the fixed point
+  // t = alpha^2 (most + 2 log(1 + t)), from a start that is larger than it.
+  float a2 = yan_lobe * yan_lobe;
+  float t = a2 * (most + 2.0 * log(1.0 + a2 * (most + 8.0)));
+  return sqrt(2.0 * (1.0 - inversesqrt(1.0 + t)));
+//? end
+}
+//? end
 //? if normal_variation and sampling_frame
 //? include yan_sum.glsl
 //? else
-//? include yan_texel.glsl
+// One texel's own facet: of many samples, or where normals do not vary.
+struct Effective {
+  vec3 normal;
+};
+
+Effective effective(Footprints f) {
+//? if normal_variation
+  return Effective(normalize(fetchFinest(mean_normal, folded(f.normal)).xyz));
+//? else
+  return Effective(vec3(0.0, 0.0, 1.0));
+//? end
+}
+
+float ndf(Effective e, vec3 h) { return elementValue(e.normal, no_spread, Query(false, h, h, h)); }
+
+Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
+  Reflected r;
+  r.specular = vec3(0.0);
+  if (halfVectorIsDefined(wi, wo)) {
+    Query q = Query(true, halfVector(wi, wo), wi, wo);
+    r.specular = fresnelTerm(s.f0, wi, wo) * elementValue(e.normal, no_spread, q);
+  }
+//? if diffuse
+  r.diffuse = diffuse(e.normal, s, wi, wo);
+//? end
+  return r;
+}
 //? end

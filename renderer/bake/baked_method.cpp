@@ -53,10 +53,14 @@ std::size_t added_bytes(const BakedMethod& baked) {
 
 }  // namespace
 
+Options options_of(const Method& method, const MethodSpec& spec) {
+  return {method.info().options, spec.options, "method " + spec.name};
+}
+
 BakedMethod unbaked(const Method& method, const MethodSpec& spec) {
   return {.method = &method,
           .spec = spec,
-          .options = Options(method.info().options, spec.options, "method " + spec.name),
+          .options = options_of(method, spec),
           .materials = {},
           .shared = {},
           .seconds = 0,

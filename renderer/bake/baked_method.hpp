@@ -28,7 +28,11 @@ struct BakedMethod {
 /// Called when a material is baked, with its number; it may free the texels.
 using MaterialBaked = std::function<void(std::size_t)>;
 
-/// A method with its options, and nothing baked yet. Errors (usage): an option that it has not.
+/// The options of `spec`, checked against the method's table, with defaults. Errors (usage): an unknown option, or a
+/// value out of range.
+[[nodiscard]] Options options_of(const Method& method, const MethodSpec& spec);
+
+/// A method with its options, and nothing baked yet. Errors (usage): those of options_of.
 [[nodiscard]] BakedMethod unbaked(const Method& method, const MethodSpec& spec);
 
 /// Runs the precompute of `baked` for one material after the other, as `bake` does. Seconds are those of the precompute

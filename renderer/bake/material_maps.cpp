@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "renderer/image/mipmap.hpp"
+
 namespace footprint {
 namespace {
 
@@ -98,6 +100,27 @@ Image coat_normal_map_of(const Material& material) {
       normals.texels[3 * i + c] = valid ? map.texels[4 * i + c] : (c == 2 ? 1.0F : 0.0F);
   }
   return normals;
+}
+
+Lobe mean_lobe(const Material& material) {
+  if (width_map(material) == nullptr) return lobe_of(material);
+  const float roughness = mip_chain(roughness_map_of(material)).back().texels.front();
+  return lobe_from_alpha(material.brdf.distribution, roughness * roughness);
+}
+
+bool roughness_lies_on_normals(const Material& material) {
+  const auto size = [](const TextureMap* map) {
+    return map == nullptr ? glm::ivec2(1) : glm::ivec2(map->image.width(), map->image.height());
+  };
+  const glm::ivec2 roughness = size(width_map(material));
+  const glm::ivec2 normals = size(material.normal_map ? &*material.normal_map : nullptr);
+  return roughness_coordinates(material) == normal_coordinates(material) && roughness.x <= normals.x &&
+         roughness.y <= normals.y;
+}
+
+float wrap_number(Wrap wrap) {
+  if (wrap == Wrap::repeat) return 0.0F;
+  return wrap == Wrap::mirrored_repeat ? 1.0F : 2.0F;
 }
 
 TextureCoordinates normal_coordinates(const Material& material) {

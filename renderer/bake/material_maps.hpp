@@ -44,6 +44,16 @@ namespace footprint {
 /// The narrowest coat: that of every base lobe (smallest_alpha in common_lobes.glsl).
 inline constexpr float smallest_coat_alpha = 1e-3F;
 
+/// The base lobe of a material, or that of its mean roughness if the roughness varies.
+[[nodiscard]] Lobe mean_lobe(const Material& material);
+
+/// Whether each texel of the normal map has one texel of the roughness map above it: both have the same coordinates,
+/// and the roughness map is not finer.
+[[nodiscard]] bool roughness_lies_on_normals(const Material& material);
+
+/// A wrap mode as shaders read it: 0 repeats, 1 mirrors every other copy, 2 clamps to the edge.
+[[nodiscard]] float wrap_number(Wrap wrap);
+
 /// Where the maps are looked up; the defaults where a material has none.
 [[nodiscard]] TextureCoordinates normal_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates layer_coordinates(const Material& material);

@@ -85,4 +85,8 @@ OptionSpec storage_option() {
                      "How the baked textures are stored: 32-bit floats, 16-bit floats or 8-bit fixed point.");
 }
 
+OptionSpec float_storage_option() {
+  return word_option("storage", {"fp32", "fp16"}, "How the baked textures are stored: 32-bit floats or 16-bit floats.");
+}
+
 }  // namespace footprint

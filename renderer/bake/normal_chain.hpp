@@ -44,4 +44,7 @@ inline constexpr float stored_lobe_variance = 1.0F / 64.0F;
 /// `storage=fp32|fp16|unorm8`.
 [[nodiscard]] OptionSpec storage_option();
 
+/// `storage=fp32|fp16`, for values that exceed the range of 8-bit fixed point.
+[[nodiscard]] OptionSpec float_storage_option();
+
 }  // namespace footprint

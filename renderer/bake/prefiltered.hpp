@@ -1,8 +1,10 @@
 // What a method bakes once per material: a plain value that one piece of code uploads, counts and tests.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -76,7 +78,13 @@ struct Prefiltered {
 /// coordinates do not count. Of texels that lie in memory.
 [[nodiscard]] std::uint64_t texel_content(const PrefilteredTexture& texture);
 
-/// Gives the texels back, for what lies on the GPU by now; name and sizes stay.
+/// Moves the textures of a container to the end of `textures`.
+template <class Container>
+void append(std::vector<PrefilteredTexture>& textures, Container more) {
+  std::ranges::move(more, std::back_inserter(textures));
+}
+
+/// Frees the texels of a texture that is on the GPU; name and sizes remain.
 void free_texels(PrefilteredTexture& texture);
 
 /// Texels of the finest level of its largest map: what a figure per texel refers to. Tables that are no maps

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <string>
 #include <utility>
 
@@ -166,10 +165,6 @@ std::vector<Image> channels_of(const std::vector<Image>& chain, std::initializer
   return out;
 }
 
-OptionSpec slope_storage_option() {
-  return word_option("storage", {"fp32", "fp16"}, "How the baked textures are stored: 32-bit floats or 16-bit floats.");
-}
-
 OptionSpec slope_roughness_option() {
   return word_option(
       "roughness", {"stretched", "shading", "moments"},
@@ -205,8 +200,7 @@ Prefiltered bake_slopes(const Material& material, const Options& options, const 
     add_textures("layer", slope_moment_chain(layer, no_variance, steepest), {}, kept.variant, storage,
                  layer_coordinates(material), out);
   }
-  if (!in_moments)
-    std::ranges::move(bake_lobe_variance(material, storage, effects).textures, std::back_inserter(out.textures));
+  if (!in_moments) append(out.textures, bake_lobe_variance(material, storage, effects).textures);
   return out;
 }
 

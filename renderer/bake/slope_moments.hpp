@@ -47,9 +47,6 @@ inline constexpr int slope_x = 0, slope_y = 1, slope_xx = 2, slope_xy = 3, slope
 /// The given channels of every level, in the given order.
 [[nodiscard]] std::vector<Image> channels_of(const std::vector<Image>& chain, std::initializer_list<int> channels);
 
-/// `storage=fp32|fp16`: slopes and their squares exceed what 8-bit fixed point spans.
-[[nodiscard]] OptionSpec slope_storage_option();
-
 /// `roughness=stretched|shading|moments`: where the base lobe joins the slopes, and what shape it has there.
 [[nodiscard]] OptionSpec slope_roughness_option();
 

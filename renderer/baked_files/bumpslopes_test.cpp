@@ -8,6 +8,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "renderer/bake/normal_chain.hpp"
 #include "renderer/bake/slope_moments.hpp"
 #include "renderer/core/error.hpp"
 #include "tests/support/fresh_folder.hpp"
@@ -42,7 +43,7 @@ Image without_weight(const Image& normals) {
 
 Prefiltered lean_of(const Image& normals, const KeptSlopes& kept = {}) {
   const Material material = square_scene(normals, {}).materials.front();
-  const Options options({slope_storage_option(), slope_roughness_option(), steepest_slope_option()}, {}, "lean");
+  const Options options({float_storage_option(), slope_roughness_option(), steepest_slope_option()}, {}, "lean");
   EffectSet effects;
   effects.set(static_cast<std::size_t>(Effect::normal_variation));
   return bake_slopes(material, options, effects, kept);

@@ -1,5 +1,5 @@
 // The sum over facets and the table of it, against cases that are known, and the figures that compare them with lobes.
-#include "methods/iwasaki_sg/study/dense_brdf.hpp"
+#include "methods/iwasaki_sg/study/effective_brdf.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,15 @@
 #include <numbers>
 #include <tuple>
 
-#include "methods/iwasaki_sg/settings.hpp"
-#include "methods/iwasaki_sg/study/quantities.hpp"
+#include "methods/iwasaki_sg/material_table.hpp"
 #include "methods/iwasaki_sg/test_materials.hpp"
+#include "methods/quantities.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
+
+namespace footprint {
+std::span<const Quantity> iwasaki_sg_quantities();
+}
 
 namespace footprint::iwasaki_sg {
 namespace {

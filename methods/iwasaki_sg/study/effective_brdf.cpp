@@ -1,19 +1,62 @@
-// Evaluates Eq. 15 in double precision with the shader's own interpolation between directions.
+// Sums over facets drawn with a seed of their own, and interpolates between directions as the shader does.
 #include "methods/iwasaki_sg/study/effective_brdf.hpp"
 
+#include <tbb/parallel_for.h>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <random>
 #include <utility>
 
+#include "methods/iwasaki_sg/material_table.hpp"
 #include "methods/iwasaki_sg/ndf_fit.hpp"
-#include "methods/iwasaki_sg/settings.hpp"
 #include "methods/iwasaki_sg/spherical_gaussian.hpp"
+#include "renderer/core/random.hpp"
 #include "renderer/lobes/vmf.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
 
 namespace footprint::iwasaki_sg {
 namespace {
+
+constexpr double least_area = 1e-6;  // of the patch, below which a direction sees nothing
+
+constexpr std::size_t random_count = 192;  // directions to the light, and to the viewer
+constexpr std::size_t truth_facets = 131'072;
+constexpr double least_height = 0.05;         // cosine: 3 degrees over the horizon, where rays still pass few periods
+constexpr std::uint64_t truth_seed = 12'345;  // not the method's
+
+// A bin for each triangle that has samples: its own normal, where the method takes the mean over a cell.
+BinnedFacets by_triangles(const Patch& patch, FacetSamples samples) {
+  BinnedFacets out;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const std::uint32_t triangle = samples.triangles[i];
+    if (i == 0 || triangle != samples.triangles[i - 1]) {
+      const std::uint8_t paint = patch.paints.empty() ? std::uint8_t{0} : patch.paints[triangle];
+      out.bins.push_back({facet_plane(patch, triangle).normal, paint, i, i});
+    }
+    out.bins.back().end = i + 1;
+  }
+  out.samples = std::move(samples);
+  return out;
+}
+
+Bvndf bvndf_of(const Patch& patch, BinnedFacets facets, std::vector<glm::dvec3> directions, const Progress& progress) {
+  FacetVisibility visibility = facet_visibility(patch, facets.samples, directions, progress);
+  return make_bvndf(std::move(facets), std::move(visibility), std::move(directions));
+}
+
+// Uniform over the directions above `least_height`.
+std::vector<glm::dvec3> random_directions(std::size_t count) {
+  std::mt19937_64 random(truth_seed);
+  std::vector<glm::dvec3> directions;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double z = 1.0 - (1.0 - least_height) * uniform(random), azimuth = 2.0 * std::numbers::pi * uniform(random);
+    const double sine = std::sqrt(1.0 - z * z);
+    directions.emplace_back(sine * std::cos(azimuth), sine * std::sin(azimuth), z);
+  }
+  return directions;
+}
 
 // The base lobe as wide as it and the normals' lobe are together: slope variances add.
 double widened(const Lobe& base, const SphericalGaussian& lobe, const glm::dvec3& h) {
@@ -22,6 +65,94 @@ double widened(const Lobe& base, const SphericalGaussian& lobe, const glm::dvec3
 }
 
 }  // namespace
+
+FacetSum::FacetSum(const Material& material, const TableSettings& settings, BinnedFacets facets,
+                   std::vector<glm::dvec3> directions, const Progress& progress)
+    : bvndf_(bvndf_of(material.microgeometry->patch, std::move(facets), std::move(directions), progress)),
+      lobe_{lobe_of(material)},
+      support_(lobe_support(lobe_)),
+      table_(material.microgeometry->brdf.get()),
+      cosines_(settings.cosines),
+      channels_(settings.channels),
+      paints_(settings.paints) {}
+
+double FacetSum::base_density(const glm::dvec3& normal, const glm::dvec3& h) const {
+  const double u = one_minus_dot(normal, h);
+  return u < support_ ? lobe_density(lobe_, u) : 0.0;
+}
+
+glm::dvec3 FacetSum::operator()(std::size_t wi, std::size_t wo) const {
+  const glm::dvec3 to_light = bvndf_.directions[wi], to_viewer = bvndf_.directions[wo];
+  const double area = bvndf_.visible_area[wo];
+  if (area < least_area * bvndf_.total_area()) return glm::dvec3(0.0);
+  const glm::dvec3 h = glm::normalize(to_light + to_viewer);
+  glm::dvec3 sum(0.0);
+  for (std::size_t i = 0; i < bvndf_.bins.size(); ++i) {
+    const glm::dvec3& n = bvndf_.bins[i].normal;
+    const double cosine_i = glm::dot(n, to_light), cosine_o = glm::dot(n, to_viewer);
+    if (cosine_i <= 0.0 || cosine_o <= 0.0) continue;
+    const double density = table_ != nullptr ? 1.0 : base_density(n, h);
+    if (density == 0.0) continue;
+    const double seen = bvndf_.gamma(i, wi, wo) * cosine_o * (cosines_ == Cosines::published ? cosine_i : 1.0);
+    if (seen == 0.0) continue;
+    const glm::dvec3 paint(channels_ == 1 ? glm::vec3(paints_[bvndf_.bins[i].paint].specular.r)
+                                          : paints_[bvndf_.bins[i].paint].specular);
+    const glm::dvec3 own = table_ != nullptr ? glm::dvec3(table_->at(n, to_light, to_viewer)) : glm::dvec3(density);
+    sum += seen * paint * own;
+  }
+  return sum / area;
+}
+
+DenseTable::DenseTable(const Material& material, const TableSettings& settings, int side, const Progress& progress)
+    : side_(side), with_cosine_(settings.cosines == Cosines::published) {
+  const Patch& patch = material.microgeometry->patch;
+  const FacetSum sum(material, settings, bin_facets(patch, sample_facets(patch, settings.facets, settings.seed)),
+                     direction_grid(side), progress);
+  const std::size_t n = sum.directions().size();
+  values_.resize(n * n);
+  tbb::parallel_for(std::size_t{0}, n, [&](std::size_t wi) {
+    const double scale = with_cosine_ ? 1.0 / sum.directions()[wi].z : 1.0;
+    for (std::size_t wo = 0; wo < n; ++wo) values_[wi * n + wo] = glm::vec3(scale * sum(wi, wo));
+  });
+}
+
+glm::dvec3 DenseTable::operator()(const glm::dvec3& wi, const glm::dvec3& wo) const {
+  const GridCells in = cells_around(wi, side_), out = cells_around(wo, side_);
+  const auto n = static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_);
+  glm::dvec3 sum(0.0);
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t o = 0; o < 4; ++o) {
+      sum += in.weights.at(i) * out.weights.at(o) * glm::dvec3(values_[in.cells.at(i) * n + out.cells.at(o)]);
+    }
+  }
+  return with_cosine_ ? sum * wi.z : sum;
+}
+
+std::size_t DenseTable::byte_count(int side, std::size_t channels) {
+  const auto n = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+  return n * n * channels * sizeof(float);
+}
+
+double relative_error(const Material& material, const TableSettings& settings, const BrdfFunction& brdf) {
+  const Patch& patch = material.microgeometry->patch;
+  const FacetSum truth(material, settings, by_triangles(patch, sample_facets(patch, truth_facets, truth_seed)),
+                       random_directions(2 * random_count), no_progress);
+  std::vector<double> away(random_count), all(random_count);
+  tbb::parallel_for(std::size_t{0}, random_count, [&](std::size_t i) {
+    for (std::size_t o = random_count; o < 2 * random_count; ++o) {
+      const glm::dvec3 sum = truth(i, o);
+      const glm::dvec3 difference = brdf(truth.directions()[i], truth.directions()[o]) - sum;
+      away[i] += glm::dot(difference, difference);
+      all[i] += glm::dot(sum, sum);
+    }
+  });
+  double difference = 0.0, whole = 0.0;
+  for (std::size_t i = 0; i < random_count; ++i) {
+    difference += away[i];
+    whole += all[i];
+  }
+  return whole > 0.0 ? std::sqrt(difference / whole) : 0.0;
+}
 
 FacetReflection facet_reflection(const Material& material, const Options& options) {
   if (is_tabulated(material)) return lobes_of(*material.microgeometry->brdf);

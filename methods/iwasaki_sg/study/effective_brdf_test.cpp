@@ -6,7 +6,7 @@
 #include <array>
 #include <random>
 
-#include "methods/iwasaki_sg/settings.hpp"
+#include "methods/iwasaki_sg/material_table.hpp"
 #include "methods/iwasaki_sg/test_materials.hpp"
 #include "renderer/core/random.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"

@@ -1,6 +1,4 @@
 // Measures the fit, the effective BRDF, a dense table of it and the time of each stage.
-#include "methods/iwasaki_sg/study/quantities.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <string>
@@ -8,11 +6,10 @@
 #include <vector>
 
 #include "methods/iwasaki_sg/material_table.hpp"
-#include "methods/iwasaki_sg/settings.hpp"
-#include "methods/iwasaki_sg/study/dense_brdf.hpp"
 #include "methods/iwasaki_sg/study/effective_brdf.hpp"
 #include "methods/iwasaki_sg/study/fit_error.hpp"
 #include "methods/iwasaki_sg/table_textures.hpp"
+#include "methods/quantities.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/stage_clock.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"

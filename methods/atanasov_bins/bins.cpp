@@ -1,4 +1,4 @@
-// The bin of a direction from its point of the square, and how that point is rounded without leaving the bin.
+// Computes the bin of a direction from its point of the square, and rounds that point within the bin.
 #include "methods/atanasov_bins/bins.hpp"
 
 #include <algorithm>
@@ -12,19 +12,19 @@ namespace {
 
 constexpr std::uint32_t places = 65536;  // along an axis
 
-// x = 1, and what rounding puts beyond it, is in the last bin.
+// x = 1, or more by rounding, is in the last bin.
 std::uint32_t index_along(double x, int m) {
   return static_cast<std::uint32_t>(std::clamp(static_cast<int>(std::floor(x * m)), 0, m - 1));
 }
 
-// Places [first, last] are those p for which floor(p m / places) is the bin.
+// Places [first, last] are the p with floor(p m / places) equal to the bin.
 std::uint32_t place_along(double x, int m) {
   const std::uint32_t bin = index_along(x, m);
   const auto count = static_cast<std::uint32_t>(m);
   const std::uint32_t first = (bin * places + count - 1) / count;
   const std::uint32_t last = ((bin + 1) * places + count - 1) / count - 1;
   const auto place = static_cast<std::uint32_t>(std::clamp(std::floor(x * places), 0.0, places - 1.0));
-  return std::clamp(place, first, std::min(last, places - 2));  // places - 1 is left to no_normal
+  return std::clamp(place, first, std::min(last, places - 2));  // places - 1 is reserved for no_normal
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Weight, mean and covariance of each part of the normals under a footprint, from moments that the texture filter may
-// average, and one stretched base lobe a part (methods/cells/README.md).
+// Recovers weight, mean and covariance of each part of the normals under a footprint from filtered moments, and
+// evaluates one stretched base lobe per part (methods/cells/README.md).
 //? if coordinates_slopes
 //? include slope_part.glsl
 //? else
@@ -37,7 +37,7 @@ vec2 axisOf(int i) {
   return axes[i];
 }
 
-// From the part's own axes to the plane's.
+// From the axes of the part to those of the plane.
 vec2 meanOf(int i, vec2 own) {
   vec2 a = axisOf(i);
   return centreOf(i) + own.x * a + own.y * vec2(-a.y, a.x);
@@ -52,7 +52,7 @@ vec2 meanOf(int i, vec2 own) { return centreOf(i) + own; }
 vec3 spreadOf(int i, vec2 own_mean, vec3 second) { return covarianceOf(own_mean, second); }
 //? end
 
-// What covers less than `least_share` is not there; it is worked out like the others, without a branch.
+// A part that covers less than `least_share` gets the share 0; it is computed like the others, without a branch.
 void setPart(inout Effective e, int i, float covered, Moments m, BaseLobe base) {
   float least = least_share * covered;
   float per_weight = 1.0 / max(m.first.x, least);
@@ -66,11 +66,12 @@ void setPart(inout Effective e, int i, float covered, Moments m, BaseLobe base) 
 //? end
 }
 
-// That of the smallest alpha of a material, 0.001. In 16 bits the weighted variance of a small part of polished facets
-// rounds to 0, as that of a part that is not there is, and no lobe has that.
+// The slope variance of the smallest alpha of a material, 0.001. In 16 bits the weighted variance of a small part of
+// polished facets can round to 0.
 const float least_variance = 5e-7;
 
-// The base lobe over a part: where the roughness map lies on the normals, the mean of the part's own texels.
+// The base lobe of a part. If the roughness map lies on the normals, its variance is the mean over the part's own
+// texels.
 BaseLobe lobeOfPart(BaseLobe shared_lobe, float weight, float weighted_variance) {
 //? if roughness_variation and roughness_joint
   if (cells_joint > 0.5) {
@@ -81,7 +82,7 @@ BaseLobe lobeOfPart(BaseLobe shared_lobe, float weight, float weighted_variance)
   return shared_lobe;
 }
 
-// Of a part that is the surface's own normal, where no texel has a valid one.
+// The moments of a flat surface, for footprints without a valid normal.
 Moments flatMoments() {
   vec2 own = -centreOf(0);
 //? if covariance_axes

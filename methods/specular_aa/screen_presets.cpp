@@ -13,7 +13,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double gaussian_pixel = 1.0 / (2.0 * pi);  // variance of the pixel filter of Tokuyoshi and Kaplanyan
-constexpr double least_three_rho = 0.0525;           // its narrowest lobe, whatever the surface
+constexpr double least_three_rho = 0.0525;           // the narrowest lobe of any surface
 constexpr double babylon_variance = 5e-4;
 constexpr double curvature_exponent = 0.333;
 
@@ -21,14 +21,14 @@ double squared(double x) { return x * x; }
 double longest_squared(const NormalSteps& s) { return std::max(glm::dot(s.dx, s.dx), glm::dot(s.dy, s.dy)); }
 double sum_squared(const NormalSteps& s) { return glm::dot(s.dx, s.dx) + glm::dot(s.dy, s.dy); }
 
-// Lobes beyond 1 (Blinn-Phong's and vMF's have no such end) stay as they are.
+// Lobes above 1 are unchanged (Blinn-Phong's and vMF's have no such limit).
 double saturated(double value, double before) { return std::min(value, std::max(before, 1.0)); }
 
 double added(double alpha2, double constant, double cap, const NormalSteps& steps) {
   return saturated(alpha2 + std::min(constant * sum_squared(steps), cap), alpha2);
 }
 
-// On perceptual roughness rho = sqrt(alpha).
+// In perceptual roughness rho = sqrt(alpha).
 double curvature_roughness(double rho, const NormalSteps& steps) {
   return std::max(rho, std::min(std::pow(longest_squared(steps), curvature_exponent), 1.0));
 }
@@ -45,14 +45,14 @@ double babylon(double alpha, const NormalSteps& steps, LightKind light) {
   return squared(curvature_roughness(std::sqrt(alpha), steps)) + babylon_variance;
 }
 
-// Twice the covariance that a Gaussian pixel gives what changes by these from pixel to pixel.
+// Twice the covariance of a value over a Gaussian pixel, from its changes to neighbouring pixels.
 glm::dmat2 kernel(const glm::dvec2& dx, const glm::dvec2& dy) {
   return 2.0 * gaussian_pixel * (glm::outerProduct(dx, dx) + glm::outerProduct(dy, dy));
 }
 
 glm::dvec2 slope(const glm::dvec3& h) { return glm::dvec2(h) / std::abs(h.z); }
 
-// (P'^-1 + 1)^-1 of P' = P + K, P = alpha^2 / (1 - alpha^2), without a quotient that grows.
+// (P'^-1 + 1)^-1 of P' = P + K, P = alpha^2 / (1 - alpha^2), in a form without a quotient that grows.
 glm::dmat2 projected(double alpha2, const glm::dmat2& kernel) {
   const glm::dmat2 scaled = std::max(1.0 - alpha2, 0.0) * kernel;
   return (glm::dmat2(alpha2) + scaled) * glm::inverse(glm::dmat2(1.0) + scaled);

@@ -1,5 +1,5 @@
-// What engines make of how normals and half vectors change over the screen: one formula a preset, in double precision.
-// specular_aa.glsl has their twins.
+// The formulas by which engines widen lobes where normals and half vectors change over the screen, one per preset, in
+// double precision. specular_aa.glsl has their twins.
 #pragma once
 
 #include <array>
@@ -37,40 +37,41 @@ inline constexpr std::array<std::string_view, 11> preset_names{"filament",
                                                                "tokuyoshi_kaplanyan_2021",
                                                                "free"};
 
-/// Errors: std::out_of_range for no preset.
+/// The preset of a name. Errors: std::out_of_range if there is none.
 [[nodiscard]] Preset preset_of(std::string_view name);
 
-/// A preset with what `free` takes besides: alpha'^2 = alpha^2 + min(constant S, cap).
+/// A preset, with the parameters of `free`: alpha'^2 = alpha^2 + min(constant S, cap).
 struct Formula {
   Preset preset = Preset::filament;
   double constant = 0.3;
   double cap = 0.04;
 };
 
-/// What the unit normal changes by to the pixel on the right and to the one above, in the camera's axes (which `three`
-/// looks at; the others take lengths).
+/// Changes of the unit normal to the right and to the upper pixel, in the axes of the camera (`three` reads the axes,
+/// others only lengths).
 struct NormalSteps {
   glm::dvec3 dx, dy;
 };
 
-/// Of what light: `babylon` widens otherwise for an environment.
+/// The kind of light; `babylon` has another formula for an environment.
 enum class LightKind { punctual, environment };
 
-/// alpha'^2 of a lobe whose alpha^2 is twice its slope variance. Never below it. Sums end at 1, where engines saturate,
-/// but for lobes that are wider from the start. Errors: std::invalid_argument for a preset of half vectors.
+/// alpha'^2 of a lobe whose alpha^2 is twice its slope variance; at least alpha^2. Sums are limited to 1, where engines
+/// saturate, unless the lobe is wider before. Errors: std::invalid_argument for a preset of half vectors.
 [[nodiscard]] double widened_alpha2(const Formula& formula, double alpha2, const NormalSteps& steps,
                                     LightKind light = LightKind::punctual);
 
 /// Whether the preset widens by half vectors, to an elliptical lobe.
 [[nodiscard]] bool takes_half_vectors(Preset preset);
 
-/// Of the presets of half vectors: alpha^2 as a matrix, twice the covariance of slopes, about the normal z, for unit
-/// half vectors of one light at the pixel, the one on the right and the one above, each in its own pixel's frame.
+/// For presets of half vectors: alpha^2 as a matrix, twice the covariance of slopes, about the normal z. `here`,
+/// `right` and `above` are unit half vectors of one light at the pixel and two neighbours, each in the frame of its own
+/// pixel.
 [[nodiscard]] glm::dmat2 widened_matrix(Preset preset, double alpha2, const glm::dvec3& here, const glm::dvec3& right,
                                         const glm::dvec3& above);
 
-/// Density over solid angle of GGX or Beckmann normals with that matrix, about z (Heitz 2014, equations 85 and 87, in
-/// any axes).
+/// The density over solid angle of GGX or Beckmann normals with that matrix, about z (Heitz 2014, equations 85 and 87,
+/// in any axes).
 [[nodiscard]] double matrix_density(NormalDistribution distribution, const glm::dmat2& alpha2, const glm::dvec3& h);
 
 }  // namespace footprint::specular_aa

@@ -1,5 +1,5 @@
 // `specular_aa`: the mean normal under a lobe that is widened where normals change over the screen, by an engine's
-// formula; over roughness mips as engines bake them, where that is asked for.
+// formula. Optionally over roughness mips as engines bake them.
 #include <optional>
 
 #include "methods/roughness_bake/roughness_bake.hpp"

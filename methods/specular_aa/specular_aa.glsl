@@ -1,5 +1,5 @@
-// Engines' screen-space filters of normals: the twin of screen_presets.hpp. Where no next pixels are told (samples of a
-// supersampled picture, the NDF inspector) the lobe stays as it is.
+// Engines' screen-space filters of normals: the twin of screen_presets.hpp. The lobe is unchanged where neighbouring
+// pixels are unknown, in samples of a supersampled image and in the NDF inspector.
 //? include mean_normal.glsl
 //? include mean_roughness.glsl
 //? if not bake_none
@@ -7,11 +7,11 @@
 //? end
 
 //? if preset_tokuyoshi_kaplanyan_2019 or preset_tokuyoshi_kaplanyan_2021
-// Tokuyoshi and Kaplanyan 2019, 2021: half vectors of a light spread over the pixel, in the frame of the normal, and
-// the lobe takes their covariance. Matrices are alpha^2, twice the covariance of slopes.
+// Tokuyoshi and Kaplanyan 2019, 2021: the lobe is widened by the covariance of a light's half vectors over the pixel,
+// in the frame of the normal. Matrices are alpha^2, twice the covariance of slopes.
 //? include facet_frame.glsl
 
-// What of a half vector is spread: its slope in 2019, its projection on the disc in 2021.
+// The measure of a half vector: its slope in 2019, its projection on the disc in 2021.
 vec2 spreadOf(vec3 h) {
 //? if preset_tokuyoshi_kaplanyan_2019
   return h.xy / max(abs(h.z), 1e-4);
@@ -20,7 +20,7 @@ vec2 spreadOf(vec3 h) {
 //? end
 }
 
-// For the unit half vectors of one light at the pixel and the next ones, each in its own frame.
+// The widened matrix for unit half vectors of one light at the pixel and its neighbours, each in its own frame.
 mat2 widenedMatrix(float alpha2, vec3 here, vec3 right, vec3 above) {
   const float gaussian_pixel = 0.5 / pi;  // variance of the pixel's filter
   vec2 at = spreadOf(here);
@@ -30,14 +30,14 @@ mat2 widenedMatrix(float alpha2, vec3 here, vec3 right, vec3 above) {
 //? if preset_tokuyoshi_kaplanyan_2019
   return mat2(alpha2) + kernel;
 //? else
-  // (P'^-1 + 1)^-1 of P' = alpha^2 / (1 - alpha^2) + kernel, without a quotient that grows.
+  // (P'^-1 + 1)^-1 of P' = alpha^2 / (1 - alpha^2) + kernel, in a form without a quotient that grows.
   mat2 scaled = max(1.0 - alpha2, 0.0) * kernel;
   return (mat2(alpha2) + scaled) * inverse(mat2(1.0) + scaled);
 //? end
 }
 
 //? if screen_derivatives
-// Where there is no light: for a half vector along the normal, which stays while the frames turn about it.
+// The matrix without a light: for a half vector along the normal, which is constant while the frames turn about it.
 mat2 matrixAboutNormal(float alpha2, vec3 n, vec3 n_right, vec3 n_above, Footprints f) {
   vec3 right = n + transpose(f.frame_dx) * n;
   vec3 above = n + transpose(f.frame_dy) * n;
@@ -45,8 +45,9 @@ mat2 matrixAboutNormal(float alpha2, vec3 n, vec3 n_right, vec3 n_above, Footpri
 }
 //? end
 
-// Density over solid angle about z: the round lobe of the same determinant, with its slopes stretched. A microfacet
-// density times the cosine is one over slopes (dh = cos^3 dslope), Blinn-Phong's and vMF's without it.
+// The density over solid angle about z: the round lobe of the same determinant, with stretched slopes. A microfacet
+// density times the cosine is a density over slopes (dh = cos^3 dslope); Blinn-Phong's and vMF's are without the
+// cosine.
 float matrixDensity(mat2 alpha2, vec3 h) {
   if (h.z <= 0.0) return 0.0;
   float size = sqrt(max(determinant(alpha2), 1e-24));
@@ -63,11 +64,11 @@ float matrixDensity(mat2 alpha2, vec3 h) {
   return lobeDensity(lobe, vec3(0.0, 0.0, 1.0), turned) * (jacobian * own / size);
 }
 //? else
-// Presets that widen a round lobe by the normal's changes dx and dy to the next pixels.
+// Presets that widen a round lobe by the changes dx and dy of the normal to neighbouring pixels.
 float sumSquared(vec3 dx, vec3 dy) { return dot(dx, dx) + dot(dy, dy); }
 float longestSquared(vec3 dx, vec3 dy) { return max(dot(dx, dx), dot(dy, dy)); }
 
-// Lobes beyond 1 (Blinn-Phong's and vMF's have no such end) stay as they are.
+// Lobes above 1 are unchanged (Blinn-Phong's and vMF's have no such limit).
 float saturated(float value, float before) { return min(value, max(before, 1.0)); }
 
 float addedTo(float before, float constant, float cap, vec3 dx, vec3 dy) {
@@ -77,13 +78,13 @@ float addedTo(float before, float constant, float cap, vec3 dx, vec3 dy) {
 float fourth(float x) { return x * x * x * x; }
 
 //? if preset_unreal or preset_babylon
-// On perceptual roughness.
+// In perceptual roughness.
 float curvatureRoughness(float rho, vec3 dx, vec3 dy) {
   return max(rho, min(pow(max(longestSquared(dx, dy), 1e-30), 0.333), 1.0));
 }
 //? end
 
-// alpha'^2 of alpha^2, which is twice the lobe's slope variance; under punctual lights.
+// alpha'^2 of alpha^2, which is twice the lobe's slope variance, under punctual lights.
 float screenWidened(float alpha2, vec3 dx, vec3 dy) {
 //? if preset_filament
   return addedTo(alpha2, 0.3, 0.04, dx, dy);
@@ -98,7 +99,7 @@ float screenWidened(float alpha2, vec3 dx, vec3 dy) {
   return addedTo(alpha2, 0.25, 0.18, dx, dy);
 //? elif preset_unreal
   float rho = sqrt(sqrt(alpha2));
-  return max(fourth(curvatureRoughness(rho, dx, dy)), alpha2);  // no less by rounding
+  return max(fourth(curvatureRoughness(rho, dx, dy)), alpha2);  // not less by rounding
 //? elif preset_three
   float least = max(sqrt(sqrt(alpha2)), 0.0525);
   vec3 largest = max(abs(dx), abs(dy));
@@ -122,7 +123,7 @@ float screenWidenedForEnvironment(float alpha2, vec3 dx, vec3 dy) {
 //? end
 //? end
 
-// The lobe before: the mean roughness, as it is or with what was baked into it.
+// alpha^2 before widening: of the mean roughness, or with the baked spread.
 float alpha2Before(Footprints f) {
 //? if bake_none
   return 2.0 * lobeVariance(baseLobe(f));
@@ -132,10 +133,10 @@ float alpha2Before(Footprints f) {
 }
 
 //? if screen_derivatives
-// Shading normals of this pixel and of the next ones, which a texture tells without their being drawn.
+// Shading normals of this pixel and its neighbours, read from the texture.
 struct ScreenNormals {
   vec3 here;
-  vec3 right;  // in the frame of the pixel on the right
+  vec3 right;  // in the frame of the right pixel
   vec3 above;
 };
 
@@ -152,15 +153,15 @@ ScreenNormals screenNormals(Footprints f) {
 //? if normal_shading or (normal_own and (preset_o3de or preset_godot or preset_bevy or preset_babylon))
   return ScreenNormals(n, meanNormal(shifted(f, vec2(1.0, 0.0))).xyz, meanNormal(shifted(f, vec2(0.0, 1.0))).xyz);
 //? else
-  return ScreenNormals(n, n, n);  // turned with the frame alone
+  return ScreenNormals(n, n, n);  // only the frame turns
 //? end
 }
 //? end
 
 //? if (preset_tokuyoshi_kaplanyan_2019 or preset_tokuyoshi_kaplanyan_2021) and screen_derivatives and not multi_lobe
 struct Effective {
-  Facets facets;          // a round lobe as wide, for a geometry term and for environment light
-  float alpha2;           // before
+  Facets facets;          // a round lobe of the same width, for the geometry term and for environment light
+  float alpha2;           // before widening
   ScreenNormals normals;
   mat2 matrix;            // alpha'^2 of a half vector along the normal
 };
@@ -195,7 +196,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo, HalfSteps steps) {
   return r;
 }
 
-// Of light that has no place: an environment's directions.
+// For the directions of an environment.
 Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) { return facetShade(e.facets, s, wi, wo); }
 //? else
 struct Effective {

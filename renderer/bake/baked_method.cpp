@@ -1,4 +1,4 @@
-// One material after the other, each by the method or from the cache, with the time and bytes of all.
+// Bakes materials one by one, or reads them from the cache, and adds up time and bytes.
 #include "renderer/bake/baked_method.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ struct Outcome {
   bool from_disk;
 };
 
-// One material: from the disk where it is kept there, else by the method, and kept if that is worth it.
+// Bakes one material or reads it from the cache; writes slow bakes to the cache.
 Outcome prefilter(const Method& method, const Scene& scene, std::size_t index, const Options& options,
                   const EffectSet& effects, const Progress& progress, const BakeCache* cache) {
   if (cache == nullptr || !method.info().slow_precompute)
@@ -32,8 +32,8 @@ Outcome prefilter(const Method& method, const Scene& scene, std::size_t index, c
   return outcome;
 }
 
-// Which textures of the last material a material before it has; `kept` takes its texels in. What a frame build writes
-// is each material's own.
+// Finds the textures of the last material that an earlier one has; `kept` collects their texels. Built textures are
+// never shared.
 void find_shared(BakedMethod& baked, std::set<std::uint64_t>& kept) {
   const std::vector<PrefilteredTexture>& textures = baked.materials.back().textures;
   for (std::size_t i = 0; i < textures.size(); ++i) {
@@ -42,7 +42,7 @@ void find_shared(BakedMethod& baked, std::set<std::uint64_t>& kept) {
   }
 }
 
-// Of the last material, but for what it shares.
+// The bytes of the last material without shared textures.
 std::size_t added_bytes(const BakedMethod& baked) {
   std::size_t bytes = byte_count(baked.materials.back());
   for (const auto& [material, texture] : baked.shared) {

@@ -1,4 +1,4 @@
-// The maps of a material as images of one form, and where they are looked up: what bakes start from.
+// The maps of a material as images of one form, and their texture coordinates: the input of bakes.
 #pragma once
 
 #include "renderer/image/image.hpp"
@@ -6,42 +6,42 @@
 
 namespace footprint {
 
-/// The normal map of a material as RGBA (unit normal, weight 0 or 1); flat, 1 x 1, where it has none.
+/// The normal map of a material as RGBA (unit normal, weight 0 or 1); flat, 1 x 1, without a map.
 [[nodiscard]] Image normal_map_of(const Material& material);
 
-/// The detail layer of a material, likewise.
+/// The detail layer of a material in the same form.
 [[nodiscard]] Image layer_map_of(const Material& material);
 
-/// The perceptual roughness map of a material, one channel; its constant, 1 x 1, where it has none. A map of lobe
-/// parameters comes as the roughness of the same lobes (`lobe_roughness`).
+/// The perceptual roughness map of a material, one channel; its constant, 1 x 1, without a map. A map of lobe
+/// parameters is converted to the roughness of the same lobes (`lobe_roughness`).
 [[nodiscard]] Image roughness_map_of(const Material& material);
 
-/// The lobe parameter at every texel of that map, as the material gives it or from its roughness; one channel.
+/// The lobe parameter at every texel of that map, given by the material or converted from roughness; one channel.
 [[nodiscard]] Image lobe_parameter_map_of(const Material& material);
 
-/// The base-colour map, RGBA; white, 1 x 1, where there is none.
+/// The base-colour map, RGBA; white, 1 x 1, without a map.
 [[nodiscard]] Image base_color_map_of(const Material& material);
 
-/// The share of the surface that the material has (SurfaceShare::map); 1, 1 x 1, where it has all of it.
+/// The share of the surface that the material has (SurfaceShare::map); 1, 1 x 1, if it has all of it.
 [[nodiscard]] Image material_share_of(const Material& material);
 
-/// The metallic map of a material, one channel; its constant, 1 x 1, where it has none.
+/// The metallic map of a material, one channel; its constant, 1 x 1, without a map.
 [[nodiscard]] Image metallic_map_of(const Material& material);
 
-/// The factor on the dielectric specular colour, 3 channels; white, 1 x 1, where it has no such map.
+/// The factor on the dielectric specular colour, 3 channels; white, 1 x 1, without a map.
 [[nodiscard]] Image specular_map_of(const Material& material);
 
-/// The weight of a material's coat, 1 channel; 0, 1 x 1, where it has none.
+/// The weight of a material's coat, 1 channel; 0, 1 x 1, without a coat.
 [[nodiscard]] Image coat_weight_map_of(const Material& material);
 
-/// GGX's alpha squared of the coat, 1 channel: linear in the slope variance, so that means over texels are those of the
-/// facets. `smallest_coat_alpha` bounds it.
+/// GGX's alpha squared of the coat, 1 channel, at least `smallest_coat_alpha` squared. It is linear in the slope
+/// variance, so that means over texels are those of the facets.
 [[nodiscard]] Image coat_width_map_of(const Material& material);
 
-/// The coat's unit normals, 3 channels; flat, 1 x 1, where it has no map, and where a texel of it is invalid.
+/// The coat's unit normals, 3 channels; flat, 1 x 1, without a map, and flat at invalid texels.
 [[nodiscard]] Image coat_normal_map_of(const Material& material);
 
-/// The narrowest coat: that of every base lobe (smallest_alpha in common_lobes.glsl).
+/// The alpha of the narrowest coat, equal to that of every base lobe (smallest_alpha in common_lobes.glsl).
 inline constexpr float smallest_coat_alpha = 1e-3F;
 
 /// The base lobe of a material, or that of its mean roughness if the roughness varies.
@@ -54,7 +54,7 @@ inline constexpr float smallest_coat_alpha = 1e-3F;
 /// A wrap mode as shaders read it: 0 repeats, 1 mirrors every other copy, 2 clamps to the edge.
 [[nodiscard]] float wrap_number(Wrap wrap);
 
-/// Where the maps are looked up; the defaults where a material has none.
+/// The texture coordinates of the maps; the defaults without a map.
 [[nodiscard]] TextureCoordinates normal_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates layer_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates roughness_coordinates(const Material& material);

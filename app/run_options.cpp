@@ -17,7 +17,7 @@ namespace {
 std::string help_text(const Setting& setting) {
   std::string text(setting.help);
   text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
-  if (!setting.type.option_takes.empty()) text += fmt::format(" ({})", setting.type.option_takes);
+  if (!setting.type.takes.empty()) text += fmt::format(" ({})", setting.type.takes);
   if (!setting.otherwise.empty()) text += fmt::format("; default: {}", setting.otherwise);
   return text;
 }

@@ -15,9 +15,9 @@ class TomlTable;
 
 /// How a value is written, and where in a RunSettings it goes; setting_types.hpp makes them.
 struct SettingType {
-  std::string word;  ///< placeholder of the value in the help: "N", "WIDTHxHEIGHT"; empty: a flag, without a value
-  std::string option_takes;  ///< "1 to 4096"; empty where the help says all
-  std::string file_takes;    ///< the same for a key in an experiment's file
+  std::string word{};        ///< placeholder of the value in the help: "N", "WIDTHxHEIGHT"; empty: a flag
+  std::string takes{};       ///< the values of an option: "1 to 4096"; empty if the help says it
+  std::string file_takes{};  ///< the values of a key in an experiment's file; empty: as `takes`
   /// Reads a value into `run`. `option` is the option's name, or empty for a key of a file. Errors (usage) name it.
   std::function<void(RunSettings& run, std::string_view option, const std::string& text)> read_text;
   /// The value as an option takes it; empty: there is none.

@@ -139,12 +139,16 @@ EffectSet parse_effects(std::string_view option, const std::string& text) {
   return effects;
 }
 
+// The text of a value that may be missing.
+template <class Value>
+std::function<std::string(RunSettings)> text_of(Field<std::optional<Value>> field) {
+  return [=](RunSettings run) { return field(run) ? fmt::format("{}", *field(run)) : std::string(); };
+}
+
 template <class Number>
 SettingType whole_number_of(Field<Number> field, Number low, Number high) {
-  const std::string takes = range_text(low, high);
   return {.word = "N",
-          .option_takes = takes,
-          .file_takes = takes,
+          .takes = range_text(low, high),
           .read_text = [=](RunSettings& run, std::string_view option,
                            const std::string& text) { field(run) = parse_whole_number(option, text, low, high); },
           .text = [=](RunSettings run) { return fmt::format("{}", field(run)); }};
@@ -155,8 +159,6 @@ template <class Value>
 SettingType some_text(Field<std::optional<Value>> field, const char* word, const char* hint,
                       std::string (*text)(const Value&)) {
   return {.word = word,
-          .option_takes = {},
-          .file_takes = {},
           .read_text =
               [=](RunSettings& run, std::string_view option, const std::string& given) {
                 if (given.empty()) throw not_valid(option, given, "is empty", hint);
@@ -169,8 +171,6 @@ SettingType some_text(Field<std::optional<Value>> field, const char* word, const
 
 SettingType any_text(Field<std::string> field, const char* word) {
   return {.word = word,
-          .option_takes = {},
-          .file_takes = {},
           .read_text = [=](RunSettings& run, std::string_view, const std::string& text) { field(run) = text; },
           .text = [=](RunSettings run) { return field(run); }};
 }
@@ -194,7 +194,6 @@ SettingType whole_number(Field<std::uint64_t> field, std::uint64_t low, std::uin
 SettingType whole_numbers(Field<std::vector<int>> field, int low, int high) {
   return {
       .word = "LIST",
-      .option_takes = {},
       .file_takes = fmt::format("a list, each {} to {}", low, high),
       .read_text =
           [=](RunSettings& run, std::string_view option, const std::string& text) {
@@ -208,28 +207,23 @@ SettingType whole_numbers(Field<std::vector<int>> field, int low, int high) {
 }
 
 SettingType positive_number(Field<std::optional<double>> field, double low, double high) {
-  const std::string takes = fmt::format("{} to {}", low, high);
   return {.word = "X",
-          .option_takes = takes,
-          .file_takes = takes,
+          .takes = fmt::format("{} to {}", low, high),
           .read_text = [=](RunSettings& run, std::string_view option,
                            const std::string& text) { field(run) = parse_positive(option, text, low, high); },
-          .text = [=](RunSettings run) { return field(run) ? fmt::format("{}", *field(run)) : ""; }};
+          .text = text_of(field)};
 }
 
 SettingType angle(Field<std::optional<double>> field, double most) {
   return {.word = "DEGREES",
-          .option_takes = fmt::format("-{0} to {0}", most),
-          .file_takes = {},
+          .takes = fmt::format("-{0} to {0}", most),
           .read_text = [=](RunSettings& run, std::string_view option,
                            const std::string& text) { field(run) = parse_angle(option, text, most); },
-          .text = [=](RunSettings run) { return field(run) ? fmt::format("{}", *field(run)) : ""; }};
+          .text = text_of(field)};
 }
 
 SettingType direction(Field<std::optional<glm::dvec3>> field) {
   return {.word = "X,Y,Z",
-          .option_takes = {},
-          .file_takes = {},
           .read_text = [=](RunSettings& run, std::string_view option,
                            const std::string& text) { field(run) = parse_direction(option, text); },
           .text =
@@ -240,10 +234,8 @@ SettingType direction(Field<std::optional<glm::dvec3>> field) {
 }
 
 SettingType fixed_samples(Field<ReferenceSettings> field, int low, int high) {
-  const std::string takes = range_text(low, high);
   return {.word = "N",
-          .option_takes = takes,
-          .file_takes = takes,
+          .takes = range_text(low, high),
           .read_text =
               [=](RunSettings& run, std::string_view option, const std::string& text) {
                 field(run).spp = parse_whole_number(option, text, low, high);
@@ -253,10 +245,8 @@ SettingType fixed_samples(Field<ReferenceSettings> field, int low, int high) {
 }
 
 SettingType noise(Field<ReferenceSettings> field) {
-  const std::string takes = fmt::format("{} to {}, or auto", least_noise, most_noise);
   return {.word = "X",
-          .option_takes = takes,
-          .file_takes = takes,
+          .takes = fmt::format("{} to {}, or auto", least_noise, most_noise),
           .read_text =
               [=](RunSettings& run, std::string_view option, const std::string& text) {
                 field(run).by_noise = true;
@@ -274,7 +264,7 @@ SettingType noise(Field<ReferenceSettings> field) {
 SettingType distances(Field<std::vector<double>> field, std::size_t most) {
   const std::string range = fmt::format("{} to {}", smallest_distance, largest_distance);
   return {.word = most == 1 ? "X" : "LIST",
-          .option_takes = most == 1 ? range : range + " each, comma-separated",
+          .takes = most == 1 ? range : range + " each, comma-separated",
           .file_takes = "a list, each " + range,
           .read_text = [=](RunSettings& run, std::string_view option,
                            const std::string& text) { field(run) = parse_distances(option, text, most); },
@@ -284,7 +274,7 @@ SettingType distances(Field<std::vector<double>> field, std::size_t most) {
 
 SettingType frame_size(Field<std::optional<glm::ivec2>> field) {
   return {.word = "WIDTHxHEIGHT",
-          .option_takes = fmt::format("1 to {} per side, as memory permits", max_frame_side),
+          .takes = fmt::format("1 to {} per side, as memory permits", max_frame_side),
           .file_takes = fmt::format("[width, height] or \"WIDTHxHEIGHT\", 1 to {} each", max_frame_side),
           .read_text = [=](RunSettings& run, std::string_view option,
                            const std::string& text) { field(run) = parse_size(option, text); },
@@ -293,20 +283,16 @@ SettingType frame_size(Field<std::optional<glm::ivec2>> field) {
 }
 
 SettingType exposure(Field<std::optional<Exposure>> field) {
-  const std::string takes = "above 0, or auto";
   return {.word = "X",
-          .option_takes = takes,
-          .file_takes = takes,
+          .takes = "above 0, or auto",
           .read_text = [=](RunSettings& run, std::string_view option,
                            const std::string& text) { field(run) = parse_exposure(option, text); },
           .text = [=](RunSettings run) { return field(run) ? fmt::format("{}", field(run)->factor) : "auto"; }};
 }
 
 SettingType footprint_filter(Field<std::optional<FootprintFilter>> field) {
-  const std::string takes = footprint_filter_choices();
   return {.word = "FILTER",
-          .option_takes = takes,
-          .file_takes = takes,
+          .takes = footprint_filter_choices(),
           .read_text = [=](RunSettings& run, std::string_view option,
                            const std::string& text) { field(run) = parse_footprint_filter(text, option); },
           .text = [=](RunSettings run) { return field(run) ? footprint_filter_text(*field(run)) : ""; }};
@@ -314,8 +300,7 @@ SettingType footprint_filter(Field<std::optional<FootprintFilter>> field) {
 
 SettingType one_method(Field<std::vector<MethodSpec>> field) {
   return {.word = "M",
-          .option_takes = "name or name:option=value",
-          .file_takes = {},
+          .takes = "name or name:option=value",
           .read_text = [=](RunSettings& run, std::string_view option,
                            const std::string& text) { field(run) = {parse_one_method(option, text)}; },
           .text = methods(field).text};
@@ -323,7 +308,7 @@ SettingType one_method(Field<std::vector<MethodSpec>> field) {
 
 SettingType methods(Field<std::vector<MethodSpec>> field) {
   return {.word = "LIST",
-          .option_takes = "name or name:option=value each, comma-separated",
+          .takes = "name or name:option=value each, comma-separated",
           .file_takes =
               R"(a list as ["direct", "toksvig:storage=fp16"], or "all" for all but slow ones with their defaults)",
           .read_text =
@@ -337,7 +322,7 @@ SettingType methods(Field<std::vector<MethodSpec>> field) {
 
 SettingType effects(Field<EffectSet> field) {
   return {.word = "LIST",
-          .option_takes = "as cast_shadow,fresnel",
+          .takes = "as cast_shadow,fresnel",
           .file_takes = R"(a list as ["cast_shadow"])",
           .read_text = [=](RunSettings& run, std::string_view option,
                            const std::string& text) { field(run) = parse_effects(option, text); },
@@ -346,10 +331,7 @@ SettingType effects(Field<EffectSet> field) {
 }
 
 SettingType no_folder(Field<std::optional<std::filesystem::path>> field) {
-  return {.word = {},
-          .option_takes = {},
-          .file_takes = {},
-          .read_text = [=](RunSettings& run, std::string_view, const std::string&) { field(run).reset(); },
+  return {.read_text = [=](RunSettings& run, std::string_view, const std::string&) { field(run).reset(); },
           .text = [](const RunSettings&) { return std::string(); }};
 }
 

@@ -82,10 +82,8 @@ using Field = Value& (*)(RunSettings& run);
 template <class Value, std::size_t count>
 [[nodiscard]] SettingType one_word(std::type_identity_t<Field<Value>> field,
                                    const std::array<Word<Value>, count>& words, const char* what) {
-  const std::string takes = fmt::format("{}", fmt::join(word_names(words), ", "));
   return {.word = "WORD",
-          .option_takes = takes,
-          .file_takes = takes,
+          .takes = fmt::format("{}", fmt::join(word_names(words), ", ")),
           .read_text = [=](RunSettings& run, std::string_view option,
                            const std::string& text) { field(run) = word_value(words, text, what, option); },
           .text = [=](RunSettings run) { return std::string(word_for(words, field(run))); }};

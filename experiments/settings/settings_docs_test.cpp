@@ -32,7 +32,7 @@ std::string table_of_options() {
   for (const Setting& setting : run_settings()) {
     if (setting.option.empty()) continue;
     text += fmt::format("| {} | {} | {} | {} | {} |\n", option_cell(setting), fmt::join(setting.commands, ", "),
-                        setting.type.option_takes, default_cell(setting), setting.help);
+                        setting.type.takes, default_cell(setting), setting.help);
   }
   return text;
 }
@@ -42,7 +42,8 @@ std::string table_of_keys() {
   for (const std::string_view table : {"experiment", "zoom", "reference"}) {
     for (const Setting& setting : run_settings()) {
       if (setting.key.empty() || setting.table != table) continue;
-      text += fmt::format("| `[{}]` | `{}` | {} | {} | {} |\n", table, setting.key, setting.type.file_takes,
+      text += fmt::format("| `[{}]` | `{}` | {} | {} | {} |\n", table, setting.key,
+                          setting.type.file_takes.empty() ? setting.type.takes : setting.type.file_takes,
                           default_cell(setting), setting.help);
     }
   }

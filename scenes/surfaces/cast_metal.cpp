@@ -22,14 +22,7 @@ glm::ivec2 stain_size_of(const SurfaceSettings& settings) {
   return glm::max(glm::ivec2(glm::round(share * glm::dvec2(stain_size))), glm::ivec2{1});
 }
 
-Image normals(const SurfaceSettings& settings) {
-  std::mt19937_64 random(settings.seed);
-  const OctaveNoise mould(grain, random);
-  const double steepness = settings.parameters.number("steepness");
-  return fill_normals(settings.resolution, [&](const glm::dvec2& uv) {
-    return normal_of_slope(steepness * slope_of(mould.relief(HeightPoint{uv})));
-  });
-}
+Image normals(const SurfaceSettings& settings) { return relief_normals(settings, grain); }
 
 /// The patina at a point of the map of stains: 0 bare and polished, 1 crusted.
 class Patina {

@@ -357,21 +357,11 @@ Image normals(const SurfaceSettings& settings) {
 
 Image base_color(const SurfaceSettings& settings) {
   static constexpr std::array<glm::dvec3, 3> grounds{{{0.34, 0.015, 0.02}, {0.02, 0.16, 0.05}, {0.02, 0.05, 0.26}}};
-  const glm::dvec3 ground = grounds.at(dye_of(settings));
-  const Jacquard silk = cloth(settings);
-  return fill_colors(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
-    const Thread thread = silk.at(uv);
-    const double shade = (1.0 - 0.35 * thread.across * thread.across) * (0.8 + 0.4 * thread.uneven);
-    return glm::min(shade * (thread.weft ? glm::dvec3{0.40, 0.25, 0.07} : ground), 1.0);
-  });
+  return silk_colors(cloth(settings), settings.resolution, grounds.at(dye_of(settings)), {0.40, 0.25, 0.07}, 0.35);
 }
 
 Image exponents(const SurfaceSettings& settings) {
-  const Jacquard silk = cloth(settings);
-  return fill_values(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
-    const Thread thread = silk.at(uv);
-    return (thread.weft ? 120.0 : 18.0) * std::exp2(2.0 * thread.uneven - 1.0);
-  });
+  return silk_exponents(cloth(settings), settings.resolution, 18.0, 120.0);
 }
 
 /// One curtain in its arch, seen from the nave; `side` -1 hangs on the left.

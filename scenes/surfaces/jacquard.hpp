@@ -5,6 +5,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "renderer/image/image.hpp"
+
 namespace footprint {
 
 /// The thread on top at a point of the cloth.
@@ -32,5 +34,13 @@ class Jacquard {
   glm::ivec2 threads_, figures_;
   std::vector<double> warp_, weft_;  ///< Thread::uneven of each
 };
+
+/// The colours of a cloth's map: warp and weft, darker by `edge_shade` at a thread's edges, where it dives under its
+/// neighbours.
+[[nodiscard]] Image silk_colors(const Jacquard& cloth, int resolution, const glm::dvec3& warp, const glm::dvec3& weft,
+                                double edge_shade);
+
+/// Blinn-Phong exponents of a cloth's map: each thread has up to twice or half that of its kind.
+[[nodiscard]] Image silk_exponents(const Jacquard& cloth, int resolution, double warp, double weft);
 
 }  // namespace footprint

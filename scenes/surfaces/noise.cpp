@@ -38,4 +38,13 @@ Height PeriodicNoise::at(const Height& x, const Height& y) const {
   return {value, by_x * x.derivatives() + by_y * y.derivatives()};
 }
 
+Image relief_normals(const SurfaceSettings& settings, std::span<const Octave> octaves) {
+  std::mt19937_64 random(settings.seed);
+  const OctaveNoise noise(octaves, random);
+  const double steepness = settings.parameters.number("steepness");
+  return fill_normals(settings.resolution, [&](const glm::dvec2& uv) {
+    return normal_of_slope(steepness * slope_of(noise.relief(HeightPoint{uv})));
+  });
+}
+
 }  // namespace footprint

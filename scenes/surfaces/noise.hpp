@@ -62,4 +62,7 @@ class OctaveNoise {
   std::vector<PeriodicNoise> noises_;
 };
 
+/// The normals of the relief of some octaves, with slopes multiplied by the surface's parameter `steepness`.
+[[nodiscard]] Image relief_normals(const SurfaceSettings& settings, std::span<const Octave> octaves);
+
 }  // namespace footprint

@@ -22,14 +22,8 @@ Jacquard cloth(const SurfaceSettings& settings) {
   return {glm::ivec2{static_cast<int>(settings.parameters.number("threads"))}, {5, 4}, settings.seed};
 }
 
-/// Darker at a thread's edges, where it dives under its neighbours.
 Image base_color(const SurfaceSettings& settings) {
-  const Jacquard silk = cloth(settings);
-  return fill_colors(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
-    const Thread thread = silk.at(uv);
-    const double shade = (1.0 - 0.45 * thread.across * thread.across) * (0.8 + 0.4 * thread.uneven);
-    return glm::min(shade * (thread.weft ? weft_color : warp_color), 1.0);
-  });
+  return silk_colors(cloth(settings), settings.resolution, warp_color, weft_color, 0.45);
 }
 
 Image specular(const SurfaceSettings& settings) {
@@ -41,11 +35,7 @@ Image specular(const SurfaceSettings& settings) {
 
 /// Silk is glossy along the weft's long floats, and dull on the warp.
 Image exponents(const SurfaceSettings& settings) {
-  const Jacquard silk = cloth(settings);
-  return fill_values(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
-    const Thread thread = silk.at(uv);
-    return (thread.weft ? 220.0 : 14.0) * std::exp2(2.0 * thread.uneven - 1.0);
-  });
+  return silk_exponents(cloth(settings), settings.resolution, 14.0, 220.0);
 }
 
 /// One side, `facing` 1 the front and -1 the back. (s, t) runs over the side from corner to corner, -1 to 1.

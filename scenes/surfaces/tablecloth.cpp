@@ -20,14 +20,7 @@ constexpr double rim_length = rim * std::numbers::pi / 2.0;
 /// Of the normal map: cells along its width, and slope.
 constexpr std::array<Octave, 5> octaves{{{10, 0.04}, {27, 0.05}, {71, 0.08}, {170, 0.18}, {340, 0.3}}};
 
-Image normals(const SurfaceSettings& settings) {
-  std::mt19937_64 random(settings.seed);
-  const OctaveNoise creases(octaves, random);
-  const double steepness = settings.parameters.number("steepness");
-  return fill_normals(settings.resolution, [&](const glm::dvec2& uv) {
-    return normal_of_slope(steepness * slope_of(creases.relief(HeightPoint{uv})));
-  });
-}
+Image normals(const SurfaceSettings& settings) { return relief_normals(settings, octaves); }
 
 /// How the cloth falls around the table.
 class Drape {

@@ -17,7 +17,7 @@
 #include "renderer/ndf/footprint_texels.hpp"
 #include "renderer/ndf/hemisphere_grid.hpp"
 #include "renderer/ndf/method_ndf.hpp"
-#include "renderer/ndf/true_ndf.hpp"
+#include "renderer/ndf/reference_ndf.hpp"
 
 namespace footprint {
 namespace {
@@ -49,10 +49,10 @@ Grid take_truth(const Material& material, const NdfSettings& settings, const Foo
                 NdfResults& results, const Progress& progress) {
   ProgressParts parts(progress, 2);
   const NormalDistribution distribution = material.brdf.distribution;
-  const TrueNdf exact(distribution, texels.facets);
+  const ReferenceNdf exact(distribution, texels.facets);
   const Lobe narrowest = exact.narrowest();
   const auto merged = [&](double part) {
-    return TrueNdf(distribution, merged_facets(texels.facets, part * lobe_width(narrowest)));
+    return ReferenceNdf(distribution, merged_facets(texels.facets, part * lobe_width(narrowest)));
   };
   results.lobe = lobe_text(narrowest);
   results.resolution = settings.resolution > 0 ? settings.resolution : resolution_for(narrowest);

@@ -13,7 +13,7 @@
 #include "renderer/image/metrics.hpp"
 #include "renderer/ndf/hemisphere_grid.hpp"
 #include "renderer/ndf/method_ndf.hpp"
-#include "renderer/ndf/true_ndf.hpp"
+#include "renderer/ndf/reference_ndf.hpp"
 #include "renderer/pipeline/base_surface.hpp"
 #include "renderer/scene/camera.hpp"
 #include "tests/support/method_probe.hpp"
@@ -165,7 +165,7 @@ class NdfUnderExact {
     return ndf_.densities(rect, grid_.directions);
   }
   [[nodiscard]] std::vector<double> truth(const FootprintRect& rect) const {
-    return TrueNdf(material_.brdf.distribution, texels_under(material_, rect).facets)
+    return ReferenceNdf(material_.brdf.distribution, texels_under(material_, rect).facets)
         .densities(grid_.directions, no_progress);
   }
 

@@ -16,7 +16,7 @@
 namespace footprint {
 namespace {
 
-// Slope variances from which on every method holds the lobe over a tilted map.
+// Smallest slope variances that every method reproduces over a tilted map.
 constexpr double least_in_half_floats = 2e-4;
 constexpr double least_in_bytes = 0.02;
 
@@ -31,30 +31,30 @@ struct Outcome {
   bool from_disk;
 };
 
-// One material: from the disk where it is kept there, else by the method, and kept if that is worth it.
+// Reads one material from the cache, or bakes it and caches it if that is slow.
 Outcome prefilter(const Method& method, const Scene& scene, std::size_t index, const Options& options,
                   const EffectSet& effects, const Progress& progress, const BakeCache* cache) {
   if (cache == nullptr || !method.info().slow_precompute)
     return {method.precompute_on(scene, index, options, effects, progress), false};
   const Material& material = scene.materials[index];
   const std::string key = cache->key(method.info().name, material, options, effects);
-  if (std::optional<Prefiltered> kept = cache->find(key)) return {*std::move(kept), true};
+  if (std::optional<Prefiltered> cached = cache->find(key)) return {*std::move(cached), true};
   Outcome outcome{method.precompute_on(scene, index, options, effects, progress), false};
   cache->store(key, outcome.prefiltered);
   return outcome;
 }
 
-// Which textures of the last material a material before it has; `kept` takes its texels in. What a frame build writes
-// is each material's own.
-void find_shared(BakedMethod& baked, std::set<std::uint64_t>& kept) {
+// Finds the textures of the last material that an earlier one has; `known` are the texels so far. Textures of a frame
+// build are never shared.
+void find_shared(BakedMethod& baked, std::set<std::uint64_t>& known) {
   const std::vector<PrefilteredTexture>& textures = baked.materials.back().textures;
   for (std::size_t i = 0; i < textures.size(); ++i) {
-    if (!textures[i].built && !kept.insert(texel_content(textures[i])).second)
+    if (!textures[i].built && !known.insert(texel_content(textures[i])).second)
       baked.shared.emplace(baked.materials.size() - 1, i);
   }
 }
 
-// Of the last material, but for what it shares.
+// The bytes of the last material without shared textures.
 std::size_t added_bytes(const BakedMethod& baked) {
   std::size_t bytes = byte_count(baked.materials.back());
   for (const auto& [material, texture] : baked.shared) {
@@ -101,7 +101,7 @@ void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& eff
   const Method& method = *baked.method;
   baked.cached = cache != nullptr && method.info().slow_precompute;
   const auto count = static_cast<double>(scene.materials.size());
-  std::set<std::uint64_t> kept;
+  std::set<std::uint64_t> known;
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const auto start = std::chrono::steady_clock::now();
     const Material& material = scene.materials[i];
@@ -119,7 +119,7 @@ void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& eff
       throw error.within(fmt::format("{}, material {}, method {}", scene.source, material.name, baked.spec.text));
     }
     baked.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (scene.materials.size() > 1) find_shared(baked, kept);
+    if (scene.materials.size() > 1) find_shared(baked, known);
     baked.bytes += added_bytes(baked);
     baked.texels += finest_texels(baked.materials.back());
     when_baked(i);

@@ -16,43 +16,42 @@
 
 namespace footprint {
 
-/// A note for a material over whose normal map a lobe is narrower than the option `storage` resolves
-/// (docs/stability.md); none where the method has no such option or rounds no lobes by it, normals do not vary, or all
-/// lobes are wide enough.
+/// A note if a lobe of the material is too narrow for the precision of the option `storage` (docs/stability.md). None
+/// if the method has no such option or does not round lobes, normals do not vary, or all lobes are wide enough.
 [[nodiscard]] std::optional<std::string> storage_range_note(const Material& material, const MethodInfo& info,
                                                             const Options& options, const EffectSet& effects);
 
-/// A method's precompute for every material of a scene, with what it cost.
+/// A method's precompute for every material of a scene, with its cost.
 struct BakedMethod {
   const Method* method = nullptr;
   MethodSpec spec;
   Options options;
-  std::vector<Prefiltered> materials;  ///< one for each material of the scene
+  std::vector<Prefiltered> materials;  ///< one per material of the scene
   /// Material and number of each texture whose texels an earlier material has: on the GPU they are stored once.
   std::set<std::pair<std::size_t, std::size_t>> shared;
   double seconds = 0;
-  std::size_t bytes = 0;   ///< as stored on the GPU: texels that several materials have count once
+  std::size_t bytes = 0;   ///< on the GPU; texels that several materials share count once
   std::size_t texels = 0;  ///< of the finest levels, over all materials (`finest_texels`)
-  bool cached = false;     ///< every material came from the disk: `seconds` is what reading took
+  bool cached = false;     ///< every material came from the cache; `seconds` is then the time of reading
 };
 
-/// Called when a material is baked, with its number; it may free the texels.
+/// Called with a material's number when it is baked; may free the texels.
 using MaterialBaked = std::function<void(std::size_t)>;
 
 /// The options of `spec`, checked against the method's table, with defaults. Throws Error (usage): an unknown option,
 /// or a value out of range.
 [[nodiscard]] Options options_of(const Method& method, const MethodSpec& spec);
 
-/// A method with its options, and nothing baked yet. Throws Error (usage): those of options_of.
+/// A method with its options, without any baked material. Throws Error (usage): those of options_of.
 [[nodiscard]] BakedMethod make_bake(const Method& method, const MethodSpec& spec);
 
-/// Runs the precompute of `baked` for one material after the other, as `bake` does. Seconds are those of the precompute
-/// alone.
+/// Runs the precompute of `baked` for one material after the other, as `bake` does. `seconds` excludes `when_baked`.
 void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& effects, const Progress& progress,
                     const BakeCache* cache, const MaterialBaked& when_baked);
 
-/// Runs the precompute of `spec` for every material, or reads it from `cache` where that is given and has it.
-/// `effects` are the scene's; the method gets those that it honours.
+/// Runs the precompute of `spec` for every material, or reads it from the cache.
+/// effects: the scene's; the method gets those that it honours.
+/// cache: may be null.
 [[nodiscard]] BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scene,
                                const EffectSet& effects, const Progress& progress, const BakeCache* cache = nullptr);
 

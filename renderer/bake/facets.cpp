@@ -114,7 +114,7 @@ Image paint_image(std::span<const PaintFactors> paints) {
   return image;
 }
 
-// What a material reflects at normal incidence if its base colour is this.
+// The reflectance of a material at normal incidence for a base colour.
 glm::vec3 reflectance(const Material& material, const glm::vec3& base_color) {
   return glm::mix(material.dielectric_specular, base_color, material.metallic);
 }

@@ -10,38 +10,35 @@
 
 namespace footprint {
 
-/// The shortest rotation that takes z to the unit vector `normal`, of `axis`; normal = -z turns about y. The twin of
-/// turnedWithNormal in facet_frame.glsl.
+/// `axis` under the shortest rotation that takes z to the unit vector `normal`; normal = -z turns about y. C++ version
+/// of turnedWithNormal in facet_frame.glsl.
 [[nodiscard]] glm::dvec3 turned_with_normal(const glm::dvec3& axis, const glm::dvec3& normal);
 
-/// Slope variance per axis of a material's lobes about their own axes, by weight; of the one lobe about the normal
-/// where it has no others.
+/// Weighted mean slope variance per axis of a material's lobes about their own axes, or that of its only lobe.
 [[nodiscard]] double mean_lobe_variance(const Material& material);
 
-/// The std140 members of surface_material.glsl that the effect `multi_lobe` adds: the number of lobes, then all
-/// most_facet_lobes, those that a material lacks as zeros. Throws Error (usage): more lobes than that, or one that is
-/// no lobe (docs/scenes.md has the ranges).
+/// The std140 members of surface_material.glsl for the effect `multi_lobe`: the number of lobes, then most_facet_lobes
+/// lobes, padded with zeros. Throws Error (usage): more lobes, or parameters out of range (docs/scenes.md).
 [[nodiscard]] std::vector<glm::vec4> facet_lobe_block(const Material& material);
 
-/// What a paint of a patch multiplies what the material reflects by. Its mean over the patch is in the material
-/// already.
+/// The factors of a patch's paint on the material's reflection. The material already includes their mean.
 struct PaintFactors {
   glm::vec3 specular{1.0F};  ///< reflectance at normal incidence
   glm::vec3 diffuse{1.0F};   ///< base colour
 };
 
-/// One for each paint of the material's patch; one of 1 where it has none. A tabulated BRDF takes the paints as they
-/// are.
+/// The factors of each paint of the material's patch; without a patch a single 1. A tabulated BRDF uses the paints
+/// directly.
 [[nodiscard]] std::vector<PaintFactors> paint_factors(const Material& material);
 
-/// Facets of equal area in the order of their normals, what each sees of 1024 directions, and a_v. Of a material
-/// without a patch: textures of the same names that hold nothing.
+/// Textures of facets of equal area in the order of their normals, of their visibility in 1024 directions, and of a_v.
+/// Without a patch, empty textures of the same names.
 [[nodiscard]] std::vector<PrefilteredTexture> patch_facet_textures(const Material& material, const Progress& progress);
 
-/// The paints' factors.
+/// The texture of the paints' factors.
 [[nodiscard]] PrefilteredTexture paint_texture(const Material& material);
 
-/// The facets' tabulated BRDF, a layer for each phi_d; one texel where the material has none.
+/// The facets' tabulated BRDF, a layer per phi_d; one texel if the material has none.
 [[nodiscard]] PrefilteredTexture tabulated_brdf_texture(const Material& material);
 
 }  // namespace footprint

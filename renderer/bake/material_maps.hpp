@@ -10,42 +10,42 @@
 
 namespace footprint {
 
-/// The normal map of a material as RGBA (unit normal, weight 0 or 1); flat, 1 x 1, where it has none.
+/// The normal map of a material as RGBA (unit normal, weight 0 or 1); without one: flat, 1 x 1.
 [[nodiscard]] Image normal_map_of(const Material& material);
 
-/// The detail layer of a material, likewise.
+/// The detail layer of a material, in the same form.
 [[nodiscard]] Image layer_map_of(const Material& material);
 
-/// The perceptual roughness map of a material, one channel; its constant, 1 x 1, where it has none. A map of lobe
-/// parameters comes as the roughness of the same lobes (`lobe_roughness`).
+/// The perceptual roughness map of a material, one channel; without one: its constant, 1 x 1. A map of lobe parameters
+/// is converted to the roughness of the same lobes (`lobe_roughness`).
 [[nodiscard]] Image roughness_map_of(const Material& material);
 
-/// The lobe parameter at every texel of that map, as the material gives it or from its roughness; one channel.
+/// The lobe parameters of that map, given or converted from roughness; one channel.
 [[nodiscard]] Image lobe_parameter_map_of(const Material& material);
 
-/// The base-colour map, RGBA; white, 1 x 1, where there is none.
+/// The base-colour map, RGBA; without one: white, 1 x 1.
 [[nodiscard]] Image base_color_map_of(const Material& material);
 
-/// The share of the surface that the material has (SurfaceShare::map); 1, 1 x 1, where it has all of it.
+/// The material's share of its surface (SurfaceShare::map); without one: 1, 1 x 1.
 [[nodiscard]] Image material_share_of(const Material& material);
 
-/// The metallic map of a material, one channel; its constant, 1 x 1, where it has none.
+/// The metallic map of a material, one channel; without one: its constant, 1 x 1.
 [[nodiscard]] Image metallic_map_of(const Material& material);
 
-/// The factor on the dielectric specular colour, 3 channels; white, 1 x 1, where it has no such map.
+/// The factor of the dielectric specular colour, 3 channels; without a map: white, 1 x 1.
 [[nodiscard]] Image specular_map_of(const Material& material);
 
-/// The weight of a material's coat, 1 channel; 0, 1 x 1, where it has none.
+/// The weight of a material's coat, 1 channel; without a coat: 0, 1 x 1.
 [[nodiscard]] Image coat_weight_map_of(const Material& material);
 
-/// GGX's alpha squared of the coat, 1 channel: linear in the slope variance, so that means over texels are those of the
-/// facets. `smallest_coat_alpha` bounds it.
+/// GGX's alpha squared of the coat, 1 channel, at least `smallest_coat_alpha` squared. It is linear in the slope
+/// variance, so that means over texels are means over facets.
 [[nodiscard]] Image coat_width_map_of(const Material& material);
 
-/// The coat's unit normals, 3 channels; flat, 1 x 1, where it has no map, and where a texel of it is invalid.
+/// The coat's unit normals, 3 channels; flat for invalid texels; without a map: flat, 1 x 1.
 [[nodiscard]] Image coat_normal_map_of(const Material& material);
 
-/// The narrowest coat: that of every base lobe (smallest_alpha in common_lobes.glsl).
+/// Alpha of the narrowest coat, equal to smallest_alpha in common_lobes.glsl.
 inline constexpr float smallest_coat_alpha = 1e-3F;
 
 /// The base lobe of a material, or that of its mean roughness if the roughness varies.
@@ -58,7 +58,7 @@ inline constexpr float smallest_coat_alpha = 1e-3F;
 /// A wrap mode as shaders read it: 0 repeats, 1 mirrors every other copy, 2 clamps to the edge.
 [[nodiscard]] float wrap_number(Wrap wrap);
 
-/// Where the maps are looked up; the defaults where a material has none.
+/// The texture coordinates of the maps; defaults for missing maps.
 [[nodiscard]] TextureCoordinates normal_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates layer_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates roughness_coordinates(const Material& material);
@@ -69,15 +69,15 @@ inline constexpr float smallest_coat_alpha = 1e-3F;
 [[nodiscard]] TextureCoordinates coat_normal_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates share_coordinates(const Material& material);
 
-/// A map that the shared shaders read where an effect is on.
+/// A map that the shared shaders read if an effect is on.
 struct SharedMap {
   Effect effect;
-  std::string_view name;            ///< of its sampler
-  Image (*image)(const Material&);  ///< its finest level; a constant, 1 x 1, of a material that has none
+  std::string_view name;            ///< of the sampler
+  Image (*image)(const Material&);  ///< the finest level; a constant, 1 x 1, for a material without the map
   TextureCoordinates (*coordinates)(const Material&);
 };
 
-/// In the order of their texture units.
+/// All of them, in the order of their texture units.
 [[nodiscard]] std::span<const SharedMap> shared_maps();
 
 }  // namespace footprint

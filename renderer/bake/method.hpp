@@ -20,35 +20,35 @@
 
 namespace footprint {
 
-/// Every flag that a text may ask for, and whether it is on.
+/// All known flags of shader texts, and whether each is on.
 using ShaderFlags = std::map<std::string, bool, std::less<>>;
 
 /// A text with directives (renderer/shaders/README.md): a method's module, or a pass of its frame build.
 struct ShaderModule {
   std::string_view file;  ///< messages name it
   std::string_view text;
-  EmbeddedTexts folder{};  ///< what it may include, beside the shared texts
-  ShaderFlags flags{};     ///< of its own, beside those of scene, sampling and options
+  EmbeddedTexts folder{};  ///< texts that it may include, next to the shared ones
+  ShaderFlags flags{};     ///< further flags, next to those of scene, sampling and options
 };
 
-/// The module in a file of a folder. Throws std::logic_error where the folder has no such file.
+/// The module in a file of a folder. Throws std::logic_error if the folder has no such file.
 [[nodiscard]] inline ShaderModule module_of(EmbeddedTexts folder, std::string_view file, ShaderFlags flags = {}) {
   const EmbeddedText* const found = find_text(folder, file);
   if (found == nullptr) throw std::logic_error("no text `" + std::string(file) + "` is embedded");
   return {found->file, found->text, folder, std::move(flags)};
 }
 
-struct FrameBuildJob;  // renderer/pipeline/surface_program.hpp: it names GL objects
+struct FrameBuildJob;  // in renderer/pipeline/surface_program.hpp, because it names GL objects
 
-/// What of a frame goes into what is built.
+/// The inputs of a frame build.
 struct BuildInputs {
   bool camera = false, geometry = false, materials = false, lights = false;
 };
 
-/// The passes of a method's frame build, compiled for one scene. They fill the textures that the precompute declared
-/// with make_built_texture, by drawing into them or by compute. A pass may bind what it likes (program, framebuffer,
-/// vertex array, texture and image units, uniform blocks), and change the viewport, the depth test, culling and
-/// blending: GpuMethod puts back what a draw does not set for itself. Of the rest of the GL's state nothing may change.
+/// The passes of a method's frame build, compiled for one scene. They draw or compute the textures that the precompute
+/// declared with make_built_texture. A pass may change bindings (program, framebuffer, vertex array, texture and image
+/// units, uniform blocks), viewport, depth test, culling and blending; GpuMethod restores these as far as needed. It
+/// must not change other GL state.
 class FrameBuild {
  public:
   FrameBuild() = default;
@@ -56,46 +56,45 @@ class FrameBuild {
   FrameBuild& operator=(const FrameBuild&) = delete;
   virtual ~FrameBuild() = default;
 
-  /// Issues the passes for one material. Whoever calls it puts memory barriers before and behind it.
+  /// Issues the passes for one material. The caller adds memory barriers before and after.
   virtual void run(const FrameBuildJob& job) const = 0;
 
-  /// Whether what is built differs from one view to another, so that it is no map of the material.
+  /// Whether the result depends on the view, so that it cannot be exported as a map of the material.
   [[nodiscard]] virtual bool looks_from_view() const { return true; }
 
-  /// What a build may be kept for: as long as none of these changes, what was built serves the next frame too. None: it
-  /// is built for every frame, whatever moved.
+  /// The inputs whose change invalidates a build. None: it runs for every frame.
   [[nodiscard]] virtual std::optional<BuildInputs> kept_until_change_of() const { return {}; }
 };
 
 struct ShaderVariant;
 
-/// What a method says of itself: one table that feeds `list`, --help, the reports and the docs.
+/// The description of a method, for `list`, --help, reports and documents.
 struct MethodInfo {
   std::string name;     ///< as on the command line
   std::string summary;  ///< one sentence
   std::string paper;    ///< author, year, title
   std::vector<OptionSpec> options;
-  EffectSet honours;  ///< effects that it can simulate; others are left out, and the table says so
-  /// The module is told how frame and half vector change to the next pixels (renderer/shaders/README.md). Others pay
-  /// nothing for it.
+  EffectSet honours;  ///< effects that it can simulate; others are left out, and the table reports them
+  /// The module receives screen-space differences of frame and half vector (renderer/shaders/README.md). They cost
+  /// other methods nothing.
   bool screen_derivatives = false;
-  bool reads_finest_level = false;  ///< a frame filters nothing: clear coats are read at their finest level, too
-  bool draws_directions = false;    ///< the module integrates an environment itself where many samples are taken
-  bool lobes_as_given = false;      ///< its option `storage` rounds nothing that lobes are made of (storage_range_note)
-  bool sums_environment = false;    ///< a frame's environment light is summed by the module (`environmentSum`)
-  bool slow_precompute = false;     ///< seconds, not milliseconds: kept on disk between runs (bake_cache.hpp)
-  /// What is baked into a texel of a level depends, of the normal map, on the texels under it alone: of a map of which
-  /// one part is looked at, that part may be baked for itself (renderer/ndf/footprint_texels.hpp).
+  bool reads_finest_level = false;  ///< a frame filters nothing, so clear coats are read at their finest level too
+  bool draws_directions = false;    ///< the module integrates an environment itself when it is supersampled
+  bool lobes_as_given = false;      ///< its option `storage` does not round lobes (storage_range_note)
+  bool sums_environment = false;    ///< the module sums a frame's environment light (`environmentSum`)
+  bool slow_precompute = false;     ///< takes seconds, so bakes are cached on disk (bake_cache.hpp)
+  /// A baked texel depends only on the texels of the normal map under it, so that a part of a map may be baked alone
+  /// (renderer/ndf/footprint_texels.hpp).
   bool bakes_by_texel = false;
-  /// Seconds a frame, not milliseconds: a bound to hold others against. `all` methods are all but these.
+  /// A frame takes seconds: an accuracy bound for other methods. `all` methods exclude it.
   bool slow_frame = false;
-  /// Whether it shows a map's texels where they are large on screen. Not so: one effective BRDF for the whole material,
-  /// which is right where the whole map lies in a pixel.
+  /// Whether magnified texels are visible. If not, one effective BRDF represents the whole material, which is correct
+  /// only if a pixel covers the whole map.
   bool resolves_texels = true;
 };
 
-/// A prefiltering method: a pure precompute, a GLSL module and, where it has one, a frame build
-/// (docs/adding-a-method.md). Stateless.
+/// A prefiltering method: a pure precompute, a GLSL module and an optional frame build (docs/adding-a-method.md).
+/// Stateless.
 class Method {
  public:
   Method() = default;
@@ -105,40 +104,41 @@ class Method {
 
   [[nodiscard]] virtual const MethodInfo& info() const = 0;
 
-  /// Bakes one material, for a scene with `effects`: textures of effects that are off are not made. Pure: equal
-  /// arguments give equal values, at any number of threads. Long work reports progress (which may throw
-  /// Error{interrupted}). The textures' names, channels and storage and the scalars' names depend on options and
-  /// effects alone, so that one program serves every material of a scene.
+  /// Bakes one material. Pure: equal arguments give equal values, at any number of threads. The textures' names,
+  /// channels and storage, and the names of values, depend only on options and effects, so that one program can draw
+  /// all materials of a scene.
+  /// effects: of the scene; textures of effects that are off are not created.
+  /// progress: called during long work; may throw Error (interrupted).
   [[nodiscard]] virtual Prefiltered precompute(const Material& material, const Options& options,
                                                const EffectSet& effects, const Progress& progress) const = 0;
 
-  /// As `precompute`, for a material of `scene`: what depends on the triangles that it lies on. What is baked is kept
-  /// on disk by the material alone: a method that overrides this must not be `slow_precompute`.
+  /// As `precompute`, for bakes that depend on the material's triangles. The disk cache uses only the material as its
+  /// key, so a method that overrides this must not be `slow_precompute`.
   [[nodiscard]] virtual Prefiltered precompute_on(const Scene& scene, std::size_t material, const Options& options,
                                                   const EffectSet& effects, const Progress& progress) const {
     return precompute(scene.materials.at(material), options, effects, progress);
   }
 
-  /// The passes that are repeated each frame, for a scene whose effects (those that the method honours) and base BRDF
-  /// `variant` has; null: there are none. A context is current. Throws Error (machine): a pass does not compile.
+  /// The passes that are repeated each frame; null if there are none. A context is current.
+  /// variant: effects that the method honours, and base BRDF, of the scene.
+  /// Throws Error (machine): a pass does not compile.
   [[nodiscard]] virtual std::unique_ptr<FrameBuild> frame_build(const ShaderVariant& /*variant*/,
                                                                 const Options& /*options*/) const {
     return nullptr;
   }
 
-  /// For a method that stands for what engines import: the perceptual roughness of every texel and level of a normal
-  /// map's mip chain, one channel, 0 to 1, which goes beside the mean normal, renormalised. None of other methods, and
-  /// of a material without a normal map. Throws Error (usage): a roughness map that has no texel for each of the normal
-  /// map's.
+  /// For methods that model how engines import maps: the perceptual roughness for each level of the renormalised normal
+  /// map, one channel, 0 to 1. None for other methods, and without a normal map. Throws Error (usage): a roughness map
+  /// of another size than the normal map.
   [[nodiscard]] virtual std::optional<std::vector<Image>> roughness_mips(const Material& /*material*/,
                                                                          const Options& /*options*/) const {
     return {};
   }
 
-  /// Lobes of the effective NDF that the shader evaluates for a pixel, with isotropic filtering.
+  /// Lobes of the effective NDF that the shader evaluates per pixel, with isotropic filtering.
   [[nodiscard]] virtual int lobe_count(const Options& /*options*/) const { return 1; }
 
-  /// The GLSL module that evaluates the effective BRDF (renderer/shaders/README.md gives its contract).
+  /// The GLSL module that evaluates the effective BRDF (renderer/shaders/README.md).
   [[nodiscard]] virtual ShaderModule shader() const = 0;
 };
 

@@ -24,7 +24,7 @@ constexpr std::array<Word<Storage>, 3> storages{
     {{Storage::fp32, "fp32"}, {Storage::fp16, "fp16"}, {Storage::unorm8, "unorm8"}}};
 constexpr float largest_half = 65504.0F;
 
-// The driver's own conversion truncates; ours rounds to nearest, so that storage costs what it must and no more.
+// Rounds to nearest, because the driver's own conversion truncates.
 std::uint16_t half_bits(float value) { return half(std::clamp(value, -largest_half, largest_half)).bits(); }
 
 std::uint8_t unorm8(float value, bool signed_range) {

@@ -16,7 +16,7 @@
 namespace footprint {
 namespace {
 
-constexpr double default_steepest = 3.0;  // 71.6 degrees; methods/lean/README.md has what it costs and saves
+constexpr double default_steepest = 3.0;  // 71.6 degrees; methods/lean/README.md explains the choice
 constexpr int moment_channels = 5;
 constexpr std::size_t weight_channel = 5;
 
@@ -41,7 +41,7 @@ Image texel_moments(const Image& normals, const Image& variance, double steepest
   return out;
 }
 
-// One texel stands for any number of equal ones.
+// Expands a constant of one texel.
 Image spread_over(Image image, int width, int height) {
   if (image.texel_count() != 1) return image;
   Image out(width, height, image.channels);
@@ -50,7 +50,7 @@ Image spread_over(Image image, int width, int height) {
   return out;
 }
 
-// The base roughness that joins the moments: a texel of one map must lie over a texel of the other.
+// The base roughness for the moments. The texels of both maps must coincide.
 Image variance_for_moments(const Material& material) {
   Image variance = lobe_variance_map(material);
   if (variance.texel_count() > 1 && roughness_coordinates(material) != normal_coordinates(material)) {
@@ -61,7 +61,7 @@ Image variance_for_moments(const Material& material) {
   return variance;
 }
 
-// Says so where texels were made less steep than they are; the mend changes them, and a reader should know.
+// Adds a note about texels whose slope was limited.
 void note_steep_texels(const Image& normals, std::string_view map, double steepest, Prefiltered& out) {
   std::size_t steep = 0;
   for (std::size_t i = 0; i < normals.texel_count(); ++i) {

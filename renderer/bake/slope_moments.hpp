@@ -1,4 +1,4 @@
-// Moments of slope: what methods bake that see a normal map as slopes b = -n_xy / n_z with a mean and a covariance.
+// Slope moments: the mean and covariance of slopes b = -n_xy / n_z, which the LEAN family of methods bakes.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -13,61 +13,63 @@
 
 namespace footprint {
 
-/// First and second moments of slope over a footprint, both linear in area: they filter as any texture does.
+/// First and second moments of slope over a footprint. Both are averages over area, so texture filters apply.
 struct SlopeMoments {
   glm::dvec2 mean{0.0};    ///< B = E[b]
   glm::dmat2 second{0.0};  ///< M = E[b b^T]
 };
 
-/// The steepest slope that a normal is given, at n_z <= 0.02: slopes have a pole at the horizon.
+/// The default limit of slopes, reached at n_z = 0.02: slopes have a pole at the horizon.
 inline constexpr double steepest_slope = 50.0;
 
-/// b = -n_xy / n_z of a unit normal (Olano and Baker 2010), in its direction no longer than `steepest`; n_z below 0.02,
-/// negative too, counts as 0.02.
+/// The slope b = -n_xy / n_z of a unit normal (Olano and Baker 2010), shortened to `steepest`. n_z below 0.02 counts as
+/// 0.02, also if negative.
 [[nodiscard]] glm::dvec2 slope_of(const glm::dvec3& normal, double steepest = steepest_slope);
 
-/// The moments of a bump layer on top of another: the slopes of independent layers add, so their means and covariances
-/// do, M = Ma + Mb + Ba Bb^T + Bb Ba^T (Olano and Baker 2010, section 4: layers combine in the shader).
+/// Combines the moments of two bump layers (Olano and Baker 2010, section 4). Slopes of independent layers add, and so
+/// do their means and covariances: M = Ma + Mb + Ba Bb^T + Bb Ba^T.
 [[nodiscard]] SlopeMoments layered(const SlopeMoments& a, const SlopeMoments& b);
 
-/// M - B B^T, as the nearest matrix without a negative eigenvalue: with equal normals rounding decides the sign. The
-/// twin of slopeCovariance in common_slopes.glsl.
+/// The covariance M - B B^T. Rounding can make an eigenvalue negative; the nearest positive semidefinite matrix
+/// replaces it. Matches slopeCovariance in common_slopes.glsl.
 [[nodiscard]] glm::dmat2 covariance(const SlopeMoments& moments);
 
 /// The channels of slope_moment_chain.
 inline constexpr int slope_x = 0, slope_y = 1, slope_xx = 2, slope_xy = 3, slope_yy = 4;
 
-/// The mip chain of B and M, 5 channels, of RGBA normals (any length above 0, weight in alpha; weight 0 leaves the
-/// means untouched). `variance`, one channel of the normals' size or 1 x 1, is slope variance per axis that joins M
-/// before it is filtered: base roughness in the moments. Slopes are no longer than `steepest`. Throws Error (usage):
-/// another size.
+/// The mip chain of B and M, 5 channels.
+/// `normals`: RGBA, of any length above 0, with a weight in alpha; weight 0 leaves the means unchanged.
+/// `variance`: slope variance per axis that is added to M before filtering (base roughness). One channel, of the size
+/// of the normals or 1 x 1; another size throws Error (usage).
+/// `steepest`: the limit of slopes.
 [[nodiscard]] std::vector<Image> slope_moment_chain(const Image& normals, const Image& variance,
                                                     double steepest = steepest_slope);
 
-/// The given channels of every level, in the given order.
+/// Copies some channels of every level, in the given order.
 [[nodiscard]] std::vector<Image> channels_of(const std::vector<Image>& chain, std::initializer_list<int> channels);
 
-/// `roughness=stretched|shading|moments`: where the base lobe joins the slopes, and what shape it has there.
+/// `roughness=stretched|shading|moments`: where the base lobe is added to the slopes, and its shape there.
 [[nodiscard]] OptionSpec slope_roughness_option();
 
-/// `steepest=S`: one texel at the horizon, where slopes have a pole, would otherwise outweigh thousands.
+/// `steepest=S`: limits slopes, because one texel at the horizon would outweigh thousands of others.
 [[nodiscard]] OptionSpec steepest_slope_option();
 
-/// Whether the whole covariance is kept or, as CLEAN has it, its trace alone.
+/// Stores the full covariance or, as CLEAN does, only its trace.
 enum class SlopeVariant { full, scalar };
 
-/// What a method keeps of a normal map. `mean_normal`: the mean of the unit normals too, not renormalised.
+/// The moments that a method stores. `mean_normal`: also the mean of the unit normals, not renormalised.
 struct KeptSlopes {
   SlopeVariant variant = SlopeVariant::full;
   bool mean_normal = false;
 };
 
-/// The textures that footprint_slopes.glsl reads, for options with the three specs above, where normals vary:
-/// `slope_moments` (Bx, By, Mxx, Myy; scalar: Bx, By, Mxx + Myy) and, of the same size, `slope_rest`, what that has no
-/// room for: Mxy (not scalar), then the mean normal where it is kept; neither: there is no such texture. Likewise
-/// `layer_moments` and `layer_rest` of a bump layer, without a normal. `lobe_variance` (bake_lobe_variance) where the
-/// roughness varies and the moments do not hold it. Throws Error (usage): roughness in the moments of maps that differ
-/// in size or coordinates. Texels that are steeper than `steepest` are counted in a note.
+/// The textures that footprint_slopes.glsl reads, for options with the three specs above.
+/// If normals vary: `slope_moments` has (Bx, By, Mxx, Myy), or (Bx, By, Mxx + Myy) for the scalar variant.
+/// `slope_rest`, of the same size, has Mxy (full variant) and the mean normal if stored; without either it is omitted.
+/// `layer_moments` and `layer_rest` describe a bump layer in the same way, without a normal.
+/// `lobe_variance` (bake_lobe_variance) is present if the roughness varies and is not part of the moments.
+/// A note counts the texels that are steeper than `steepest`. Throws Error (usage) if roughness=moments is combined
+/// with maps of different sizes or coordinates.
 [[nodiscard]] Prefiltered bake_slopes(const Material& material, const Options& options, const EffectSet& effects,
                                       const KeptSlopes& kept);
 

@@ -24,7 +24,7 @@
 namespace footprint {
 namespace {
 
-// Where all normals of a texel cancel the surface's own stands in.
+// If the normals of a texel cancel, the surface's own replaces them.
 std::vector<Image> unit_normals(std::vector<Image> chain) {
   for (Image& level : chain) {
     for (std::size_t i = 0; i < level.texel_count(); ++i) {
@@ -96,7 +96,7 @@ void write_textures(const std::vector<PrefilteredTexture>& textures, const std::
   for (std::size_t t = 0; t < textures.size(); ++t) write_texture(textures[t], files[t], folder);
 }
 
-// Moments of slope that hold nothing else: with `roughness=moments` the base lobe is in them.
+// Whether moments of slope contain only slopes: with `roughness=moments` they include the base lobe.
 bool holds_slopes_alone(const BakedMethod& baked, std::size_t material) {
   const auto& options = baked.options.all();
   const auto roughness = options.find("roughness");
@@ -204,7 +204,7 @@ void require_files(const BakeToFiles& bake) {
     if (std::ranges::any_of(prefiltered.textures, &PrefilteredTexture::built))
       throw std::logic_error("a texture waits for its frame build");
   }
-  if (count > 0 || bake.baked.method->info().screen_derivatives) return;  // the screen tells of curvature, too
+  if (count > 0 || bake.baked.method->info().screen_derivatives) return;  // screen derivatives contain curvature too
   throw Error(ErrorKind::usage, fmt::format("{}, method {}", bake.scene.source, bake.baked.spec.text),
               "bakes nothing: normals and roughness do not vary on any material", "give a model with a normal map");
 }

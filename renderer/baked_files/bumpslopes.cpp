@@ -18,7 +18,7 @@ namespace {
 
 enum Channel : std::size_t { height, along_u, along_v, square_u, square_v, product, channel_count };
 
-constexpr float of_a_normal_map = -1.0F;  // what OpenImageIO writes as the height where there is none
+constexpr float of_a_normal_map = -1.0F;  // OpenImageIO's height if there is none
 
 const PrefilteredTexture* find_texture(const Prefiltered& prefiltered, const char* name) {
   const auto found = std::ranges::find(prefiltered.textures, name, &PrefilteredTexture::name);
@@ -66,7 +66,7 @@ std::vector<Image> upward(const ExrChain& chain) {
   return levels;
 }
 
-// Puts channels of the chain into a texture's first ones; what it holds behind them stays.
+// Writes channels of the chain into a texture's first ones; the others stay.
 void replace(Prefiltered& prefiltered, const char* name, const std::vector<Image>& chain,
              const std::vector<std::size_t>& channels) {
   const auto found = std::ranges::find(prefiltered.textures, name, &PrefilteredTexture::name);

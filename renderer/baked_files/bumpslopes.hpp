@@ -1,5 +1,5 @@
-// Moments of slope as OpenImageIO's `maketx --bumpslopes` lays them out: six channels, mip-mapped; out of and into
-// LEAN's maps.
+// Converts slope moments between LEAN's maps and the layout of OpenImageIO's `maketx --bumpslopes`: six mip-mapped
+// channels.
 #pragma once
 
 #include <optional>
@@ -11,23 +11,24 @@
 
 namespace footprint {
 
-/// The channels of the layout, in its order: height (-1 of what was made from a normal map), the slopes along u and v
-/// and the means of their products.
+/// The channels in order: height (-1 if made from a normal map), the slopes along u and v, and the means of their
+/// products.
 [[nodiscard]] const std::vector<std::string>& bumpslopes_channels();
 
-/// The moments in a bake's `slope_moments` and `slope_rest` (bake_slopes) in that layout. None where it has not both,
-/// or no whole covariance.
+/// Converts `slope_moments` and `slope_rest` of a bake (bake_slopes) to that layout. Nothing if one is missing or the
+/// covariance is not complete.
 [[nodiscard]] std::optional<ExrChain> bumpslopes_of(const Prefiltered& prefiltered);
 
-/// The normals that the finest level's slopes stand for: 4 channels, as Material::normal_map. `file` is for messages.
-/// OpenImageIO's slopes of a height map are per texel and, along v, down the rows; those of a normal map up, as its
-/// green channel: the first are turned round. Throws Error (usage): other channels, a level that is missing, no finite
-/// number.
+/// The normals of the slopes in the finest level: 4 channels, as Material::normal_map. OpenImageIO's slopes of a height
+/// map are per texel and point down along v; those of a normal map point up, as its green channel. The former are
+/// converted.
+/// file: for messages.
+/// Throws Error (usage): wrong channels, a missing level, or a value that is not finite.
 [[nodiscard]] Image normals_of_bumpslopes(const ExrChain& chain, const std::string& file);
 
-/// Puts the chain's moments in the place of those that were baked from its finest level's normals, so that what its
-/// coarser levels hold beyond them counts. Storage, coordinates and a mean normal stay. Throws std::logic_error where
-/// the bake has no such textures, of that size.
+/// Replaces the moments that were baked from the finest level by those of the chain, whose coarser levels may contain
+/// more. Storage, coordinates and a mean normal stay. Throws std::logic_error if the bake has no such textures of that
+/// size.
 void replace_moments(const ExrChain& chain, Prefiltered& prefiltered);
 
 /// Whether a bake has such textures.

@@ -30,7 +30,7 @@ Json json_of(const std::filesystem::path& source) {
   return Json::parse(text.substr(json_at, length));
 }
 
-// Gives what lies in a file of its own, or in the GLB's binary chunk, a new file beside the copy.
+// Writes content of external files, or of the GLB's binary chunk, to new files next to the copy.
 void move_beside(Json& object, const std::string& name, std::span<const std::uint8_t> bytes,
                  const std::filesystem::path& folder) {
   const bool is_within = object.contains("bufferView") || object.value("uri", "").starts_with("data:");

@@ -110,7 +110,7 @@ std::vector<std::uint8_t> ktx2_bytes(const PrefilteredTexture& texture) {
   Bytes out;
   out.block({identifier.begin(), identifier.end()});
   out.word(vk_format(texture.storage, texture.channels));
-  out.word(static_cast<std::uint32_t>(channel_bytes(texture.storage)));  // typeSize: what a swap of byte orders swaps
+  out.word(static_cast<std::uint32_t>(channel_bytes(texture.storage)));  // typeSize: the unit of byte order
   out.word(static_cast<std::uint32_t>(texture.levels.front().width));
   out.word(static_cast<std::uint32_t>(texture.levels.front().height));
   out.word(0);  // no depth

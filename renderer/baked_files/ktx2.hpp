@@ -9,12 +9,12 @@
 
 namespace footprint {
 
-/// The Vulkan format (VkFormat) of a storage with so many channels, 1 to 4: linear, never sRGB.
+/// The linear Vulkan format (VkFormat) of a storage with 1 to 4 channels.
 [[nodiscard]] std::uint32_t vk_format(Storage storage, int channels);
 
 /// The file's bytes: header, level index, data format descriptor, the keys KTXorientation (`rd`: the first row is v =
-/// 0) and KTXwriter, and the levels from the coarsest to the finest. Equal textures give equal bytes. Errors:
-/// std::logic_error for a texture that a frame build writes.
+/// 0) and KTXwriter, and the levels, coarsest first. Equal textures give equal bytes. Throws std::logic_error: a
+/// texture of a frame build.
 [[nodiscard]] std::vector<std::uint8_t> ktx2_bytes(const PrefilteredTexture& texture);
 
 }  // namespace footprint

@@ -1,4 +1,4 @@
-// One JSON object a material and a texture, and the uniforms that a module asks for.
+// One JSON object per material and texture, and the uniforms that a module reads.
 #include "renderer/baked_files/baked_files.hpp"
 
 #include <fmt/format.h>
@@ -98,7 +98,7 @@ Json textures_json(const std::vector<PrefilteredTexture>& textures, const std::v
   return list;
 }
 
-// What the module reads of the material: its scalars and vectors, its lobe and, where facets have several, those.
+// The uniforms of a material: scalars, vectors, its lobe and, if there are several per facet, those.
 Json uniforms_json(const Material& material, const Prefiltered& prefiltered, bool several_lobes) {
   Json uniforms = Json::object();
   uniforms["lobe_cutoff"] = {lobe_of(material).parameter, material.alpha_cutoff.value_or(-1.0F), 0.0, 0.0};

@@ -18,11 +18,11 @@ namespace footprint {
 namespace {
 
 constexpr std::size_t checksum_length = 16;
-constexpr std::size_t piece_length = std::size_t{1} << 20U;  // of what is read for its checksum alone
+constexpr std::size_t piece_length = std::size_t{1} << 20U;  // read at once to compute a checksum
 
 std::string checksum(std::uint64_t sum) { return fmt::format("{:016x}", sum); }
 
-// Of all bytes; none where they cannot be read.
+// The checksum of all bytes; none if they cannot be read.
 std::optional<std::string> checksum_of(const ByteSource& bytes) {
   std::vector<std::uint8_t> piece;
   std::uint64_t sum = fnv1a_start;
@@ -84,7 +84,7 @@ std::vector<std::uint8_t> read_file_bytes(const std::filesystem::path& file, std
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) throw fail("no such file", "check the path");
-  // A device such as /dev/zero has no end, a pipe may never give one.
+  // A device such as /dev/zero never ends, and a pipe may block.
   if (!std::filesystem::is_regular_file(status)) throw fail("not a regular file", "name a file");
   const auto size = std::filesystem::file_size(file, error);
   if (error) throw fail("cannot be read: " + error.message(), "check the permissions");

@@ -20,7 +20,7 @@ constexpr std::string_view extension = ".bake";
 
 constexpr std::uint64_t largest_file = std::uint64_t{64} << 30U;
 
-// Empty where there is no such file or it cannot be read.
+// Empty if the file is missing or unreadable.
 std::vector<std::uint8_t> content_of(const fs::path& file) {
   try {
     return read_file_bytes(file, largest_file);
@@ -29,13 +29,13 @@ std::vector<std::uint8_t> content_of(const fs::path& file) {
   }
 }
 
-// Behind the bytes a file has its own key: one that was renamed, or copied over another, is none of this name.
+// The key follows the content, so that renamed or copied files are not accepted.
 void write_with_key(const ByteSink& out, const ByteWriter& write, const std::string& key) {
   write(out);
   out({reinterpret_cast<const std::uint8_t*>(key.data()), key.size()});
 }
 
-// The bytes before the key; none where the file ends in another.
+// The content without the key; none if the key differs.
 std::optional<ByteSource> without_key(const ByteSource& bytes, const std::string& key) {
   if (bytes.size() <= key.size()) return {};
   ByteSource before = bytes.first(bytes.size() - key.size());
@@ -86,7 +86,7 @@ void DiskCache::store(const std::string& key, std::uint64_t bytes, const ByteWri
   try {
     write_file_atomically(file(key), [&](const ByteSink& out) { write_with_key(out, write, key); });
   } catch (const Error&) {
-    return;  // a full disk or a closed folder: what was made is at hand all the same
+    return;  // a full disk or a read-only folder only costs the caching
   }
 }
 

@@ -1,4 +1,4 @@
-// Slow work kept on disk between runs: a folder of files that are named by the content of what they were made from.
+// A cache of slow work on disk: a folder of files named by hashes of their inputs.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,18 @@
 
 namespace footprint {
 
-/// A folder of bakes. Files appear whole or not at all; the least recently used go when the folder outgrows its limit.
-/// A folder that cannot be read or written costs the saving, never the run.
+/// A folder of cached files. Files appear atomically; the least recently used ones are removed when the folder exceeds
+/// its limit. A folder that cannot be read or written never fails a run.
 class DiskCache {
  public:
   explicit DiskCache(std::filesystem::path folder, std::uint64_t most_bytes = std::uint64_t{8} << 30U);
 
-  /// The bytes kept under `key` (letters, digits, `-` and `_`), now the most recently used, to be read from the disk;
-  /// none where there are none, or those in the file were kept under another.
+  /// The bytes stored under `key` (letters, digits, `-` and `_`), marked as most recently used. None if there is no
+  /// such file, or its content was stored under another key.
   [[nodiscard]] std::optional<ByteSource> find(const std::string& key) const;
   void store(const std::string& key, std::span<const std::uint8_t> bytes) const;
-  /// Keeps what `write` hands over, about so many bytes, without holding it in memory.
+  /// Stores the output of `write` without a copy in memory.
+  /// bytes: approximate size.
   void store(const std::string& key, std::uint64_t bytes, const ByteWriter& write) const;
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
@@ -35,12 +36,11 @@ class DiskCache {
   std::uint64_t most_bytes_;
 };
 
-/// Counts the bytes of this very program's executable: a change of the code changes what it makes, and nobody remembers
-/// to raise a number.
+/// Hashes the executable of this program, because its code determines the cached results.
 void add_program(ContentHash& hash);
 
-/// $FOOTPRINT_CACHE, else $XDG_CACHE_HOME/footprint, else $HOME/.cache/footprint; none where none of them is set.
-/// The latter two count where they are absolute.
+/// $FOOTPRINT_CACHE, else $XDG_CACHE_HOME/footprint, else $HOME/.cache/footprint; the latter two only if absolute. None
+/// without any of them.
 [[nodiscard]] std::optional<std::filesystem::path> default_cache_folder();
 
 }  // namespace footprint

@@ -15,7 +15,7 @@ struct EmbeddedText {
 /// The texts of a folder, sorted by file name.
 using EmbeddedTexts = std::span<const EmbeddedText>;
 
-/// The text of a file; null where the folder has none of that name.
+/// The text of a file; null if there is no such file.
 [[nodiscard]] inline const EmbeddedText* find_text(EmbeddedTexts texts, std::string_view file) {
   const auto found = std::ranges::lower_bound(texts, file, {}, &EmbeddedText::file);
   return found == texts.end() || found->file != file ? nullptr : &*found;

@@ -1,4 +1,4 @@
-// The one exception type of Footprint: what went wrong, where, and a hint at what to do about it.
+// The exception type of Footprint: message, place, and a hint for the fix.
 #pragma once
 
 #include <stdexcept>
@@ -6,12 +6,12 @@
 
 namespace footprint {
 
-/// Who can mend an error, and so the exit code of the program (docs/command-line.md).
+/// The kind of an error, and the exit code of the program (docs/command-line.md).
 enum class ErrorKind {
-  check = 1,          ///< a held threshold or claim fell short
+  check = 1,          ///< a checked threshold or claim failed
   usage = 2,          ///< the command line, a config or an input file is wrong
-  machine = 3,        ///< the machine cannot: no GL, no memory, no disk
-  interrupted = 130,  ///< the user asked to stop (128 + SIGINT)
+  machine = 3,        ///< the machine lacks GL, memory or disk space
+  interrupted = 130,  ///< the user stopped the program (128 + SIGINT)
 };
 
 /// Every error that a user can see. `what()` reads "PLACE: MESSAGE (HINT)"; PLACE and HINT may be empty.

@@ -44,17 +44,17 @@ const std::string& id_space() {
   return space;
 }
 
-// What every hidden name of FOLDER/NAME begins with.
+// The prefix of all hidden names of FOLDER/NAME.
 std::string partial_prefix(const fs::path& name) { return fmt::format(".{}.partial-", name.string()); }
 
-// The hidden name under which FOLDER/NAME grows: process, where its id counts, and an attempt, which tells apart those
-// of one process.
+// The hidden name of FOLDER/NAME: process id, the space in which it is valid, and a number for further attempts of one
+// process.
 fs::path partial_path(const fs::path& folder, const fs::path& name, int attempt) {
   const std::string suffix = attempt == 0 ? std::string{} : fmt::format("-{}", attempt);
   return folder / fmt::format("{}{}-{}{}", partial_prefix(name), ::getpid(), id_space(), suffix);
 }
 
-// Whether what follows the prefix names a process of this machine that is no more.
+// Whether the rest of a hidden name is of a process of this machine that has ended.
 bool is_of_a_dead_process(std::string_view rest) {
   pid_t process = 0;
   const auto [end, status] = std::from_chars(rest.data(), rest.data() + rest.size(), process);
@@ -64,7 +64,7 @@ bool is_of_a_dead_process(std::string_view rest) {
   return ::kill(process, 0) != 0 && errno == ESRCH;
 }
 
-// Removes what killed processes have left of FOLDER/NAME. What cannot be removed costs nothing but its room.
+// Removes remains of killed processes. Failures are ignored.
 void remove_dead_partials(const fs::path& folder, const fs::path& name) {
   const std::string prefix = partial_prefix(name);
   std::error_code ignored;
@@ -120,14 +120,14 @@ class TemporaryNeighbour {
 
 // Renaming over a device or a pipe would replace it by a file.
 void require_regular_or_absent(const fs::path& file) {
-  std::error_code ignored;  // what cannot be asked cannot be created either, and says so there
+  std::error_code ignored;  // creating the file will fail with a message
   const fs::file_status status = fs::status(file, ignored);
   if (file.has_filename() && (!fs::exists(status) || fs::is_regular_file(status))) return;
   throw Error(ErrorKind::usage, file.string(), fs::is_directory(status) ? "is a folder" : "is not a regular file",
               "name a file to write");
 }
 
-// Creates what is missing of `folder` and appends it to `created`, outermost first.
+// Creates missing parents of `folder` and appends them to `created`, outermost first.
 void create_folders(const fs::path& folder, std::vector<fs::path>& created) {
   std::error_code status;
   if (!folder.has_relative_path() || fs::exists(folder, status)) return;
@@ -136,7 +136,7 @@ void create_folders(const fs::path& folder, std::vector<fs::path>& created) {
   if (status) throw machine_error(folder, "cannot be created", status);
 }
 
-// What is not empty stays: someone else uses it by now.
+// Folders that others use by now are not empty and stay.
 void remove_empty_folders(const std::vector<fs::path>& folders) {
   std::error_code ignored;
   std::for_each(folders.rbegin(), folders.rend(), [&](const fs::path& folder) { fs::remove(folder, ignored); });
@@ -157,11 +157,11 @@ std::vector<fs::path> relative_entries(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     entries.push_back(entry.path().lexically_relative(folder));
   }
-  std::ranges::sort(entries);  // a folder before what is in it
+  std::ranges::sort(entries);  // folders before their content
   return entries;
 }
 
-// What lies on top of a folder tells what is below it, a page or a list of images.
+// Files on top of an output folder describe the files below: a page, or a list of images.
 bool lies_on_top(const fs::path& entry) { return !entry.has_parent_path(); }
 
 // Links everything of `target` into `staging` that is not there and not stale, so that the two can be exchanged.
@@ -180,8 +180,8 @@ bool link_what_stays(const fs::path& target, const fs::path& staging, const std:
   return true;
 }
 
-// Puts each folder of `staging` in the place of the one that `target` has, in one step. What cannot be exchanged stays,
-// for merge_folder to move file by file.
+// Exchanges each folder of `staging` with the one in `target` atomically. Folders that cannot be exchanged are left for
+// merge_folder, which moves files.
 void exchange_folders(const fs::path& staging, const fs::path& target, const std::vector<fs::path>& stale) {
   for (const auto& entry : fs::directory_iterator(staging)) {
     const fs::path name = entry.path().filename();
@@ -261,7 +261,7 @@ OutputFolder::OutputFolder(const fs::path& final_path) {
   if (fs::exists(status) && !fs::is_directory(status)) refuse("is not a folder");
   if (!fs::exists(status) && fs::is_symlink(fs::symlink_status(final_, ignored))) refuse("is a link to nothing");
   const fs::path home = fs::exists(status) ? final_ : final_.parent_path();
-  // The folder may have come to be while such a process ran.
+  // The folder may have been created while such a process ran.
   if (fs::exists(final_.parent_path(), ignored)) remove_dead_partials(final_.parent_path(), final_.filename());
   try {
     create_folders(home, created_parents_);
@@ -274,7 +274,7 @@ OutputFolder::OutputFolder(const fs::path& final_path) {
 
 OutputFolder::~OutputFolder() {
   if (committed_) return;
-  std::error_code ignored;  // a destructor has no one to tell
+  std::error_code ignored;  // a destructor cannot report it
   fs::remove_all(staging_, ignored);
   remove_empty_folders(created_parents_);
 }

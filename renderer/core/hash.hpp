@@ -1,4 +1,4 @@
-// A content hash for cache keys and for telling whether two outputs are the same bytes. Not for security.
+// A content hash for cache keys and to compare outputs. Not for security.
 #pragma once
 
 #include <cstddef>

@@ -16,7 +16,7 @@
 namespace footprint {
 namespace {
 
-constexpr std::size_t longest_stem = 100;  // file systems take 255 bytes, and what is added needs some
+constexpr std::size_t longest_stem = 100;  // file systems allow 255 bytes, including what is appended
 
 // Optimal string alignment: insertions, deletions, substitutions and swaps of neighbours each cost one.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -63,7 +63,7 @@ std::vector<std::string> distinct_stems(const std::vector<std::string>& names) {
 }
 
 std::string nearest_name(std::string_view wrong, std::span<const std::string> candidates) {
-  constexpr std::size_t longest_compared = 64;  // keeps the table small for a hostile key
+  constexpr std::size_t longest_compared = 64;  // bounds the table for hostile keys
   if (wrong.size() > longest_compared) return {};
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, wrong.size() / 2) + 1;
@@ -78,7 +78,7 @@ std::string nearest_name(std::string_view wrong, std::span<const std::string> ca
 }
 
 std::string suggestion(std::string_view wrong, std::span<const std::string> candidates) {
-  constexpr std::size_t most_listed = 20;  // a longer list hides what is wrong
+  constexpr std::size_t most_listed = 20;  // a longer list would hide the message
   std::string known;
   for (const std::string& candidate : candidates.first(std::min(candidates.size(), most_listed)))
     known += (known.empty() ? "" : ", ") + candidate;

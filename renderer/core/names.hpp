@@ -13,22 +13,22 @@
 
 namespace footprint {
 
-/// The candidate with the smallest Damerau-Levenshtein distance to `wrong`, compared without case; empty if none is
-/// nearer than half the length of `wrong` (at least 2), or if `candidates` is empty.
+/// The candidate with the smallest Damerau-Levenshtein distance to `wrong`, ignoring case. Empty if the distance
+/// exceeds half the length of `wrong` (at least 2), or without candidates.
 [[nodiscard]] std::string nearest_name(std::string_view wrong, std::span<const std::string> candidates);
 
-/// A sentence for an Error's hint: "did you mean `toksvig`? known: direct, naive_mip, toksvig"; of many candidates the
-/// first 20, and how many more there are.
+/// A hint for an Error: "did you mean `toksvig`? known: direct, naive_mip, toksvig". Lists at most 20 candidates, and
+/// the number of others.
 [[nodiscard]] std::string suggestion(std::string_view wrong, std::span<const std::string> candidates);
 
-/// The place among `names` of a name, or of a number from 0 where no name is written so.
+/// The index of a name, or of a number from 0 if no name is equal to it.
 [[nodiscard]] std::optional<std::size_t> find_entry(std::string_view wanted, std::span<const std::string> names);
 
 /// The index of `word` among `known`. Throws Error (usage): "PLACE: unknown WHAT `WORD`", with the nearest right one.
 [[nodiscard]] std::size_t find_word(std::span<const std::string> known, std::string_view word, std::string_view what,
                                     std::string_view place);
 
-/// A word and what it stands for.
+/// A word for a value.
 template <class Value>
 struct Word {
   Value value;
@@ -43,7 +43,7 @@ template <class Value, std::size_t count>
   return names;
 }
 
-/// What `word` stands for. Throws Error (usage): those of find_word.
+/// The value of `word`. Throws as find_word.
 template <class Value, std::size_t count>
 [[nodiscard]] Value word_value(const std::array<Word<Value>, count>& words, std::string_view word,
                                std::string_view what, std::string_view place) {
@@ -56,17 +56,17 @@ template <class Value, std::size_t count>
   return std::ranges::find(words, value, &Word<Value>::value)->name;
 }
 
-/// ASCII letters in lower case; all else stays.
+/// The text with ASCII letters in lower case.
 [[nodiscard]] std::string lower_case(std::string text);
 
 /// A path's extension in lower case, with its dot.
 [[nodiscard]] std::string lower_extension(const std::filesystem::path& path);
 
-/// A file name part from any text: letters, digits, '-', '.' and '_' stay, all else becomes '_'.
+/// A part of a file name: letters, digits, '-', '.' and '_' of the text, and '_' for other characters.
 [[nodiscard]] std::string file_stem(const std::string& text);
 
-/// One for each name, in their order, none empty or hidden and all different, also where a file system takes upper and
-/// lower case for one: a stem that comes twice has the name's number added.
+/// A stem per name, in their order. All are non-empty, not hidden, and distinct even if the file system ignores case;
+/// the index is appended to duplicates.
 [[nodiscard]] std::vector<std::string> distinct_stems(const std::vector<std::string>& names);
 
 }  // namespace footprint

@@ -1,4 +1,4 @@
-// A method's options: one table that feeds --help, the config reader, the documentation and the report.
+// A method's options: a table for --help, configuration files, documents and reports.
 #pragma once
 
 #include <map>
@@ -17,23 +17,23 @@ struct OptionSpec {
   std::vector<std::string> choices{};   ///< words only
   std::string meaning;                  ///< one sentence, with units
   bool integer = false;                 ///< numbers only: whole numbers
-  /// Its name in shaders, where that is another: two methods that share a text may each name an option as they like.
+  /// The name in shaders if it differs, so that two methods with a common text may name an option differently.
   std::string name_in_shaders{};
 
   [[nodiscard]] const std::string& shader_name() const { return name_in_shaders.empty() ? name : name_in_shaders; }
 };
 
-/// The option under another name in shaders.
+/// The option with another name in shaders.
 [[nodiscard]] OptionSpec named_in_shaders(OptionSpec option, std::string name);
 
-/// An option with numbers of a range for values, both ends inclusive.
+/// A numeric option with an inclusive range.
 [[nodiscard]] OptionSpec number_option(std::string name, double value, double minimum, double maximum,
                                        std::string meaning);
 
-/// The same with whole numbers alone.
+/// A numeric option for whole numbers.
 [[nodiscard]] OptionSpec whole_option(std::string name, int value, int minimum, int maximum, std::string meaning);
 
-/// An option with words for values, of which the first is the default.
+/// An option with a choice of words; the first is the default.
 [[nodiscard]] OptionSpec word_option(std::string name, const std::vector<std::string>& choices, std::string meaning);
 
 /// Values for a table of options: every option present, defaults filled in.

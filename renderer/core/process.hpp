@@ -5,14 +5,14 @@
 
 namespace footprint {
 
-/// The name that this machine goes by on its network; "?" where it has none. Times belong to one.
+/// The network name of this machine; "?" if it has none.
 [[nodiscard]] std::string host_name();
 
-/// Installs handlers for SIGINT, SIGTERM and SIGHUP (where it is not ignored) that only set a flag; a second such
-/// signal ends the process at once.
+/// Installs handlers for SIGINT, SIGTERM and SIGHUP (unless it is ignored) that set a flag. A second signal ends the
+/// process at once.
 void watch_interrupts();
 
-/// Throws Error{interrupted} if the user asked to stop since `watch_interrupts`. Cheap: call it in every long loop.
+/// Throws Error (interrupted) after such a signal. It is cheap, so call it in every long loop.
 void throw_if_interrupted();
 
 }  // namespace footprint

@@ -10,18 +10,19 @@
 
 namespace footprint {
 
-/// Called with what is being done and the fraction done of the whole job, 0 to 1. May throw Error{interrupted}.
+/// Called with the current activity and the finished fraction of the whole job, 0 to 1. May throw Error (interrupted).
 using Progress = std::function<void(std::string_view what, double fraction)>;
 
 /// A Progress that reports nothing.
 inline void no_progress(std::string_view /*what*/, double /*fraction*/) {}
 
-/// Shares one Progress among the parts of a job: each part takes a weight of the whole and reports 0 to 1 of itself.
+/// Splits one Progress into parts of given weights; each part reports 0 to 1 of itself.
 class ProgressParts {
  public:
   ProgressParts(Progress whole, double total_weight) : whole_(std::move(whole)), total_(total_weight) {}
 
-  /// The Progress of the next part; `prefix` goes before what it says.
+  /// The Progress of the next part.
+  /// prefix: precedes its activities.
   [[nodiscard]] Progress next(double weight, const std::string& prefix) {
     const double start = done_;
     done_ += weight;
@@ -36,23 +37,23 @@ class ProgressParts {
   double done_ = 0;
 };
 
-/// A stage by its name and the wall-clock seconds that it took.
+/// A stage and its wall-clock seconds.
 struct StageTime {
   std::string stage;
   double seconds = 0.0;
 };
 
-/// A stage lasts from the report that names it to the next report of another name. One that comes back adds to its
-/// time. Reports come from one thread.
+/// Measures stages of work by its progress reports. A stage lasts from the report that names it to the next report of
+/// another name; times of equal names add up. Reports must come from one thread.
 class StageClock {
  public:
-  /// A Progress that takes the time and passes every report on to `next`. Refers to this clock.
+  /// A Progress that measures and forwards reports to `next`. It refers to this clock.
   [[nodiscard]] Progress callback(Progress next);
 
-  /// Ends the stage that is running, if one is.
+  /// Ends the current stage, if any.
   void stop();
 
-  /// The stages in the order in which they first came.
+  /// The stages in the order of their first report.
   [[nodiscard]] const std::vector<StageTime>& times() const { return times_; }
 
  private:

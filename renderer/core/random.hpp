@@ -1,4 +1,4 @@
-// Random numbers that are the same on every machine: the standard's own distributions may differ between libraries.
+// Random numbers that are equal on every machine; the standard's distributions may differ between libraries.
 #pragma once
 
 #include <random>

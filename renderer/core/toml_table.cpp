@@ -1,4 +1,4 @@
-// What TOML++ parsed, looked up key by key; every complaint has the line of what it is about.
+// Looks up keys in parsed TOML; every error has a line number.
 #include "renderer/core/toml_table.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 namespace footprint {
 namespace {
 
-// What was parsed says which file it is of; a table that no line has written is of `file`.
+// The file and line of a node; tables without a line are of `file`.
 std::string line_place(const std::filesystem::path& file, const toml::source_region& source) {
   return fmt::format("{}:{}", source.path ? *source.path : file.string(), source.begin.line);
 }
@@ -29,7 +29,7 @@ toml::table parse_file(const std::filesystem::path& file) {
   }
 }
 
-// Moves what `target` lacks into it: a node that is copied forgets its line.
+// Moves missing entries into `target`, because copies of nodes lose their line.
 void take_missing(toml::table& target, toml::table& presets) {
   for (auto&& entry : presets) {
     if (target.contains(entry.first.str())) continue;
@@ -47,7 +47,7 @@ std::optional<std::string> word_or_number_of(const toml::node& node) {
   return word_of(node);
 }
 
-// The elements of a list that has some, each by `text_of`; none where it is no such list.
+// The elements of a non-empty list, converted by `text_of`; none if it is not such a list.
 std::optional<std::vector<std::string>> texts_of(const toml::node& node,
                                                  std::optional<std::string> (*text_of)(const toml::node&)) {
   const toml::array* array = node.as_array();

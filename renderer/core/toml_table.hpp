@@ -1,4 +1,4 @@
-// Strict reading of TOML tables: every key is asked for, checked and named with its line when it is wrong.
+// Strict reading of TOML tables: every key is checked, and errors name its line.
 #pragma once
 
 #include <cstddef>
@@ -20,16 +20,17 @@ struct NumberRange {
   double low, high;
 };
 
-/// One table of a TOML file. Readers return nothing where the key is absent and throw Error{usage} "FILE:LINE" where
-/// its value has the wrong type, is not finite or is out of range.
+/// One table of a TOML file. Readers return nothing if the key is missing. They throw Error (usage) "FILE:LINE" if the
+/// value has the wrong type, is not finite or is out of range.
 class TomlTable {
  public:
-  /// A whole file of at most 1 MiB. `known` are the keys that may stand in it: any other is an error that names the
-  /// nearest right one. Throws Error (usage): missing, empty, or not TOML, as "FILE:LINE: ...".
+  /// Reads a whole file of at most 1 MiB.
+  /// known: the allowed keys.
+  /// Throws Error (usage) "FILE:LINE: ...": missing, empty, not TOML, or an unknown key, with the nearest known one.
   TomlTable(const std::filesystem::path& file, const std::vector<std::string>& known);
 
-  /// A whole file over another, its presets: a table that `file` lacks is that of the presets, and in the tables that
-  /// `joined` names so is every key that it lacks. Errors, also later ones, name the file that their line is of.
+  /// Reads a file over another with presets: tables that `file` lacks come from the presets, and so do keys that its
+  /// `joined` tables lack. Errors name the file of their line.
   static TomlTable over_presets(const std::filesystem::path& file, const std::filesystem::path& presets,
                                 const std::vector<std::string>& known, const std::vector<std::string>& joined);
 
@@ -43,23 +44,23 @@ class TomlTable {
   [[nodiscard]] std::optional<double> number(std::string_view key, NumberRange range) const;
   /// A number without a fraction.
   [[nodiscard]] std::optional<std::int64_t> whole_number(std::string_view key, NumberRange range) const;
-  /// `count` numbers; a `count` of 0 takes any number of them but none.
+  /// `count` numbers; a `count` of 0 accepts one or more.
   [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view key, std::size_t count,
                                                            NumberRange range) const;
   [[nodiscard]] std::optional<std::vector<std::string>> words(std::string_view key) const;
   /// Strings and numbers, one or more; numbers as they are written shortest.
   [[nodiscard]] std::optional<std::vector<std::string>> words_or_numbers(std::string_view key) const;
   [[nodiscard]] std::optional<TomlTable> table(std::string_view key, const std::vector<std::string>& known) const;
-  /// The keys of the table [key], sorted; none where there is no such table.
+  /// The sorted keys of the table [key]; empty without that table.
   [[nodiscard]] std::vector<std::string> keys_of(std::string_view key) const;
-  /// The tables of [[key]]; empty where there are none.
+  /// The tables of [[key]]; empty without any.
   [[nodiscard]] std::vector<TomlTable> tables(std::string_view key, const std::vector<std::string>& known) const;
 
-  /// An error at `key`'s line (the table's, where the key is absent).
+  /// An error at `key`'s line, or at the table's if the key is missing.
   [[nodiscard]] Error error_at(std::string_view key, const std::string& message, const std::string& hint) const;
 
  private:
-  /// The table, and the parsed file that it is a part of; defined where TOML++ is known.
+  /// The table, and the parsed file around it; defined in the source, which includes TOML++.
   struct Parsed;
   /// `name` is for messages: "[frame]"; empty for the whole file.
   TomlTable(std::shared_ptr<const Parsed> parsed, std::filesystem::path file, std::string name,
@@ -76,7 +77,7 @@ class TomlTable {
   std::string name_;
 };
 
-/// What `read` makes of a key's value; what it found wrong becomes an error at the line of the key.
+/// The result of `read`; its errors become errors at the line of the key.
 template <typename Read>
 auto at_key(const TomlTable& table, std::string_view key, Read read) {
   try {

@@ -1,4 +1,4 @@
-// Each decision is a predicate over materials or lights, with a reason that counts those it holds for.
+// Decisions by predicates over materials or lights; reasons count the materials that fulfil them.
 #include "renderer/effects/effects.hpp"
 
 #include <fmt/format.h>
@@ -43,7 +43,7 @@ constexpr auto names = std::to_array<std::string_view>({"diffuse",
                                                         "tabulated_brdf"});
 static_assert(names.size() == effect_count);
 
-// Smaller than any step of an 8-bit map; larger than what decoding one leaves in 32 bits.
+// Smaller than a step of an 8-bit map, and larger than rounding in 32 bits.
 constexpr float constant_tolerance = 1e-5F;
 
 bool channel_varies(const Image& image, int channel) {
@@ -55,7 +55,7 @@ bool channel_varies(const Image& image, int channel) {
   return false;
 }
 
-// A constant map that leans is no flat one: it must still be drawn.
+// A constant map that is tilted is not flat.
 bool is_flat(const Image& normals) {
   const auto stride = static_cast<std::size_t>(normals.channels);
   for (std::size_t i = 0; i < normals.texels.size(); i += stride) {
@@ -65,7 +65,7 @@ bool is_flat(const Image& normals) {
   return true;
 }
 
-// "2 of 19 materials": how many materials a predicate holds for.
+// The number of materials that fulfil a predicate: "2 of 19 materials".
 struct Count {
   std::size_t holding = 0, all = 0;
   [[nodiscard]] std::string text() const {

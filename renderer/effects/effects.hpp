@@ -13,7 +13,7 @@
 
 namespace footprint {
 
-/// Something that the renderer can simulate and a scene may lack.
+/// A feature that the renderer can simulate and a scene may lack.
 enum class Effect : std::size_t {
   diffuse,                ///< a facet's Lambert term
   fresnel,                ///< Schlick's term over F0
@@ -23,11 +23,11 @@ enum class Effect : std::size_t {
   roughness_variation,    ///< a map of roughness or of lobe parameters that is not constant
   multi_lobe,             ///< facets with several lobes, or one whose axis is not their normal
   base_color_variation,   ///< a base-colour map
-  vertex_color,           ///< colours at the vertices, that multiply the base colour
+  vertex_color,           ///< vertex colours, which multiply the base colour
   metallic_variation,     ///< a metallic map that is not constant
   specular_variation,     ///< a map of reflectance at normal incidence that is not constant
   clear_coat,             ///< a clear layer over the material
-  coat_weight_variation,  ///< a map of where the coat is, or how much of it, that is not constant
+  coat_weight_variation,  ///< a map of the coat's weight that is not constant
   coat_width_variation,   ///< a map of the coat's roughness that is not constant
   coat_normal_variation,  ///< a normal map of the coat that is not flat
   material_index,         ///< several materials on one surface, chosen by a map of indices
@@ -36,17 +36,17 @@ enum class Effect : std::size_t {
   point_light,
   spot_light,
   directional_light,
-  cast_shadow,               ///< parts of the scene that stand between others and a light
+  cast_shadow,               ///< parts of the scene that hide lights from others
   environment_light,         ///< light from all directions
   microgeometry_visibility,  ///< small-scale geometry whose facets hide and shadow each other
-  microgeometry_colour,      ///< small-scale geometry with colours of its own
-  tabulated_brdf,            ///< facets that reflect as a table says, instead of the base BRDF
+  microgeometry_colour,      ///< small-scale geometry with its own colours
+  tabulated_brdf,            ///< facets with a tabulated BRDF instead of the base BRDF
 };
 
 inline constexpr std::size_t effect_count = static_cast<std::size_t>(Effect::tabulated_brdf) + 1;
 using EffectSet = std::bitset<effect_count>;
 
-/// The name of an effect as shaders, tables and `explain` write it.
+/// The name of an effect in shaders, tables and `explain`.
 [[nodiscard]] std::string_view effect_name(Effect effect);
 
 /// All effects, in the order of the enumeration.
@@ -60,7 +60,7 @@ using EffectSet = std::bitset<effect_count>;
   return set.test(static_cast<std::size_t>(effect));
 }
 
-/// Every effect but those of `left_out`.
+/// All effects except those of `left_out`.
 [[nodiscard]] inline EffectSet all_effects_but(std::initializer_list<Effect> left_out) {
   EffectSet set;
   set.set();
@@ -68,8 +68,7 @@ using EffectSet = std::bitset<effect_count>;
   return set;
 }
 
-/// Every effect but those of `left_out` and of small-scale geometry: what a method can honour that knows a surface by
-/// its maps alone.
+/// All effects except those of `left_out` and of small-scale geometry, for methods that only read maps.
 [[nodiscard]] inline EffectSet map_effects_but(std::initializer_list<Effect> left_out) {
   return all_effects_but(left_out) &
          all_effects_but({Effect::microgeometry_visibility, Effect::microgeometry_colour, Effect::tabulated_brdf});
@@ -82,8 +81,8 @@ struct EffectDecision {
   std::string reason;
 };
 
-/// Every effect with its decision, in the order of the enumeration. Pure: looks at the scene's values alone. Takes a
-/// moment where rays have to tell whether anything casts a shadow. Throws Error (machine): memory is out.
+/// All effects with decisions, in the order of the enumeration. Depends only on the scene's values. Rays may be traced
+/// to decide whether anything casts a shadow. Throws Error (machine): out of memory.
 [[nodiscard]] std::vector<EffectDecision> derive_effects(const Scene& scene);
 
 /// The effects that are on.

@@ -8,14 +8,14 @@ namespace footprint {
 /// The position of a direction, of any length but 0, on the unit square.
 [[nodiscard]] glm::dvec2 octahedral_uv(const glm::dvec3& direction);
 
-/// The unit direction at a position. Outside of the unit square, up to half a square away, what lies across the edge.
+/// The unit direction at a position. Positions up to half outside of the unit square continue across the edge.
 [[nodiscard]] glm::dvec3 octahedral_direction(const glm::dvec2& uv);
 
-/// The direction of texel (x, y) of a map of `size` x `size` texels whose outermost ones are a border that repeats what
-/// lies across the edge.
+/// The direction of texel (x, y) in a map of `size` x `size` texels with a border of one texel that continues across
+/// the edge.
 [[nodiscard]] glm::dvec3 bordered_texel_direction(int size, int x, int y);
 
-/// The solid angle of a small area of the unit square around a direction, over that area.
+/// The solid angle per area of the unit square at a direction.
 [[nodiscard]] double octahedral_stretch(const glm::dvec3& direction);
 
 }  // namespace footprint

@@ -25,7 +25,7 @@ constexpr double texels_a_deviation = 2.0;
 constexpr double source_texels_a_deviation = 1.6;  // a Gaussian sampled so is summed to rounding
 constexpr double reach = 12.0;                     // a lobe is cut off where it has fallen to e^-12
 
-// The environment's light: what the sums over lobes run over.
+// The light of the environment, over which lobes are summed.
 struct Source {
   int width, height;
   Eigen::ArrayXf column_x, column_z;         // of unit vectors in the horizontal plane
@@ -182,7 +182,7 @@ double visible_area(double c, double alpha2) {
   return c >= 0.0 ? 0.5 * (root + c) : 0.5 * alpha2 * (1.0 - c * c) / (root - c);
 }
 
-// What one part of a lobe reflects under one geometry factor.
+// The energies of one part of a lobe under one geometry factor.
 struct Sum {
   double energy = 0, schlick = 0;
   glm::dvec2 direction{0.0};  // along the view's part across the axis, and along the axis

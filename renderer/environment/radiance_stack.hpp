@@ -10,10 +10,9 @@
 
 namespace footprint {
 
-/// Octahedral maps of the environment's means over von Mises-Fisher lobes, in the world's directions (rotation
-/// applied). Map 2 l + i is level l of layer i, as the levels and layers of an array texture; all are RGBA, alpha 1,
-/// square, with a border of one texel that repeats what lies across the edge. Every map's lobe is half as sharp as that
-/// of the one before it.
+/// Octahedral maps of the environment's means over von Mises-Fisher lobes, in world directions. Map 2 l + i is level l
+/// of layer i of an array texture. All are square RGBA, alpha 1, with a border of one texel that continues across the
+/// edge. Each map's lobe has half the sharpness of the one before.
 struct RadianceStack {
   std::vector<std::vector<Image>> layers;  ///< two; each a chain whose sizes halve from level to level
   float finest_sharpness = 0.0F;           ///< kappa of map 0
@@ -23,30 +22,31 @@ struct RadianceStack {
   [[nodiscard]] int map_count() const { return static_cast<int>(2 * layers.front().size()); }
 };
 
-/// Equal environments give equal stacks, at any number of threads. The finest map has up to 512 texels per side (about
-/// one for each texel of the environment), and a lobe whose deviation is two of them. Texels are narrowed by what
-/// linear interpolation between them widens. `progress` may throw.
+/// Equal environments give equal stacks at any number of threads. The finest map has up to 512 texels per side (about
+/// one per texel of the environment) and a lobe with a deviation of two texels. Texels are sharpened to compensate for
+/// linear interpolation.
+/// progress: may throw.
 [[nodiscard]] RadianceStack prefilter_environment(const Environment& environment, const Progress& progress);
 
-/// Geometry factors of f * cos that facets have in turn, all with their own horizon (docs/base-brdf.md): Smith's of
-/// alphas from 0 to the lobe's own in even steps, since spread facets mask as single ones do; Tan's; none.
+/// The geometry factors of f * cos in the table, for facets with their own horizon (docs/base-brdf.md): Smith's for
+/// alphas in even steps from 0 to the lobe's own, Tan's, and none.
 inline constexpr int smith_steps = 4, tan_geometry = smith_steps + 1, no_geometry = smith_steps + 2;
 
-/// Layers of one array texture, RGBA, 32-bit floats: layer 2 g + p is part p of geometry g, part 0 the half of a lobe's
-/// visible normals that is nearest to its axis, part 1 its tail. Columns are views, rows widths: `lobe_view` and
-/// `lobe_width` are the values at their centres. Red and green: energies that the terms 1 - x and x of Schlick's
-/// f0 (1 - x) + x reflect. Blue: the angle from the mirror image of the view about the axis to the mean direction,
-/// towards the view. Alpha: log2(kappa alpha^2), kappa of the vMF lobe with that mean direction and spread.
+/// Layers of one array texture, RGBA, 32-bit floats. Layer 2 g + p is part p of geometry g: part 0 the half of a lobe's
+/// visible normals nearest to its axis, part 1 its tail. Columns are views, rows widths, at the values of `lobe_view`
+/// and `lobe_width`. Red and green: energies of the terms 1 - x and x of Schlick's f0 (1 - x) + x. Blue: the angle from
+/// the mirror direction of the view about the axis to the mean direction, towards the view. Alpha: log2(kappa alpha^2),
+/// kappa of the vMF lobe with the same mean direction and spread.
 struct LobeTable {
   std::vector<Image> layers;
 };
 
-/// Cosine of the angle between view and axis, -1 to 1, at column `x` of `columns`: denser around grazing views.
+/// Cosine of the angle between view and axis, -1 to 1, of column `x`; columns are denser at grazing views.
 [[nodiscard]] double lobe_view(int x, int columns);
 /// GGX's alpha at row `y` of `rows`, 0.001 to 1: even steps of its square root.
 [[nodiscard]] double lobe_width(int y, int rows);
 
-/// Equal at any number of threads; takes about 50 ms of one core.
+/// The table. Equal at any number of threads; takes about 50 ms of one core.
 [[nodiscard]] LobeTable make_lobe_table();
 
 }  // namespace footprint

@@ -32,7 +32,7 @@ void APIENTRY on_message(GLenum /*source*/, GLenum type, GLuint /*id*/, GLenum s
 /// The order in which `auto` tries them.
 constexpr std::array<Backend, 3> all_backends = {Backend::egl, Backend::egl_device, Backend::osmesa};
 
-/// What is current on a thread. GL itself keeps its context per thread, so this has to follow it.
+/// The current context of a thread, tracked because GL has one per thread.
 struct Current {
   NativeContext* native = nullptr;
   const Functions* functions = nullptr;
@@ -50,7 +50,7 @@ void switch_to(Current next) {
   current = next;
 }
 
-/// Brings back what was current, unless told to `keep` what is current by then.
+/// Restores the previous context, unless `keep` is called.
 class RestoreCurrent {
  public:
   RestoreCurrent() = default;
@@ -61,7 +61,7 @@ class RestoreCurrent {
     try {
       switch_to(before_);
     } catch (const Error&) {
-      // It was current a moment ago; the next call of api() says that none is.
+      // After this, api() reports that no context is current.
     }
   }
   void keep() { keep_ = true; }
@@ -89,7 +89,7 @@ bool has_extension(std::string_view name) {
   return false;
 }
 
-/// What the current context says of itself.
+/// The properties of the current context.
 ContextInfo describe(Backend backend) {
   ContextInfo info;
   info.backend = backend;
@@ -129,7 +129,7 @@ void DebugLog::listen() {
   gl.Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
   gl.DebugMessageCallback(on_message, &self_);
   gl.DebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DEBUG_SEVERITY_NOTIFICATION, 0, nullptr, GL_FALSE);
-  // Program asks for the compiler's log itself and throws it.
+  // Program reads and throws the compiler's log itself.
   gl.DebugMessageControl(GL_DEBUG_SOURCE_SHADER_COMPILER, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_FALSE);
 }
 
@@ -233,7 +233,7 @@ struct Context::Impl {
   }
 
   void load(Backend backend) {
-    // OSMesa knows some of GL_ARB_robustness, which 4.5 took over, by their old names alone.
+    // OSMesa has some functions of GL_ARB_robustness only under their old names.
     const auto missing = load_functions(functions, [this](const char* name) {
       const auto address = native->address_of(name);
       return address != nullptr ? address : native->address_of((std::string(name) + "ARB").c_str());
@@ -293,12 +293,12 @@ void Context::make_current() const { impl_->become_current(); }
 std::vector<std::string> Context::take_debug_errors() const {
   auto messages = impl_->log.take();
   if (!impl_->is_current()) return messages;
-  // A driver may raise an error flag without a message; where there is one, the flag says nothing new.
+  // A driver may set an error flag without a message; after a message, the flag adds nothing.
   const bool silent = messages.empty();
   for (GLenum code = api().GetError(); code != GL_NO_ERROR; code = api().GetError()) {
     const bool lost = code == GL_CONTEXT_LOST;
     if (silent || lost) messages.push_back(gl_error_name(code));
-    if (lost) break;  // every call says so from now on
+    if (lost) break;  // all further calls fail
   }
   return messages;
 }
@@ -322,7 +322,7 @@ std::vector<BackendReport> probe_backends() {
     reports.push_back(std::move(report));
   };
   for (const Backend backend : all_backends) {
-    // A machine that cannot list its devices, or has none, gets one line that says so.
+    // A machine without devices, or that cannot list them, gets one line with the reason.
     int devices = 1;
     if (backend == Backend::egl_device) {
       try {

@@ -12,21 +12,21 @@
 
 namespace footprint::gl {
 
-/// Errors and messages of high severity since the last `take`. Must outlive the context that it listens to.
+/// Errors and messages of high severity since the last `take`. It must outlive its context.
 class DebugLog {
  public:
   DebugLog() = default;
   DebugLog(const DebugLog&) = delete;
   DebugLog& operator=(const DebugLog&) = delete;
 
-  /// Listens to the current context, synchronously: a message comes from within the call that is at fault.
+  /// Listens to the current context synchronously, so that messages come from the faulty call.
   void listen();
-  /// Keeps a message; only the first few, since a bad call in a loop would fill the memory.
+  /// Stores a message; only the first few, because an error in a loop would fill the memory.
   void add(std::string message);
   [[nodiscard]] std::vector<std::string> take();
 
  private:
-  DebugLog* const self_ = this;  // GL hands its callback a pointer to const; the log behind this one can be written
+  DebugLog* const self_ = this;  // GL passes a pointer to const to its callback; this one is writable
   std::vector<std::string> messages_;
   std::size_t dropped_ = 0;
 };
@@ -36,7 +36,7 @@ class DebugLog {
 
 enum class Backend { egl, egl_device, osmesa };
 
-/// As users write them; `auto` is none.
+/// The names of backends; `auto` is none.
 inline constexpr std::array<Word<std::optional<Backend>>, 4> backend_words{{
     {std::nullopt, "auto"},
     {Backend::egl, "egl"},
@@ -48,7 +48,7 @@ inline constexpr std::array<Word<std::optional<Backend>>, 4> backend_words{{
   return word_for(backend_words, std::optional(backend));
 }
 
-/// What a context says of itself.
+/// The properties of a context.
 struct ContextInfo {
   Backend backend = Backend::egl;
   std::string vendor, renderer, version, glsl_version;
@@ -56,28 +56,28 @@ struct ContextInfo {
   int max_framebuffer_size = 0;  ///< the smaller of the largest viewport and renderbuffer, texels per side
   int max_uniform_block_bytes = 0;
   int max_texture_units = 0;  ///< for the fragment stage
-  int max_anisotropy = 1;     ///< probes of a sampler; 1: it has no anisotropic filter
-  bool software = false;      ///< is_software_renderer: timer queries mean nothing there
+  int max_anisotropy = 1;     ///< of a sampler; 1: no anisotropic filter
+  bool software = false;      ///< is_software_renderer; timer queries are meaningless there
 };
 
-/// Whether a GL_RENDERER draws on the processor: Mesa's software drivers, also below one that translates (zink over
-/// lavapipe, D3D12 over Microsoft's), SwiftShader, OpenSWR, and what calls itself software.
+/// Whether a GL_RENDERER draws on the CPU: Mesa's software drivers, also below a translating driver (zink over
+/// lavapipe, D3D12 over Microsoft's), SwiftShader, OpenSWR, and names with "software".
 [[nodiscard]] bool is_software_renderer(std::string_view renderer);
 
-/// Which context is wanted. The order is fixed, so that the same request gives the same backend on the same machine: a
-/// user who wants a GPU that only egl_device reaches asks for egl_device, though egl gives a software renderer.
+/// The requested context. The order of backends is fixed, so equal requests give equal backends on the same machine. To
+/// use a GPU that only egl_device reaches, request egl_device explicitly.
 struct ContextRequest {
   std::optional<Backend> backend;  ///< none: the first of egl, egl_device, osmesa that works
-  int device = 0;                  ///< for egl_device alone: index into `footprint info`'s list
+  int device = 0;                  ///< egl_device only: index in `footprint info`'s list
 };
 
-/// A context, current on the thread that made it until destroyed or another is made current. KHR_debug is on and
-/// synchronous: messages of severity high or of type error are collected.
+/// A context, current on its thread until it is destroyed or another becomes current. KHR_debug is on and synchronous;
+/// messages of high severity or of type error are collected.
 class Context {
  public:
-  /// Throws Error (machine): says for each backend that was tried why it is not there; too little is left of a limited
-  /// address space, in which a driver may crash instead of failing; (usage): no such device, or a device other than 0
-  /// for a backend that has none. What was current before stays so after an error.
+  /// Throws Error (machine): each tried backend with its reason; or a limited address space is nearly full, in which
+  /// drivers may crash. (usage): no such device, or a device other than 0 for a backend without devices. After an error
+  /// the previous context is still current.
   explicit Context(const ContextRequest& request);
   Context(Context&&) noexcept;
   Context& operator=(Context&&) noexcept;
@@ -86,9 +86,10 @@ class Context {
   [[nodiscard]] const ContextInfo& info() const;
   void make_current() const;
 
-  /// The KHR_debug errors since the last call; empty when all is well.
+  /// The KHR_debug errors since the last call.
   [[nodiscard]] std::vector<std::string> take_debug_errors() const;
-  /// Throws Error{machine} with the collected KHR_debug errors, if any; `doing` names what was being done.
+  /// Throws Error (machine) with the collected KHR_debug errors, if any.
+  /// doing: the activity, for the message.
   void check(std::string_view doing) const;
 
  private:
@@ -96,7 +97,7 @@ class Context {
   std::unique_ptr<Impl> impl_;
 };
 
-/// One line of `footprint info`: a backend (each EGL device has its own line) with its context or why it is not there.
+/// A line of `footprint info`: a backend, or an EGL device, with its context or the reason why there is none.
 struct BackendReport {
   Backend backend = Backend::egl;
   int device = 0;

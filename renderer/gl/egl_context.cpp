@@ -98,7 +98,7 @@ class Display {
 
 EGLContext create_context(EGLDisplay display, const std::string& platform) {
   require_extension(display, platform, "EGL_KHR_surfaceless_context");
-  // EGL's default asks for window surfaces, which these platforms do not have.
+  // EGL requests window surfaces by default, which these platforms lack.
   constexpr std::array<EGLint, 5> wanted = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
                                             EGL_NONE};
   EGLConfig config = nullptr;

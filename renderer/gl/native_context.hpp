@@ -5,8 +5,8 @@
 
 namespace footprint::gl {
 
-/// A 4.5 core context of one backend, with debug output where the backend can ask for it. Destroying one that is
-/// current on the calling thread is not allowed: release it first.
+/// A 4.5 core context of one backend, with debug output if the backend supports it. Release it before destruction if it
+/// is current.
 class NativeContext {
  public:
   NativeContext() = default;
@@ -22,7 +22,7 @@ class NativeContext {
   [[nodiscard]] virtual auto address_of(const char* function) const -> void (*)() = 0;
 };
 
-/// Errors of all three: Error{machine} with the reason; open_egl_device also Error{usage} where there is no such index.
+/// All three throw Error (machine) with the reason; open_egl_device also Error (usage): no such index.
 [[nodiscard]] std::unique_ptr<NativeContext> open_egl_surfaceless();
 [[nodiscard]] std::unique_ptr<NativeContext> open_egl_device(int device);
 [[nodiscard]] std::unique_ptr<NativeContext> open_osmesa();

@@ -30,7 +30,7 @@ GLenum error_of(const Allocation& allocate) {
 
 constexpr std::string_view no_memory_hint = "use smaller frames or textures, or a machine with more memory";
 
-// Whatever memory there is.
+// For textures, whose size drivers limit even with enough memory.
 constexpr std::string_view no_texture_hint =
     "use smaller frames or textures, a method that keeps less in one of them, or a machine with more memory: drivers "
     "bound what one texture takes, Mesa's llvmpipe below 2 GiB";

@@ -17,7 +17,7 @@
 
 namespace footprint::gl {
 
-/// A name that one object owns; `Deleter(GLuint)` gives it back. Movable, not copyable; 0 owns nothing.
+/// Owns a GL name, which `Deleter(GLuint)` deletes. Movable, not copyable; 0 owns nothing.
 template <void (*Deleter)(GLuint)>
 class Handle {
  public:
@@ -53,27 +53,29 @@ using Sampler = Handle<delete_sampler>;
 using Query = Handle<delete_query>;
 using Framebuffer = Handle<delete_framebuffer>;
 
-/// Magnifies linearly, minifies linearly within and between mip levels; a wrap mode is GL_REPEAT, GL_CLAMP_TO_EDGE, ...
-/// `probes`: of its anisotropic filter, at most ContextInfo::max_anisotropy.
+/// Linear magnification, linear minification within and between mip levels.
+/// wrap_s, wrap_t: GL_REPEAT, GL_CLAMP_TO_EDGE, ...
+/// probes: of its anisotropic filter, at most ContextInfo::max_anisotropy.
 [[nodiscard]] Sampler trilinear_sampler(GLenum wrap_s, GLenum wrap_t, int probes = 1);
 
-/// Looks up the nearest texel of the nearest level.
+/// Nearest texel of the nearest level.
 [[nodiscard]] Sampler nearest_sampler(GLenum wrap_s, GLenum wrap_t);
 
-/// Compares a reference with the four nearest texels of a depth texture (1 where it is not greater) and blends what
-/// comes out; what lies beyond the edge counts as 1.
+/// Compares a reference with the four nearest texels of a depth texture (1 if it is not greater) and blends the
+/// results; outside of the texture they are 1.
 [[nodiscard]] Sampler comparing_sampler();
 
-/// A buffer of a size that does not change.
+/// A buffer of constant size.
 class Buffer {
  public:
   enum class Content { constant, changing };
 
   Buffer() = default;
-  /// `bytes` are copied; an empty span makes a buffer of 16 zero bytes (GL has no empty ones). Content that is
-  /// `changing` may be written again. Throws Error (machine): memory is out.
+  /// bytes: copied; an empty span gives 16 zero bytes, because GL has no empty buffers.
+  /// content: `changing` can be written again.
+  /// Throws Error (machine): out of memory.
   explicit Buffer(std::span<const std::byte> bytes, Content content = Content::constant);
-  /// Replaces all of the content. Throws std::logic_error where it is constant or of another size.
+  /// Replaces all content. Throws std::logic_error: the buffer is constant or of another size.
   void write(std::span<const std::byte> bytes) const;
   [[nodiscard]] GLuint name() const { return handle_.name(); }
 
@@ -86,10 +88,12 @@ class Buffer {
 class Texture {
  public:
   Texture() = default;
-  /// `internal_format` sized (GL_RGBA32F, ...); `layers` 0: a plain 2D texture, else an array of so many.
-  /// Throws Error (machine): the size or the layers are over the GL limit, or memory is out.
+  /// internal_format: sized, such as GL_RGBA32F.
+  /// layers: 0 for a plain 2D texture.
+  /// Throws Error (machine): over the GL limits, out of memory.
   Texture(GLenum internal_format, int width, int height, int levels = 1, int layers = 0);
-  /// Rows from v = 0, tightly packed, layer after layer, `format` and `type` as glTextureSubImage2D takes them.
+  /// texels: rows from v = 0, tightly packed, layer after layer.
+  /// format, type: as for glTextureSubImage2D.
   void upload(int level, int width, int height, GLenum format, GLenum type, const void* texels);
   [[nodiscard]] GLuint name() const { return handle_.name(); }
   [[nodiscard]] int width() const { return width_; }
@@ -100,7 +104,7 @@ class Texture {
   int width_ = 0, height_ = 0, layers_ = 0;
 };
 
-/// Colour textures with an optional 32-bit float depth buffer to draw into.
+/// Colour textures to draw into, with an optional 32-bit float depth buffer.
 class RenderTarget {
  public:
   RenderTarget() = default;
@@ -110,8 +114,8 @@ class RenderTarget {
   [[nodiscard]] const Texture& color(std::size_t attachment) const { return colors_[attachment]; }
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
-  /// Reads channels x width x height floats of an attachment, the row of window y = 0 first. Leaves framebuffer 0 bound
-  /// for reading. Throws std::logic_error where `out` has another size.
+  /// Reads channels x width x height floats of an attachment, the row of window y = 0 first. Binds framebuffer 0 for
+  /// reading. Throws std::logic_error: `out` has another size.
   void read(std::size_t attachment, int channels, std::span<float> out) const;
 
  private:
@@ -126,8 +130,8 @@ class RenderTarget {
 class Program {
  public:
   Program() = default;
-  /// Throws Error (machine): the compiler's log with the offending source lines and their numbers; `name` names the
-  /// program.
+  /// Throws Error (machine): the compiler's log with the offending source lines and their numbers.
+  /// name: of the program, for messages.
   Program(const std::string& name, std::string_view vertex_source, std::string_view fragment_source);
   /// A compute program.
   Program(const std::string& name, std::string_view compute_source);
@@ -140,7 +144,7 @@ class Program {
   };
   /// By name, found when the program was linked. An array is listed as `name` and as each `name[i]`.
   [[nodiscard]] const std::map<std::string, Uniform, std::less<>>& uniforms() const { return uniforms_; }
-  /// A uniform's location; -1 where the program has no such active uniform (the compiler may drop one).
+  /// A uniform's location; -1 if it is not active, because compilers may remove it.
   [[nodiscard]] GLint uniform(std::string_view uniform_name) const;
 
  private:

@@ -38,7 +38,7 @@ std::string_view stage_name(GLenum type) {
   }
 }
 
-/// Where the compiler takes a line to be: a source string's number (0 unless #line says otherwise) and a line in it.
+/// A line by the compiler's count: the number of a source string (0 without #line) and of a line in it.
 using Location = std::pair<int, int>;
 
 struct SourceLine {
@@ -145,7 +145,7 @@ Handle<delete_program> link(const std::string& name, std::initializer_list<Stage
   Handle<delete_program> program(api().CreateProgram());
   for (const Stage& stage : stages) {
     const Shader shader = compile(name, stage);
-    // The program keeps an attached shader alive after its owner here has let go of it.
+    // The program keeps attached shaders alive after they are deleted here.
     api().AttachShader(program.name(), shader.name());
   }
   api().LinkProgram(program.name());
@@ -156,7 +156,7 @@ Handle<delete_program> link(const std::string& name, std::initializer_list<Stage
   throw_broken(name, "stages do not link", info_log(program.name(), log_length, api().GetProgramInfoLog));
 }
 
-/// Asks for all uniforms once: a driver looks each name up as text, which is too slow for a timed draw.
+/// Queries all uniforms once, because drivers search names as text, which is too slow for a timed draw.
 std::map<std::string, Program::Uniform, std::less<>> active_uniforms(GLuint program) {
   GLint count = 0, longest = 0;
   api().GetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);

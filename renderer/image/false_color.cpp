@@ -28,7 +28,7 @@ constexpr std::array<MapColor, 9> anchors{{{0.001F, 0.000F, 0.014F},
                                            {0.976F, 0.788F, 0.196F},
                                            {0.988F, 1.000F, 0.643F}}};
 
-// What is not a number shows as the worst: it must not hide in the dark.
+// NaN is shown as the maximum, so that it is visible.
 MapColor color_at(float value, float maximum) {
   const float share = maximum > 0 ? value / maximum : 0.0F;
   const float position = (share < 1 ? std::max(share, 0.0F) : 1.0F) * static_cast<float>(anchors.size() - 1);

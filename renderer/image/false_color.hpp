@@ -15,7 +15,7 @@ namespace footprint {
 /// A horizontal legend of the scale, `width` x `height`, labelled 0 and `maximum`.
 [[nodiscard]] Image false_color_legend(int width, int height, float maximum);
 
-/// Images of one height side by side with a caption under each; RGB display values, 1, 3 or 4 channels taken.
+/// Images of one height side by side, each with a caption below; RGB display values. Accepts 1, 3 or 4 channels.
 [[nodiscard]] Image labelled_strip(const std::vector<Image>& pictures, const std::vector<std::string>& captions);
 
 /// The font that captions are set in: DejaVu Sans, Debian package fonts-dejavu-core.
@@ -25,8 +25,8 @@ inline constexpr const char* caption_font = "DejaVuSans";
 /// Throws Error (machine): the font is not installed.
 [[nodiscard]] int text_width(const std::string& text, int size, const std::string& font = caption_font);
 
-/// Draws white `text`, centred on column `x` and row `y`, over a 3-channel image of display values; what falls
-/// outside the image is left out. Throws Error (machine): the font is not installed.
+/// Draws white `text`, centred on column `x` and row `y`, into a 3-channel image of display values, clipped to the
+/// image. Throws Error (machine): the font is not installed.
 void draw_text(Image& picture, int x, int y, const std::string& text, int size, const std::string& font = caption_font);
 
 }  // namespace footprint

@@ -38,7 +38,7 @@ const Color& white() {
   return xyz;
 }
 
-// CIELAB without its cube root: what contrast sensitivity is a filter of.
+// CIELAB without its cube root, the space of contrast sensitivity.
 Color opponent_of(const Color& rgb) {
   const Color xyz = xyz_of(rgb);
   const double x = xyz[0] / white()[0], y = xyz[1] / white()[1], z = xyz[2] / white()[2];
@@ -198,7 +198,7 @@ Seen seen(const std::vector<Color>& rgb, int width, int height, double pixels_pe
 
 constexpr double color_power = 0.7;
 
-// Distances are most told apart where they are small: the first 0.4 of what there is takes 0.95 of the scale.
+// Compresses large distances: the first 0.4 of the range maps to 0.95 of the scale.
 double color_difference(const Color& a, const Color& b) {
   static const double largest = std::pow(hyab(hunt_lab({0, 1, 0}), hunt_lab({0, 0, 1})), color_power);
   constexpr double bend = 0.4, at_bend = 0.95;

@@ -33,7 +33,7 @@ struct Signature {
   const char* format;  // OpenImageIO's name
 };
 
-// What a file is, told by its first bytes, never by its name: a glTF buffer has no name, and names can be wrong.
+// The format by the first bytes, because glTF buffers have no names and names may be wrong.
 constexpr std::array<Signature, 9> signatures{{{0, "\x89PNG\r\n\x1a\n", "png"},
                                                {0, "\xff\xd8\xff", "jpeg"},
                                                {0, "\x76\x2f\x31\x01", "openexr"},
@@ -142,7 +142,7 @@ Image decode(IOProxy& source, const std::string& name, Transfer transfer, int ma
                  "scale the image down, or free memory");
   Image image(spec.width, spec.height, spec.nchannels);
   const bool complete = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.texels.data());
-  // The JPEG reader fills up what a truncated file lacks, returns success and leaves a message.
+  // The JPEG reader fills missing data, returns success and leaves a message.
   if (!complete || input->has_error()) {
     throw unreadable(name, fmt::format("is truncated or damaged: {}", reason_of_failure(input.get())));
   }
@@ -156,7 +156,7 @@ std::uint64_t texels_of_header(IOProxy& source) {
     check_header(input->spec(), "", default_max_side);
     return static_cast<std::uint64_t>(input->spec().width) * static_cast<std::uint64_t>(input->spec().height);
   } catch (const Error&) {
-    return 0;  // whoever reads it is told why
+    return 0;  // reading it reports the reason
   }
 }
 
@@ -169,7 +169,7 @@ std::vector<unsigned char> encode(const std::string& name, const char* format, c
   if (output && output->open(name, spec) && output->write_image(type, texels) && output->close()) return bytes;
   const std::string queued = OIIO::geterror();
   const std::string reason = first_line(output ? output->geterror() : queued);
-  // OpenImageIO says nothing where it gets no memory.
+  // OpenImageIO reports nothing if it is out of memory.
   throw Error(ErrorKind::machine, name,
               fmt::format("cannot be encoded: {}", reason.empty() ? taken_memory_text() : reason));
 }
@@ -210,7 +210,7 @@ OIIO::ImageSpec spec_of(const ExrChain& chain, std::size_t level, ExrTexel texel
   OIIO::ImageSpec spec(image.width, image.height, image.channels,
                        texel == ExrTexel::half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
   spec.channelnames = chain.channels;
-  spec.alpha_channel = -1;  // numbers, none of which is a coverage
+  spec.alpha_channel = -1;  // no channel is coverage
   spec.attribute("compression", "zip");
   spec.attribute("oiio:ColorSpace", "Linear");
   spec.attribute("DateTime", "");  // else OpenImageIO stamps the hour, and equal maps are different files
@@ -268,7 +268,7 @@ void require_readable(const OIIO::ImageSpec& spec, const std::string& name, int 
 
 Image read_image(const std::filesystem::path& file, Transfer transfer, int max_side) {
   const std::string name = file.string();
-  std::error_code ignored;  // what cannot be asked cannot be opened either
+  std::error_code ignored;  // opening the file will fail
   const std::filesystem::file_status status = std::filesystem::status(file, ignored);
   if (!std::filesystem::exists(status)) {
     throw Error(ErrorKind::usage, name, "there is no such file", "check the path");
@@ -357,7 +357,7 @@ ExrChain read_exr_chain(const std::filesystem::path& file, int most_channels) {
     if (!input->read_image(0, level, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.texels.data()))
       throw damaged(name, input->geterror());
   }
-  (void)input->geterror();  // that there is no further level
+  (void)input->geterror();  // clears the message that no level follows
   return chain;
 }
 

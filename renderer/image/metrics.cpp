@@ -64,15 +64,15 @@ void visit_object_pixels(const Image& picture, const Image& reference, Visit vis
   for (int y = 0; y < reference.height; ++y) {
     for (int x = 0; x < reference.width; ++x) {
       if (!covers_whole_pixel(reference.at(x, y))) continue;
-      const Rgb truth = rgb_of(reference, x, y, "the reference");
-      visit(x, y, rgb_of(picture, x, y, "the image"), truth);
+      const Rgb expected = rgb_of(reference, x, y, "the reference");
+      visit(x, y, rgb_of(picture, x, y, "the image"), expected);
     }
   }
 }
 
 double squared(double value) { return value * value; }
 
-// What a display of peak 1 shows.
+// Values as shown by a display of peak 1.
 double displayed(double value, double exposure) { return std::clamp(exposure * value, 0.0, 1.0); }
 
 LuminanceHistogram histogram_of(std::span<const double> luminances) {
@@ -93,7 +93,7 @@ double sorted_distance(std::vector<double> a, std::vector<double> b) {
   return sum / static_cast<double>(a.size());
 }
 
-// Sum over the channels of the squared difference of what is displayed.
+// Sum over channels of squared differences of displayed values.
 double displayed_squared_distance(const Rgb& a, const Rgb& b, double exposure) {
   double sum = 0;
   for (std::size_t c = 0; c < a.size(); ++c) sum += squared(displayed(a[c], exposure) - displayed(b[c], exposure));
@@ -122,13 +122,13 @@ std::optional<ErrorFigures> compare_images(const Image& picture, const Image& re
   const double epsilon = relmse_epsilon_share * squared(mean_luminance(reference));
 
   double distance = 0, shown_squares = 0, squares = 0, reference_squares = 0, relative = 0, sum = 0, reference_sum = 0;
-  std::vector<double> shown_luminances, true_luminances;
+  std::vector<double> shown_luminances, reference_luminances;
   const auto shown_luminance = [&](const Rgb& rgb) {
     return luminance(displayed(rgb[0], exposure), displayed(rgb[1], exposure), displayed(rgb[2], exposure));
   };
   visit_object_pixels(picture, reference, [&](int, int, const Rgb& x, const Rgb& r) {
     shown_luminances.push_back(shown_luminance(x));
-    true_luminances.push_back(shown_luminance(r));
+    reference_luminances.push_back(shown_luminance(r));
     const double shown = displayed_squared_distance(x, r, exposure);
     distance += std::sqrt(shown / 3);
     shown_squares += shown;
@@ -140,15 +140,16 @@ std::optional<ErrorFigures> compare_images(const Image& picture, const Image& re
       reference_sum += r[c];
     }
   });
-  const LuminanceHistogram shown = histogram_of(shown_luminances), truth = histogram_of(true_luminances);
-  return ErrorFigures{.normalized_color = distance / pixels,
-                      .relative_rmse = std::sqrt(ratio(squares, reference_squares)),
-                      .relmse = relative / (3 * pixels),
-                      .psnr = -10 * std::log10(shown_squares / (3 * pixels)),
-                      .energy_bias = ratio(sum - reference_sum, reference_sum),
-                      .luminance_distance = sorted_distance(std::move(shown_luminances), std::move(true_luminances)),
-                      .luminances = shown,
-                      .reference_luminances = truth};
+  const LuminanceHistogram shown = histogram_of(shown_luminances), expected = histogram_of(reference_luminances);
+  return ErrorFigures{
+      .normalized_color = distance / pixels,
+      .relative_rmse = std::sqrt(ratio(squares, reference_squares)),
+      .relmse = relative / (3 * pixels),
+      .psnr = -10 * std::log10(shown_squares / (3 * pixels)),
+      .energy_bias = ratio(sum - reference_sum, reference_sum),
+      .luminance_distance = sorted_distance(std::move(shown_luminances), std::move(reference_luminances)),
+      .luminances = shown,
+      .reference_luminances = expected};
 }
 
 std::optional<double> normalized_color(const Image& picture, const Image& reference, float exposure) {
@@ -164,8 +165,8 @@ std::optional<double> normalized_color_over(const Image& picture, const Image& r
   for (int y = 0; y < reference.height; ++y) {
     for (int x = 0; x < reference.width; ++x) {
       if (mask.at(x, y)[0] <= 0.0F || !covers_whole_pixel(reference.at(x, y))) continue;
-      const Rgb shown = rgb_of(picture, x, y, "the image"), truth = rgb_of(reference, x, y, "the reference");
-      distance += std::sqrt(displayed_squared_distance(shown, truth, exposure) / 3);
+      const Rgb shown = rgb_of(picture, x, y, "the image"), expected = rgb_of(reference, x, y, "the reference");
+      distance += std::sqrt(displayed_squared_distance(shown, expected, exposure) / 3);
       ++pixels;
     }
   }

@@ -9,11 +9,11 @@
 
 namespace footprint {
 
-/// How many pixels are how bright: bin i counts those whose luminance (Rec. 709, of exposed values clamped to [0, 1])
-/// lies from i / 32 to (i + 1) / 32; the last bin has white too.
+/// The number of pixels by luminance (Rec. 709, of exposed values clamped to [0, 1]): bin i covers i / 32 to (i + 1) /
+/// 32, the last one including white.
 using LuminanceHistogram = std::array<std::uint32_t, 32>;
 
-/// What an image differs from the reference by. Only object pixels count: those whose reference coverage is 1.
+/// The differences of an image from the reference, over object pixels: those whose reference coverage is 1.
 struct ErrorFigures {
   double normalized_color = 0;    ///< Tan 2005: mean of |rgb - rgb_ref| / sqrt(3) on exposed values clamped to [0,1]
   double relative_rmse = 0;       ///< sqrt(sum |x - r|^2 / sum |r|^2) on linear radiance
@@ -24,52 +24,51 @@ struct ErrorFigures {
   LuminanceHistogram luminances{}, reference_luminances{};  ///< of the object's pixels
 };
 
-/// Compares RGBA images of the same size: linear radiance (mean over the covered part of the pixel), coverage in
-/// alpha. A pixel that the image left uncovered counts as black. Empty if the reference has no fully covered pixel.
-/// Throws Error{usage} on different sizes, on other than 4 channels and on a NaN or infinity in an object pixel of
-/// either (naming the pixel).
+/// Compares RGBA images of one size: linear radiance (mean over the covered part of the pixel), and coverage in alpha.
+/// Pixels that the image leaves uncovered count as black. Empty without object pixels. Throws Error (usage): different
+/// sizes, other than 4 channels, or an object pixel that is not finite.
 [[nodiscard]] std::optional<ErrorFigures> compare_images(const Image& picture, const Image& reference, float exposure);
 
-/// The normalised colour error alone. Empty if there is no object pixel. Throws as compare_images.
+/// The normalised colour error only. Empty without object pixels. Throws as compare_images.
 [[nodiscard]] std::optional<double> normalized_color(const Image& picture, const Image& reference, float exposure);
 
-/// The same over those object pixels at which `mask` (one channel, the size of the images)
-/// is above 0. Empty if there is none. Throws as compare_images.
+/// The normalised colour error over the object pixels in `mask` (one channel, above 0). Empty without any. Throws as
+/// compare_images.
 [[nodiscard]] std::optional<double> normalized_color_over(const Image& picture, const Image& reference, float exposure,
                                                           const Image& mask);
 
-/// How otherwise an image changes from the frame before it than the reference does: flicker, docs/metrics.md.
+/// Flicker: how the change of an image from the previous frame differs from the reference's (docs/metrics.md).
 struct FlickerFigures {
   double mean = 0;  ///< of |(d(x) - d(x')) - (d(r) - d(r'))| / sqrt(3), ' the frame before; exposed, clamped values
   double p99 = 0;   ///< its 99th percentile (nearest rank)
 };
 
-/// Compares the change from `before` to `picture` with that of the reference. RGBA images of one size, as for
-/// compare_images; the pixels are those which both references cover wholly: empty if there is none. Throws as there.
+/// Compares the change from `before` to `picture` with that of the reference. RGBA images of one size; over the pixels
+/// that both references cover wholly. Empty without any. Throws as compare_images.
 [[nodiscard]] std::optional<FlickerFigures> compare_changes(const Image& before, const Image& picture,
                                                             const Image& reference_before, const Image& reference,
                                                             float exposure);
 
-/// The same over those of these pixels at which `mask` (one channel, the size of the images) is above 0.
+/// The same over the pixels in `mask` (one channel, above 0).
 [[nodiscard]] std::optional<FlickerFigures> compare_changes_over(const Image& before, const Image& picture,
                                                                  const Image& reference_before, const Image& reference,
                                                                  float exposure, const Image& mask);
 
-/// What bright pixels carry: the mean over object pixels of how far exposed luminance lies above `highlight_level`, not
-/// clamped. Empty if there is no object pixel. Throws as compare_images.
+/// The energy of highlights: the mean over object pixels of exposed luminance above `highlight_level`, not clamped.
+/// Empty without object pixels. Throws as compare_images.
 [[nodiscard]] std::optional<double> highlight_energy(const Image& picture, const Image& reference, float exposure);
 
-/// Exposed luminance from which on a pixel counts as a highlight: where an automatic exposure puts the brightest
-/// twentieth of the reference.
+/// The exposed luminance at which highlights start: automatic exposure maps the brightest twentieth of the reference to
+/// it.
 inline constexpr double highlight_level = 0.8;
 
-/// Per-pixel normalised colour error, one channel, 0 outside the object: what the false-colour image shows.
+/// The normalised colour error per pixel, one channel, 0 outside the object; shown in false colour.
 [[nodiscard]] Image error_map(const Image& picture, const Image& reference, float exposure);
 
-/// Pixels whose reference coverage is 1.
+/// The number of pixels whose reference coverage is 1.
 [[nodiscard]] std::size_t object_pixel_count(const Image& reference);
 
-/// Those pixels as a mask: one channel, 1 or 0.
+/// A mask of these pixels: one channel, 1 or 0.
 [[nodiscard]] Image object_pixels(const Image& reference);
 
 }  // namespace footprint

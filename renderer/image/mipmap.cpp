@@ -41,7 +41,7 @@ void weighted_mean(const Image& fine, const MipTaps& across, const MipTaps& down
   for (std::size_t c = 0; c < last; ++c) {
     double sum = 0;
     visit_taps(fine, across, down, [&](std::span<const float> texel, double share) {
-      if (texel[last] > 0) sum += share * texel[last] * texel[c];  // an invalid texel may hold NaN: 0 * NaN is no 0
+      if (texel[last] > 0) sum += share * texel[last] * texel[c];  // an invalid texel may be NaN, and 0 * NaN is not 0
     });
     coarse[c] = static_cast<float>(sum / weight);
   }

@@ -14,7 +14,7 @@ namespace {
 // Numbers values in the order in which they are met, by their bits; open addressing.
 class ValueTable {
  public:
-  // None once there are more values than 16 bits number.
+  // None if there are more values than 16-bit indices.
   std::optional<std::uint16_t> number_of(float value) {
     const auto bits = std::bit_cast<std::uint32_t>(value);
     std::size_t slot = (bits * 2654435761U) >> (32 - slot_bits);  // Knuth's multiplicative hash
@@ -80,7 +80,7 @@ Image PackedImage::unpacked() const {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.texel_count(), texels_per_task), [&](const auto& part) {
     for (std::size_t c = 0; c < stride; ++c) {
       const std::vector<float>& values = channels_[c].values;
-      const std::size_t step = values.size() == 1 ? 0 : 1;  // one value stands for every texel
+      const std::size_t step = values.size() == 1 ? 0 : 1;  // a single value is used for all texels
       std::visit(
           [&](const auto& numbers) {
             if constexpr (std::is_same_v<std::decay_t<decltype(numbers)>, std::monostate>) {

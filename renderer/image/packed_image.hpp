@@ -1,4 +1,4 @@
-// An image at the depth that its values need: what an 8-bit file holds lies in 8 bits, and comes back to the last bit.
+// A lossless compact image: channels with few distinct values are stored as indices.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace footprint {
 
-/// Each channel by itself: a constant once; up to 256 different values as bytes, up to 65536 as 16 bits, which number
-/// them; else the floats themselves. Nothing is rounded: bits of NaN and of -0 stay too.
+/// Stores each channel separately: a constant once; up to 256 distinct values by 8-bit indices, up to 65536 by 16-bit
+/// indices; otherwise floats. Lossless, including the bits of NaN and -0.
 class PackedImage {
  public:
   PackedImage() = default;
@@ -21,15 +21,15 @@ class PackedImage {
   [[nodiscard]] int height() const { return height_; }
   [[nodiscard]] int channels() const { return static_cast<int>(channels_.size()); }
 
-  /// The image that it was made of, bit for bit.
+  /// The original image, bit for bit.
   [[nodiscard]] Image unpacked() const;
 
-  /// Bytes that it takes.
+  /// Bytes in memory.
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
   struct Channel {
-    std::vector<float> values;  // that the numbers stand for; of every texel where there are no numbers
+    std::vector<float> values;  // indexed by `numbers`; of every texel without them
     std::variant<std::monostate, std::vector<std::uint8_t>, std::vector<std::uint16_t>> numbers;
   };
   [[nodiscard]] static Channel pack(const Image& image, std::size_t channel);

@@ -1,4 +1,4 @@
-// The base lobes: densities of normals of a facet, von Mises-Fisher formulas, and tables for fast evaluation.
+// Base lobes: the normal distributions of a single facet, von Mises-Fisher formulas, and tables for fast evaluation.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace footprint {
 
 enum class NormalDistribution { blinn_phong, beckmann, ggx, vmf };
 
-/// One facet's density of normals (docs/base-brdf.md).
+/// The distribution of normals within one facet (docs/base-brdf.md).
 struct Lobe {
   NormalDistribution distribution = NormalDistribution::blinn_phong;
   double parameter = 64.0;  ///< exponent (blinn_phong), alpha (beckmann, ggx), kappa (vmf)
@@ -19,45 +19,48 @@ struct Lobe {
   friend bool operator==(const Lobe&, const Lobe&) = default;
 };
 
-/// The narrowest lobe there is, for the base BRDF and every method alike: a mirror whose peak stays finite in 32 bits.
+/// The smallest alpha of a base lobe and of all methods: a mirror whose peak is finite in 32 bits.
 inline constexpr double smallest_alpha = 1e-3;
 
 /// The lobe of a width alpha (at least `smallest_alpha`) or of a slope variance per axis, and the slope variance of a
-/// lobe: the functions of common_lobes.glsl in C++, in 32 bits too.
+/// lobe. They match common_lobes.glsl, in 32 bits.
 [[nodiscard]] Lobe lobe_from_alpha(NormalDistribution distribution, float alpha);
 [[nodiscard]] Lobe lobe_from_variance(NormalDistribution distribution, float variance);
 [[nodiscard]] float lobe_variance(const Lobe& lobe);
 
-/// The perceptual roughness r of a lobe, so that lobe_from_alpha(r^2) is the lobe again, to 1e-6 of it (Blinn-Phong
-/// exponents below 1: to 1e-6) for alpha from 1e-3 and exponents and kappa to 1e6. Above 1 for kappa below 2.
+/// The perceptual roughness r of a lobe, for which lobe_from_alpha(r^2) returns the lobe. Relative error 1e-6 for alpha
+/// from 1e-3 and for exponents and kappa up to 1e6; absolute for Blinn-Phong exponents below 1. Above 1 for kappa below
+/// 2.
 [[nodiscard]] float lobe_roughness(const Lobe& lobe);
 
-/// Reads `blinn_phong:64`, `beckmann:0.2`, `ggx:0.2` or `vmf:64`. Throws Error (usage) that names `option`: no such
-/// distribution (with the nearest right name), no parameter, one out of range (exponent and kappa 0.001 to 1e6, alpha
-/// `smallest_alpha` to 1).
+/// Reads `blinn_phong:64`, `beckmann:0.2`, `ggx:0.2` or `vmf:64`. Exponent and kappa range from 0.001 to 1e6, alpha
+/// from `smallest_alpha` to 1.
+/// Throws Error (usage) that names `option`: unknown distribution (with the nearest name), missing parameter, or
+/// parameter out of range.
 [[nodiscard]] Lobe parse_lobe(std::string_view option, const std::string& text);
 
-/// As parse_lobe reads it.
+/// The text form of a lobe, which parse_lobe reads.
 [[nodiscard]] std::string lobe_text(const Lobe& lobe);
 
-/// Density per solid angle at the facet's own normal.
+/// The density at the facet's own normal, 1/sr.
 [[nodiscard]] double lobe_peak(const Lobe& lobe);
 
-/// The density over `lobe_peak` at u = 1 - n.h in [0, 2]. Stable for narrow lobes where u is taken as |h - n|^2 / 2.
+/// The density relative to `lobe_peak` at u = 1 - n.h, in [0, 2]. Stable for narrow lobes if u is computed as |h - n|^2
+/// / 2.
 [[nodiscard]] double lobe_shape(const Lobe& lobe, double u);
 
-/// Density per solid angle at u.
+/// The density at u, 1/sr.
 [[nodiscard]] inline double lobe_density(const Lobe& lobe, double u) { return lobe_peak(lobe) * lobe_shape(lobe, u); }
 
-/// The u beyond which `lobe_shape` stays below `lobe_cutoff`; at most 2.
+/// The u beyond which `lobe_shape` is below `lobe_cutoff`; at most 2.
 inline constexpr double lobe_cutoff = 1e-12;
 [[nodiscard]] double lobe_support(const Lobe& lobe);
 
-/// Standard deviation per axis of the lobe's core, radians.
+/// The standard deviation per axis of the lobe's core, in radians.
 [[nodiscard]] double lobe_width(const Lobe& lobe);
 
-/// The lobe's integral over the directions above the surface, about a normal with cosine `n_z` to the surface's own:
-/// rings about the normal, each counted by the share of it that lies above the horizon. To 1e-3.
+/// The lobe's integral over the directions above the surface, for a facet normal with cosine `n_z` to the surface
+/// normal. Sums rings about the facet normal, each weighted by its share above the horizon. Error below 1e-3.
 [[nodiscard]] double lobe_energy(const Lobe& lobe, double n_z);
 
 /// The integral of e^{kappa (cos - 1)} over the sphere, 2 pi (1 - e^{-2 kappa}) / kappa (Iwasaki 2012, equation 9);
@@ -70,23 +73,24 @@ inline constexpr double lobe_cutoff = 1e-12;
 /// 2 pi times the density at the axis, kappa / (1 - e^{-2 kappa}): 1/2 for kappa = 0.
 [[nodiscard]] double vmf_amplitude(double kappa);
 
-/// The length of the lobe's mean vector, A = coth kappa - 1 / kappa, over kappa, and the derivative of that quotient
-/// over kappa: 1/3 and -2/45 for kappa = 0.
+/// The length A = coth kappa - 1 / kappa of the lobe's mean vector, divided by kappa, and the derivative of that
+/// quotient with respect to kappa. 1/3 and -2/45 for kappa = 0.
 struct VmfMean {
   double by_kappa, slope_by_kappa;
 };
 [[nodiscard]] VmfMean vmf_mean(double kappa);
 
-/// Banerjee et al. 2005 (p = 3): kappa = (3 r - r^3) / (1 - r^2) of the mean vector's length r, in q = 1 - r, which
-/// keeps its digits where r is near 1. 0 < q <= 1.
+/// Estimates kappa = (3 r - r^3) / (1 - r^2) from the length r of the mean vector (Banerjee et al. 2005, p = 3). The
+/// argument is q = 1 - r, in (0, 1], which stays precise for r near 1.
 [[nodiscard]] double vmf_kappa_of_shortfall(double q);
 
-/// The inverse: the root in (0, 1] of q^3 + (kappa - 3) q^2 - 2 kappa q + 2 = 0, by Newton's steps. kappa >= 0.
+/// The inverse of vmf_kappa_of_shortfall for kappa >= 0: the root in (0, 1] of q^3 + (kappa - 3) q^2 - 2 kappa q + 2 =
+/// 0, by Newton iteration.
 [[nodiscard]] double vmf_shortfall(double kappa);
 
-/// `lobe_shape` of one lobe, within 2e-9. Cubics between even nodes in u up to the lobe's support, by the values and
-/// slopes there; the lobe itself where a table gains nothing (GGX needs no exponential) or cannot follow (lobes so wide
-/// that the horizon cuts them).
+/// Evaluates `lobe_shape` of one lobe with an error below 2e-9. Uses Hermite cubics between even nodes in u up to the
+/// support of the lobe. Evaluates the lobe directly if a table is not faster (GGX needs no exponential) or not accurate
+/// (lobes so wide that the horizon cuts them).
 class LobeProfile {
  public:
   explicit LobeProfile(const Lobe& lobe);

@@ -1,4 +1,4 @@
-// The concentric map and its inverse, and the cells around a direction.
+// Implements the concentric map, its inverse, and bilinear weights.
 #include "renderer/microgeometry/direction_grid.hpp"
 
 #include <algorithm>

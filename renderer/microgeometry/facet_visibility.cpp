@@ -1,4 +1,4 @@
-// Stratified samples of the area; visibility on the torus that the tiled patch projects onto.
+// Draws stratified samples of the area, and tests visibility on the torus onto which the tiled patch projects.
 #include "renderer/microgeometry/facet_visibility.hpp"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -26,14 +26,15 @@ glm::vec3 point_in(const Patch& patch, const glm::uvec3& triangle, double u, dou
   return glm::vec3(a + u * (b - a) + v * (c - a));
 }
 
-// How far behind a triangle's plane a sample must lie to be hidden by it, over the patch's size: above the rounding of
-// 32-bit positions, so that a facet does not hide itself or its neighbour at a common edge.
+// How far behind the plane of a triangle a sample must be to be occluded, relative to the size of the patch. Larger
+// than the rounding error of 32-bit positions, so that a facet does not occlude itself or its neighbour at a common
+// edge.
 constexpr double behind_tolerance = 4e-6;
 
-// Samples for each cell of the grid over the torus: enough to keep the loops long, few enough to keep tests few.
+// Samples per cell of the grid over the torus: enough for long loops, few enough for few tests.
 constexpr double samples_per_cell = 12.0;
 
-// Where a triangle covers the projection, and what lies behind it: four linear forms of (x, y, z, 1).
+// The region that a triangle covers in projection, and the half-space behind it: four linear forms of (x, y, z, 1).
 struct Blocker {
   std::array<glm::vec3, 3> edges;  // a x + b y + c >= 0 inside
   glm::vec4 plane;                 // a x + b y + c z + d < 0 behind
@@ -48,7 +49,7 @@ struct Scratch {
   std::vector<std::uint8_t> faces;  // of each triangle
 };
 
-// The loop that nearly all of the time goes into; it has no branch, so that compilers vectorise it.
+// The innermost loop, without branches so that compilers vectorise it.
 void block(const Blocker& b, const Scratch& s, std::size_t begin, std::size_t end, std::uint8_t* blocked) {
   const float* const x = s.x.data();
   const float* const y = s.y.data();
@@ -63,14 +64,15 @@ void block(const Blocker& b, const Scratch& s, std::size_t begin, std::size_t en
   }
 }
 
-// Rounding moves a sample by far less than a cell: this much of one on all sides of a triangle is enough.
+// The margin around a triangle, in cells; rounding moves a sample by much less.
 constexpr double hair = 1e-5;
 
-// Triangles of more cells than this along both axes are followed row by row: near the horizon they are slivers, and
-// most cells of the box around one are empty.
+// Triangles that span more cells than this along both axes are rasterised row by row. Near the horizon they are
+// slivers, and most cells of their bounding box are empty.
 constexpr int least_slant = 3;
 
-// Those of the cells `within` (first and last) of a row that a triangle, its corners in units of cells, reaches.
+// The cells of a row that a triangle reaches, within the range `within` (first and last). Its corners are in units of
+// cells.
 glm::ivec2 reached_cells(const std::array<glm::dvec2, 3>& corners, int row, const glm::ivec2& within) {
   const std::array<double, 2> borders{row - hair, row + 1.0 + hair};
   double left = within.y + 1.0, right = within.x - 1.0;
@@ -141,10 +143,10 @@ class Projector {
     s.starts[0] = 0;
   }
 
-  // Where the samples project to, within one period, and the cells that they fall in. No branch, no call.
+  // Projects the samples into one period and finds their cells, without branches or calls.
   void project_samples(const glm::vec2& shear, Scratch& s) const {
-    // Truncation is the floor of what is above 0: the samples reach below by less than this many periods, 16 up and 24
-    // along for each in the lowest direction of a grid of 48 x 48.
+    // Truncation equals floor for positive values. Samples are below 0 by less than this many periods: 16 up, and 24
+    // along for each, in the lowest direction of a grid of 48 x 48.
     constexpr float above_zero = 512.0F;
     const glm::vec2 per_period = 1.0F / patch_.period;
     const auto last_cell = side_ - 1;
@@ -163,7 +165,7 @@ class Projector {
     }
   }
 
-  // Marks the samples that a triangle hides, in every copy of the period that its projection reaches into.
+  // Clears the samples that a triangle occludes, in every copy of the period that its projection reaches.
   void cover(std::size_t triangle, const glm::dvec2& shear, double slope, Scratch& s) const {
     std::array<glm::dvec2, 3> corners{};
     for (int i = 0; i < 3; ++i) {
@@ -196,7 +198,7 @@ class Projector {
 
   [[nodiscard]] int floor_div(int cell) const { return cell >= 0 ? cell / side_ : -((side_ - 1 - cell) / side_); }
 
-  // The linear forms of a triangle in the coordinates of the copy that is moved by -shift.
+  // The linear forms of a triangle in the coordinates of the copy shifted by -shift.
   [[nodiscard]] Blocker blocker_of(const std::array<glm::dvec2, 3>& corners, std::size_t triangle,
                                    const glm::dvec2& shear, double slope, const glm::dvec2& shift) const {
     Blocker out{};
@@ -253,7 +255,7 @@ FacetVisibility facet_visibility(const Patch& patch, const FacetSamples& samples
   FacetVisibility out(directions.size(), samples.size());
   const Projector projector(patch, samples);
   tbb::enumerable_thread_specific<Scratch> scratch;
-  // Progress is reported between batches, by the calling thread alone: it may throw.
+  // Reports progress between batches, only from the calling thread because it may throw.
   constexpr std::size_t batch = 36;
   for (std::size_t begin = 0; begin < directions.size(); begin += batch) {
     progress("visibility", static_cast<double>(begin) / static_cast<double>(directions.size()));

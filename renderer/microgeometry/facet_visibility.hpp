@@ -1,4 +1,4 @@
-// Facets of equal area on a patch, and the directions that each of them sees.
+// Samples facets of equal area on a patch and determines the directions that each of them sees.
 #pragma once
 
 #include <cstddef>
@@ -21,11 +21,12 @@ struct FacetSamples {
   [[nodiscard]] std::size_t size() const { return positions.size(); }
 };
 
-/// `count` >= 1 samples, one in each of `count` equal shares of the area (stratified), in the order of the triangles:
-/// a triangle gets its share to within one. Same seed, same samples. The patch is as check_patch wants it.
+/// Draws `count` >= 1 stratified samples, one in each of `count` equal shares of the area, in the order of the
+/// triangles. A triangle gets its expected number to within one. Deterministic for a seed. The patch must satisfy
+/// check_patch.
 [[nodiscard]] FacetSamples sample_facets(const Patch& patch, std::size_t count, std::uint64_t seed);
 
-/// Vs(x, w) of Iwasaki 2012, Eq. 2, one bit for each direction and sample.
+/// The visibility Vs(x, w) of Iwasaki 2012, Eq. 2: one bit per direction and sample.
 class FacetVisibility {
  public:
   FacetVisibility() = default;
@@ -53,11 +54,12 @@ class FacetVisibility {
   std::vector<std::uint64_t> bits_;
 };
 
-/// A sample sees a direction if its facet faces it and no triangle of the endlessly tiled patch that faces the
-/// direction lies in front of it. Along a direction the tiling projects onto a torus, where each sample is tested
-/// against every triangle that covers it: no copy is left out however far a grazing ray goes, and no depth map is
-/// resampled. That triangles which face away need not be tested holds for surfaces with an inside: a ray that enters
-/// leaves again. `directions` are unit with z > 0. The result does not depend on the number of threads.
+/// Determines the visibility of `samples` in the infinitely tiled patch for `directions` (unit, z > 0). The result is
+/// independent of the number of threads.
+/// A sample sees a direction if its facet faces it and no triangle that faces the direction occludes it. The tiling
+/// projects along the direction onto a torus, where each sample is tested against every triangle that covers it. So
+/// grazing rays of any length find all copies, without resampling a depth map.
+/// Triangles that face away need no test on closed surfaces, because a ray that enters also leaves.
 [[nodiscard]] FacetVisibility facet_visibility(const Patch& patch, const FacetSamples& samples,
                                                std::span<const glm::dvec3> directions, const Progress& progress);
 

@@ -1,4 +1,4 @@
-// The highest triangle over each texel of a patch seen from above.
+// Finds the highest triangle over each texel of a patch.
 #include "renderer/microgeometry/microgeometry.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t nothing = std::numeric_limits<std::uint32_t>::max();
 
-// The highest triangle over each texel's centre.
+// The highest triangle over the centre of each texel.
 class TopView {
  public:
   TopView(const Patch& patch, int size)

@@ -1,4 +1,4 @@
-// The small-scale geometry of a material: a patch, and what of it those need who do not look at its triangles.
+// The small-scale geometry of a material: a patch, and properties that do not require its triangles.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -10,25 +10,26 @@
 
 namespace footprint {
 
-/// What a material carries. Its base colour has the patch's mean colour multiplied in, so that a method which leaves
-/// the patch's colours out has the right mean.
+/// The microgeometry of a material. The base colour of the material includes the patch's mean colour, so that methods
+/// without facet colours have the right mean.
 struct Microgeometry {
   Patch patch;
-  glm::vec3 mean_color{1.0F};                   ///< of what is seen from straight above
-  std::shared_ptr<const TabulatedBrdf> brdf{};  ///< of the facets, diffuse light and all; null: the material's own
+  glm::vec3 mean_color{1.0F};  ///< mean colour seen from directly above
+  std::shared_ptr<const TabulatedBrdf>
+      brdf{};  ///< of the facets, including diffuse light; null: the BRDF of the material
 };
 
-/// Whether the facets' paints must be told apart: there are several, or one that is in no base colour, since the
-/// facets' BRDF is tabulated.
+/// Whether facets need separate colours: there are several paints, or one that the base colour omits because the BRDF
+/// of the facets is tabulated.
 [[nodiscard]] bool needs_colors(const Microgeometry& microgeometry);
 
-/// A patch as it is seen from straight above, size x size texels over its period.
+/// Maps of a patch seen from directly above, size x size texels over one period.
 struct PatchMaps {
-  Image normals;  ///< 4 channels: unit normal, weight 0 where nothing is or faces up
+  Image normals;  ///< 4 channels: unit normal, weight 0 where no upward facet is visible
   glm::vec3 mean_color{1.0F};
 };
 
-/// Casts one ray at each texel's centre. `size` is 1 or more.
+/// Casts one ray per texel centre. `size` is at least 1.
 [[nodiscard]] PatchMaps patch_maps(const Patch& patch, int size);
 
 }  // namespace footprint

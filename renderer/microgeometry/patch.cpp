@@ -16,7 +16,7 @@ struct Box {
   glm::vec3 lower, upper;
 };
 
-// Of the vertices in use. Not finite where one of them is not.
+// The bounds of all referenced vertices; not finite if one of them is not.
 Box box_of(const Patch& patch) {
   Box box{patch.vertices[patch.triangles.front().x], patch.vertices[patch.triangles.front().x]};
   for (const glm::uvec3& triangle : patch.triangles) {
@@ -125,7 +125,7 @@ Patch height_field_patch(std::string name, int columns, int rows, const std::fun
   add_grid(patch, columns, rows, 0, [&](int u, int v) {
     const double x = static_cast<double>(u) / columns;
     const double y = static_cast<double>(v) / rows;
-    // The last column repeats the first: evaluating it there keeps the border shut whatever rounding does.
+    // The last column evaluates the first again, so that rounding cannot open the border.
     return glm::vec3(glm::dvec3(x, y, height(u == columns ? 0.0 : x, v == rows ? 0.0 : y)));
   });
   return patch;

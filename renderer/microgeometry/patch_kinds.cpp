@@ -1,4 +1,4 @@
-// Height fields, spheres, woven threads and noise as triangles.
+// Builds height fields, spheres, woven threads and noise as triangles.
 #include "renderer/microgeometry/patch_kinds.hpp"
 
 #include <fmt/format.h>
@@ -30,8 +30,8 @@ struct Thread {
   double phase;   // 1: on top at the first crossing, -1: below
 };
 
-// The upper half of an elliptic thread that follows a cosine: (across, along, z). Where its axis is highest and lowest
-// lie the crossings, so that threads touch there.
+// The upper half of an elliptic thread along a cosine: (across, along, z). The crossings are at the extrema of its
+// axis, where threads touch.
 glm::dvec3 thread_point(const Thread& thread, double across, double along) {
   const double angle = pi * (1.0 - across);  // 0..1 from one edge to the other
   const double axis = thread.phase * thread.height * std::cos(2.0 * pi * (along - 0.5 * thread_distance));
@@ -43,7 +43,7 @@ struct Wave {
   double phase, amplitude;
 };
 
-// Waves of all directions with as much slope on each, cut at `most` waves a period.
+// A sum of waves in all directions with equal slope, up to `most` waves per period.
 std::vector<Wave> random_waves(int most, double slope, std::mt19937_64& random) {
   std::vector<Wave> waves;
   for (int y = -most; y <= most; ++y) {
@@ -72,7 +72,7 @@ Patch flat_patch(const Options& /*parameters*/, std::uint64_t /*seed*/) {
   return height_field_patch("flat", 1, 1, [](double, double) { return 0.0; });
 }
 
-// One groove a period, along y: a land of width `land`, then a V or, with `rounded`, half a wave.
+// One groove per period along y: a flat part of width `land`, then a V or, with `rounded`, half a wave.
 Patch grooves_patch(const Options& parameters, std::uint64_t /*seed*/) {
   const double land = parameters.number("land");
   const double flank = 0.5 * (1.0 - land);
@@ -93,7 +93,7 @@ Patch grooves_patch(const Options& parameters, std::uint64_t /*seed*/) {
   return patch;
 }
 
-// One pyramid a period on a floor that it leaves `floor` of along each axis; below 0 degrees it is a pit.
+// One pyramid per period; `floor` is the flat share along each axis. A negative angle builds a pit.
 Patch pyramids_patch(const Options& parameters, std::uint64_t /*seed*/) {
   const double margin = 0.5 * parameters.number("floor");
   const double rise = tangent_of(parameters, "slope_degrees");
@@ -105,7 +105,7 @@ Patch pyramids_patch(const Options& parameters, std::uint64_t /*seed*/) {
     const double y = edges.at(static_cast<std::size_t>(v));
     return glm::vec3(x, y, rise * std::max(std::min(from_border(x), from_border(y)) - margin, 0.0));
   };
-  // The diagonals must run towards the tip: one fan of quadrants, each cut along its own diagonal.
+  // The diagonals must point towards the tip: four quadrants, each cut along its own diagonal.
   add_grid(patch, 4, 4, 0, corner);
   for (std::size_t i = 0; i + 1 < patch.triangles.size(); i += 2) {
     const glm::uvec3 a = patch.triangles[i];      // corner, +u, +u+v
@@ -186,7 +186,7 @@ Patch weave_patch(const Options& parameters, std::uint64_t /*seed*/) {
     });
     thread.width = parameters.number("weft_width") * thread_distance;
     thread.phase = -thread.phase;
-    add_grid(patch, along, across, 1, [&](int u, int v) {  // x and y change places, and so the direction across
+    add_grid(patch, along, across, 1, [&](int u, int v) {  // swaps x and y, which reverses the direction across
       const glm::dvec3 p = thread_point(thread, static_cast<double>(v) / across, static_cast<double>(u) / along);
       return glm::vec3(glm::dvec3(p.y, p.x, p.z));
     });

@@ -1,4 +1,4 @@
-// The kinds of patches that a scene.toml may name.
+// The patch kinds of scene.toml.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,22 @@
 
 namespace footprint {
 
-/// One kind of patch. Lengths among the parameters are in periods.
+/// A kind of patch. Parameters that are lengths are in periods.
 struct PatchKind {
   std::string name;
   std::string summary;  ///< one sentence
   std::vector<OptionSpec> parameters;
-  /// Same parameters and seed, same triangles.
+  /// Deterministic for its parameters and seed.
   Patch (*build)(const Options& parameters, std::uint64_t seed) = nullptr;
 };
 
 /// `flat`, `grooves`, `pyramids`, `spheres`, `weave` and `noise`.
 [[nodiscard]] std::span<const PatchKind> patch_kinds();
 
-/// The kind of a name. Errors (usage): unknown, with the nearest right one.
+/// Finds a kind by name. Throws Error (usage) with the nearest name if it is unknown.
 [[nodiscard]] const PatchKind& find_patch_kind(const std::string& name);
 
-/// Builds a patch of a kind with `given` parameters by name. Errors (usage): as of Options.
+/// Builds a patch of a kind with the `given` parameters. Throws Error (usage) as Options does.
 [[nodiscard]] Patch make_patch(const PatchKind& kind, const std::map<std::string, std::string>& given,
                                std::uint64_t seed = 1);
 

@@ -1,4 +1,4 @@
-// From directions to the cell of half and difference angles, and tables filled from functions.
+// Finds the cell of two directions, and fills tables from functions.
 #include "renderer/microgeometry/tabulated_brdf.hpp"
 
 #include <algorithm>
@@ -14,8 +14,8 @@ std::size_t cell_of(double share, int cells) {
   return static_cast<std::size_t>(std::clamp(static_cast<int>(share * cells), 0, cells - 1));
 }
 
-// Cosines of both directions to the normal: wi and wo stand theta_d to either side of the half vector, in the plane
-// that phi_d turns about it.
+// Cosines of both directions to the normal. wi and wo are at theta_d on opposite sides of the half vector; phi_d
+// rotates their plane about it.
 glm::dvec2 cosines_of(const glm::dvec3& angles) {
   const double along = std::cos(angles.x) * std::cos(angles.y);
   const double across = std::sin(angles.x) * std::sin(angles.y) * std::cos(angles.z);
@@ -37,7 +37,7 @@ glm::vec3 TabulatedBrdf::at(const glm::dvec3& normal, const glm::dvec3& wi, cons
   const double length = glm::length(sum);
   if (!(length > 1e-9)) return glm::vec3(0.0F);
   const glm::dvec3 h = sum / length;
-  // The part of a direction across the half vector, against that of the normal: the turn of one about the other.
+  // The azimuth of a direction about the half vector relative to that of the normal.
   const glm::dvec3 up = normal - h * glm::dot(normal, h);
   const glm::dvec3 side = wi - h * glm::dot(wi, h);
   const double lengths = glm::length(up) * glm::length(side);

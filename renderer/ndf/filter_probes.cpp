@@ -43,7 +43,7 @@ ProbeSet tiling(const TexelFootprint& f, int parts) {
 ProbeSet along_the_longer_edge(const TexelFootprint& f, int most) {
   const double x = glm::length(f.dx), y = glm::length(f.dy);
   const double major = std::max(x, y);
-  const double ratio = 0.999 * major / std::max(std::min(x, y), 1e-12);  // what rounding makes uneven is even
+  const double ratio = 0.999 * major / std::max(std::min(x, y), 1e-12);  // ignores rounding differences
   const int count = static_cast<int>(std::ceil(std::min(ratio, static_cast<double>(most))));
   ProbeSet out{std::log2(major / count), {}};
   for (int i = 0; i < count; ++i) {
@@ -72,8 +72,8 @@ ProbeSet along_the_ellipse(const TexelFootprint& f, int most) {
   return out;
 }
 
-// A point's place along an axis, of which renderer/shaders/footprint_area.glsl derives what follows: boxes of two
-// widths convolved about 0.
+// The position of a point along an axis: two box functions of different widths convolved about 0.
+// renderer/shaders/footprint_area.glsl has the derivation.
 class Boxes {
  public:
   Boxes(double a, double b) : a_(std::max(a, narrowest)), b_(std::max(b, narrowest)) {}
@@ -91,7 +91,7 @@ class Boxes {
   double a_, b_;
 };
 
-// Of a pair of texels about `middle`: what is theirs, and the second one's part of it.
+// The share of a pair of texels about `middle`, and the second texel's part of it.
 struct PairShare {
   double whole = 0.0, second = 0.5;
 };
@@ -106,8 +106,8 @@ constexpr double widest_hem = 0.35;
 double hem_of(double extent) { return std::max(widest_hem * std::min(0.5 * extent, 1.0), 2.0 * Boxes::narrowest); }
 int pairs_of(double extent) { return static_cast<int>(std::ceil(0.5 * (std::ceil(extent) + 1.0))); }
 
-// A footprint in texels of a level, the first texel's centre at 0, by rows across the axis along which it reaches
-// farther.
+// A footprint in texels of a level, with the centre of the first texel at 0. Rows run across the axis along which the
+// footprint is longer.
 struct RowedFootprint {
   bool turned = false;
   glm::dvec2 centre{}, edge{}, other{};  // both edges upwards, `edge` over more rows
@@ -131,7 +131,7 @@ struct RowedFootprint {
   }
 };
 
-// The finest level of which 2N x 2N texels hold a footprint.
+// The finest level at which 2N x 2N texels cover a footprint.
 double area_level(const TexelFootprint& f, int lookups) {
   const RowedFootprint p(f, 0.0);
   constexpr double rim = 1.0 - 2.0 * widest_hem;
@@ -141,7 +141,7 @@ double area_level(const TexelFootprint& f, int lookups) {
   return std::max(std::ceil(-std::log2(s)), 0.0);
 }
 
-// The lookups of two rows, `row` above the footprint's centre and the next.
+// The lookups of two rows: `row` above the centre of the footprint and the next.
 void add_strip(ProbeSet& out, const RowedFootprint& p, double row, const PairShare& rows) {
   const double smear = std::exp2(-out.level), reach = 0.5 * p.height();
   const double low = std::max(row - 0.5, -reach), high = std::min(row + 1.5, reach);

@@ -1,4 +1,4 @@
-// Texels clipped to the footprint, sorted and merged; parts cut out at texels of the coarsest level.
+// Clips texels to the footprint, sorts and merges facets, and cuts out parts of maps.
 #include "renderer/ndf/footprint_texels.hpp"
 
 #include <fmt/format.h>
@@ -23,15 +23,15 @@
 namespace footprint {
 namespace {
 
-constexpr double shortest_normal = 1e-3;  // as the loader of normal maps has it
+constexpr double shortest_normal = 1e-3;  // as in the loader of normal maps
 
-// A stretch of one axis over which both maps stay in one texel.
+// An interval of one axis within one texel of each map.
 struct Stretch {
   int normal = 0, roughness = 0;  // column or row of each map
   double length = 0.0;            // in maps
 };
 
-// One axis of a map: its texels, how it wraps, and where a coordinate of the normal map lies on it.
+// One axis of a map: texels, wrap mode, and the position of the normal map's coordinates.
 struct Axis {
   int size = 1;
   Wrap wrap = Wrap::repeat;
@@ -53,7 +53,7 @@ struct Axis {
     }
     return static_cast<int>(std::clamp(texel, 0.0, static_cast<double>(size - 1)));
   }
-  // The coordinates of the normal map at which this map's texels end, between two such.
+  // The borders of the texels of this map between two coordinates of the normal map.
   void add_borders(double lower, double upper, std::vector<double>& borders) const {
     if (scale == 0.0) return;
     const auto [first, last] = std::minmax({texel_at(lower), texel_at(upper)});
@@ -80,7 +80,7 @@ std::vector<Stretch> stretches(const Axis& normal, const Axis& roughness, double
   return out;
 }
 
-// From coordinates of the normal map to those of the roughness map: a scale and an offset per axis.
+// Maps coordinates of the normal map to those of the roughness map: scale and offset per axis.
 struct Alignment {
   glm::dvec2 scale{0.0}, offset{0.0};
 };
@@ -110,7 +110,7 @@ Alignment alignment(const Material& material) {
   return {{relation[0][0], relation[1][1]}, glm::dvec2(relation[2])};
 }
 
-// The maps of a material, looked at as facets.
+// Reads the maps of a material as facets.
 class Facets {
  public:
   explicit Facets(const Material& material)
@@ -119,7 +119,7 @@ class Facets {
   [[nodiscard]] const Image& normals() const { return normals_; }
   [[nodiscard]] const Image& parameters() const { return parameters_; }
 
-  /// No share where the texel has no normal.
+  /// Share 0 if the texel has no normal.
   [[nodiscard]] WeightedFacet facet(const Stretch& column, const Stretch& row, double area) const {
     const auto texel = normals_.at(column.normal, row.normal);
     const glm::dvec3 normal(texel[0], texel[1], texel[2]);
@@ -132,13 +132,13 @@ class Facets {
 
  private:
   Image normals_;
-  Image parameters_;  // of the lobe, where the roughness map has its texels
+  Image parameters_;  // lobe parameters, one per texel of the roughness map
 };
 
 auto order_of(const WeightedFacet& f) { return std::tie(f.parameter, f.normal.x, f.normal.y, f.normal.z); }
 
-// Equal facets become one. The sort is total but for equal facets, whose shares are added in order of size: the sum
-// does not depend on threads.
+// Merges equal facets. The sort orders all but equal facets, and their shares are added in order of size, so that the
+// sum does not depend on threads.
 void unite_equal(std::vector<WeightedFacet>& facets) {
   tbb::parallel_sort(facets.begin(), facets.end(), [](const WeightedFacet& a, const WeightedFacet& b) {
     return std::tuple_cat(order_of(a), std::tie(a.share)) < std::tuple_cat(order_of(b), std::tie(b.share));
@@ -154,7 +154,7 @@ void unite_equal(std::vector<WeightedFacet>& facets) {
   facets.resize(std::min(kept + 1, facets.size()));
 }
 
-// Each facet once for each of the material's own lobes, about its axis.
+// Replaces each facet by one per lobe of the material, about the axis of the lobe.
 void multiply_by_lobes(const std::vector<FacetLobe>& lobes, std::vector<WeightedFacet>& facets) {
   std::vector<WeightedFacet> out;
   require_memory(frame_bytes(facets.size(), lobes.size(), sizeof(WeightedFacet)),
@@ -170,9 +170,9 @@ void multiply_by_lobes(const std::vector<FacetLobe>& lobes, std::vector<Weighted
   unite_equal(facets);
 }
 
-constexpr double negligible = 1e-6;  // the weight of a level or a texel that rounding alone brings in
+constexpr double negligible = 1e-6;  // weights of levels or texels that are rounding errors
 
-// Texels first to end - 1 of an axis, counted on beyond the map's border.
+// The texels first to end - 1 of an axis; indices continue beyond the border of the map.
 struct Range {
   int first = 0, end = 0;
 
@@ -189,7 +189,7 @@ Levels levels_of(double level, int count) {
   return {static_cast<int>(std::floor(inside + negligible)), static_cast<int>(std::ceil(inside - negligible))};
 }
 
-// What probes weigh of one axis, in whole texels of the coarser level.
+// The range of probes along one axis, in whole texels of the coarser level.
 Range range_of(const ProbeSet& probes, int axis, const Levels& levels) {
   double first = probes.probes.front().centre[axis], end = first;
   for (const Probe& probe : probes.probes) {
@@ -204,8 +204,8 @@ Range range_of(const ProbeSet& probes, int axis, const Levels& levels) {
   return {static_cast<int>(block * std::floor(first / block)), static_cast<int>(block * std::ceil(end / block))};
 }
 
-// The texels to cut out of an axis of `size` texels, so that beyond the part's border lies what the wrap mode shows
-// beyond the map's; the whole axis where that is not so.
+// The texels to cut out of an axis of `size` texels. Beyond the border of the part, the wrap mode must return the same
+// texels as in the map; otherwise the whole axis is used.
 Range cut(const Range& range, int size, Wrap wrap, int block) {
   const Range whole{0, size};
   if (size % block != 0 || range.size() >= size) return whole;
@@ -248,7 +248,7 @@ void check_footprint(const FootprintRect& rect, const std::string& place) {
   if (rect.upper.x < rect.lower.x || rect.upper.y < rect.lower.y) {
     refuse("is reversed", "give the smaller coordinates first: u0,v0,u1,v1");
   }
-  // Narrower than rounding leaves of a texel's number in the largest map.
+  // Narrower than the rounding error of a texel index in the largest map.
   constexpr double narrowest = 1e-9;
   if (rect.size().x < narrowest || rect.size().y < narrowest) refuse("is empty", "give u0 < u1 and v0 < v1");
 }
@@ -301,7 +301,7 @@ std::vector<WeightedFacet> merged_facets(const std::vector<WeightedFacet>& facet
   using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
   const auto cell_of = [&](const WeightedFacet& f) {
     constexpr double buckets_an_octave = 16.0;
-    // Lambert's disc stretches no distance by more than 2.
+    // Lambert's disc stretches distances by at most 2.
     const glm::dvec2 on_disc = glm::dvec2(f.normal) / std::sqrt(std::max(1.0 + f.normal.z, 1e-6));
     const glm::dvec2 cell = glm::floor(on_disc * (2.0 / spacing));
     return Cell(std::floor(buckets_an_octave * std::log2(f.parameter)), cell.x, cell.y);

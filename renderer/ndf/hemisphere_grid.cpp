@@ -12,7 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
-// The farthest that neighbouring nodes in z are apart as angles, times their number: pi sqrt(z / (1 + z)) at z = 1.
+// The largest angle between neighbouring nodes in z, times their number: pi sqrt(z / (1 + z)) at z = 1.
 constexpr double ring_spacing = pi / std::numbers::sqrt2;
 
 struct Node {
@@ -78,17 +78,18 @@ std::vector<glm::vec3> disc_directions(int size) {
   return directions;
 }
 
-NdfFigures compare_ndfs(const HemisphereGrid& grid, std::span<const float> densities, std::span<const double> truth) {
-  double error = 0.0, square = 0.0, energy = 0.0, true_energy = 0.0;
+NdfFigures compare_ndfs(const HemisphereGrid& grid, std::span<const float> densities,
+                        std::span<const double> reference) {
+  double error = 0.0, square = 0.0, energy = 0.0, reference_energy = 0.0;
   for (std::size_t i = 0; i < grid.solid_angles.size(); ++i) {
     const double d = densities[i];
-    const double difference = d - truth[i];
+    const double difference = d - reference[i];
     error += difference * difference * grid.solid_angles[i];
-    square += truth[i] * truth[i] * grid.solid_angles[i];
+    square += reference[i] * reference[i] * grid.solid_angles[i];
     energy += d * grid.solid_angles[i];
-    true_energy += truth[i] * grid.solid_angles[i];
+    reference_energy += reference[i] * grid.solid_angles[i];
   }
-  return {std::sqrt(error / square), energy / true_energy, largest_density(densities)};
+  return {std::sqrt(error / square), energy / reference_energy, largest_density(densities)};
 }
 
 double largest_density(std::span<const float> densities) {

@@ -1,4 +1,4 @@
-// Directions over the hemisphere with solid angles, and figures of NDFs over them.
+// Quadrature over the hemisphere, and statistics of NDFs.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,7 +9,7 @@
 
 namespace footprint {
 
-/// Directions with the solid angle that each stands for; the sum of all is 2 pi.
+/// Directions and the solid angle of each; the sum is 2 pi.
 struct HemisphereGrid {
   int resolution = 0;                 ///< rings
   std::vector<glm::vec3> directions;  ///< unit, z > 0
@@ -18,37 +18,37 @@ struct HemisphereGrid {
 
 inline constexpr int smallest_resolution = 16, largest_resolution = 2048;
 
-/// Gauss-Legendre quadrature in z with `resolution` rings, and on each ring evenly spaced directions, as far from each
-/// other as the rings are at most (2.2 / resolution radians). Exact up to the horizon, where an even grid would have
-/// steps, and for smooth densities as exact as Gauss quadrature is.
+/// Gauss-Legendre quadrature in z with `resolution` rings. Directions on a ring are evenly spaced, at most as far apart
+/// as the rings (2.2 / resolution radians). The horizon is represented exactly, unlike on an even grid, and smooth
+/// densities converge as Gauss quadrature does.
 [[nodiscard]] HemisphereGrid hemisphere_grid(int resolution);
 
-/// The resolution whose directions lie half a width of the lobe apart, from 64 on and at most `largest_resolution`:
-/// sums over the grid then integrate the lobe and its square to 1e-4 and miss no peak by more than 6%.
+/// The resolution whose directions are half a lobe width apart; at least 64 and at most `largest_resolution`. Sums over
+/// the grid integrate the lobe and its square to 1e-4 and miss the peak by at most 6%.
 [[nodiscard]] int resolution_for(const Lobe& narrowest);
 
-/// About how many directions a grid has.
+/// The approximate number of directions of a grid.
 [[nodiscard]] double direction_count(int resolution);
 
-/// The directions of the pixel centres of a size x size image of the disc |(x, y)| < 1, x to the right, y up, row 0
-/// on top; (0, 0, 0) outside of it.
+/// The directions of the pixel centres in a size x size image of the disc |(x, y)| < 1, with x to the right, y up and
+/// row 0 at the top. (0, 0, 0) outside the disc.
 [[nodiscard]] std::vector<glm::vec3> disc_directions(int size);
 
-/// Sums over the directions of a grid. Not finite where a density is not.
+/// Statistics of a density D against a reference R, over a grid. Not finite if a density is not finite.
 struct NdfFigures {
-  double l2 = 0.0;      ///< sqrt(int (D - truth)^2 / int truth^2), over solid angle
-  double energy = 0.0;  ///< int D / int truth
+  double l2 = 0.0;      ///< sqrt(int (D - R)^2 / int R^2), over solid angle
+  double energy = 0.0;  ///< int D / int R
   double peak = 0.0;    ///< the largest D
 };
 
-/// `densities` and `truth` at the grid's directions, per solid angle.
+/// Compares densities with a reference, both per solid angle at the directions of the grid.
 [[nodiscard]] NdfFigures compare_ndfs(const HemisphereGrid& grid, std::span<const float> densities,
-                                      std::span<const double> truth);
+                                      std::span<const double> reference);
 
-/// The largest of some densities; not a number where one is not finite.
+/// The largest density; NaN if a density is not finite.
 [[nodiscard]] double largest_density(std::span<const float> densities);
 
-/// The integral over the hemisphere, and the largest density.
+/// The integral over the hemisphere and the largest density.
 struct NdfTotals {
   double energy = 0.0, peak = 0.0;
 };

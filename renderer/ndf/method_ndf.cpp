@@ -1,4 +1,4 @@
-// The method's module over a square of directions, instead of a frame.
+// Draws the module of a method over a square of directions instead of a frame.
 #include "renderer/ndf/method_ndf.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 namespace footprint {
 namespace {
 
-constexpr int largest_edge = 1024;  // of the square of directions that is evaluated at once
+constexpr int largest_edge = 1024;  // of the square of directions per draw
 constexpr std::array<GLenum, 1> density_format{GL_R32F};
 
 ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const FootprintFilter& filter) {
@@ -33,7 +33,7 @@ gl::Program program_of(const GpuScene& scene, const BakedMethod& baked, const Fo
   return {fmt::format("ndf of {} ({})", baked.spec.text, density.lines()), screen_vertex_shader(), density.text()};
 }
 
-// From above, so that the camera's axes are the plane's own.
+// Looks from above, so that the axes of the camera and the plane coincide.
 View view_of_facets() {
   View view{.size = {1, 1}, .camera = {}};
   view.camera.orthographic = true;
@@ -41,8 +41,8 @@ View view_of_facets() {
   return view;
 }
 
-// Texture coordinates at which the normal map lies once on the plane, whatever the material's transform; as they are
-// where it has no inverse.
+// Texture coordinates for which the normal map covers the plane once under the material's transform. Unchanged if the
+// transform has no inverse.
 void lay_out_once(Mesh& plane, const TextureCoordinates& coordinates) {
   const glm::mat2 linear(coordinates.transform[0], coordinates.transform[1]);
   if (std::abs(glm::determinant(linear)) < 1e-12F) return;

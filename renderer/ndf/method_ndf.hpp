@@ -1,4 +1,4 @@
-// A method's effective NDF, by its own shader: densities at listed directions for one footprint.
+// Evaluates the effective NDF of a method with its own shader.
 #pragma once
 
 #include <span>
@@ -10,25 +10,26 @@
 
 namespace footprint {
 
-/// A plane of one material: what a method bakes and what the GPU holds, with nothing but the facets left of the
-/// material (no colour map, no mask).
+/// Creates a scene with one plane for baking and evaluation. Only the facets of the material remain, without colour map
+/// and mask.
 [[nodiscard]] Scene scene_of_facets(const Material& material);
 
-/// The mip level that a method's trilinear fetch takes for `rect`: log2 of its longer side in texels, as an isotropic
-/// footprint has it; below 0 where a texel is larger than the footprint.
+/// The mip level of a trilinear fetch over `rect`: log2 of its longer side in texels, as for an isotropic footprint.
+/// Negative if a texel is larger than the footprint.
 [[nodiscard]] double footprint_level(const Material& material, const FootprintRect& rect);
 
-/// A method on the first material of a scene, ready to evaluate its `ndf`. The scene on the GPU, the baked method and
-/// the material must outlive it.
+/// The `ndf` function of a method on the first material of a scene. The GPU scene, the baked method and the material
+/// must outlive it.
 class MethodNdf {
  public:
-  /// `tile`: side of the square of directions that is evaluated at once; 0: 1024. Throws Error (machine): the module
-  /// does not compile, the textures do not fit, the samplers have no such filter.
+  /// `tile`: side length of the square of directions per draw; 0 means 1024.
+  /// Throws Error (machine) if the module does not compile, the textures do not fit, or the samplers do not support the
+  /// filter.
   MethodNdf(const gl::ContextInfo& context, GpuScene& scene, const BakedMethod& baked, const Material& material,
             const FootprintFilter& filter, int tile = 0);
 
-  /// The method's density per solid angle at each direction, for a pixel whose footprint is `rect`: its centre, and
-  /// edges as long as the rectangle along u and along v. 0 at directions of length 0.
+  /// The density at each direction, 1/sr, for the footprint `rect`; its edges are parallel to u and v. 0 at directions
+  /// of length 0.
   [[nodiscard]] std::vector<float> densities(const FootprintRect& rect, std::span<const glm::vec3> directions) const;
 
  private:

@@ -9,7 +9,7 @@
 #include "renderer/environment/reference_tables.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
 #include "renderer/pipeline/shader_source.hpp"
-#include "renderer/visibility/subdivide.hpp"
+#include "renderer/scene/geometry.hpp"
 
 namespace footprint {
 namespace {
@@ -62,7 +62,7 @@ GpuEnvironment::Part GpuEnvironment::table_part() const {
   return part;
 }
 
-// A texture is never empty: of a black environment it holds one dark light.
+// Textures cannot be empty, so a black environment has one dark light.
 GpuEnvironment::Part GpuEnvironment::light_part() const {
   std::vector<DenseLight> lights = dense_lights(environment_);
   if (lights.empty()) lights.push_back({.direction = {0, 1, 0}, .irradiance = glm::vec3(0.0F)});

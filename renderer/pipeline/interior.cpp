@@ -76,7 +76,7 @@ void bind_textures(const gl::RenderTarget& target, std::size_t count, GLuint uni
   }
 }
 
-// Splits what was read into its images.
+// Splits the result into its images.
 void copy_tile(const Image& read, const Tile& tile, Interior& out) {
   for (int y = 0; y < tile.size.y; ++y) {
     const int row = out.mask.height - 1 - (tile.origin.y + y);

@@ -61,7 +61,7 @@ std::array<glm::dvec3, 8> corners_of(const Bounds& bounds) {
   return corners;
 }
 
-// What a map covers: on the plane at w = 1, and along the axis.
+// The extent of a map on the plane at w = 1, and along the axis.
 struct Extent {
   glm::dvec2 lower{1e300}, upper{-1e300};
   double nearest = 1e300, furthest = -1e300;
@@ -122,7 +122,7 @@ ShadowView parallel_view(const DirectionalLight& light, const Scene& scene) {
   return view_of(frame, centre, extent, false, scene);
 }
 
-// The bounds as seen from a point along `frame`; none where they are too wide for one map.
+// The extent of the bounds from a point along `frame`; none if it is too wide for one map.
 std::optional<Extent> seen_bounds(const Frame& frame, const glm::dvec3& from, const Bounds& bounds) {
   Extent extent;
   for (const glm::dvec3& corner : corners_of(bounds)) {
@@ -156,7 +156,7 @@ void append_cube(const glm::dvec3& from, const Scene& scene, std::vector<ShadowV
   }
 }
 
-// `cone`: along the light's own direction, the tangent of what it lights; infinite for a light without a cone.
+// cone: tangent of the cone along the light's direction; infinite for a light without a cone.
 void append_point(const glm::dvec3& from, const glm::dvec3& direction, double cone, const Scene& scene,
                   std::vector<ShadowView>& views) {
   const glm::dvec3 towards = glm::dvec3(scene.bounds.centre()) - from;

@@ -30,7 +30,7 @@ bool is_filter(const Variant& v) {
   return v.sampling == Sampling::frame && v.footprint.kind == kind;
 }
 
-// What is fetched is a mean over lookups whose number the compiler does not know.
+// Whether a fetch averages lookups whose number the compiler does not know.
 bool averages_probes(const Variant& v) {
   return v.sampling == Sampling::frame && v.footprint.kind != FootprintFilterKind::trilinear &&
          v.footprint.kind != FootprintFilterKind::shaded;
@@ -45,7 +45,7 @@ bool reflects_diffusely(const Variant& v) {
   return has(v.effects, Effect::diffuse) || has(v.effects, Effect::tabulated_brdf);
 }
 
-// What is drawn at random: a texel of the maps, directions to an environment, facets of a patch.
+// Whether anything is drawn at random: a texel of the maps, directions to an environment, facets of a patch.
 bool draws(const Variant& v) {
   const bool directions = samples_environment(v) && v.environment == EnvironmentUse::sampled;
   const bool facets = has(v.effects, Effect::microgeometry_visibility) && v.sampling != Sampling::frame;

@@ -23,7 +23,7 @@ constexpr std::string_view directives =
     "directives: if CONDITION, elif CONDITION, else, end, include FILE, module; a condition is of flags, `not`, `and`, "
     "`or` and parentheses";
 
-// What is wrong on a line of a file.
+// A line of a file, for error messages.
 struct Line {
   std::string_view file;
   int number;
@@ -126,8 +126,7 @@ class ShaderText::Reader {
   }
 
  private:
-  // An open `if`: whether its parent keeps text, whether one of its parts has been kept, and whether the last was
-  // `else`.
+  // An open `if`: whether its parent keeps text, whether one of its branches was kept, and whether `else` came.
   struct Branch {
     int line;
     bool outer, taken;

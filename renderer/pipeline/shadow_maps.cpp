@@ -48,13 +48,13 @@ GLenum front_face(const ShadowView& view) {
   return handed < 0.0F ? GL_CCW : GL_CW;
 }
 
-// Light from behind passes a triangle that is drawn from its front alone.
+// Light from behind passes one-sided triangles.
 void cull_backs(const GpuBatch& batch, bool both_sides) {
   batch.double_sided || both_sides ? gl::api().Disable(GL_CULL_FACE) : gl::api().Enable(GL_CULL_FACE);
 }
 
 void draw_batch(const GpuBatch& batch, const EffectSet& effects, SamplerCache& samplers) {
-  // The base colour comes first among the shared textures; its alpha decides what is there.
+  // The base colour is the first shared texture; its alpha decides about cut-outs.
   if (has(effects, Effect::alpha_mask) && has(effects, Effect::base_color_variation)) {
     const GpuTexture& base_color = batch.shared_textures.front();
     gl::api().BindTextureUnit(0, base_color.texture->name());

@@ -132,7 +132,7 @@ bool is_unresolved(std::span<const float> mean, std::span<const float> error, fl
 
 }  // namespace
 
-// What a tile's samples are drawn into and added up in. Sums are read from one target and written to the other.
+// The target of a tile's samples, and their sums, which are read from one target and written to the other.
 class Supersampler::Accumulator {
  public:
   Accumulator(const glm::ivec2& tile, int grid)
@@ -207,7 +207,7 @@ Supersampler::Accumulator& Supersampler::accumulator(const glm::ivec2& tile, int
   return *accumulator_;
 }
 
-// What is the same for all passes of an image.
+// The parameters of all passes of an image.
 struct Supersampler::Sampling {
   const View* view;
   int grid;
@@ -326,7 +326,7 @@ Image unresolved(const Supersampled& reference, float exposure, const Unresolved
       if (is_unresolved(mean.at(x, y), reference.standard_error.at(x, y), exposure, limits)) mask.at(x, y)[0] = 1.0F;
     }
   }
-  // A reference that is noisy all over has no such pixels: what is left of it would be its dark ones.
+  // If the whole reference is noisy, excluding pixels would only leave dark ones.
   const bool is_noise = static_cast<double>(pixel_count(mask)) > limits.most * static_cast<double>(object);
   return is_noise ? Image(mean.width, mean.height, 1) : mask;
 }

@@ -18,8 +18,8 @@
 namespace footprint {
 namespace {
 
-// What the program simulates: what the method honours, the maps that the pipeline reads itself, whose units come
-// first, vertex colours, clear coats, and visibility, which is the same for every method.
+// The effects of a program: those that the method honours, the maps that the pipeline reads itself, vertex colours,
+// clear coats, and visibility, which is the same for all methods.
 EffectSet effects_of(const GpuScene& scene, const Method& method) {
   EffectSet shared;
   for (const SharedMap& map : shared_maps()) shared.set(static_cast<std::size_t>(map.effect));
@@ -87,7 +87,7 @@ constexpr std::uint32_t directions_of_a_patch = 2;
 
 bool has_patches(const EffectSet& effects) { return has(effects, Effect::microgeometry_visibility); }
 
-// Puts back at its end what of the GL's state a frame build may change and a draw does not set for itself.
+// Restores the GL state that a frame build may change and a draw does not set.
 class StateKeeper {
  public:
   StateKeeper() {
@@ -226,7 +226,7 @@ void GpuMethod::build_frame(const View& view) const {
 void GpuMethod::rebuild(const View& view) const {
   if (!build_) return;
   const StateKeeper state;
-  // Not before what was drawn from the textures, or built into them, is done.
+  // Waits for draws that read the textures, and for earlier builds.
   gl::api().MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
   for (const GpuBatch& batch : scene_->batches()) {
     build_->run({.batch = batch,

@@ -7,8 +7,8 @@
 namespace footprint {
 namespace {
 
-// Depth runs from 1 at the near plane to 0 at the far one or at infinity: what a 32-bit float keeps of 1 / distance
-// then is as fine at any distance as close by, however near the near plane lies.
+// Reversed depth, 1 at the near plane and 0 at the far one or at infinity. Then 32-bit floats resolve all distances
+// equally well, however near the near plane is.
 glm::dmat4 reversed_depth(glm::dmat4 projection, double scale, double offset) {
   projection[2][2] = scale;
   projection[3][2] = offset;
@@ -32,7 +32,7 @@ glm::dmat4 projection(const View& view) {
   return reversed_depth(infinite, near / (far - near), near * far / (far - near));
 }
 
-// Scales and moves clip space so that the tile, whose samples lie `offset` off the pixel centres, fills it.
+// Maps a tile, whose samples are `offset` from the pixel centres, to the whole clip space.
 glm::dmat4 tile_in_clip(const View& view, const Tile& tile, const glm::dvec2& offset) {
   const glm::dvec2 whole(view.size);
   const glm::dvec2 part(tile.size);

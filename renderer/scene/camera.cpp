@@ -58,7 +58,7 @@ Camera frame_bounds(const Bounds& bounds, const Framing& framing) {
   Camera camera;
   camera.world = look_at(centre + direction * distance, centre, {0.0, 1.0, 0.0});
   camera.yfov = static_cast<float>(framing.yfov);
-  // The bounds stay between the planes; a hundredth of the distance keeps the depth buffer's resolution.
+  // The planes enclose the bounds; a hundredth of the distance preserves depth resolution.
   camera.znear = static_cast<float>(std::max(distance - 1.5 * radius, 0.01 * distance));
   camera.zfar = static_cast<float>(distance + 2.0 * radius);
   return camera;
@@ -76,7 +76,7 @@ Camera camera_at_distance(const Scene& scene, double factor) {
   const glm::dvec3 forward = -glm::dvec3{camera.world[2]};
   const glm::dvec3 eye{camera.world[3]};
   double depth = glm::dot(glm::dvec3{scene.bounds.centre()} - eye, forward);
-  // A camera within the scene, or looking away from it: the bounds' own size stands for the distance.
+  // For a camera inside the scene, or looking away, the size of the bounds replaces the distance.
   if (depth <= 0.0) depth = std::max(static_cast<double>(scene.bounds.radius()), 1e-6);
   const double shift = (factor - 1.0) * depth;
   camera.world[3] = glm::vec4{glm::vec3{eye - forward * shift}, 1.0F};

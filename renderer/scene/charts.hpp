@@ -9,23 +9,22 @@
 
 namespace footprint {
 
-/// The pieces that a mesh falls into.
+/// The charts (UV islands) of a mesh.
 struct Charts {
-  std::vector<std::uint32_t> of_vertex;  ///< for each vertex its chart's number, below `count`
+  std::vector<std::uint32_t> of_vertex;  ///< the number of each vertex's chart, below `count`
   std::uint32_t count = 0;
 };
 
-/// Triangles that share a vertex are of one chart; vertices at one position with the same texture coordinates are one
-/// vertex, whatever their index, normal and tangent. Coordinates of a set that no map of `material` reads do not count.
+/// Triangles that share a vertex are in one chart. Vertices with equal positions and texture coordinates count as one.
+/// material: its maps decide which sets of coordinates count.
 [[nodiscard]] Charts charts_of(std::span<const Vertex> vertices, std::span<const std::uint32_t> indices,
                                const Material& material);
 
-/// Gives every triangle its own part of the unit square, in both sets of texture coordinates, all at one scale.
-/// A chart is a connected piece whose triangles lean away from its axis by 60 degrees at most (so that lengths
-/// shrink to a half at most) and do not overlap seen along it; its upper side is towards +y, or -z where it lies level.
-/// Charts are packed with a gap of 1/1024 of the square around each. Vertices on a border between charts are split,
-/// tangents computed; positions and normals stay, so do the triangles' order and winding. Triangles without area lie at
-/// (0, 0). Positions must be finite.
+/// Replaces both sets of texture coordinates so that every triangle has its own part of the unit square, all at one
+/// scale. A chart is a connected piece that does not overlap along its axis and leans away from it by at most 60
+/// degrees, so lengths shrink to at least a half. Charts are oriented with +y up (-z if level) and packed with gaps of
+/// 1/1024. Vertices between charts are split and tangents are computed; positions, normals, and the triangles' order
+/// and winding stay. Triangles without area are at (0, 0). Positions must be finite.
 void unwrap(Mesh& mesh);
 
 }  // namespace footprint

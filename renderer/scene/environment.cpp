@@ -15,7 +15,7 @@ namespace {
 
 using std::numbers::pi;
 
-// What texels of one axis cover of another division of it: target i gets `share` of source j.
+// The overlaps of two divisions of an axis: target i gets `share` of source j.
 struct Overlap {
   int target, source;
   double share;
@@ -98,8 +98,8 @@ const glm::dvec3 horizon_color{0.85, 1.0, 1.45};
 const glm::dvec3 sun_color{1.15, 1.0, 0.55};
 const glm::dvec3 ground_color{1.0, 1.0, 1.0};
 
-// A von Mises-Fisher lobe instead of the disc: what texels of a third of a degree resolve. It gives a surface that
-// faces it `sun_share` times what the mean radiance of the sky would from a whole hemisphere.
+// A von Mises-Fisher lobe instead of the disc, as wide as a third of a degree. A facing surface gets `sun_share` times
+// the irradiance of the sky's mean radiance from a hemisphere.
 constexpr double sun_sharpness = 3000.0;
 constexpr double sun_share = 3.0;
 constexpr double ground_albedo = 0.2;
@@ -121,7 +121,7 @@ glm::dvec3 sky_radiance(const glm::dvec3& direction, const glm::dvec3& sun) {
   return luminance * glm::mix(glm::mix(zenith_color, horizon_color, low), sun_color, near);
 }
 
-// Adds the sun and the ground that both light, to a map that holds the sky alone.
+// Adds the sun, and the ground that both light, to a map of the sky.
 void add_sun_and_ground(Environment& sky, Image& map, const glm::dvec3& sun) {
   const glm::dvec3 mean = 2.0 * mean_radiance(map);  // over the upper half: the lower one is still black
   const glm::dvec3 irradiance = sun_share * pi * mean;

@@ -11,9 +11,8 @@
 
 namespace footprint {
 
-/// Radiance that arrives from every direction, constant over each texel of a latitude-longitude map. Row 0 is around
-/// +y, the last one around -y. Without rotation the map's centre is seen along -z, as a glTF camera looks, and +x to
-/// the right of it.
+/// Radiance from every direction, constant over each texel of an equirectangular map. Row 0 is around +y, the last row
+/// around -y. Without rotation the map's centre is at -z, a glTF camera's viewing direction, with +x to the right.
 struct Environment {
   std::string name;                       ///< "constant", "sky", or the file's name
   std::shared_ptr<const Image> radiance;  ///< RGB, finite, not negative
@@ -29,11 +28,11 @@ struct Environment {
 /// The radiance of the texel in a direction.
 [[nodiscard]] glm::vec3 environment_radiance(const Environment& environment, const glm::dvec3& direction);
 
-/// The solid angle of a texel in each row of a map of width x height; all texels together have 4 pi.
+/// The solid angle of a texel in each row of a map of width x height; all texels sum to 4 pi.
 [[nodiscard]] std::vector<double> row_solid_angles(int width, int height);
 
-/// The map with other sizes: each texel the mean over the solid angle that it covers, so that the light of every part
-/// of the sphere is kept. Larger sizes that are whole multiples repeat texels.
+/// The map in another size: each texel is the mean over its solid angle, which preserves the light of every part of the
+/// sphere. Whole multiples of the size repeat texels.
 [[nodiscard]] Image resampled_environment(const Image& radiance, int width, int height);
 
 /// The mean over all directions.
@@ -42,21 +41,21 @@ struct Environment {
 /// The same radiance from everywhere.
 [[nodiscard]] Environment constant_environment(const glm::vec3& radiance);
 
-/// Where the sun stands, and the light of `sky_environment`.
+/// The settings of `sky_environment`.
 struct SkySettings {
   glm::dvec3 sun_direction{0.4, 0.6, 0.7};  ///< towards the sun; any length but 0, not below the horizon (y >= 0)
 };
 
-/// A clear sky above a grey ground, +y up, of radiance about 1 where it is blue (docs/scenes.md has the model): CIE
-/// standard general sky 12 for the gradients, a soft sun, no measured colours. 1024 x 512.
+/// A clear sky above a grey ground, +y up, with radiance about 1 where it is blue (docs/scenes.md): the gradients of
+/// CIE standard general sky 12, and a soft sun. 1024 x 512 texels.
 [[nodiscard]] Environment sky_environment(const SkySettings& settings);
 
-/// Maps wider than this are averaged down to it: 2048 x 1024 texels hold what the sampling tables hold.
+/// Wider maps are averaged down to this width, the largest of the sampling tables.
 inline constexpr int largest_environment_width = 2048;
 
-/// A latitude-longitude image (EXR, Radiance HDR; integer formats are taken as sRGB) of 1 or 3 channels, or 4 whose
-/// last is left out. Negative values become 0 and add a line to `warnings`. Throws Error (usage): as read_image; two
-/// channels; a value that is not finite, with the file and the texel.
+/// Loads an equirectangular map (EXR or Radiance HDR; integer formats are read as sRGB) of 1, 3 or 4 channels, of which
+/// the fourth is ignored. Negative values become 0 and add a line to `warnings`. Throws Error (usage): as read_image;
+/// two channels; a value that is not finite, with file and texel.
 [[nodiscard]] Environment load_environment(const std::filesystem::path& file, std::vector<std::string>& warnings);
 
 }  // namespace footprint

@@ -19,7 +19,7 @@ namespace {
 
 using Kind = FootprintFilterKind;
 
-// Most probes along one axis: what hardware offers. N x N of a box or of parts: 64 lookups or shadings a pixel.
+// At most as many probes along one axis as hardware has; N x N parts of a box: 64 lookups or shadings per pixel.
 constexpr auto words = std::to_array<FootprintFilterWord>({
     {Kind::trilinear, "trilinear", 1, 1},
     {Kind::anisotropic, "anisotropic", 1, 16},

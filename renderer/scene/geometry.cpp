@@ -5,6 +5,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <stdexcept>
+#include <utility>
 
 namespace footprint {
 namespace {
@@ -28,18 +31,18 @@ glm::dvec3 area_normal(const Vertex& a, const Vertex& b, const Vertex& c) {
   return glm::cross(glm::dvec3{b.position} - origin, glm::dvec3{c.position} - origin);
 }
 
-/// `vector` at unit length, or `fallback` where it has none. Scaled first: squares of tiny lengths underflow.
+/// `vector` normalised, or `fallback` if it has no length. Scaled first, because squares of tiny lengths underflow.
 glm::dvec3 unit_or(const glm::dvec3& vector, const glm::dvec3& fallback) {
   const double largest = std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)});
   if (!(largest > 0.0) || !std::isfinite(largest)) return fallback;
   return glm::normalize(vector / largest);
 }
 
-/// The part of `vector` at right angles to the unit `normal`, at unit length; zero where there is none.
+/// The normalised part of `vector` perpendicular to the unit `normal`; zero if there is none.
 glm::dvec3 in_tangent_plane(const glm::dvec3& vector, const glm::dvec3& normal) {
   const glm::dvec3 direction = unit_or(vector, glm::dvec3{0.0});
   const glm::dvec3 flat = direction - normal * glm::dot(normal, direction);
-  // Parallel to rounding: what is left is noise.
+  // Parallel up to rounding: the rest is noise.
   return glm::length(flat) > 1e-6 ? glm::normalize(flat) : glm::dvec3{0.0};
 }
 
@@ -72,7 +75,7 @@ double corner_angle(const glm::dvec3& corner, const glm::dvec3& left, const glm:
   return std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
 }
 
-/// What a vertex gathers from its triangles, and its twin for the other handedness.
+/// Sums over a vertex's triangles, and its twin for the other handedness.
 struct Gathered {
   glm::dvec3 tangent{0.0};
   int handedness = 0;
@@ -93,6 +96,68 @@ std::uint32_t vertex_for(std::uint32_t index, int handedness, std::vector<Vertex
   }
   return own.twin;
 }
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+Vertex middle(const Vertex& a, const Vertex& b) {
+  return {.position = 0.5F * (a.position + b.position),
+          .normal = 0.5F * (a.normal + b.normal),
+          .tangent = 0.5F * (a.tangent + b.tangent),
+          .uv0 = 0.5F * (a.uv0 + b.uv0),
+          .uv1 = 0.5F * (a.uv1 + b.uv1),
+          .color = 0.5F * (a.color + b.color)};
+}
+
+class Splitter {
+ public:
+  Splitter(std::vector<Vertex>& vertices, float longest) : vertices_(vertices), longest_(longest) {}
+
+  // Appends the parts of a triangle; gives whether there is more than one.
+  bool split(const Triangle& t, std::vector<std::uint32_t>& parts) {
+    const std::array<bool, 3> cut{is_long(t[0], t[1]), is_long(t[1], t[2]), is_long(t[2], t[0])};
+    const auto cuts = std::ranges::count(cut, true);
+    // Turned so that the first edge is cut and, of two, the second too; of one, only the first.
+    std::size_t turn = 0;
+    while (cuts > 0 && cuts < 3 && !(cut.at(turn) && (cuts == 1 || cut.at((turn + 1) % 3)))) ++turn;
+    const std::uint32_t a = t.at(turn), b = t.at((turn + 1) % 3), c = t.at((turn + 2) % 3);
+    if (cuts == 0) {
+      append(parts, {{{a, b, c}}});
+      return false;
+    }
+    const std::uint32_t ab = between(a, b);
+    if (cuts == 1) {
+      append(parts, {{{a, ab, c}, {ab, b, c}}});
+      return true;
+    }
+    const std::uint32_t bc = between(b, c);
+    if (cuts == 2) {
+      append(parts, {{{ab, b, bc}, {a, ab, c}, {ab, bc, c}}});
+      return true;
+    }
+    const std::uint32_t ca = between(c, a);
+    append(parts, {{{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}});
+    return true;
+  }
+
+ private:
+  static void append(std::vector<std::uint32_t>& parts, const std::vector<Triangle>& triangles) {
+    for (const Triangle& triangle : triangles) parts.insert(parts.end(), triangle.begin(), triangle.end());
+  }
+
+  [[nodiscard]] bool is_long(std::uint32_t a, std::uint32_t b) const {
+    return glm::distance(vertices_[a].position, vertices_[b].position) > longest_;
+  }
+
+  std::uint32_t between(std::uint32_t a, std::uint32_t b) {
+    const auto [entry, is_new] = middles_.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(vertices_.size()));
+    if (is_new) vertices_.push_back(middle(vertices_[a], vertices_[b]));
+    return entry->second;
+  }
+
+  std::vector<Vertex>& vertices_;
+  float longest_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles_;
+};
 
 }  // namespace
 
@@ -233,6 +298,22 @@ Mesh make_plane(glm::vec2 size, glm::vec2 uv_tiling) {
   }
   mesh.indices = {0, 3, 2, 0, 2, 1};
   return mesh;
+}
+
+Mesh subdivided(const Mesh& mesh, float longest) {
+  if (!(longest > 0.0F)) throw std::logic_error("edges cannot be made to have no length");
+  Mesh out = mesh;
+  bool any = true;
+  while (any) {
+    any = false;
+    Splitter splitter(out.vertices, longest);
+    std::vector<std::uint32_t> parts;
+    for (std::size_t i = 0; i + 2 < out.indices.size(); i += 3) {
+      any = splitter.split({out.indices[i], out.indices[i + 1], out.indices[i + 2]}, parts) || any;
+    }
+    out.indices = std::move(parts);
+  }
+  return out;
 }
 
 }  // namespace footprint

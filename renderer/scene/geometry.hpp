@@ -12,7 +12,7 @@
 
 namespace footprint {
 
-/// How indices make triangles (glTF 2.0, section 3.7.2.1).
+/// How indices form triangles (glTF 2.0, section 3.7.2.1).
 enum class Topology { triangles, strip, fan };
 
 /// A strip or a fan as a triangle list with the winding of glTF 2.0; a trailing incomplete triangle is left out.
@@ -21,35 +21,34 @@ enum class Topology { triangles, strip, fan };
 /// Triangles over vertices of their own.
 struct TriangleSoup {
   std::vector<Vertex> vertices;
-  std::vector<std::uint32_t> indices;  ///< three a triangle
+  std::vector<std::uint32_t> indices;  ///< three per triangle
 };
 
-/// All triangles of a material, mesh after mesh.
+/// All triangles of a material, mesh by mesh.
 [[nodiscard]] TriangleSoup triangles_of(const Scene& scene, std::size_t material);
 
-/// Drops the vertices that no index uses and renumbers the rest, in order of first use.
+/// Removes unused vertices and renumbers the others in order of first use.
 void drop_unused_vertices(std::vector<Vertex>& vertices, std::vector<std::uint32_t>& indices);
 
 /// Adds the triangles of `part` to `mesh`, whatever its material.
 void append(Mesh& mesh, const Mesh& part);
 
-/// Gives each triangle its own three vertices with the triangle's normal (glTF 2.0: normals that are not given are
-/// flat). A degenerate triangle gets +z.
+/// Gives each triangle its own three vertices with the triangle's normal, for files without normals (glTF 2.0). A
+/// degenerate triangle gets +z.
 void make_flat_normals(std::vector<Vertex>& vertices, std::vector<std::uint32_t>& indices);
 
-/// Brings every normal to unit length. One of zero length or with a NaN is replaced by the area-weighted mean of its
-/// triangles' normals (+z where these are degenerate too). Returns how many were replaced.
+/// Normalises all normals. A normal of zero length or with a NaN becomes the area-weighted mean of its triangles'
+/// normals (+z if these are degenerate too). Returns the number of replaced normals.
 std::size_t repair_normals(std::span<Vertex> vertices, std::span<const std::uint32_t> indices);
 
-/// Makes the tangents that a file gives orthonormal to the normals; one that is not finite or parallel to its normal
-/// is replaced by any that fits. Returns how many were replaced. Normals must be unit.
+/// Makes a file's tangents orthonormal to its unit normals. A tangent that is not finite, or parallel to the normal, is
+/// replaced by an arbitrary one. Returns the number of replaced tangents.
 std::size_t repair_tangents(std::span<Vertex> vertices);
 
-/// Computes tangents from positions, unit normals and the texture coordinates that `coordinates` gives: the triangles'
-/// d position / d u, projected on the vertex's tangent plane, weighted by the angle at the vertex (Mikkelsen 2008).
-/// The bitangent cross(normal, tangent) * w points against v, to the top of the map, as glTF's green channel wants.
-/// A vertex shared by triangles of opposite handedness is split; one whose triangles all have degenerate coordinates
-/// gets any frame around its normal.
+/// Computes tangents from positions, unit normals and texture coordinates: the triangles' d position / d u, projected
+/// onto the vertex's tangent plane and weighted by the angle at the vertex (Mikkelsen 2008). The bitangent
+/// cross(normal, tangent) * w points against v, to the top of the map, as glTF requires. Vertices shared by triangles
+/// of opposite handedness are split. Degenerate coordinates give an arbitrary frame around the normal.
 void compute_tangents(std::vector<Vertex>& vertices, std::vector<std::uint32_t>& indices,
                       const TextureCoordinates& coordinates);
 
@@ -57,5 +56,11 @@ void compute_tangents(std::vector<Vertex>& vertices, std::vector<std::uint32_t>&
 /// triangles, material 0. Texture coordinates run from (0, 0) at the top left to `uv_tiling` at the bottom right (glTF:
 /// v points down), in both sets.
 [[nodiscard]] Mesh make_plane(glm::vec2 size, glm::vec2 uv_tiling);
+
+/// Splits edges at their middle until none is longer than `longest` metres, which may be infinite. New vertices have
+/// the means of their edge's values, without normalising normals and tangents, so that interpolation is unchanged. The
+/// vertices of `mesh` come first, in order. Whether an edge is split depends only on its ends, so triangles still meet.
+/// Throws std::logic_error: `longest` is not above 0.
+[[nodiscard]] Mesh subdivided(const Mesh& mesh, float longest);
 
 }  // namespace footprint

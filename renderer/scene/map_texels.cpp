@@ -1,4 +1,4 @@
-// What is kept is an image of floats, or a packed one and what to make of it.
+// Stores an image of floats, or a packed one with its decoder.
 #include "renderer/scene/map_texels.hpp"
 
 #include <utility>

@@ -1,4 +1,4 @@
-// The texels of a material's map: kept at their own depth, decoded to 32-bit floats while they are used.
+// The texels of a map, stored at their own bit depth and decoded to 32-bit floats for use.
 #pragma once
 
 #include <compare>
@@ -12,23 +12,21 @@
 
 namespace footprint {
 
-/// A handle on texels that never change: copies share them. What reads many texels asks for `decoded` once and lets go
-/// of it when done.
+/// A handle on constant texels, which copies share. To read many texels, call `decoded` once and free the result soon.
 class MapTexels {
  public:
   using Decode = std::function<Image(const Image& stored)>;
 
-  /// None.
+  /// No texels.
   MapTexels() = default;
-  /// Floats, kept as they are: of maps that are computed.
+  /// Stores floats, for computed maps.
   MapTexels(std::shared_ptr<const Image> image);  // NOLINT(google-explicit-constructor): it is what such a map is
   MapTexels(const std::shared_ptr<Image>& image)  // NOLINT(google-explicit-constructor): the same
       : MapTexels(std::shared_ptr<const Image>(image)) {}
 
-  /// An image of few different values, packed (packed_image.hpp).
+  /// Stores an image of few different values, packed (packed_image.hpp).
   [[nodiscard]] static MapTexels packed(const Image& image);
-  /// `map`, of which what a file stores is kept, packed: `decode` made the one of the other and does so again at each
-  /// use.
+  /// Stores the packed content of a file instead of `map`; `decode` converts it to `map` at each use.
   [[nodiscard]] static MapTexels packed(const Image& map, const Image& stored, Decode decode);
 
   explicit operator bool() const { return kept_ != nullptr; }
@@ -38,14 +36,14 @@ class MapTexels {
   [[nodiscard]] std::size_t texel_count() const;
   /// The channels of the texel in the first column and row.
   [[nodiscard]] std::span<const float> first() const;
-  /// The whole map, bit-identical at every call. Errors (machine): it does not fit in memory.
+  /// The whole map, bit-identical at every call. Throws Error (machine): it does not fit in memory.
   [[nodiscard]] Image decoded() const;
-  /// Bytes that are kept.
+  /// Stored bytes.
   [[nodiscard]] std::size_t byte_count() const;
 
   /// Whether two share their texels.
   friend bool operator==(const MapTexels& a, const MapTexels& b) { return a.identity() == b.identity(); }
-  /// Any order, for sets.
+  /// An arbitrary order, for sets.
   friend auto operator<=>(const MapTexels& a, const MapTexels& b) {
     return std::compare_three_way{}(a.identity(), b.identity());
   }

@@ -4,7 +4,7 @@
 namespace footprint {
 namespace {
 
-// Slope variance per axis of all lobes together, about the facet's normal: each lobe's own, and what its axis leans by.
+// Slope variance per axis of all lobes together about the facet's normal: each lobe's own, and that of its axis.
 float variance_about_normal(const Material& material) {
   float weight = 0.0F;
   float variance = 0.0F;

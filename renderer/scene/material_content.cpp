@@ -1,4 +1,4 @@
-// Every field of a material or a scene, and of what it refers to, in one order.
+// All fields of materials and scenes, including referenced values, in a fixed order.
 #include "renderer/scene/scene.hpp"
 
 #include <memory>

@@ -11,7 +11,7 @@
 
 namespace footprint {
 
-/// Meshes, materials, lights and the camera of a model; the fields mean what they mean in Scene.
+/// Meshes, materials, lights and camera of a model, as in Scene.
 struct Model {
   std::vector<Mesh> meshes;
   std::vector<Material> materials;
@@ -21,29 +21,27 @@ struct Model {
   std::vector<std::string> warnings;
 };
 
-/// Adds a line that is not there yet: a thousand materials with one fault make one warning.
+/// Adds a line unless it exists, so that a thousand materials with one fault give one warning.
 inline void add_once(std::vector<std::string>& lines, std::string line) {
   if (std::ranges::find(lines, line) == lines.end()) lines.push_back(std::move(line));
 }
 
-/// Whether a path ends as a model file does: .gltf, .glb or .obj.
+/// Whether a path has the extension of a model file: .gltf, .glb or .obj.
 [[nodiscard]] bool names_model(const std::filesystem::path& path);
 
-/// Loads an .obj file as such, any other as glTF. Throws Error (usage): as of load_obj and load_gltf; a selection of an
-/// .obj file, which holds one thing alone.
+/// Loads an .obj file, or any other as glTF. Throws as load_obj and load_gltf; Error (usage): a selection in an .obj
+/// file.
 [[nodiscard]] Model load_model(const std::filesystem::path& file, const ModelSelection& selection = {});
 
-/// Loads v, vt, vn and f (Wavefront, Advanced Visualizer manual, appendix B1): polygons as fans, indices from 1 or
-/// negative from the end. Vertices without a normal get the area-weighted mean of their triangles' normals, and v of
-/// `vt`, which points up, is turned downwards as glTF has it. Materials, groups and every other statement are left out.
-/// At most 2 GiB and 2^26 triangles. Throws Error (usage) that reads "FILE:LINE: ...": a number or an index that is
-/// none.
+/// Loads v, vt, vn and f of a Wavefront file (Advanced Visualizer manual, appendix B1), at most 2 GiB and 2^26
+/// triangles. Polygons become fans; indices count from 1, or from the end if negative. Vertices without a normal get
+/// the area-weighted mean of their triangles' normals. v of `vt` is flipped to glTF's. All other statements are
+/// ignored. Throws Error (usage) "FILE:LINE: ...": an invalid number or index.
 [[nodiscard]] Model load_obj(const std::filesystem::path& file);
 
-/// Loads a scene of the file: that of `selection`, else its default scene, its first one, or all root nodes. Meshes in
-/// world space merged into one per material, the materials in use (of the variant that is asked for), all lights, one
-/// camera: that of `selection`, else the first. May hold no triangle.
-/// Throws Error (usage) that names file and place; docs/scenes.md lists what is read.
+/// Loads a scene of a glTF file: the selected one, else the default, else the first, else all root nodes. Meshes are in
+/// world space, one per material of the selected variant. Includes all lights, and the selected or the first camera. It
+/// may have no triangles. Throws Error (usage) with file and place; docs/scenes.md lists the supported features.
 [[nodiscard]] Model load_gltf(const std::filesystem::path& file, const ModelSelection& selection = {});
 
 }  // namespace footprint

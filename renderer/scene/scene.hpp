@@ -16,22 +16,21 @@
 
 namespace footprint {
 
-/// Each by its name or by its number from 0; none: the file's own choice (docs/scenes.md).
+/// Selections by name, or by number from 0. None: the file's default (docs/scenes.md).
 struct ModelSelection {
   std::optional<std::string> scene, camera, variant;
 
   [[nodiscard]] bool empty() const { return !scene && !camera && !variant; }
 };
 
-/// What a file offers of one kind, and which of it is taken.
+/// The entries of one kind in a model file, and the selected one.
 struct ModelChoice {
   std::string kind;                  ///< "scene", "camera", "variant"
-  std::vector<std::string> names;    ///< in the file's order; "camera 2" for one without a name
-  std::optional<std::size_t> taken;  ///< none: the file has none to take, or its own materials are taken
+  std::vector<std::string> names;    ///< in the file's order; "camera 2" if it has no name
+  std::optional<std::size_t> taken;  ///< none: the file has no entry, or its own materials are used
 };
 
-/// The place in `choice` of what `wanted` names. Throws Error (usage): neither a name nor a number of it, with the
-/// nearest.
+/// The index of the name or number `wanted`. Throws Error (usage): unknown, with the nearest name.
 [[nodiscard]] std::size_t find_choice(const ModelChoice& choice, const std::string& wanted);
 
 /// A vertex in world space (node transforms applied). Tangent w is the bitangent's sign (glTF 2.0).
@@ -56,20 +55,20 @@ struct Mesh {
 struct PointLight {
   glm::vec3 position{0.0F};
   glm::vec3 intensity{1.0F};   ///< candela per channel (colour * intensity)
-  std::optional<float> range;  ///< metres; KHR_lights_punctual's window where given
+  std::optional<float> range;  ///< metres; with it, KHR_lights_punctual's window applies
 };
 
 /// A point light with a cone.
 struct SpotLight {
   PointLight point;
-  glm::vec3 direction{0.0F, 0.0F, -1.0F};  ///< where the light shines, unit
+  glm::vec3 direction{0.0F, 0.0F, -1.0F};  ///< from the light, unit
   float inner_cone_angle = 0.0F;           ///< radians, 0 <= inner < outer <= pi / 2
   float outer_cone_angle = 0.785398F;
 };
 
 /// Light from infinitely far.
 struct DirectionalLight {
-  glm::vec3 direction{0.0F, 0.0F, -1.0F};  ///< where the light shines, unit
+  glm::vec3 direction{0.0F, 0.0F, -1.0F};  ///< from the light, unit
   glm::vec3 illuminance{1.0F};             ///< lux per channel on a surface that faces it
 };
 
@@ -83,7 +82,7 @@ struct Camera {
   float ymag = 1.0F;  ///< half the height seen, orthographic
   float znear = 0.01F;
   std::optional<float> zfar;    ///< none: infinite (perspective only)
-  std::optional<float> aspect;  ///< width / height where the file gives one; sets the default frame shape
+  std::optional<float> aspect;  ///< width / height if the file gives one; sets the default frame size
 
   friend bool operator==(const Camera&, const Camera&) = default;
 };
@@ -96,26 +95,26 @@ struct Bounds {
   [[nodiscard]] float radius() const { return 0.5F * glm::length(upper - lower); }
 };
 
-/// The texels per side that a shadow map may have.
+/// The allowed texels per side of a shadow map.
 inline constexpr int smallest_shadow_map = 16, largest_shadow_map = 16384;
 
-/// What a scene says about large-scale visibility (docs/shadows.md).
+/// Large-scale visibility (docs/shadows.md).
 struct ShadowSettings {
-  std::optional<bool> cast;  ///< none: where something stands between a surface and a light
-  bool both_sides = false;   ///< a one-sided triangle keeps light from behind too, from where it is not drawn
+  std::optional<bool> cast;  ///< none: if anything can hide a light from a surface
+  bool both_sides = false;   ///< a one-sided triangle also blocks light from behind
   int resolution = 2048;     ///< texels per side of each shadow map
 };
 
-/// What becomes of light from below the plane of a vertex normal, where a facet of the normal map still faces it.
+/// Light from below the plane of a vertex normal that a facet of the normal map still faces.
 enum class Horizon {
-  cut,   ///< none arrives: the surface's own large shape hides it
-  open,  ///< it arrives: each facet knows its own horizon alone, as in engines and glTF viewers
+  cut,   ///< does not arrive, because the large shape of the surface hides it
+  open,  ///< arrives: each facet only has its own horizon, as in engines and glTF viewers
 };
 
-/// The factors on the camera's distance that a zoom may take.
+/// The range of a zoom's factors on the camera's distance.
 inline constexpr double smallest_distance = 1e-3, largest_distance = 1e6;
 
-/// What the scene file left open and the loader filled in, in words for the output ("camera: framed on the bounds").
+/// A whole scene.
 struct Scene {
   std::string name;    ///< folder or file stem
   std::string source;  ///< path as given
@@ -127,21 +126,20 @@ struct Scene {
   std::optional<Environment> environment;
   Camera camera;
   Bounds bounds;
-  std::optional<FootprintFilter> footprint;  ///< that its images are meant for; none: default_footprint_filter
-  std::optional<float> exposure;  ///< multiplies radiance before display and the clamped measures; none: automatic
-  std::vector<double> distances{
-      1.0};  ///< the default zoom path: factors on the camera's distance to the bounds' centre
-  std::optional<glm::ivec2> frame_size;  ///< where scene.toml gives one
-  std::vector<ModelChoice> choices;      ///< scenes, cameras and variants of its model files, where there are any
-  std::vector<std::string> defaults;     ///< what was supplied because the input has none, one line each
-  std::vector<std::string> warnings;     ///< what the input has and Footprint leaves out, one line each
+  std::optional<FootprintFilter> footprint;  ///< for its images; none: default_footprint_filter
+  std::optional<float> exposure;             ///< multiplies radiance for display and clamped measures; none: automatic
+  std::vector<double> distances{1.0};    ///< the default zoom: factors on the camera's distance to the bounds' centre
+  std::optional<glm::ivec2> frame_size;  ///< if scene.toml has one
+  std::vector<ModelChoice> choices;      ///< scenes, cameras and variants of its model files
+  std::vector<std::string>
+      defaults;  ///< things that the loader supplied, one line each ("camera: framed on the bounds")
+  std::vector<std::string> warnings;  ///< things of the input that Footprint leaves out, one line each
 };
 
-/// Counts everything of a material but the names in it: materials that differ in any field give different hashes.
+/// Hashes all fields of a material except names.
 void add_content(ContentHash& hash, const Material& material);
 
-/// Counts everything of a loaded scene, the names and notes that reports print too, but for where it was loaded from
-/// and the choices that its model files offered.
+/// Hashes all fields of a scene, including names and notes for reports, except its source and its files' choices.
 void add_content(ContentHash& hash, const Scene& scene);
 
 }  // namespace footprint

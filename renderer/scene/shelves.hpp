@@ -6,7 +6,7 @@
 
 namespace footprint {
 
-/// Shelves of one width, in any unit. Give the highest rectangles first: little is then wasted.
+/// Shelves of one width, in any unit. Place the highest rectangles first to waste little.
 template <class Length>
 class Shelves {
  public:
@@ -14,7 +14,7 @@ class Shelves {
 
   explicit Shelves(Length width) : width_(width) {}
 
-  /// The lower left corner of the next rectangle; one wider than a shelf has a shelf of its own.
+  /// The lower left corner of the next rectangle; one wider than a shelf gets its own shelf.
   Size place(const Size& size) {
     if (pen_.x > Length{0} && pen_.x + size.x > width_) {
       pen_ = {Length{0}, height()};
@@ -26,7 +26,7 @@ class Shelves {
     return corner;
   }
 
-  /// Of all shelves together.
+  /// The height of all shelves.
   [[nodiscard]] Length height() const { return pen_.y + shelf_; }
 
  private:

@@ -84,7 +84,7 @@ class Sky {
     return sum / all;
   }
 
-  /// What of the disc about `centre` is brighter than `level`: its light, of `all` there is, and where it comes from.
+  /// The light of the disc about `centre` above `level`, its share of `all`, and its mean direction.
   [[nodiscard]] SmallSun above(const glm::dvec3& level, const glm::dvec3& centre, double all) const {
     SmallSun sun;
     look_around(centre, 0.0, 1.0, [&](const glm::ivec2& texel, const glm::dvec3& radiance, double solid_angle) {
@@ -105,7 +105,7 @@ class Sky {
   double disc_;  // its radius, radians
 };
 
-// One sun, and what is left of its texels.
+// A sun, and its texels without it.
 struct Found {
   SmallSun sun;
   std::vector<std::pair<glm::ivec2, glm::vec3>> dimmed;
@@ -114,7 +114,7 @@ struct Found {
 // Of a sky in which there is light at all: `all` of it, as it was at first.
 std::optional<Found> brightest_sun(const Sky& sky, double all) {
   const glm::ivec2 brightest = sky.brightest();
-  // A sun's middle may lie between texels: about the middle of what the brightest texel's disc has, once more.
+  // A sun's middle may be between texels, so the disc is centred again on the mean of the first one.
   const glm::dvec3 first = sky.direction(brightest.x, brightest.y);
   const glm::dvec3 centre = sky.above(sky.around(first), first, all).direction;
   const glm::dvec3 level = sky.around(centre);

@@ -14,17 +14,17 @@
 
 namespace footprint {
 
-/// The most texels per side of a surface's maps, as of any texture file.
+/// The largest texels per side of a surface's maps, as of texture files.
 inline constexpr int largest_surface_resolution = 16384;
 
-/// What a surface's maps and mesh are a pure function of.
+/// The inputs of a surface's maps and mesh.
 struct SurfaceSettings {
   int resolution = 512;    ///< texels per side, 1 to `largest_surface_resolution`
   std::uint32_t seed = 1;  ///< same seed, same bytes, at any number of threads
   Options parameters;      ///< of the surface's own table
 };
 
-/// One kind of surface. Called through `surface_normals` and its neighbours below, which check the settings.
+/// One kind of surface. Call it by `surface_normals` and the functions below, which check the settings.
 struct Surface {
   std::string name;
   std::string summary;  ///< one sentence
@@ -32,23 +32,22 @@ struct Surface {
   int default_resolution = 512;
   /// A square map as Material::normal_map has it: unit normals, z > 0, weight 1, computed in double precision.
   Image (*normals)(const SurfaceSettings&) = nullptr;
-  /// Linear RGBA of any size; null where the surface has one colour.
+  /// Linear RGBA of any size; null if the surface has one colour.
   Image (*base_color)(const SurfaceSettings&) = nullptr;
-  /// Linear RGB of any size, reflectance at normal incidence; null where it does not vary.
+  /// Linear RGB of any size, reflectance at normal incidence; null if it does not vary.
   Image (*specular)(const SurfaceSettings&) = nullptr;
-  /// One channel of any size, the parameter of a lobe of `distribution`; null where the surface has no lobe of its own.
+  /// One channel of any size, the parameter of a lobe of `distribution`; null if the surface has no lobe of its own.
   Image (*lobe_parameter)(const SurfaceSettings&) = nullptr;
-  /// Lobes of `distribution` about axes of their own, 1 to most_facet_lobes; not beside lobe_parameter.
+  /// Lobes of `distribution` about their own axes, 1 to most_facet_lobes; excludes lobe_parameter.
   std::vector<FacetLobe> (*lobes)(const SurfaceSettings&) = nullptr;
   NormalDistribution distribution = NormalDistribution::ggx;  ///< of lobe_parameter and lobes
   /// How often base_color, specular and lobe_parameter repeat over the mesh's texture coordinates; null: once.
   glm::vec2 (*map_tiling)(const SurfaceSettings&) = nullptr;
-  /// What the maps lie on: normals, tangents and texture coordinates set, material 0.
+  /// The mesh, with normals, tangents and texture coordinates; material 0.
   Mesh (*mesh)(const SurfaceSettings&) = nullptr;
 };
 
-/// What a SCENE argument may name beside files: the folder of the scenes that have a name, and the surfaces that a
-/// scene.toml may ask for.
+/// The folder of named scenes, and the surfaces that a scene.toml may name.
 struct SceneLibrary {
   std::filesystem::path folder;
   std::span<const Surface> surfaces;
@@ -66,7 +65,8 @@ struct SceneLibrary {
 /// The colour map; empty where the surface has none. Throws as `surface_normals`.
 [[nodiscard]] Image surface_base_color(const Surface& surface, const SurfaceSettings& settings);
 
-/// The map of reflectance at normal incidence and that of the lobe; likewise.
+/// The maps of reflectance at normal incidence and of the lobe; empty if the surface has none. Throws as
+/// `surface_normals`.
 [[nodiscard]] Image surface_specular(const Surface& surface, const SurfaceSettings& settings);
 [[nodiscard]] Image surface_lobe_parameter(const Surface& surface, const SurfaceSettings& settings);
 

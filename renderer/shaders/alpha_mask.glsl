@@ -1,4 +1,4 @@
-// Alpha at a point of the finest level, and whether the mask cuts it out: for passes without footprints.
+// Alpha of the finest level at a point, and the alpha test, for passes without footprints.
 bool isCutOut() {
   float alpha = base_color_factor.a;
 //? if base_color_variation

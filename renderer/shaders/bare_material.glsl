@@ -1,4 +1,4 @@
-// What a module reads of the material, as uniforms of its own: surface_material.glsl for programs of others.
+// The material as uniforms of a module: replaces surface_material.glsl in programs of others.
 uniform vec4 lobe_cutoff;  // x: the base lobe's parameter, where it does not vary
 //? if multi_lobe
 struct FacetLobe {

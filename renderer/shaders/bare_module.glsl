@@ -1,10 +1,9 @@
-// A method's module for programs of others: the module, and what they call.
+// The module of a method for programs of others, with the functions that they call.
 //? module
-// A map's footprint where it is looked up at `uv`: the pixel's own derivatives, so that all pixels of a quad have to
-// come here.
+// The footprint of a map at `uv`. Uses screen derivatives, so all pixels of a quad must call it.
 Footprint footprintAt(vec2 uv) { return Footprint(uv, dFdx(uv), dFdy(uv)); }
 
-// Every map of the material at one uv; set members one by one where they differ.
+// The same uv for all maps of the material; set single members if maps differ.
 Footprints footprintsAt(vec2 uv) {
   Footprint f = footprintAt(uv);
   Footprints all;
@@ -31,7 +30,7 @@ vec3 bothTerms(Reflected r) {
 //? end
 }
 
-// f * cos of both terms; times the light's irradiance on a plane that faces it, that light's share.
+// f * cos of both terms. Multiply it by the light's irradiance on a plane that faces the light.
 vec3 reflectedTowards(Effective e, Surface s, vec3 wi, vec3 wo) {
 //? if not horizon_open
   if (wi.z <= 0.0) return vec3(0.0);  // the scene's horizon cuts: nothing of a light below the surface's plane
@@ -40,14 +39,14 @@ vec3 reflectedTowards(Effective e, Surface s, vec3 wi, vec3 wo) {
 }
 //? if screen_derivatives
 
-// Of the pixel, in world space: set by `lookAround`.
+// The pixel in world space, set by `lookAround`.
 vec3 world_position;
 vec3 camera_position;
 //? include neighbour_pixels.glsl
 
-// Looks at the next pixels, before `effective` and in every pixel of a quad. `at` and `eye` are the surface's and the
-// camera's place in world space; the columns of `frame` are tangent, bitangent and normal there, unit and orthogonal;
-// `world_to_camera` turns to x right, y up, z towards the viewer.
+// Fetches neighbouring pixels. Call it before `effective` and in every pixel of a quad.
+// `at` and `eye`: world positions of surface and camera. `frame`: columns tangent, bitangent and normal, orthonormal.
+// `world_to_camera`: rotates to x right, y up, z towards the viewer.
 void lookAround(vec3 at, vec3 eye, mat3 frame, mat3 world_to_camera, inout Footprints f) {
   world_position = at;
   camera_position = eye;
@@ -55,7 +54,8 @@ void lookAround(vec3 at, vec3 eye, mat3 frame, mat3 world_to_camera, inout Footp
   fetchNeighbourFrames(frame, f);
 }
 
-// The same of a light whose half vector changes over the screen: at source.xyz (w 1), or in that direction (w 0).
+// The same for a light whose half vector changes over the screen: at position source.xyz (w 1) or in that direction (w
+// 0).
 vec3 reflectedTowards(Effective e, Surface s, vec3 wi, vec3 wo, vec4 source) {
 //? if not horizon_open
   if (wi.z <= 0.0) return vec3(0.0);

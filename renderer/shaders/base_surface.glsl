@@ -1,4 +1,4 @@
-// The base BRDF itself: what the reference averages, and `direct` shades once per pixel.
+// The base BRDF. The reference averages it, and `direct` evaluates it once per pixel.
 //? if normal_layers
 //? include normal_layers.glsl
 //? end
@@ -42,14 +42,14 @@ Effective effective(Footprints f) {
 //? if environment_sampled
 //? include lobe_sampling.glsl
 
-// One of Lambert's directions about n.
+// A direction about n with cosine density.
 vec3 lambertDirection(vec3 n, vec2 u) {
   float azimuth = 2.0 * pi * u.y;
   return frameAbout(n) * vec3(sqrt(u.x) * vec2(cos(azimuth), sin(azimuth)), sqrt(1.0 - u.x));
 }
 
-// A direction to the light: the mirror image of wo about a normal drawn from the facets, or, one time in two where
-// there is a diffuse term, one of Lambert's. Zero: none.
+// Draws a direction to the light: the mirror image of wo about a normal drawn from the facets. With a diffuse term,
+// half of the draws use the cosine density instead. Zero if there is none.
 vec3 drawDirection(Effective e, vec3 wo, vec3 u) {
 //? if microgeometry_visibility
   if (base_has_patch > 0.5) return lambertDirection(vec3(0.0, 0.0, 1.0), u.xy);  // facets point everywhere
@@ -63,7 +63,7 @@ vec3 drawDirection(Effective e, vec3 wo, vec3 u) {
   return cosine > 0.0 ? 2.0 * cosine * h - wo : vec3(0.0);
 }
 
-// Its density over solid angle.
+// The density of that direction over solid angle.
 float directionDensity(Effective e, vec3 wi, vec3 wo) {
 //? if microgeometry_visibility
   if (base_has_patch > 0.5) return max(wi.z, 0.0) / pi;

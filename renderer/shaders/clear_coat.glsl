@@ -12,21 +12,21 @@ struct Coat {
   float spread;  // the part of alpha2 that is the normals' own variance
 };
 
-// Schlick's term of an index of refraction of 1.5 about the coat's normal, as the extension has it, not about the half
-// vector: what it takes from the base is then the same for all light.
+// Schlick's term for an index of refraction of 1.5 about the coat's normal. The extension uses the normal, not the half
+// vector, so that the attenuation of the base is the same for all light.
 float coatFresnel(float cosine) {
   float x = 1.0 - min(abs(cosine), 1.0);
   float x2 = x * x;
   return 0.04 + 0.96 * (x2 * x2 * x);
 }
 
-// The coat of normals with that mean.
+// The coat for a mean normal.
 Coat coatOf(vec3 mean, float alpha2, float weight, vec3 wo) {
   float size = max(length(mean), 1e-3);
   vec3 normal = dot(mean, mean) > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0);  // some that cancel have no mean
   float spread = 0.0;
 //? if sampling_frame and not finest_coat
-  // The slopes' variance on each axis, (1 - r) / r (Toksvig 2005), beside GGX's alpha^2 / 2.
+  // Slope variance per axis, (1 - r) / r (Toksvig 2005), plus GGX's alpha^2 / 2.
   float added = 2.0 * shortfallOfLength(size, rounding_of_floats) / size;
   spread = added / (alpha2 + added);
   alpha2 = min(alpha2 + added, 1.0);
@@ -58,9 +58,9 @@ Coat coatUnder(Footprints f, vec3 wo) {
 //? end
 }
 
-// The share of the normals that mirror light by h, where they are spread: of Gaussian slopes about a mean, each with a
-// lobe of its own, the mean of those that have h in their lobe lies between the two, as far towards h as their spread
-// is of the whole. At grazing views, of normals that few mirror by, it is far less than the mean normal's.
+// The weight times the Fresnel term of the normals that reflect along h. For Gaussian slopes with a lobe each, the mean
+// of these normals is between the mean normal and h, in proportion to their share of the total spread. At grazing
+// views, where few normals reflect, this is much smaller than the term of the mean normal.
 float coatShare(Coat coat, vec3 h, vec3 wo) {
 //? if coat_normal_variation and sampling_frame and not finest_coat
   return coat.weight * coatFresnel(dot(normalize(mix(coat.normal, h, coat.spread)), wo));
@@ -69,7 +69,7 @@ float coatShare(Coat coat, vec3 h, vec3 wo) {
 //? end
 }
 
-// f * cos of the coat alone, its share included.
+// f * cos of the coat, times its share.
 float coatReflectance(Coat coat, vec3 wi, vec3 wo) {
   if (coat.share <= 0.0 || !halfVectorIsDefined(wi, wo)) return 0.0;
   countLobes(1);

@@ -1,12 +1,12 @@
-// What one facet reflects: the terms around the distribution, all as f * cos (docs/base-brdf.md).
+// The reflectance of one facet: all terms besides the distribution, as f * cos (docs/base-brdf.md).
 
-// What a point reflects with beside its facets.
+// Properties of the surface other than its facets.
 struct Surface {
   vec3 albedo;
   vec3 f0;
 };
 
-// f * cos of the two terms.
+// f * cos of each term.
 struct Reflected {
   vec3 specular;
 //? if diffuse
@@ -19,14 +19,14 @@ vec3 halfVector(vec3 wi, vec3 wo) {
   return sum / max(length(sum), 1e-12);
 }
 
-// Nothing is reflected where the half vector is undefined (wi = -wo).
+// Zero if the half vector is undefined (wi = -wo).
 bool halfVectorIsDefined(vec3 wi, vec3 wo) {
   vec3 sum = wi + wo;
   return dot(sum, sum) > 1e-8;
 }
 
 //? if fresnel and fresnel_schlick
-// Schlick 1994, with F90 = 1 as glTF 2.0 has it.
+// Schlick 1994, with F90 = 1 as in glTF 2.0.
 vec3 fresnelTerm(vec3 f0, vec3 wi, vec3 wo) {
   float x = 1.0 - clamp(dot(wo, halfVector(wi, wo)), 0.0, 1.0);
   float x2 = x * x;
@@ -38,14 +38,14 @@ vec3 fresnelTerm(vec3 f0, vec3 wi, vec3 wo) { return f0; }
 vec3 transmitted(vec3 f0, vec3 wi, vec3 wo) { return vec3(1.0); }
 //? end
 
-// The geometry factor of f * cos = F * D * factor, for facets about n with a lobe. Where the surface's horizon cuts no
-// light off, the facets' own does, also under terms that know none.
+// The geometry factor in f * cos = F * D * factor, for facets about n with a lobe. If the horizon of the surface does
+// not cut light off, the horizon of the facets does, also for terms without one.
 //? if masking_shadowing and geometry_smith and distribution_ggx
 //? include ggx_geometry.glsl
 float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) { return ggxGeometry(lobe * lobe, n, wi, wo); }
 //? elif masking_shadowing and geometry_smith
 //? include beckmann_lambda.glsl
-// Blinn-Phong and vMF lobes take the alpha of the same width (Walter 2007, section 5.2).
+// Blinn-Phong and vMF lobes use the alpha of the same width (Walter 2007, section 5.2).
 float smithLambda(float alpha, float c) {
   float tangent = sqrt(max(1.0 - c * c, 0.0)) / c;
   return beckmannLambda(1.0 / max(alpha * tangent, 1e-6));
@@ -59,8 +59,8 @@ float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
   return 0.25 / ((1.0 + smithLambda(alpha, nv) + smithLambda(alpha, min(nl, 1.0))) * nv);
 }
 //? elif masking_shadowing and geometry_tan
-// 1 / (n.v) as Tan 2005, section 3 prints it, under the bound 2 (n.h) / (v.h) of a V-cavity's masking: as printed it
-// grows without limit at grazing views.
+// 1 / (n.v) of Tan 2005, section 3, limited to 2 (n.h) / (v.h), the masking of a V-cavity. Without the limit it
+// diverges at grazing views.
 float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
 //? if horizon_open
   if (dot(n, wi) <= 0.0) return 0.0;
@@ -69,7 +69,7 @@ float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
   return min(1.0 / max(dot(n, wo), 1e-3), bound);
 }
 //? else
-// f * cos = F D, as Xu 2017 and Iwasaki 2012 use it.
+// f * cos = F D, used by Xu 2017 and Iwasaki 2012.
 float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
 //? if horizon_open
   if (dot(n, wi) <= 0.0) return 0.0;
@@ -78,7 +78,7 @@ float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
 }
 //? end
 
-// Facets whose normals are spread about one, and what they reflect with.
+// Facets with normals spread about a mean, and their reflectance.
 struct Facets {
   vec3 normal;
   float lobe;    // its parameter, the spread of the normals included
@@ -102,7 +102,7 @@ Facets spreadFacets(vec3 normal, float variance, float spread) {
 }
 //? end
 
-// Density of normals per solid angle.
+// The density of normals, 1/sr.
 float facetDensity(Facets f, vec3 h) {
 //? if multi_lobe
   if (facet_lobe_count > 0) {
@@ -118,8 +118,8 @@ float facetDensity(Facets f, vec3 h) {
   return lobeDensity(f.lobe, f.normal, h);
 }
 
-// f * cos but for the Fresnel term: density times geometry factor. The geometry is that of facets about the normal,
-// whatever the axes of their lobes.
+// f * cos without the Fresnel term: density times geometry factor. The geometry factor is that of facets about the
+// normal, independent of the axes of their lobes.
 float facetReflectance(Facets f, vec3 h, vec3 wi, vec3 wo) {
 //? if multi_lobe
   if (facet_lobe_count > 0) {
@@ -144,7 +144,8 @@ vec3 facetSpecular(Facets f, vec3 f0, vec3 wi, vec3 wo) {
 }
 
 //? if diffuse
-// Lambert's albedo / pi * (n.l), times what the Fresnel term leaves (glTF 2.0, appendix B; Tan 2005, section 3).
+// Lambert's albedo / pi * (n.l), times the energy that the Fresnel term leaves (glTF 2.0, appendix B; Tan 2005, section
+// 3).
 vec3 diffuse(vec3 n, Surface s, vec3 wi, vec3 wo) {
   vec3 reflected = s.albedo * (max(dot(n, wi), 0.0) / pi);
 //? if fresnel
@@ -154,7 +155,7 @@ vec3 diffuse(vec3 n, Surface s, vec3 wi, vec3 wo) {
 }
 //? end
 
-// Both terms of facets.
+// Both terms for facets.
 Reflected facetShade(Facets f, Surface s, vec3 wi, vec3 wo) {
   Reflected r;
   r.specular = facetSpecular(f, s.f0, wi, wo);

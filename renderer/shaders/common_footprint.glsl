@@ -1,4 +1,4 @@
-// The footprint of a pixel on a map, and the one way to read a texture over it.
+// The footprint of a pixel on a map, and the functions that read a texture over it.
 
 // Centre and edges of the pixel's parallelogram, in texture coordinates.
 struct Footprint {
@@ -7,7 +7,7 @@ struct Footprint {
   vec2 dy;
 };
 
-// One footprint for each map of the material: each may have its own coordinates.
+// One footprint per map of the material, because maps may have different coordinates.
 struct Footprints {
   Footprint normal;
   Footprint roughness;
@@ -40,8 +40,7 @@ struct Footprints {
 };
 
 //? if screen_derivatives
-// What the unit half vector of one light changes by to the pixels on the right and above, each in its own tangent
-// frame.
+// The change of the unit half vector of one light to the pixels on the right and above, each in its own tangent frame.
 struct HalfSteps {
   vec3 dx;
   vec3 dy;
@@ -49,7 +48,7 @@ struct HalfSteps {
 //? end
 
 //? if filter_shaded
-// Part `i` of n x n: a footprint of its own.
+// The footprint of part `i` of n x n.
 Footprint partOf(Footprint f, int i) {
   vec2 at = (vec2(i % footprint_parts, i / footprint_parts) + 0.5) / float(footprint_parts) - 0.5;
   return Footprint(f.uv + f.dx * at.x + f.dy * at.y, f.dx / float(footprint_parts), f.dy / float(footprint_parts));
@@ -98,16 +97,16 @@ Footprints partOf(Footprints f, int i) {
 //? end
 
 //? if surface_coordinates or screen_derivatives
-// From the tangent frame of the point that is shaded to the camera's axes: x right, y up, z towards the viewer.
+// Rotates from the tangent frame of the shaded point to the axes of the camera: x right, y up, z towards the viewer.
 mat3 tangent_to_camera;
 //? end
 
-// Texels of a mip level, by OpenGL's rule. Where neighbouring pixels ask for different levels, Mesa's llvmpipe answers
-// `textureSize` for one level to eight pixels.
+// The size of a mip level by the rule of OpenGL. Mesa's llvmpipe evaluates `textureSize` with one level for eight
+// pixels, even if neighbours need different levels.
 vec2 levelSize(ivec2 finest, int level) { return vec2(max(finest >> level, ivec2(1))); }
 
-// Count what a pixel looks up and which lobes it evaluates, where that is asked for. A module that looks a map up by
-// itself, or has lobes that are none of the shared ones, calls them too.
+// Count texture lookups and lobe evaluations per pixel, on request. Modules with lookups or lobes of their own call
+// them too.
 //? if counting
 int lookups = 0;
 int lobe_evaluations = 0;
@@ -161,8 +160,8 @@ vec4 fetch(sampler2DArray map, int layer, Footprint f) {
 //? end
 
 //? if texture_arrays
-// As `fetch`, but from no level above `coarsest`. The hardware's own filter knows no such limit: where there is one,
-// its probes are spelled out.
+// As `fetch`, limited to levels up to `coarsest`. Hardware filters have no such limit, so their probes are computed
+// explicitly.
 vec4 fetchUpTo(sampler2DArray map, int layer, Footprint f, float coarsest) {
 //? if filter_hardware
   if (coarsest >= any_level) return fetch(map, layer, f);
@@ -179,7 +178,7 @@ vec4 fetchUpTo(sampler2DArray map, int layer, Footprint f, float coarsest) {
 }
 //? end
 
-// The finest level, whatever the footprint: no filtering.
+// The finest level without filtering.
 vec4 fetchFinest(sampler2D map, Footprint f) {
   countLookups(1);
   return textureLod(map, f.uv, 0.0);
@@ -197,8 +196,8 @@ vec2 texel_draw;  // of this sample, uniform in [0, 1)
 //? end
 
 //? if sampling_texel
-// One texel of the finest level, drawn with the bilinear weights, so that the expectation of what is shaded from it is
-// the bilinear filter of radiance. Two maps of one size and coordinates draw the same texel. The sampler is `nearest`.
+// One texel of the finest level, drawn with bilinear weights. The expectation of the shaded value is then the bilinear
+// filter of radiance. Maps with the same size and coordinates draw the same texel. The sampler must be `nearest`.
 vec2 drawnTexel(vec2 size, Footprint f) { return (floor(f.uv * size - 0.5 + texel_draw) + 0.5) / size; }
 
 vec4 fetchFinest(sampler2D map, Footprint f) { return textureLod(map, drawnTexel(vec2(textureSize(map, 0)), f), 0.0); }
@@ -210,8 +209,7 @@ vec4 fetchFinest(sampler2DArray map, int layer, Footprint f) {
 //? end
 
 //? if sampling_point
-// The finest level at a point: the sampler decides between the nearest texel and the bilinear filter of the map's
-// values.
+// The finest level at a point; the sampler selects nearest or bilinear filtering of values.
 vec4 fetchFinest(sampler2D map, Footprint f) { return textureLod(map, f.uv, 0.0); }
 //? if texture_arrays
 vec4 fetchFinest(sampler2DArray map, int layer, Footprint f) { return textureLod(map, vec3(f.uv, layer), 0.0); }
@@ -227,8 +225,8 @@ vec4 fetchUpTo(sampler2DArray map, int layer, Footprint f, float coarsest) { ret
 //? end
 
 //? if texel_lookups
-// The texels that `fetch` would blend, one by one, for a map whose texels must not be: eight of two levels for each
-// probe. The map is known by its size alone: its chain goes down to one texel.
+// Iterates over the texels that `fetch` would blend: eight of two levels per probe. For maps whose texels must not be
+// blended. Only the size of the map is given; its chain ends at one texel.
 struct FootprintTexel {
   vec2 uv;       // the texel's centre, at its level
   float level;

@@ -1,15 +1,17 @@
-// The normal distributions of the base BRDF: densities over solid angle (microfacet ones: times the cosine they
-// integrate to one), as functions of one lobe parameter: exponent (blinn_phong), alpha (beckmann, ggx), kappa (vmf).
+// The normal distributions of the base BRDF as densities over solid angle; the projected area of microfacet
+// distributions integrates to one. The lobe parameter is the exponent (blinn_phong), alpha (beckmann, ggx) or kappa
+// (vmf).
 // lobeEnergy is the plain integral over solid angle.
 const float pi = 3.14159265358979;
 
-// Mirrors: no lobe is narrower than this; the peak stays finite in 32 bits, also times 1e3 of light.
+// The narrowest lobe: its peak is finite in 32 bits, also times 1e3 of light.
 const float smallest_alpha = 1e-3;
 const float largest_exponent = 2e6;  // 2 / smallest_alpha^2
 
-// log(1 - u) for u in [0, 1) without the cancellation of log near 1, to 1e-7 of itself and without a branch, of which a
-// software renderer takes both sides: 1 - u = 2^k (1 + f) with f from sqrt(1/2) - 1 to sqrt(2) - 1, and where k is 0, f
-// is -u as it came. The polynomial is minimax for the relative error of log(1 + f), 3e-8.
+// log(1 - u) for u in [0, 1), with a relative error of 1e-7 and without the cancellation of log near 1. It has no
+// branch, because software renderers execute both sides.
+// 1 - u = 2^k (1 + f) with f from sqrt(1/2) - 1 to sqrt(2) - 1; for k = 0, f is exactly -u. The polynomial is minimax
+// for the relative error of log(1 + f), 3e-8.
 float log1m(float u) {
   const int root_half = 0x3f3504f3;
   int bits = floatBitsToInt(1.0 - u) - root_half;
@@ -20,7 +22,7 @@ float log1m(float u) {
   return float(k) * 0.693147181 + (f + f * f * (f * tail - 0.5));
 }
 
-// 1 - n.h from the difference of the vectors: exact where the dot product in 32 bits has lost it.
+// 1 - n.h from the difference of the vectors, where the dot product cancels in 32 bits.
 float oneMinusDot(vec3 n, vec3 h) {
   vec3 d = h - n;
   return 0.5 * dot(d, d);
@@ -71,8 +73,8 @@ float lobeVariance(float alpha) { return 0.5 * alpha * alpha; }
 float lobeFromVariance(float variance) { return max(sqrt(2.0 * variance), smallest_alpha); }
 float lobeAlpha(float alpha) { return alpha; }
 // int sqrt(1 + alpha^2 t) e^-t dt = 1 + sqrt(pi) / 2 alpha e^(x^2) erfc(x), x = 1 / alpha. Abramowitz and Stegun 7.1.13
-// bounds it by this form with c = 2, exact for narrow lobes, and 4 / pi, exact for wide ones; with c between them as
-// fitted here it is within 5e-4.
+// bound it by this form, with c = 2 (exact for narrow lobes) and c = 4 / pi (exact for wide ones). The fitted c has an
+// error below 5e-4.
 float lobeEnergy(float alpha) {
   float a2 = alpha * alpha;
   float side = 1.0 + 1.588 * alpha;
@@ -91,7 +93,7 @@ float lobeFromAlpha(float alpha) { return max(alpha, smallest_alpha); }
 float lobeVariance(float alpha) { return 0.5 * alpha * alpha; }
 float lobeFromVariance(float variance) { return clamp(sqrt(2.0 * variance), smallest_alpha, 1.0); }
 float lobeAlpha(float alpha) { return alpha; }
-// 1 + alpha^2 atanh(t) / t with t = sqrt(1 - alpha^2); atanh(t) / t = 1 + t^2 / 3 + ... where t is small.
+// 1 + alpha^2 atanh(t) / t with t = sqrt(1 - alpha^2); atanh(t) / t = 1 + t^2 / 3 + ... for small t.
 float lobeEnergy(float alpha) {
   float a2 = alpha * alpha;
   float t = sqrt(max(1.0 - a2, 0.0));

@@ -1,13 +1,12 @@
-// Normals as slopes, b = -n_xy / n_z, with mean B and covariance S, and the lobe over them: what methods that keep
-// moments of slope share. A module takes it in by `//? include common_slopes.glsl`; its option `roughness` is that of
-// renderer/bake/slope_moments.hpp.
+// Slope statistics, b = -n_xy / n_z with mean B and covariance S, and the lobe over them, for methods that store slope
+// moments. Usage: `//? include common_slopes.glsl`. The option `roughness` is that of renderer/bake/slope_moments.hpp.
 
 const float smallest_slope_cosine = 1e-3;  // hard stop of slopes at the horizon
 
 vec3 normalOfSlope(vec2 slope) { return normalize(vec3(-slope, 1.0)); }
 
-// M - B B^T for second moments M = (xx, xy, yy), as the nearest matrix without a negative eigenvalue: the difference of
-// rounded moments has small ones of either sign where normals agree.
+// M - B B^T for second moments M = (xx, xy, yy), without a negative eigenvalue: rounding can make small ones of either
+// sign where normals agree.
 mat2 slopeCovariance(vec2 mean, vec3 second) {
   vec3 c = second - vec3(mean.x * mean.x, mean.x * mean.y, mean.y * mean.y);
   vec2 deviator = vec2(0.5 * (c.x - c.z), c.y);
@@ -20,15 +19,15 @@ mat2 slopeCovariance(vec2 mean, vec3 second) {
 }
 
 //? if variant_clean
-// Per axis, for E[b.b] instead of M.
+// Variance per axis, from E[b.b] instead of M.
 float scalarCovariance(vec2 mean, float trace) { return max(0.5 * (trace - dot(mean, mean)), 0.0); }
 
 //? end
-// A covariance has no negative determinant; its rounding may have.
+// The determinant of a covariance, at least 0 despite rounding.
 float determinantOfCovariance(mat2 c) { return max(c[0][0] * c[1][1] - c[0][1] * c[1][0], 0.0); }
 
 //? if diffuse
-// The symmetric root of a covariance.
+// The symmetric square root of a covariance.
 mat2 covarianceRoot(mat2 c) {
   float s = sqrt(determinantOfCovariance(c));
   return (c + mat2(s)) / max(sqrt(c[0][0] + c[1][1] + 2.0 * s), 1e-12);
@@ -38,8 +37,8 @@ mat2 covarianceRoot(mat2 c) {
 // [d -b; -c a]: the inverse times the determinant.
 mat2 adjugate(mat2 m) { return mat2(m[1][1], -m[0][1], -m[1][0], m[0][0]); }
 
-// Slopes about the normal of slope B to slopes of the surface, linear at B: J = diag(q^2, q) along and across B with
-// q = 1 / n_z = sqrt(1 + B^2), in a form without the direction of B, which a flat surface has not.
+// The Jacobian from slopes about the normal with slope B to slopes of the surface: J = diag(q^2, q) along and across B,
+// q = 1 / n_z = sqrt(1 + B^2). This form avoids the direction of B, which is undefined for a flat surface.
 mat2 slopeJacobian(vec2 mean, float q) { return mat2(q) + (q / (q + 1.0)) * outerProduct(mean, mean); }
 mat2 inverseSlopeJacobian(vec2 mean, float q) { return mat2(1.0 / q) - outerProduct(mean, mean) / (q * q * (q + 1.0)); }
 
@@ -56,9 +55,9 @@ struct SlopeLobe {
 
 //? if roughness_stretched
 // The base lobe about `axis`, stretched by the linear map of slopes that takes its covariance W = v J J^T to the
-// footprint's S + W. `shape` is that map's inverse, J X^-1/2 J^-1 with X = 1 + J^-1 S J^-1 / v. The root of a 2 x 2
-// matrix is X^1/2 = (X + s) / t, s^2 = det X, t^2 = tr X + 2 s; det X = 1 + tr + det of the rest is a sum that cannot
-// cancel.
+// footprint's S + W. `shape` is the inverse of that map, J X^-1/2 J^-1 with X = 1 + J^-1 S J^-1 / v.
+// The square root of a 2 x 2 matrix is X^1/2 = (X + s) / t, s^2 = det X, t^2 = tr X + 2 s. det X = 1 + tr + det of the
+// rest is a sum without cancellation.
 SlopeLobe slopeLobe(vec2 mean, mat2 spread, float variance) {
   float q = sqrt(1.0 + dot(mean, mean));
   mat2 inverse_jacobian = inverseSlopeJacobian(mean, q);
@@ -72,7 +71,7 @@ SlopeLobe slopeLobe(vec2 mean, mat2 spread, float variance) {
                    slopeJacobian(mean, q) * inverse_root * inverse_jacobian, 1.0 / s);
 }
 
-// Density over solid angle: D(h) dh = D_base(h') dh' with dh = h_z^3 db, so that the energy stays the base lobe's own.
+// Density over solid angle: D(h) dh = D_base(h') dh' with dh = h_z^3 db, which preserves the energy of the base lobe.
 float slopeDensity(SlopeLobe e, vec3 h) {
   float cosine = max(h.z, smallest_slope_cosine);
   vec3 base = normalOfSlope(e.mean + e.shape * (-h.xy / cosine - e.mean));
@@ -80,7 +79,8 @@ float slopeDensity(SlopeLobe e, vec3 h) {
   return lobeDensity(lobeFromVariance(e.base), e.axis, base) * (e.scale * ratio * ratio * ratio);
 }
 //? else
-// A Gaussian of slopes with covariance S + v (Olano and Baker 2010): the base lobe counts by its slope variance alone.
+// A Gaussian over slopes with covariance S + v (Olano and Baker 2010); only the slope variance v of the base lobe
+// enters.
 SlopeLobe slopeLobe(vec2 mean, mat2 spread, float variance) {
   float slope2 = dot(mean, mean);
   float q = sqrt(1.0 + slope2);
@@ -102,9 +102,9 @@ float slopeDensity(SlopeLobe e, vec3 h) {
 //? end
 
 //? if environment_light
-// A long lobe as a row of round ones, for environment light: all as wide as the long one is across, along the slopes in
-// which it is long, with the weights of a Gaussian and its variance. Five or seven, at even steps of a reach of 1.9
-// deviations; of a lobe less than 1.3 times as long as wide, the round one.
+// Splits an elongated lobe into a row of round ones, for environment light. All have the narrow width of the lobe,
+// positions along its long axis, Gaussian weights and the same total variance. Five or seven at even steps up to 1.9
+// standard deviations; lobes less than 1.3 times as long as wide stay one.
 struct LobeRow {
   int half_count;   // lobes to each side of the middle one
   float across;     // slope variance per axis about `axis` of each lobe

@@ -1,5 +1,5 @@
-// Where a unit vector of the upper hemisphere lies in [0, 1]^2, cells of equal area being cells of equal solid angle
-// (Shirley and Chiu 1997); below the horizon: the rim. Twin of renderer/microgeometry/direction_grid.cpp.
+// Maps a unit vector of the upper hemisphere to [0, 1]^2 with equal areas for equal solid angles (Shirley and Chiu
+// 1997). Vectors below the horizon map to the border. Matches renderer/microgeometry/direction_grid.cpp.
 vec2 hemisphereToSquare(vec3 w) {
   float sine2 = dot(w.xy, w.xy);
   if (sine2 == 0.0) return vec2(0.5);

@@ -1,13 +1,13 @@
-// Environment light for the reference: each sample integrates the environment itself, by directions drawn from its
-// texels and from the module's own lobe, weighed by the balance heuristic (Veach and Guibas 1995), or with
-// `environment_dense` by directional lights, all of them for every sample (Iwasaki et al. 2012). Both agree where no
-// lobe is narrower than a light's cell.
+// Environment light for the reference. Each sample integrates the environment itself, with directions drawn from its
+// texels and from the lobe of the module, weighted by the balance heuristic (Veach and Guibas 1995). With
+// `environment_dense`, every sample evaluates all directional lights instead (Iwasaki et al. 2012). Both agree if no
+// lobe is narrower than the cell of a light.
 //? if environment_visibility
 //? include octahedral.glsl
 //? include environment_visibility.glsl
 //? end
 
-// Whether light from a direction of the world reaches the pixel.
+// Whether light from a world direction reaches the pixel.
 bool arrives(vec3 direction) {
 //? if environment_visibility
   return isVisible(direction);
@@ -27,8 +27,8 @@ vec3 environmentIntegral(SurfacePoint p) {
     if (!reachesFacets(wi) || !arrives(direction)) continue;
     radiance += reflectance(p, wi) * texelFetch(environment_lights, ivec2(i, 0), 0).rgb;
   }
-  // llvmpipe ends loops after 65535 rounds per pixel, those within `reflectance` among them: part of a sum is no
-  // figure.
+  // llvmpipe ends loops after 65535 iterations per pixel, including those within `reflectance`. A partial sum would be
+  // wrong.
   if (i < count) return vec3(uintBitsToFloat(0x7fc00000u));
   return radiance;
 }
@@ -38,8 +38,8 @@ layout(std140, binding = 5) uniform EnvironmentBlock {
 };
 
 uniform int directions_a_sample;
-// Digits of each cell's first direction, and of directions by their number in the sample: those of any direction are
-// the two added without carry. Out of the environment, out of the lobe; choices are among lobes.
+// Digits of the first direction of each cell, and of directions by their index in the sample. Any direction adds the
+// two without carry. Separate digits for the environment, the lobe, and the choice of a lobe.
 uniform uvec4 cell_directions[16], direction_steps[16];
 uniform uint cell_choices[16], choice_steps[16];
 
@@ -51,9 +51,9 @@ struct DrawnDirection {
 
 float azimuthOf(float column) { return 2.0 * pi * (column / environment_size.x - 0.5) - environment_size.z; }
 
-// Of a distribution over `count` entries, that which holds u: a guide tells where to begin (Chen and Asau 1974), and
-// the entries hold sums up to and with their own. Then u is where in the entry it lies, 0 to 1. `at` and `step` lead
-// through the table.
+// Finds the entry that contains u in a distribution over `count` entries. A guide table gives the start (Chen and Asau
+// 1974), and entries store cumulative sums. On return, u is its position within the entry, 0 to 1. `at` and `step`
+// address the table.
 int drawnEntry(ivec2 at, ivec2 step, int count, inout float u) {
   int entry = int(texelFetch(environment_sums, at + step * min(int(u * float(count)), count - 1), 0).g);
   float below = entry > 0 ? texelFetch(environment_sums, at + step * (entry - 1), 0).r : 0.0;
@@ -67,22 +67,22 @@ int drawnEntry(ivec2 at, ivec2 step, int count, inout float u) {
   return entry;
 }
 
-// A row, a texel of it, and a point of that, uniform in solid angle: monotonous in both numbers, so that points which
-// fill the square evenly fill the sky evenly.
+// Draws a row, a texel of it and a point in the texel, uniform in solid angle. Monotonic in both numbers, so that
+// well-distributed points stay well distributed over the sky.
 DrawnDirection drawFromEnvironment(vec2 u) {
   ivec2 size = ivec2(environment_size.xy);
   int row = drawnEntry(ivec2(size.x, 0), ivec2(0, 1), size.y, u.y);
   int column = drawnEntry(ivec2(0, row), ivec2(1, 0), size.x, u.x);
-  vec4 held = texelFetch(environment_radiance, ivec2(column, row), 0);
+  vec4 texel = texelFetch(environment_radiance, ivec2(column, row), 0);
   float upper = cos(pi * float(row) / environment_size.y);
   float lower = cos(pi * float(row + 1) / environment_size.y);
   float y = mix(upper, lower, u.y);
   float sine = sqrt(max(1.0 - y * y, 0.0));
   float azimuth = azimuthOf(float(column) + u.x);
-  return DrawnDirection(vec3(sine * sin(azimuth), y, -sine * cos(azimuth)), held.rgb, held.a);
+  return DrawnDirection(vec3(sine * sin(azimuth), y, -sine * cos(azimuth)), texel.rgb, texel.a);
 }
 
-// Radiance and density of the texel in a direction of the world.
+// Radiance and density of the texel in a world direction.
 vec4 environmentTexel(vec3 d) {
   float u = fract(0.5 + (atan(d.x, -d.z) + environment_size.z) / (2.0 * pi));
   float v = acos(clamp(d.y, -1.0, 1.0)) / pi;
@@ -93,7 +93,7 @@ vec4 environmentTexel(vec3 d) {
 //? if clear_coat
 const float coat_draws = 0.25;  // of the directions that lobes draw, where there is a coat
 
-// The mirror image of wo about a normal drawn from the coat's facets.
+// The mirror image of wo about a normal drawn from the facets of the coat.
 vec3 coatDirection(Coat coat, vec3 wo, vec2 u) {
   float tilt = tiltOf(coat.alpha2 * u.x / max(1.0 - u.x, 1e-7));
   float sine = sqrt(max(tilt * (2.0 - tilt), 0.0));
@@ -110,7 +110,7 @@ float coatDirectionDensity(Coat coat, vec3 wi, vec3 wo) {
 }
 //? end
 
-// A direction from the lobes of the point, and the density of drawing it.
+// Draws a direction from the lobes of the point, and returns its density.
 vec3 lobeDirection(SurfacePoint p, vec3 u) {
 //? if clear_coat
   if (p.coat.share > 0.0) {
@@ -129,7 +129,7 @@ float lobeDirectionDensity(SurfacePoint p, vec3 wi) {
   return density;
 }
 
-// The texels of a sample share its directions.
+// All texels of a sample share its directions.
 vec3 environmentIntegral(SurfacePoint p) {
   vec3 radiance = vec3(0.0);
   uvec3 seed = hashed(sample_pixel);
@@ -149,8 +149,8 @@ vec3 environmentIntegral(SurfacePoint p) {
     wi = lobeDirection(p, vec3(scrambledPair(digits.zw, lobe_seed.xy), choice));
     float density = reachesFacets(wi) ? lobeDirectionDensity(p, wi) : 0.0;
     if (density > 0.0 && arrives(p.frame * wi)) {
-      vec4 held = environmentTexel(p.frame * wi);
-      radiance += reflectance(p, wi) * held.rgb / (held.a + density);
+      vec4 texel = environmentTexel(p.frame * wi);
+      radiance += reflectance(p, wi) * texel.rgb / (texel.a + density);
     }
   } while (++i < end);
   return radiance / float(count);

@@ -1,5 +1,5 @@
-// Environment light for prefiltered footprints: each lobe of the module's NDF takes the environment's mean over the
-// lobe that its mirror images make about the viewer (Wang 2009), from a stack of prefiltered maps (Kautz 2000).
+// Environment light for prefiltered footprints. Each lobe of the NDF reads the mean of the environment over its
+// reflected lobe (Wang 2009) from a stack of prefiltered maps (Kautz 2000).
 layout(std140, binding = 5) uniform EnvironmentBlock {
   vec4 environment_mean;         // radiance over all directions
   vec4 environment_stack_range;  // sharpness of the finest map's lobe, number of maps: two per level
@@ -10,7 +10,7 @@ layout(std140, binding = 5) uniform EnvironmentBlock {
 
 //? include octahedral.glsl
 
-// Map 2 l is level l of layer 0, map 2 l + 1 that of layer 1.
+// Map 2 l is level l of layer 0; map 2 l + 1 is level l of layer 1.
 vec3 stackMap(int map, vec2 uv) {
   int level = map >> 1;
   vec2 size = levelSize(textureSize(environment_stack, 0).xy, level);
@@ -18,10 +18,10 @@ vec3 stackMap(int map, vec2 uv) {
   return textureLod(environment_stack, vec3(borderedUv(uv, size), map & 1), float(level)).rgb;
 }
 
-// The environment's mean over a vMF lobe. Every map's lobe is half as sharp as the one before it. Between two of them
-// the mean is taken as linear in the logarithm of the sharpness: in a smooth environment it is so in 1 / sharpness, at
-// a lamp in the sharpness itself, and between the two nothing is off by more than 6%. Behind the last map it goes to
-// the mean over all directions as the sharpness goes to 0.
+// The mean of the environment over a vMF lobe. The sharpness halves from map to map. Between two maps the mean is
+// interpolated linearly in the logarithm of the sharpness. The exact relation is linear in 1 / sharpness for smooth
+// environments and in the sharpness for a lamp; the error is below 6%. Beyond the last map it approaches the mean over
+// all directions as the sharpness goes to 0.
 vec3 stackRadiance(vec3 axis, float sharpness) {
   vec2 uv = octahedral(axis);
   float finest = environment_stack_range.x;
@@ -33,21 +33,21 @@ vec3 stackRadiance(vec3 axis, float sharpness) {
   return mix(stackMap(map, uv), stackMap(map + 1, uv), steps - float(map));
 }
 
-// The share of a vMF lobe that lies above a plane, t the cosine of axis and plane's normal; to 0.021. A logistic whose
-// slope at t = 0 is right for small and for large sharpness k, and whose value at t = 1 is the exact 1 / (1 + e^-k).
+// The share of a vMF lobe above a plane; t is the cosine between axis and normal. Error below 0.021. A logistic
+// function with the right slope at t = 0 for small and large sharpness k, and the exact value 1 / (1 + e^-k) at t = 1.
 float shareAbove(float t, float k) {
   float slope = k * inversesqrt(1.0 + k / 2.546);
   return 1.0 / (1.0 + exp(-clamp(slope * t + (k - slope) * t * t * t, -80.0, 80.0)));
 }
 
-// The lobe as the viewer sees its facets: each counts by (h.wo), of those that face away nothing is seen.
+// The lobe weighted by the visible area (h.wo) of its facets; back-facing facets are invisible.
 struct VisibleLobe {
   vec3 axis;   // mean of the visible normals
   float area;  // mean of max(h.wo, 0)
 };
 
-// In the plane that touches the sphere at the axis the lobe is a Gaussian, and (h.wo) is linear across it: moments of a
-// Gaussian that is cut off. Far from grazing views the area is (axis.wo) and the axis the lobe's own.
+// In the tangent plane at the axis the lobe is a Gaussian and (h.wo) is linear: these are moments of a truncated
+// Gaussian. Far from grazing views the area is (axis.wo) and the axis is that of the lobe.
 VisibleLobe visibleLobe(NormalLobe lobe, vec3 wo) {
   float c = dot(lobe.axis, wo);
   vec3 across = wo - c * lobe.axis;
@@ -68,8 +68,8 @@ float visibleElevation(vec3 direction, float elevation) { return elevation; }
 //? end
 
 //? if environment_suns
-// A sun that is too small for any lookup, and that the maps are without: one more directional light, hidden where the
-// environment is.
+// A sun that is too small for lookups and removed from the maps: a directional light with the visibility of the
+// environment.
 vec3 sunLit(SurfacePoint p, vec3 direction, vec3 irradiance) {
 //? if environment_visibility
   if (!isVisible(direction)) return vec3(0.0);
@@ -87,8 +87,8 @@ vec3 sunRadiance(SurfacePoint p) {
 }
 //? end
 
-// The normal of the plane below which no light counts for a lobe: the surface's own, or with an open horizon that of
-// the lobe's facets.
+// The normal of the plane below which light does not count for a lobe: that of the surface or, with an open horizon, of
+// the facets of the lobe.
 vec3 horizonNormal(NormalLobe lobe) {
 //? if horizon_open
   return lobe.normal;
@@ -97,18 +97,18 @@ vec3 horizonNormal(NormalLobe lobe) {
 //? end
 }
 
-// The directions that a lobe reflects to: mean and sharpness.
+// The lobe of reflected directions: mean and sharpness.
 struct ReflectedLobe {
   vec3 axis;
   float sharpness;
 };
 
-// A hemisphere of light from all sides, seen as a vMF lobe: mean cosine 1/2.
+// The vMF lobe of a uniform hemisphere: mean cosine 1/2.
 const float hemisphere_sharpness = 1.83;
 
-// What of a lobe is above the plane of n, as a lobe of its own, so that no light from below gets in. Across the
-// plane that touches the sphere at the axis it is a Gaussian cut off along a line, whose mean moves away from the line
-// and whose variance shrinks; a wide lobe becomes a hemisphere.
+// The part of a lobe above the plane of n, as a lobe, which excludes light from below. In the tangent plane at the axis
+// it is a Gaussian cut along a line: its mean moves away from the line and its variance shrinks. A wide lobe becomes a
+// hemisphere.
 ReflectedLobe aboveHorizon(ReflectedLobe lobe, vec3 n, float share) {
   float t = dot(n, lobe.axis);
   float a = max(t * sqrt(lobe.sharpness), -5.0);
@@ -122,15 +122,15 @@ ReflectedLobe aboveHorizon(ReflectedLobe lobe, vec3 n, float share) {
   return ReflectedLobe(normalize(moved), sharpness);
 }
 
-// What stands beside the density of lobe i in f cos, G' and F apart, or all that a module with small-scale geometry
-// knows of it. `sharpness` is that of the lobe of directions to the light about wi.
+// The factor of lobe i in f cos besides density, F and G', or the complete factor of a module with small-scale
+// geometry. `sharpness`: that of the lobe of light directions about wi.
 struct Beside {
   float weight;
   vec3 color;
 };
 
 //? if clear_coat
-// In place of a lobe's number in the module: the coat's, whose weight, share and spread then stand for f0.
+// Passed instead of a lobe index for the coat; its weight, share and spread replace f0.
 const int coat_lobe = -1;
 //? end
 
@@ -144,9 +144,9 @@ Beside besideDensity(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 h, vec3 
 //? end
 }
 
-// What a lobe reflects towards wo: integral of F D G' L over wi. With dwi = 4 (h.wo) dh the lobe's energy is 4 times
-// what is visible of it; about the mirror image of the visible normals' mean it is 4 (axis.wo) times wider (Wang 2009).
-// F and G' are taken there, and of what lies below the horizon nothing arrives.
+// The radiance that a lobe reflects towards wo: the integral of F D G' L over wi. With dwi = 4 (h.wo) dh, the energy of
+// the reflected lobe is 4 times its visible area, and its width about the mirrored mean of the visible normals is 4
+// (axis.wo) times larger (Wang 2009). F and G' are evaluated at that direction. Light below the horizon is excluded.
 vec3 lobeRadiance(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wo, mat3 frame) {
   VisibleLobe visible = visibleLobe(lobe, wo);
   float cosine = max(dot(visible.axis, wo), 0.01);
@@ -162,12 +162,12 @@ vec3 lobeRadiance(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wo, mat3 fr
 }
 
 //? if distribution_ggx or clear_coat
-// GGX has a tail that no Gaussian has, and wide facets of it reflect below the horizon, where masking is strongest. So
-// the half of its visible normals that is nearest to the axis and the other half look the environment up apart, as vMF
-// lobes that a table has by view and alpha: their energy, direction and sharpness (radiance_stack.hpp).
+// GGX has a longer tail than any Gaussian, and wide lobes reflect below the horizon, where masking is strongest. So the
+// visible normals near the axis and the others look up the environment separately. A table over view and alpha stores
+// the energy, direction and sharpness of both vMF lobes (radiance_stack.hpp).
 const float smith_steps = 4.0;  // of radiance_stack.hpp
 
-// Where the table has the base BRDF's geometry factor.
+// Where the table includes the geometry factor of the base BRDF.
 float geometryStep(NormalLobe lobe, float alpha) {
 //? if masking_shadowing and geometry_smith
   return smith_steps * clamp(lobe.base / alpha, 0.0, 1.0);
@@ -197,7 +197,8 @@ TailedLobe tailedLobe(NormalLobe lobe, vec3 wo) {
   return TailedLobe(alpha, table, c * lobe.axis - sine * tangent, c * tangent + sine * lobe.axis);
 }
 
-// What the table's geometry factor is without, in a direction: a module's own, or that of another normal.
+// The ratio of a geometry factor to that of the table in a direction: for modules with their own factor, or another
+// normal.
 vec3 ownGeometry(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wi, vec3 wo, float sharpness) {
 //? if distribution_ggx
   vec3 h = halfVector(wi, wo);
@@ -213,9 +214,9 @@ vec3 ownGeometry(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wi, vec3 wo,
 }
 
 //? if not horizon_open
-// What the surface's plane leaves of a lobe, and that part as a lobe of its own. The lobe's table has the facets' own
-// horizon already, so that its share above the one counts over that above the other. The last factor is fitted to sums
-// over normals: a wide lobe that is cut is no Gaussian.
+// The part of a lobe above the plane of the surface, as a lobe. The table already includes the horizon of the facets,
+// so this is the ratio of both shares. The last factor is fitted to sums over normals, because a wide truncated lobe is
+// not Gaussian.
 float cutByHorizon(inout ReflectedLobe lobe, vec3 own_normal, vec3 n, float alpha) {
   float own = shareAbove(dot(own_normal, lobe.axis), lobe.sharpness);
   float share = shareAbove(dot(n, lobe.axis), lobe.sharpness);
@@ -227,7 +228,7 @@ float cutByHorizon(inout ReflectedLobe lobe, vec3 own_normal, vec3 n, float alph
 }
 //? end
 
-// Half 0 or 1 of a lobe in the table, between two steps of the geometry factor where it is between two.
+// Half 0 or 1 of a lobe from the table, interpolated between two steps of the geometry factor.
 vec4 tablePart(TailedLobe tailed, float geometry, int half_of) {
   float lower = floor(geometry);
   float layer = 2.0 * lower + float(half_of);
@@ -297,8 +298,8 @@ vec3 environmentSpecular(Effective e, vec3 f0, vec3 wo, mat3 frame) {
 
 //? if environment_diffuse
 //? if fresnel
-// The mean over a hemisphere of light, weighted by the cosine, of what Schlick's term lets through: (1 - v.h)^5 has the
-// mean 0.0282 (1 - n.v)^2.6 + 0.0001, to 5e-4.
+// The mean over a uniform hemisphere, weighted by the cosine, of the light that Schlick's term transmits. (1 - v.h)^5
+// has the mean 0.0282 (1 - n.v)^2.6 + 0.0001, to 5e-4.
 vec3 meanTransmitted(vec3 f0, float cosine) {
 //? if fresnel_schlick
   return (1.0 - f0) * (0.9999 - 0.0282 * pow(1.0 - clamp(cosine, 0.0, 1.0), 2.6));
@@ -321,9 +322,9 @@ DiffuseFacets diffuseFacets(Effective e, vec3 wo) {
 //? end
 }
 
-// Lambert's term over all directions. Irradiance is close to linear in the normal, so that normals with the mean m get
-// the mean over all directions and |m| of the difference to it. Where the horizon cuts, a facet that leans loses what
-// its surface hides: of a constant environment (1 - n_z) / 2.
+// Lambert's term over all directions. Irradiance is almost linear in the normal, so normals with mean m receive the
+// mean over all directions plus |m| times the difference to it. With a horizon, an inclined facet loses the occluded
+// part, (1 - n_z) / 2 of a constant environment.
 vec3 environmentDiffuse(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) {
   DiffuseFacets facets = diffuseFacets(e, wo);
   float size = length(facets.mean_normal);
@@ -354,7 +355,7 @@ vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame) {
 }
 
 //? if clear_coat
-// What the coat reflects of the environment, its share included.
+// The light of the environment that the coat reflects, times its share.
 vec3 coatLit(SurfacePoint p) {
   if (p.coat.share <= 0.0) return vec3(0.0);
   countLobes(1);

@@ -1,9 +1,9 @@
-// What large bodies leave visible of the environment: signed distance functions at the vertices (Wang et al. 2009) as
-// weights of common components, docs/shadows.md.
+// Visibility of the environment past large bodies: signed distance functions at vertices (Wang et al. 2009) as weights
+// of common components, docs/shadows.md.
 in vec4 visibility_weights[4];  // the first is 1, of the mean
 in vec4 visible_diffuse;        // rgb: of a Lambert surface's irradiance, the visible share; a: 0 where bodies hide none
 
-// The angle from a direction of the world to the nearest edge between visible and hidden; below 0 where it is hidden.
+// The angle from a world direction to the nearest edge between visible and hidden; negative if it is hidden.
 float signedDistance(vec3 direction) {
   vec2 uv = borderedUv(octahedral(direction), vec2(textureSize(visibility_maps, 0).xy));
   float distance = 0.0;
@@ -13,8 +13,7 @@ float signedDistance(vec3 direction) {
   return distance;
 }
 
-// Whether nothing but its own horizon hides light from the surface. Nothing is known of the back of one that is seen
-// from both sides.
+// Whether only its own horizon occludes the surface. Unknown for the back of double-sided surfaces.
 bool isOpen() {
 //? if double_sided
   if (!gl_FrontFacing) return true;
@@ -22,13 +21,13 @@ bool isOpen() {
   return visible_diffuse.w == 0.0;
 }
 
-// The sine of a direction's elevation over the nearest edge, the horizon being one: `elevation` is that over it.
+// The sine of the elevation of a direction over the nearest edge or the horizon; `elevation` is that over the horizon.
 float visibleElevation(vec3 direction, float elevation) {
   if (isOpen()) return elevation;
   return min(elevation, sin(clamp(signedDistance(direction), -0.5 * pi, 0.5 * pi)));
 }
 
-// For single directions: no light comes from behind an edge.
+// For single directions: no light from behind an edge.
 bool isVisible(vec3 direction) { return isOpen() || signedDistance(direction) > 0.0; }
 
 vec3 visibleDiffuse() {

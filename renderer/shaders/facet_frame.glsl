@@ -1,7 +1,7 @@
-// The frame of a facet in the tangent frame: turned with the facet's normal.
+// The frame of a facet within the tangent frame, rotated with its normal.
 
-// The shortest rotation that takes z to n, of an axis. 1 / (1 + n_z) is (1 - n_z) / |n_xy|^2 where the sum cancels; n =
-// -z turns about the bitangent.
+// Rotates an axis by the shortest rotation from z to n. 1 / (1 + n_z) is (1 - n_z) / |n_xy|^2 where the sum cancels;
+// for n = -z the rotation is about the bitangent.
 vec3 turnedWithNormal(vec3 axis, vec3 n) {
   vec2 side = n.xy;
   float share = 1.0 / (1.0 + max(n.z, 0.0));
@@ -13,5 +13,5 @@ vec3 turnedWithNormal(vec3 axis, vec3 n) {
   return vec3(axis.xy - side * (share * dot(side, axis.xy)) + n.xy * axis.z, n.z * axis.z - dot(n.xy, axis.xy));
 }
 
-// A direction in the frame of a facet with normal n: the inverse rotation. It is taken once for all lobes.
+// A direction in the frame of the facet with normal n (inverse rotation), computed once for all lobes.
 vec3 inFacetFrame(vec3 h, vec3 n) { return turnedWithNormal(h, vec3(-n.xy, n.z)); }

@@ -1,4 +1,4 @@
-// For environment light, the lobes of a module whose Effective holds its NDF as `facets`.
+// The lobes for environment light of a module whose Effective has `facets`.
 int lobeCount(Effective e) { return facetLobeCount(); }
 
 NormalLobe normalLobe(Effective e, int i) { return facetNormalLobe(e.facets, i, 1.0); }

@@ -1,4 +1,4 @@
-// A module whose pixel is one set of facets about one normal: all but `effective`.
+// A module with one set of facets about one normal per pixel; includers define `effective`.
 struct Effective {
   Facets facets;
 };

@@ -1,8 +1,7 @@
-// All layers of an array texture under a footprint. In a frame one loop over the probes reads them together: their
-// places, their weights and their level are those of all, and a loop of its own for each would find them again. Who
-// takes it in has `const int fetched_layers`.
+// Reads all layers of an array texture under a footprint. One loop over the probes reads all layers, because position,
+// weight and level are shared. Includers define `const int fetched_layers`.
 
-// As `fetchUpTo`, of all layers.
+// As `fetchUpTo`, for all layers.
 void fetchLayers(sampler2DArray map, Footprint f, float coarsest, out vec4 layers[fetched_layers]) {
 //? if sampling_frame and not filter_hardware
   Probes p = probesOf(vec2(textureSize(map, 0).xy), f);

@@ -1,7 +1,7 @@
-// Two textures of one map under a footprint. In a frame one loop over the probes reads both: their places, their
-// weights and their level are those of either, and a loop of its own for each would find them again.
+// Reads two textures of one map under a footprint. One loop over the probes reads both, because position, weight and
+// level are shared.
 
-// As `fetch`, of textures of one size.
+// As `fetch`, for two textures of the same size.
 void fetchPair(sampler2D first, sampler2D second, Footprint f, out vec4 of_first, out vec4 of_second) {
 //? if sampling_frame and not filter_hardware
   Probes p = probesOf(vec2(textureSize(first, 0)), f);

@@ -1,15 +1,14 @@
-// Area weights: the texels of one level that a footprint touches, each by how much of the footprint lies in it
-// (docs/filters.md), two by two: a bilinear lookup between four texels has the weight of all, and their shares by where
-// it is.
-//
-// The footprint P is spread by the tent of bilinear filtering at the finest level: of a texel of level l that leaves
-// the integral over its square of P convolved with a box of 2^-l of its width. Strip by strip of two rows that is a
-// product: the share of a row, of which P's extent across rows is two boxes convolved, and within the strip the share
-// of a column, of which the section of P halfway up the strip is one. Boxes of widths u and v that are small beside a
-// third are taken as one of the width sqrt(u^2 + v^2), which has their variance. Shares sum to one as differences of a
-// distribution function do; the outermost ones have what lies beyond them.
+// Area weights: each texel of one level counts with its share of the footprint (docs/filters.md). One bilinear lookup
+// reads 2 x 2 texels: it has their total weight, and its position sets their shares.
+// The footprint P is convolved with the tent of bilinear filtering at the finest level. A texel of level l then has the
+// integral over its square of P convolved with a box of 2^-l of its width. For strips of two rows the weight factors
+// into the share of a row and the share of a column. The row share comes from the extent of P across rows, two
+// convolved boxes; the column share from the section of P at half height.
+// Boxes of widths u and v that are small compared with a third are replaced by one box of width sqrt(u^2 + v^2), which
+// has their variance. Shares are differences of a distribution function and sum to one; the outermost ones include the
+// remainder.
 
-// A point's place along an axis: two boxes convolved about 0.
+// The position of a point along an axis: two boxes convolved about 0.
 struct Boxes {
   float reach;    // to either side
   float plateau;  // to where the density is even
@@ -17,8 +16,8 @@ struct Boxes {
   float tail;     // of what is left to the end, squared, the share that lies there
 };
 
-// No box is narrower: of one that is, rounding would leave little. Bilinear weights change by less than half of it over
-// its width.
+// The narrowest box; rounding would affect narrower ones. Bilinear weights change by less than half of it over its
+// width.
 const float narrowest_box = 1.0 / 1024.0;
 
 Boxes boxesOf(float a, float b) {
@@ -27,7 +26,7 @@ Boxes boxesOf(float a, float b) {
   return Boxes(0.5 * (u + v), 0.5 * abs(u - v), 1.0 / max(u, v), 0.5 / (u * v));
 }
 
-// The distribution function. Tails are squares of what is left of them, so that nothing cancels.
+// The distribution function. Tails are squares of the remaining length, which avoids cancellation.
 float boxesBelow(Boxes b, float x) {
   float t = abs(x);
   float rest = max(b.reach - t, 0.0);
@@ -35,7 +34,7 @@ float boxesBelow(Boxes b, float x) {
   return x < 0.0 ? beyond : 1.0 - beyond;
 }
 
-// A pair of texels about `middle`: what is theirs, and the second one's part of it.
+// A pair of texels about `middle`: their share, and the part of the second texel.
 struct PairShare {
   float whole;
   float second;
@@ -48,16 +47,16 @@ PairShare pairShare(Boxes b, float middle, bool first, bool last) {
   return PairShare(whole, whole > 1e-6 ? clamp((high - boxesBelow(b, middle)) / whole, 0.0, 1.0) : 0.5);
 }
 
-// Of a box, what is left to the outermost texels at each end, in texels: without it one more would have next to
-// nothing. Next to none of a narrow one, whose texels blend as those of a bilinear lookup do.
+// The margin of a box at each end, in texels, that goes to the outermost texels; otherwise one more texel would have
+// almost no weight. Almost 0 for a narrow box, whose texels blend as in a bilinear lookup.
 const float widest_hem = 0.35;
 float hemOf(float extent) { return max(widest_hem * min(0.5 * extent, 1.0), 2.0 * narrowest_box); }
 
-// Pairs of texels that hold so much of an axis, wherever it begins.
+// The number of pairs that cover an interval of an axis at any offset.
 float pairsOf(float extent) { return ceil(0.5 * (ceil(extent) + 1.0)); }
 
-// Lookups by strips of two rows and, in a strip, pairs of columns, across the axis along which the footprint reaches
-// farther. What is the same for all of them is worked out once: Mesa's llvmpipe moves nothing out of a loop.
+// Lookups by strips of two rows and pairs of columns, across the axis along which the footprint is longer. Common
+// values are computed once, because llvmpipe does not move code out of loops.
 struct Probes {
   int count;
   float level;
@@ -78,7 +77,7 @@ struct Probes {
   float hem;        // of columns
 };
 
-// The edge of a footprint that crosses more rows and the other one, both upwards.
+// The edge that crosses more rows, and the other one, both upwards.
 struct RowEdges {
   vec2 edge;
   vec2 other;
@@ -100,9 +99,9 @@ float widestOf(RowEdges e) {
   return abs(e.other.x - e.other.y * leanOf(e)) * min(e.edge.y / max(e.other.y, 1e-12 * e.edge.y), 1.0);
 }
 
-// s, the finest level's texels over those of which 2N x 2N hold a footprint h high and w wide: (h + 1) s - 2 hems + 1
-// rows, the 1 in the brackets being the tent's, times as many columns of w, which lean over two rows. Of the roots, the
-// form that does not cancel.
+// The scale s: the width of a finest texel over that of texels of which 2N x 2N cover a footprint of height h and width
+// w. There are (h + 1) s - 2 hems + 1 rows, with 1 for the tent, times the columns of w, which span two rows. Uses the
+// form of the root without cancellation.
 float areaScale(RowEdges e) {
   const float rim = 1.0 - 2.0 * widest_hem;
   float high = e.edge.y + e.other.y + 1.0;
@@ -129,7 +128,7 @@ Probes probesOf(vec2 size, Footprint f) {
   vec2 smear = texels / size;  // a finest texel's sides
   p.centre = p.turned ? centre.yx : centre;
   if (p.turned) smear = smear.yx;
-  // A footprint that is wider than 2N texels of the coarsest level sees them all alike.
+  // A footprint wider than 2N texels of the coarsest level weighs them equally.
   vec2 scale = smear * min(s * exp2(p.level), 1.0);
   e.edge *= scale;
   e.other *= scale;
@@ -151,7 +150,7 @@ Probes probesOf(vec2 size, Footprint f) {
   return p;
 }
 
-// A lookup: (column, row) from the footprint's centre, and the share of the footprint.
+// A lookup: (column, row) relative to the footprint's centre, and its share of the footprint.
 struct AreaLookup {
   vec2 place;
   float share;
@@ -164,7 +163,7 @@ AreaLookup areaLookup(Probes p, int i) {
   float low = max(row - 0.5, -p.reach);
   float high = min(row + 1.5, p.reach);
   float halfway = clamp(0.5 * (low + high), -p.reach, p.reach);
-  // On the footprint's point edge u + other v, at that height: v between the ends that u in [-1/2, 1/2] leaves it.
+  // The point edge u + other v of the footprint at that height: the range of v for u in [-1/2, 1/2].
   float from = max((halfway - p.half_edge) * p.per_rise, -0.5);
   float to = min((halfway + p.half_edge) * p.per_rise, 0.5);
   float middle = p.lean * halfway + p.across * 0.5 * (from + to);

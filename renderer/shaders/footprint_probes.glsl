@@ -1,6 +1,6 @@
-// The footprint filters (docs/filters.md): the trilinear lookups that stand for a footprint, their places, their one
-// level and their weights, which sum to one. There is one at least, so that a loop over them may test at its end:
-// Mesa's llvmpipe goes through all of a body once more, for no pixel, where a loop tests at its head.
+// The footprint filters (docs/filters.md): positions, common level and weights of the trilinear lookups for a
+// footprint. The weights sum to one. There is at least one probe, so loops test at their end; a test at the head makes
+// llvmpipe execute the body once more for no pixel.
 
 //? if filter_area
 //? include footprint_area.glsl
@@ -19,8 +19,8 @@ struct Probes {
 //? end
 };
 
-// Texels as wide as the longer edge of one of `parts` x `parts` equal parts (OpenGL 4.5, section 8.14). A trilinear
-// lookup is a tent over boxes: lookups as far apart as texels are wide add up to a box that is flat inside.
+// The level with texels as wide as the longer edge of one of `parts` x `parts` equal parts (OpenGL 4.5, section 8.14).
+// A trilinear lookup is a tent over boxes; lookups spaced by the texel width add up to a box with a flat top.
 float levelOf(vec2 size, Footprint f, float parts) {
   vec2 edge_x = f.dx * size;
   vec2 edge_y = f.dy * size;
@@ -28,9 +28,9 @@ float levelOf(vec2 size, Footprint f, float parts) {
 }
 
 //? if filter_anisotropic or filter_hardware
-// Equal probes along the longer edge, at the level of the shorter one: the formulas of EXT_texture_filter_anisotropic,
-// spelled out because drivers differ in theirs. What rounding alone makes longer than wide is even: one probe and two
-// differ by a whole level.
+// Equal probes along the longer edge at the level of the shorter one, by the formulas of
+// EXT_texture_filter_anisotropic; drivers differ, so they are explicit here. Rounding must not make an even footprint
+// longer than wide: one probe and two differ by a whole level.
 Probes probesOf(vec2 size, Footprint f) {
   float along_x = length(f.dx * size);
   float along_y = length(f.dy * size);
@@ -44,7 +44,7 @@ Probes probesOf(vec2 size, Footprint f) {
 vec2 probeUv(Footprint f, Probes p, int i) { return f.uv + p.step * (float(i) - 0.5 * float(p.count - 1)); }
 float probeWeight(Probes p, int i) { return p.weight; }
 //? elif filter_box
-// n x n equal probes in the middles of the parts that tile the footprint.
+// n x n equal probes at the centres of parts that tile the footprint.
 Probes probesOf(vec2 size, Footprint f) {
   return Probes(footprint_parts * footprint_parts, levelOf(size, f, float(footprint_parts)));
 }
@@ -56,7 +56,7 @@ vec2 probeUv(Footprint f, Probes p, int i) {
 
 float probeWeight(Probes p, int i) { return 1.0 / float(p.count); }
 //? elif filter_ewa
-// From -1 to 1 along the ellipse's longer axis.
+// Position along the longer axis of the ellipse, -1 to 1.
 float probeAxis(Probes p, int i) { return p.count > 1 ? 2.0 * float(i) / float(p.count - 1) - 1.0 : 0.0; }
 
 float probeWeight(Probes p, int i) {
@@ -64,14 +64,14 @@ float probeWeight(Probes p, int i) {
   return exp(-p.falloff * t * t) / p.whole;
 }
 
-// Heckbert 1989: a Gaussian exp(-2 r^2) over the ellipse that the footprint's edges map the unit circle to, cut off
-// at its border. Its variance along an axis of radius s is s^2 / 4. A trilinear lookup in texels of width t has the
-// variance t^2 / 4 itself (t^2 / 6 of the tent, t^2 / 12 of the texel): with t the shorter radius it is the Gaussian
-// across, and along the longer one probes no farther apart than t are weighed by a Gaussian of the variance that is
-// missing, (s^2 - t^2) / 4, as far as s - t from the middle (as McCormack et al. 1999 place theirs). Where
-// most_probes do not reach, t grows: blur, no gaps.
+// Heckbert 1989: a Gaussian exp(-2 r^2) over the ellipse to which the edges map the unit circle, cut off at its border.
+// Its variance along an axis of radius s is s^2 / 4. A trilinear lookup in texels of width t has the variance t^2 / 4
+// (t^2 / 6 of the tent, t^2 / 12 of the texel).
+// With t the shorter radius, a lookup is the Gaussian across. Along the longer axis, probes at most t apart have
+// Gaussian weights with the missing variance (s^2 - t^2) / 4, up to s - t from the centre (as McCormack et al. 1999
+// place theirs). If most_probes are too few, t grows, which blurs but leaves no gaps.
 Probes probesOf(vec2 size, Footprint f) {
-  // J J^T = (a b; b c) of the edges in texels: its roots are the squared radii.
+  // J J^T = (a b; b c) of the edges in texels; its eigenvalues are the squared radii.
   vec2 edge_x = f.dx * size;
   vec2 edge_y = f.dy * size;
   float a = edge_x.x * edge_x.x + edge_y.x * edge_y.x;
@@ -79,12 +79,12 @@ Probes probesOf(vec2 size, Footprint f) {
   float c = edge_x.y * edge_x.y + edge_y.y * edge_y.y;
   float root = length(vec2(a - c, 2.0 * b));
   float major = sqrt(max(0.5 * (a + c + root), 1e-24));
-  // The area over the longer radius: the difference of the roots would cancel.
+  // Area over longer radius, because the difference of the roots would cancel.
   float minor = abs(edge_x.x * edge_y.y - edge_x.y * edge_y.x) / major;
   float width = max(minor, 1.0);  // no texel is finer than the finest
   int count = clamp(int(ceil(2.0 * major / width - 1.0)), 1, most_probes);
   width = max(width, 2.0 * major / float(count + 1));
-  // The eigenvector, from the row that does not cancel.
+  // The eigenvector, from the row without cancellation.
   vec2 along = a >= c ? vec2(0.5 * (a - c + root), b) : vec2(b, 0.5 * (c - a + root));
   along = root > 0.0 ? normalize(along) : vec2(1.0, 0.0);
   float reach = max(major - width, 0.0);  // of the outermost probes

@@ -1,6 +1,6 @@
-// The slopes under a pixel's footprint: the lobe of common_slopes.glsl from the textures of `bake_slopes`
-// (renderer/bake/slope_moments.hpp), a bump layer's added. Who takes it in has the flag `mean_normal_kept`: whether
-// these hold, for a diffuse term over one map alone, the mean normal too.
+// The slopes under the footprint of a pixel, from the textures of `bake_slopes` (renderer/bake/slope_moments.hpp) plus
+// a bump layer, and the lobe of common_slopes.glsl over them. The flag `mean_normal_kept` tells whether the textures
+// include the mean normal, for a diffuse term over one map only.
 //? include common_slopes.glsl
 //? include fetch_pair.glsl
 //? if not normal_variation or not roughness_moments
@@ -44,8 +44,8 @@ FilteredSlopes filteredSlopes(Footprints f) {
 //? end
 //? end
 //? if normal_layers
-  // Slopes of independent layers add, and so do their means and covariances: M = M1 + M2 + B1 B2^T + B2 B1^T less
-  // (B1 + B2)(B1 + B2)^T is (M1 - B1 B1^T) + (M2 - B2 B2^T), in the order that cancels least.
+  // Slopes of independent layers add, and so do means and covariances. M = M1 + M2 + B1 B2^T + B2 B1^T minus (B1 +
+  // B2)(B1 + B2)^T is (M1 - B1 B1^T) + (M2 - B2 B2^T), the order with the least cancellation.
 //? if variant_clean
   moments = fetch(layer_moments, f.layer);
 //? else
@@ -57,7 +57,7 @@ FilteredSlopes filteredSlopes(Footprints f) {
   return s;
 }
 
-// The base lobe's slope variance, but for what the moments hold already.
+// The slope variance of the base lobe that the moments do not include.
 float addedVariance(Footprints f) {
 //? if normal_variation and roughness_moments
   return 0.0;
@@ -66,5 +66,5 @@ float addedVariance(Footprints f) {
 //? end
 }
 
-// The lobe over a pixel's footprint.
+// The lobe over the footprint of a pixel.
 SlopeLobe footprintLobe(Footprints f, FilteredSlopes s) { return slopeLobe(s.mean, s.spread, addedVariance(f)); }

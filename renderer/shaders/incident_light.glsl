@@ -1,4 +1,4 @@
-// Light of one source as it arrives at a pixel: what of it is the same for all that is shaded there.
+// Light from one source at a pixel: values that are common to all that is shaded there.
 struct Incident {
   vec3 wi;  // tangent frame
   vec3 irradiance_at_normal;
@@ -15,8 +15,8 @@ Incident incident(vec3 wi, vec3 irradiance_at_normal, vec4 source) {
 //? end
 }
 
-// Whether light from a direction of the tangent frame reaches the surface's facets, the scene's rule
-// (docs/base-brdf.md, Horizon). No direction at all is the zero vector.
+// Whether light from a direction of the tangent frame reaches the facets under the horizon rule of the scene
+// (docs/base-brdf.md, Horizon). The zero vector means no direction.
 bool reachesFacets(vec3 wi) {
 //? if horizon_open
   return dot(wi, wi) > 0.0;

@@ -1,6 +1,6 @@
-// Whether all samples of a pixel see one smooth piece of surface: each is compared with the pixel's first, the one at
-// the lower left of the first pass, so that the result depends neither on tiles nor on the order of passes. Blending
-// takes the least over all passes: 1 where all of them agree.
+// Tests whether all samples of a pixel see one smooth piece of surface. Compares each with the first sample of the
+// pixel, at the lower left of the first pass, so that the result is independent of tiles and the order of passes.
+// Blending takes the minimum over all passes: 1 if all agree.
 //? if cast_shadow
 layout(binding = 0) uniform sampler2D shares;
 layout(binding = 4) uniform sampler2D first_shares;
@@ -19,10 +19,10 @@ uniform float rounding;  // of positions, metres
 //? end
 uniform int grid;
 
-// 1 or 0; the number of the pixel's only material; unused; the footprint's longer edge in texels.
+// Interior (1 or 0); index of the only material in the pixel; unused; longer edge of the footprint in texels.
 layout(location = 0) out vec4 smooth_material_texels;
 
-// Half of what normals, and directions within the surface, may differ by (interior.hpp).
+// Half of the allowed differences of normals and of directions within the surface (interior.hpp).
 const float least_cosine = 0.98480775;  // of 10 degrees
 const float most_sine = 0.17364818;
 const float most_share = 1.0 / 16.0;     // of a light
@@ -34,15 +34,15 @@ bool agrees(ivec2 at, ivec2 first) {
   return all(lessThanEqual(difference, vec4(most_share)));
 }
 //? else
-// The step from the first sample lies in the surface: within 10 degrees of the triangle's plane, and no longer than
-// twice what the pixel spans there (seen at a slant, a step to another sheet is nearly in the plane).
+// The step from the first sample is within the surface: within 10 degrees of the plane of the triangle, and at most
+// twice the span of the pixel there. At grazing views, a step to another sheet is almost in the plane.
 bool isOnSurface(vec3 step, vec3 facet, float extent) {
   float size = length(step);
   return abs(dot(step, facet)) <= most_sine * size + rounding && size <= 2.0 * extent + rounding;
 }
 
-// Texture coordinates change no faster than over the surface; twice as fast is left to its curvature. What a map that
-// repeats joins is no jump.
+// Texture coordinates change at most twice as fast as over the plane of the triangle, which allows for curvature.
+// Wrapping at the border of a repeating map is no jump.
 bool isWithoutJump(vec2 change, float stretch, float size) {
   vec2 repeated = change - round(change);
   return min(length(change), length(repeated)) <= 2.0 * stretch * size + 1e-4;

@@ -1,5 +1,5 @@
-// One sample's geometry, for the mask of interior pixels: which piece of surface it sees, where, and how it lies there.
-// With `cast_shadow` the share of four lights that reach it instead.
+// The geometry of one sample for the mask of interior pixels: piece of surface, position and orientation. With
+// `cast_shadow`, the share of four lights that reaches it instead.
 in vec3 world_position;
 in vec3 world_normal;
 in vec2 uv0;
@@ -36,7 +36,8 @@ const float least_alone = 0.99;  // share of a pixel from which one material cou
 //? end
 
 //? if cast_shadow
-// Where the horizon cuts, a light below it does not reach the surface (docs/base-brdf.md), whatever its map says.
+// If the horizon cuts light off, light from below the surface does not reach it (docs/base-brdf.md), independent of its
+// map.
 float shareOf(float first_view, vec3 facet, vec3 normal, vec3 to_light) {
 //? if not horizon_open
   if (dot(normal, to_light) <= 0.0) return 0.0;
@@ -70,7 +71,7 @@ vec4 lightShares(vec3 facet, vec3 normal) {
 //? end
 
 //? if material_index and not cast_shadow
-// Whether the pixel around a sample shows nothing of the surface's other materials.
+// Whether the pixel around a sample shows none of the other materials of its surface.
 bool isAlone() {
   vec2 uv = share_uv_offset_set.z < 0.5 ? uv0 : uv1;
   vec2 mapped = mat2(share_uv_linear.xy, share_uv_linear.zw) * uv + share_uv_offset_set.xy;
@@ -89,7 +90,7 @@ void main() {
   vec2 mapped_y = dFdy(mapped);
 //? if material_index
   bool is_alone = isAlone();
-  // A further material of a surface only writes its number, where the first has left 0.
+  // Further materials of a surface only write their index where the first one left 0.
   if (share_uv_offset_set.w < 0.5 && !is_alone) discard;
 //? else
   const bool is_alone = true;
@@ -108,7 +109,7 @@ void main() {
 //? if cast_shadow
   light_shares = lightShares(facet, normal);
 //? else
-  // Of the texture coordinates over the triangle's plane: u changes by dot(gradient, step) over a step.
+  // The gradient of texture coordinates over the plane of the triangle: u changes by dot(gradient, step) over a step.
   vec3 across_x = cross(along_y, facet), across_y = cross(facet, along_x);
   float area = max(abs(dot(along_x, across_x)), 1e-30);
   vec3 gradient_u = (mapped_x.x * across_x + mapped_y.x * across_y) / area;

@@ -1,4 +1,4 @@
-// Vertices to clip space, with what tells one piece of surface from another.
+// Transforms vertices to clip space and passes the identity of the piece of surface.
 layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;
 layout(location = 3) in vec2 in_uv0;

@@ -1,10 +1,11 @@
-// How far the length of a mean of unit normals is from 1, where rounding of its components is told from their spread.
+// How far the length of a mean of unit normals is below 1, separated from the rounding of its components.
 
-// What 32 bits take of the length of a mean of equal normals, in the texture and between its texels: three last places.
+// The rounding error of the length for equal normals in 32 bits, in the texture and between texels: three units in the
+// last place.
 const float rounding_of_floats = 1.8e-7;
 
-// 1 - |Na| without what rounding makes of it, which a lobe of exponent 1e6 would take for spread: nothing below
-// `rounding`, and far above it as it is.
+// 1 - |Na| without rounding errors, which would be spread for a lobe of exponent 1e6: 0 below `rounding`, unchanged far
+// above it.
 float shortfallOfLength(float size, float rounding) {
   float shortfall = 1.0 - size;
   if (shortfall <= rounding) return 0.0;

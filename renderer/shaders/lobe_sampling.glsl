@@ -1,6 +1,6 @@
-// Normals drawn from facets' lobes, for the reference's own integration of an environment.
+// Draws normals from the lobes of facets, for the reference's integration of an environment.
 
-// Right-handed, the third column n (Duff et al. 2017).
+// A right-handed frame whose third column is n (Duff et al. 2017).
 mat3 frameAbout(vec3 n) {
   float s = n.z >= 0.0 ? 1.0 : -1.0;
   float a = -1.0 / (s + n.z);
@@ -8,16 +8,16 @@ mat3 frameAbout(vec3 n) {
   return mat3(vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3(b, s + n.y * n.y * a, -n.y), n);
 }
 
-// 1 - e^x for x <= 0, without the cancellation near 0.
+// 1 - e^x for x <= 0, without cancellation near 0.
 float shortOfOne(float x) { return x > -1e-3 ? -x * (1.0 + 0.5 * x) : 1.0 - exp(x); }
 
-// 1 - cos of the angle with that squared tangent.
+// 1 - cos of the angle whose squared tangent is given.
 float tiltOf(float tangent2) {
   float secant = sqrt(1.0 + tangent2);
   return tangent2 / (secant * (1.0 + secant));
 }
 
-// 1 - cos of a normal drawn from the lobe, and its density over solid angle; u in (0, 1].
+// 1 - cos of a normal drawn from the lobe, and its density over solid angle. u is in (0, 1].
 //? if distribution_blinn_phong
 float drawnTilt(float s, float u) { return shortOfOne(log(u) / (s + 1.0)); }
 float drawnDensity(float s, vec3 n, vec3 h) { return lobeDensity(s, n, h); }
@@ -29,7 +29,7 @@ float drawnTilt(float kappa, float u) {
 }
 float drawnDensity(float kappa, vec3 n, vec3 h) { return lobeDensity(max(kappa, 1e-3), n, h); }
 //? end
-// Of microfacets the projected area integrates to one.
+// For microfacets, the projected area integrates to one.
 //? if distribution_beckmann
 float drawnTilt(float alpha, float u) { return tiltOf(-alpha * alpha * log(u)); }
 float drawnDensity(float alpha, vec3 n, vec3 h) { return lobeDensity(alpha, n, h) * max(dot(n, h), 0.0); }
@@ -54,7 +54,7 @@ float facetWeight() {
 }
 //? end
 
-// A normal of facets; u.z chooses among their lobes.
+// Draws a normal of facets; u.z selects the lobe.
 vec3 drawnFacet(Facets f, vec3 u) {
 //? if multi_lobe
   if (facet_lobe_count > 0) {

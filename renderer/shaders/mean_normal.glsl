@@ -1,12 +1,12 @@
-// The mean of the unit normals under a footprint, from the texture of `bake_mean_normal`: its direction, that of the
-// surface where it has none, and its length, at most 1.
+// The mean of the unit normals under a footprint, from the texture of `bake_mean_normal`: its direction (that of the
+// surface if it is zero) and its length, at most 1.
 //? if normal_layers
 //? include normal_layers.glsl
 //? end
 
 //? include length_shortfall.glsl
 
-// Of 16 bits half a last place. Bytes lose more than a guard could give back.
+// For 16 bits, half a unit in the last place. The loss of 8 bits is too large to correct.
 //? if storage_fp16
 const float length_rounding = 1.0 / 2048.0;
 //? elif storage_unorm8
@@ -30,8 +30,7 @@ vec4 meanNormal(Footprints f) {
   vec4 normal = vec4(0.0, 0.0, 1.0, 1.0);
 //? end
 //? if normal_layers
-  // The slopes of the two add, and of two independent layers so do the slope variances (1 - |Na|) / |Na| that the
-  // lengths tell: 1 / |Na| = 1 / |Na1| + 1 / |Na2| - 1.
+  // Slopes of both layers add, and so do their variances (1 - |Na|) / |Na|: 1 / |Na| = 1 / |Na1| + 1 / |Na2| - 1.
   vec4 layer = storedMeanNormal(fetch(mean_layer, f.layer).xyz);
   float size = 1.0 / (1.0 / max(normal.w, 1e-6) + 1.0 / max(layer.w, 1e-6) - 1.0);
   normal = vec4(withSlopesAdded(normal.xyz, layer.xyz), size);

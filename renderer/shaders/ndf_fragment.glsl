@@ -1,5 +1,5 @@
-// The NDF inspector's pass: a method's effective density of normals at listed directions, for one footprint given by
-// hand. The method's module takes the place of the line `module`.
+// The pass of the NDF inspector: the effective NDF of a method at listed directions, for one given footprint. The
+// module replaces the line `module`.
 layout(location = 0) out float density;
 
 uniform sampler2D ndf_directions;  // one per pixel: unit vectors, or zero where nothing is asked
@@ -22,7 +22,7 @@ void main() {
   all.base_color = givenFootprint(2);
 //? if surface_coordinates
   all.surface = all.normal;
-  tangent_to_camera = mat3(1.0);  // the plane lies as the camera sees it
+  tangent_to_camera = mat3(1.0);  // the camera looks at the plane from above
 //? end
 //? if filter_shaded
   density = 0.0;

@@ -1,12 +1,12 @@
-// The pixels on the right and above, as the differences within four pixels tell them: for modules that ask how normal
-// and half vector change over the screen.
+// The pixels on the right and above, by differences within a quad, for modules that use screen-space changes of normal
+// and half vector.
 struct Neighbour {
   vec3 position;
   mat3 frame;
 };
 Neighbour beside[2];  // of the pixel
 
-// Before any pixel is discarded. A frame's axes are unit and orthogonal, its inverse is its transpose.
+// Call before any pixel is removed. Frames are orthonormal, so the transpose is the inverse.
 void fetchNeighbourFrames(mat3 frame, inout Footprints f) {
   mat3 right = mat3(dFdx(frame[0]), dFdx(frame[1]), dFdx(frame[2]));
   mat3 up = mat3(dFdy(frame[0]), dFdy(frame[1]), dFdy(frame[2]));
@@ -16,7 +16,7 @@ void fetchNeighbourFrames(mat3 frame, inout Footprints f) {
   beside[1] = Neighbour(world_position + dFdy(world_position), frame + up);
 }
 
-// A neighbour's half vector, in its own frame.
+// The half vector of a neighbour in its own frame.
 vec3 halfVectorAt(Neighbour n, vec4 source) {
 //? if orthographic
   vec3 to_viewer = to_camera;
@@ -26,7 +26,7 @@ vec3 halfVectorAt(Neighbour n, vec4 source) {
   return halfVector(normalize(source.xyz - source.w * n.position), to_viewer) * n.frame;
 }
 
-// Of light along wi that comes from `source` in world space: a point (w 1) or a direction (w 0).
+// For light along wi from `source` in world space: a position (w 1) or a direction (w 0).
 HalfSteps halfSteps(vec3 wi, vec4 source, vec3 wo) {
   vec3 h = halfVector(wi, wo);
   HalfSteps steps = HalfSteps(halfVectorAt(beside[0], source) - h, halfVectorAt(beside[1], source) - h);

@@ -1,4 +1,4 @@
-// The effective NDF as lobes over half vectors: what a module hands over for environment light.
+// The effective NDF as lobes over half vectors, which modules provide for environment light.
 
 //? include vmf.glsl
 
@@ -12,20 +12,20 @@ struct NormalLobe {
   vec3 normal;      // of the facets, for the geometry factor: the axis, but for facets with lobes about other axes
 };
 
-// What the diffuse term of a footprint sees of an environment.
+// The facets as the diffuse term sees them under an environment.
 struct DiffuseFacets {
   vec3 mean_normal;  // not renormalised
   vec3 share;        // reflected of a constant environment, over the albedo
   bool whole;        // `share` has the albedo in it, and no Fresnel term takes from it
 };
 
-// A von Mises-Fisher lobe that holds `share` of the footprint.
+// A von Mises-Fisher lobe with a `share` of the footprint.
 NormalLobe vmfNormalLobe(vec3 axis, float kappa, float share, float base) {
   return NormalLobe(axis, max(kappa, 1e-3), share * meanCosine(kappa), base, false, axis);
 }
 
-// The base lobe about an axis that holds `share` of the footprint. The widths are those of the lobe near its peak; a
-// microfacet lobe's integral of D(h) (axis.h) is one, a Blinn-Phong lobe's (s + 1) / (s + 2).
+// The base lobe about an axis, with a `share` of the footprint. Its width is that of the lobe near its peak. The
+// integral of D(h) (axis.h) is one for a microfacet lobe and (s + 1) / (s + 2) for a Blinn-Phong lobe.
 NormalLobe baseNormalLobe(vec3 axis, float lobe, float share) {
 //? if distribution_blinn_phong
   return NormalLobe(axis, lobe + 1.0, share * (lobe + 1.0) / (lobe + 2.0), lobe, false, axis);
@@ -41,7 +41,7 @@ NormalLobe baseNormalLobe(vec3 axis, float lobe, float share) {
 //? end
 }
 
-// The lobes of facets that hold `share` of the footprint.
+// The lobes of facets with a `share` of the footprint.
 //? if multi_lobe
 int facetLobeCount() { return max(facet_lobe_count, 1); }
 

@@ -6,5 +6,5 @@ vec2 octahedral(vec3 d) {
   return 0.5 + 0.5 * vec2(p.x >= 0.0 ? folded.x : -folded.x, p.z >= 0.0 ? folded.y : -folded.y);
 }
 
-// A border of one texel repeats what lies across the edge, so that linear filtering has no seam.
+// A border of one texel repeats the texels across the edge, so that linear filtering has no seam.
 vec2 borderedUv(vec2 uv, vec2 size) { return (1.0 + uv * (size - 2.0)) / size; }

@@ -1,14 +1,12 @@
-// What a parallelogram, a pixel on a map, covers of a box. By Green's theorem: with k 1 inside of the box's columns and
-// K(y) the height y cut off at the box's lower and upper edge,
-//
-//   integral over P of k(x) K'(y) dx dy = - (integral around P of k(x) K(y) dx),   counterclockwise,
-//
-// a sum over four edges, and no polygon has to be cut. Any constant may be added to K: around P the integral of k(x) dx
-// is 0.
+// The area of a box that a parallelogram (a pixel on a map) covers, by Green's theorem. With k = 1 within the columns
+// of the box and K(y) = y clamped to its rows,
+//   integral over P of k(x) K'(y) dx dy = - (integral around P of k(x) K(y) dx), counter-clockwise.
+// This is a sum over four edges and needs no clipping. A constant may be added to K, because the integral of k(x) dx
+// around P is 0.
 
-// The mean over [a, b] of K(y) = y cut off at -1/2 and 1/2. From the antiderivative C of K it is
-// (C(b) - C(a)) / (b - a), which is 0 / 0 along x; so the lengths below, within and above the box are weighed by K's
-// means over them: sums of which none cancels.
+// The mean over [a, b] of K(y) = y clamped to -1/2 and 1/2. The antiderivative form (C(b) - C(a)) / (b - a) is 0 / 0
+// for horizontal edges. So the lengths below, within and above the box are weighted by the means of K over them, which
+// avoids cancellation.
 float meanClamped(float a, float b) {
   float low = min(a, b);
   float high = max(a, b);
@@ -20,7 +18,7 @@ float meanClamped(float a, float b) {
   return (0.5 * (above - below) + middle * (whole - below - above)) / whole;
 }
 
-// The integral of k(x) K(y) dx along the straight way from `from` by `along`.
+// The integral of k(x) K(y) dx along the segment from `from` by `along`.
 float clampedAlong(vec2 from, vec2 along) {
   float run = abs(along.x) > 1e-9 ? along.x : 1e-9;
   vec2 t = clamp((vec2(-0.5, 0.5) - from.x) / run, 0.0, 1.0);  // where it enters and leaves the box's columns
@@ -28,8 +26,8 @@ float clampedAlong(vec2 from, vec2 along) {
   return along.x * abs(t.y - t.x) * meanClamped(y.x, y.y);
 }
 
-// The area of the box of side 1 about 0 that the parallelogram about `centre` with `edges` for columns covers; rounding
-// leaves some 1e-7 of the edges' lengths.
+// The covered area of the unit box about 0 for the parallelogram about `centre` with the columns of `edges`. Rounding
+// error about 1e-7 of the edge lengths.
 float coveredArea(vec2 centre, mat2 edges) {
   vec2 corner = centre - 0.5 * (edges[0] + edges[1]);
   float around = clampedAlong(corner, edges[0]) + clampedAlong(corner + edges[0], edges[1]) -
@@ -37,8 +35,8 @@ float coveredArea(vec2 centre, mat2 edges) {
   return max(determinant(edges) > 0.0 ? -around : around, 0.0);
 }
 
-// A parallelogram no narrower than `narrowest`: the shorter edge is moved away from the longer one; of one that is
-// smaller than that altogether a square is made.
+// Widens a parallelogram to at least `narrowest` by moving the shorter edge away from the longer one. A smaller one
+// becomes a square.
 mat2 widened(mat2 edges, float narrowest) {
   bool first = dot(edges[0], edges[0]) >= dot(edges[1], edges[1]);
   vec2 longer = first ? edges[0] : edges[1];

@@ -1,18 +1,17 @@
-// The moments of some parts of the normals under a footprint, from array textures that the filter may average, and a
-// facet's lobe. Who takes it in has `const int parts`, and `const int part_channels`: 6, or 5 where a part keeps no
-// mixed second moment.
+// The moments of parts of the normals under a footprint, from array textures that filters may average, and the lobe of
+// a facet. Includers define `const int parts` and `const int part_channels`: 6, or 5 without the mixed second moment.
 //? include lobe_variance.glsl
 
-// Of a part of weight w: w, w x, w y; w x^2, w x y (0 where it is not kept), w y^2.
+// A part of weight w: w, w x, w y; w x^2, w x y (0 if not stored), w y^2.
 struct Moments {
   vec3 first;
   vec3 second;
 };
 
-// Under this share of the footprint a part is left out, and no division is by nothing.
+// Parts with a smaller share are skipped, which also avoids division by zero.
 const float least_share = 1e-4;
 
-// Covariance (xx, xy, yy) without a negative eigenvalue, which rounding makes where normals agree.
+// Covariance (xx, xy, yy) without a negative eigenvalue, which rounding can cause.
 vec3 covarianceOf(vec2 mean, vec3 second) {
   vec3 c = second - vec3(mean.x * mean.x, mean.x * mean.y, mean.y * mean.y);
   vec2 diagonal = max(c.xz, 0.0);
@@ -20,7 +19,7 @@ vec3 covarianceOf(vec2 mean, vec3 second) {
   return vec3(diagonal.x, clamp(c.y, -most, most), diagonal.y);
 }
 
-// The parameter and the slope variance per axis of a facet's lobe.
+// The parameter of the lobe of a facet and its slope variance per axis.
 struct BaseLobe {
   float parameter;
   float variance;
@@ -39,8 +38,7 @@ BaseLobe baseLobe(Footprints f) {
 const int fetched_layers = (parts * part_channels + 3) / 4;
 //? include fetch_layers.glsl
 
-// The moments of all parts, from no level above `coarsest`, and what they cover of the footprint: the part of it with
-// valid normals.
+// The moments of all parts, from levels up to `coarsest`, and the share of the footprint that has valid normals.
 float fetchMoments(sampler2DArray map, Footprint f, float coarsest, out Moments moments[parts]) {
   vec4 layers[fetched_layers];
   fetchLayers(map, f, coarsest, layers);

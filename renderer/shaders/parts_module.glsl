@@ -1,6 +1,5 @@
-// A module whose pixel is some parts of the normals under a footprint, each with a share, mean and covariance, and a
-// stretched base lobe. Who takes it in has `const int parts`, `Part` and what goes with it (stretched_part.glsl); what
-// is missing is `effective`.
+// A module with several parts of the normals per pixel, each with share, mean, covariance and a stretched base lobe.
+// Includers define `const int parts`, `Part` and its functions (stretched_part.glsl), and `effective`.
 //? include part_moments.glsl
 
 struct Effective {
@@ -15,7 +14,7 @@ float ndf(Effective e, vec3 h) {
   return sum;
 }
 
-// The geometry is that of single facets about the part's mean.
+// The geometry factor is that of single facets about the mean of the part.
 Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   Reflected r;
   r.specular = vec3(0.0);
@@ -36,7 +35,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
 //? if environment_light
 int lobeCount(Effective e) { return parts; }
 
-// A round lobe of the same mean slope variance.
+// A round lobe with the same mean slope variance.
 NormalLobe normalLobe(Effective e, int i) {
   NormalLobe lobe = baseNormalLobe(e.part[i].axis, lobeFromVariance(e.part[i].breadth), e.part[i].share);
   lobe.base = e.part[i].lobe;

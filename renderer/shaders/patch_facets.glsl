@@ -1,5 +1,5 @@
-// The facets of a patch of small-scale geometry, drawn at random: Iwasaki 2012, equation 1, as a sum over facets with
-// their true visibility. For the reference; its textures are those of renderer/bake/patch_facets.cpp.
+// Facets of a patch of small-scale geometry, drawn at random: Iwasaki 2012, equation 1, as a sum over facets with exact
+// visibility. For the reference; the textures are those of renderer/bake/patch_facets.cpp.
 //? include direction_grid.glsl
 
 const int facets_per_sample = 32;  // each from another share of the facets, which lie in the order of their normals
@@ -8,7 +8,7 @@ const int visibility_side = 32;    // of the grid of directions
 const int bits_per_texel = 96;     // 24 per channel: what a float holds exactly
 const int texels_per_facet = (visibility_side * visibility_side + bits_per_texel - 1) / bits_per_texel;
 
-// What one sample draws.
+// The draws of one sample.
 struct FacetDraw {
   vec2 random;
 };
@@ -28,8 +28,7 @@ int patchFacet(FacetDraw draw, int k) {
   return k * share + min(int(drawn * float(share)), share - 1);
 }
 
-// The sight of a facet towards w: that of one of the four cells of directions around w, drawn with the bilinear
-// weights.
+// Whether a facet sees w: that of one of the four cells of directions around w, drawn with bilinear weights.
 bool facetSees(int facet, vec3 w, vec2 random) {
   vec2 in_cells = hemisphereToSquare(w) * float(visibility_side) - 0.5 + random;
   ivec2 cell = clamp(ivec2(floor(in_cells)), ivec2(0), ivec2(visibility_side - 1));
@@ -39,7 +38,7 @@ bool facetSees(int facet, vec3 w, vec2 random) {
   return ((int(word) >> (bit % 24)) & 1) != 0;
 }
 
-// The sum over drawn facets of what is seen of both directions: normal and share of a_v, or nothing.
+// The sum over drawn facets visible from both directions: normal and share of a_v, or nothing.
 vec4 drawnNormal(FacetDraw draw, int k, vec3 wi, vec3 wo, out float paint) {
   int facet = patchFacet(draw, k);
   vec4 normal = texelFetch(base_facets, ivec2(facet % facets_per_row, facet / facets_per_row), 0);
@@ -50,7 +49,8 @@ vec4 drawnNormal(FacetDraw draw, int k, vec3 wi, vec3 wo, out float paint) {
   return vec4(normal.xyz, dot(normal.xyz, wo));
 }
 
-// a_v over the facets' area. The table has it over the cosine, which is smooth down to the horizon.
+// a_v divided by the area of the facets. The table stores it divided by the cosine, which is smooth down to the
+// horizon.
 float visibleArea(vec3 wo) {
   vec2 size = vec2(float(visibility_side));
   vec2 uv = clamp(hemisphereToSquare(wo) * size, vec2(0.5), size - 0.5) / size;
@@ -59,7 +59,7 @@ float visibleArea(vec3 wo) {
 
 const float least_visible_area = 1e-6;
 
-// What a paint multiplies the specular term's reflectance and the base colour by.
+// The factor of a paint for the specular reflectance and the base colour.
 //? if microgeometry_colour
 vec3 specularFactor(float paint) { return texelFetch(base_paints, ivec2(int(paint), 0), 0).rgb; }
 vec3 diffuseFactor(float paint) { return texelFetch(base_paints, ivec2(int(paint), 1), 0).rgb; }
@@ -71,7 +71,7 @@ vec3 diffuseFactor(float paint) { return vec3(1.0); }
 //? if tabulated_brdf
 const float largest_cell_shift = 0.99999;
 
-// The cell of a MERL table (Matusik et al. 2003) about a normal: twin of TabulatedBrdf::at.
+// The cell of a MERL table (Matusik et al. 2003) about a normal. Matches TabulatedBrdf::at.
 vec3 tabulatedBrdf(vec3 n, vec3 wi, vec3 wo) {
   if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
   vec3 h = halfVector(wi, wo);
@@ -126,7 +126,7 @@ vec3 patchDiffuse(FacetDraw draw, Surface s, vec3 wi, vec3 wo) {
 }
 //? end
 
-// A material of the scene may have no patch: its facets are those of a texel.
+// Materials without a patch have the facets of a texel.
 struct Effective {
   Facets facets;
   FacetDraw draw;

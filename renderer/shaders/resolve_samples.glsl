@@ -1,8 +1,7 @@
-// Adds one pass of samples to the running mean of each pixel. A fragment shader that reads the old sums and writes the
-// new ones: software rasterisers run fragments on every core, and compute shaders far slower.
-//
-// A sample's alpha is 0 beside the surface and 1 on it. 1 + x, up to 2 and more, where a share x of it fell on invalid
-// texels: the surface covers it, but that share has no radiance and enters no mean.
+// Adds one pass of samples to the running mean of each pixel. A fragment shader reads the old sums and writes the new
+// ones: software rasterisers run fragments on all cores, and compute shaders much slower.
+// The alpha of a sample is 0 beside the surface and 1 on it. It is 1 + x if a share x of the sample had invalid texels:
+// the surface covers it, but that share has no radiance and enters no mean.
 layout(binding = 0) uniform sampler2D samples;         // grid x grid samples per pixel
 layout(binding = 1) uniform sampler2D old_mean_count;  // mean radiance over samples that have one, their number
 layout(binding = 2) uniform sampler2D old_covered;     // number of covered samples
@@ -16,7 +15,7 @@ void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   mean_count = texelFetch(old_mean_count, pixel, 0);
   covered = texelFetch(old_covered, pixel, 0).r;
-  // Differences are taken from the mean so far: they stay small where the mean is large and the spread is not.
+  // Uses differences to the current mean, which stay small if the mean is large and the spread is small.
   vec4 sum = vec4(0.0);
   for (int y = 0; y < grid; ++y) {
     for (int x = 0; x < grid; ++x) {

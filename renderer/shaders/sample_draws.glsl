@@ -1,5 +1,5 @@
-// What a sample of the reference draws: a texel of the maps, and directions. Its points are those of two Owen-scrambled
-// sequences (renderer/pipeline/sample_sequence.hpp), each scrambled again for every pixel.
+// The draws of a sample of the reference: a texel of the maps, and directions. The points are those of two
+// Owen-scrambled sequences (renderer/pipeline/sample_sequence.hpp), scrambled again per pixel.
 //? include sample_sequence.glsl
 //? include random_numbers.glsl
 
@@ -7,7 +7,7 @@ uniform ivec2 sample_origin;  // of this tile in the whole image's sample grid
 uniform int sample_grid;
 uniform uint sample_seed;     // of the image's sequence
 uniform uvec2 sample_texels[16];  // digits for each cell of the grid
-uniform vec3 drawn_texels;    // of the material: size of the map whose texels are told apart; 4 texels per sample, or 1
+uniform vec3 drawn_texels;    // of the material: size of the map whose texels are drawn; 4 texels per sample, or 1
 
 uvec3 sample_pixel;  // the pixel's own seeds
 int sample_cell;
@@ -24,10 +24,9 @@ void drawPoint() {
 }
 
 //? if sampling_texel
-// Draws texel i of those that a sample may fall on at a footprint's centre, and returns its weight of the bilinear
-// filter. With 4 per sample the draw's square is cut where another texel of the map begins, and the point is put into
-// the part; maps of the same size and coordinates then take each of the 4 texels once, and others take theirs at
-// random.
+// Draws texel i around the centre of a footprint and returns its weight in the bilinear filter. With 4 texels per
+// sample the unit square of the draw is split at the texel borders, and the point is mapped into part i. Maps of the
+// same size and coordinates then take each of the 4 texels once; others take theirs at random.
 float drawTexel(Footprint f, int i) {
   drawPoint();
   if (drawn_texels.z < 2.0) return 1.0;

@@ -1,6 +1,6 @@
-// Owen-scrambled points of a sample: the twin of renderer/pipeline/sample_sequence.hpp, which has the sources.
+// Owen-scrambled points of a sample. Matches renderer/pipeline/sample_sequence.hpp, which cites the sources.
 
-// `digits` with the first one in bit 0; the result has it in bit 31.
+// Scrambles `digits`, whose first one is bit 0; in the result it is bit 31.
 uint scrambled(uint digits, uint seed) {
   uint x = digits;
   x ^= x * 0x3d20adeau;
@@ -11,7 +11,7 @@ uint scrambled(uint digits, uint seed) {
   return bitfieldReverse(x);
 }
 
-// From 24 bits: exact in a float, below 1.
+// Converts 24 bits: exact in a float, below 1.
 float unitInterval(uint bits) { return float(bits >> 8u) * (1.0 / 16777216.0); }
 
 vec2 scrambledPair(uvec2 digits, uvec2 seed) {

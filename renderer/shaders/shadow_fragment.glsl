@@ -1,4 +1,4 @@
-// What a shadow map keeps: linear depth along its axis, of what no alpha mask cuts out.
+// Writes a shadow map: linear depth along its axis, with the alpha test.
 in float depth;
 //? if alpha_mask
 in vec2 uv0;

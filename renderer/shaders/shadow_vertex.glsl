@@ -1,5 +1,5 @@
-// Vertices to a shadow map. Depth runs linearly along the map's axis and comes from the fragment stage, so that nothing
-// has to be clipped by it: z = 0 lies within every w.
+// Transforms vertices to a shadow map. Depth is linear along the axis of the map and written by the fragment stage, so
+// z = 0 avoids clipping by depth.
 layout(location = 0) in vec3 in_position;
 //? if alpha_mask
 layout(location = 3) in vec2 in_uv0;

@@ -1,6 +1,6 @@
-// A part whose moments are of stereographic coordinates, p = h_xy / (1 + h_z). They are conformal: a facet's lobe of
-// slope variance v about the normal over p has the covariance v ((1 + |p|^2) / 2)^2 I there, whatever the tilt, the
-// square of a chord is 4 |p - p'|^2 / ((1 + |p|^2) (1 + |p'|^2)), and a solid angle 4 dp / (1 + |p|^2)^2.
+// A part with moments of stereographic coordinates, p = h_xy / (1 + h_z). They are conformal: a lobe of slope variance
+// v about the normal at p has the covariance v ((1 + |p|^2) / 2)^2 I there for any tilt. The square of a chord is 4 |p
+// - p'|^2 / ((1 + |p|^2) (1 + |p'|^2)), and a solid angle 4 dp / (1 + |p|^2)^2.
 
 struct Part {
   vec2 mean;
@@ -28,9 +28,9 @@ Part absentPart() {
 }
 
 //? if distribution_ggx
-// Of the base lobe, which ends 90 degrees from its axis, the stretch carries what lies beyond the cosine
-// (s - 1) / (s + 1), s = 1 / det A, below the horizon (of a round spread about the surface's normal). GGX's tails are
-// long enough that it has to be given back: int_0^c 2 a^2 dx / (1 - t^2 x^2)^2, t^2 = 1 - a^2, of the lobe's energy.
+// The base lobe ends 90 degrees from its axis. The stretch moves the part beyond the cosine (s - 1) / (s + 1), s = 1 /
+// det A, below the horizon (for a round spread about the surface normal). The tails of GGX are long enough to
+// compensate: int_0^c 2 a^2 dx / (1 - t^2 x^2)^2, t^2 = 1 - a^2, of the energy.
 float tailsGivenBack(float alpha, float s) {
   float a2 = alpha * alpha;
   float t = sqrt(max(1.0 - a2, 1e-4));
@@ -43,8 +43,9 @@ float tailsGivenBack(float alpha, float s) {
 float tailsGivenBack(float lobe, float s) { return 1.0; }
 //? end
 
-// A = X^(-1/2) with X = I + spread / w, w the base lobe's variance here. The root of a 2 x 2 matrix is
-// X^(1/2) = (X + s I) / t, s^2 = det X, t^2 = tr X + 2 s; det X = 1 + tr + det of the rest is a sum that cannot cancel.
+// A = X^(-1/2) with X = I + spread / w; w is the variance of the base lobe in these coordinates. The square root of a 2
+// x 2 matrix is X^(1/2) = (X + s I) / t, s^2 = det X, t^2 = tr X + 2 s. det X = 1 + tr + det of the rest is a sum
+// without cancellation.
 Part stretchedPart(float share, vec2 mean, vec3 spread, float lobe, float variance) {
   float metric = 1.0 + dot(mean, mean);
   vec3 ratio = spread / (0.25 * variance * metric * metric);
@@ -57,10 +58,10 @@ Part stretchedPart(float share, vec2 mean, vec3 spread, float lobe, float varian
 }
 
 //? if diffuse
-// The mean of the unit normals (2 p, 1 - |p|^2) / q, q = 1 + |p|^2, of a part. With the mean m of q, which is known,
-// 1/q about 1/m to the second order of q - m is (1 + var q / m^2) / m, p / q likewise (mean (1 + var q / m^2) - cov(p,
-// q) / m) / m; to the second order of the spread cov(p, q) = 2 S mean and var q = 4 mean^T S mean. About m nothing runs
-// away where the spread is wide: two walls that face each other have var q = 0, and theirs is exact.
+// The mean of the unit normals (2 p, 1 - |p|^2) / q, q = 1 + |p|^2, of a part. The mean m of q is known. To second
+// order in q - m the mean of 1/q is (1 + var q / m^2) / m, and that of p / q is (mean (1 + var q / m^2) - cov(p, q) /
+// m) / m. To second order of the spread cov(p, q) = 2 S mean and var q = 4 mean^T S mean. Expanding about m stays
+// bounded for wide spreads: two walls that face each other have var q = 0 and an exact result.
 vec3 meanNormalOf(vec2 mean, vec3 spread) {
   vec2 along = vec2(dot(spread.xy, mean), dot(spread.yz, mean));
   float m = 1.0 + dot(mean, mean) + spread.x + spread.z;
@@ -70,10 +71,10 @@ vec3 meanNormalOf(vec2 mean, vec3 spread) {
 //? end
 
 //? if distribution_blinn_phong
-// The base lobe at 1 - cosine = u, below 2.
+// The base lobe at u = 1 - cosine, below 2.
 //? if density_fast
-// (1 - u)^s: log2 of 1 - u, which has lost u's last bits, is good to 2^-24 s; where s is larger the series, which is
-// good to 17 u^3 / 4 for what the lobe has not yet made nothing, u < 17 / s.
+// (1 - u)^s. log2(1 - u) loses the last bits of u and is accurate to 2^-24 s. For larger s the series is used, accurate
+// to 17 u^3 / 4 where the lobe is not negligible, u < 17 / s.
 float lobeAt(float s, float u) {
   float series = -1.4426950 * u * (1.0 + u * (0.5 + u * (1.0 / 3.0)));
   float exponent = s > 1000.0 ? series : log2(max(1.0 - u, 1e-30));
@@ -106,7 +107,7 @@ float lobeAt(float alpha, float u) {
 }
 //? end
 
-// D(h) dh = D_base(h') dh' with p(h') = mean + A (p(h) - mean), so that the energy stays the base lobe's own.
+// D(h) dh = D_base(h') dh' with p(h') = mean + A (p(h) - mean), which preserves the energy of the base lobe.
 float partDensity(Part part, Direction at) {
   countLobes(1);
   vec2 d = at.p - part.mean;

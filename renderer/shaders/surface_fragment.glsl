@@ -1,5 +1,5 @@
-// The forward pass: linear radiance towards the camera, coverage in alpha. Everything that all methods share is here.
-// The method's module takes the place of the line `module`.
+// The forward pass: linear radiance towards the camera, and coverage in alpha. Contains everything that all methods
+// share. The module of the method replaces the line `module`.
 in vec3 world_position;
 in vec3 world_normal;
 in vec4 world_tangent;
@@ -89,7 +89,7 @@ vec3 seen_facet;  // of the pixel
 //? include clear_coat.glsl
 
 //? end
-// What is seen through a pixel, or a part of it.
+// The surface seen through a pixel or a part of it.
 struct SurfacePoint {
   Effective effective;
   Surface surface;
@@ -100,7 +100,7 @@ struct SurfacePoint {
 //? end
 };
 
-// Both terms together, and the coat over them: f * cos.
+// f * cos of both terms, and the coat over them.
 vec3 withCoat(SurfacePoint p, Reflected r, vec3 wi) {
 //? if diffuse
   vec3 base = r.specular + r.diffuse;
@@ -116,7 +116,7 @@ vec3 withCoat(SurfacePoint p, Reflected r, vec3 wi) {
 
 vec3 reflectance(SurfacePoint p, vec3 wi) { return withCoat(p, shade(p.effective, p.surface, wi, p.wo), wi); }
 
-// One light's share.
+// The contribution of one light.
 vec3 reflected(SurfacePoint p, Incident light) {
   if (!reachesFacets(light.wi)) return vec3(0.0);
 //? if screen_derivatives
@@ -134,7 +134,7 @@ vec3 reflected(SurfacePoint p, Incident light) {
 //? end
 
 //? if filter_shaded
-// Every light once per pixel, whatever the number of its parts.
+// Evaluates every light once per pixel, independent of the number of parts.
 Incident arriving[max(light_capacity, 1)];
 int arriving_count = 0;
 
@@ -156,7 +156,7 @@ void findLight(mat3 frame) {
 //? end
 
 //? if environment_light and not environment_sampled
-// The environment's light by lobes.
+// Environment light, by lobes.
 vec3 environmentRadiance(SurfacePoint p) {
 //? if environment_summed
   vec3 base = environmentSum(p.effective, p.surface, p.wo, p.frame);
@@ -206,8 +206,8 @@ vec3 lit(SurfacePoint p) {
   return radiance;
 }
 
-// Factor, map and vertex colour multiply (glTF 2.0, sections 3.9.2 and 3.7.2.1). Between vertices the colour is linear,
-// so that its value at the pixel's centre is its mean over the pixel.
+// Base colour = factor * map * vertex colour (glTF 2.0, sections 3.9.2 and 3.7.2.1). Vertex colour is linear over a
+// triangle, so its value at the pixel centre is its mean over the pixel.
 vec4 baseColor(Footprints f) {
   vec4 color = base_color_factor;
 //? if base_color_variation
@@ -232,7 +232,7 @@ Surface surfaceUnder(Footprints f, vec3 base_color) {
 }
 
 //? if alpha_mask
-// The pixel is cut out as a whole, by the mean over it.
+// The alpha test cuts out whole pixels, by the mean alpha over the pixel.
 float meanAlpha(Footprints f) {
 //? if filter_shaded
   float sum = 0.0;
@@ -245,7 +245,7 @@ float meanAlpha(Footprints f) {
 }
 //? end
 
-// What a footprint reflects, in the share of it that is the material's.
+// The reflected radiance of a footprint, times the share of the material.
 vec3 reflectedBy(Footprints f, mat3 frame, vec3 wo) {
 //? if material_index
   float share = fetch(material_share, f.share).r;
@@ -263,7 +263,7 @@ vec3 reflectedBy(Footprints f, mat3 frame, vec3 wo) {
 //? end
 }
 
-// The mean over the pixel's footprint.
+// The mean over the footprint of the pixel.
 vec3 meanReflected(Footprints f, mat3 frame, vec3 wo) {
 //? if filter_shaded
   findLight(frame);
@@ -280,8 +280,8 @@ vec3 meanReflected(Footprints f, mat3 frame, vec3 wo) {
 }
 
 //? if sampling_texel
-// The bilinear filter of radiance: the mean over the texels that a sample takes, each with its weight. In alpha what
-// resolve_samples.glsl reads: 1, and more by the share of invalid texels.
+// The bilinear filter of radiance: the weighted mean over the texels of a sample. Alpha is that of
+// resolve_samples.glsl: 1 plus the share of invalid texels.
 vec4 meanOverTexels(Footprints f, mat3 frame, vec3 wo) {
   vec3 radiance = vec3(0.0);
   float invalid = 0.0;

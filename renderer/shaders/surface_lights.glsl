@@ -1,6 +1,5 @@
-// Punctual lights in the units of KHR_lights_punctual: candela and lux. Their counts are uniforms: one program serves
-// any number of lights. llvmpipe knows their values when it compiles, and unrolls loops over few lights and little
-// else.
+// Punctual lights in the units of KHR_lights_punctual: candela and lux. Light counts are uniforms, so one program
+// serves any number. llvmpipe knows uniform values when it compiles and only unrolls short loops.
 
 //? if point_light
 struct PointLight {
@@ -29,7 +28,7 @@ layout(std140, binding = 4) uniform DirectionalLights { DirectionalLight directi
 uniform int directional_light_count;
 //? end
 
-// Inverse square, windowed where the light has a range (KHR_lights_punctual).
+// Inverse square falloff, windowed if the light has a range (KHR_lights_punctual).
 float distanceAttenuation(float squared_distance, float range) {
   float falloff = 1.0 / max(squared_distance, 1e-12);
   if (range <= 0.0) return falloff;
@@ -46,17 +45,17 @@ struct ShadowView {
 };
 layout(std140, binding = 6) uniform ShadowViews { ShadowView shadow_views[shadow_view_capacity]; };
 
-// The face of a cube that a direction meets, in the order +x, -x, +y, -y, +z, -z.
+// The face of a cube that a direction intersects, in the order +x, -x, +y, -y, +z, -z.
 int cubeFace(vec3 direction) {
   vec3 size = abs(direction);
   int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
   return 2 * axis + (direction[axis] < 0.0 ? 1 : 0);
 }
 
-// The share of a light that nothing keeps from a point: four texels compared, and blended. A comparison looks at the
-// surface up to sqrt(2) texels beside the point, so the point is first moved along its geometric normal `n` until it
-// lies before its own plane there: by sqrt(2) texels times the sine between normal and axis, and a little for what a
-// rasteriser rounds. `from_light` leads from the light to the point; only a light with six maps looks at it.
+// The unoccluded share of a light at a point: four texel comparisons, blended. A comparison reads the surface up to
+// sqrt(2) texels away. So the point is first moved along its geometric normal `n` until it is in front of its own plane
+// there: by sqrt(2) texels times the sine between normal and axis, plus a margin for rounding. `from_light`: from the
+// light to the point; only lights with six maps use it.
 float clearOfShadow(float first_view, vec3 point, vec3 n, vec3 from_light) {
   int view = int(first_view);
   if (shadow_views[view].faces_rounding.x > 1.0) view += cubeFace(from_light);

@@ -1,4 +1,4 @@
-// What is constant over a material: factors, the lobe or lobes, and where each map is looked up.
+// Constants of a material: factors, the lobe or lobes, and texture coordinate transforms.
 //? if multi_lobe
 struct FacetLobe {
   vec3 axis;  // z is the facet's normal

@@ -1,4 +1,4 @@
-// Vertices to clip space; the fragment stage gets position and frame in world space.
+// Transforms vertices to clip space; passes position and frame in world space.
 layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec4 in_tangent;

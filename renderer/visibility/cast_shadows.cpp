@@ -111,7 +111,7 @@ class Search {
   Search(const Scene& scene, const Occluders& occluders, const Light& light)
       : scene_(&scene), occluders_(&occluders), light_(&light) {}
 
-  // Whether a point is kept from the light, or keeps another from it.
+  // Whether a point is shadowed, or shadows another one.
   [[nodiscard]] bool shadows(const SurfacePoint& point) const {
     const glm::vec3 position = occluders_->position(point);
     const auto ray = ray_to_light(*light_, position);

@@ -11,31 +11,30 @@
 
 namespace footprint {
 
-/// A straight way from a point to a light.
+/// The ray from a point to a light.
 struct LightRay {
   glm::vec3 direction;  ///< from the point to the light, unit
   float distance;       ///< metres, infinite for a directional light
 };
 
-/// The way from `point` to `light`; none where the light sends nothing there (outside of its cone or beyond its range,
-/// or black) or stands at the point itself.
+/// The ray from `point` to `light`. None if the light does not shine there (outside of its cone or range, or black), or
+/// is at the point.
 [[nodiscard]] std::optional<LightRay> ray_to_light(const Light& light, const glm::vec3& point);
 
-/// The points of a scene that the search looks at: at most `limit` triangles, spread over all, by their middle and by
-/// points near their corners, and as many points again, spread over the area. Deterministic. Triangles without an area
-/// and points that an alpha mask cuts out have none.
+/// Points on the surface for the search: the middles of at most `limit` triangles and points near their corners, and as
+/// many points by area. Deterministic. Skips triangles without an area and points that an alpha mask cuts out.
 [[nodiscard]] std::vector<SurfacePoint> spread_points(const Scene& scene, const Occluders& occluders,
                                                       std::size_t limit);
 
-/// For each light of the scene: whether something keeps it from a point that faces it. From every point a ray goes to
-/// the light, if the point faces it (a double-sided one always does), and a ray away from it, which tells whether the
-/// point itself keeps it from the next: so a small part over a large one is found as well as the reverse. A plane or a
-/// one-sided convex body casts no shadow. Deterministic; time grows with the number of triangles up to `limit`.
+/// For each light of the scene: whether anything casts a shadow in it. Each point sends a ray to the light if it faces
+/// it (double-sided points always do), and a ray away from it, so that small parts over large ones are found as well as
+/// the reverse. A plane or a one-sided convex body casts no shadow. Deterministic; the time grows with the number of
+/// triangles up to `limit`.
 [[nodiscard]] std::vector<bool> lights_casting_shadows(const Scene& scene, const Occluders& occluders,
                                                        std::size_t limit = std::size_t{1} << 16U);
 
-/// Whether anything in a scene hides a part of what lies above the plane of a point: rays from the same points, 16
-/// directions each. Deterministic.
+/// Whether anything in a scene hides directions above the plane of a point: 16 rays from each of the same points.
+/// Deterministic.
 [[nodiscard]] bool hides_surroundings(const Scene& scene, const Occluders& occluders,
                                       std::size_t limit = std::size_t{1} << 13U);
 

@@ -32,7 +32,7 @@ int wrapped(int texel, int size, Wrap wrap) {
   return std::clamp(texel, 0, size - 1);
 }
 
-// Texture coordinates may lie a million tiles out: still within an int for 16384 texels, but not for ever.
+// Texture coordinates may be a million tiles away, which still fits an int for 16384 texels, but no more.
 int texel_of(float coordinate, int size, Wrap wrap) {
   constexpr float most = 1e9F;
   return wrapped(static_cast<int>(std::clamp(std::floor(coordinate * static_cast<float>(size)), -most, most)), size,

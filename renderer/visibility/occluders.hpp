@@ -1,4 +1,4 @@
-// What stands in the way of light: the triangles of a scene, asked by rays.
+// Ray queries against the triangles of a scene: occlusion and nearest points.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -21,43 +21,40 @@ struct SurfacePoint {
   float u = 0, v = 0;
 };
 
-/// A scene's triangles, ready for rays (Embree). A one-sided triangle stands in the way of light that comes to its
-/// front, from behind only where ShadowSettings::both_sides says so; what an alpha mask cuts out does not, by the texel
-/// nearest to the point. Refers to the scene, which
-/// must outlive it and keep its meshes and materials as they are. Questions may be asked by many threads at once.
+/// A scene's triangles for ray tracing (Embree). A one-sided triangle blocks light on its front, and from behind only
+/// with ShadowSettings::both_sides. Alpha masks are evaluated at the nearest texel. The scene must outlive this, with
+/// unchanged meshes and materials. Thread-safe.
 class Occluders {
  public:
   static constexpr float unlimited = std::numeric_limits<float>::infinity();
 
-  /// Throws Error (machine): memory is out.
+  /// Throws Error (machine): out of memory.
   explicit Occluders(const Scene& scene);
 
-  /// Whether anything keeps light from `origin` that comes against the unit vector `direction`, from nearer than
-  /// `distance`.
+  /// Whether anything within `distance` blocks light that arrives at `origin` against the unit vector `direction`.
   [[nodiscard]] bool blocked(const glm::vec3& origin, const glm::vec3& direction, float distance = unlimited) const;
 
-  /// The same for many rays without an end from one point; a value per direction.
+  /// The same for many unlimited rays from one point; a value per direction.
   [[nodiscard]] std::vector<bool> blocked(const glm::vec3& origin, std::span<const glm::vec3> directions) const;
 
-  /// The first point that keeps light which goes along the ray from going on, at `least` or further.
+  /// The first point at `least` or further that blocks light along the ray.
   [[nodiscard]] std::optional<SurfacePoint> nearest(const glm::vec3& origin, const glm::vec3& direction,
                                                     float least = 0.0F) const;
 
-  /// Whether light that comes to a mesh's triangle from behind passes.
+  /// Whether light from behind passes a mesh's triangles.
   [[nodiscard]] bool open_from_behind(std::size_t mesh) const;
 
-  /// Whether a point is there: no alpha mask cuts it out.
+  /// Whether no alpha mask cuts a point out.
   [[nodiscard]] bool present(const SurfacePoint& point) const;
 
   /// Corners of a triangle, in order.
   [[nodiscard]] std::array<const Vertex*, 3> corners(std::size_t mesh, std::size_t triangle) const;
 
-  /// Its position in world space, and the triangle's normal, outwards as it is wound; zero where it has no area.
+  /// A point in world space, and a triangle's outward normal; zero without an area.
   [[nodiscard]] glm::vec3 position(const SurfacePoint& point) const;
   [[nodiscard]] glm::vec3 normal(std::size_t mesh, std::size_t triangle) const;
 
-  /// How far from a surface a ray starts so that it does not meet it again by rounding: metres, relative to the
-  /// bounds.
+  /// The distance from the surface at which rays start to avoid intersecting it, metres, relative to the bounds.
   [[nodiscard]] float offset() const { return offset_; }
 
  private:
@@ -65,15 +62,15 @@ class Occluders {
     void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
     void operator()(RTCScene rays) const { rtcReleaseScene(rays); }
   };
-  // What the filter of a mesh with holes, or of one that lets light from behind through, needs to know of it.
+  // The data of the hit filter, for meshes with an alpha mask or open from behind.
   struct Sieve {
     const Mesh* mesh;
     const Material* material;
     bool open_from_behind;
-    Image alpha;  // of the base-colour map, its one channel, where an alpha mask looks at it
+    Image alpha;  // one channel, of the base-colour map; only for alpha masks
   };
 
-  // Drops the hits of rays towards a light, and of rays that light takes.
+  // Discard hits of rays towards a light, or of rays in the direction of light.
   static void towards_light(const RTCFilterFunctionNArguments* hits);
   static void away_from_light(const RTCFilterFunctionNArguments* hits);
   static void drop_hits(const RTCFilterFunctionNArguments* hits, float towards_front);

@@ -35,7 +35,7 @@ std::vector<std::pair<std::size_t, std::size_t>> grid_neighbours() {
   return pairs;
 }
 
-// Points halfway between neighbours of which one is visible.
+// Points halfway between a visible and a hidden neighbour.
 std::vector<glm::vec3> edges_of(const SphereVisibility& visible) {
   static const std::vector<std::pair<std::size_t, std::size_t>> neighbours = grid_neighbours();
   const std::vector<glm::vec3>& directions = visibility_directions();
@@ -139,7 +139,7 @@ std::vector<VertexSamples::Near> VertexSamples::near(const Vertex& vertex) const
 
 void VertexSamples::interpolate(const Vertex& vertex,
                                 const std::function<void(std::size_t sample, float weight)>& add) const {
-  constexpr float same = 1e-3F;  // rounding of the normals' product alone
+  constexpr float same = 1e-3F;  // rounding of the normals' product
   std::vector<Near> found = near(vertex);
   if (const auto own = std::ranges::min_element(found, {}, &Near::distance);
       own != found.end() && own->distance < same) {

@@ -14,10 +14,10 @@
 
 namespace footprint {
 
-/// Directions per side of the octahedral grid on which visibility is asked: 1024 rays per point, about 6 degrees apart.
+/// Directions per side of the octahedral visibility grid: 1024 rays per point, about 6 degrees apart.
 inline constexpr int visibility_edge = 32;
 
-/// For each direction of the grid, row by row, whether nothing lies in it.
+/// For each direction of the grid, row by row, whether it is unobstructed.
 using SphereVisibility = std::bitset<std::size_t{visibility_edge} * visibility_edge>;
 
 /// The directions of the grid, the middles of its cells, unit.
@@ -26,29 +26,30 @@ using SphereVisibility = std::bitset<std::size_t{visibility_edge} * visibility_e
 /// The cell that a direction (of any length but 0) lies in.
 [[nodiscard]] std::size_t visibility_cell(const glm::dvec3& direction);
 
-/// What a surface point sees: of what is above the plane of its `normal` (unit) what no triangle hides; below it
-/// nothing, or with an open horizon all. Rays start before the surface by the occluders' offset.
+/// The visible directions at a surface point: those above the plane of its unit `normal` that no triangle blocks, and
+/// all below it with an open horizon. Rays start at the occluders' offset.
 [[nodiscard]] SphereVisibility visibility_at(const Occluders& occluders, const glm::vec3& point,
                                              const glm::vec3& normal, Horizon horizon = Horizon::cut);
 
-/// The angle from each of `directions` (unit) to the nearest edge between visible and hidden, in radians, -pi to pi:
-/// above 0 where the direction is visible, below where it is hidden. An edge lies halfway between two neighbours of
-/// the grid. Without an edge: pi where all is visible, -pi where nothing is.
+/// The angle from each unit direction to the nearest edge of the visible region, radians: positive in visible
+/// directions, negative in hidden ones. An edge is halfway between two neighbours of the grid. Without an edge: pi if
+/// all is visible, -pi if nothing is.
 [[nodiscard]] std::vector<float> signed_distances(const SphereVisibility& visible,
                                                   std::span<const glm::vec3> directions);
 
-/// A subset of vertices such that each vertex is within 1 of one: the distance of two vertices is sqrt(d^2 / s^2 + (1 -
-/// n m) / (1 - cos 20 degrees)), d between their positions, s the spacing, n and m their normals.
+/// A subset of vertices such that every vertex is within distance 1 of one. The distance of two vertices is sqrt(d^2 /
+/// s^2 + (1 - n m) / (1 - cos 20 degrees)), with d between positions, spacing s, and normals n and m.
 class VertexSamples {
  public:
-  /// `spacing` in units of the positions, over 0. Takes vertices in their order, so that equal ones give equal samples.
-  /// The vertices must outlive this.
+  /// spacing: above 0, in units of the positions.
+  /// vertices: must outlive this; equal vertices in equal order give equal samples.
   VertexSamples(const std::vector<const Vertex*>& vertices, float spacing);
 
   [[nodiscard]] const std::vector<const Vertex*>& samples() const { return samples_; }
 
-  /// Calls `add` with each sample within 2 of `vertex`, one of those given, and its weight; the weights' sum is 1. They
-  /// go by inverse distance (Franke and Nielson 1980): a sample has its own value, and none comes into reach abruptly.
+  /// Calls `add` with each sample within distance 2 of `vertex`, one of those given, and its weight. Weights sum to 1
+  /// and follow the inverse distance (Franke and Nielson 1980), so that samples keep their values and none enters
+  /// abruptly.
   void interpolate(const Vertex& vertex, const std::function<void(std::size_t sample, float weight)>& add) const;
 
  private:

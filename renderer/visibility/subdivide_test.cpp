@@ -1,5 +1,5 @@
 // Shorter edges, the same surface.
-#include "renderer/visibility/subdivide.hpp"
+#include "renderer/scene/geometry.hpp"
 
 #include <gtest/gtest.h>
 

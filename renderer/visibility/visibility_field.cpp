@@ -83,7 +83,7 @@ float hidden_share(const SphereVisibility& visible, const glm::vec3& normal) {
   return hidden < least ? 0.0F : hidden;
 }
 
-// What is known of all samples before the compression.
+// Distances and shares of all samples before compression.
 struct Measured {
   Distances distances;
   std::vector<VertexVisibility> shares;  // without weights

@@ -15,55 +15,55 @@
 
 namespace footprint {
 
-/// Components that stand for a vertex's signed distance function, beside the mean of all.
+/// The number of principal components of a vertex's signed distances, next to their mean.
 inline constexpr std::size_t visibility_components = 15;
 
-/// Texels per side of the maps of mean and components, without their border.
+/// Texels per side of the maps of mean and components, without borders.
 inline constexpr int visibility_map_edge = 16;
 
-/// Edges of refined meshes are at most the bounds' radius over this.
+/// The bounds' radius over the longest edge of refined meshes.
 inline constexpr float visibility_edges_in_radius = 24.0F;
 
-/// The most vertices of a scene.
+/// The largest number of vertices of a scene.
 inline constexpr std::size_t most_visibility_vertices = std::size_t{1} << 22U;
 
-/// Light from each cell of the visibility grid: radiance integrated over its solid angle, in the order of
-/// visibility_directions.
+/// Light from each cell of the visibility grid, in its order: radiance integrated over the solid angle.
 [[nodiscard]] std::vector<glm::dvec3> visibility_light(const Environment& environment);
 
-/// One vertex.
+/// The visibility at one vertex.
 struct VertexVisibility {
   std::array<float, visibility_components> weights{};
-  glm::vec3 diffuse_share{1.0F};  ///< of a Lambert surface's irradiance: what is visible over what is above the horizon
-  float hidden = 0.0F;            ///< of even light, what bodies hide of the irradiance; 0 below 0.5%
+  glm::vec3 diffuse_share{1.0F};  ///< visible share of a Lambert surface's irradiance
+  float hidden = 0.0F;            ///< share of uniform light that bodies hide; 0 below 0.5%
 };
 
 /// The signed distance function of vertex v at w is mean(w) + sum over k of weights[k] component_k(w), radians.
 struct VisibilityField {
-  std::vector<Image> layers;  ///< RGBA, bordered octahedral maps; the first channel of all is the mean
-  std::vector<std::vector<VertexVisibility>> meshes;  ///< as the meshes of the scene, a value per vertex
-  double error = 0.0;                                 ///< what the components leave out, root mean square, radians
+  std::vector<Image> layers;                          ///< RGBA, bordered octahedral maps; the first channel is the mean
+  std::vector<std::vector<VertexVisibility>> meshes;  ///< per mesh and vertex of the scene
+  double error = 0.0;                                 ///< root mean square error of the distances, radians
 };
 
-/// Asks the visibility of vertices at least half a refined mesh's edge apart (VertexSamples; 1024 rays each, TBB and
-/// Embree), compresses the distances by principal components and interpolates them at the other vertices. Equal scenes
-/// give equal fields at any number of threads. Throws (machine) too many vertices, or too little memory for them;
-/// those of `progress`.
+/// Computes the visibility (VertexSamples; 1024 rays each, TBB and Embree) at vertices at least half a refined mesh's
+/// edge apart, compresses the distances by principal components, and interpolates them at the other vertices. Equal
+/// scenes give equal fields at any number of threads. Throws Error (machine): too many vertices, or too little memory;
+/// as `progress`.
 [[nodiscard]] VisibilityField visibility_field(const Scene& scene, const Occluders& occluders,
                                                const Environment& environment, const Progress& progress);
 
-/// Names a scene's field by all that it depends on: this very program, triangles and normals, what alpha masks cut out
-/// of them, and the light of the environment. Texture coordinates, materials and lights do not count else.
+/// The key of a scene's field: a hash of this program, triangles, normals, alpha masks and the light of the
+/// environment.
 [[nodiscard]] std::string visibility_key(const Scene& scene, const Environment& environment);
 
 /// The field with a checksum, in this machine's byte order. Equal fields give equal bytes.
 [[nodiscard]] std::vector<std::uint8_t> to_bytes(const VisibilityField& field);
 
-/// The field that `to_bytes` wrote; none where the bytes are cut short, overlong, damaged, of another form, or do not
-/// have a value for each vertex of `scene`.
+/// The field that `to_bytes` wrote. None if the bytes are truncated, too long, damaged or of another form, or do not
+/// match the vertices of `scene`.
 [[nodiscard]] std::optional<VisibilityField> visibility_from_bytes(const ByteSource& bytes, const Scene& scene);
 
-/// From `cache`, or asked of the scene and then kept there; without a cache asked. Throws as visibility_field.
+/// Reads the field from `cache`, or computes and stores it. Throws as visibility_field.
+/// cache: may be null.
 [[nodiscard]] VisibilityField cached_visibility_field(const Scene& scene, const Environment& environment,
                                                       const DiskCache* cache, const Progress& progress);
 

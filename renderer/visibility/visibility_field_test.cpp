@@ -10,7 +10,7 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/environment/octahedral.hpp"
-#include "renderer/visibility/subdivide.hpp"
+#include "renderer/scene/geometry.hpp"
 #include "tests/support/shadow_scenes.hpp"
 
 namespace footprint::testing {

@@ -98,9 +98,9 @@ case. Only properties measured in that run are reported. Cases are entries of th
 | threads | number of materials that one thread bakes to other bytes than two | 0 |
 | backends | number of values that differ between EGL (all threads) and OSMesa (one thread) | 0 |
 
-The sum over texels is in double precision and shares no code with the shaders (`renderer/ndf/true_ndf.hpp`). The same
-is true of the sum over a pixel's coats (`tests/hard_cases/coat_sum.hpp`). Under a coat, energy is that of the image, and
-a step is the change from one pixel to the next.
+The sum over texels is in double precision and shares no code with the shaders (`renderer/ndf/reference_ndf.hpp`). The
+same is true of the sum over a pixel's coats (`tests/hard_cases/coat_sum.hpp`). Under a coat, energy is that of the
+image, and a step is the change from one pixel to the next.
 
 - *Guarded*: a clamp is active there; the figure is the error it introduces.
 - *Out of range*: a known limit. The method's README gives the range, or [base-brdf.md](base-brdf.md#clear-coat) for

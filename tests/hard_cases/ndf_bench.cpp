@@ -7,7 +7,7 @@
 
 #include "methods/registry.hpp"
 #include "renderer/ndf/method_ndf.hpp"
-#include "renderer/ndf/true_ndf.hpp"
+#include "renderer/ndf/reference_ndf.hpp"
 
 namespace footprint::hard_cases {
 
@@ -20,12 +20,12 @@ NdfBench::NdfBench(const gl::Context& context, const Material& material, const F
       texels_(texels_under(material, footprint)) {}
 
 std::vector<double> NdfBench::truth_at(const std::vector<glm::vec3>& directions) const {
-  const TrueNdf truth(scene_.materials.front().brdf.distribution, texels_.facets);
+  const ReferenceNdf truth(scene_.materials.front().brdf.distribution, texels_.facets);
   return truth.densities(directions, no_progress);
 }
 
 Directions NdfBench::over_the_hemisphere(int rings) const {
-  const TrueNdf truth(scene_.materials.front().brdf.distribution, texels_.facets);
+  const ReferenceNdf truth(scene_.materials.front().brdf.distribution, texels_.facets);
   Directions out{hemisphere_grid(std::min(resolution_for(truth.narrowest()), rings)), {}};
   out.truth = truth.densities(out.grid.directions, no_progress);
   return out;

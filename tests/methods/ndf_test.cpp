@@ -15,7 +15,7 @@
 #include "renderer/ndf/footprint_texels.hpp"
 #include "renderer/ndf/hemisphere_grid.hpp"
 #include "renderer/ndf/method_ndf.hpp"
-#include "renderer/ndf/true_ndf.hpp"
+#include "renderer/ndf/reference_ndf.hpp"
 #include "scenes/surfaces/registry.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/test_scenes.hpp"
@@ -41,7 +41,7 @@ class Inspection {
  public:
   explicit Inspection(Material material, const FootprintRect& rect = whole_map, int most_rings = largest_resolution)
       : rect_(rect), scene_(scene_of_facets(material)), gpu_(shared_context().info(), scene_, effects()) {
-    const TrueNdf truth(material.brdf.distribution, texels_under(material, rect).facets);
+    const ReferenceNdf truth(material.brdf.distribution, texels_under(material, rect).facets);
     grid_ = hemisphere_grid(std::min(resolution_for(truth.narrowest()), most_rings));
     truth_ = truth.densities(grid_.directions, no_progress);
   }

@@ -154,14 +154,14 @@ void replace_base_color(const glm::vec3& color, Material& material) {
   }
 }
 
-// Vertex colours multiply a base colour that is no longer there; their alpha still cuts out.
+// Vertex colours would multiply the replaced base colour; their alpha still cuts out.
 void whiten_vertices(Model& model) {
   for (Mesh& mesh : model.meshes) {
     for (Vertex& vertex : mesh.vertices) vertex.color = {1.0F, 1.0F, 1.0F, vertex.color.a};
   }
 }
 
-// What a material says of the width of its lobe, and which distribution it says it of.
+// Removes the width and the distribution of a material's lobe.
 void drop_width(std::optional<NormalDistribution> distribution, Material& material) {
   material.brdf.distribution = distribution.value_or(NormalDistribution::ggx);
   material.lobe_parameter.reset();
@@ -273,7 +273,7 @@ std::optional<ClearCoat> load_coat(const CoatSettings& settings, std::vector<std
   return coat;
 }
 
-// The shares of several materials of a surface. An 8-bit image holds a number in the 255 steps of its red channel.
+// The shares of several materials of a surface. 8-bit images store indices in the 255 steps of the red channel.
 std::vector<TextureMap> load_shares(const MapFile& from, glm::vec2 tiling, std::size_t count) {
   Image stored = read_image(from.file, Transfer::linear);
   if (!is_exr(from.file)) {

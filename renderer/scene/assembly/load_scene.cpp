@@ -13,7 +13,7 @@
 namespace footprint {
 namespace {
 
-/// Adds a part to what is there; the first camera stays.
+/// Adds a part; the first camera is used.
 void add(Model& model, Model part) {
   const int materials = static_cast<int>(model.materials.size());
   for (Mesh& mesh : part.meshes) mesh.material += materials;
@@ -36,7 +36,7 @@ Bounds bounds_of(const std::vector<Mesh>& meshes) {
   return bounds;
 }
 
-/// Facets of a patch shadow one another as if the surface were level, so that below its plane there is no light.
+/// Facets of a patch shadow each other as on a flat surface, so that no light comes from below its plane.
 Horizon horizon_of(const SceneSettings& settings, const std::string& source) {
   const Horizon horizon = settings.horizon.value_or(Horizon::open);
   const auto patched = [](const PartSettings& part) { return !part.microgeometry.empty(); };
@@ -133,7 +133,7 @@ void limit_surfaces(int most_texels, SceneSettings& settings) {
   }
 }
 
-// What is asked for of the only model file.
+// Applies a selection to the only model file.
 void select(const ModelSelection& wanted, const std::string& source, SceneSettings& settings) {
   if (wanted.empty()) return;
   std::vector<ModelSettings*> models;

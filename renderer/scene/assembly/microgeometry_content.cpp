@@ -50,13 +50,13 @@ Patch patch_of_model(const MicrogeometrySettings& settings) {
     }
   }
   patch.period = settings.period.value_or(glm::vec2(upper - lower));
-  // The same tiling from about the origin: what lies far off it would lose the digits that tell facets apart.
+  // Moves the tiling near the origin, because large coordinates would lose digits of the facets.
   const glm::vec3 corner(glm::floor(glm::vec2(lower) / patch.period) * patch.period, lower.z);
   for (glm::vec3& vertex : patch.vertices) vertex -= corner;
   return patch;
 }
 
-// What the facets reflect by, where it is not the material's base BRDF.
+// The BRDF of the facets if it replaces the base BRDF.
 std::shared_ptr<const TabulatedBrdf> brdf_of(const MicrogeometrySettings& settings) {
   if (settings.measured) return std::make_shared<const TabulatedBrdf>(read_merl(*settings.measured));
   if (!settings.ward) return nullptr;

@@ -11,22 +11,23 @@
 
 namespace footprint {
 
-/// Reads a file of three 32-bit sizes (90, 90, 180) and as many doubles for red, green and blue, little-endian, in the
-/// database's units (1/1500, 1.15/1500 and 1.66/1500 sr^-1). Cells without a measurement (below 0) are 0.
-/// Throws Error (usage), naming the file: missing, other sizes, too short or too long, a value that is not finite.
+/// Reads a MERL file: three 32-bit sizes (90, 90, 180) and as many little-endian doubles for red, green and blue, in
+/// the database's units (1/1500, 1.15/1500 and 1.66/1500 sr^-1). Cells without a measurement (below 0) are 0.
+/// Throws Error (usage) that names the file: missing, other sizes, too short or too long, or a value that is not
+/// finite.
 [[nodiscard]] TabulatedBrdf read_merl(const std::filesystem::path& file);
 
-/// A patch and how it looks from above.
+/// A patch and the normal map of its view from above.
 struct MicrogeometryContent {
   std::shared_ptr<const Microgeometry> microgeometry;
   std::shared_ptr<const Image> normals;
 };
 
-/// Builds or loads it. Throws Error (usage): of the parameters, of the file, of check_patch.
+/// Builds or loads a patch. Throws Error (usage): parameters, files, or as check_patch.
 [[nodiscard]] MicrogeometryContent load_microgeometry(const MicrogeometrySettings& settings);
 
-/// A material with that small-scale geometry: its normal map is the view from above, its base colour that of the patch
-/// times its own.
+/// Adds the patch to a material: its normal map becomes the view from above, and its base colour is multiplied by the
+/// patch's mean.
 void apply(const MicrogeometryContent& content, Material& material);
 
 }  // namespace footprint

@@ -64,8 +64,8 @@ NormalMap to_normal_map(const Image& stored, Decode decode, bool xy, double scal
   return map;
 }
 
-// How many texels hold a unit vector, taken as they are and as an encoding c of 2 c - 1. Texels without any direction
-// (zero, not finite) tell nothing.
+// The number of texels with a unit vector, directly and as an encoding c of 2 c - 1. Texels without a direction (zero,
+// not finite) are ignored.
 struct UnitCounts {
   std::size_t texels = 0, as_stored = 0, as_encoded = 0;
 };
@@ -87,7 +87,7 @@ UnitCounts count_unit_vectors(const Image& stored) {
   return counts;
 }
 
-// Most texels must hold a unit vector as they are.
+// Most texels must be unit vectors.
 void require_unit_vectors(const Image& stored) {
   const UnitCounts counts = count_unit_vectors(stored);
   if (2 * counts.as_stored < counts.texels && 2 * counts.as_encoded >= counts.texels) {
@@ -203,7 +203,7 @@ Image decode_factor(const Image& stored, int channel, float factor) {
 }
 
 Image decode_lobe_parameter(const Image& stored, double least, double most) {
-  // As a map of 32-bit floats holds the bounds: 0.001 is below the double of that name.
+  // In 32 bits like the map, because the double 0.001 is larger than the float.
   const auto lowest = static_cast<float>(least), highest = static_cast<float>(most);
   Image map(stored.width, stored.height, 1);
   for (int y = 0; y < stored.height; ++y) {

@@ -31,7 +31,7 @@ std::size_t component_size(int type) {
   }
 }
 
-/// Elements that lie in a buffer, `stride` bytes apart; alignment is not relied on.
+/// Elements in a buffer, `stride` bytes apart, of any alignment.
 struct Elements {
   const unsigned char* first = nullptr;
   std::size_t stride = 0;
@@ -64,7 +64,7 @@ Elements locate(const tinygltf::Model& model, int view_index, std::uint64_t offs
           type};
 }
 
-/// glTF 2.0, section 3.6.2.2: what a normalised integer stands for.
+/// The value of a normalised integer (glTF 2.0, section 3.6.2.2).
 float float_component(const Elements& elements, std::size_t i, std::size_t c, bool normalized) {
   switch (elements.type) {
     case TINYGLTF_COMPONENT_TYPE_BYTE: {

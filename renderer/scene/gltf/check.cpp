@@ -151,7 +151,7 @@ constexpr auto supported = std::to_array<std::string_view>(
     {"EXT_meshopt_compression", "KHR_draco_mesh_compression", "KHR_lights_punctual", "KHR_materials_clearcoat",
      "KHR_materials_ior", "KHR_materials_variants", "KHR_mesh_quantization", "KHR_texture_transform"});
 
-/// An extension, and what it is in words.
+/// An extension and its meaning.
 struct ExtensionWord {
   std::string_view name, meaning;
 };
@@ -255,7 +255,7 @@ void walk(const json& value, std::string_view path, const Rule& rule, std::uint6
   if (!value.is_object()) refuse_gltf(where, "must be an object");
   if (path.front() == '*') {
     for (const auto& [key, child] : value.items()) {
-      // Extension and extra data are no member of the parent's own kind.
+      // Extensions and extras are not members of the parent's own kind.
       if (child.is_object() && (key == "extensions" || key == "extras")) continue;
       if (key != "extras") descend(child, (depth == 0 ? "" : ".") + key, path.substr(1));
     }
@@ -328,7 +328,7 @@ void check_buffer_views(const json& document) {
   }
 }
 
-// tinygltf names neither the buffer nor what is wrong with it, but the whole URI.
+// tinygltf reports the whole URI instead of buffer and reason.
 void check_embedded_buffers(const json& document) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   const json buffers = document.value("buffers", json::array());

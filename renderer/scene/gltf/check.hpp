@@ -18,16 +18,16 @@ namespace footprint {
 /// Parses JSON with a limit on its nesting. Throws Error (usage): not JSON, nested over 64 deep.
 [[nodiscard]] nlohmann::json parse_gltf_json(std::string_view text);
 
-/// Checks all of a glTF 2.0 document that Footprint or tinygltf reads: version, required extensions, types, numbers of
-/// array elements, indices within the arrays that they point into, buffer views within their buffers, URIs.
-/// Throws Error (usage) that names the place as "meshes[0].primitives[1].indices".
+/// Checks everything in a glTF 2.0 document that Footprint or tinygltf reads: version, required extensions, types,
+/// array sizes, indices, buffer views within their buffers, and URIs. Throws Error (usage) with a place such as
+/// "meshes[0].primitives[1].indices".
 void check_gltf_json(const nlohmann::json& document);
 
-/// Whether an extension is honoured.
+/// Whether an extension is supported.
 [[nodiscard]] bool reads_gltf_extension(std::string_view name);
 
-/// What an extension that is left out adds to a surface, in words: "sheen". Empty where it is none that only adds
-/// something, so that a file which requires it cannot be shown without.
+/// The feature that an unsupported extension adds to a surface, such as "sheen". Empty for extensions without which a
+/// file cannot be shown.
 [[nodiscard]] std::string_view gltf_layer(std::string_view name);
 
 }  // namespace footprint

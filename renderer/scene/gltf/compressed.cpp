@@ -37,7 +37,7 @@ bool is_compressed(const nlohmann::json& view) {
   return extensions != view.end() && extensions->contains(meshopt_extension);
 }
 
-// What the extension says of one buffer view.
+// The parameters of a compressed buffer view.
 struct Encoding {
   std::size_t count = 0, stride = 0;
   std::string mode, filter;
@@ -64,7 +64,7 @@ Encoding encoding_of(const tinygltf::Model& model, const tinygltf::Value& extens
   return out;
 }
 
-// The table of the extension's section "Fallback buffers": what each mode and filter may be used with.
+// The valid combinations of the extension's section "Fallback buffers".
 void check(const Encoding& encoding, std::size_t length) {
   const auto& [count, stride, mode, filter, data, size] = encoding;
   if (count * stride != length)
@@ -143,7 +143,7 @@ void point_at(tinygltf::Accessor& accessor, int view) {
   accessor.byteOffset = 0;
 }
 
-// Whether the values of every point lie within the attribute's buffer.
+// Whether the values of all points are within the attribute's buffer.
 bool is_whole(const draco::PointAttribute& attribute, std::uint32_t points) {
   const auto stride = static_cast<std::uint64_t>(attribute.byte_stride());
   const auto offset = static_cast<std::uint64_t>(attribute.byte_offset());

@@ -65,7 +65,7 @@ bool keep_encoded(tinygltf::Image* image, const int /*index*/, std::string* /*er
   return true;
 }
 
-/// Files are looked for in the document's folder alone (`user` is that folder), not in the current one.
+/// Files are only read from the document's folder, which is `user`.
 bool file_exists(const std::string& file, void* user) {
   const auto& folder = *static_cast<const std::string*>(user);
   std::error_code error;
@@ -121,7 +121,7 @@ tinygltf::Model parse(std::span<const std::uint8_t> bytes, bool binary, std::str
   return model;
 }
 
-// The container with another JSON chunk; what follows it stays.
+// The container with another JSON chunk; the rest stays.
 std::vector<std::uint8_t> with_json(std::span<const std::uint8_t> glb, std::string text) {
   constexpr std::size_t header = 12, chunk_header = 8;
   const std::size_t rest = header + chunk_header + word_at(glb, header);

@@ -9,30 +9,30 @@
 
 namespace footprint {
 
-/// A checked document: every index in it is in range, every buffer view lies within its buffer's data. Compressed
-/// geometry (compressed.hpp) is decoded: accessors read it as any other.
-/// `model.images[i].image` holds the encoded bytes, empty where an external file could not be read.
+/// A checked document: indices are in range, and buffer views within their buffers. Compressed geometry
+/// (compressed.hpp) is decoded. `model.images[i].image` stores encoded bytes, empty if an external file could not be
+/// read.
 struct GltfDocument {
   tinygltf::Model model;
   std::filesystem::path file;
 };
 
-/// Reads a .gltf or .glb file (told apart by content) with its buffers and the bytes of its images.
-/// Throws Error (usage): missing, empty, over 2 GiB, not glTF 2.0, a broken GLB container, whatever `check_gltf_json`
-/// refuses, a buffer that is missing or has another size than the file says, compressed geometry that is damaged.
+/// Reads a .gltf or .glb file (by its content) with its buffers and encoded images. Throws Error (usage): missing,
+/// empty, over 2 GiB, not glTF 2.0, a broken GLB container, as check_gltf_json, a missing buffer or one of another
+/// size, damaged compressed geometry.
 [[nodiscard]] GltfDocument read_gltf(const std::filesystem::path& file);
 
-/// The most elements that one accessor, and the most triangles and vertices that one scene, may have.
+/// The largest number of elements of an accessor, and of triangles and vertices of a scene.
 inline constexpr std::uint64_t largest_element_count = std::uint64_t{1} << 26U;
 
-/// All elements of an accessor, interleaved, `components` floats each: normalised integers as the numbers that they
-/// stand for, plain integers as they are, sparse substitutions applied, zeros where there is no buffer view.
-/// Throws Error (usage) that names the accessor: another type than `components` wide, a component type that is not
-/// float, 8 or 16 bit, no element, more than `largest_element_count` (2^20 without a buffer view), reaching outside its
-/// buffer view, sparse indices that do not rise or reach past the end.
+/// All elements of an accessor, interleaved, `components` floats each. Normalised integers are converted, plain
+/// integers are not scaled, sparse substitutions are applied, and elements without a buffer view are 0.
+/// Throws Error (usage) that names the accessor: another type or component type, no element, more than
+/// `largest_element_count` elements (2^20 without a buffer view), elements outside of the buffer view, or sparse
+/// indices out of order or range.
 [[nodiscard]] std::vector<float> read_floats(const tinygltf::Model& model, int accessor, int components);
 
-/// All elements of a scalar accessor of unsigned 8, 16 or 32 bit integers. Throws as in read_floats.
+/// All elements of a scalar accessor of unsigned 8, 16 or 32 bit integers. Throws as read_floats.
 [[nodiscard]] std::vector<std::uint32_t> read_indices(const tinygltf::Model& model, int accessor);
 
 }  // namespace footprint

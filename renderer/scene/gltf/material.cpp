@@ -1,4 +1,4 @@
-// Converts each material and each of its images once, on first use, and warns of what is left out.
+// Converts each material and image once, on first use, and warns about unsupported features.
 #include "renderer/scene/gltf/material.hpp"
 
 #include <fmt/format.h>
@@ -69,7 +69,7 @@ std::string image_name(const tinygltf::Image& image, int index) {
 
 enum class MapUse { color, rough, normal, coat_weight, coat_roughness };
 
-// A texture reference that stands in an extension. check_gltf_json has seen to its members' kinds.
+// A texture reference in an extension. check_gltf_json has checked its members.
 struct TextureReference {
   int index = -1, set = 0;
   double scale = 1.0;  // of a normal map
@@ -98,7 +98,7 @@ const tinygltf::Value* coat_of(const tinygltf::Material& material) {
 
 std::uint64_t decoded_map_bytes(const GltfDocument& document) {
   constexpr std::uint64_t float_bytes = 4;
-  std::set<std::pair<int, MapUse>> counted;  // images, and what they are used for
+  std::set<std::pair<int, MapUse>> counted;  // images and their uses
   std::uint64_t bytes = 0;
   const auto count = [&](int texture, MapUse use, std::uint64_t channels) {
     const int source = texture < 0 ? -1 : document.model.textures[static_cast<std::size_t>(texture)].source;
@@ -154,7 +154,7 @@ Material GltfMaterials::convert_named(int gltf_index) {
   material.metallic = checked(pbr.metallicFactor, 0.0, 1.0, "metallicFactor");
   material.roughness = checked(pbr.roughnessFactor, 0.0, 1.0, "roughnessFactor");
   if (const auto ior = source.extensions.find("KHR_materials_ior"); ior != source.extensions.end()) {
-    // KHR_materials_ior: 0 stands for an infinite index; else at least 1.
+    // KHR_materials_ior: 0 means infinite; other values are at least 1.
     const double index = number(ior->second, "ior", 1.5);
     const double ratio = index == 0.0 ? 1.0 : (checked(index, 1.0, 1e6, "ior") - 1.0) / (index + 1.0);
     material.dielectric_specular = glm::vec3{static_cast<float>(ratio * ratio)};
@@ -256,7 +256,7 @@ std::optional<TextureMap> GltfMaterials::find_map(int texture_index, int set,
 
 Image GltfMaterials::stored(int index, Transfer transfer) const {
   const auto& image = document_.model.images[static_cast<std::size_t>(index)];
-  // No bytes: tinygltf could not read the file. Reading it again says why.
+  // tinygltf could not read the file. Reading it again gives the reason.
   return image.image.empty()
              ? read_image(document_.file.parent_path() / image.uri, transfer)
              : read_image(std::span<const std::uint8_t>{image.image}, image_name(image, index), transfer);

@@ -12,19 +12,18 @@
 
 namespace footprint {
 
-/// Bytes that the maps of all materials of a document take once decoded, by the headers of their images.
+/// The decoded bytes of all materials' maps, by the headers of their images.
 [[nodiscard]] std::uint64_t decoded_map_bytes(const GltfDocument& document);
 
-/// Converts the materials that meshes ask for; textures that several use are decoded once and shared.
+/// Converts the materials that meshes use. Shared textures are decoded once.
 class GltfMaterials {
  public:
-  /// Both must outlive this. Warnings about what is left out are added to `warnings`, once each.
+  /// Both arguments must outlive this. Adds a warning per unsupported feature.
   GltfMaterials(const GltfDocument& document, std::vector<std::string>& warnings)
       : document_(document), warnings_(warnings) {}
 
   /// The index in `materials()` of glTF material `gltf_index`; -1 is glTF's default material. Throws Error (usage) that
-  /// names material and texture: an image that is missing, empty, no image or of hostile size, factors that are not
-  /// finite.
+  /// names material and texture: an image that is missing, empty, invalid or too large, or a factor that is not finite.
   [[nodiscard]] int use(int gltf_index);
 
   [[nodiscard]] const std::vector<Material>& materials() const { return materials_; }

@@ -15,7 +15,7 @@
 namespace footprint {
 namespace {
 
-/// One primitive on its way; `has_*` say what the file gives.
+/// A primitive during conversion; `has_*` are attributes of the file.
 struct Builder {
   const tinygltf::Model& model;
   const tinygltf::Primitive& primitive;
@@ -31,7 +31,7 @@ struct Builder {
   }
 };
 
-/// The attribute's values, or none where the primitive lacks it. All attributes have as many elements as POSITION.
+/// The values of an attribute; none if it is missing. All attributes have as many elements as POSITION.
 std::vector<float> read_attribute(const Builder& builder, const std::string& name, int components) {
   const auto found = builder.primitive.attributes.find(name);
   if (found == builder.primitive.attributes.end()) return {};
@@ -69,7 +69,7 @@ void read_frames(Builder& builder) {
   }
 }
 
-/// Reads one set; coordinates that are not finite, or so large that a float holds no fraction, become 0.
+/// Reads one set; coordinates that are not finite, or too large for fractions in a float, become 0.
 bool read_texture_coordinates(Builder& builder, const std::string& name, glm::vec2 Vertex::*member) {
   constexpr float largest = 1e6F;
   const auto values = read_attribute(builder, name, 2);

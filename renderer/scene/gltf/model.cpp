@@ -41,7 +41,7 @@ glm::vec3 position_of(const glm::dmat4& world, const std::string& place) {
   return glm::vec3{position};
 }
 
-/// The rigid part of a transform, right-handed: its -z axis is kept, y leans as little as need be.
+/// The rigid part of a transform, right-handed. It preserves the -z axis, and the y axis as far as possible.
 glm::mat4 rigid_part(const glm::dmat4& world, const std::string& place) {
   const glm::dvec3 back = -view_direction(world, place);
   const glm::dvec3 right = glm::cross(glm::dvec3{world[1]}, back);
@@ -203,13 +203,13 @@ std::vector<int> root_nodes(const tinygltf::Model& model, const std::optional<st
   return roots;
 }
 
-/// A camera's node, and where it stands.
+/// A camera with its node's transform.
 struct PlacedCamera {
   int camera;
   glm::dmat4 world;
 };
 
-/// Walks the hierarchy and gathers what the nodes hold.
+/// Walks the hierarchy and collects the content of nodes.
 class Gatherer {
  public:
   Gatherer(const GltfDocument& document, const std::optional<std::size_t>& variant, Model& result)
@@ -241,7 +241,7 @@ class Gatherer {
     for (auto& [material, mesh] : meshes_) result_.meshes.push_back(std::move(mesh));
   }
 
-  /// In the order of the nodes, and what they are called.
+  /// In the order of the nodes, with names.
   [[nodiscard]] const std::vector<PlacedCamera>& cameras() const { return cameras_; }
   [[nodiscard]] const std::vector<std::string>& camera_names() const { return camera_names_; }
 
@@ -308,7 +308,7 @@ void warn_left_out(const tinygltf::Model& source, Model& result) {
   if (!source.animations.empty()) add_once(result.warnings, "animations are left out");
 }
 
-/// Takes the camera that is asked for, else the first.
+/// Selects the requested camera, else the first.
 void take_camera(const tinygltf::Model& source, const Gatherer& gathered, const std::optional<std::string>& wanted,
                  Model& result) {
   const std::vector<PlacedCamera>& cameras = gathered.cameras();

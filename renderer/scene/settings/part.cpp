@@ -1,4 +1,4 @@
-// Reads each table of a part with its keys and ranges; what excludes what is refused here, by line.
+// Reads each table of a part with keys and ranges, and checks conflicts by line.
 #include "renderer/scene/settings/part.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace {
 constexpr NumberRange repeats{1e-3, 1e4};  // of a map along u or v
 constexpr NumberRange lobe_weight{1e-6, 1e3};
 
-constexpr double lowest_axis = 1e-3;  // a lobe on the horizon would lie below it half of the time
+constexpr double lowest_axis = 1e-3;  // half of a lobe on the horizon would be below it
 
 const std::vector<std::string> surface_keys{"name", "resolution", "seed", "parameters"};
 
@@ -51,7 +51,7 @@ PlaneSettings read_plane(const TomlTable& table, const std::filesystem::path& fo
   return plane;
 }
 
-// What the parameter of a distribution's lobe is called.
+// The key of a distribution's lobe parameter.
 std::string_view lobe_key(NormalDistribution distribution) {
   switch (distribution) {
     case NormalDistribution::blinn_phong:
@@ -96,21 +96,20 @@ glm::vec3 read_axis(const TomlTable& table) {
   return glm::vec3{*axis};
 }
 
-/// The lobes of [[brdf.lobe]]: all with a weight, or none, and then the weights are equal and sum to one.
+/// The lobes of [[brdf.lobe]]: all with weights, or none, which gives equal weights that sum to one.
 std::vector<FacetLobe> read_lobes(const TomlTable& brdf, std::optional<NormalDistribution> distribution) {
   std::vector<FacetLobe> lobes;
   const auto tables = brdf.tables("lobe", {"axis", "exponent", "alpha", "kappa", "weight"});
   if (tables.size() > most_facet_lobes) {
-    throw brdf.error_at(
-        "lobe",
-        fmt::format("stands {} times, more often than the {} lobes there may be", tables.size(), most_facet_lobes),
-        "leave out the weakest");
+    throw brdf.error_at("lobe",
+                        fmt::format("appears {} times; at most {} lobes are allowed", tables.size(), most_facet_lobes),
+                        "leave out the weakest");
   }
   for (const TomlTable& table : tables) {
     const auto parameter = read_lobe(table, distribution);
     if (!parameter) refuse_missing(table, lobe_key(distribution.value_or(NormalDistribution::ggx)));
     if (table.has("weight") != tables.front().has("weight")) {
-      throw table.error_at("weight", "stands in some lobes and not in others", "give every lobe a weight, or none");
+      throw table.error_at("weight", "is given for some lobes only", "give every lobe a weight, or none");
     }
     const double equal = 1.0 / static_cast<double>(tables.size());
     lobes.push_back(
@@ -119,7 +118,7 @@ std::vector<FacetLobe> read_lobes(const TomlTable& brdf, std::optional<NormalDis
   return lobes;
 }
 
-/// What one comparison needs of every part alike.
+/// The settings that all parts share.
 BrdfSettings read_common_brdf(const TomlTable& table) {
   BrdfSettings brdf;
   if (const auto i = table.choice("distribution", {"blinn_phong", "beckmann", "ggx", "vmf"})) {
@@ -131,7 +130,7 @@ BrdfSettings read_common_brdf(const TomlTable& table) {
   return brdf;
 }
 
-/// What is a part's own, beside the `common` that it shares.
+/// The settings of one part, next to the `common` ones.
 BrdfSettings read_own_brdf(const TomlTable& table, const BrdfSettings& common) {
   BrdfSettings brdf = common;
   brdf.lobe_parameter = read_lobe(table, brdf.distribution);
@@ -172,7 +171,7 @@ MapSettings read_maps(const TomlTable& table, const BrdfSettings& brdf, const st
   return maps;
 }
 
-/// The key `parameters`, each number and word checked where it stands.
+/// The key `parameters`, with each number and word checked.
 std::map<std::string, std::string> read_parameters(const TomlTable& table, const std::vector<OptionSpec>& specs) {
   std::vector<std::string> names;
   names.reserve(specs.size());
@@ -265,11 +264,11 @@ std::vector<MicrogeometrySettings> read_patches(const TomlTable& table, const Ma
   if (patches.size() > most_surface_materials) {
     throw table.error_at(
         "microgeometry",
-        fmt::format("stands {} times, and a map of indices names at most {}", patches.size(), most_surface_materials),
+        fmt::format("appears {} times; a map of indices has at most {}", patches.size(), most_surface_materials),
         "leave some out");
   }
   if (patches.size() > 1 && !maps.material) {
-    throw table.error_at("microgeometry", "stands several times without a map that chooses",
+    throw table.error_at("microgeometry", "appears several times without a map of indices",
                          "add [maps] material = { file = \"INDICES.png\" }");
   }
   if (patches.size() < 2 && maps.material) {
@@ -321,7 +320,7 @@ LayerSettings read_layer(const TomlTable& table, const std::filesystem::path& fo
   if (const auto name = table.word("normal_map")) layer.content = LayerFile{folder / *name, false};
   if (const auto name = table.word("bump_map")) {
     layer.content = LayerFile{folder / *name, true};
-    // No default suits heights: between a scratch and a mountain lie four powers of ten.
+    // Heights need an explicit strength, because they range over four powers of ten.
     if (!table.has("strength")) refuse_missing(table, "strength");
   }
   if (const auto uv = table.numbers("uv", 2, repeats)) layer.uv = {(*uv)[0], (*uv)[1]};

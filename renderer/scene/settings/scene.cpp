@@ -17,7 +17,7 @@
 namespace footprint {
 namespace {
 
-// The keys that one kind alone has.
+// The keys of a single kind.
 struct OwnKeys {
   EnvironmentKind kind;
   std::vector<std::string> keys;
@@ -54,7 +54,7 @@ void read_sky(const TomlTable& table, SkySettings& sky) {
 }
 
 Environment load_first(const EnvironmentSettings& settings, std::vector<std::string>& warnings) {
-  std::error_code ignored;  // what cannot be asked cannot be opened either
+  std::error_code ignored;  // opening the file will fail
   for (const auto& candidate : settings.candidates) {
     if (std::filesystem::exists(candidate, ignored)) return load_environment(candidate, warnings);
   }
@@ -77,7 +77,7 @@ constexpr NumberRange intensity{0.0, 1e12};       // candela or lux
 constexpr NumberRange field_of_view{0.1, 170.0};  // degrees
 constexpr NumberRange shadow_resolution{smallest_shadow_map, largest_shadow_map};
 
-// Whether a one-sided triangle keeps light that comes to the side from which it is not drawn.
+// Whether a one-sided triangle also blocks light from behind.
 constexpr std::array<Word<bool>, 2> shadow_sides{{{false, "drawn"}, {true, "both"}}};
 
 constexpr std::array<Word<Horizon>, 2> horizons{{{Horizon::cut, "cut"}, {Horizon::open, "open"}}};
@@ -149,7 +149,7 @@ Camera read_placed_camera(const TomlTable& table) {
   if (!position) refuse_missing(table, "position");
   if (!target) refuse_missing(table, "target");
   if (glm::length(*position - *target) < 1e-9) {
-    throw table.error_at("target", "is where the camera stands", "move one of them");
+    throw table.error_at("target", "equals the position of the camera", "move one of them");
   }
   Camera camera;
   camera.world = look_at(*position, *target, read_direction(table, "up").value_or(glm::dvec3{0.0, 1.0, 0.0}));
@@ -194,7 +194,7 @@ void read_view(const TomlTable& root, SceneSettings& settings) {
   }
 }
 
-// Where model files alone are drawn, viewers' rules hold; what is computed or traced has those of the papers.
+// Scenes of model files follow viewers, others the papers.
 void set_rules(SceneSettings& settings) {
   const bool models = std::ranges::all_of(settings.parts, [](const PartSettings& part) {
     return std::holds_alternative<ModelSettings>(part.content) && part.microgeometry.empty();

@@ -16,7 +16,7 @@ namespace footprint {
 
 enum class EnvironmentKind { file, constant, sky };
 
-/// What lights a scene from everywhere.
+/// The light from all directions.
 struct EnvironmentSettings {
   EnvironmentKind kind = EnvironmentKind::file;
   std::vector<std::filesystem::path> candidates;  ///< of a file: the first that exists
@@ -27,29 +27,27 @@ struct EnvironmentSettings {
   double rotation_degrees = 0.0;  ///< about +y, counter-clockwise seen from above
 };
 
-class TomlTable;
-
 /// The keys of an [environment] table.
 [[nodiscard]] const std::vector<std::string>& environment_keys();
 
-/// Relative paths start from `folder`. Throws Error (usage) that reads "FILE:LINE: ...".
+/// Relative paths start at `folder`. Throws Error (usage) "FILE:LINE: ...".
 [[nodiscard]] EnvironmentSettings read_environment(const TomlTable& table, const std::filesystem::path& folder);
 
-/// Reads or computes it. Throws Error (usage): none of the files exists (the package is named); as load_environment.
+/// Loads or computes the environment. Throws Error (usage): none of the files exists; as load_environment.
 [[nodiscard]] Environment make_environment(const EnvironmentSettings& settings, std::vector<std::string>& warnings);
 
-/// All of a scene.toml; a default value is what a bare glTF file gets.
+/// All of a scene.toml. Default values apply to a bare glTF file.
 struct SceneSettings {
-  std::optional<std::string> name;  ///< else the folder's
-  std::string description;          ///< for people who list scenes
+  std::optional<std::string> name;  ///< otherwise the folder's
+  std::string description;          ///< for lists of scenes
   std::vector<PartSettings> parts;  ///< at least one
   std::optional<glm::ivec2> frame_size;
   std::optional<float> exposure;
   std::optional<FootprintFilter> footprint;
-  bool automatic_exposure = false;  ///< asked for by name, also with the supplied lights
+  bool automatic_exposure = false;  ///< requested explicitly, also with the supplied lights
   std::vector<Light> lights;
   bool keep_model_lights = true;
-  bool supply_environment = false;  ///< beside the supplied lights, where there is no light at all
+  bool supply_environment = false;  ///< with the supplied lights, if there is no light at all
   ShadowSettings shadows;
   std::optional<Horizon> horizon;  ///< none: open
   std::optional<EnvironmentSettings> environment;
@@ -60,12 +58,13 @@ struct SceneSettings {
 /// The keys of a [camera] table.
 [[nodiscard]] const std::vector<std::string>& camera_keys();
 
-/// Reads a [camera] table, of a scene.toml or of whatever else places a camera. Throws Error (usage) as below.
+/// Reads a [camera] table of a scene.toml or another file. Throws as read_scene_settings.
 [[nodiscard]] CameraSettings read_camera(const TomlTable& table);
 
-/// Reads a scene.toml, which may name one of `surfaces`. Relative paths in it start from its folder. Throws Error
-/// (usage) read "FILE:LINE: ...": not TOML, unknown keys with the nearest right one, wrong types, values out of range,
-/// settings that exclude each other.
+/// Reads a scene.toml. Relative paths in it start at its folder.
+/// surfaces: those that it may name.
+/// Throws Error (usage) "FILE:LINE: ...": not TOML, unknown keys with the nearest known one, wrong types, values out of
+/// range, or settings that exclude each other.
 [[nodiscard]] SceneSettings read_scene_settings(const std::filesystem::path& file, std::span<const Surface> surfaces);
 
 }  // namespace footprint

@@ -208,7 +208,8 @@ TEST(SceneSettings, WhatExcludesOrNeedsEachOther) {
                             "inner_cone_degrees = 50\n",
                         {"scene.toml:6", "less than outer_cone_degrees"});
   expect_settings_error(plane + "[camera]\nposition = [0, 0, 1]\n", {"`target`", "missing"});
-  expect_settings_error(plane + "[camera]\nposition = [0, 0, 1]\ntarget = [0, 0, 1]\n", {"where the camera stands"});
+  expect_settings_error(plane + "[camera]\nposition = [0, 0, 1]\ntarget = [0, 0, 1]\n",
+                        {"equals the position of the camera"});
   expect_settings_error(plane + "[camera]\nframe_bounds = {}\nup = [0, 1, 0]\n", {"scene.toml:4", "excludes"});
   expect_settings_error(plane + "[camera]\nframe_bounds = { direction = [0, 0, 0] }\n", {"scene.toml:3", "no length"});
 }

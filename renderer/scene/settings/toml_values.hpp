@@ -17,13 +17,13 @@ inline constexpr NumberRange unit_range{0.0, 1.0};
 inline constexpr NumberRange length_range{1e-6, 1e6};      ///< metres, above 0
 inline constexpr NumberRange coordinate_range{-1e9, 1e9};  ///< metres
 
-/// Three numbers. Nothing where the key is absent; errors (usage) as of TomlTable, here and below.
+/// Three numbers. The readers here return nothing if the key is missing, and throw as TomlTable.
 [[nodiscard]] std::optional<glm::dvec3> read_vector(const TomlTable& table, std::string_view key, NumberRange range);
 
 /// A colour, each channel 0 to 1.
 [[nodiscard]] std::optional<glm::vec3> read_color(const TomlTable& table, std::string_view key);
 
-/// A unit vector, from one of any length but 0.
+/// A unit vector, normalised from any length but 0.
 [[nodiscard]] std::optional<glm::dvec3> read_direction(const TomlTable& table, std::string_view key);
 
 /// The paths under `file` or `files`, of which a table must have one, relative to `folder`.
@@ -37,7 +37,8 @@ inline constexpr NumberRange coordinate_range{-1e9, 1e9};  ///< metres
 [[nodiscard]] Error missing_candidates(std::span<const std::filesystem::path> candidates, const std::string& message,
                                        const std::string& package, const std::string& check);
 
-/// Refuses a table without a key that it must have, which `document` explains.
+/// Throws Error (usage): the table lacks a required key.
+/// document: the one that explains the key.
 [[noreturn]] void refuse_missing(const TomlTable& table, std::string_view key,
                                  std::string_view document = "docs/scenes.md");
 

@@ -1,5 +1,5 @@
 // The exact NDF against closed forms and a plain sum, the texels under footprints, and the grids of directions.
-#include "renderer/ndf/true_ndf.hpp"
+#include "renderer/ndf/reference_ndf.hpp"
 
 #include <gtest/gtest.h>
 
@@ -70,7 +70,7 @@ TEST(HemisphereGrid, IntegratesTheLobesThatItIsMadeFor) {
        {Lobe{blinn_phong, 64}, {blinn_phong, 512}, {vmf, 2000}, {beckmann, 0.1}, {ggx, 0.05}, {blinn_phong, 1e4}}) {
     const HemisphereGrid grid = hemisphere_grid(resolution_for(lobe));
     for (const double tilt : {0.0, 0.41, 0.9, 1.5}) {
-      const TrueNdf ndf(lobe.distribution, {{{std::sin(tilt), 0.0, std::cos(tilt)}, lobe.parameter, 1.0}});
+      const ReferenceNdf ndf(lobe.distribution, {{{std::sin(tilt), 0.0, std::cos(tilt)}, lobe.parameter, 1.0}});
       const NdfTotals totals = ndf_totals(grid, ndf.densities(grid.directions, no_progress));
       EXPECT_NEAR(totals.energy / ndf.expected_energy(), 1.0, 1e-3) << lobe_text(lobe) << " " << tilt;
     }
@@ -163,10 +163,10 @@ TEST(FootprintTexels, RefuseRectanglesThatAreNone) {
   EXPECT_NO_THROW(check_footprint({{-1, 0.25}, {2, 0.26}}, "--region"));
 }
 
-TEST(TrueNdf, OfOneNormalIsTheLobe) {
+TEST(ReferenceNdf, OfOneNormalIsTheLobe) {
   for (const Lobe& lobe : {Lobe{blinn_phong, 64}, {beckmann, 0.3}, {ggx, 0.2}, {vmf, 100}}) {
     const FootprintTexels texels = texels_under(material_of(row_of({east}), lobe), {{0, 0}, {1, 1}});
-    const auto densities = TrueNdf(lobe.distribution, texels.facets).densities(some_directions(), no_progress);
+    const auto densities = ReferenceNdf(lobe.distribution, texels.facets).densities(some_directions(), no_progress);
     for (std::size_t i = 0; i < densities.size(); ++i) {
       const double u = 1.0 - glm::dot(glm::dvec3(some_directions()[i]), glm::normalize(glm::dvec3(east)));
       EXPECT_NEAR(densities[i], lobe_peak(lobe) * lobe_shape(lobe, u), 1e-5 * lobe_peak(lobe));
@@ -175,12 +175,12 @@ TEST(TrueNdf, OfOneNormalIsTheLobe) {
 }
 
 // The sum as it is written, over every texel, against cells, supports and united facets.
-TEST(TrueNdf, IsThePlainMeanOverTheTexels) {
+TEST(ReferenceNdf, IsThePlainMeanOverTheTexels) {
   const Image normals = random_normals(37, 23, 0.9F, 11);
   for (const Lobe& lobe : {Lobe{blinn_phong, 512}, {ggx, 0.02}, {beckmann, 0.1}}) {
     const FootprintTexels texels = texels_under(material_of(normals, lobe), {{0, 0}, {1, 1}});
     const Lobe held{lobe.distribution, texels.facets.front().parameter};  // a material keeps 32 bits
-    const auto densities = TrueNdf(lobe.distribution, texels.facets).densities(some_directions(), no_progress);
+    const auto densities = ReferenceNdf(lobe.distribution, texels.facets).densities(some_directions(), no_progress);
     for (std::size_t d = 0; d < densities.size(); ++d) {
       const glm::dvec3 h = glm::normalize(glm::dvec3(some_directions()[d]));
       double sum = 0.0;
@@ -194,30 +194,31 @@ TEST(TrueNdf, IsThePlainMeanOverTheTexels) {
 }
 
 // Golden: four texels under exponent 100.
-TEST(TrueNdf, OfFourTexelsMeetsTheGoldenDensity) {
+TEST(ReferenceNdf, OfFourTexelsMeetsTheGoldenDensity) {
   const FootprintTexels texels = texels_under(
       material_of(row_of({up, east, {0, -0.6F, 0.8F}, {-0.28F, 0, 0.96F}}), {blinn_phong, 100}), {{0, 0}, {1, 1}});
-  EXPECT_NEAR(TrueNdf(blinn_phong, texels.facets).densities(std::vector{up}, no_progress)[0], 4.086458431324459, 1e-6);
+  EXPECT_NEAR(ReferenceNdf(blinn_phong, texels.facets).densities(std::vector{up}, no_progress)[0], 4.086458431324459,
+              1e-6);
 }
 
-TEST(TrueNdf, OfMergedFacetsStaysWithinTheBound) {
+TEST(ReferenceNdf, OfMergedFacetsStaysWithinTheBound) {
   const Lobe lobe{blinn_phong, 64};
   const FootprintTexels texels = texels_under(material_of(random_normals(128, 128, 0.9F, 3), lobe), {{0, 0}, {1, 1}});
   const double spacing = 0.25 * lobe_width(lobe);
   const std::vector<WeightedFacet> merged = merged_facets(texels.facets, spacing);
   EXPECT_LT(merged.size(), texels.facets.size() / 2);
-  const auto exact = TrueNdf(blinn_phong, texels.facets).densities(some_directions(), no_progress);
-  const auto near = TrueNdf(blinn_phong, merged).densities(some_directions(), no_progress);
+  const auto exact = ReferenceNdf(blinn_phong, texels.facets).densities(some_directions(), no_progress);
+  const auto near = ReferenceNdf(blinn_phong, merged).densities(some_directions(), no_progress);
   for (std::size_t i = 0; i < exact.size(); ++i) {
     EXPECT_NEAR(near[i], exact[i], lobe_peak(lobe) * std::pow(spacing / lobe_width(lobe), 2) / 4.0);
   }
 }
 
 // Hard case 28: normals on the horizon; half of each lobe is below it.
-TEST(TrueNdf, OfNormalsOnTheHorizonLosesHalf) {
+TEST(ReferenceNdf, OfNormalsOnTheHorizonLosesHalf) {
   const Lobe lobe{blinn_phong, 512};
   const FootprintTexels texels = texels_under(material_of(row_of({{1, 0, 0}, {0, -1, 0}}), lobe), {{0, 0}, {1, 1}});
-  const TrueNdf ndf(blinn_phong, texels.facets);
+  const ReferenceNdf ndf(blinn_phong, texels.facets);
   const HemisphereGrid grid = hemisphere_grid(resolution_for(lobe));
   EXPECT_NEAR(ndf.expected_energy(), 0.5, 1e-4);
   EXPECT_NEAR(ndf_totals(grid, ndf.densities(grid.directions, no_progress)).energy, 0.5, 1e-3);

@@ -1,5 +1,5 @@
-// The sum over facets for each direction: those that a cell of directions can see, by a table of the lobe.
-#include "renderer/ndf/true_ndf.hpp"
+// Sums the lobes of all facets whose cell reaches the direction, with a table of the lobe.
+#include "renderer/ndf/reference_ndf.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -23,7 +23,7 @@ int cell_of(const glm::dvec3& n) {
 
 }  // namespace
 
-TrueNdf::TrueNdf(NormalDistribution distribution, const std::vector<WeightedFacet>& facets)
+ReferenceNdf::ReferenceNdf(NormalDistribution distribution, const std::vector<WeightedFacet>& facets)
     : distribution_(distribution) {
   std::vector<std::pair<int, std::size_t>> order(facets.size());
   for (std::size_t i = 0; i < facets.size(); ++i) order[i] = {cell_of(facets[i].normal), i};
@@ -54,7 +54,7 @@ TrueNdf::TrueNdf(NormalDistribution distribution, const std::vector<WeightedFace
 }
 
 template <class Shape>
-double TrueNdf::density(const glm::dvec3& direction, const Shape& shape) const {
+double ReferenceNdf::density(const glm::dvec3& direction, const Shape& shape) const {
   double sum = 0.0;
   for (const Cell& cell : cells_) {
     const glm::dvec3 from_centre = direction - cell.centre;
@@ -68,7 +68,7 @@ double TrueNdf::density(const glm::dvec3& direction, const Shape& shape) const {
   return sum;
 }
 
-std::vector<double> TrueNdf::densities(std::span<const glm::vec3> directions, const Progress& progress) const {
+std::vector<double> ReferenceNdf::densities(std::span<const glm::vec3> directions, const Progress& progress) const {
   const auto shared_lobe = [this](const Facet& /*facet*/, double u) { return (*profile_)(u); };
   const auto own_lobe = [this](const Facet& facet, double u) {
     return lobe_shape({distribution_, facet.parameter}, u);
@@ -85,7 +85,7 @@ std::vector<double> TrueNdf::densities(std::span<const glm::vec3> directions, co
   return out;
 }
 
-double TrueNdf::expected_energy() const {
+double ReferenceNdf::expected_energy() const {
   const auto energy_of = [&](const Facet& f) {
     const Lobe lobe{distribution_, f.parameter};
     return f.amplitude / lobe_peak(lobe) * lobe_energy(lobe, f.normal.z);
@@ -99,7 +99,7 @@ double TrueNdf::expected_energy() const {
       [](double a, double b) { return a + b; });
 }
 
-Lobe TrueNdf::narrowest() const {
+Lobe ReferenceNdf::narrowest() const {
   const auto width = [&](const Facet& f) { return lobe_width({distribution_, f.parameter}); };
   return {distribution_, std::ranges::min_element(facets_, {}, width)->parameter};
 }

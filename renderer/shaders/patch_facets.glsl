@@ -86,45 +86,38 @@ vec3 tabulatedBrdf(vec3 n, vec3 wi, vec3 wo) {
 }
 //? end
 
-vec3 patchSpecular(FacetDraw draw, Surface s, vec3 wi, vec3 wo) {
+Reflected patchReflectance(FacetDraw draw, Surface s, vec3 wi, vec3 wo) {
+  Reflected r;
+  r.specular = vec3(0.0);
+//? if diffuse
+  r.diffuse = vec3(0.0);
+//? end
   float area = visibleArea(wo);
-  if (area < least_visible_area) return vec3(0.0);
-  vec3 sum = vec3(0.0);
+  if (area < least_visible_area) return r;
   for (int k = 0; k < facets_per_sample; ++k) {
     float paint;
     vec4 normal = drawnNormal(draw, k, wi, wo, paint);
     if (normal.w == 0.0) continue;
     vec3 factor = specularFactor(paint);
 //? if tabulated_brdf
-    if (base_has_table > 0.5) {
-      sum += normal.w * dot(normal.xyz, wi) * factor * tabulatedBrdf(normal.xyz, wi, wo);
+    if (base_has_table > 0.5) {  // the table includes diffuse light
+      r.specular += normal.w * dot(normal.xyz, wi) * factor * tabulatedBrdf(normal.xyz, wi, wo);
       continue;
     }
 //? end
-    vec3 own = s.f0 * factor;
-    sum += normal.w * facetSpecular(evenFacets(normal.xyz, lobe_cutoff.x), own, wi, wo);
-  }
-  return sum / (float(facets_per_sample) * area);
-}
-
+    vec3 f0 = s.f0 * factor;
+    r.specular += normal.w * facetSpecular(evenFacets(normal.xyz, lobe_cutoff.x), f0, wi, wo);
 //? if diffuse
-vec3 patchDiffuse(FacetDraw draw, Surface s, vec3 wi, vec3 wo) {
-//? if tabulated_brdf
-  if (base_has_table > 0.5) return vec3(0.0);  // the table has it
+    r.diffuse += normal.w * diffuse(normal.xyz, Surface(s.albedo * diffuseFactor(paint), f0), wi, wo);
 //? end
-  float area = visibleArea(wo);
-  if (area < least_visible_area) return vec3(0.0);
-  vec3 sum = vec3(0.0);
-  for (int k = 0; k < facets_per_sample; ++k) {
-    float paint;
-    vec4 normal = drawnNormal(draw, k, wi, wo, paint);
-    if (normal.w == 0.0) continue;
-    Surface own = Surface(s.albedo * diffuseFactor(paint), s.f0 * specularFactor(paint));
-    sum += normal.w * diffuse(normal.xyz, own, wi, wo);
   }
-  return sum / (float(facets_per_sample) * area);
-}
+  float scale = float(facets_per_sample) * area;
+  r.specular /= scale;
+//? if diffuse
+  r.diffuse /= scale;
 //? end
+  return r;
+}
 
 // Materials without a patch have the facets of a texel.
 struct Effective {
@@ -134,12 +127,7 @@ struct Effective {
 
 Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   if (base_has_patch <= 0.5) return facetShade(e.facets, s, wi, wo);
-  Reflected r;
-  r.specular = patchSpecular(e.draw, s, wi, wo);
-//? if diffuse
-  r.diffuse = patchDiffuse(e.draw, s, wi, wo);
-//? end
-  return r;
+  return patchReflectance(e.draw, s, wi, wo);
 }
 
 float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }

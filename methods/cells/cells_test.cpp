@@ -15,6 +15,7 @@
 #include "tests/support/rendering.hpp"
 #include "tests/support/slope_twin.hpp"
 #include "tests/support/stretched_twin.hpp"
+#include "tests/support/sweep.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint {
@@ -85,7 +86,7 @@ TEST(Cells, OnePartOverSlopesIsLean) {
   const std::vector<glm::dvec3> directions = hemisphere_grid(12, 24);
   const Words one{{"k", "1"}, {"covariance", "full"}, {"coordinates", "slopes"}, {"density", "exact"}};
   for (const auto& [distribution, lobe] : lobes) {
-    for (const float tilt : {0.1F, 0.6F, 0.95F}) {
+    for (const float tilt : sweep(std::array{0.95F, 0.1F, 0.6F}, 1)) {
       const Material material = lobe_material(random_normals(16, 16, tilt, 3), distribution, lobe);
       const std::vector<double> lean = probe_ndf({.method = &lean_method(), .material = &material}, directions);
       const std::vector<double> own = probe_ndf(parted_method(material, one), directions);
@@ -137,12 +138,14 @@ TEST(Cells, KeepsTheEnergyOfTheSumOverTexels) {
     for (const double d : density) sum += d;
     return sum;
   };
+  const std::vector<Words> ways{
+      {}, {{"k", "2"}, {"storage", "fp16"}}, {{"covariance", "full"}}, {{"coordinates", "slopes"}}};
+  std::size_t number = 0;
   for (const auto& [distribution, lobe] : lobes) {
     for (const Image& normals : {random_normals(5, 3, 0.4F, 6), two_walls(8)}) {
       const Material material = lobe_material(normals, distribution, lobe);
       const double truth = energy(truth_of(material, directions));
-      for (const Words& words :
-           {Words{}, {{"k", "2"}, {"storage", "fp16"}}, {{"covariance", "full"}}, {{"coordinates", "slopes"}}}) {
+      for (const Words& words : sweep(ways, 1, number++)) {
         EXPECT_NEAR(energy(probe_ndf(parted_method(material, words), directions)) / truth, 1.0, 0.01)
             << lobe << " " << normals.width << " " << words.size() << (words.contains("k") ? " k" : "");
       }
@@ -157,8 +160,10 @@ TEST(Cells, EveryFilterKeepsTheEnergy) {
   scene.materials[0].lobe_parameter = 8.0F;
   TestRenderer renderer(scene, {32, 32});
   const double truth = covered_mean(renderer.reference(256).mean);
+  const std::array texts{"cells", "cells:covariance=full", "cells:k=2:storage=fp16"};
+  std::size_t number = 0;
   for (const char* const filter : {"trilinear", "anisotropic:8", "box:3", "area:3", "ewa:8", "shaded:2"}) {
-    for (const char* const text : {"cells", "cells:covariance=full", "cells:k=2:storage=fp16"})
+    for (const char* const text : sweep(texts, 1, number++))
       EXPECT_NEAR(covered_mean(renderer.frame(cells_method(), text, parse_footprint_filter(filter, ""))) / truth, 1.0,
                   0.01)
           << filter << " " << text;
@@ -240,8 +245,9 @@ TEST(Cells, EmptyPartsAndNormalsAtTheHorizonStayFinite) {
   std::copy_n(&below.x, 3, horizon.at(0, 3).begin());
   Image invalid = random_normals(4, 4, 0.5F, 7);
   for (std::size_t i = 3; i < invalid.texels.size(); i += 4) invalid.texels[i] = 0.0F;
+  std::size_t number = 0;
   for (const Image& map : {horizon, constant_normals(4, 4, sideways), random_normals(2, 1, 0.5F, 8), invalid}) {
-    for (const float lobe : {1.0F, 1e5F}) {
+    for (const float lobe : sweep(std::array{1.0F, 1e5F}, 1, number++)) {
       const Material material = lobe_material(map, blinn_phong, lobe);
       for (const char* const coordinates : {"stereographic", "slopes"}) {
         for (const double d :

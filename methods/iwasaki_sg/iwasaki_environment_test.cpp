@@ -13,6 +13,7 @@
 #include "renderer/scene/environment.hpp"
 #include "tests/methods/iwasaki_materials.hpp"
 #include "tests/support/rendering.hpp"
+#include "tests/support/sweep.hpp"
 
 namespace footprint::testing {
 namespace {
@@ -113,9 +114,9 @@ TEST(IwasakiUnderAnEnvironment, TabulatedBrdfIsNearTheSumOverFacets) {
   // Narrow ones lose most where their mean height is taken wrongly.
   const TabulatedBrdf sharp = ward_brdf(glm::vec3(0.0F), {0.5F, 0.4F, 0.2F}, 0.05);
   const std::vector<std::tuple<const char*, const TabulatedBrdf*, double>> rows{
-      {"flat", &sharp, 0.07},    {"grooves", &sharp, 0.07},  {"flat", &rough, 0.05},  {"flat", &glossy, 0.04},
-      {"grooves", &rough, 0.14}, {"grooves", &glossy, 0.07}, {"weave", &glossy, 0.11}};
-  for (const auto& [kind, brdf, bound] : rows) {
+      {"flat", &sharp, 0.07}, {"grooves", &rough, 0.14}, {"weave", &glossy, 0.11},  {"grooves", &sharp, 0.07},
+      {"flat", &rough, 0.05}, {"flat", &glossy, 0.04},   {"grooves", &glossy, 0.07}};
+  for (const auto& [kind, brdf, bound] : sweep(rows, 3)) {
     const int side = brdf == &sharp ? 96 : 32;  // cells of half of the lobe's width
     for (const glm::dvec3& wo : {above, oblique}) {
       SCOPED_TRACE(fmt::format("{} {} {}", kind, brdf == &rough ? "rough" : brdf == &sharp ? "sharp" : "glossy", wo.z));

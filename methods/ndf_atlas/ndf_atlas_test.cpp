@@ -18,6 +18,7 @@
 #include "tests/support/method_probe.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/slope_twin.hpp"
+#include "tests/support/sweep.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint {
@@ -141,8 +142,9 @@ TEST(NdfAtlas, IsCloseToTheSumOverTexels) {
     std::array<double, 3> error;
   };
   const std::vector<glm::dvec3> directions = hemisphere_grid(60, 120);
-  for (const Bound& bound : {Bound{"carved_disk", {0.027, 0.024, 0.018}}, Bound{"scales", {0.029, 0.036, 0.032}},
-                             Bound{"bumps", {0.024, 0.012, 0.008}}}) {
+  const std::array bounds{Bound{"carved_disk", {0.027, 0.024, 0.018}}, Bound{"scales", {0.029, 0.036, 0.032}},
+                          Bound{"bumps", {0.024, 0.012, 0.008}}};
+  for (const Bound& bound : sweep(bounds, 1)) {
     const Surface& surface = find_surface(all_surfaces(), bound.surface);
     SurfaceSettings settings = surface_settings(surface, {});
     settings.resolution = 256;
@@ -156,19 +158,29 @@ TEST(NdfAtlas, IsCloseToTheSumOverTexels) {
   }
 }
 
-// The density that the whole pipeline has of one footprint.
-std::vector<double> ndf_at(const Material& material, const FootprintRect& rect, const FootprintFilter& filter,
-                           const std::vector<glm::dvec3>& directions, const std::string& text = "ndf_atlas") {
-  const Scene scene = scene_of_facets(material);
-  const EffectSet effects = effects_on(derive_effects(scene));
-  GpuScene gpu(shared_context().info(), scene, effects);
-  const BakedMethod made = bake(ndf_atlas_method(), parse_methods(text).front(), scene, effects, no_progress);
-  const MethodNdf ndf(shared_context().info(), gpu, made, scene.materials.front(), filter);
-  const std::vector<glm::vec3> floats(directions.begin(), directions.end());
-  const std::vector<float> found = ndf.densities(rect, floats);
-  shared_context().check("evaluating an NDF");
-  return {found.begin(), found.end()};
-}
+// The density of the whole pipeline, for footprints of one material under one filter.
+class PipelineNdf {
+ public:
+  PipelineNdf(const Material& material, const FootprintFilter& filter, const std::string& text = "ndf_atlas")
+      : scene_(scene_of_facets(material)),
+        effects_(effects_on(derive_effects(scene_))),
+        gpu_(shared_context().info(), scene_, effects_),
+        baked_(bake(ndf_atlas_method(), parse_methods(text).front(), scene_, effects_, no_progress)),
+        ndf_(shared_context().info(), gpu_, baked_, scene_.materials.front(), filter) {}
+
+  [[nodiscard]] std::vector<double> at(const FootprintRect& rect, const std::vector<glm::dvec3>& directions) const {
+    const std::vector<float> found = ndf_.densities(rect, std::vector<glm::vec3>(directions.begin(), directions.end()));
+    shared_context().check("evaluating an NDF");
+    return {found.begin(), found.end()};
+  }
+
+ private:
+  Scene scene_;
+  EffectSet effects_;
+  GpuScene gpu_;
+  BakedMethod baked_;
+  MethodNdf ndf_;
+};
 
 // Texel i of a map of `size` as a sampler wraps it.
 int wrapped_texel(int i, int size, Wrap wrap) {
@@ -225,6 +237,7 @@ TEST(NdfAtlas, BlendsTheTexelsThatATrilinearLookupDoes) {
     Material material = lobe_material(random_normals(64, 64, 0.6F, 5), blinn_phong, 64.0F);
     material.normal_map->coordinates.wrap = {wrap, wrap};
     const TrilinearSum sum(material, wrap);
+    const PipelineNdf ndf(material, {FootprintFilterKind::trilinear, 1});
     for (const glm::dvec2& centre : {glm::dvec2(0.33, 0.58), glm::dvec2(0.99, 0.02), glm::dvec2(-1.37, 1.21)}) {
       if (wrap == Wrap::clamp_to_edge && centre.x < 0.0) continue;  // all of it is the corner texel
       for (const double level : {2.0, 2.7, 4.3}) {
@@ -232,7 +245,7 @@ TEST(NdfAtlas, BlendsTheTexelsThatATrilinearLookupDoes) {
         const FootprintRect rect{centre - 0.5 * edge, centre + 0.5 * edge};
         std::vector<double> truth;
         for (const glm::dvec3& h : directions) truth.push_back(sum.density(centre, level, h));
-        EXPECT_LT(relative_l2(ndf_at(material, rect, {FootprintFilterKind::trilinear, 1}, directions), truth), 0.04)
+        EXPECT_LT(relative_l2(ndf.at(rect, directions), truth), 0.04)
             << static_cast<int>(wrap) << " " << centre.x << " " << level;
       }
     }
@@ -254,8 +267,9 @@ TEST(NdfAtlas, SumsTheProbesOfALongFootprint) {
     truth.push_back(mean);
   }
   const FootprintRect rect{centre - 0.5 * size, centre + 0.5 * size};
-  EXPECT_LT(relative_l2(ndf_at(material, rect, {FootprintFilterKind::anisotropic, 8}, directions), truth), 0.04);
-  EXPECT_GT(relative_l2(ndf_at(material, rect, {FootprintFilterKind::anisotropic, 2}, directions), truth), 0.1)
+  EXPECT_LT(relative_l2(PipelineNdf(material, {FootprintFilterKind::anisotropic, 8}).at(rect, directions), truth),
+            0.04);
+  EXPECT_GT(relative_l2(PipelineNdf(material, {FootprintFilterKind::anisotropic, 2}).at(rect, directions), truth), 0.1)
       << "the gate: two probes are another footprint";
 }
 
@@ -264,7 +278,7 @@ TEST(NdfAtlas, KeepsTheEnergyOfTheSumOverTexels) {
   const std::vector<glm::dvec3> directions = hemisphere_grid(160, 160);
   Image holes = random_normals(13, 7, 0.7F, 6);
   for (int x = 2; x < 9; ++x) holes.at(x, 3)[3] = 0.0F;
-  for (const auto& [distribution, lobe] : lobes) {
+  for (const auto& [distribution, lobe] : sweep(lobes, 2)) {
     for (const Image& normals : {random_normals(16, 16, 0.4F, 6), holes}) {
       const Material material = lobe_material(normals, distribution, lobe);
       const double truth = energy_of(truth_of(material, directions));
@@ -281,9 +295,10 @@ TEST(NdfAtlas, EveryLevelKeepsTheEnergy) {
   const std::vector<glm::dvec3> directions = hemisphere_grid(120, 120);
   const Material material = lobe_material(random_normals(64, 64, 0.5F, 9), blinn_phong, 64.0F);
   const double truth = energy_of(truth_of(material, directions));
+  const PipelineNdf ndf(material, {});
   for (double level = 0.0; level <= 6.0; level += 0.5) {
     const glm::dvec2 half_edge(0.5 * std::exp2(level) / 64.0);
-    const std::vector<double> density = ndf_at(material, {0.37 - half_edge, 0.37 + half_edge}, {}, directions);
+    const std::vector<double> density = ndf.at({0.37 - half_edge, 0.37 + half_edge}, directions);
     EXPECT_NEAR(energy_of(density) / truth, 1.0, 0.01) << level;
   }
 }
@@ -303,9 +318,11 @@ TEST(NdfAtlas, EveryFilterKeepsTheEnergy) {
   scene.materials[0].lobe_parameter = 8.0F;
   TestRenderer renderer(scene, {32, 32});
   const double truth = covered_mean(renderer.reference(256).mean);
+  const std::array texts{"ndf_atlas:level=1", "ndf_atlas:level=2:tables=fp16"};
+  std::size_t number = 0;
   for (const char* const filter :
        {"trilinear", "anisotropic:8", "box:3", "area:3", "ewa:8", "shaded:2", "hardware:4"}) {
-    for (const char* const text : {"ndf_atlas:level=1", "ndf_atlas:level=2:tables=fp16"})
+    for (const char* const text : sweep(texts, 1, number++))
       EXPECT_NEAR(covered_mean(renderer.frame(ndf_atlas_method(), text, parse_footprint_filter(filter, ""))) / truth,
                   1.0, 0.01)
           << filter << " " << text;

@@ -12,6 +12,7 @@
 #include "tests/support/method_probe.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/shader_probe.hpp"
+#include "tests/support/sweep.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint::testing {
@@ -194,7 +195,7 @@ TEST(XuMixture, CountsCoveredTexelsAlone) {
 
 // Hard case 8 in 32-bit floats: kappa of a constant map, which comes back through |r| alone.
 TEST(XuMixture, KeepsKappaOverAConstantMap) {
-  for (const float kappa : {2.0F, 50.0F, 512.0F, 1e4F, 1e5F}) {
+  for (const float kappa : sweep(std::array{2.0F, 1e5F, 512.0F, 50.0F, 1e4F}, 3)) {
     const BuiltMap map(blinn_phong_square(constant_normals(16, 16, {0.28F, -0.1F, 0.95F}), kappa - 1.0F));
     for (const MapLobe& lobe : map.lobes()) EXPECT_NEAR(lobe.kappa / kappa, 1.0, 0.01) << kappa;
   }
@@ -202,7 +203,7 @@ TEST(XuMixture, KeepsKappaOverAConstantMap) {
 
 // Hard case 8 in half floats: the dead zone holds what the digits cannot, and the texels' own 1 - |r| bounds it.
 TEST(XuMixture, KeepsKappaOverAConstantMapInHalfFloats) {
-  for (const float kappa : {8.0F, 128.0F, 512.0F, 4096.0F, 6e4F}) {
+  for (const float kappa : sweep(std::array{8.0F, 6e4F, 512.0F, 128.0F, 4096.0F}, 2)) {
     for (const bool varies : {false, true}) {
       const Image normals = constant_normals(16, 16, {0.28F, -0.1F, 0.95F});
       const float alpha2 = 2.0F / (kappa + 1.0F);  // of the exponent kappa - 1
@@ -233,44 +234,56 @@ double ggx_energy(double alpha) {
 constexpr std::array distributions{NormalDistribution::blinn_phong, NormalDistribution::vmf,
                                    NormalDistribution::beckmann, NormalDistribution::ggx};
 
+// All ways to divide the hemisphere.
+const std::vector<Words>& divisions() {
+  static const std::vector<Words> all = [] {
+    std::vector<Words> out;
+    for (const char* const partition : {"azimuth", "latitude"}) {
+      for (const char* const j : {"1", "4", "8", "adaptive"}) out.push_back({{"j", j}, {"partition", partition}});
+    }
+    return out;
+  }();
+  return all;
+}
+
 TEST(XuDensity, HasUnitEnergyHoweverTheHemisphereIsCut) {
-  for (const NormalDistribution distribution : distributions) {
-    const Scene scene = spread_facets(distribution);
-    for (const std::string j : {"1", "4", "8", "adaptive"}) {
-      for (const std::string partition : {"azimuth", "latitude"}) {
-        EXPECT_NEAR(BuiltMap(scene, {{"j", j}, {"partition", partition}}).energy(), 1.0, 0.01)
-            << static_cast<int>(distribution) << " " << j << " " << partition;
-      }
+  for (std::size_t i = 0; i < distributions.size(); ++i) {
+    const Scene scene = spread_facets(distributions[i]);
+    for (const Words& words : sweep(divisions(), 2, 2 * i)) {
+      EXPECT_NEAR(BuiltMap(scene, words).energy(), 1.0, 0.01)
+          << static_cast<int>(distributions[i]) << " " << words.at("j") << " " << words.at("partition");
     }
   }
 }
 
 TEST(XuDensity, HasUnitEnergyWithThePapersLobes) {
   const Scene scene = spread_facets(NormalDistribution::ggx);  // whose width they take
-  for (const std::string j : {"1", "4", "8", "adaptive"}) {
-    for (const std::string partition : {"azimuth", "latitude"}) {
-      EXPECT_NEAR(BuiltMap(scene, {{"j", j}, {"partition", partition}, {"lobe", "vmf"}}).energy(), 1.0, 0.01)
-          << j << " " << partition;
-    }
+  for (Words words : sweep(divisions(), 3, 1)) {
+    words["lobe"] = "vmf";
+    EXPECT_NEAR(BuiltMap(scene, words).energy(), 1.0, 0.01) << words.at("j") << " " << words.at("partition");
   }
 }
 
 TEST(XuDensity, HasUnitEnergyHoweverItIsBuilt) {
-  for (const NormalDistribution distribution : distributions) {
-    const Scene scene = spread_facets(distribution);
-    for (const Words& words : {Words{{"thresholds", "blended"}}, Words{{"storage", "fp16"}, {"conversion", "table"}},
-                               Words{{"space", "camera"}}, Words{{"space", "camera"}, {"storage", "fp16"}, {"j", "8"}}})
+  const std::vector<Words> ways{{{"thresholds", "blended"}},
+                                {{"storage", "fp16"}, {"conversion", "table"}},
+                                {{"space", "camera"}},
+                                {{"space", "camera"}, {"storage", "fp16"}, {"j", "8"}}};
+  for (std::size_t i = 0; i < distributions.size(); ++i) {
+    const Scene scene = spread_facets(distributions[i]);
+    for (const Words& words : sweep(ways, 1, i))
       EXPECT_NEAR(BuiltMap(scene, words).energy(), 1.0, 0.01)
-          << static_cast<int>(distribution) << " " << words.begin()->second;
+          << static_cast<int>(distributions[i]) << " " << words.begin()->second;
   }
 }
 
 // Algorithm 1 as printed: every lobe adds whole. So do those near the rim, part of which lies below the horizon.
 TEST(XuDensity, HasAsMuchEnergyAsLobesAsPublished) {
-  const std::map<std::string, std::size_t> counts{{"1", 1}, {"4", 4}, {"8", 8}, {"adaptive", 4}};
-  for (const NormalDistribution distribution : distributions) {
+  const std::vector<std::pair<std::string, std::size_t>> counts{{"1", 1}, {"4", 4}, {"8", 8}, {"adaptive", 4}};
+  for (std::size_t i = 0; i < distributions.size(); ++i) {
+    const NormalDistribution distribution = distributions[i];
     const Scene scene = spread_facets(distribution);
-    for (const auto& [j, count] : counts) {
+    for (const auto& [j, count] : sweep(counts, 1, i)) {
       const BuiltMap published(scene, {{"j", j}, {"variant", "published"}});
       EXPECT_NEAR(published.energy_over_sphere() / static_cast<double>(count), 1.0, 0.01)
           << static_cast<int>(distribution) << " " << j;

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <ostream>
 #include <set>
 #include <string>
@@ -11,6 +13,7 @@
 #include "renderer/core/error.hpp"
 #include "scenes/surfaces/registry.hpp"
 #include "tests/support/surface_meshes.hpp"
+#include "tests/support/sweep.hpp"
 
 namespace footprint {
 
@@ -54,15 +57,16 @@ void expect_unit_normals(const Image& map) {
 }
 
 TEST_P(EverySurface, HasUnitNormalsOutOfTheSurfaceAtAnySize) {
-  for (int resolution = 1; resolution <= 17; ++resolution) {
+  std::vector<int> resolutions(17);
+  std::iota(resolutions.begin(), resolutions.end(), 1);
+  for (const int resolution : testing::sweep(resolutions, 5)) {
     const Image map = normals(resolution);
     EXPECT_EQ(map.width, resolution);
     EXPECT_EQ(map.height, resolution);
     EXPECT_EQ(map.channels, 4);
     expect_unit_normals(map);
   }
-  expect_unit_normals(normals(251));
-  expect_unit_normals(normals(256));
+  for (const int resolution : testing::sweep(std::array{251, 256}, 1)) expect_unit_normals(normals(resolution));
 }
 
 /// All maps that a surface has.

@@ -10,6 +10,7 @@ import unittest
 
 PROGRAM = os.environ["FOOTPRINT_PROGRAM"]
 SOURCE = pathlib.Path(os.environ["FOOTPRINT_SOURCE_DIR"])
+ALL_TESTS = "FOOTPRINT_ALL_TESTS" in os.environ  # `scripts/test --all`: whole sweeps
 
 
 def run(*arguments):

@@ -1,5 +1,5 @@
-// What must hold for every method under an environment: it meets `direct` where nothing is filtered and stays finite;
-// and what the reference integrates.
+// Every method under an environment: it equals `direct` where nothing needs filtering, and has finite values. The
+// reference's integral over the environment.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +9,9 @@
 #include "methods/registry.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/scene/small_sun.hpp"
+#include "tests/methods/method_number.hpp"
 #include "tests/support/rendering.hpp"
+#include "tests/support/sweep.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint::testing {
@@ -38,23 +40,40 @@ Environment uneven_environment() {
   return {.name = "uneven", .radiance = std::make_shared<const Image>(std::move(map)), .rotation = 0.7F};
 }
 
+// One normal everywhere, but for a texel that keeps a flat map from being left out, and is no bump to speak of.
+Image tilted_normals() {
+  Image normals = constant_normals(16, 16, {0.28F, 0, 0.96F});
+  normals.at(0, 0)[0] += 2e-5F;
+  return normals;
+}
+
 constexpr BaseBrdf lambert{NormalDistribution::ggx, GeometryTerm::none, FresnelTerm::none, true};
 
-// What no method has a part in, a reference's picture, is drawn once for all of them.
+// All methods share the renderers and the images of the reference.
 class UnderAnEnvironment : public ::testing::TestWithParam<const Method*> {
  protected:
   void SetUp() override {
     if (!has(GetParam()->info().honours, Effect::environment_light)) GTEST_SKIP() << "leaves environment light out";
   }
+  /// `count` of `distributions` for the method by default, others for the next method.
+  template <std::size_t N>
+  static std::vector<NormalDistribution> some(const std::array<NormalDistribution, N>& distributions,
+                                              std::size_t count) {
+    return sweep(distributions, count, count * method_number(*GetParam()));
+  }
 };
 
+std::string key_of(NormalDistribution distribution) { return std::to_string(static_cast<int>(distribution)); }
+
 TEST_P(UnderAnEnvironment, EqualsDirectOnAConstantMapAtAnyDistance) {
-  Image normals = constant_normals(16, 16, {0.28F, 0, 0.96F});
-  normals.at(0, 0)[0] += 2e-5F;  // keeps a flat map from being left out, and is no bump to speak of
-  for (const NormalDistribution distribution : {NormalDistribution::ggx, NormalDistribution::beckmann,
-                                                NormalDistribution::blinn_phong, NormalDistribution::vmf}) {
+  for (const NormalDistribution distribution :
+       some(std::array{NormalDistribution::ggx, NormalDistribution::beckmann, NormalDistribution::blinn_phong,
+                       NormalDistribution::vmf},
+            2)) {
     const BaseBrdf brdf{distribution, GeometryTerm::smith, FresnelTerm::schlick, true};
-    TestRenderer renderer(lit_square(normals, {.brdf = brdf}, uneven_environment()), {32, 32});
+    TestRenderer& renderer =
+        shared_renderer("tilted " + key_of(distribution),
+                        [&] { return lit_square(tilted_normals(), {.brdf = brdf}, uneven_environment()); }, {32, 32});
     for (const double distance : {0.05, 1.0, 4.0}) {
       const Image direct = renderer.frame(find_method("direct"), {}, {}, 0, distance);
       const Image picture = renderer.frame(*GetParam(), {}, {}, 0, distance);
@@ -64,13 +83,14 @@ TEST_P(UnderAnEnvironment, EqualsDirectOnAConstantMapAtAnyDistance) {
   }
 }
 
-// Every light of the environment shaded by the method, and no map looked up: on a constant map that is what the
-// reference sees. The lookup by lobes is off by what tables call light.
+// A method that shades every light of the environment without maps equals the reference on a constant map. The lookup
+// by lobes has the error of its tables.
 TEST_P(UnderAnEnvironment, AllOfItsLightsMeetTheReferenceOnAConstantMap) {
-  Image normals = constant_normals(16, 16, {0.28F, 0, 0.96F});
-  normals.at(0, 0)[0] += 2e-5F;
   const BaseBrdf brdf{NormalDistribution::ggx, GeometryTerm::smith, FresnelTerm::schlick, true};
-  TestRenderer renderer(lit_square(normals, {.brdf = brdf, .roughness = 0.6F}, uneven_environment()), {6, 6});
+  const auto scene = [&] {
+    return lit_square(tilted_normals(), {.brdf = brdf, .roughness = 0.6F}, uneven_environment());
+  };
+  TestRenderer& renderer = shared_renderer("all lights", scene, {6, 6});
   static const Image truth = renderer.reference(64, 1, ReferenceFilter::after_shading, 0, EnvironmentUse::dense).mean;
   const Image picture = renderer.frame(*GetParam(), {}, {}, 0, 1.0, EnvironmentUse::dense);
   if (std::ranges::none_of(picture.texels, [](float value) { return std::isfinite(value) && value != 1.0F; }))
@@ -79,24 +99,33 @@ TEST_P(UnderAnEnvironment, AllOfItsLightsMeetTheReferenceOnAConstantMap) {
   EXPECT_GT(compare_images(renderer.frame(*GetParam()), truth, 1.0F).value().relative_rmse, 4e-3) << "the lookup";
 }
 
-// What four pixels show, whose differences are a footprint, is their own: neighbours that look other levels up, or have
-// more lobes, change nothing.
+// Four pixels, whose differences are a footprint, do not depend on neighbours that read other levels or have more
+// lobes.
 TEST_P(UnderAnEnvironment, IsTheSameFourPixelsByFourPixels) {
   const BaseBrdf brdf{NormalDistribution::ggx, GeometryTerm::smith, FresnelTerm::schlick, false};
-  Scene scene = lit_square(random_normals(64, 64, 0.6F, 5), {.brdf = brdf, .roughness = 0.3F}, uneven_environment());
-  scene.camera = receding_grooves().camera;
-  TestRenderer renderer(scene, {24, 24});
+  const auto scene = [&] {
+    Scene receding =
+        lit_square(random_normals(64, 64, 0.6F, 5), {.brdf = brdf, .roughness = 0.3F}, uneven_environment());
+    receding.camera = receding_grooves().camera;
+    return receding;
+  };
+  TestRenderer& renderer = shared_renderer("receding", scene, {24, 24});
   EXPECT_LT(largest_difference(renderer.frame(*GetParam(), {}, {}, 2), renderer.frame(*GetParam())), 1e-4);
 }
 
 TEST_P(UnderAnEnvironment, StaysFiniteAtTheLimits) {
-  for (const NormalDistribution distribution : {NormalDistribution::ggx, NormalDistribution::blinn_phong}) {
+  for (const NormalDistribution distribution :
+       some(std::array{NormalDistribution::ggx, NormalDistribution::blinn_phong}, 1)) {
     for (const float roughness : {0.0F, 1.0F}) {
       const BaseBrdf brdf{distribution, GeometryTerm::tan, FresnelTerm::schlick, true};
-      Scene scene =
-          lit_square(random_normals(9, 5, 0.999F, 3), {.brdf = brdf, .roughness = roughness}, uneven_environment());
-      scene.camera = receding_grooves().camera;
-      TestRenderer renderer(scene, {32, 32});
+      const auto scene = [&] {
+        Scene receding =
+            lit_square(random_normals(9, 5, 0.999F, 3), {.brdf = brdf, .roughness = roughness}, uneven_environment());
+        receding.camera = receding_grooves().camera;
+        return receding;
+      };
+      TestRenderer& renderer =
+          shared_renderer((roughness > 0.0F ? "rough " : "mirror ") + key_of(distribution), scene, {32, 32});
       for (const double distance : {0.05, 4.0}) {
         const Image picture = renderer.frame(*GetParam(), {}, {}, 0, distance);
         for (const float value : picture.texels) ASSERT_TRUE(std::isfinite(value) && value >= 0.0F);
@@ -105,10 +134,12 @@ TEST_P(UnderAnEnvironment, StaysFiniteAtTheLimits) {
   }
 }
 
-// At the scale of a texel a pixel, where nothing is far from its own lobe.
+// One texel per pixel, where each pixel is close to its own lobe.
 TEST_P(UnderAnEnvironment, IsNearTheReference) {
-  Scene scene = lit_square(random_normals(16, 16, 0.4F, 5), {.brdf = {}, .roughness = 0.5F}, uneven_environment());
-  TestRenderer renderer(scene, {32, 32});
+  const auto scene = [] {
+    return lit_square(random_normals(16, 16, 0.4F, 5), {.brdf = {}, .roughness = 0.5F}, uneven_environment());
+  };
+  TestRenderer& renderer = shared_renderer("texel per pixel", scene, {32, 32});
   static const Image truth = renderer.reference(256).mean;
   EXPECT_LT(compare_images(renderer.frame(*GetParam()), truth, 1.0F).value().relative_rmse, 0.25);
 }
@@ -150,8 +181,9 @@ constexpr glm::ivec2 sunny_size{24, 24};
 // roughness 0.1 the highlight is hardly larger than a pixel, whose middle alone a frame looks at: there the mean
 // counts.
 TEST(SmallSunInAnEnvironment, IsWhatTheReferenceSeesOfItAtEveryRoughness) {
+  TestRenderer renderer(sunny_square(0.1F), sunny_size);
   for (const auto& [roughness, most] : {std::pair(0.1F, 1.0), {0.3F, 0.04}, {0.5F, 0.04}, {1.0F, 0.04}}) {
-    TestRenderer renderer(sunny_square(roughness), sunny_size);
+    renderer.update(sunny_square(roughness));
     const SunErrors errors = errors_of(renderer.frame(find_method("direct")), renderer.reference(128).mean);
     EXPECT_TRUE(errors.hold(most)) << "roughness " << roughness << ": mean " << errors.mean << ", image "
                                    << errors.picture;

@@ -1,5 +1,5 @@
-// What must hold for every method of the registry: it meets `direct` where there is nothing to filter, is
-// deterministic, stays finite, and says what it is.
+// Properties of every method of the registry: it equals `direct` where nothing needs filtering, is deterministic, has
+// finite values, and describes itself.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,20 +12,13 @@
 
 #include "methods/registry.hpp"
 #include "renderer/image/metrics.hpp"
+#include "tests/methods/method_number.hpp"
 #include "tests/support/rendering.hpp"
+#include "tests/support/sweep.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint::testing {
 namespace {
-
-class EveryMethod : public ::testing::TestWithParam<const Method*> {
- protected:
-  static double difference_from_direct(TestRenderer& renderer, double distance) {
-    const Image direct = renderer.frame(find_method("direct"), {}, {}, 0, distance);
-    const Image picture = renderer.frame(*GetParam(), {}, {}, 0, distance);
-    return compare_images(picture, direct, 1.0F).value().relative_rmse;
-  }
-};
 
 constexpr std::array<BaseBrdf, 4> brdfs = {{
     {NormalDistribution::ggx, GeometryTerm::smith, FresnelTerm::schlick, true},
@@ -34,13 +27,31 @@ constexpr std::array<BaseBrdf, 4> brdfs = {{
     {NormalDistribution::vmf, GeometryTerm::tan, FresnelTerm::schlick, true},
 }};
 
+// The part of a shared renderer's key that depends on the base BRDF.
+std::string brdf_key(const BaseBrdf& brdf) { return std::to_string(static_cast<int>(brdf.distribution)); }
+
+class EveryMethod : public ::testing::TestWithParam<const Method*> {
+ protected:
+  /// Base BRDFs for the method: `count` of the four by default, others for the next method.
+  static std::vector<BaseBrdf> some_brdfs(std::size_t count) { return sweep(brdfs, count, method_number(*GetParam())); }
+
+  static double difference_from_direct(TestRenderer& renderer, double distance) {
+    const Image direct = renderer.frame(find_method("direct"), {}, {}, 0, distance);
+    const Image picture = renderer.frame(*GetParam(), {}, {}, 0, distance);
+    return compare_images(picture, direct, 1.0F).value().relative_rmse;
+  }
+};
+
 // A tilted constant map cannot be left out as flat: it goes through the whole precompute.
 TEST_P(EveryMethod, EqualsDirectOnAConstantMapAtAnyDistance) {
-  for (const BaseBrdf& brdf : brdfs) {
+  for (const BaseBrdf& brdf : some_brdfs(2)) {
     for (const glm::vec3& normal : {glm::vec3(0, 0, 1), glm::vec3(0.28F, 0, 0.96F)}) {
-      Image normals = constant_normals(64, 64, normal);
-      normals.at(0, 0)[0] += 2e-5F;  // keeps a flat map from being left out, and is no bump to speak of
-      TestRenderer renderer(square_scene(normals, {.brdf = brdf}));
+      const auto scene = [&] {
+        Image normals = constant_normals(64, 64, normal);
+        normals.at(0, 0)[0] += 2e-5F;  // keeps a flat map from being left out, and is no bump to speak of
+        return square_scene(normals, {.brdf = brdf});
+      };
+      TestRenderer& renderer = shared_renderer((normal.x > 0.0F ? "tilted " : "flat ") + brdf_key(brdf), scene);
       for (const double distance : {0.05, 1.0, 4.0}) {
         EXPECT_LT(difference_from_direct(renderer, distance), 1e-3)
             << "distribution " << static_cast<int>(brdf.distribution) << ", distance " << distance;
@@ -52,14 +63,18 @@ TEST_P(EveryMethod, EqualsDirectOnAConstantMapAtAnyDistance) {
 // Facets that lean 53 degrees under a light 10 degrees below the surface's plane: with an open horizon every method
 // shows what `direct` shows there, and with a cut one nothing.
 TEST_P(EveryMethod, KnowsLightFromBelowTheHorizonByTheScenesRule) {
-  for (const BaseBrdf& brdf : brdfs) {
-    Image normals = constant_normals(64, 64, {0.8F, 0, 0.6F});
-    normals.at(0, 0)[0] += 2e-5F;  // as above
-    Scene scene = square_scene(normals, {.brdf = brdf});
-    scene.lights = {DirectionalLight{.direction = {-0.985F, 0.0F, 0.174F}, .illuminance = glm::vec3(3.0F)}};
-    EXPECT_EQ(covered_mean(TestRenderer(scene).frame(*GetParam())), 0.0);
-    scene.horizon = Horizon::open;
-    TestRenderer renderer(scene);
+  for (const BaseBrdf& brdf : some_brdfs(1)) {
+    const auto scene = [&](Horizon horizon) {
+      Image normals = constant_normals(64, 64, {0.8F, 0, 0.6F});
+      normals.at(0, 0)[0] += 2e-5F;  // as above
+      Scene lit = square_scene(normals, {.brdf = brdf});
+      lit.lights = {DirectionalLight{.direction = {-0.985F, 0.0F, 0.174F}, .illuminance = glm::vec3(3.0F)}};
+      lit.horizon = horizon;
+      return lit;
+    };
+    TestRenderer& cut = shared_renderer("cut " + brdf_key(brdf), [&] { return scene(Horizon::cut); });
+    EXPECT_EQ(covered_mean(cut.frame(*GetParam())), 0.0);
+    TestRenderer& renderer = shared_renderer("open " + brdf_key(brdf), [&] { return scene(Horizon::open); });
     EXPECT_GT(covered_mean(renderer.frame(find_method("direct"))), 0.05);
     for (const double distance : {0.05, 1.0, 4.0}) {
       EXPECT_LT(difference_from_direct(renderer, distance), 1e-3)
@@ -83,7 +98,7 @@ TEST_P(EveryMethod, EqualsDirectAtMagnificationWhereTheMapIsFlat) {
 }
 
 TEST_P(EveryMethod, StaysFiniteAtTheLimits) {
-  for (const BaseBrdf& brdf : brdfs) {
+  for (const BaseBrdf& brdf : some_brdfs(2)) {
     for (const float roughness : {0.0F, 1.0F}) {
       for (const float tilt : {0.0F, 0.999F}) {
         TestRenderer renderer(square_scene(random_normals(33, 17, tilt, 3), {.brdf = brdf, .roughness = roughness}));
@@ -103,7 +118,8 @@ TEST_P(EveryMethod, IsTheSameFourPixelsByFourPixels) {
   Scene scene = square_scene(random_normals(64, 64, 0.6F, 5), {.brdf = brdfs[2], .roughness = 0.4F});
   scene.camera = receding_grooves().camera;
   TestRenderer renderer(scene, {24, 24});
-  for (const char* const text : {"trilinear", "anisotropic:4", "shaded:2"}) {
+  for (const char* const text :
+       sweep(std::array{"trilinear", "anisotropic:4", "shaded:2"}, 2, method_number(*GetParam()))) {
     const FootprintFilter filter = parse_footprint_filter(text, "");
     const Image whole = renderer.frame(*GetParam(), {}, filter);
     EXPECT_LT(largest_difference(renderer.frame(*GetParam(), {}, filter, 2), whole), 1e-4) << text;
@@ -112,8 +128,7 @@ TEST_P(EveryMethod, IsTheSameFourPixelsByFourPixels) {
 
 TEST_P(EveryMethod, IsDeterministic) {
   const Scene scene = square_scene(random_normals(64, 48, 0.5F, 4), {});
-  TestRenderer renderer(scene);
-  EXPECT_EQ(renderer.frame(*GetParam()), renderer.frame(*GetParam()));
+  EXPECT_EQ(TestRenderer(scene).frame(*GetParam()), TestRenderer(scene).frame(*GetParam()));
   const EffectSet set = effects_on(derive_effects(scene));
   const Options options(GetParam()->info().options, {}, "test");
   EXPECT_EQ(GetParam()->precompute(scene.materials[0], options, set, no_progress),
@@ -130,7 +145,7 @@ double mean_of_colours(const Image& picture) {
 // At its finest level a method shades texels: it is then the base BRDF, but for what its representation cannot hold.
 // One that knows no texels has at least their mean.
 TEST_P(EveryMethod, RepresentsTheBaseBrdfAtItsFinestLevel) {
-  TestRenderer renderer(square_scene(random_normals(64, 64, 0.5F, 5), {}));
+  TestRenderer& renderer = shared_renderer("random", [] { return square_scene(random_normals(64, 64, 0.5F, 5), {}); });
   static const Image truth = renderer.reference(64).mean;  // the same for all methods
   const Image finest = renderer.supersampled(*GetParam(), 64).mean;
   if (GetParam()->info().resolves_texels) {

@@ -37,6 +37,13 @@ class InFolder(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
 
+class TestScript(unittest.TestCase):
+    def test_an_unknown_option_is_refused(self):
+        done = subprocess.run([SOURCE / "scripts/test", "--al"], capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stdout), (3, ""))
+        self.assertIn("--all", done.stderr)
+
+
 class PictureHashes(InFolder):
     def setUp(self):
         super().setUp()

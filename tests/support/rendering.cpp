@@ -102,6 +102,14 @@ void TestRenderer::update(const Scene& scene) {
   scene_ = scene;
 }
 
+TestRenderer& shared_renderer(const std::string& key, const std::function<Scene()>& scene, const glm::ivec2& size) {
+  (void)shared_context();  // outlives the renderers
+  static std::map<std::string, std::unique_ptr<TestRenderer>> renderers;
+  std::unique_ptr<TestRenderer>& found = renderers[key];
+  if (!found) found = std::make_unique<TestRenderer>(scene(), size);
+  return *found;
+}
+
 double largest_difference(const Image& a, const Image& b) {
   if (a.width != b.width || a.height != b.height || a.channels != b.channels)
     return std::numeric_limits<double>::infinity();

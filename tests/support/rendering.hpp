@@ -1,6 +1,7 @@
 // One scene on one context, drawn by any method, for tests of the pipeline and of methods.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -53,6 +54,11 @@ class TestRenderer {
   GpuScene gpu_scene_;
   std::map<std::pair<const Method*, std::string>, std::shared_ptr<Prepared>> prepared_;
 };
+
+/// The renderer of `key`, made from scene() and `size` on the first call. Tests of several methods share its scene and
+/// environment on the GPU. A key has one scene in a test program.
+[[nodiscard]] TestRenderer& shared_renderer(const std::string& key, const std::function<Scene()>& scene,
+                                            const glm::ivec2& size = {64, 64});
 
 /// The largest absolute difference of any channel; infinite for different sizes or a NaN.
 [[nodiscard]] double largest_difference(const Image& a, const Image& b);

@@ -13,6 +13,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "tests/methods/iwasaki_materials.hpp"
+#include "tests/support/sweep.hpp"
 
 namespace footprint {
 std::span<const Quantity> iwasaki_sg_quantities();
@@ -94,17 +95,18 @@ TEST(BrdfFigures, LobesAgainstTables) {
   EXPECT_GT(figure("table_ms", material, options, {{"side", "6"}}), 0.0);
 }
 
-// The patches of scenes/bi_scale_spheres under their lobe, by 1, 4 and 8 lobes: as many as normals are enough (grooves
-// 3, pyramids 5), fewer are not. Bounds are what was measured, rounded up.
+// The patches of scenes/bi_scale_spheres with 1, 4 and 8 lobes. As many lobes as normals are enough (grooves 3,
+// pyramids 5), fewer are not. Bounds are measured figures, rounded up.
 TEST(BrdfFigures, LobesAgainstTheSumOverFacetsByTheirNumber) {
   const std::vector<std::tuple<Patch, std::array<double, 3>>> rows{
       {patch_of("spheres", {{"radius", "0.3"}}), {0.99, 0.14, 0.13}},
       {patch_of("pyramids", {{"floor", "0.3"}, {"slope_degrees", "15"}}), {0.82, 0.66, 0.08}},
       {patch_of("grooves", {{"land", "0.25"}, {"flank_degrees", "20"}}), {0.98, 0.04, 0.04}}};
-  for (const auto& [patch, bounds] : rows) {
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    const auto& [patch, bounds] = rows[row];
     const Material material = patch_material(patch, blinn_phong, 512.0F);
     constexpr std::array counts{"1", "4", "8"};
-    for (std::size_t i = 0; i < counts.size(); ++i) {
+    for (const std::size_t i : testing::sweep(std::array<std::size_t, 3>{0, 1, 2}, 1, row)) {
       EXPECT_LT(figure("brdf_error", material, {{"facets", "4096"}, {"j", counts[i]}}), bounds[i])
           << patch.name << ", " << counts[i] << " lobes";
     }

@@ -1,5 +1,5 @@
-// `atanasov_bins`: a bin map of the normals and its inverse; the density of normals under a pixel is a count of texels.
-// Atanasov, Křivánek, Koylazov and Wilkie 2020, "Efficient Multiscale Rendering of Specular Microstructure".
+// `atanasov_bins`: a bin map of the normals and its inverse, by which the density of normals under a pixel is a count
+// of texels. Atanasov, Křivánek, Koylazov and Wilkie 2020, "Efficient Multiscale Rendering of Specular Microstructure".
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -54,18 +54,18 @@ Settings settings_of(const Options& options) {
           .storage = parse_storage(options.word("storage"))};
 }
 
-// Texels whose lobes differ more are in lists of their own, so that a list's mean width is that of each.
+// Texels whose lobes differ by more are in separate lists, so that the mean width of a list is close to that of each.
 constexpr double class_ratio = 4.0;  // of slope variances
 constexpr int most_classes = 4;
 
-// A variance that nine tenths of the texels exceed.
+// The variance that nine tenths of the texels exceed.
 double low_variance(std::vector<float> variances) {
   const auto tenth = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 10);
   std::ranges::nth_element(variances, tenth);
   return *tenth;
 }
 
-// Of the narrowest lobe or, where the roughness varies, of one that nine tenths of the map are wider than.
+// The variance of the narrowest lobe or, if the roughness varies, the one that nine tenths of the map exceed.
 double narrow_variance(const Material& material) {
   if (width_map(material) != nullptr) return low_variance(lobe_variance_map(material).texels);
   if (material.lobes.empty()) return mean_lobe_variance(material);
@@ -86,19 +86,19 @@ bool reads_base_lobe(const Settings& settings) {
   return settings.roughness == Roughness::lobe || (settings.roughness == Roughness::bin && settings.microfacets);
 }
 
-// Means of 4 x 4 texels and coarser: of fewer the shader takes the texels' own.
+// Mean normals of 4 x 4 texels and coarser; for fewer texels the shader reads the texels themselves.
 PrefilteredTexture mean_normal_texture(const Material& material, Storage storage) {
   std::vector<Image> chain = mean_normal_chain(material);
   chain.erase(chain.begin(), chain.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(chain.size() - 1, 2)));
   return make_texture("bins_mean_normal", chain, storage, normal_coordinates(material));
 }
 
-// Whether every texel of the normal map has a width of its own: the maps that tell are looked up alike.
+// Whether every texel of the normal map has a width of its own: both maps have the same coordinates.
 bool knows_widths(const Material& material) {
   return width_map(material) != nullptr && roughness_coordinates(material) == normal_coordinates(material);
 }
 
-// The slope variance of the lobe at every texel of a map of so many: the twin of varianceAt in GLSL.
+// The slope variance of the lobe at every texel of a map of `size`: the twin of varianceAt in GLSL.
 Image widths_of_texels(const Material& material, const glm::ivec2& size) {
   const std::vector<Image> chain = lobe_variance_chain(material);
   const double finer = std::max(std::log2(static_cast<double>(chain.front().width) / size.x), 0.0);
@@ -111,10 +111,11 @@ Image widths_of_texels(const Material& material, const glm::ivec2& size) {
   return widths;
 }
 
-// The slope variance of normals that fill a bin evenly, doubled, as they may keep to its corners.
+// The slope variance of normals that fill a bin evenly, doubled because they may be at its corners.
 double spread_in_bin(int across) { return bin_solid_angle(across) / 6.0; }
 
-// Equal steps of the variance's logarithm from the narrow texels to the widest; what is narrower is of the first class.
+// Classes in equal steps of the logarithm of the variance, from narrow to wide texels. The first class includes all
+// narrower texels.
 std::vector<WidthClass> classes_of(const Image& widths, int most_across) {
   const double low = low_variance(widths.texels), high = *std::ranges::max_element(widths.texels);
   const double range = std::log(high / low);
@@ -128,7 +129,7 @@ std::vector<WidthClass> classes_of(const Image& widths, int most_across) {
   return classes;
 }
 
-// Which texels are of which.
+// The class of each texel.
 TexelClasses texels_of(std::span<const WidthClass> classes, const Image& widths) {
   TexelClasses out;
   for (const WidthClass& one : classes) out.across.push_back(one.across);

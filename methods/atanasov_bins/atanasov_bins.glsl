@@ -1,6 +1,6 @@
-// Atanasov et al. 2020: the normals under a pixel are counted by bins of the half vector. The density of normals at h
-// is the area of the texels under the footprint whose normals are in h's bin, over the footprint's area and the bin's
-// solid angle; or, where texels reflect by a lobe, the mean of the lobes about the normals of the bins around h.
+// Atanasov et al. 2020: counts the normals under a pixel by bins of the half vector. The density of normals at h is the
+// area of the footprint's texels with normals in h's bin, divided by the area of the footprint and the solid angle of
+// the bin. If texels reflect by a lobe, it is the mean of the lobes about the normals of the bins around h.
 //? include direction_grid.glsl
 //? if roughness_lobe or roughness_bin and surface_microfacets
 //? include lobe_variance.glsl
@@ -13,7 +13,7 @@ uint wordOf(vec4 bytes) {
   return b.x | b.y << 8 | b.z << 16 | b.w << 24;
 }
 
-// Word i of many, in rows as long as a power of two.
+// Word i of a list, in rows whose length is a power of two.
 uint wordAt(sampler2D words, uint i) {
   countLookups(1);
   uint columns = uint(textureSize(words, 0).x);
@@ -22,7 +22,7 @@ uint wordAt(sampler2D words, uint i) {
 
 ivec2 unpacked(uint code) { return ivec2(code & 0xFFFFu, code >> 16); }
 
-// A texel's normal as its point of the square, 16 bits an axis.
+// A texel's normal as its point of the square, 16 bits per axis.
 const uint no_normal = 0xFFFFFFFFu;
 const uint up_code = 0x80008000u;  // (0, 0, 1)
 
@@ -44,10 +44,10 @@ ivec2 cellOf(vec3 direction) {
 
 uint binIn(ivec2 cell) { return uint(cell.y) * uint(bins_across) + uint(cell.x); }
 
-// What normals stand for, a texel's own or those of a bin together: a density at h, and what it reflects.
+// The value of normals, of a texel or of a bin: a density at h, or a reflectance.
 
 struct Query {
-  bool reflects;  // f * cos but for the Fresnel term, else the density alone
+  bool reflects;  // f * cos without the Fresnel term; otherwise the density
   vec3 h;
   vec3 wi;
   vec3 wo;
@@ -72,7 +72,7 @@ float flakeDensity(float alpha, vec3 n, vec3 h) {
 
 float baseVariance(Footprints f) { return 0.5 * option_alpha * option_alpha; }
 
-// Of normals with a slope variance per axis of `spread` about one.
+// The value of normals with a slope variance of `spread` per axis about `normal`.
 float valueAbout(float variance, vec3 normal, float spread, Query q) {
   float alpha = sqrt(2.0 * (variance + spread));
   float density = flakeDensity(alpha, normal, q.h);
@@ -82,7 +82,7 @@ float valueAbout(float variance, vec3 normal, float spread, Query q) {
   return density;
 }
 //? elif roughness_bin and surface_facets
-float baseVariance(Footprints f) { return binSolidAngle() / 12.0; }  // a square of area |H| along an axis
+float baseVariance(Footprints f) { return binSolidAngle() / 12.0; }  // variance of a square of area |H| along an axis
 //? elif roughness_lobe
 float valueAbout(float variance, vec3 normal, float spread, Query q) {
   Facets facets = spreadFacets(normal, variance, spread);
@@ -93,11 +93,12 @@ float valueAbout(float variance, vec3 normal, float spread, Query q) {
 }
 //? end
 
-// What is the same for all normals: `value` is their mean density or, of facets with lobes, reflectance.
+// Applies the factors that are the same for all normals. `value` is their mean density or, for facets with lobes, their
+// mean reflectance.
 float finishedValue(float variance, float value, Query q) {
   if (!q.reflects || value == 0.0) return value;
 //? if surface_microfacets
-  // Walter 2007: D cos integrates to one over a surface about its own normal, D over solid angle does here.
+  // Walter 2007: D cos integrates to one over a surface about its own normal; here D over solid angle does.
   vec3 up = vec3(0.0, 0.0, 1.0);
   return value / max(q.h.z, 1e-3) * geometryFactor(lobeFromVariance(variance), up, q.h, q.wi, q.wo);
 //? elif roughness_bin
@@ -109,9 +110,9 @@ float finishedValue(float variance, float value, Query q) {
 }
 
 //? if environment_light or sampling_frame and normal_variation and not roughness_bin
-// Section 2.1: normals drawn from D. A point of the footprint, the bin of its texel, a normal anywhere in that bin.
+// Section 2.1: draws normals from D. A point of the footprint, the bin of its texel, and a normal anywhere in that bin.
 
-// A texel that is drawn, and the share of the footprint that it stands for: 0 where there is none, or no normal.
+// A drawn texel, and the share of the footprint that it represents: 0 without a texel or a normal.
 struct DrawnTexel {
   uint code;
   float variance;  // of the lobe about it
@@ -121,7 +122,7 @@ struct DrawnTexel {
 // Point i of a sequence that fills [0, 1)^4 evenly: multiples of powers of 1 / g with g^5 = g + 1 (Roberts 2018).
 vec4 evenPoint(int i) { return fract(0.5 + float(i + 1) * vec4(0.85667488, 0.73389186, 0.62870672, 0.53859726)); }
 
-// The normal that a texel reflects about: its own or, where the bin is all that is known of it, at a place of that.
+// The normal that a texel reflects about: its own or, if only its bin is known, one at `place` in the bin.
 vec3 normalOf(uint code, vec2 place) {
 //? if roughness_bin
   return squareToHemisphere((vec2(cellOfPacked(code, bins_across)) + place) / bins_across);
@@ -133,10 +134,10 @@ vec3 normalOf(uint code, vec2 place) {
 //? if sampling_frame and normal_variation
 //? include atanasov_bins_footprint.glsl
 //? else
-// One texel of the finest level, or a surface without a normal map: one normal a sample.
+// One normal per sample: a texel of the finest level, or a surface without a normal map.
 struct Effective {
   vec3 normal;
-  uint code;       // that, packed
+  uint code;       // the packed normal
   float variance;  // of the base lobe
 };
 
@@ -170,7 +171,7 @@ float meanValue(Effective e, Query q) {
 vec3 meanNormal(Effective e) { return e.normal; }
 
 //? if environment_light
-// Of one texel nothing is drawn but the place in its bin.
+// A single texel: only the place in its bin is drawn.
 int drawCount(Effective e) {
 //? if roughness_bin
   return int(option_draws);
@@ -191,7 +192,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
     r.specular = fresnelTerm(s.f0, wi, wo) * value;
   }
 //? if diffuse
-  // The mean normal's dot product is the mean of the facets' own while all of them face the light.
+  // The dot product with the mean normal is the mean over the facets while all of them face the light.
   r.diffuse = diffuse(meanNormal(e), s, wi, wo);
 //? end
   return r;
@@ -200,7 +201,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
 float ndf(Effective e, vec3 h) { return meanValue(e, queryFor(false, h, h, h)); }
 
 //? if environment_light
-// Environment light: drawn normals, each with what a texel reflects by, are the lobes of the NDF.
+// Environment light: the drawn normals, each with the reflection of its texel, are the lobes of the NDF.
 
 //? if roughness_lobe
 int lobesOfTexel() { return facetLobeCount(); }
@@ -213,7 +214,7 @@ int lobesOfTexel() { return 1; }
 
 NormalLobe lobeOfTexel(float variance, vec3 normal, int k, float share) {
 //? if roughness_bin
-  const float sharpness = 1e6;  // a mirror: no map of an environment is as sharp
+  const float sharpness = 1e6;  // a mirror, sharper than any environment map
 //? else
   float sharpness = 1.0 / variance;
 //? end

@@ -1,5 +1,5 @@
-// All texels under a footprint: of a small one each by itself, from the bin map; of a large one by bins, from the
-// inverse bin map, whose trees count them.
+// Sums all texels under a footprint: texel by texel from the bin map if it is small, otherwise by bins from the inverse
+// bin map, whose trees count texels.
 //? include atanasov_bins_walk.glsl
 
 struct Effective {
@@ -9,7 +9,7 @@ struct Effective {
   vec3 mean;       // of the normals
 //? end
 //? if environment_light
-  float drawn;     // the share of what is drawn that has a normal
+  float drawn;     // the share of drawn texels that have a normal
 //? end
 };
 
@@ -25,7 +25,7 @@ TexelBox texelsAbout(Region r) {
   return TexelBox(first, sides.x, sides.x * sides.y);
 }
 
-// Whether the box about a region has no more texels than that.
+// Whether the box about a region has at most `most_texels` texels.
 bool hasAtMost(Region r, float most_texels) {
   vec2 sides = 2.0 * r.reach + 1.0;
   return sides.x * sides.y <= most_texels;
@@ -36,7 +36,7 @@ ivec2 texelIn(TexelBox box, int i) {
   return box.first + ivec2(i - row * box.across, row);
 }
 
-// Of any copy of the map: the sampler wraps.
+// The packed normal of a texel of any copy of the map; the sampler wraps.
 uint packedAt(ivec2 texel) {
   countLookups(1);
   return wordOf(textureLod(bins_map, (vec2(texel) + 0.5) / mapSize(), 0.0));
@@ -46,21 +46,22 @@ ivec2 texelAt(Region r, vec2 point) { return ivec2(floor(r.centre + r.edges * (p
 
 float areaOfTexel(Region r, ivec2 texel) { return coveredOf(r, vec2(texel), vec2(texel) + 1.0); }
 
-// Sums over a region: of values by area, and of the area that has normals.
+// Sums over a region: values by area, and the area that has normals.
 struct Sum {
   float value;
   float area;
 };
 
-// llvmpipe ends all loops of a pixel after 65535 rounds: no picture may pass for whole then.
+// The result of an incomplete sum: not a number, because llvmpipe ends all loops of a pixel after 65535 rounds and no
+// incomplete image must pass unnoticed.
 Sum notWhole() {
   float no_number = uintBitsToFloat(0x7fc00000u);
   return Sum(no_number, no_number);
 }
 
 //? if roughness_lobe and roughness_variation
-// The roughness map's texels that a texel of the normal map lies on; the footprint's mean where the two maps are not
-// looked up alike.
+// The variance of the roughness texels under a texel of the normal map, or the footprint's mean if the maps have
+// different coordinates.
 float varianceAt(Effective e, ivec2 texel) {
   if (bins_own_roughness == 0.0) return e.variance;
   countLookups(1);
@@ -68,7 +69,7 @@ float varianceAt(Effective e, ivec2 texel) {
   return textureLod(lobe_variance, (vec2(texel) + 0.5) / mapSize(), level).r * stored_lobe_variance;
 }
 
-// What the spread of a list (listNormal) has not in it.
+// The variance of a list that its spread does not include.
 float varianceOfLists(Effective e) { return bins_own_roughness == 0.0 ? e.variance : 0.0; }
 //? else
 float varianceAt(Effective e, ivec2 texel) { return e.variance; }
@@ -86,7 +87,7 @@ float texelValue(Effective e, ivec2 texel, uint code, Query q) {
 Sum sumOfTexels(Effective e, Region r, Query q) {
   Sum sum = Sum(0.0, 0.0);
   TexelBox box = texelsAbout(r);
-  int seen = 0;  // of the loop's own counter the compiler knows what it is behind the loop
+  int seen = 0;  // the compiler would assume the final value of the loop's own counter
   for (int i = 0; i < box.count; ++i) {
     ++seen;
     ivec2 texel = texelIn(box, i);
@@ -100,7 +101,7 @@ Sum sumOfTexels(Effective e, Region r, Query q) {
   return seen < box.count ? notWhole() : sum;
 }
 
-// A footprint that reaches beyond a map that does not repeat, whose outermost texels go on there.
+// A footprint that reaches beyond a map that does not repeat. The outermost texels continue there.
 
 bvec2 endsAlong() { return equal(vec2(bins_wrap_u, bins_wrap_v), vec2(2.0)); }
 
@@ -109,7 +110,7 @@ bool isBeyond(ivec2 texel) {
   return outer.x && endsAlong().x || outer.y && endsAlong().y;
 }
 
-// The rectangle of a region that the map is in, as far as it repeats.
+// The rectangle of a region that the map covers. Along an axis that repeats it is the whole region.
 vec4 mapUnder(Region r) {
   vec2 lower = r.centre - r.reach;
   vec2 upper = r.centre + r.reach;
@@ -125,15 +126,15 @@ float areaOnMap(Region r) {
 void addPiece(inout Sum sum, Effective e, Region r, Query q, vec2 lower, vec2 upper, vec2 place) {
   if (any(greaterThanEqual(lower, upper))) return;
   float area = coveredOf(r, lower, upper);
-  ivec2 texel = ivec2(floor(place));  // the sampler puts it on the map
+  ivec2 texel = ivec2(floor(place));  // the sampler clamps it to the map
   uint code = packedAt(texel);
   if (area <= 0.0 || code == no_normal) return;
   sum.value += area * texelValue(e, texel, code, q);
   sum.area += area;
 }
 
-// A piece for every texel along the map's edges, but for so many that rounds are enough for at most, of which each counts
-// as the texel in its middle; and one beyond each corner.
+// One piece for every texel along the map's edges and one beyond each corner. If there are too many texels for the
+// rounds, a piece covers several and counts as the texel in its middle.
 Sum sumBeyond(Effective e, Region r, Query q, float rounds, inout bool finished) {
   Sum sum = Sum(0.0, 0.0);
   if (!any(endsAlong())) return sum;
@@ -147,7 +148,7 @@ Sum sumBeyond(Effective e, Region r, Query q, float rounds, inout bool finished)
   int seen = 0;
   for (int i = 0; i < pieces; ++i) {
     ++seen;
-    // Of the edges along x and y: a piece each, or before and behind all of these the corners, which are beyond both.
+    // One piece of each edge along x and y. The first two rounds add the corners, which are beyond both.
     vec2 begin = first + float(i - 2) * each;
     vec2 end = begin + each;
     vec2 middle = begin + 0.5 * each;
@@ -171,8 +172,8 @@ Sum sumBeyond(Effective e, Region r, Query q, float rounds, inout bool finished)
   return sum;
 }
 //? if roughness_bin
-// The density of a bin over a large footprint: its list's share of the area. The texels without a normal are a list too,
-// which takes from that.
+// The density of a bin over a large footprint: the share of the area in its list. The texels without a normal are a
+// list, too, which is subtracted from the area.
 float listCount(Effective e, Query q, float rounds) { return 1.0; }
 
 Sum sumOfLists(Effective e, Region r, Query q, float rounds) {
@@ -196,10 +197,11 @@ Sum sumOfLists(Effective e, Region r, Query q, float rounds) {
 //? include atanasov_bins_lobes.glsl
 //? end
 
-// Texels that are looked at one by one for less than the walks of so many lists, which take some 64 steps each.
+// The most texels that are looked up one by one, because that costs less than walking `lists` lists with about 64 steps
+// each.
 float texelsWorth(float lists, float rounds) { return min(64.0 * lists, texelRounds(rounds)); }
 
-// The mean over the footprint; over nothing but texels without a normal that of the surface's own.
+// The mean over the footprint. If all texels lack a normal it is that of a flat surface.
 float meanValue(Effective e, Query q) {
 //? if roughness_bin
   countLobes(1);
@@ -233,7 +235,7 @@ float meanValue(Effective e, Query q) {
 }
 
 //? if diffuse
-// Of the texels under a small region: the sum of their normals by area, and the area that has normals.
+// Over the texels under a small region: the sum of their normals by area, and the area that has normals.
 vec4 sumOfNormals(Region r) {
   vec4 sum = vec4(0.0);
   TexelBox box = texelsAbout(r);
@@ -246,8 +248,8 @@ vec4 sumOfNormals(Region r) {
   return sum;
 }
 
-// For the diffuse term: of a small footprint from its texels, of a large one from a mip chain of means that begins at
-// the level of 4 x 4 texels.
+// The mean normal for the diffuse term: from the texels of a small footprint, or from a mip chain of means, which
+// begins at the level of 4 x 4 texels.
 vec3 meanUnder(Footprint f) {
   vec4 sum = vec4(0.0);
   int count = regionCount(f);
@@ -264,8 +266,8 @@ vec3 meanNormal(Effective e) { return e.mean; }
 //? end
 
 //? if environment_light
-// What is drawn from under a footprint (section 2.1): texels at points that fill it evenly or, of a region that has no
-// more texels than are drawn, these, by their areas.
+// Draws texels under a footprint (section 2.1) at points that fill it evenly. A region with no more texels than draws
+// contributes all of them, by their areas.
 
 // All regions share the draws.
 int drawsEach(Footprint f) { return max(int(option_draws) / regionCount(f), 1); }
@@ -287,7 +289,7 @@ DrawnTexel drawnUnder(Effective e, int i) {
 
 int drawCount(Effective e) { return regionCount(e.footprint) * drawsEach(e.footprint); }
 
-// Of all draws those that have a normal.
+// The share of draws that have a normal.
 float drawnShare(Effective e) {
   if (bins_invalid_list < 0.0) return 1.0;
   float share = 0.0;
@@ -296,7 +298,7 @@ float drawnShare(Effective e) {
   return share;
 }
 
-// Where none has, the surface's own.
+// A drawn texel; the surface's own normal if no draw has one.
 DrawnTexel drawnTexel(Effective e, int i) {
   if (e.drawn <= 0.0) return DrawnTexel(up_code, e.variance, 1.0 / float(drawCount(e)));
   DrawnTexel texel = drawnUnder(e, i);

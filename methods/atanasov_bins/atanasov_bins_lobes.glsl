@@ -1,12 +1,12 @@
-// Lobes over a large footprint: of the bins about h by their lists, of the other texels by some that are drawn.
-// Which lists are walked for a half vector: those of the bins about it that lobes reach, as many as there are rounds
-// for. What is left, tails and lobes much wider than the others, is summed over drawn texels (atanasov_bins_footprint).
+// Lobes over a large footprint: the bins about h by their lists, the other texels by draws. The lists for a half vector
+// are those of the bins that its lobes reach, as far as rounds suffice. The remainder, tails and much wider lobes, is
+// summed over drawn texels.
 
-// Texels whose lobes are about as wide.
+// A class of texels with lobes of similar width.
 struct WidthClass {
   float across;  // bins along an edge
-  float widest;  // slope variance of a list beside the base lobe's
-  float from;    // the slope variance from which on texels are of it
+  float widest;  // slope variance of a list in addition to the base lobe's
+  float from;    // the least slope variance of its texels
 };
 
 WidthClass classAt(int i) {
@@ -14,17 +14,17 @@ WidthClass classAt(int i) {
   return WidthClass(value.x, value.y, value.z);
 }
 
-// Bins of one class, those whose centres lie in a cap.
+// The bins of one class with centres in a cap.
 struct Disc {
   int own;         // class
   float across;
   vec3 centre;
   float limit;     // 1 - cos of the cap's angle
-  bool whole;      // no lobe reaches h from beyond
+  bool whole;      // no lobe beyond the cap reaches h
 };
 
-// The angle beyond which a lobe is below 1e-4 of its peak: where 1 - cos is 4.6 alpha^2 (a ten-thousandth of a Gaussian
-// lobe lies beyond). GGX's tails reach everywhere.
+// The angle beyond which a lobe is below 1e-4 of its peak: where 1 - cos is 4.6 alpha^2. A ten-thousandth of a Gaussian
+// lobe is beyond it. GGX's tails reach everywhere.
 float lobeReach(float variance) {
 //? if distribution_ggx and roughness_lobe
   return pi;
@@ -33,8 +33,8 @@ float lobeReach(float variance) {
 //? end
 }
 
-// A cap of about `lists` bins or, where the lobes reach no further, of fewer. A bin's mean normal is up to half of its
-// diagonal, 1.8 / across, from its centre. By equal areas a cap of angle t has (1 - cos t) across^2 bins.
+// A cap of about `lists` bins, or fewer if the lobes reach no further. The mean normal of a bin is up to half of the
+// bin's diagonal, 1.8 / across, from its centre. By equal areas a cap of angle t has (1 - cos t) across^2 bins.
 Disc discAbout(vec3 centre, int own, WidthClass widths, float reach, float lists) {
   float half_sine = sin(0.5 * min(reach + 1.8 / widths.across, pi));
   float needed = 2.0 * half_sine * half_sine;
@@ -43,8 +43,8 @@ Disc discAbout(vec3 centre, int own, WidthClass widths, float reach, float lists
 }
 
 //? if multi_lobe and roughness_lobe
-// The normal whose facet has the lobe about `axis` turned to h. Of all rotations q that take the axis to h,
-// q = (1 + axis.h, axis x h) (c + s axis), a facet's is the one without a turn about z (facet_frame.glsl): q_z = 0.
+// The normal whose facet has the lobe about `axis` turned to h. Among all rotations that take the axis to h, q = (1 +
+// axis.h, axis x h) (c + s axis), that of a facet has no turn about z (facet_frame.glsl): q_z = 0.
 vec3 normalTurning(vec3 axis, vec3 h) {
   float w = 1.0 + dot(axis, h);
   vec3 v = cross(axis, h);
@@ -77,15 +77,15 @@ vec3 centreOf(Disc disc, ivec2 cell) { return squareToHemisphere((vec2(cell) + 0
 
 bool isIn(Disc disc, ivec2 cell) { return oneMinusDot(centreOf(disc, cell), disc.centre) <= disc.limit; }
 
-// The cells of the square that the bins of a disc may be in.
+// The cells of the square that can contain bins of a disc.
 struct CellBlock {
   ivec2 lower;
   int across;
   int count;
 };
 
-// On the disc of radius sqrt(1 - cos t) lengths grow by no more than 1 / (sqrt(2) cos(t / 2)), from there to the square
-// by no more than sqrt(1 + (4 / pi)^2) / 2.
+// Lengths grow by at most 1 / (sqrt(2) cos(t / 2)) on the disc of radius sqrt(1 - cos t), and from there to the square
+// by at most sqrt(1 + (4 / pi)^2) / 2.
 CellBlock cellsOf(Disc disc) {
   float angle = 2.0 * asin(sqrt(0.5 * disc.limit));
   float rim = min(acos(clamp(disc.centre.z, -1.0, 1.0)) + angle, 0.5 * pi);
@@ -101,7 +101,7 @@ ivec2 cellIn(CellBlock block, int i) {
   return block.lower + ivec2(i - row * block.across, row);
 }
 
-// Lists that are walked: about as many as the discs have bins.
+// The number of walked lists: about the bins of the discs.
 float listCount(Effective e, Query q, float rounds) {
   float count = 0.0;
   float most = mostLists(rounds);
@@ -112,14 +112,14 @@ float listCount(Effective e, Query q, float rounds) {
   return clamp(count, 1.0, bins_list_count);
 }
 
-// What the packed normals of a list's texels have lost on average: where lobes are narrow it turns them.
+// The mean rounding of the packed normals of a list, which turns narrow lobes.
 vec2 listRounding(int list) {
   countLookups(1);
   int columns = textureSize(bins_roundings, 0).x;
   return texelFetch(bins_roundings, ivec2(list & (columns - 1), list >> findMSB(columns)), 0).rg;
 }
 
-// The mean of the texels' own slope variances, of a list.
+// The mean slope variance of the texels of a list.
 float listWidth(int list) {
 //? if roughness_lobe and roughness_variation
   countLookups(1);
@@ -130,8 +130,8 @@ float listWidth(int list) {
 //? end
 }
 
-// What a list reflects: by one lobe about the mean normal of its texels under the footprint, wider by their variance
-// about it. The square's own lengths are taken there, by differences over half a bin.
+// The value of a list: one lobe about the mean normal of its texels under the footprint, widened by their variance.
+// Lengths on the square are converted there by differences over half a bin.
 float valueOfList(int list, ListBin bin, ListSum sum, Effective e, Query q) {
   vec2 mean = sum.offset / sum.area;
   vec2 variance = max(sum.squares / sum.area - mean * mean, 0.0);
@@ -144,7 +144,7 @@ float valueOfList(int list, ListBin bin, ListSum sum, Effective e, Query q) {
   return valueAbout(varianceOfLists(e) + listWidth(list), normal, spread, q);
 }
 
-// Whether a disc before number `own` has the bin: each counts once.
+// Whether a disc before `own` contains the bin, because each bin counts once.
 bool isInEarlier(int own, ivec2 cell, Effective e, Query q, float rounds) {
 //? if multi_lobe and roughness_lobe
   for (int i = 0; i < own; ++i) {
@@ -154,18 +154,18 @@ bool isInEarlier(int own, ivec2 cell, Effective e, Query q, float rounds) {
   return false;
 }
 
-// The list of a cell of disc number `own`; -1: it has none, or the disc not the cell.
+// The list of a cell of disc `own`; -1 if the cell has no list or is not in the disc.
 int listInCell(int own, Disc disc, ivec2 cell, Effective e, Query q, float rounds) {
   if (!isIn(disc, cell) || isInEarlier(own, cell, e, q, rounds)) return -1;
   return listOfKey(uint(disc.own) << 22 | uint(cell.y) * uint(disc.across) + uint(cell.x));
 }
 
-// Whether a texel's list has been walked.
+// Whether the list of a texel is walked.
 bool isNear(Effective e, uint code, float variance, Query q, float rounds) {
 //? if multi_lobe and roughness_lobe
   return isInEarlier(discCount(), cellOfPacked(code, classAt(0).across), e, q, rounds);
 //? else
-  int own = 0;  // without a loop, which would take rounds
+  int own = 0;  // not a loop, which would take rounds
   if (discCount() > 1 && variance >= classAt(1).from) own = 1;
   if (discCount() > 2 && variance >= classAt(2).from) own = 2;
   if (discCount() > 3 && variance >= classAt(3).from) own = 3;
@@ -181,7 +181,7 @@ bool reachesAll(Effective e, Query q, float rounds) {
   return all_reached;
 }
 
-// Of what the lists have not, an estimate without bias: texels at points that fill the footprint evenly.
+// An unbiased estimate of the texels outside the lists: texels at points that fill the footprint evenly.
 float sumOfFar(Effective e, Region r, Query q, float rounds, inout bool finished) {
   if (reachesAll(e, q, rounds)) return 0.0;
   int count = int(drawnRounds(rounds) / float(discCount()));
@@ -199,14 +199,14 @@ float sumOfFar(Effective e, Region r, Query q, float rounds, inout bool finished
   return sum * areaOf(r) / float(count);
 }
 
-// More lists are found than mostLists, as discs have some bins more than their area says.
+// More than mostLists, because discs have some bins more than their area suggests.
 const int most_found = 160;
-const uint no_place = 0xFFFFFFFFu;  // of the list of the texels without a normal, which takes from the area
+const uint no_place = 0xFFFFFFFFu;  // marks the list of texels without a normal, which is subtracted from the area
 
-// The lists are found first, so that pixels that are drawn together walk at the same time, and by rounds that are
-// shared among the lists that there are. (An array that were handed to a function takes compilers ten seconds.)
+// Finds all lists first, so that pixels that are drawn together walk at the same time, and so that rounds are shared
+// among the existing lists. (Passing the array to a function would take compilers ten seconds.)
 Sum sumOfLists(Effective e, Region r, Query q, float rounds) {
-  uvec2 found[most_found];  // list; cell, of less than 2^11 along an axis, and disc
+  uvec2 found[most_found];  // list; cell (11 bits per axis) and disc
   int count = 0;
   bool finished = true;
   if (bins_invalid_list >= 0.0) found[count++] = uvec2(bins_invalid_list, no_place);

@@ -1,24 +1,25 @@
-// A footprint on the map as a parallelogram in texels, and what it covers of boxes.
-// llvmpipe ends all loops of a pixel after 65535 rounds, all lights together, and whatever is summed then is cut off. So
-// a call of the module has a budget of rounds, which its parts share. Eight pixels are drawn together and wait for each
-// other at the end of every loop: a part counts by its largest.
+// A footprint on the map as a parallelogram in texels, and the areas of boxes that it covers.
+//
+// llvmpipe ends all loops of a pixel after 65535 rounds, over all lights, and truncates the sum. Therefore a call of
+// the module has a budget of rounds, which its parts share. Eight pixels are drawn together and wait for each other at
+// the end of every loop, so the largest part of the eight counts.
 
 //? if environment_light
-const float other_rounds = 25000.0;  // drawn normals and what they reflect
+const float other_rounds = 25000.0;  // drawn normals and their reflection
 //? else
 const float other_rounds = 5000.0;   // lookups under the footprint
 //? end
 
-// Of one region in one call. The mean of normals takes up to 256 a region, once a pixel.
+// The rounds of one region in one call. The mean of normals takes up to 256 per region, once per pixel.
 float regionRounds(int regions) {
   float count = float(max(regions, 1));
   return (65535.0 - other_rounds - 256.0 * count) / (float(shade_calls) * count);
 }
 
-// What its parts take of these at most, measured of eight pixels whose lights, footprints and bins have little in
-// common: a list takes some 45 to be found, a drawn texel one, and walks that may take so many each make the eight take
-// 2.2 times as many. That is 0.2 for the texels of small footprints, which some of the eight may have, and 0.86 for
-// lists, 0.88 of bins. With hundreds of lights rounds are too few for any walk, and all texels are drawn.
+// The largest shares of its parts, measured with eight pixels whose lights, footprints and bins have little in common.
+// Finding a list takes about 45 rounds, a drawn texel one, and the eight take 2.2 times the rounds of a walk. That is
+// 0.2 for the texels of small footprints, which some of the eight may have, and 0.86 for lists (bins: 0.88). With
+// hundreds of lights rounds do not suffice for any walk, and all texels are drawn.
 float texelRounds(float rounds) { return min(0.2 * rounds, 4096.0); }
 //? if roughness_bin
 const float walk_share = 0.4;
@@ -29,11 +30,11 @@ float mostLists(float rounds) { return rounds < 600.0 ? 0.0 : min(0.004 * rounds
 float drawnRounds(float rounds) { return rounds < 600.0 ? 0.6 * rounds : min(0.0625 * rounds, 1024.0); }
 //? end
 
-// Of the walk of one of `lists`.
+// The rounds of the walk of one of `lists`.
 float walkRounds(float rounds, float lists) { return walk_share * rounds / max(lists, 1.0); }
 
-// How often a footprint may cover a map along an axis before it counts as the whole map: a walk takes some four rounds
-// for every copy of the map that the footprint touches, and no more than two fifths of its rounds are for these.
+// The most copies of a map along an axis; larger footprints count as the whole map. A walk takes about four rounds per
+// copy that the footprint touches, and at most two fifths of its rounds are for these.
 float mostPeriods(float rounds) {
 //? if roughness_bin
   const float most = 16.0;
@@ -47,9 +48,9 @@ float mostPeriods(float rounds) {
 struct Region {
   vec2 centre;   // in texels; (0, 0) is the first texel's corner
   mat2 edges;    // columns
-  mat2 to_unit;  // to the square [-1/2, 1/2]^2 that it is the image of
-  vec2 reach;    // half of the sides of the box about it
-  float weight;  // of all regions that a pixel is made of: the sum is 1
+  mat2 to_unit;  // to the square [-1/2, 1/2]^2
+  vec2 reach;    // half of the sides of its bounding box
+  float weight;  // the weights of a pixel's regions sum to 1
 };
 
 Region regionAbout(vec2 centre, mat2 edges, float weight) {
@@ -65,23 +66,23 @@ Region wholeMap(float weight) {
   return regionAbout(0.5 * size, mat2(size.x, 0.0, 0.0, size.y), weight);
 }
 
-// Of no less than a texel: the bilinear filter where texels are large on screen.
+// A region of at least one texel, as with the bilinear filter where texels are large on screen.
 Region regionOf(vec2 centre, mat2 edges, float weight, int regions) {
   Region r = regionAbout(centre, widened(edges, 1.0), weight);
   float periods = mostPeriods(regionRounds(regions));
   vec2 most = mix(vec2(0.5 * periods) * mapSize(), vec2(1e6), equal(vec2(bins_wrap_u, bins_wrap_v), vec2(2.0)));
-  return all(lessThan(r.reach, most)) ? r : wholeMap(weight);  // what is no number too
+  return all(lessThan(r.reach, most)) ? r : wholeMap(weight);  // also for NaN
 }
 
 //? if footprint_filter
-// The texels that the footprint filter would blend: each as the texels of the finest level that it stands for.
+// The texels that the footprint filter would blend, each as the finest-level texels that it covers.
 int regionCount(Footprint f) { return footprintTexelCount(textureSize(bins_map, 0), f); }
 
 Region regionAt(Footprint f, int i) {
   ivec2 finest = textureSize(bins_map, 0);
   FootprintTexel texel = footprintTexel(finest, f, i);
   vec2 texels = levelSize(finest, int(texel.level));
-  // Beyond the border of a map that does not repeat its outermost texel of that level goes on.
+  // A map that does not repeat is continued by the outermost texel of the level.
   vec2 within = clamp(texel.uv, 0.5 / texels, 1.0 - 0.5 / texels);
   vec2 uv = mix(texel.uv, within, equal(vec2(bins_wrap_u, bins_wrap_v), vec2(2.0)));
   vec2 sides = vec2(finest) / texels;
@@ -100,7 +101,7 @@ Region regionAt(Footprint f, int i) {
 }
 //? end
 
-// How a box lies to a region.
+// The position of a box relative to a region.
 const int outside = 0;
 const int cut = 1;
 const int inside = 2;

@@ -1,7 +1,5 @@
-// The area of a list's texels under a footprint. A footprint that reaches over the map's border is taken apart: each
-// copy of the map that it touches is walked with the footprint moved, and mirrored, to where the map is.
-// What a walk adds of a list: nodes and texels, by what of them is covered and by their normals.
-// The texels of a bin: where they are, and how a bin finds them.
+// Computes the area of a list's texels under a footprint. A footprint that crosses the border of the map is split: each
+// copy of the map that it touches is walked with the footprint moved, and mirrored, to the map.
 
 // Texels [first, end) of `bins_texels`, and their tree in `bins_forest`.
 struct TexelList {
@@ -10,12 +8,12 @@ struct TexelList {
   uint root;
 };
 
-// Two integers a list, first texel and root; behind the last one where it ends.
+// Two integers per list, first texel and root, followed by the end of the last list.
 TexelList listAt(uint i) {
   return TexelList(wordAt(bins_lists, 2u * i), wordAt(bins_lists, 2u * i + 2u), wordAt(bins_lists, 2u * i + 1u));
 }
 
-// The list of a key (bin_key in inverse_map.hpp); -1: its bin is empty.
+// The list of a key (bin_key in inverse_map.hpp), or -1 if its bin is empty.
 int listOfKey(uint key) {
   uint slots = uint(bins_hash_slots);
   uint slot = (key * 2654435769u) >> (32 - findMSB(slots));
@@ -31,16 +29,16 @@ int listOfKey(uint key) {
 
 const uint leaf_size = 16u;
 
-// What lies of a list under a footprint.
+// The part of a list under a footprint.
 struct ListSum {
   float area;
 //? if not roughness_bin
-  vec2 offset;   // by area: where normals lie in their bin, from its middle, in bins
-  vec2 squares;  // by area: of that
+  vec2 offset;   // by area: offset of normals from the middle of their bin, in bins
+  vec2 squares;  // by area: square of the offset
 //? end
 };
 
-// The bin of a list: its middle, in bins, and bins along an edge.
+// The bin of a list: its middle in bins, and bins along an edge.
 struct ListBin {
   vec2 middle;
   float across;
@@ -65,8 +63,9 @@ void addTexel(inout ListSum sum, ivec2 texel, float area, ListBin bin) {
 //? end
 }
 
-// One of each eighth of a node's texels, in 128ths, at uneven distances, as maps have patterns; 5 / 12 into each, which in
-// the tree's order is its middle: 0.0110101... has the coordinates 0.0111... and 0.1000..., whose digits it has in turns.
+// One sample in each eighth of a node's texels, in 128ths, at uneven distances because maps have patterns. The offset
+// of 5 / 12 into each is its middle in the order of the tree: 0.0110101... has the coordinates 0.0111... and 0.1000...,
+// whose digits alternate in it.
 const uint samples[8] = uint[](5u, 29u, 34u, 58u, 71u, 95u, 100u, 123u);
 
 ivec2 sampledTexel(uint begin, uint texels, int i) {
@@ -75,7 +74,7 @@ ivec2 sampledTexel(uint begin, uint texels, int i) {
   return unpacked(wordAt(bins_texels, at));
 }
 
-// The share that a region covers of a box about a texel's centre, by each of its two pairs of sides.
+// The share of a box about a texel's centre that a region covers, by each of its two pairs of sides.
 float shareOfBox(Region r, ivec2 texel, vec2 half_sides) {
   vec2 extent = mat2(abs(r.to_unit[0]), abs(r.to_unit[1])) * half_sides;
   vec2 place = abs(r.to_unit * (vec2(texel) + 0.5 - r.centre));
@@ -83,18 +82,18 @@ float shareOfBox(Region r, ivec2 texel, vec2 half_sides) {
   return covered.x * covered.y;
 }
 
-// A node that is put aside.
+// A node that waits for sampling.
 struct Counted {
   uint at;      // in the forest
   uint begin;   // of its texels
   uint texels;
   vec2 sides;   // of its rectangle
-  float share;  // of that which is covered
+  float share;  // covered share of the rectangle
 };
 
-// One of eight samples of a node. In the tree's order eighths of its texels lie in different parts of it, so each stands
-// for texels that are spread evenly over a box about it, whose sides are 1 / sqrt(32) of the node's. The more of the
-// node the texels fill, the more they are spread evenly over all of it.
+// One of eight samples of a node. In the order of the tree, eighths of its texels are in different parts of it.
+// Therefore each sample represents texels spread evenly over a box about it, with sides of 1 / sqrt(32) of the node's.
+// The more of the node the texels fill, the more evenly they cover all of it.
 void addSample(inout ListSum sum, inout float share, Region r, Counted node, int i, ListBin bin) {
   ivec2 texel = sampledTexel(node.begin, node.texels, i);
   float own = node.share;
@@ -106,7 +105,7 @@ void addSample(inout ListSum sum, inout float share, Region r, Counted node, int
 //? end
 }
 
-// Eight calls: a loop would take rounds.
+// Eight calls, because a loop would take rounds.
 void addCounted(inout ListSum sum, Region r, Counted node, ListBin bin) {
   float share = 0.0;
   addSample(sum, share, r, node, 0, bin);
@@ -128,12 +127,12 @@ void addCounted(inout ListSum sum, Region r, Counted node, ListBin bin) {
 //? end
 }
 
-// A power of two. Depth first, halving 2^28 texels down to 16, an odd side's longer part each time, takes 26 steps.
+// A power of two. Depth-first halving of 2^28 texels down to 16, always the larger part of an odd side, takes 26 steps.
 const int most_pending = 64;
-const int most_counted = 32;    // that are put aside before they are added
-const uint wide_node = 32768u;  // nodes of fewer texels are one integer
+const int most_counted = 32;    // nodes and texels that wait before they are added
+const uint wide_node = 32768u;  // smaller nodes are one integer
 
-// What is left to be looked at: a node of the tree, its texels up to `end`, its rectangle.
+// A pending node of the tree: its texels end at `end`, and its rectangle is given.
 struct Node {
   uint at;
   uint end;
@@ -146,7 +145,7 @@ uvec4 packedNode(Node node) {
 }
 Node unpackedNode(uvec4 code) { return Node(code.x, code.y, unpacked(code.z), unpacked(code.w)); }
 
-// Makes a node, whose texels begin at `begin`, its lower half; the upper half comes back.
+// Replaces a node, whose texels begin at `begin`, by its lower half, and returns the upper half.
 Node upperHalfOf(inout Node node, uint begin) {
   ivec2 sides = node.upper - node.lower;
   bvec2 across = bvec2(sides.x >= sides.y, sides.x < sides.y);
@@ -166,13 +165,13 @@ Node upperHalfOf(inout Node node, uint begin) {
   return half_node;
 }
 
-// Texel i of a list, as a node that has no tree.
+// Texel i of a list as a node without a tree.
 Node texelNode(uint i) {
   ivec2 texel = unpacked(wordAt(bins_texels, i));
   return Node(0u, i + 1u, texel, texel + 1);
 }
 
-// Sides below which a node that the border cuts counts by samples: a quarter of the side of a square as large as the
+// The side below which a node at the border counts by samples: a quarter of the side of a square as large as the
 // footprint.
 float sampledSide(Region r) {
 //? if border_texels
@@ -182,8 +181,9 @@ float sampledSide(Region r) {
 //? end
 }
 
-// Rounds are spent on large nodes first, so that all that is left where they end is of one size. Only where they are
-// enough for every texel at the border, some 3 for a texel of its length, the order does not matter.
+// Whether the walk is depth first. Otherwise it visits large nodes first, so that all remaining nodes have one size
+// when rounds run out. The order does not matter only if rounds suffice for every texel at the border, about 3 per
+// texel of its length.
 bool isDepthFirst(Region r, float rounds) {
 //? if border_texels
   return 6.0 * (length(r.edges[0]) + length(r.edges[1])) < rounds;
@@ -192,7 +192,7 @@ bool isDepthFirst(Region r, float rounds) {
 //? end
 }
 
-// A node or a texel that was put aside.
+// Adds a node that waited.
 void addNode(inout ListSum sum, Region r, ListBin bin, Node seen, uint begin) {
   vec2 sides = vec2(seen.upper - seen.lower);
   float share = areaWithin(r, vec2(seen.lower), vec2(seen.upper)) / (sides.x * sides.y);
@@ -203,21 +203,21 @@ void addOne(inout ListSum sum, Region r, ListBin bin, ivec2 texel) {
   addTexel(sum, texel, areaWithin(r, vec2(texel), vec2(texel) + 1.0), bin);
 }
 
-// Over one copy of the map. A round looks at both halves of a node or at two texels of a leaf: pixels that are drawn
-// together wait for each other at the end of every loop, and llvmpipe takes every branch. So what counts, a few of many,
-// is put aside for a loop of its own. Where `rounds` are down to `last` what is pending counts by samples, two rounds
-// each. `finished` becomes false where the driver has ended a loop before its end (notWhole).
+// Sums over one copy of the map. A round tests both halves of a node, or two texels of a leaf. Pixels that are drawn
+// together wait for each other at the end of every loop, and llvmpipe takes every branch. Therefore the few nodes that
+// count wait for a loop of their own. When `rounds` are down to `last`, pending nodes count by samples, two rounds
+// each. `finished` becomes false if the driver ends a loop early (notWhole).
 void addCopy(inout ListSum sum, Region r, TexelList list, ListBin bin, float last, inout float rounds,
              inout bool finished) {
   vec2 sampled_side = vec2(sampledSide(r));
   bool depth_first = isDepthFirst(r, rounds - last);
   Node node = Node(list.root, list.end, ivec2(0), textureSize(bins_map, 0));
   uint begin = list.first;
-  uvec4 kept[most_pending + most_counted];  // a ring of nodes that are left to be looked at, then what is put aside
+  uvec4 kept[most_pending + most_counted];  // a ring of pending nodes, followed by waiting ones
   uint begins[most_pending + most_counted];
   int first = 0;
   int pending = 0;
-  int nodes = 0;  // put aside, from the beginning
+  int nodes = 0;  // waiting, from the beginning
   int texels = 0;  // from the end
   bool is_root = true;
   bool done = begin == list.end;
@@ -292,13 +292,13 @@ void addCopy(inout ListSum sum, Region r, TexelList list, ListBin bin, float las
   finished = finished && done && nodes + texels == 0;
 }
 
-// Copies of the map along an axis: first and last; one where it does not repeat.
+// The first and the last copy of the map along an axis; a single one if it does not repeat.
 ivec2 copiesAlong(float centre, float reach, float size, float wrap) {
   if (wrap == 2.0) return ivec2(0);
   return ivec2(int(floor((centre - reach) / size)), int(ceil((centre + reach) / size)) - 1);
 }
 
-// A region as copy (x, y) of the map sees it: 1 is the wrap that mirrors every second copy.
+// A region relative to copy (x, y) of the map; wrap 1 mirrors every other copy.
 Region inCopy(Region r, ivec2 copy) {
   vec2 size = mapSize();
   r.centre -= vec2(copy) * size;
@@ -310,7 +310,7 @@ Region inCopy(Region r, ivec2 copy) {
   return r;
 }
 
-// By at most so many rounds of loops, which copies of the map share, and some for each copy.
+// Sums a list with at most `rounds` rounds of loops, which copies of the map share, plus a few for each copy.
 ListSum sumOfList(Region r, TexelList list, ListBin bin, float rounds, inout bool finished) {
 //? if roughness_bin
   ListSum sum = ListSum(0.0);

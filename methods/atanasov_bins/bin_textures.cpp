@@ -1,4 +1,4 @@
-// Integers as bytes: no format of the pipeline is an integer, and a byte comes back from a texture exactly.
+// Stores integers as bytes, which textures return exactly, because the pipeline has no integer formats.
 #include "methods/atanasov_bins/bin_textures.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ PrefilteredTexture words_of(std::string name, int width, int height, std::vector
   return texture;
 }
 
-// The least power of two whose square is not below the count: 2^28 integers fit 16384 x 16384.
+// The least power of two whose square is at least the count: 2^28 integers fit 16384 x 16384.
 int columns_for(std::size_t count) {
   int columns = 1;
   while (static_cast<std::size_t>(columns) * static_cast<std::size_t>(columns) < count) columns *= 2;

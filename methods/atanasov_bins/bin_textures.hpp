@@ -1,4 +1,4 @@
-// The maps as the textures and scalars that the shader reads.
+// The textures and scalars of the bin map and its inverse.
 #pragma once
 
 #include <span>
@@ -9,23 +9,24 @@
 
 namespace footprint::atanasov_bins {
 
-/// Integers, four bytes each, the lowest first, in rows as long as the least power of two whose square holds them.
+/// A texture of integers, four bytes each, the lowest first. Its rows are as long as the least power of two whose
+/// square holds all of them.
 [[nodiscard]] PrefilteredTexture word_texture(std::string name, std::span<const std::uint32_t> words);
 
-/// The integer at i of such a texture.
+/// Integer i of such a texture.
 [[nodiscard]] std::uint32_t word_at(const PrefilteredTexture& texture, std::size_t i);
 
-/// The bin map, a texel an integer, where the normal map lies.
+/// The bin map, one integer per texel, with the coordinates of the normal map.
 [[nodiscard]] PrefilteredTexture bin_map_texture(const BinMap& map, const TextureCoordinates& coordinates);
 
-/// Adds `bins_texels`, `bins_forest`, `bins_lists`, `bins_hash` and what the shader has to know of them.
+/// Adds `bins_texels`, `bins_forest`, `bins_lists`, `bins_hash` and their scalars.
 void add_inverse_map(const InverseMap& map, Prefiltered& out);
 
 /// Adds a texture of `channels` values for each list, list by list.
 void add_list_values(std::string name, std::span<const float> values, int channels, Prefiltered& out);
 
-/// Texels whose lobes are about as wide: bins along an edge, the largest slope variance that the lobe of a list may
-/// have beside that of the base lobe, and the texel's own variance from which on it is of the class.
+/// A class of texels with lobes of similar width: bins along an edge, the largest slope variance of a list's lobe in
+/// addition to that of the base lobe, and the least variance of its texels.
 struct WidthClass {
   int across = 1;
   double widest = 0.0;

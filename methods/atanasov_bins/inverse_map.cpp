@@ -1,5 +1,5 @@
-// A counting sort by bin, then a tree for each long list: texels are partitioned in place, halves of long lists at the
-// same time.
+// A counting sort by bin, followed by a tree for each long list. Texels are partitioned in place, and halves of long
+// lists in parallel.
 #include "methods/atanasov_bins/inverse_map.hpp"
 
 #include <fmt/format.h>
@@ -19,14 +19,14 @@
 namespace footprint::atanasov_bins {
 namespace {
 
-constexpr int most_texels_along = 16384;      // what OpenGL 4.5 promises of a texture's edge
-constexpr std::size_t parts = 8;              // of the counting sort, each with counts of its own
-constexpr std::size_t texels_a_task = 65536;  // fewer are arranged by one thread
+constexpr int most_texels_along = 16384;        // guaranteed by OpenGL 4.5
+constexpr std::size_t parts = 8;                // of the counting sort, each with its own counts
+constexpr std::size_t texels_per_task = 65536;  // fewer are arranged by one thread
 
-// First of part `i` of so many elements.
+// The first of part `i` of `count` elements.
 std::size_t part_begin(std::size_t elements, std::size_t i) { return elements * i / parts; }
 
-// Where a texel's bin is counted: the bins of all classes, one class after the other, then what has no normal.
+// The place where a texel's bin is counted: the bins of all classes, class by class, then texels without a normal.
 class KeyOrder {
  public:
   KeyOrder(const BinMap& map, const TexelClasses& classes) : map_(&map), classes_(&classes), across_(classes.across) {
@@ -54,7 +54,8 @@ class KeyOrder {
   std::vector<std::size_t> begins_{0};  // of each class, and the end
 };
 
-// Counts of each part and place become where the part's texels of the bin begin; the whole lists are left in `lists`.
+// Replaces the counts of each part and place by the begin of the part's texels of the bin, and appends the lists to
+// `lists`.
 void add_up(std::vector<std::vector<std::uint32_t>>& counts, const KeyOrder& order, std::vector<TexelList>& lists) {
   std::uint32_t next = 0;
   for (std::size_t place = 0; place < counts.front().size(); ++place) {
@@ -68,7 +69,7 @@ void add_up(std::vector<std::vector<std::uint32_t>>& counts, const KeyOrder& ord
   }
 }
 
-// Texels in that order, those of one place row by row.
+// Sorts texels by place, those of one place row by row.
 void sort_by_bin(const BinMap& map, const KeyOrder& order, InverseMap& out) {
   const auto width = static_cast<std::size_t>(map.width);
   std::vector<std::vector<std::uint32_t>> counts(parts);
@@ -85,13 +86,13 @@ void sort_by_bin(const BinMap& map, const KeyOrder& order, InverseMap& out) {
   });
 }
 
-// Room for a node at the end of the forest; where it is.
+// Appends space for a node to the forest, and returns its position.
 std::size_t add_node(std::vector<std::uint32_t>& forest, std::size_t texels) {
   forest.resize(forest.size() + (texels < wide_node ? 1 : 2));
   return forest.size() - (texels < wide_node ? 1 : 2);
 }
 
-// Called when the tree of the lower half stands behind the node, and nothing else.
+// Writes a node after the tree of its lower half and before that of its upper half.
 void set_node(std::vector<std::uint32_t>& forest, std::size_t node, std::size_t texels, std::size_t lower_count) {
   const std::size_t own = texels < wide_node ? 1 : 2;
   const auto lower_size = static_cast<std::uint32_t>(forest.size() - node - own);
@@ -116,7 +117,7 @@ void plant(std::span<std::uint32_t> texels, const TexelRect& rect, std::vector<s
   (halves.along_x ? lower_rect.upper.x : lower_rect.upper.y) = halves.middle;
   (halves.along_x ? upper_rect.lower.x : upper_rect.lower.y) = halves.middle;
   const std::size_t node = add_node(forest, texels.size());
-  if (texels.size() < texels_a_task) {
+  if (texels.size() < texels_per_task) {
     plant(texels.first(lower_count), lower_rect, forest);
     set_node(forest, node, texels.size(), lower_count);
     plant(texels.subspan(lower_count), upper_rect, forest);
@@ -129,13 +130,13 @@ void plant(std::span<std::uint32_t> texels, const TexelRect& rect, std::vector<s
   forest.insert(forest.end(), upper_tree.begin(), upper_tree.end());
 }
 
-// Runs of lists that together have some texels_a_task: first list of each, and the end.
+// Runs of lists with about texels_per_task texels: the first list of each, and the end.
 std::vector<std::size_t> tasks_of(const InverseMap& map) {
   std::vector<std::size_t> begins{0};
   std::size_t texels = 0;
   for (std::size_t i = 0; i < map.lists.size(); ++i) {
     texels += map.count_of(i);
-    if (texels < texels_a_task && i + 1 < map.lists.size()) continue;
+    if (texels < texels_per_task && i + 1 < map.lists.size()) continue;
     begins.push_back(i + 1);
     texels = 0;
   }
@@ -163,7 +164,7 @@ void plant_forest(InverseMap& out, const Progress& progress) {
   }
 }
 
-// The mean over every list of what `value` has for a texel's place.
+// The mean of `value` over the texels of every list.
 template <class Mean, class Value>
 std::vector<Mean> means_over_lists(const InverseMap& map, const Value& value) {
   std::vector<Mean> out(map.lists.size());
@@ -182,7 +183,7 @@ struct Sums {
   glm::dvec2 squares{0.0};
 };
 
-// Of the nodes of one list's tree.
+// Computes the moments of the nodes of one list's tree.
 class MomentsOfNodes {
  public:
   MomentsOfNodes(const InverseMap& map, const BinMap& bins, std::uint32_t key, int across,
@@ -198,7 +199,7 @@ class MomentsOfNodes {
     Sums lower, upper;
     const auto add_lower = [&] { lower = add(branches.lower, first, branches.upper_first); };
     const auto add_upper = [&] { upper = add(branches.upper, branches.upper_first, end); };
-    if (end - first > texels_a_task) {
+    if (end - first > texels_per_task) {
       tbb::parallel_invoke(add_lower, add_upper);
     } else {
       add_lower();

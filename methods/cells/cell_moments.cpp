@@ -1,4 +1,4 @@
-// Moments of each texel in 64 bits, stored as 32-bit floats of what was stored before.
+// Computes moments in 64 bits from the rounded 32-bit first moments that are stored.
 #include "methods/cells/cell_moments.hpp"
 
 #include <cmath>
@@ -10,7 +10,8 @@ namespace {
 
 using Channels = std::array<float, part_channels(Covariance::full)>;
 
-// Second moments are of the rounded first ones, so that the covariance of one texel is as near to 0 as rounding allows.
+// Computes second moments from the rounded first ones, so that the covariance of a single texel is as close to 0 as
+// rounding allows.
 Channels channels_of(const PlanePoint& point, float share, const PartFrame& frame, Covariance covariance) {
   const double w = point.weight * static_cast<double>(share);
   if (w <= 0.0) return {};
@@ -59,14 +60,14 @@ std::array<PartFrame, most_parts> part_frames(std::span<const PlanePoint> points
 Image moment_layer(const PartedPoints& map, const std::array<PartFrame, most_parts>& frames, Covariance covariance,
                    int layer) {
   Image out(map.width, map.height, 4);
-  const auto of_a_part = static_cast<std::size_t>(part_channels(covariance));
+  const auto per_part = static_cast<std::size_t>(part_channels(covariance));
   for (std::size_t i = 0; i < map.points.size(); ++i) {
     for (std::size_t c = 0; c < 4; ++c) {
       const std::size_t channel = 4 * static_cast<std::size_t>(layer) + c;
-      const std::size_t part = channel / of_a_part;
+      const std::size_t part = channel / per_part;
       if (part >= map.parts) break;
       const float share = map.shares[i * map.parts + part];
-      out.texels[4 * i + c] = channels_of(map.points[i], share, frames[part], covariance)[channel % of_a_part];
+      out.texels[4 * i + c] = channels_of(map.points[i], share, frames[part], covariance)[channel % per_part];
     }
   }
   return out;

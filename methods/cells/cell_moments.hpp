@@ -1,5 +1,5 @@
-// What a texel stores of each part: weight, first moments about the part's centre, second moments, and the base lobe's
-// variance, all linear in the texels below. Moments are along axes of the part's own.
+// The moments that a texel stores of each part: weight, first moments about the part's centre, second moments, and the
+// variance of the base lobe. All are linear in the texels below. Moments are along the axes of the part.
 #pragma once
 
 #include <array>
@@ -10,29 +10,29 @@
 
 namespace footprint::cells {
 
-/// Which second moments of a part are kept: all three, along the plane's axes, or the two along the part's own, in
-/// which the third is 0 over the whole map.
+/// The stored second moments of a part. full: all three, along the axes of the plane. axes: two, along the axes of the
+/// part, in which the third is 0 over the whole map.
 enum class Covariance { full, axes };
 
-/// Moments of a part with d the distance from its centre, along its axes: w, w dx, w dy, w dx^2, w dx dy, w dy^2; with
-/// `axes` all but w dx dy.
+/// Channels per part: w, w dx, w dy, w dx^2, w dx dy, w dy^2 with d the distance from the part's centre along its axes.
+/// `axes` leaves out w dx dy.
 [[nodiscard]] constexpr int part_channels(Covariance covariance) { return covariance == Covariance::full ? 6 : 5; }
 
-/// Where a part's moments are taken about, and along what.
+/// The origin and the axes of a part's moments.
 struct PartFrame {
   glm::dvec2 centre{0.0};
-  glm::dvec2 axis{1.0, 0.0};  ///< unit; the other one is a quarter turn further, counter-clockwise
+  glm::dvec2 axis{1.0, 0.0};  ///< unit; the second axis is a quarter turn counter-clockwise
 
   [[nodiscard]] bool operator==(const PartFrame&) const = default;
 };
 
-/// The mean of every part over the whole map, and with `axes` the direction in which it spreads the most; parts without
-/// texels have those of all.
+/// The mean of each part over the whole map and, with `axes`, the direction of its largest spread. Parts without texels
+/// have those of all texels.
 [[nodiscard]] std::array<PartFrame, most_parts> part_frames(std::span<const PlanePoint> points,
                                                             std::span<const float> shares, std::size_t parts,
                                                             Covariance covariance);
 
-/// Of a whole map, row by row.
+/// The points of a whole map and their shares in the parts, row by row.
 struct PartedPoints {
   std::span<const PlanePoint> points;
   std::span<const float> shares;
@@ -40,15 +40,16 @@ struct PartedPoints {
   int width, height;
 };
 
-/// The finest level of channel 4 layer + c, c of 0 to 3, of all parts' channels one after the other: what no part has
-/// is 0. A texel's weights sum to the weight of its normal.
+/// The finest level of one layer: channels 4 layer to 4 layer + 3 of the channels of all parts in sequence, 0 beyond
+/// the last part. The weights of a texel sum to the weight of its normal.
 [[nodiscard]] Image moment_layer(const PartedPoints& map, const std::array<PartFrame, most_parts>& frames,
                                  Covariance covariance, int layer);
 
-/// Layers of four channels for so many of all parts together.
+/// Layers of four channels that hold `channels` of all parts together.
 [[nodiscard]] constexpr int layer_count(int channels) { return (channels + 3) / 4; }
 
-/// The finest level of w v, v the value of `variance` (one channel) under a texel's middle, of parts 4 layer and on.
+/// The finest level of w v for parts 4 layer and following. v is the value of `variance` (one channel) at the texel's
+/// centre.
 [[nodiscard]] Image variance_layer(std::span<const PlanePoint> points, std::span<const float> shares, std::size_t parts,
                                    const Image& variance, int width, int height, int layer);
 

@@ -7,7 +7,7 @@
 namespace footprint::cells {
 namespace {
 
-constexpr double least_share = 1e-6;  // a part that is empty here may still come to have texels
+constexpr double least_share = 1e-6;  // a part that is empty here may gain texels later
 
 }  // namespace
 

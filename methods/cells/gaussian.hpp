@@ -1,11 +1,11 @@
-// Anisotropic Gaussians over the plane: sums that give one, and its log density as a polynomial.
+// Anisotropic Gaussians over the plane, from weighted sums, and their log densities as polynomials.
 #pragma once
 
 #include <glm/glm.hpp>
 
 namespace footprint::cells {
 
-/// Weighted sums over points: what is added up from texel to block to larger block.
+/// Weighted sums over points, which add up from texels to blocks to larger blocks.
 struct PlaneSums {
   double weight = 0.0;
   glm::dvec2 first{0.0};
@@ -25,12 +25,13 @@ struct Quadratic {
   [[nodiscard]] double at(const glm::dvec2& p) const;
 };
 
-/// log(share g), g the Gaussian with the sums' mean, and with their covariance widened by `floor` of the base lobe's,
-/// of slope variance `variance`: over the plane that is variance ((1 + |mean|^2) / 2)^2 per axis.
+/// log(share g). g is the Gaussian with the mean and the covariance of the sums, widened by `lobe_floor` of the base
+/// lobe. `variance` is the slope variance of the base lobe, which over the plane is variance ((1 + |mean|^2) / 2)^2 per
+/// axis.
 [[nodiscard]] Quadratic log_density(const PlaneSums& sums, double share, double variance);
 
-/// What of the base lobe's variance joins that of a part: well below one, so that parts are told apart that the lobe
-/// blurs to a shoulder.
+/// The share of the base lobe's variance that widens a part. It is well below one, so that parts are separated even if
+/// the lobe blurs them into one peak.
 inline constexpr double lobe_floor = 0.1;
 
 }  // namespace footprint::cells

@@ -1,5 +1,5 @@
-// A mixture over the whole map first; then rounds of soft labels in which each texel asks the blocks that it lies in,
-// of all sizes and at a random shift, which part it suits best.
+// Fits a mixture to the whole map. Then rounds of soft labels: each texel looks up the blocks that contain it, of all
+// sizes and at a random shift, and is assigned to the parts that fit it best there.
 #include "methods/cells/partition.hpp"
 
 #include <fmt/format.h>
@@ -52,7 +52,7 @@ std::vector<glm::dvec2> sampled(std::span<const PlanePoint> points, std::mt19937
   return some;
 }
 
-// Centres far apart (Arthur and Vassilvitskii 2007, k-means++), each with a share of the whole spread.
+// Distant centres (Arthur and Vassilvitskii 2007, k-means++), each with the same share of the whole spread.
 Quadratics spread_start(std::span<const glm::dvec2> samples, const PartitionSettings& settings, std::mt19937& random) {
   PlaneSums all;
   for (const glm::dvec2& p : samples) all.add(p, 1.0);
@@ -112,7 +112,7 @@ Quadratics mixture_over(std::span<const PlanePoint> points, const PartitionSetti
   return best;
 }
 
-// The labels of a map, and the rounds that improve them. Indices are of shifted texels, wrapped at the map's borders.
+// The labels of a map, improved in rounds. Indices are of shifted texels, which wrap at the borders of the map.
 class JointLabels {
  public:
   JointLabels(std::span<const PlanePoint> points, int width, int height, const PartitionSettings& settings,
@@ -133,7 +133,7 @@ class JointLabels {
     }
   }
 
-  // `finest`: the smallest block size that is asked, from 0.
+  // `finest`: the index of the smallest block size that is used.
   void round(int shift_x, int shift_y, int finest) {
     shift_x_ = shift_x;
     shift_y_ = shift_y;
@@ -151,7 +151,7 @@ class JointLabels {
   struct Blocks {
     int width = 0, height = 0;
     std::vector<PlaneSums> sums;     // parts_ for each block
-    std::vector<Quadratic> density;  // likewise: this block's and those of all larger ones that hold it
+    std::vector<Quadratic> density;  // the same: log density of this block and of all larger ones that contain it
   };
 
   [[nodiscard]] std::size_t first_part(const Blocks& blocks, int x, int y) const {
@@ -232,7 +232,7 @@ class JointLabels {
   int shift_x_ = 0, shift_y_ = 0;
 };
 
-// The smallest block size that a round asks: small ones join in one by one during the first half.
+// The index of the smallest block size of a round: smaller sizes are added one by one during the first half.
 int finest_of(int round, int rounds) { return std::max(0, block_sizes - 1 - 2 * block_sizes * round / rounds); }
 
 }  // namespace

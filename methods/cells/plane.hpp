@@ -1,4 +1,4 @@
-// Normals as points of a plane, and weighted sums over them: what partition and moments share.
+// Normals as points of a plane, with weights.
 #pragma once
 
 #include <cmath>
@@ -9,23 +9,23 @@
 
 namespace footprint::cells {
 
-/// Over which plane moments are taken.
+/// The plane of the moments.
 enum class Coordinates { stereographic, slopes };
 
-/// n_xy / (1 + n_z) of a unit normal: the stereographic projection from the pole below, conformal, the surface's
-/// horizon at length 1. Normals that point below the horizon are laid onto it.
+/// n_xy / (1 + n_z) of a unit normal: the stereographic projection from the pole below. It is conformal, and the
+/// horizon has length 1. Normals below the horizon are moved onto it.
 [[nodiscard]] inline glm::dvec2 stereographic_of(const glm::dvec3& normal) {
   const glm::dvec2 p = glm::dvec2(normal) / (1.0 + std::max(normal.z, 0.0));
   return normal.z < 0.0 ? p / std::max(glm::length(p), 1e-12) : p;
 }
 
-/// A normal of the map as a point; the weight of an invalid normal is 0.
+/// A normal of the map as a point; invalid normals have weight 0.
 struct PlanePoint {
   glm::dvec2 at{0.0};
   double weight = 0.0;
 };
 
-/// The points of a normal map (RGBA: normal, weight), row by row; slopes are no longer than `steepest`.
+/// The points of a normal map (RGBA: normal, weight), row by row. Slopes are limited to `steepest`.
 [[nodiscard]] std::vector<PlanePoint> plane_points(const Image& normals, Coordinates coordinates, double steepest);
 
 }  // namespace footprint::cells

@@ -1,10 +1,10 @@
-// A part whose moments are of slopes: LEAN's lobe, with a share.
+// A part with moments of slopes: LEAN's lobe with a share.
 //? include common_slopes.glsl
 
 struct Part {
   SlopeLobe slopes;
   vec3 axis;
-  float share;    // of the footprint; 0: the part is not there
+  float share;    // of the footprint; 0: no part
   float lobe;     // parameter of a facet's lobe
   float breadth;  // slope variance per axis about `axis`, a facet's lobe included
 };

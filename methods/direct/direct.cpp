@@ -1,5 +1,5 @@
-// `direct`: the finest level at the pixel's centre, no filtering. What a renderer does that does nothing, and the
-// picture that every method must meet where there is nothing to filter.
+// `direct`: the finest level at the pixel's centre, without filtering. Every method must equal its image where there is
+// nothing to filter.
 #include "renderer/pipeline/base_surface.hpp"
 
 namespace footprint {

@@ -1,5 +1,5 @@
-// `exact`: no NDF is made at all. The base BRDF is summed over the finest level's texels under a kernel, for every
-// pixel and light: what no method that stores NDFs can beat under the same kernel, and far too slow to use.
+// `exact`: sums the base BRDF over the texels of the finest level under a kernel, for every pixel and light, without an
+// NDF. It bounds the accuracy of every method that stores NDFs under the same kernel, and is far too slow to use.
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/pipeline/base_surface.hpp"
 
@@ -11,7 +11,7 @@ extern const EmbeddedTexts exact_glsl;
 
 namespace {
 
-// Of the map whose texels are counted.
+// The coordinates of the map whose texels are summed.
 TextureCoordinates grid_coordinates(const Material& material, const EffectSet& effects) {
   if (has(effects, Effect::normal_variation)) return normal_coordinates(material);
   if (has(effects, Effect::normal_layers)) return layer_coordinates(material);

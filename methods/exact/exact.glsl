@@ -1,5 +1,5 @@
-// The base BRDF summed over the texels of the finest level under a kernel. One sample of many is one texel, as the
-// reference has it, and a material without maps that vary is one facet everywhere.
+// Sums the base BRDF over the texels of the finest level under a kernel. Samples of a supersampled image draw one texel
+// each, as the reference does. A material without varying maps is a single facet everywhere.
 //? if not sampling_frame or not normal_variation and not normal_layers and not roughness_variation
 //? include base_surface.glsl
 //? if environment_summed
@@ -9,14 +9,14 @@ vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame);  // environmen
 vec3 environmentSum(Effective e, Surface s, vec3 wo, mat3 frame) { return environmentLit(e, s, wo, frame); }
 //? end
 //? else
-// The facet at a place of the finest level, and sums over facets. Places lie on a grid over one map, the normal map
-// where there is one: its texels, or parts of them where another map has finer ones.
+// Facets at places of the finest level, and sums over facets. Places form a grid over one map, the normal map if there is
+// one. A place is a texel of it, or a part of a texel if another map is finer.
 //? if normal_layers
 //? include normal_layers.glsl
 //? end
 
-// Where another map is looked up, from the distance to the pixel's centre on the grid's map: all coordinates are linear
-// over a pixel.
+// Maps a distance from the pixel's centre on the grid's map to coordinates on another map. All coordinates are linear over
+// a pixel.
 struct Mapped {
   vec2 centre;
   mat2 turn;
@@ -26,7 +26,7 @@ struct Effective {
   Footprint footprint;  // on the grid's map
   vec2 size;            // of the whole map, in places
 //? if environment_summed
-  Facets facets;  // those that the environment lights just now
+  Facets facets;  // which the environment lights in the current call
 //? end
 //? if normal_variation and normal_layers
   Mapped layer;
@@ -39,12 +39,12 @@ struct Effective {
 // A position q of the pixel's centre and edges (dx, dy), q in [-1/2, 1/2]^2, is at uv + (dx dy) q on each map.
 Mapped mappedFrom(Footprint grid, Footprint other) {
   mat2 edges = mat2(grid.dx, grid.dy);
-  if (determinant(edges) == 0.0) return Mapped(other.uv, mat2(0.0));  // seen edge-on: a line, or nothing
+  if (determinant(edges) == 0.0) return Mapped(other.uv, mat2(0.0));  // seen edge-on
   return Mapped(other.uv, mat2(other.dx, other.dy) * inverse(edges));
 }
 
-// Places a texel of the grid's map is cut into along each axis, so that one is no larger than another map's texel. Of
-// one part in fifty more than a whole number nothing is made: footprints are differences in 32 bits.
+// Places per texel of the grid's map along each axis, so that no place is larger than a texel of the other map. An excess
+// of less than 1/50 over a whole number is ignored, because footprints are 32-bit differences.
 vec2 partsOf(vec2 grid_size, Mapped other, vec2 other_size) {
   vec2 along_u = other.turn[0] * other_size / grid_size.x;
   vec2 along_v = other.turn[1] * other_size / grid_size.y;
@@ -82,8 +82,8 @@ Effective effective(Footprints f) {
   return e;
 }
 
-// What is asked of each facet: its reflectance but for the Fresnel term, its density of normals at h, or what it
-// reflects of the environment.
+// The value of each facet: its reflectance without the Fresnel term, its density of normals at h, or the environment light
+// that it reflects.
 struct Query {
   bool reflects;
   bool has_half_vector;
@@ -91,7 +91,7 @@ struct Query {
   vec3 wi;
   vec3 wo;
 //? if environment_summed
-  bool surrounded;  // the environment is asked for, and nothing else
+  bool surrounded;  // only the environment light
   Surface surface;
   mat3 frame;
 //? end
@@ -119,16 +119,15 @@ Query densityQuery(vec3 h) {
 }
 
 struct Sum {
-  float specular;  // densities, times geometry factors where it reflects
-  float facing;    // cosines to wi of facets that face it
+  float specular;  // densities, times geometry factors if facets reflect
+  float facing;    // cosines to wi, 0 for facets that face away
   float weight;
 //? if environment_summed
   vec3 radiance;
 //? end
 };
 
-// Facets are added up in groups: of many thousand terms added to one sum in 32 bits each would be off by a part in a
-// hundred.
+// Facets are summed in groups, because a single 32-bit sum of many thousand terms would lose about one percent.
 Sum evenSum(float value) {
   Sum sum;
   sum.specular = value;
@@ -202,7 +201,7 @@ void addFacets(inout Sum sum, Effective e, Facets facets, float weight, Query q)
   sum.specular += weight * (q.reflects ? facetReflectance(facets, q.h, q.wi, q.wo) : facetDensity(facets, q.h));
 }
 
-// Adds the facet at a place; none is there where the map has no normal.
+// Adds the facet at a place, if the map has a normal there.
 void addPlace(inout Sum sum, Effective e, vec2 place, float weight, Query q) {
   vec2 uv = place / e.size;
   vec4 normal = normalAt(e, uv);
@@ -210,11 +209,12 @@ void addPlace(inout Sum sum, Effective e, vec2 place, float weight, Query q) {
   addFacets(sum, e, facetsAbout(e, normal.xyz, uv), weight, q);
 }
 
-// Of loops that the driver has ended early. llvmpipe does after 65535 rounds of all loops of a pixel together, over all
-// lights: no picture may pass for whole then. (Four places a round make that enough for seven lights and more.)
+// The result of a loop that the driver ended early: not a number, so that no incomplete image passes unnoticed. llvmpipe
+// ends loops after 65535 rounds per pixel, over all loops and lights. Four places per round make that enough for seven
+// lights and more.
 Sum notWhole() { return evenSum(uintBitsToFloat(0x7fc00000u)); }
 
-// A mean; over nothing but texels without a normal that of an even facet, as methods have it that blend normals.
+// The mean over a sum. If all texels lack a normal it is that of a flat facet, as with methods that blend normals.
 Sum meanOf(Sum sum, Effective e, Query q) {
   if (sum.weight <= 0.0) {
     sum = zeroSum();
@@ -227,8 +227,8 @@ Sum meanOf(Sum sum, Effective e, Query q) {
 
 //? include random_numbers.glsl
 
-// Where in a cell of places, `edge` on each side, its one place lies: anywhere in a cell of several, by numbers of the
-// cell's own, so that tiles and neighbouring pixels agree.
+// The place that represents a cell of `edge` x `edge` places. It is drawn by a hash of the cell, so that tiles and
+// neighbouring pixels agree.
 vec2 placeIn(ivec2 cell, float edge) {
   if (edge <= 1.0) return vec2(cell) + 0.5;
   uvec3 bits = hashed(uvec3(cell, int(edge)));
@@ -236,8 +236,8 @@ vec2 placeIn(ivec2 cell, float edge) {
 }
 
 //? if environment_summed
-// Of texels that the environment lights: 1 round of loops each, 14 for a lobe with a tail, of a pixel's 65535 (notWhole).
-// What a lobe sees of an environment differs less between texels than what a light makes of it.
+// The most texels for environment light, within the 65535 rounds of loops per pixel (notWhole). A texel takes 1 round, or
+// 14 for a lobe with a tail. Fewer texels suffice than for lights, because environment light varies less between texels.
 float mostSurroundedTexels() {
 //? if distribution_ggx
   const float rounds = 14.0;
@@ -248,7 +248,7 @@ float mostSurroundedTexels() {
 }
 
 //? end
-// How many texels may be looked at one by one: all parts of a pixel share them.
+// The most texels that are looked up one by one, which all parts of a pixel share.
 float mostTexels(Query q) {
   float most = option_texels * option_texels;
 //? if environment_summed
@@ -271,7 +271,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   Reflected r;
   r.specular = fresnelTerm(s.f0, wi, wo) * sum.specular;
 //? if diffuse
-  r.diffuse = diffuse(wi * sum.facing, s, wi, wo);  // whose dot product with wi is the mean of the facets' own
+  r.diffuse = diffuse(wi * sum.facing, s, wi, wo);  // its dot product with wi is the mean of the facets'
 //? end
   return r;
 }

@@ -1,7 +1,7 @@
-// The kernel of the footprint filter: each texel that it would blend stands for the box of the finest level's texels
-// that it covers.
+// The kernel of the footprint filter. Each texel that the filter would blend is replaced by the mean over the box of
+// finest-level texels that it covers.
 
-// The part of [cell, cell + 1] that lies between two bounds.
+// The part of [cell, cell + 1] between two bounds.
 float shareOfCell(int cell, float lower, float upper) {
   return clamp(min(upper, float(cell) + 1.0) - max(lower, float(cell)), 0.0, 1.0);
 }
@@ -15,7 +15,7 @@ struct Cells {
   int count;
 };
 
-// Bounds are whole but where a level has an odd size; rounding makes no slivers.
+// Bounds are whole numbers unless a level has an odd size. The tolerance keeps rounding from adding slivers.
 Cells cellsOf(vec2 lower, vec2 upper) {
   ivec2 first = ivec2(floor(lower + 1e-3));
   ivec2 sides = ivec2(ceil(upper - 1e-3)) - first;
@@ -29,13 +29,13 @@ void addCell(inout Sum sum, Effective e, Cells cells, int i, float edge, Query q
   addPlace(sum, e, placeIn(cell, edge), i < cells.count ? share : 0.0, q);
 }
 
-// The mean over a box of places, `lower` to `upper`, of which `most` may be looked at.
+// The mean over a box of places, `lower` to `upper`, with at most `most` lookups.
 Sum boxMean(Effective e, vec2 lower, vec2 upper, float most, Query q) {
   vec2 sides = upper - lower;
   float edge = max(ceil(sqrt(sides.x * sides.y / most) - 1e-3), 1.0);
   Cells cells = cellsOf(lower / edge, upper / edge);
   Sum box = zeroSum();
-  int seen = 0;  // of the loop's own counter the compiler knows what it is behind the loop
+  int seen = 0;  // the compiler would assume the final value of the loop's own counter
   for (int i = 0; i < cells.count; i += 4) {
     ++seen;
     Sum four = zeroSum();
@@ -55,7 +55,7 @@ Sum sumOver(Effective e, Query q) {
   ivec2 finest = ivec2(e.size);
   Sum sum = zeroSum();
   int count = footprintTexelCount(finest, e.footprint);
-  // Of eight texels four lie on the coarser level, a square of theirs being what all of them cover.
+  // Half of the eight texels are on the coarser level, where four of them cover the area of all.
   float most = 2.0 * mostTexels(q) / float(count);
   int seen = 0;
   for (int i = 0; i < count; ++i) {
@@ -63,7 +63,7 @@ Sum sumOver(Effective e, Query q) {
     FootprintTexel texel = footprintTexel(finest, e.footprint, i);
     if (texel.weight <= 0.0) continue;
     vec2 texels = levelSize(finest, int(texel.level));
-    // Beyond the border of a map that does not repeat its outermost texel of that level goes on.
+    // A map that does not repeat is continued by the outermost texel of the level.
     vec2 within = clamp(texel.uv, 0.5 / texels, 1.0 - 0.5 / texels);
     vec2 uv = mix(texel.uv, within, vec2(exact_clamp_u, exact_clamp_v));
     vec2 middle = uv * e.size;

@@ -1,11 +1,12 @@
-// The kernel of the pixel itself: the texels under its parallelogram, each by its share.
-// How much of a pixel's parallelogram a texel has. A place (x, y) weighs k(x) k(y) in the texel whose centre is 0, k
-// being the tent of bilinear filtering or, for areas, 1 inside of the texel. Over the parallelogram P that is a sum over
-// its edges, by Green's theorem: with K an antiderivative of k,
+// The kernel of the pixel itself: the texels under its parallelogram, each weighted by its share.
 //
-//   integral over P of k(x) k(y) dx dy = - (integral around P of k(x) K(y) dx),   counterclockwise,
+// A place (x, y) has the weight k(x) k(y) in the texel with centre 0. k is the tent of bilinear filtering or, for areas, 1
+// inside the texel. The integral over the parallelogram P is a sum over its edges, by Green's theorem, with K an
+// antiderivative of k:
 //
-// and no polygon has to be cut. Any constant may be added to K: around P the integral of k(x) dx is 0.
+//   integral over P of k(x) k(y) dx dy = - (integral around P of k(x) K(y) dx),   counterclockwise.
+//
+// Therefore no polygon has to be clipped. Any constant may be added to K, because the integral of k(x) dx around P is 0.
 
 //? include parallelogram.glsl
 
@@ -16,14 +17,14 @@ float texelShare(vec2 centre, mat2 edges) { return coveredArea(centre, edges); }
 //? else
 const float weight_reach = 1.0;  // of k to either side
 
-// k(x) K(y) of tents: linear times quadratic on either side of 0.
+// k(x) K(y) of tents: linear times quadratic on each side of 0.
 float tentProduct(vec2 p) {
   float k = max(1.0 - abs(p.x), 0.0);
   float rest = max(1.0 - abs(p.y), 0.0);
   return k * sign(p.y) * 0.5 * (1.0 - rest * rest);
 }
 
-// Its integral over t from a to b: cubic there, so Gauss's two points are exact.
+// The integral of tentProduct over t from a to b. It is cubic there, so Gauss's two points are exact.
 float gaussPiece(vec2 from, vec2 along, float a, float b) {
   if (b <= a) return 0.0;
   float middle = 0.5 * (a + b);
@@ -31,7 +32,7 @@ float gaussPiece(vec2 from, vec2 along, float a, float b) {
   return 0.5 * (b - a) * (tentProduct(from + along * (middle - off)) + tentProduct(from + along * (middle + off)));
 }
 
-// Over the part of [a, b] on one side of x = 0: cut where y is -1, 0 and 1, beyond which K is constant.
+// The same over the part of [a, b] on one side of x = 0, split at y = -1, 0 and 1. K is constant beyond.
 float cutInHeight(vec2 from, vec2 along, vec3 heights, float a, float b) {
   float low = clamp(heights.x, a, b);
   float middle = clamp(heights.y, a, b);
@@ -40,7 +41,7 @@ float cutInHeight(vec2 from, vec2 along, vec3 heights, float a, float b) {
          gaussPiece(from, along, middle, high) + gaussPiece(from, along, high, b);
 }
 
-// The integral of k(x) K(y) dx along the straight way from `from` by `along`.
+// The integral of k(x) K(y) dx along the segment from `from` to `from` + `along`.
 float alongEdge(vec2 from, vec2 along) {
   float run = abs(along.x) > 1e-9 ? along.x : 1e-9;
   float rise = abs(along.y) > 1e-9 ? along.y : 1e-9;
@@ -52,8 +53,8 @@ float alongEdge(vec2 from, vec2 along) {
                     cutInHeight(from, along, heights, columns.y, columns.z));
 }
 
-// The weight of the texel at 0, of side 1, in a parallelogram about `centre` with `edges` for columns. Those of all
-// texels sum to its area, but for rounding: some 1e-7 of its edges' lengths.
+// The weight of the texel at 0, of side 1, in a parallelogram about `centre` with `edges` as columns. The weights of all
+// texels sum to its area, within a rounding error of about 1e-7 of its edge lengths.
 float texelShare(vec2 centre, mat2 edges) {
   vec2 corner = centre - 0.5 * (edges[0] + edges[1]);
   float around = alongEdge(corner, edges[0]) + alongEdge(corner + edges[0], edges[1]) -
@@ -62,19 +63,19 @@ float texelShare(vec2 centre, mat2 edges) {
 }
 //? end
 
-// No parallelogram is narrower than this: of one that is, rounding would leave little. Bilinear weights change by less
-// than half of it over its width.
+// Narrower parallelograms are widened to this, because rounding would dominate their weights. Bilinear weights change by
+// less than half of it over its width.
 const float narrowest_pixel = 1.0 / 256.0;
 
 // A pixel over cells of places.
 struct Pixel {
-  float edge;   // of a cell, in places; above 1 where one place stands for all of a cell
+  float edge;   // of a cell, in places; above 1 if one place represents all of a cell
   vec2 centre;  // in cells
   mat2 edges;   // columns, in cells
 };
 
-// As many cells as area and circumference call for, at most `most`: with area A and lengths of
-// both edges B in places, A / edge^2 + 4 B / edge of them; those that the border cuts are dear.
+// Chooses the cell size that gives at most `most` cells. With area A and edge lengths B in places there are
+// A / edge^2 + 4 B / edge cells, because cells that the border cuts are expensive.
 Pixel pixelOn(Footprint f, vec2 size, float most) {
   mat2 edges = mat2(f.dx * size, f.dy * size);
   float area = abs(determinant(edges));
@@ -84,7 +85,7 @@ Pixel pixelOn(Footprint f, vec2 size, float most) {
   return Pixel(edge, f.uv * size / edge, widened(edges * (1.0 / edge), narrowest_pixel));
 }
 
-// What of an edge lies between two heights: least and largest x; the one above the other where it has nothing there.
+// The least and the largest x of the part of an edge between two heights; least above largest if there is none.
 vec2 edgeWithin(vec2 from, vec2 along, vec2 heights) {
   float rise = abs(along.y) > 1e-9 ? along.y : 1e-9;
   vec2 t = (heights - from.y) / rise;
@@ -94,7 +95,7 @@ vec2 edgeWithin(vec2 from, vec2 along, vec2 heights) {
   return vec2(min(x.x, x.y), max(x.x, x.y));
 }
 
-// What of the parallelogram about 0 lies between two heights: least and largest x.
+// The least and the largest x of the part of the parallelogram about 0 between two heights.
 vec2 stretchWithin(mat2 edges, vec2 heights) {
   vec2 corner = -0.5 * (edges[0] + edges[1]);
   vec2 a = edgeWithin(corner, edges[0], heights);
@@ -104,14 +105,14 @@ vec2 stretchWithin(mat2 edges, vec2 heights) {
   return vec2(min(min(a.x, b.x), min(c.x, d.x)), max(max(a.y, b.y), max(c.y, d.y)));
 }
 
-// Between which x a linear function of it is between -1/2 and 1/2.
+// The interval of x in which a linear function is between -1/2 and 1/2.
 vec2 slab(float slope, float offset) {
   float safe = abs(slope) > 1e-9 ? slope : 1e-9;
   vec2 x = (vec2(-0.5, 0.5) - offset) / safe;
   return vec2(min(x.x, x.y), max(x.x, x.y));
 }
 
-// The part of a line of one height inside of the parallelogram about 0.
+// The interval of x in which the line at one height is inside the parallelogram about 0.
 vec2 chordAt(mat2 to_pixel, float height) {
   vec2 offset = to_pixel[1] * height;
   vec2 a = slab(to_pixel[0].x, offset.x);
@@ -119,7 +120,7 @@ vec2 chordAt(mat2 to_pixel, float height) {
   return vec2(max(a.x, b.x), min(a.y, b.y));
 }
 
-// Cells whose centres lie in a stretch about the pixel's centre: first and last.
+// The first and the last cell with a centre in an interval about the pixel's centre.
 ivec2 cellsIn(vec2 stretch, float centre) {
   stretch = clamp(stretch, -1e6, 1e6) + centre - 0.5;
   return ivec2(int(ceil(stretch.x)), int(floor(stretch.y)));
@@ -129,7 +130,7 @@ void addCell(inout Sum sum, Effective e, Pixel p, int x, int y, float share, Que
   addPlace(sum, e, placeIn(ivec2(x, y), p.edge), share, q);
 }
 
-// Adds the cells of a row; false where a loop was ended before it was done.
+// Adds the cells of a row; false if the driver ended a loop early.
 bool addRow(inout Sum sum, Effective e, Pixel p, mat2 to_pixel, int y, Query q) {
   float height = float(y) + 0.5 - p.centre.y;
   vec2 reach = vec2(-weight_reach, weight_reach);
@@ -138,7 +139,7 @@ bool addRow(inout Sum sum, Effective e, Pixel p, mat2 to_pixel, int y, Query q) 
   vec2 upper = chordAt(to_pixel, height + weight_reach);
   ivec2 whole = cellsIn(vec2(max(lower.x, upper.x), min(lower.y, upper.y)) - reach, p.centre.x);
   if (whole.x > whole.y) whole = ivec2(all.y + 1, all.y);
-  int seen = 0;  // of a loop's own counter the compiler knows what it is behind the loop
+  int seen = 0;  // the compiler would assume the final value of the loop's own counter
   for (int x = whole.x; x <= whole.y; x += 4) {
     seen += 4;
     Sum four = zeroSum();
@@ -148,7 +149,7 @@ bool addRow(inout Sum sum, Effective e, Pixel p, mat2 to_pixel, int y, Query q) 
     addCell(four, e, p, x + 3, y, x + 3 <= whole.y ? 1.0 : 0.0, q);
     addSum(sum, four, 1.0);
   }
-  // Cells that the border cuts, to either side of those: their shares cost more than their facets.
+  // The cells on each side that the border cuts: their shares cost more than their facets.
   int inside = max(min(whole.y, all.y) - max(whole.x, all.x) + 1, 0);
   int border = all.y - all.x + 1 - inside;
   int seen_border = 0;

@@ -1,5 +1,5 @@
-// `fixed_brdf`: the finest level's reflectance at every distance, over a geometry that is filtered: the mean normal,
-// renormalised, shades with a facet's own lobe. Tan 2005's straw man (figure 8).
+// `fixed_brdf`: filters geometry but not reflectance. The renormalised mean normal shades with the lobe of a single
+// facet at every distance. Tan 2005 compares with it (figure 8).
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
@@ -21,7 +21,7 @@ class FixedBrdf final : public Method {
     const Storage storage = parse_storage(options.word("storage"));
     Prefiltered out = bake_mean_normal(material, storage, effects);
     if (has(effects, Effect::roughness_variation)) {
-      // The finest level alone: reflectance is what this method does not filter.
+      // Only the finest level, because reflectance is not filtered.
       out.textures.push_back(
           make_level_texture("fixed_roughness", roughness_map_of(material), storage, roughness_coordinates(material)));
     }

@@ -1,5 +1,5 @@
-// Geometry is filtered, reflectance is not: the renormalised mean normal with the lobe of the texel at the pixel's
-// centre (Tan 2005, figure 8d).
+// Filters geometry but not reflectance: the renormalised mean normal with the lobe of the texel at the pixel's centre (Tan
+// 2005, figure 8d).
 //? include mean_normal.glsl
 //? include facets_module.glsl
 

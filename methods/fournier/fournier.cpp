@@ -1,4 +1,4 @@
-// `fournier`: a few Phong peaks a texel at every mip level, fitted to the distribution of normals; all peaks of the
+// `fournier`: a few Phong peaks per texel at every mip level, fitted to the distribution of normals. All peaks of the
 // footprint's texels are summed. Fournier 1992, "Normal distribution functions and multiple surfaces".
 #include <fmt/format.h>
 
@@ -80,7 +80,7 @@ class Fournier final : public Method {
                                                          settings.peaks, settings.start, progress);
     if (chain.statistics.not_converged > 0) out.notes.push_back(note_on(chain.statistics));
     const TextureCoordinates coordinates = normal_coordinates(material);
-    std::vector<std::vector<Image>> first;  // a list in braces would copy it
+    std::vector<std::vector<Image>> first;  // an initializer list would copy the chain
     first.push_back(std::move(chain.first));
     out.textures.push_back(
         make_array_texture("fournier_first", std::move(first), settings.storage, coordinates, TextureFilter::nearest));

@@ -1,13 +1,13 @@
-// Fournier 1992: every texel of the mip chain holds Phong peaks fitted to its distribution of normals. Peaks of
-// neighbouring texels have nothing to do with each other, so none is blended: the peaks of all texels of the footprint
-// are scaled by the texels' weights and summed, 8 times as many as a texel has, again for every light.
+// Fournier 1992: every texel of the mip chain stores Phong peaks fitted to its distribution of normals. Peaks of
+// neighbouring texels are unrelated and cannot be blended. Therefore the peaks of all texels of the footprint are
+// scaled by the texels' weights and summed for every light, 8 times as many as a texel has.
 //? include lobe_variance.glsl
 
 struct Effective {
   Footprint footprint;
   float variance;  // the base lobe's slope variance per axis
   vec3 mean;       // of the normals, for the diffuse term
-  float total;     // under an environment: the weight of all peaks, below 1 where texels have no normal
+  float total;     // under an environment: the weight of all peaks, below 1 if texels lack normals
 };
 
 //? if environment_light
@@ -37,7 +37,8 @@ vec3 directionFromDisc(vec2 p) {
   return vec3(p * sqrt(1.0 - quarter), 1.0 - 2.0 * quarter);
 }
 
-// Axis on the disc, root of the spread, weight. The finest level has one peak a texel, so the others start at the next.
+// A peak: axis on the disc, root of the spread, weight. The finest level has one peak per texel, so the other peaks
+// start at the next level.
 vec4 peakOf(FootprintTexel texel, int i) {
   if (i == 0) return fetchTexel(fournier_first, 0, texel);
   texel.level -= 1.0;
@@ -49,11 +50,11 @@ float reflectedDensity(Facets facets, vec3 h, bool with_geometry, vec3 wi, vec3 
   return with_geometry ? facetReflectance(facets, h, wi, wo) : facetDensity(facets, h);
 }
 
-// The sum over all peaks of their densities at h, each times its geometry factor or not.
+// The sum over all peaks of their densities at h, with or without their geometry factors.
 float sumOfPeaks(Effective e, vec3 h, bool with_geometry, vec3 wi, vec3 wo) {
 //? if normal_variation
   float sum = 0.0;
-  float total = 0.0;  // below 1 where texels have no normal
+  float total = 0.0;  // below 1 if texels lack normals
   int texels = footprintTexelCount(fournier_first, e.footprint);
   int t = 0;
   do {
@@ -63,7 +64,7 @@ float sumOfPeaks(Effective e, vec3 h, bool with_geometry, vec3 wi, vec3 wo) {
     int i = 0;
     do {
       vec4 peak = peakOf(texel, i);
-      if (peak.w <= 0.0) break;  // heaviest first: the others have none either
+      if (peak.w <= 0.0) break;  // heaviest first: all others have no weight
       float weight = texel.weight * peak.w;
       Facets facets = spreadFacets(directionFromDisc(peak.xy), e.variance, peak.z * peak.z);
       sum += weight * reflectedDensity(facets, h, with_geometry, wi, wo);
@@ -81,7 +82,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   if (halfVectorIsDefined(wi, wo))
     r.specular = fresnelTerm(s.f0, wi, wo) * sumOfPeaks(e, halfVector(wi, wo), true, wi, wo);
 //? if diffuse
-  // The mean normal's dot product is the mean of the facets' own while all of them face the light.
+  // The dot product with the mean normal is the mean over the facets while all of them face the light.
   float size = length(e.mean);
   vec3 n = size > 1e-6 ? e.mean / size : vec3(0.0, 0.0, 1.0);
   r.diffuse = diffuse(n, s, wi, wo) * min(size, 1.0);
@@ -95,7 +96,7 @@ float ndf(Effective e, vec3 h) { return sumOfPeaks(e, h, false, h, h); }
 Facets upFacets(Effective e) { return spreadFacets(vec3(0.0, 0.0, 1.0), e.variance, 0.0); }
 
 //? if normal_variation
-// Peak `number` of a texel; of weight 0 where it has none.
+// Peak `number` of a texel, with weight 0 if the texel has fewer.
 vec4 peakOrNone(FootprintTexel texel, int number) {
   bool there = texel.weight > 0.0 && (number == 0 || texel.level >= 0.5);
   return there ? peakOf(texel, number) : vec4(0.0);

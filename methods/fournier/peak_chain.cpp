@@ -19,7 +19,7 @@ namespace {
 constexpr int channels = 4;
 constexpr float shortest_normal = 1e-3F;
 constexpr std::size_t texels_per_report = 256;
-constexpr double without_fit = 0.01;  // of a fit's time: a texel whose normals are its peaks
+constexpr double without_fit = 0.01;  // of the time of a fit: a texel whose normals are its peaks
 
 void store(const Peak& peak, std::span<float> texel) {
   const Eigen::Vector2d on_disc = disc_from_direction(peak.axis);
@@ -34,7 +34,7 @@ Peak stored(std::span<const float> texel) {
   return {texel[3], direction_from_disc({texel[0], texel[1]}), deviation * deviation};
 }
 
-// What one texel's fit came to.
+// The result of one texel.
 struct Outcome {
   bool fitted = false;
   bool converged = true;
@@ -69,7 +69,7 @@ class ChainBuilder {
     for (std::size_t i = 1; i < levels; ++i) whole_work_ += work_of(i);
   }
 
-  // Of a level, in fits: where a texel holds no more normals than it may have peaks, there is nothing to fit.
+  // The work of a level, in fits. A texel with no more normals than peaks needs no fit.
   [[nodiscard]] double work_of(std::size_t level) const {
     const Image& finest = chain_.first.front();
     const double texels = std::max(finest.width >> level, 1) * static_cast<double>(std::max(finest.height >> level, 1));
@@ -96,7 +96,7 @@ class ChainBuilder {
     bins_ = std::move(bins);
   }
 
-  // Texel i of the next level.
+  // Computes texel i of the next level.
   Outcome make_texel(std::size_t i, Image& coarse, NormalBins& bins) {
     const auto width = static_cast<std::size_t>(coarse.width);
     const int x = static_cast<int>(i % width);
@@ -120,7 +120,7 @@ class ChainBuilder {
     return outcome;
   }
 
-  // The peaks and bins of the finer level under texel (x, y), by the area that they have in it.
+  // The peaks and bins of the finer level under texel (x, y), weighted by their area in it.
   void gather(int x, int y, std::vector<Moments>& children, NormalBins& bins) const {
     const Image& fine = chain_.first.back();
     const MipTaps across = mip_taps(fine.width, x);
@@ -148,7 +148,7 @@ class ChainBuilder {
 
   void add_bins(int x, int y, double share, NormalBins& bins) const {
     const Image& fine = chain_.first.back();
-    if (bins_.empty()) {  // the finest level: each texel is one normal
+    if (bins_.empty()) {  // the finest level: one normal per texel
       const Peak peak = stored(fine.at(x, y));
       if (peak.weight > 0.0) bins.push_back({cells_.cell_of(peak.axis), {share, share * peak.axis}});
       return;
@@ -179,7 +179,7 @@ class ChainBuilder {
   const Progress* progress_;
   double work_done_ = 0.0, whole_work_ = 0.0;  // in fits
   PeakChain chain_;
-  std::vector<NormalBins> bins_;  // of the level that is done last; empty for the finest
+  std::vector<NormalBins> bins_;  // of the last finished level; empty for the finest
   double fitted_area_ = 0.0;
   double error_by_area_ = 0.0;
 };

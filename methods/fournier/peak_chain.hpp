@@ -9,28 +9,28 @@
 
 namespace footprint::fournier {
 
-/// How the fits of a chain went. Errors as in `Fit`, weighted by area.
+/// Statistics of the fits of a chain. Errors as in `Fit`, weighted by area.
 struct FitStatistics {
   std::size_t fits = 0;
   std::size_t not_converged = 0;
-  double mean_error = 0.0;  ///< over all texels that were fitted
+  double mean_error = 0.0;  ///< over all fitted texels
 };
 
-/// Peaks as images: 4 channels, the axis on Lambert's disc (x, y), the root of the spread (deviation), and the weight.
-/// A texel's weights sum to the part of it that has a normal, heaviest first, then zeros.
+/// Peaks as images with 4 channels: axis on Lambert's disc (x, y), root of the spread (deviation), weight. The peaks of
+/// a texel are sorted, heaviest first, and their weights sum to the share of its area that has normals.
 struct PeakChain {
   std::vector<Image> first;              ///< each texel's heaviest peak, all levels
-  std::vector<std::vector<Image>> rest;  ///< the others, one chain a peak, of which level 0 is level 1 of `first`
+  std::vector<std::vector<Image>> rest;  ///< the others, one chain per peak; level 0 is level 1 of `first`
   FitStatistics statistics;
 };
 
-/// Where the fit of a texel starts from: the peaks of the finer texels below it, merged, or its own heaviest normals.
+/// The start of a texel's fit: the merged peaks of the finer texels below it, or its own heaviest normals.
 enum class Start { inherited, own };
 
-/// Fits `count` peaks to every texel above the finest level, whose only peak is its normal. `normals`: xyz and a weight
-/// of 0 or 1; weights of 0 leave a texel without peaks. `base_variance`: of the lobe about each normal. `rest` has one
-/// chain less than `count`, but at least one. Progress is called from this thread alone. The same at any number of
-/// threads.
+/// Fits `count` peaks to every texel above the finest level; a texel of the finest level has its normal as its only
+/// peak. `normals`: xyz and a weight of 0 or 1; texels of weight 0 have no peaks. `base_variance`: slope variance of
+/// the lobe about each normal. `rest` has count - 1 chains, but at least one. Calls progress from this thread only.
+/// Equal results at any number of threads.
 [[nodiscard]] PeakChain fit_peak_chain(const Image& normals, double base_variance, std::size_t count, Start start,
                                        const Progress& progress);
 

@@ -1,10 +1,10 @@
 // Levenberg-Marquardt over the parameters of the peaks, with all inner products in closed form.
 //
-// The residual, peaks minus target, is a function on the sphere, and so are its derivatives J by the parameters. What
-// Levenberg-Marquardt needs of them are inner products: G = J^T J, c = J^T r and Q = |r|^2, which are sums of products
-// of lobes in closed form; no direction is sampled, and lobes may be as narrow as they like. The library takes a matrix
-// and a vector. Any isometry of the residual's space leaves its steps as they are, so it is handed the coordinates in
-// an orthonormal basis of the span of J, L^T of G = L L^T and L^{-1} c, and the length of what lies outside of that
+// The residual, peaks minus target, is a function on the sphere, and so are its derivatives J by the parameters.
+// Levenberg-Marquardt needs their inner products G = J^T J, c = J^T r and Q = |r|^2, which are sums of products of
+// lobes in closed form. No direction is sampled, so lobes may be arbitrarily narrow. The library takes a matrix and a
+// vector. An isometry of the residual's space does not change its steps. Therefore it receives coordinates in an
+// orthonormal basis of the span of J: L^T of G = L L^T and L^{-1} c, and the length of the residual outside of that
 // span.
 //
 // Closed forms of the inner products of two lobes, with first and second derivatives.
@@ -30,7 +30,7 @@
 namespace footprint::fournier {
 namespace {
 
-constexpr double largest_argument = 20.0;  // above it, e^{-2R} is nothing to the last bit
+constexpr double largest_argument = 20.0;  // above it, e^{-2R} is below the last bit
 constexpr double negligible_exponent = -60.0;
 
 // c, R and I of two lobes.
@@ -59,10 +59,10 @@ using Matrix = Eigen::MatrixXd;
 constexpr int parameters_per_peak = 4;      // root of the weight, deviation, two of the axis
 constexpr double smallest_variance = 5e-7;  // the narrowest lobe of the shaders
 constexpr double largest_variance = 100.0;  // wider ones differ from the uniform one by 1%
-constexpr double ridge = 1e-10;             // relative; keeps G's factor where peaks coincide or have no weight
-constexpr double negligible = 1e-6;         // of Q over the target's norm: an error of a thousandth is none
-constexpr double least_deviation = 0.05;    // of the base lobe's: at 0 the derivative is 0 and a peak could not widen
-constexpr double tolerance = 1e-3;          // relative change of Q, or of the parameters, at which a fit has converged
+constexpr double ridge = 1e-10;             // relative; keeps G regular if peaks coincide or have no weight
+constexpr double negligible = 1e-6;         // of Q over the target's norm: an error below a thousandth
+constexpr double least_deviation = 0.05;  // of the base lobe's: at 0 the derivative vanishes and a peak could not widen
+constexpr double tolerance = 1e-3;        // relative change of Q or of the parameters at convergence
 constexpr int most_evaluations = 100;
 
 double bounded(double variance) { return std::clamp(variance, smallest_variance, largest_variance); }
@@ -74,20 +74,20 @@ VmfLobe lobe_of(const Peak& peak, double base_variance) {
   return lobe;
 }
 
-// Two unit vectors across an axis.
+// Two unit vectors perpendicular to an axis.
 std::pair<Eigen::Vector3d, Eigen::Vector3d> tangents(const Eigen::Vector3d& axis) {
   const Eigen::Vector3d s = axis.unitOrthogonal();
   return {s, axis.cross(s)};
 }
 
-// Q of given lobes and its derivatives, by the parameters of `Objective::peaks_at`.
+// Q of given lobes and its derivatives by the parameters of `Objective::peaks_at`.
 struct Evaluation {
   double q = 0.0;
   Vector gradient;  // c
   Matrix gram;      // G
 };
 
-// Everything at a point of parameter space.
+// The state at a point of parameter space.
 struct Point {
   Vector weights;     // sum to one
   Vector roots;       // weights = roots^2 / sum roots^2
@@ -95,7 +95,7 @@ struct Point {
   std::vector<VmfLobe> lobes;
 };
 
-// Q as a function of the parameters. Weights are relative to the target's whole weight.
+// Q as a function of the parameters. Weights are relative to the total weight of the target.
 class Objective {
  public:
   Objective(std::span<const Peak> target, std::span<const Peak> start, double base_variance)
@@ -186,7 +186,7 @@ class Objective {
     return point;
   }
 
-  // Products of each lobe and its derivatives with those of each other, 4 x 4 blocks.
+  // Products of each lobe and its derivatives with those of every other lobe, in 4 x 4 blocks.
   [[nodiscard]] Matrix products_of_peaks(const Point& point) const {
     Matrix products(size(), size());
     for (std::size_t i = 0; i < point.lobes.size(); ++i) {
@@ -208,8 +208,8 @@ class Objective {
     return products;
   }
 
-  // What is given over the lobes and their own derivatives (rows), over the derivatives of sum_i w_i L_i by the
-  // parameters: the chain rule, whose matrix is all but empty.
+  // Transforms values over the lobes and their own derivatives (rows) to the derivatives of sum_i w_i L_i by the
+  // parameters. The matrix of this chain rule is sparse.
   [[nodiscard]] Matrix by_parameters(const Point& point, const Matrix& rows) const {
     const double sum = std::max(point.roots.squaredNorm(), 1e-300);
     Eigen::RowVectorXd mean = Eigen::RowVectorXd::Zero(rows.cols());
@@ -238,7 +238,7 @@ class Objective {
   double target_norm_ = 0.0;
 };
 
-// What Eigen's Levenberg-Marquardt minimises: see the top of this file.
+// The functor that Eigen's Levenberg-Marquardt minimises; see the top of this file.
 class Residual : public Eigen::DenseFunctor<double> {
  public:
   explicit Residual(const Objective& objective)
@@ -264,7 +264,7 @@ class Residual : public Eigen::DenseFunctor<double> {
     return 0;
   }
 
-  // The library asks for the derivatives at a point it has taken, which may not be the last that it tried.
+  // The library requests derivatives at the accepted point, which may not be the last that it tried.
   int df(const Vector& x, Matrix& jacobian) {
     if (x_.size() != x.size() || x_ != x) {
       Vector residual;

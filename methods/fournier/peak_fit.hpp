@@ -18,22 +18,22 @@ struct VmfLobe {
   Eigen::Vector3d axis_by_t{0.0, 0.0, 0.0};
 };
 
-/// The integral over the sphere of the product of two lobes; closed form (Iwasaki 2012, equation 10, in a form that
+/// The integral over the sphere of the product of two lobes, in closed form (Iwasaki 2012, equation 10, in a form that
 /// neither overflows nor cancels).
 [[nodiscard]] double product(const VmfLobe& a, const VmfLobe& b);
 
 /// The integrals of (a, da/dkappa, da/ds, da/dt) times b.
 [[nodiscard]] Eigen::Vector4d products_with_derivatives(const VmfLobe& a, const VmfLobe& b);
 
-/// The integrals of (a, da/dkappa, da/ds, da/dt) times (b, db/dkappa, db/ds, db/dt): row a's, column b's.
+/// The integrals of (a, da/dkappa, da/ds, da/dt), the rows, times (b, db/dkappa, db/ds, db/dt), the columns.
 [[nodiscard]] Eigen::Matrix4d products_of_derivatives(const VmfLobe& a, const VmfLobe& b);
 
-/// The outcome of one fit. Errors are L2 distances over the sphere between the peaks and the target, relative to the
-/// target's own norm.
+/// The result of one fit. Errors are L2 distances over the sphere between peaks and target, relative to the norm of the
+/// target.
 struct Fit {
   std::vector<Peak> peaks;  ///< weights sum to the target's; heaviest first
   double start_error = 0.0;
-  double error = 0.0;  ///< never above start_error
+  double error = 0.0;  ///< at most start_error
   bool converged = true;
 };
 

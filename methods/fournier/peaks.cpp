@@ -11,8 +11,8 @@
 namespace footprint::fournier {
 namespace {
 
-// What the union of two sets adds to the variance about the means, from the difference of the means: it does not
-// cancel.
+// The increase of the variance about the means by the union of two sets. Computed from the difference of the means, so
+// that it does not cancel.
 double cost_of_union(const Moments& a, const Moments& b) {
   const double shared = a.weight * b.weight / (a.weight + b.weight);
   return shared * (a.sum / a.weight - b.sum / b.weight).squaredNorm();
@@ -34,7 +34,8 @@ Partner cheapest_after(const std::vector<Moments>& sets, std::size_t i) {
   return best;
 }
 
-// Makes one set of the cheapest pair, leaves the other at weight 0, and mends the partners of those before them.
+// Merges the cheapest pair into its first set, gives the second weight 0, and updates the partners of the sets before
+// them.
 void merge_cheapest_pair(std::vector<Moments>& sets, std::vector<Partner>& partners) {
   const auto i = static_cast<std::size_t>(std::ranges::min_element(partners, {}, &Partner::cost) - partners.begin());
   const std::size_t gone = partners[i].index;
@@ -52,7 +53,7 @@ void merge_cheapest_pair(std::vector<Moments>& sets, std::vector<Partner>& partn
   }
 }
 
-// The heaviest first; of equal ones the one that comes first.
+// Indices sorted by weight, heaviest first; equal weights keep their order.
 std::vector<std::size_t> by_weight(const std::vector<Peak>& normals) {
   std::vector<std::size_t> order(normals.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -60,7 +61,7 @@ std::vector<std::size_t> by_weight(const std::vector<Peak>& normals) {
   return order;
 }
 
-// Indices of the heaviest normals that are `apart` from each other, then of the heaviest of the others.
+// Indices of the heaviest normals that are `apart` from each other, followed by the heaviest of the others.
 std::vector<std::size_t> seeds_of(const std::vector<Peak>& normals, std::size_t count, double apart) {
   std::vector<std::size_t> seeds, near;
   for (const std::size_t i : by_weight(normals)) {

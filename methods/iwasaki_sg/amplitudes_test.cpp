@@ -1,5 +1,5 @@
 // The linear system of Eq. 8: golden condition numbers, duplicate lobes, non-negative solutions against brute force.
-#include "methods/iwasaki_sg/amplitudes.hpp"
+#include "methods/iwasaki_sg/lobe_fit.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <numeric>
 
-#include "methods/iwasaki_sg/ndf_fit.hpp"
+#include "methods/iwasaki_sg/lobe_fit.hpp"
 #include "renderer/lobes/lobe.hpp"
 
 namespace footprint::iwasaki_sg {
@@ -20,12 +20,12 @@ struct Cell {
   double weight = 0.0;
 };
 
-// What fell in the cells of a cube, in their order.
+// Sums per cell of a cube, in the order of cells.
 class CubeSums {
  public:
   explicit CubeSums(int side) : side_(side), cells_(std::size_t{6} * static_cast<std::size_t>(side * side)) {}
 
-  // `mean` need not be of unit length; its direction says the cell.
+  // Adds a normal to the cell of the direction of `mean`, which may have any length.
   void add(const glm::dvec3& mean, double weight) {
     Cell& cell = cells_[cube_cell(mean, side_)];
     cell.sum += weight * mean;
@@ -45,13 +45,13 @@ class CubeSums {
   std::vector<Cell> cells_;
 };
 
-// Runs of bins that are summed on their own and then added in order, whatever the number of threads.
+// Runs of bins that are summed separately and then added in order, so that sums do not depend on the number of threads.
 constexpr std::size_t runs = 8;
 
-// A lobe's share of a normal below this, over its largest over all normals, is left out.
+// Shares of a lobe in a normal below this, relative to its largest share, are left out.
 constexpr double negligible = 1e-9;
 
-// The bits of one bin alone, for one direction: its first and last word are cut.
+// The bits of one bin for one direction, with its first and last word masked.
 void cut_bits(std::span<const std::uint64_t> words, const NormalBin& bin, std::uint64_t* out) {
   const std::size_t first = bin.begin / 64, last = (bin.end - 1) / 64;
   for (std::size_t w = first; w <= last; ++w) out[w - first] = words[w];
@@ -59,7 +59,7 @@ void cut_bits(std::span<const std::uint64_t> words, const NormalBin& bin, std::u
   out[last - first] &= ~std::uint64_t{0} >> (63 - (bin.end - 1) % 64);
 }
 
-// The counts of bits that two rows have in common, for row `a` and the rows behind it.
+// The counts of common bits of row `a` and each following row.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 __attribute__((target_clones("popcnt", "default")))
 #endif
@@ -73,7 +73,7 @@ void common_bits(const std::uint64_t* rows, std::size_t words, std::size_t a, st
   }
 }
 
-// gamma of one normal over all pairs of the directions that see any of its facets. It is symmetric: half is counted.
+// gamma of one normal over all pairs of the directions that see any of its facets. It is symmetric, so half is counted.
 class PairCounts {
  public:
   void count(const Bvndf& bvndf, const NormalBin& bin) {
@@ -95,7 +95,7 @@ class PairCounts {
 
   /// The directions that see the normal, in order.
   [[nodiscard]] std::span<const std::size_t> active() const { return active_; }
-  /// The counts of active direction `a` with each active direction.
+  /// The common counts of active direction `a` and each active direction.
   [[nodiscard]] std::span<const std::uint32_t> row(std::size_t a) const {
     return {counts_.data() + a * active_.size(), active_.size()};
   }
@@ -124,7 +124,7 @@ void add(std::vector<float>& sum, const std::vector<float>& part) {
   std::ranges::transform(sum, part, sum.begin(), [](float a, float b) { return a + b; });
 }
 
-// A lobe that reaches a normal: its index, and its integral over the normal's own lobe.
+// A lobe that reaches a normal: its index, and its integral over the lobe of the normal.
 struct Reach {
   std::size_t lobe;
   float product;
@@ -167,7 +167,7 @@ class Summer {
     }
   }
 
-  // weighted_ has gamma (n.wo) of all wo for direction `wi`.
+  // weighted_ stores gamma (n.wo) of all wo for direction `wi`.
   void add_row(const NormalBin& bin, std::size_t wi, float cosine_i, BvndfSums& sums) const {
     const std::size_t n = weighted_.size();
     const float factor = cosines_ == Cosines::published ? cosine_i : 1.0F;
@@ -194,7 +194,7 @@ class Summer {
   std::vector<float> cosine_, weighted_;
 };
 
-// Where the runs of bins begin: even shares of samples and bins, both of which cost time.
+// The first bin of each run: even shares of samples and bins, both of which cost time.
 std::array<std::size_t, runs + 1> run_starts(const Bvndf& bvndf) {
   constexpr std::size_t samples_like_one_bin = 64;
   const std::size_t all = bvndf.bins.back().end + samples_like_one_bin * bvndf.bins.size();
@@ -215,7 +215,7 @@ std::uint32_t cube_cell(const glm::dvec3& normal, int side) {
   if (size.z >= size[axis]) axis = 2;
   const double lead = std::max(size[axis], 1e-300);
   const auto cell_along = [&](int other) {
-    // The hair keeps normals on an axis, which lies on a border of cells, together whatever rounding does to them.
+    // The small offset keeps normals on an axis, which is a border of cells, in one cell despite rounding.
     constexpr double hair = 1e-6;
     const double unit = 0.5 + 0.5 * normal[other] / lead + hair;
     return std::min(static_cast<int>(unit * side), side - 1);

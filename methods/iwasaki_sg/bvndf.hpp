@@ -17,20 +17,20 @@
 
 namespace footprint::iwasaki_sg {
 
-/// Texels a side of a face of the cube map (Iwasaki 2012, section 6).
+/// Texels per side of a face of the cube map (Iwasaki 2012, section 6).
 inline constexpr int cube_side = 128;
 
 /// The cell of a unit vector, 0 to 6 side^2 - 1.
 [[nodiscard]] std::uint32_t cube_cell(const glm::dvec3& normal, int side);
 
-/// A normal with the area of the facets that have it.
+/// A normal with the area of its facets.
 struct WeightedNormal {
-  glm::dvec3 normal;  ///< a mean of unit vectors: shorter than 1 where it stands for several
+  glm::dvec3 normal;  ///< a mean of unit vectors, shorter than 1 if they differ
   double weight;      ///< above 0
 };
 
-/// The samples of one discretised normal and one colour. The paper takes a cell's centre for its normal; the mean of
-/// those that fall in it is nearer, and exact for flat facets.
+/// The samples of one discretised normal and one colour. The paper uses the centre of the cell as normal. This is the
+/// mean of the normals in the cell, which is closer and exact for flat facets.
 struct NormalBin {
   glm::dvec3 normal;   ///< unit
   std::uint8_t paint;  ///< index into Patch::palette
@@ -40,28 +40,28 @@ struct NormalBin {
 /// Facet samples in the order of their bins.
 struct BinnedFacets {
   FacetSamples samples;
-  std::vector<NormalBin> bins;  ///< none is empty; by colour, then by cell
+  std::vector<NormalBin> bins;  ///< not empty; by colour, then by cell
 };
 
 [[nodiscard]] BinnedFacets bin_facets(const Patch& patch, const FacetSamples& samples);
 
-/// The texels of a normal map (4 channels: normal, weight) by cells: those of weight 0 left out, normals renormalised.
-/// Weights sum to 1; empty where no texel is valid.
+/// The texels of a normal map (4 channels: normal, weight) by cells, renormalised, without texels of weight 0. Weights
+/// sum to 1. Empty if no texel is valid.
 [[nodiscard]] std::vector<WeightedNormal> bin_normal_map(const Image& normals);
 
-/// Pools normals by the cells of ever coarser cubes until at most `most` are left. The sum of weight * normal stays.
+/// Pools normals in the cells of ever coarser cubes until at most `most` remain. Preserves the sum of weight * normal.
 [[nodiscard]] std::vector<WeightedNormal> pool_normals(std::vector<WeightedNormal> normals, std::size_t most);
 
-/// gamma(n, wi, wo) (Iwasaki 2012, Eq. 2) over discretised normals and directions: what the facets of a normal see of
-/// two directions at once. Only normals that facets have are kept; a value is a count of bits.
+/// gamma(n, wi, wo) (Iwasaki 2012, Eq. 2) over discretised normals and directions: the area of the facets of a normal
+/// that is visible from two directions at once, as a count of bits. Only normals with facets are stored.
 struct Bvndf {
   std::vector<glm::dvec3> directions;
   std::vector<NormalBin> bins;
   FacetVisibility visibility;  ///< of the samples in the bins' order
   double facet_area = 0.0;
-  std::vector<double> visible_area;  ///< a_v of each direction: the visible facets' projected area
+  std::vector<double> visible_area;  ///< a_v of each direction: the projected area of the visible facets
 
-  /// Eq. 2, in the patch's units of area.
+  /// Eq. 2, in the units of area of the patch.
   [[nodiscard]] double gamma(std::size_t bin, std::size_t wi, std::size_t wo) const;
   /// The area of all facets.
   [[nodiscard]] double total_area() const;
@@ -69,15 +69,15 @@ struct Bvndf {
 
 [[nodiscard]] Bvndf make_bvndf(BinnedFacets facets, FacetVisibility visibility, std::vector<glm::dvec3> directions);
 
-/// The area of each discretised normal that any direction sees: Gamma (Eq. 6) without what is buried.
+/// The area of each discretised normal that is visible from any direction: Gamma (Eq. 6) without hidden area.
 [[nodiscard]] std::vector<WeightedNormal> visible_ndf(const Bvndf& bvndf);
 
-/// With what the specular term weighs a facet beside its visibility. base: (n.wo), since the scene's base BRDF
-/// is given as f cos; published: (n.wi)(n.wo), Eq. 5.
+/// The weight of a facet in the specular term, apart from its visibility. base: (n.wo), because the scene's base BRDF
+/// is given as f cos. published: (n.wi)(n.wo), Eq. 5.
 enum class Cosines { base, published };
 
-/// Sums over the discretised normals for every pair of directions, wi-major; `channels` is 1 or, in
-/// colour, 3. Not yet divided by a_v.
+/// Sums over the discretised normals for every pair of directions, wi-major, before the division by a_v. `channels` is
+/// 1, or 3 in colour.
 struct BvndfSums {
   std::size_t directions = 0, lobes = 0, channels = 1;
   std::vector<float> products;  ///< [channel][lobe][wi][wo]: sum of gamma * cosines * (lobe over the normal)
@@ -85,8 +85,8 @@ struct BvndfSums {
   std::vector<float> diffuse;   ///< [channel][wi][wo]: sum of gamma (n.wi)(n.wo)
 };
 
-/// The right sides of Eq. 8. `paints` has the factors of each paint, of which one channel takes red. A discretised
-/// normal is a lobe of sharpness `sharpest` (ndf_fit.hpp). The result does not depend on the number of threads.
+/// The right sides of Eq. 8. `paints`: the factors of each paint; a single channel uses red. A discretised normal is a
+/// lobe of sharpness `sharpest` (lobe_fit.hpp). Equal results at any number of threads.
 [[nodiscard]] BvndfSums sum_bvndf(const Bvndf& bvndf, std::span<const SphericalGaussian> lobes, Cosines cosines,
                                   std::size_t channels, std::span<const PaintFactors> paints, const Progress& progress);
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <map>
 
-#include "methods/iwasaki_sg/ndf_fit.hpp"
+#include "methods/iwasaki_sg/lobe_fit.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "renderer/microgeometry/patch_kinds.hpp"

@@ -1,5 +1,5 @@
-// `iwasaki_sg`: the visible normals of a patch of small-scale geometry as spherical Gaussians, convolved with the base
-// BRDF. Iwasaki, Dobashi, Nishita 2012, "Interactive Bi-scale Editing of Highly Glossy Materials".
+// `iwasaki_sg`: represents the visible normals of a patch of small-scale geometry by spherical Gaussians, and convolves
+// them with the base BRDF. Iwasaki, Dobashi, Nishita 2012, "Interactive Bi-scale Editing of Highly Glossy Materials".
 #include <string>
 
 #include "methods/iwasaki_sg/material_table.hpp"

@@ -1,17 +1,17 @@
-// Iwasaki, Dobashi, Nishita 2012: the visible normals of a pair of directions are a sum of spherical Gaussians, whose
-// axes and sharpness are the material's and whose amplitudes depend on the pair. Convolved with the base BRDF they are
-// the effective BRDF.
+// Iwasaki, Dobashi, Nishita 2012: the visible normals of a pair of directions are a sum of spherical Gaussians. Their
+// axes and sharpnesses are the material's, and their amplitudes depend on the pair. Convolved with the base BRDF they
+// give the effective BRDF.
 
 //? include iwasaki_sg_lobes.glsl
 
-// Nothing that a pixel fetches: the tables hold for the whole material.
+// Constant over pixels, because the tables serve the whole material.
 struct Effective {
   int count;  // of lobes
 };
 
 //? if microgeometry_visibility or normal_variation
 int tableLobes() { return textureSize(iwasaki_lobes, 0).x; }
-// Axis and sharpness, of the facets' normals themselves.
+// Axis and sharpness of a lobe of the facets' normals.
 vec4 lobeOf(int j) {
   countLookups(1);
   vec4 lobe = texelFetch(iwasaki_lobes, ivec2(j, 0), 0);
@@ -33,8 +33,8 @@ Effective effective(Footprints f) { return Effective(tableLobes()); }
 //? if microgeometry_visibility
 //? include direction_grid.glsl
 
-// Where a pair of directions lies in the table: a tile for each cell of wo, in it a texel for each cell of wi. Between
-// the cells of wi the sampler interpolates, between those of wo the four tiles do.
+// The position of a pair of directions in the table: one tile for each cell of wo, with one texel for each cell of wi.
+// The sampler interpolates between cells of wi, and four tiles are interpolated between cells of wo.
 struct TableTexels {
   vec2 uv[4];
   vec4 weights;
@@ -60,7 +60,7 @@ vec4 tableLayer(int layer, TableTexels texels) {
   return sum;
 }
 
-// The values of the table are the lobes' and, behind them, the diffuse term's: a layer each in colour, else four a
+// The values of the table: the lobes, followed by the diffuse term. In colour each has a layer, otherwise four share a
 // layer.
 //? if microgeometry_colour
 const int values_per_layer = 1;
@@ -73,7 +73,7 @@ vec3 valueIn(vec4 layer, int value) { return vec3(layer[value & 3]); }
 vec3 tableAt(int value, TableTexels texels) { return valueIn(tableLayer(value / values_per_layer, texels), value); }
 //? end
 
-// The base BRDF's density of half vectors, averaged over normals that a lobe distributes.
+// The base BRDF's density of half vectors, averaged over the normals of a lobe.
 float convolved(vec4 lobe, vec3 h) {
 //? if lobe_base
   return lobeDensity(lobeFromVariance(lobeVariance(lobe_cutoff.x) + 1.0 / lobe.w), lobe.xyz, h);
@@ -95,11 +95,11 @@ float convolved(vec4 lobe, vec3 h) {
 //? end
 }
 
-// The geometry term of the facets of a lobe: taken at the normal where the product of lobe and base BRDF is largest,
-// since it varies slowly (Wang et al. 2009 treat a BRDF's smooth factors so).
+// The geometry term of the facets of a lobe, at the normal that maximises the product of lobe and base BRDF, because it
+// varies slowly (Wang et al. 2009 treat smooth factors of a BRDF in this way).
 float smoothFactor(vec4 lobe, vec3 h, vec3 wi, vec3 wo) {
 //? if cosines_published and microgeometry_visibility
-  return max(wi.z, 0.0);  // the table has the facets' cosine over this one
+  return max(wi.z, 0.0);  // the table stores the facets' cosine divided by this one
 //? elif cosines_published
   return max(dot(lobe.xyz, wi), 0.0);
 //? elif masking_shadowing or horizon_open
@@ -112,7 +112,7 @@ float smoothFactor(vec4 lobe, vec3 h, vec3 wi, vec3 wo) {
 }
 
 //? if microgeometry_visibility and tabulated_brdf
-// The factor on a tabulated BRDF's lobes by the difference angle.
+// The factor on the lobes of a tabulated BRDF by the difference angle.
 vec3 riseOf(vec3 h, vec3 wi) {
   int last = textureSize(iwasaki_rise, 0).x - 1;
   float angle = atan(length(cross(wi, h)), max(dot(wi, h), 0.0));  // acos is coarse on some machines
@@ -122,8 +122,8 @@ vec3 riseOf(vec3 h, vec3 wi) {
   return mix(below, texelFetch(iwasaki_rise, ivec2(min(low + 1, last), 0), 0).rgb, position - float(low));
 }
 
-// Facets that reflect by lobes of their own, in colour, of which the first is diffuse (equations 9 and 15 in one). The
-// table has the facets' cosine to the light over that of the surface.
+// Facets with coloured lobes of their own, the first of which is diffuse (equations 9 and 15 in one). The table stores
+// the facets' cosine to the light divided by that of the surface.
 vec3 tabulatedReflection(Effective e, vec3 wi, vec3 wo) {
   if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
   vec3 h = halfVector(wi, wo);
@@ -147,7 +147,7 @@ vec3 tabulatedReflection(Effective e, vec3 wi, vec3 wo) {
 }
 //? end
 
-// f * cos of the facets' own lobes.
+// f * cos of the facets with their own lobes.
 vec3 lobesReflect(Effective e, vec3 f0, vec3 wi, vec3 wo) {
   if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
   vec3 h = halfVector(wi, wo);
@@ -173,7 +173,7 @@ vec3 lobesReflect(Effective e, vec3 f0, vec3 wi, vec3 wo) {
 //? if diffuse
 vec3 meanDiffuse(Effective e, Surface s, vec3 wi, vec3 wo) {
 //? if microgeometry_visibility
-  // The table has the facets' cosines over that of the surface as a whole.
+  // The table stores the facets' cosines divided by that of the whole surface.
   return diffuse(vec3(0.0, 0.0, 1.0), s, wi, wo) * tableAt(e.count, tableTexels(wi, wo));
 //? else
   vec3 sum = vec3(0.0);
@@ -193,7 +193,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   if (iwasaki_tabulated > 0.5) {
     r.specular = tabulatedReflection(e, wi, wo);
 //? if diffuse
-    r.diffuse = vec3(0.0);  // tabulatedReflection has it
+    r.diffuse = vec3(0.0);  // included in tabulatedReflection
 //? end
     return r;
   }

@@ -1,6 +1,5 @@
-// Environment light: each lobe of normals with each lobe of the facets' own BRDF is one lobe over half vectors
-// (equation 14). What the pair of directions makes of it stands in lobeReflectance, the diffuse term apart from it in
-// visibleFacets.
+// Environment light: each lobe of normals and each lobe of the facets' BRDF combine to one lobe over half vectors
+// (equation 14). lobeReflectance has the factor of the pair of directions, and visibleFacets the diffuse term.
 
 //? if lobe_base
 int baseLobeCount() { return 1; }
@@ -10,7 +9,7 @@ int baseLobeCount() { return textureSize(iwasaki_brdf, 0).x; }
 
 //? if tabulated_brdf
 int ownLobeCount() { return iwasaki_tabulated > 0.5 ? textureSize(iwasaki_table, 0).x - 1 : baseLobeCount(); }
-vec4 tabulatedLobe(int s) { return texelFetch(iwasaki_table, ivec2(s + 1, 0), 0); }  // the first is the diffuse term
+vec4 tabulatedLobe(int s) { return texelFetch(iwasaki_table, ivec2(s + 1, 0), 0); }  // lobe 0 is the diffuse term
 //? else
 int ownLobeCount() { return baseLobeCount(); }
 //? end
@@ -27,7 +26,7 @@ NormalLobe normalLobe(Effective e, int i) {
   int j = i / own;
   vec4 lobe = lobeOf(j);
 //? if microgeometry_visibility
-  float share = 1.0;  // the table has what a pair of directions sees
+  float share = 1.0;  // the table stores the visible share of a pair of directions
 //? else
   float share = shareOf(j);
 //? end
@@ -46,8 +45,8 @@ NormalLobe normalLobe(Effective e, int i) {
 }
 
 //? if microgeometry_visibility
-// The mean height over the horizon of a vMF lobe's part above it: that of a Gaussian in the plane that touches the
-// sphere at the lobe's centre, which at the zenith is the mean cosine to the axis.
+// The mean height of the part of a vMF lobe above the horizon: that of a Gaussian in the plane tangent to the sphere at
+// the lobe's centre. At the zenith it is the mean cosine to the axis.
 float meanHeight(float height, float sharpness) {
   float deviation = sqrt(max(1.0 - height * height, 0.0) / sharpness);
   if (deviation < 1e-4) return max(height, 0.0) * meanCosine(sharpness);
@@ -56,8 +55,8 @@ float meanHeight(float height, float sharpness) {
   return max(mean, 0.0) * mix(1.0, meanCosine(sharpness), clamp(height, 0.0, 1.0));
 }
 
-// What stands beside the lobe's density in f cos, in colour: the amplitude of its pair of directions with the rest. The
-// table has the facets' cosine to the light over that of the surface, whose mean over the lobe is taken.
+// The factor on the lobe's density in f cos, in colour, with the amplitude of its pair of directions. The table stores
+// the facets' cosine to the light divided by that of the surface, of which this takes the mean over the lobe.
 vec3 lobeReflectance(Effective e, int i, vec3 f0, vec3 h, vec3 wi, vec3 wo, float sharpness) {
   int own = ownLobeCount();
   int j = i / own;
@@ -75,8 +74,8 @@ vec3 lobeReflectance(Effective e, int i, vec3 f0, vec3 h, vec3 wi, vec3 wo, floa
 }
 
 //? if environment_diffuse
-// The diffuse term of the facets that a viewer sees: what it reflects of a constant environment, and a mean of normals
-// whose irradiance is about what they get.
+// The diffuse term of the facets that a viewer sees: its reflectance under a constant environment, and a mean normal
+// with about their irradiance.
 DiffuseFacets visibleFacets(Effective e, vec3 wo) {
   float side = option_directions;
   vec2 uv = clamp(hemisphereToSquare(wo) * side, 0.5, side - 0.5) / side;
@@ -90,12 +89,12 @@ DiffuseFacets visibleFacets(Effective e, vec3 wo) {
 //? if diffuse
   return DiffuseFacets(mean_normal, share, false);
 //? else
-  return DiffuseFacets(mean_normal, vec3(0.0), false);  // tables alone have a diffuse term here
+  return DiffuseFacets(mean_normal, vec3(0.0), false);  // only tables have a diffuse term here
 //? end
 }
 //? end
 //? else
-// The lobe that a NormalLobe was made of: the one with its axis.
+// The lobe of a NormalLobe, found by its axis.
 int lobeAbout(Effective e, vec3 axis) {
   int nearest = 0;
   for (int j = 1; j < e.count; ++j) {

@@ -2,15 +2,15 @@
 
 //? include vmf.glsl
 
-// A discretised normal stands for a lobe of this sharpness in the fit (ndf_fit.hpp), a width that no facet has: without
-// it normals that agree leave the base lobe as it is, however narrow.
+// The fit represents a discretised normal by a lobe of this sharpness (lobe_fit.hpp). Removing this width, which no
+// facet has, keeps normals that agree from widening the base lobe.
 const float sharpest = 1e6;
 float ownSharpness(float eta) { return 1.0 / max(1.0 / eta - 1.0 / sharpest, 1e-9); }
 
 // Iwasaki 2012, equation 9.
 float sgIntegral(float eta) { return eta > 0.0 ? 2.0 * pi * oneMinusExp2(eta) / eta : 4.0 * pi; }
 
-// Equation 11. |z| - eta1 - eta2 is taken from the difference of the axes: as printed, sinh overflows.
+// Equation 11. |z| - eta1 - eta2 is computed from the difference of the axes, because sinh as printed overflows.
 float sgConvolution(vec3 axis1, float eta1, vec3 axis2, float eta2) {
   float sum = eta1 + eta2;
   float z = length(eta1 * axis1 + eta2 * axis2);

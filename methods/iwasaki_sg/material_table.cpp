@@ -11,7 +11,8 @@
 namespace footprint::iwasaki_sg {
 namespace {
 
-// How the lobes share what is seen from about straight above: the mean of the grid's central directions.
+// The shares of the lobes in the area visible from about straight above: the mean over the central directions of the
+// grid.
 std::vector<double> shares_from_above(const Amplitudes& table, int side) {
   std::vector<double> shares(table.lobes.size());
   const std::size_t n = table.directions, pairs = n * n;

@@ -1,5 +1,4 @@
-// The table of one material that the shader needs: its settings from the options, and the stages from a patch to
-// amplitudes.
+// The table of one material: its settings from the options, and the stages from a patch to amplitudes.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "methods/iwasaki_sg/amplitudes.hpp"
 #include "methods/iwasaki_sg/bvndf.hpp"
-#include "methods/iwasaki_sg/ndf_fit.hpp"
+#include "methods/iwasaki_sg/lobe_fit.hpp"
 #include "renderer/core/options.hpp"
 #include "renderer/core/progress.hpp"
 #include "renderer/effects/effects.hpp"
@@ -21,21 +19,21 @@ namespace footprint::iwasaki_sg {
 /// The options of the method.
 [[nodiscard]] std::vector<OptionSpec> option_table();
 
-/// Whether the facets have a BRDF of their own, in a table.
+/// Whether the facets have a tabulated BRDF.
 [[nodiscard]] bool is_tabulated(const Material& material);
 
-/// The effects of small-scale geometry that a material calls for by itself.
+/// The effects of small-scale geometry that a material has.
 [[nodiscard]] EffectSet patch_effects(const Material& material);
 
 struct TableSettings {
-  int lobes = 8;                ///< at most; 1 to `most_lobes`
-  int side = 12;                ///< of the grid of directions: 12 for the paper's 144
+  int lobes = 8;                ///< the most lobes; 1 to `most_lobes`
+  int side = 12;                ///< of the grid of directions; 12 for the paper's 144
   std::size_t facets = 65'536;  ///< samples of the patch
   std::uint64_t seed = 1;
   Cosines cosines = Cosines::base;
   Energy energy = Energy::conserved;
   std::size_t channels = 1;            ///< 3 in colour
-  std::vector<PaintFactors> paints{};  ///< of each paint of the patch
+  std::vector<PaintFactors> paints{};  ///< factors of each paint of the patch
 };
 
 /// The settings of a material's table by the options of the method. `effects`: those of the scene.
@@ -43,20 +41,20 @@ struct TableSettings {
 
 struct MaterialTable {
   Amplitudes amplitudes;
-  std::vector<double> shares;  ///< of each lobe in what is seen from straight above; sum 1
-  std::size_t normals = 0;     ///< discretised normals that facets have
-  double visible_share = 1.0;  ///< of the patch's area that any direction sees
+  std::vector<double> shares;  ///< of each lobe in the area visible from above; sum 1
+  std::size_t normals = 0;     ///< number of discretised normals with facets
+  double visible_share = 1.0;  ///< of the patch's area that is visible from any direction
 };
 
-/// The BVNDF of a patch (check_patch holds). Reports its stages as they begin: samples, visibility, BVNDF.
+/// The BVNDF of a patch that passes check_patch. Reports its stages as they begin: samples, visibility, BVNDF.
 [[nodiscard]] Bvndf patch_bvndf(const Patch& patch, const TableSettings& settings, const Progress& progress);
 
-/// The table of a patch. Reports its stages as they begin: samples, visibility, NDF, BVNDF (before
-/// and after the NDF, whose lobes its sums need), amplitudes.
+/// The table of a patch. Reports its stages as they begin: samples, visibility, BVNDF, NDF, BVNDF again (its sums need
+/// the lobes of the NDF), amplitudes.
 [[nodiscard]] MaterialTable patch_table(const Patch& patch, const TableSettings& settings, const Progress& progress);
 
-/// The table of facets that are all seen from everywhere and weigh the same whatever their tilt: those of a normal map.
-/// `normals` have weights that sum to 1.
+/// The table of a normal map, whose facets are visible from everywhere and have equal weights at any tilt. `normals`
+/// have weights that sum to 1.
 [[nodiscard]] MaterialTable flat_table(std::span<const WeightedNormal> normals, const TableSettings& settings);
 
 }  // namespace footprint::iwasaki_sg

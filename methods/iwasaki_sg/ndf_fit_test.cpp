@@ -1,5 +1,5 @@
 // Fits of the normal distribution: known mixtures come back, flat facets stay exact, degenerate input is held.
-#include "methods/iwasaki_sg/ndf_fit.hpp"
+#include "methods/iwasaki_sg/lobe_fit.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <span>
 
-#include "methods/iwasaki_sg/amplitudes.hpp"
+#include "methods/iwasaki_sg/lobe_fit.hpp"
 #include "renderer/lobes/lobe.hpp"
 
 namespace footprint::iwasaki_sg {
@@ -14,7 +14,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int candidates = most_lobes;  // sharpnesses that share a lobe between them
+constexpr int candidates = most_lobes;  // candidate sharpnesses of a lobe
 constexpr int nodes = 400;              // of the integrals over u
 constexpr double widest = 0.5;          // sharpness of the widest candidate
 constexpr double sharper =
@@ -33,8 +33,8 @@ std::vector<BrdfLobe> without_empty(std::vector<BrdfLobe> lobes) {
 
 constexpr std::size_t h_cells = TabulatedBrdf::theta_h_cells, d_cells = TabulatedBrdf::theta_d_cells;
 
-// The mean over all phi_d of each cell of theta_h and theta_d, [theta_h][theta_d]; below 0 where the table has no
-// value: not measured, or below the horizon.
+// The mean over all phi_d of each cell of theta_h and theta_d, [theta_h][theta_d]; below 0 if the table has no value
+// because it was not measured or is below the horizon.
 std::vector<glm::dvec3> means_over_phi(const TabulatedBrdf& brdf) {
   constexpr std::size_t p_cells = TabulatedBrdf::phi_d_cells;
   std::vector<glm::dvec3> means;
@@ -52,8 +52,8 @@ std::vector<glm::dvec3> means_over_phi(const TabulatedBrdf& brdf) {
   return means;
 }
 
-// The mean over theta_d up to 45 degrees of each cell of theta_h; the last that have values only below the horizon take
-// what comes before them.
+// The mean over theta_d up to 45 degrees of each cell of theta_h. The last cells, which have values only below the
+// horizon, repeat the one before them.
 std::vector<glm::dvec3> half_angle_profile(std::span<const glm::dvec3> means) {
   std::vector<glm::dvec3> profile;
   for (std::size_t h = 0; h < h_cells; ++h) {
@@ -76,8 +76,8 @@ glm::dvec3 lobe_sum(std::span<const ColorLobe> lobes, double u) {
   return sum;
 }
 
-// The factor on the lobes that is nearest to each cell of theta_d, over the solid angle of half vectors. A cell without
-// values, and a channel without lobes, has that of the cell before it.
+// The best factor on the lobes for each cell of theta_d, over the solid angle of half vectors. Cells without values and
+// channels without lobes repeat the cell before them.
 std::vector<glm::vec3> rise_of(std::span<const glm::dvec3> means, const TabulatedLobes& fitted) {
   std::vector<glm::vec3> rise;
   for (std::size_t d = 0; d < d_cells; ++d) {
@@ -86,7 +86,7 @@ std::vector<glm::vec3> rise_of(std::span<const glm::dvec3> means, const Tabulate
       const glm::dvec3& mean = means[h * d_cells + d];
       if (mean.x < 0.0) continue;
       const double theta = tabulated_angles(static_cast<int>(h), 0, 0).x;
-      const double solid_angle = std::sin(theta) * std::sqrt(theta);  // cells are even in the root of theta
+      const double solid_angle = std::sin(theta) * std::sqrt(theta);  // cells are evenly spaced in the root of theta
       const glm::dvec3 own = lobe_sum(fitted.lobes, 1.0 - std::cos(theta));
       products += solid_angle * own * (mean - glm::dvec3(fitted.diffuse));
       squares += solid_angle * own * own;
@@ -111,9 +111,9 @@ double value(const SphericalGaussian& lobe, const glm::dvec3& direction) {
 double convolution(const SphericalGaussian& a, const SphericalGaussian& b) {
   const double sum = a.sharpness + b.sharpness;
   const double z = glm::length(a.sharpness * a.axis + b.sharpness * b.axis);
-  // sinh(z) / z as z goes to 0.
+  // The limit of sinh(z) / z at 0.
   if (z < 1e-4) return 4.0 * pi * std::exp(-sum) * (1.0 + z * z / 6.0);
-  // z - sum without the cancellation: z^2 = sum^2 - 2 eta1 eta2 (1 - cos).
+  // z - sum without cancellation: z^2 = sum^2 - 2 eta1 eta2 (1 - cos).
   const double fall = -2.0 * a.sharpness * b.sharpness * one_minus_dot(a.axis, b.axis) / (z + sum);
   return -2.0 * pi * std::exp(fall) * std::expm1(-2.0 * z) / z;
 }
@@ -129,7 +129,7 @@ std::vector<BrdfLobe> fit_lobes(const std::function<double(double)>& value_at, d
   for (int i = 0; i < candidates; ++i) {
     sharpness[static_cast<std::size_t>(i)] = most * std::pow(widest / most, i / (candidates - 1.0));
   }
-  // Nodes u = w^3: the core is narrow. Solid angle is 2 pi du. Each candidate is taken with unit norm.
+  // Nodes u = w^3, because the core is narrow. Solid angle is 2 pi du. Each candidate has unit norm.
   LobeMatrix a = LobeMatrix::Zero(candidates, candidates);
   LobeVector b = LobeVector::Zero(candidates);
   for (int k = 0; k < nodes; ++k) {
@@ -190,7 +190,7 @@ TabulatedLobes lobes_of(const TabulatedBrdf& brdf) {
     const auto low = std::min(static_cast<std::size_t>(position), profile.size() - 2);
     return glm::mix(profile[low], profile[low + 1], position - static_cast<double>(low)) - diffuse;
   };
-  // The core's width: where the sum of the channels has fallen to 1/e.
+  // The width of the core: where the sum of the channels has fallen to 1/e.
   const auto gray = [&](double u) { return at(u).x + at(u).y + at(u).z; };
   double width = 1e-6;
   while (width < 0.5 && gray(width) > gray(0.0) / std::numbers::e) width *= 1.1;

@@ -30,11 +30,12 @@ PrefilteredTexture lobe_texture(std::span<const SphericalGaussian> lobes, std::s
   return make_texture("iwasaki_lobes", {image}, Storage::fp32, {});
 }
 
-// Whether a table has the facets' cosine to the light in it.
+// Whether a table includes the facets' cosine to the light.
 enum class Irradiance { without, with };
 
-// [channel][wi][wo] as tiles: one for each cell of wo, in it a texel for each cell of wi. With a cosine to the light,
-// values are divided by that of the surface as a whole: the ratio is smooth down to the horizon, and 1 for a plane.
+// Arranges [channel][wi][wo] as tiles: one for each cell of wo, with one texel for each cell of wi. Values with a
+// cosine to the light are divided by that of the whole surface. The ratio is smooth down to the horizon, and 1 for a
+// plane.
 Image tiled(std::span<const float> values, std::size_t channels, int side, Irradiance irradiance) {
   const std::vector<glm::dvec3> directions = direction_grid(side);
   Image image(side * side, side * side, static_cast<int>(channels));
@@ -51,7 +52,7 @@ Image tiled(std::span<const float> values, std::size_t channels, int side, Irrad
   return image;
 }
 
-// One channel of images, four to an image: a shader fetches them together. What is left over is 0.
+// Packs one-channel images into images of four channels, which a shader fetches together. Unused channels are 0.
 std::vector<Image> packed(const std::vector<Image>& values) {
   std::vector<Image> out;
   for (std::size_t k = 0; k < values.size(); ++k) {
@@ -61,7 +62,7 @@ std::vector<Image> packed(const std::vector<Image>& values) {
   return out;
 }
 
-// The values of the lobes and, behind them, of the diffuse term: a layer each in colour, else four a layer.
+// The values of the lobes, followed by the diffuse term: one layer each in colour, otherwise four per layer.
 PrefilteredTexture amplitude_texture(const Amplitudes& table, const TableSettings& settings, Storage storage) {
   const Irradiance irradiance = settings.cosines == Cosines::published ? Irradiance::with : Irradiance::without;
   const std::size_t size = table.channels * table.directions * table.directions;
@@ -78,9 +79,9 @@ PrefilteredTexture amplitude_texture(const Amplitudes& table, const TableSetting
   return make_array_texture("iwasaki_amplitudes", std::move(layers), storage, {}, TextureFilter::linear);
 }
 
-// For each direction to the viewer, the share of a constant environment that the diffuse term reflects, in colour, and
-// a normal whose irradiance is about what it gets: that of a surface, a cosine over the hemisphere, has a mean
-// direction 2/3 long.
+// For each direction to the viewer: the share of a constant environment that the diffuse term reflects, in colour, and
+// a normal with about its irradiance. The mean direction of a surface, a cosine over the hemisphere, has the length
+// 2/3.
 PrefilteredTexture diffuse_texture(const Amplitudes& table, int side) {
   const std::vector<glm::dvec3> directions = direction_grid(side);
   const std::size_t n = table.directions;
@@ -117,7 +118,8 @@ PrefilteredTexture brdf_texture(const Material& material) {
   return make_texture("iwasaki_brdf", {image}, Storage::fp32, {});
 }
 
-// The diffuse term as a lobe of sharpness 0, and sharpness and colour of each lobe of a tabulated BRDF; its rise.
+// The diffuse term as a lobe of sharpness 0, followed by sharpness and colour of each lobe of a tabulated BRDF; and its
+// rise.
 std::array<PrefilteredTexture, 2> table_textures(const Material& material) {
   TabulatedLobes fitted{.diffuse = glm::vec3(0.0F), .lobes = {}, .rise = {glm::vec3(1.0F)}};
   if (is_tabulated(material)) fitted = lobes_of(*material.microgeometry->brdf);

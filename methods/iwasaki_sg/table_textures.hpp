@@ -1,4 +1,4 @@
-// A material's table as the textures that the shader reads.
+// The textures of a material's table.
 #pragma once
 
 #include "renderer/bake/prefiltered.hpp"
@@ -9,10 +9,9 @@
 
 namespace footprint::iwasaki_sg {
 
-/// The method's precompute: `iwasaki_lobes` (axes, sharpness, shares), `iwasaki_amplitudes` (tiles of wo, texels of
-/// wi), and by options and effects
-/// `iwasaki_diffuse` (the diffuse term under an environment), `iwasaki_brdf`, `iwasaki_table` and `iwasaki_rise` (the
-/// lobes of the facets' own BRDF, and its factor by difference angle).
+/// Bakes a material: `iwasaki_lobes` (axes, sharpnesses, shares), `iwasaki_amplitudes` (tiles of wo, texels of wi) and,
+/// by options and effects, `iwasaki_diffuse` (the diffuse term under an environment), `iwasaki_brdf`, `iwasaki_table`
+/// and `iwasaki_rise` (the lobes of the facets' own BRDF, and their factor by difference angle).
 [[nodiscard]] Prefiltered baked_material(const Material& material, const Options& options, const EffectSet& effects,
                                          const Progress& progress);
 

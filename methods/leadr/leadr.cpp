@@ -37,8 +37,8 @@ double quadrature_from_above(const SlopeMoments& moments) {
   return sum;
 }
 
-// The diffuse term takes slopes for a Gaussian's. How far that is off is known where the light stands above and the
-// whole map lies in a pixel: the mean cosine of the texels against that of the Gaussian.
+// The diffuse term assumes that slopes are Gaussian. The note gives its error for light from above and a pixel that
+// shows the whole map: the mean cosine of the texels against that of the Gaussian.
 std::optional<std::string> diffuse_range_note(const Image& normals, double steepest) {
   constexpr double most = 0.1;
   SlopeMoments moments;
@@ -78,7 +78,7 @@ class Leadr final : public Method {
     return out;
   }
 
-  // `variant` is an option of lean's, and a mean normal its diffuse term's: footprint_slopes.glsl asks for both.
+  // footprint_slopes.glsl reads these flags, which only `lean` sets.
   [[nodiscard]] ShaderModule shader() const override {
     return module_of(embedded::leadr_glsl, "leadr.glsl", {{"variant_clean", false}, {"mean_normal_kept", false}});
   }

@@ -1,8 +1,8 @@
-// Dupuy et al. 2013 (LEADR): the footprint's slopes as one off-centre lobe, and the masking, shadowing and diffuse
-// reflection of a surface that has those slopes.
+// Dupuy et al. 2013 (LEADR): one off-centre lobe over the footprint's slopes, and masking, shadowing and diffuse
+// reflection of a surface with those slopes.
 //? include footprint_slopes.glsl
 
-// Masking is Smith's own here, for slopes with a mean. What is displaced has it by its texels' slopes in any case.
+// Smith's masking for slopes with a mean. Displaced texels are always masked by their slopes.
 //? if masking_shadowing and geometry_smith or weighting_displacement
 //? include beckmann_lambda.glsl
 //? end
@@ -31,31 +31,31 @@ Effective effective(Footprints f) {
   return e;
 }
 
-// (w.n) / n_z of the mean slope: the area of the mean surface seen along w, per area of the plane.
+// (w.n) / n_z of the mean slope: the area of the mean surface visible along w, per area of the plane.
 float meanProjectedArea(SlopeLobe lobe, vec3 w) { return max(dot(lobe.axis, w), 1e-4) * lobe.secant; }
 
 //? if masking_shadowing and geometry_smith or weighting_displacement
-// Smith's Lambda of slopes whose component towards w has a mean and a variance: it depends on
-// a = (cot + mean) / (sqrt(2) deviation) alone (Dupuy 2013, section 4). Both are taken times the sine, which may be 0.
+// Smith's Lambda of slopes whose component towards w has a mean and a variance. It depends only on
+// a = (cot + mean) / (sqrt(2) deviation) (Dupuy 2013, section 4). Both are multiplied by the sine, which may be 0.
 float offCentreLambda(float projected_area, float variance) {
   float inverse_a2 = 2.0 * variance / (projected_area * projected_area);
 //? if distribution_ggx and roughness_stretched
-  // The same a of an elliptical GGX (Heitz 2014, equation 72), in the form that does not cancel.
+  // The same a of an elliptical GGX (Heitz 2014, equation 72), in a form without cancellation.
   return 0.5 * inverse_a2 / (1.0 + sqrt(1.0 + inverse_a2));
 //? else
   return beckmannLambda(1.0 / max(sqrt(inverse_a2), 1e-6));
 //? end
 }
 
-// Of the texels' slopes alone.
+// Lambda of the texels' slopes.
 float spreadLambda(SlopeLobe lobe, vec3 w) {
   return offCentreLambda(meanProjectedArea(lobe, w), max(dot(w.xy, lobe.spread * w.xy), 0.0));
 }
 //? end
 
 //? if masking_shadowing and geometry_smith
-// Of the texels' slopes and the base lobe's. A stretched base lobe stands on the mean normal, where 1 / a^2 is
-// 2 v tan^2: that share makes it so, and a flat map has the base BRDF's own Lambda whatever its tilt.
+// Lambda of the texels' slopes and the base lobe's. A stretched base lobe is about the mean normal, where 1 / a^2 is
+// 2 v tan^2. The share makes it so, and a flat map has the base BRDF's own Lambda at any tilt.
 float lobeLambda(SlopeLobe lobe, vec3 w) {
 //? if roughness_stretched
   vec3 sine = lobe.secant * cross(lobe.axis, w);
@@ -68,8 +68,8 @@ float lobeLambda(SlopeLobe lobe, vec3 w) {
 //? end
 
 //? if weighting_displacement
-// The mean normal of the texels that reflect about h: of two independent Gaussian parts of a slope, texel's and base
-// lobe's, the texel's given their sum.
+// The mean normal of the texels that reflect about h. A slope is the sum of two independent Gaussians, the texel's and the
+// base lobe's; this is the mean of the texel's, given the sum.
 vec3 texelNormal(SlopeLobe lobe, vec3 h) {
   vec2 offset = -h.xy / max(h.z, smallest_slope_cosine) - lobe.mean;
 //? if roughness_stretched
@@ -80,7 +80,8 @@ vec3 texelNormal(SlopeLobe lobe, vec3 h) {
 }
 //? end
 
-// Bump: every texel weighs the same. Displacement: a texel weighs by its true area 1 / n_z, relative to the mean's.
+// Bump: all texels have the same weight. Displacement: a texel is weighted by its true area 1 / n_z, relative to the
+// mean's.
 float ndf(Effective e, vec3 h) {
 //? if weighting_displacement
   return slopeDensity(e.lobe, h) * e.lobe.axis.z / texelNormal(e.lobe, h).z;
@@ -89,15 +90,15 @@ float ndf(Effective e, vec3 h) {
 //? end
 }
 
-// What stands beside F D in f * cos.
+// The factor on F D in f * cos.
 float factor(Effective e, vec3 h, vec3 wi, vec3 wo) {
 //? if masking_shadowing and geometry_smith
-  // G2 / (4 n.v), height-correlated. A displaced texel's visible area (n.v) cancels against its own 1 / (n.v), and the
-  // mean's stays.
+  // G2 / (4 n.v), height-correlated. The visible area (n.v) of a displaced texel cancels its 1 / (n.v), and the mean's
+  // remains.
   if (dot(e.lobe.axis, wi) <= 0.0) return 0.0;
   return 0.25 / ((1.0 + lobeLambda(e.lobe, wo) + lobeLambda(e.lobe, wi)) * max(dot(e.lobe.axis, wo), 1e-4));
 //? elif weighting_displacement
-  // The base BRDF has no masking, but a displaced texel counts by its visible area.
+  // The base BRDF has no masking, but a displaced texel is weighted by its visible area.
   vec3 n = texelNormal(e.lobe, h);
   float visible = max(dot(n, wo), 0.0) / (meanProjectedArea(e.lobe, wo) * (1.0 + spreadLambda(e.lobe, wo)));
   return visible * e.lobe.secant * geometryFactor(e.round_lobe, n, h, wi, wo);
@@ -107,8 +108,8 @@ float factor(Effective e, vec3 h, vec3 wi, vec3 wo) {
 }
 
 //? if diffuse
-// The mean of max(n.l, 0) over the texels, by 3 x 3 points of Gauss and Hermite (exact to degree 5 in the slopes);
-// displaced texels weigh by their visible area, and those that see the viewer may be in shadow.
+// The mean of max(n.l, 0) over the texels, by 3 x 3 Gauss-Hermite points (exact to degree 5 in the slopes). Displaced
+// texels are weighted by their visible area, and visible ones may be in shadow.
 float meanLitCosine(Effective e, vec3 wi, vec3 wo) {
   float lit = 0.0;
   float seen = 0.0;
@@ -152,7 +153,7 @@ NormalLobe normalLobe(Effective e, int i) { return lobeOfRow(e.lobe, e.row, i); 
 
 float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) { return factor(e, h, wi, wo); }
 
-// By the points of meanLitCosine.
+// By the same points as meanLitCosine.
 vec3 meanNormal(Effective e) {
   vec3 sum = vec3(0.0);
 //? if diffuse

@@ -1,5 +1,5 @@
-// `lean`: first and second moments of slope filter linearly and give a footprint's mean slope and covariance; one
-// anisotropic lobe stands over them. Olano and Baker 2010, "LEAN Mapping"; CLEAN is its scalar variant.
+// `lean`: first and second moments of slope filter linearly and give the mean and the covariance of a footprint's
+// slopes, which define one anisotropic lobe. Olano and Baker 2010, "LEAN Mapping"; CLEAN is its scalar variant.
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
 #include "renderer/bake/slope_moments.hpp"
@@ -12,7 +12,7 @@ extern const EmbeddedTexts lean_glsl;
 
 namespace {
 
-// The mean normal is what the diffuse term goes by; of layers it has the slopes alone.
+// The diffuse term reads the mean normal; of detail layers only the slopes are stored.
 KeptSlopes kept_slopes(const Options& options, const EffectSet& effects) {
   return {.variant = options.word("variant") == "clean" ? SlopeVariant::scalar : SlopeVariant::full,
           .mean_normal = has(effects, Effect::diffuse) && !has(effects, Effect::normal_layers)};
@@ -27,7 +27,7 @@ class Lean final : public Method {
     return bake_slopes(material, options, effects, kept_slopes(options, effects));
   }
 
-  // footprint_slopes.glsl asks which of the two methods' textures there are.
+  // footprint_slopes.glsl serves `lean` and `leadr`, which differ in this texture.
   [[nodiscard]] ShaderModule shader() const override {
     return module_of(embedded::lean_glsl, "lean.glsl", {{"mean_normal_kept", true}});
   }

@@ -1,19 +1,19 @@
-// Olano and Baker 2010: mean and covariance of slope under the footprint, recovered from filtered moments, and one lobe
-// over them. The scalar variant, CLEAN, keeps the trace of the covariance alone.
+// Olano and Baker 2010: recovers mean and covariance of the footprint's slopes from filtered moments, and evaluates one
+// lobe with them. The scalar variant, CLEAN, stores only the trace of the covariance.
 //? include footprint_slopes.glsl
 
 struct Effective {
   SlopeLobe lobe;
   float round_lobe;  // parameter of the round base lobe of the same breadth, for the geometry term
-  vec3 mean_normal;  // not renormalised: its dot product is the mean of the texels' own
+  vec3 mean_normal;  // not renormalised: its dot product is the mean of the texels'
 //? if environment_light
   LobeRow row;
 //? end
 };
 
 //? if diffuse and normal_layers
-// The mean of the unit normals of both layers together: no texture holds it, but their slopes' distribution tells it,
-// by 3 x 3 points of Gauss and Hermite.
+// The mean of the unit normals of both layers together. No texture stores it, so it is integrated over the distribution of
+// their slopes by 3 x 3 Gauss-Hermite points.
 vec3 meanNormal(SlopeLobe lobe) {
   mat2 root = covarianceRoot(lobe.spread);
   vec3 sum = vec3(0.0);

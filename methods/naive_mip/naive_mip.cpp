@@ -1,5 +1,5 @@
-// `naive_mip`: the mean normal, renormalised, and the mean roughness. What most renderers do, and what makes far
-// surfaces too shiny: the spread of the normals is lost.
+// `naive_mip`: the mean normal, renormalised, and the mean roughness, as most renderers use them. Distant surfaces
+// become too shiny, because the spread of the normals is lost.
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"

@@ -1,4 +1,4 @@
-// The mean normal, renormalised, with the mean roughness or the mean lobe parameter: one lobe, as wide as a facet's own.
+// One lobe about the renormalised mean normal, as wide as a facet of the mean roughness or the mean lobe parameter.
 //? include mean_normal.glsl
 //? include facets_module.glsl
 

@@ -1,4 +1,4 @@
-// Level after level: tables corrected, rounded once each, and laid down in the four blocks that they belong to.
+// Corrects tables level by level, rounds each once, and writes it to the four blocks that contain it.
 #include "methods/ndf_atlas/atlas.hpp"
 
 #include <Imath/half.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int most_texels_across = 16384;
 
-// A table in its storage, over the scale that makes its greatest node 1.
+// A table in its storage, scaled so that its largest node is 1.
 struct StoredTable {
   std::vector<std::uint8_t> bytes;
   float scale = 0.0F;
@@ -41,13 +41,13 @@ StoredTable stored(std::span<const float> table, int width, Storage storage) {
   return out;
 }
 
-// The texel behind texel i of `size` along an axis.
+// The texel after texel i of `size` along an axis.
 int next_texel(int i, int size, Wrap wrap) {
   if (i + 1 < size) return i + 1;
   return wrap == Wrap::repeat ? 0 : size - 1;
 }
 
-// What is written to, over all levels.
+// The textures that all levels are written to.
 class Packing {
  public:
   Packing(const AtlasLayout& layout, Storage storage) : layout_(layout), storage_(storage) {
@@ -57,7 +57,7 @@ class Packing {
     blocks_ = Image(2 * layout.columns, layout.rows, 4);
   }
 
-  // Tables of the next level.
+  // Adds the tables of the next level.
   void add(LevelTables& level, const Lattice& lattice, const std::array<Wrap, 2>& wrap) {
     std::vector<StoredTable> tables(level.coverage.size());
     tbb::parallel_for(std::size_t{0}, tables.size(), [&](std::size_t texel) {

@@ -1,4 +1,5 @@
-// Every facet adds its lobe to the nodes that it reaches; texels in parallel, each sum in a fixed order.
+// Adds the lobe of every facet to the nodes within its reach, in parallel over texels and in a fixed order within a
+// texel.
 #include "methods/ndf_atlas/densities.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@
 namespace footprint::ndf_atlas {
 namespace {
 
-// The finest texels under a texel of a level along one axis, from `first` on, and the share of it that each covers.
+// The finest texels under a texel of a level along one axis, from `first` on, and their shares of it.
 struct AxisTaps {
   int first = 0;
   std::vector<double> weight;
@@ -44,7 +45,7 @@ std::vector<AxisTaps> axis_taps(int size, int level) {
   return taps;
 }
 
-// The nodes of a lattice as directions, and what adding a facet to them takes.
+// The nodes of a lattice as directions, and buffers for adding a facet to them.
 class NodeSums {
  public:
   NodeSums(const Facets& facets, const Lattice& lattice) : facets_(facets), lattice_(lattice) {
@@ -57,7 +58,7 @@ class NodeSums {
                                  }) -
         facets.parameters.begin());
     const double reach = lobe_reach(facets.lobe(widest), energy_outside);
-    // Across a tilt the plane is up to sqrt(2) times as wide as the sphere above the horizon.
+    // Across the tilt the plane is up to sqrt(2) times as wide as the sphere above the horizon.
     half_edge_ = reach < 0.5 * std::numbers::pi ? 2.0 * std::numbers::sqrt2 * std::sin(0.5 * reach) : 4.0;
   }
 
@@ -86,7 +87,7 @@ class NodeSums {
   double half_edge_ = 4.0;
 };
 
-// Texel (column, row) from its taps; returns what of it has facets.
+// Computes texel (column, row) from its taps; returns the share of it that has facets.
 double sum_texel(const Facets& facets, const NodeSums& nodes, const AxisTaps& across, const AxisTaps& down,
                  std::span<double> sums) {
   std::ranges::fill(sums, 0.0);
@@ -119,7 +120,7 @@ LevelTables tables_of(const Facets& facets, const Lattice& lattice, int level, c
                   .coverage = std::vector<float>(columns.size() * rows.size())};
   out.density.resize(out.coverage.size() * out.nodes);
   int done = 0;
-  std::mutex telling;
+  std::mutex reporting;
   tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t y) {
     std::vector<double> sums(out.nodes);
     for (std::size_t x = 0; x < columns.size(); ++x) {
@@ -127,7 +128,7 @@ LevelTables tables_of(const Facets& facets, const Lattice& lattice, int level, c
       out.coverage[texel] = static_cast<float>(sum_texel(facets, nodes, columns[x], rows[y], sums));
       std::ranges::transform(sums, out.table(texel).begin(), [](double sum) { return static_cast<float>(sum); });
     }
-    const std::scoped_lock lock(telling);  // one after the other: nothing goes back
+    const std::scoped_lock lock(reporting);  // serialised, so that progress never decreases
     const double part = static_cast<double>(++done) / static_cast<double>(rows.size());
     progress(fmt::format("tabulating densities, {} x {}", out.width, out.height), part);
   });
@@ -179,18 +180,18 @@ void correct_for_bilinear(std::span<float> table, const Lattice& lattice) {
     return inside ? static_cast<double>(plain[static_cast<std::size_t>(j * width + i)]) : 0.0;
   };
   double sum = 0.0;
-  double kept = 0.0;
+  double remaining = 0.0;
   for (int j = 0; j < height; ++j) {
     for (int i = 0; i < width; ++i) {
       const double differences = at(i - 1, j) + at(i + 1, j) + at(i, j - 1) + at(i, j + 1) - 4.0 * at(i, j);
       const double corrected = at(i, j) - differences / 12.0;
       sum += corrected;
-      kept += std::max(corrected, 0.0);
+      remaining += std::max(corrected, 0.0);
       table[static_cast<std::size_t>(j * width + i)] = static_cast<float>(std::max(corrected, 0.0));
     }
   }
-  if (kept <= 0.0) return;
-  for (float& node : table) node *= static_cast<float>(sum / kept);
+  if (remaining <= 0.0) return;
+  for (float& node : table) node *= static_cast<float>(sum / remaining);
 }
 
 void close_border(std::span<float> table, const Lattice& lattice) {

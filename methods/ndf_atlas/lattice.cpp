@@ -27,15 +27,15 @@ using std::numbers::pi;
 constexpr double horizon = std::numbers::sqrt2;
 constexpr double most_nodes = 1e6;
 
-// Half the edge of a square about plane_of(normal) that holds all directions within `reach` of the normal. Across the
-// tilt the plane is up to 1 / cos(tilt / 2) times as wide as the sphere.
+// Half the edge of a square about plane_of(normal) that contains all directions within `reach` of the normal. Across
+// the tilt the plane is up to 1 / cos(tilt / 2) times as wide as the sphere.
 double half_edge(const glm::dvec3& normal, double reach) {
   const double farthest = std::min(std::acos(std::clamp(normal.z, -1.0, 1.0)) + reach, 0.5 * pi);
   return 2.0 * std::sin(0.5 * reach) / std::cos(0.5 * farthest);
 }
 
-// Half the width of a lobe's peak where it is as curved as a Gaussian of this deviation. GGX's is narrower than its
-// slope variance says: D = (1 + (1 / alpha^2 - 1) sin^2)^-2 of its peak, a curvature of 4 / alpha^2 for narrow lobes.
+// The deviation of the Gaussian that is as curved as a lobe's peak. GGX's is narrower than its slope variance suggests:
+// D = (1 + (1 / alpha^2 - 1) sin^2)^-2 of its peak has the curvature 4 / alpha^2 for narrow lobes.
 double core_width(const Lobe& lobe) {
   return lobe.distribution == NormalDistribution::ggx ? 0.5 * lobe.parameter : lobe_width(lobe);
 }
@@ -92,7 +92,7 @@ glm::dvec3 direction_over(const glm::dvec2& point) {
 }
 
 double lobe_reach(const Lobe& lobe, double outside) {
-  // Rings at u = 1 - cos evenly in its logarithm: solid angles are 2 pi du.
+  // Rings at u = 1 - cos, evenly spaced in log u. Solid angles are 2 pi du.
   constexpr int rings = 2000;
   const double log_least = std::log(1e-4 * lobe_width(lobe) * lobe_width(lobe));
   const double log_ring = (std::log(2.0) - log_least) / rings;

@@ -14,8 +14,8 @@ namespace footprint::ndf_atlas {
 struct Facets {
   int width = 0, height = 0;
   NormalDistribution distribution = NormalDistribution::blinn_phong;
-  std::vector<glm::vec3> normals;  ///< unit, row by row; zero where the map has none
-  std::vector<float> parameters;   ///< of each facet's lobe, or one for all
+  std::vector<glm::vec3> normals;  ///< unit, row by row; zero if invalid
+  std::vector<float> parameters;   ///< lobe parameter of each facet, or one for all
 
   [[nodiscard]] bool is_valid(std::size_t i) const { return normals[i] != glm::vec3(0.0F); }
   [[nodiscard]] Lobe lobe(std::size_t i) const {
@@ -23,21 +23,21 @@ struct Facets {
   }
 };
 
-/// Those of a material; `rough`: each with the lobe of the texel of the roughness map above it. None where that map
-/// does not lie on the normal map's texels, or is finer.
+/// The facets of a material. `rough`: each has the lobe of the roughness texel above it. None if the roughness map does
+/// not lie on the normal map's texels or is finer.
 [[nodiscard]] std::optional<Facets> facets_of(const Material& material, bool rough);
 
 /// n_xy sqrt(2 / (1 + n_z)) of a unit vector: Lambert's azimuthal equal-area map from the surface's normal. The horizon
-/// is at the radius sqrt(2), the direction below at 2.
+/// has the radius sqrt(2), the direction below the radius 2.
 [[nodiscard]] glm::dvec2 plane_of(const glm::dvec3& direction);
 
-/// The unit vector over a point of the plane; points beyond the radius 2 count as on it.
+/// The unit vector of a point of the plane; points beyond the radius 2 are moved onto it.
 [[nodiscard]] glm::dvec3 direction_over(const glm::dvec2& point);
 
-/// The angle from a lobe's axis beyond which lies less than `outside` of its energy over the sphere; at most pi.
+/// The angle from a lobe's axis beyond which less than `outside` of its energy over the sphere remains; at most pi.
 [[nodiscard]] double lobe_reach(const Lobe& lobe, double outside);
 
-/// What a table leaves out of a lobe.
+/// The energy of a lobe that a table omits.
 inline constexpr double energy_outside = 5e-4;
 
 /// Nodes at origin + (i, j) step.
@@ -52,9 +52,9 @@ struct Lattice {
   [[nodiscard]] glm::dvec2 point(int i, int j) const { return origin + step * glm::dvec2(i, j); }
 };
 
-/// The lattice around all valid facets whose nodes lie no farther apart than `step` of the deviation of the Gaussian
-/// that is as curved as the narrowest lobe's peak (GGX: alpha / 2, else `lobe_width`), and at most two steps below the
-/// horizon. One that needs more than a million nodes along an edge has so many.
+/// The lattice around all valid facets. Its nodes are at most `step` apart, in deviations of the Gaussian that is as
+/// curved as the peak of the narrowest lobe (GGX: alpha / 2, otherwise `lobe_width`). It extends at most two steps
+/// below the horizon, and has at most a million nodes per edge.
 [[nodiscard]] Lattice lattice_over(const Facets& facets, double step);
 
 }  // namespace footprint::ndf_atlas

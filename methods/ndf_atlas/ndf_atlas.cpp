@@ -1,5 +1,5 @@
-// `ndf_atlas`: from a level on every texel keeps the density of its normals itself, on a small lattice over the half
-// vector; finer levels keep moments of a few parts of the normals, as `cells` does.
+// `ndf_atlas`: from one level on, every texel stores the density of its normals on a small lattice over the half
+// vector. Finer levels store moments of a few parts of the normals, as `cells` does.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -128,7 +128,7 @@ void add_tables(Plan plan, const Material& material, Storage storage, const Prog
   std::ranges::move(plan.notes, std::back_inserter(out.notes));
 }
 
-constexpr cells::Covariance kept_moments = cells::Covariance::full;
+constexpr cells::Covariance stored_moments = cells::Covariance::full;
 
 // Partitions the normals and adds the moments of each part, as `cells` does.
 void add_parts(const Material& material, const Settings& settings, const Progress& progress, Prefiltered& out) {
@@ -138,17 +138,17 @@ void add_parts(const Material& material, const Settings& settings, const Progres
                                            .variance = lobe_variance_chain(material).back().texels[0]};
   const std::vector<float> shares = cells::partition(points, normals.width, normals.height, partition, progress);
   const auto parts = static_cast<std::size_t>(settings.parts);
-  const auto frames = cells::part_frames(points, shares, parts, kept_moments);
+  const auto frames = cells::part_frames(points, shares, parts, stored_moments);
   for (std::size_t k = 0; k < most_parts; ++k) {
     out.scalars[fmt::format("ndf_atlas_centre_x{}", k)] = static_cast<float>(frames[k].centre.x);
     out.scalars[fmt::format("ndf_atlas_centre_y{}", k)] = static_cast<float>(frames[k].centre.y);
   }
-  const int layers = cells::layer_count(cells::part_channels(kept_moments) * settings.parts);
+  const int layers = cells::layer_count(cells::part_channels(stored_moments) * settings.parts);
   std::vector<std::vector<Image>> chains;
   chains.reserve(static_cast<std::size_t>(layers));
   const cells::PartedPoints map{points, shares, parts, normals.width, normals.height};
   for (int layer = 0; layer < layers; ++layer)
-    chains.push_back(mip_chain(cells::moment_layer(map, frames, kept_moments, layer)));
+    chains.push_back(mip_chain(cells::moment_layer(map, frames, stored_moments, layer)));
   // The shader reads them by level, because the levels that have tables do not need them.
   out.textures.push_back(make_array_texture("ndf_atlas_moments", std::move(chains), settings.storage,
                                             normal_coordinates(material), TextureFilter::by_level));

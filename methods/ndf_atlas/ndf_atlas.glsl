@@ -1,5 +1,5 @@
-// Tables of the density of normals over the half vector, from a level on and where normals differ by enough; else
-// moments of a few parts of the normals with a stretched base lobe each (methods/ndf_atlas/README.md).
+// From one level on, tables of the density of normals over the half vector, if normals differ enough. Otherwise moments
+// of a few parts of the normals, with one stretched base lobe per part (methods/ndf_atlas/README.md).
 //? if normal_variation
 const int parts = int(option_k);
 //? else
@@ -18,23 +18,23 @@ const int part_channels = 6;
 
 struct Effective {
   Part part[parts];
-  float lobe_share;   // of the parts, beside that of the tables
-  float table_share;  // over what is covered by the texels that have tables
+  float lobe_share;   // share of the parts; the rest is that of the tables
+  float table_share;  // over the coverage of the texels that have tables
 //? if normal_variation and sampling_frame
   Tables tables;
 //? end
-  float narrowing;    // of facets that reflect to h: how far their mean normal is on the way to h
-  float lobe;         // a facet's own
+  float narrowing;    // how far the mean normal of facets that reflect to h is on the way to h
+  float lobe;         // of a facet
   vec3 axis;          // of the mean normal
-  vec3 mean_normal;   // not renormalised: its dot product is the mean of the texels' own
+  vec3 mean_normal;   // not renormalised: its dot product is the mean of the texels'
 };
 
 //? if normal_variation and sampling_frame
-// Shares of the tables where spread and lobe are far from each other or alike: a lobe is exact where normals agree, and
-// a table is off by a hundredth whatever they do.
+// The shares of tables and lobes, by the ratio of spread and lobe. A lobe is exact where normals agree, and a table is
+// off by a hundredth everywhere.
 const vec2 tabulated_ratio = vec2(0.2, 0.4);
 
-// `ratio` is that of the normals' slope variance to a facet's lobe's.
+// `ratio`: the slope variance of the normals over that of a facet's lobe.
 void fillTables(inout Effective e, Footprint f, float ratio) {
   ivec2 finest = textureSize(ndf_atlas_moments, 0).xy;
   Probes p = probesOf(vec2(finest), f);
@@ -51,8 +51,8 @@ void fillTables(inout Effective e, Footprint f, float ratio) {
 //? end
 
 //? if environment_light
-const float whole_chain = 100.0;  // no level is as coarse; the moments' sampler knows levels alone, no footprints
-Part surrounded[parts];  // of the whole footprint, whatever has tables
+const float whole_chain = 100.0;  // coarser than any level; the sampler of the moments has levels only
+Part surrounded[parts];  // of the whole footprint, with or without tables
 //? end
 
 //? if normal_variation
@@ -84,7 +84,7 @@ void fillTexels(inout Effective e, Footprints f, BaseLobe base) {
   vec4 normal = meanNormal(f);  // direction, length
   e.axis = normal.xyz;
   e.mean_normal = normal.xyz * normal.w;
-  float ratio = (1.0 - normal.w) / (max(normal.w, 1e-3) * base.variance);  // the normals' slope variance to the lobe's
+  float ratio = (1.0 - normal.w) / (max(normal.w, 1e-3) * base.variance);  // slope variance of the normals over that of the lobe
   e.narrowing = ratio / (1.0 + ratio);
 //? if sampling_frame
   fillTables(e, f.normal, ratio);
@@ -133,8 +133,8 @@ float ndf(Effective e, vec3 h) {
   return e.lobe_share * sum + tabulatedDensity(e, h);
 }
 
-// The geometry is that of single facets: about a part's mean, or about the normal to be expected of those that reflect
-// to h. Of normals with a spread S about the mean, under lobes of variance v, that is S / (S + v) of the way to h.
+// The geometry factor is that of single facets: about the mean of a part, or about the expected normal of facets that
+// reflect to h. For normals of spread S about the mean, under lobes of variance v, that is S / (S + v) of the way to h.
 float reflectedDensity(Effective e, vec3 h, vec3 wi, vec3 wo) {
   Direction at = directionOf(h);
   float sum = 0.0;
@@ -158,7 +158,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
 //? if environment_light
 int lobeCount(Effective e) { return parts; }
 
-// A round lobe of the same mean slope variance.
+// A round lobe with the same mean slope variance.
 NormalLobe normalLobe(Effective e, int i) {
   NormalLobe lobe = baseNormalLobe(surrounded[i].axis, lobeFromVariance(surrounded[i].breadth), surrounded[i].share);
   lobe.base = surrounded[i].lobe;

@@ -1,16 +1,16 @@
-// Where the tables of a footprint are, and the density that they have in a direction. One texel's block has its own
-// table and those of its neighbours at the right, below and both in four channels: a fetch blends four nodes of each, a
-// dot product four texels.
+// Finds the tables of a footprint, and evaluates their density in a direction. The block of a texel contains its own
+// table and those of its neighbours on the right, below and diagonal, in four channels. A fetch blends four nodes of
+// each table, and a dot product blends four texels.
 
 vec2 tableNodes() { return vec2(ndf_atlas_nodes_x, ndf_atlas_nodes_y); }
 
-// Of a level, the blocks in front of it and its texels.
+// A level: the number of blocks before it, and its size in texels.
 struct TableLevel {
   int first;
   ivec2 size;
 };
 
-// What all lights take of the footprint.
+// The footprint's data that all lights share.
 struct Tables {
   Footprint footprint;
   Probes probes;
@@ -19,23 +19,22 @@ struct Tables {
   float between;  // the weight of the coarse level
 };
 
-// One level around one probe: node (0, 0) of the block, in texels of the atlas, and the weights of its four tables.
+// One level around one probe: node (0, 0) of the block in texels of the atlas, and the weights of its four tables.
 struct TableLookup {
   vec2 corner;
   vec4 weights;
 };
 
-// Those of the first probes are kept from light to light; all others are found again. An array that is asked for an
-// element by a number that is not known before takes llvmpipe longer than anything else here. It is not in Effective,
-// which is copied for each light.
+// The lookups of the first probes, shared by all lights; the others are computed again. Indexing an array by a variable
+// is the most expensive operation here on llvmpipe. The array is not in Effective, which is copied for each light.
 //? if several_probes
-const int kept = 4;
+const int shared_count = 4;
 //? else
-const int kept = 2;
+const int shared_count = 2;
 //? end
-TableLookup kept_lookups[kept];
+TableLookup shared_lookups[shared_count];
 
-// Of a material without tables the one block that it has.
+// A material without tables has a single block.
 TableLevel tableLevel(ivec2 finest, int level) {
   if (level < int(ndf_atlas_level)) return TableLevel(0, ivec2(1));
   int first = 0;
@@ -46,7 +45,7 @@ TableLevel tableLevel(ivec2 finest, int level) {
   return TableLevel(first, max(finest >> level, ivec2(1)));
 }
 
-// A position on the map, in texels from the first one's centre, where the map has texels: as its sampler wraps.
+// A position in texels from the centre of the first one, wrapped as the map's sampler does.
 float wrapped(float position, float size, float wrap) {
   if (wrap == 0.0) return mod(position, size);
   float place = position + 0.5;
@@ -54,7 +53,7 @@ float wrapped(float position, float size, float wrap) {
   return clamp(place - 0.5, 0.0, size - 1.0);
 }
 
-// The block of the four texels around a position, and their weights.
+// The block of the four texels around a position, with their weights.
 struct TexelBlock {
   ivec2 place;
   vec4 weights;
@@ -73,7 +72,7 @@ TexelBlock blockAt(TableLevel level, vec2 uv, float weight) {
   return TexelBlock(place, weight * vec4(rest.x * rest.y, part.x * rest.y, rest.x * part.y, part.x * part.y));
 }
 
-// Lookup `i`: two of each probe, the fine level's and the coarse one's.
+// Lookup `i`. Each probe has two: the fine level's and the coarse one's.
 TexelBlock blockOf(Tables t, int i) {
   int probe = i >> 1;
   bool coarse = (i & 1) != 0;
@@ -82,7 +81,7 @@ TexelBlock blockOf(Tables t, int i) {
   return blockAt(level, probeUv(t.footprint, t.probes, probe), weight * (coarse ? t.between : 1.0 - t.between));
 }
 
-// Tables hold densities times the share of a texel that has valid normals.
+// Tables store densities times the share of a texel that has valid normals.
 float coverageOf(TexelBlock block) {
   countLookups(1);
   return dot(block.weights, texelFetch(ndf_atlas_blocks, ivec2(2 * block.place.x + 1, block.place.y), 0));
@@ -94,7 +93,7 @@ TableLookup lookupOf(TexelBlock block) {
   return TableLookup(vec2(block.place) * tableNodes(), block.weights * scales);
 }
 
-// The tables of a footprint, and what of it they cover.
+// The tables of a footprint, and the share of it that they cover.
 float findTables(Footprint f, ivec2 finest, Probes p, out Tables t) {
   float coarsest = float(findMSB(max(finest.x, finest.y)));
   float level = clamp(p.level, min(ndf_atlas_level, coarsest), coarsest);
@@ -107,12 +106,12 @@ float findTables(Footprint f, ivec2 finest, Probes p, out Tables t) {
   if (lower < coarsest)
     t.coarse = TableLevel(t.fine.first + t.fine.size.x * t.fine.size.y, max(finest >> (int(lower) + 1), ivec2(1)));
   float covered = 0.0;
-  for (int i = 0; i < kept; ++i) {
+  for (int i = 0; i < shared_count; ++i) {
     TexelBlock block = blockOf(t, i);
     covered += coverageOf(block);
-    kept_lookups[i] = lookupOf(block);
+    shared_lookups[i] = lookupOf(block);
   }
-  for (int i = kept; i < 2 * p.count; ++i) covered += coverageOf(blockOf(t, i));
+  for (int i = shared_count; i < 2 * p.count; ++i) covered += coverageOf(blockOf(t, i));
   return covered;
 }
 
@@ -121,14 +120,14 @@ float nodesAt(TableLookup lookup, vec2 node, vec2 texel) {
   return dot(textureLod(ndf_atlas_densities, (lookup.corner + node) * texel, 0.0), lookup.weights);
 }
 
-// Over Lambert's equal-area map, whose nodes beyond the lattice are as its border.
+// A lookup over Lambert's equal-area map. Beyond the lattice the border nodes continue.
 float tableSum(Tables t, vec3 h) {
   vec2 plane = h.xy * inversesqrt(max(0.5 + 0.5 * h.z, 1e-4));
   vec2 node = (plane - vec2(ndf_atlas_origin_x, ndf_atlas_origin_y)) / vec2(ndf_atlas_step_x, ndf_atlas_step_y);
   node = clamp(node, vec2(0.0), tableNodes() - 1.0) + 0.5;
   vec2 texel = 1.0 / vec2(textureSize(ndf_atlas_densities, 0));
   float sum = 0.0;
-  for (int i = 0; i < kept; ++i) sum += nodesAt(kept_lookups[i], node, texel);
-  for (int i = kept; i < 2 * t.probes.count; ++i) sum += nodesAt(lookupOf(blockOf(t, i)), node, texel);
+  for (int i = 0; i < shared_count; ++i) sum += nodesAt(shared_lookups[i], node, texel);
+  for (int i = shared_count; i < 2 * t.probes.count; ++i) sum += nodesAt(lookupOf(blockOf(t, i)), node, texel);
   return sum;
 }

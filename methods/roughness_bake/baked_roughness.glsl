@@ -1,6 +1,6 @@
-// Engines' roughness mips: the twin of presets.hpp, which derives the stable forms. What a texture holds is what the
-// normals' spread says on its own, so that one formula serves maps that are laid out otherwise; the base roughness is
-// the mean of the roughness map, as importers take it. Whose formula is the option that is `bake` in shaders.
+// Engines' roughness mips: the twin of presets.hpp, which derives the stable forms. A texture stores the spread of the
+// normals only, so that one formula also serves maps with other coordinates. The base roughness is the mean of the
+// roughness map, as in importers. The option that shaders call `bake` selects the formula.
 //? include mean_roughness.glsl
 //? if bake_karis
 //? include vmf.glsl
@@ -25,7 +25,7 @@ float fitConstant(float alpha) {
 //? end
 
 //? if bake_karis or bake_chan2018
-// The mean of means: what both are short of 1 by together.
+// 1 minus the product of two mean lengths, each given by 1 minus the length.
 float joined(float a, float b) { return a + b - a * b; }
 //? end
 
@@ -91,7 +91,7 @@ float widened(float alpha2, float stored) {
 //? end
 }
 
-// What is stored, over the footprint: of independent layers spreads add.
+// The stored spread over the footprint; spreads of independent layers add.
 float storedSpread(Footprints f) {
   float stored = 0.0;
 //? if normal_variation

@@ -12,9 +12,9 @@
 namespace footprint::roughness_bake {
 namespace {
 
-constexpr double filament_flat = 1e-4;      // kappa = 1e4 where all normals agree, and only there
+constexpr double filament_flat = 1e-4;      // kappa = 1e4, only where all normals agree
 constexpr double unity_cap = 0.2 * 0.2;     // of variance, the default threshold squared
-constexpr double hdrp_cap = 2.0 * 0.03125;  // two of the largest variance that its texture holds
+constexpr double hdrp_cap = 2.0 * 0.03125;  // twice the largest variance that its texture stores
 constexpr double unreal_offset = 4e-5;
 constexpr double godot_cap = 0.16;
 constexpr double three_factor = 0.56;
@@ -29,9 +29,9 @@ double fit_constant(NormalDistribution distribution, double alpha) {
   return std::lerp(table[i], table[i + 1], at - static_cast<double>(i));
 }
 
-// p = alpha^2 / (1 - alpha^2) is added to: a slope variance of the lobe projected on the disc (Tokuyoshi and Kaplanyan
-// 2021). alpha'^2 - alpha^2 = (1 - alpha^2)^2 d / (1 + (1 - alpha^2) d) needs no quotient that grows. The sum saturates
-// at p' = 1, which is alpha^2 = 1/2: wider lobes come out narrower.
+// Adds to p = alpha^2 / (1 - alpha^2), a slope variance of the lobe projected on the disc (Tokuyoshi and Kaplanyan
+// 2021). The form alpha'^2 - alpha^2 = (1 - alpha^2)^2 d / (1 + (1 - alpha^2) d) has no quotient that grows. The sum
+// saturates at p' = 1, which is alpha^2 = 1/2, so wider lobes become narrower.
 double projected(double alpha2, double d) {
   if (alpha2 >= 0.5) return 0.5;
   const double rest = 1.0 - alpha2;
@@ -44,7 +44,7 @@ double unreal(double alpha2, double v) {
   return (alpha2 + added * rest) / (1.0 + added * rest);
 }
 
-// The mean of means: shortened by the lobe's own mean length, then by that of the normals.
+// 1 minus the product of two mean lengths, the lobe's and the normals', each given by 1 minus the length.
 double joined(double a, double b) { return a + b - a * b; }
 
 double karis(double alpha2, double q) {

@@ -1,5 +1,5 @@
-// What engines make of the mean normal's length when they bake a normal map into roughness mips: one formula a preset,
-// in double precision. roughness_bake.glsl has their twins.
+// The formulas by which engines bake the length of the mean normal into roughness mips, one per preset, in double
+// precision. baked_roughness.glsl has their twins.
 #pragma once
 
 #include <array>
@@ -33,10 +33,10 @@ inline constexpr std::array<std::string_view, 14> preset_names{
     "fit",   "filament",      "filament_rho", "unity", "unity_projected", "hdrp_import", "unreal",
     "godot", "three_removed", "mjp_vmf",      "karis", "order1886",       "chan2018",    "free"};
 
-/// Errors: std::out_of_range for no preset.
+/// The preset of a name. Errors: std::out_of_range if there is none.
 [[nodiscard]] Preset preset_of(std::string_view name);
 
-/// A preset with what `free` takes besides.
+/// A preset, with the parameters of `free`.
 struct Formula {
   Preset preset = Preset::fit;
   double constant = 2;  ///< of free: alpha'^2 = alpha^2 + min(constant / kappa, cap)
@@ -47,11 +47,11 @@ struct Formula {
 /// results would name a preset that was not used.
 [[nodiscard]] Formula formula_of(const Options& options);
 
-/// What is stored of a texel, of which mip maps and texture filters take means: of normals whose mean is short of
-/// length 1 by `shortfall` (0 to 1).
+/// The value that a texel stores, of which mip maps and texture filters take means. `shortfall` is 1 minus the length
+/// of the mean normal, 0 to 1.
 enum class Stored {
   inverse_kappa,  ///< (1 - r^2) / (3 r - r^3), at most largest_stored; of Filament 1e-4 where all normals agree
-  toksvig,        ///< (1 - r) / r, likewise
+  toksvig,        ///< (1 - r) / r, at most largest_stored
   shortfall       ///< 1 - r
 };
 inline constexpr double largest_stored = 100;
@@ -59,15 +59,14 @@ inline constexpr double largest_stored = 100;
 [[nodiscard]] Stored stored_kind(Preset preset);
 [[nodiscard]] double stored_spread(Preset preset, double shortfall);
 
-/// alpha'^2 of a lobe whose alpha^2 is twice its slope variance, over normals of that stored spread. `distribution` is
-/// looked at by `fit` alone. alpha^2 above 0; never below it but by `karis` and `chan2018`, whose inverses are not
-/// exact, and by `unity_projected` above 1/2, where its sum saturates.
+/// alpha'^2 of a lobe whose alpha^2 is twice its slope variance, over normals of the stored spread. Only `fit` depends
+/// on `distribution`. alpha^2 is above 0. The result is less than alpha^2 only for `karis` and `chan2018`, whose
+/// inverses are not exact, and for `unity_projected` above 1/2, where its sum saturates.
 [[nodiscard]] double widened_alpha2(const Formula& formula, NormalDistribution distribution, double alpha2,
                                     double stored);
 
 /// `fit`: the constant c(alpha) of alpha'^2 = alpha^2 + c / kappa with the least error of the NDF
-/// (study/best_constant), for alpha = 0.03 (in the place of 0), 0.1, 0.2, ... 1, linear between them and constant
-/// beyond.
+/// (study/best_constant). For alpha = 0.03 (instead of 0), 0.1, 0.2, ... 1, linear between them and constant beyond.
 inline constexpr std::size_t fit_points = 11;
 using FitTable = std::array<double, fit_points>;
 [[nodiscard]] const FitTable& fit_table(NormalDistribution distribution);
@@ -75,8 +74,8 @@ using FitTable = std::array<double, fit_points>;
 /// 1 / kappa of the mean resultant length r = 1 - q (Banerjee et al. 2005); 0 < q <= 1, infinite at 1.
 [[nodiscard]] double inverse_kappa(double q);
 
-/// What the mean normal of facets of a GGX lobe is short of 1 by: r = (a - (1 - a^2) atanh a) / a^3, a^2 = 1 - alpha^2
-/// (Chan 2018).
+/// 1 - r of the mean normal of the facets of a GGX lobe: r = (a - (1 - a^2) atanh a) / a^3, a^2 = 1 - alpha^2 (Chan
+/// 2018).
 [[nodiscard]] double ggx_shortfall(double alpha2);
 
 }  // namespace footprint::roughness_bake

@@ -1,5 +1,5 @@
-// `roughness_bake`: the mean normal, renormalised, under a lobe widened by what the mean normal's length tells, by the
-// formula of an engine's importer: normal maps baked into roughness mips.
+// `roughness_bake`: the renormalised mean normal under a lobe that is widened according to the length of the mean
+// normal, by the formula of an engine's importer, which bakes normal maps into roughness mips.
 #include "methods/roughness_bake/roughness_bake.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace footprint {
 namespace roughness_bake {
 namespace {
 
-// Bytes hold no sum of variances.
+// Bytes cannot store a sum of variances.
 Storage spread_storage(Storage storage) { return storage == Storage::unorm8 ? Storage::fp16 : storage; }
 
 }  // namespace
@@ -72,7 +72,7 @@ namespace {
 
 using namespace roughness_bake;
 
-// A texel of the coarse one for each of the fine one's.
+// Repeats the texels of a coarse image over a finer size.
 Image repeated(const Image& coarse, int width, int height) {
   Image fine(width, height, coarse.channels);
   for (int y = 0; y < height; ++y) {
@@ -82,8 +82,8 @@ Image repeated(const Image& coarse, int width, int height) {
   return fine;
 }
 
-// The chain with finer levels in front, each texel several times, until it begins with that size; one texel serves any.
-// None where its finest level is none of a chain of that size.
+// Prepends finer levels of repeated texels, so that the chain begins with the given size. None if its finest level does
+// not fit into a chain of that size; a single texel always fits.
 std::optional<std::vector<Image>> extended_chain(const std::vector<Image>& chain, int width, int height) {
   const Image& finest = chain.front();
   std::vector<Image> finer;
@@ -99,7 +99,7 @@ std::optional<std::vector<Image>> extended_chain(const std::vector<Image>& chain
   return {};
 }
 
-// One roughness map must be able to store what both maps say. `sizes_fit`: they have common mip levels.
+// Checks that one roughness map can store both maps. `sizes_fit`: they have common mip levels.
 void require_one_map(const Material& material, bool sizes_fit) {
   const bool varies = width_map(material) != nullptr;
   std::string why;
@@ -114,7 +114,7 @@ void require_one_map(const Material& material, bool sizes_fit) {
               "draw it with the shader module of this method");
 }
 
-// The formula at every texel, which the shader evaluates in between as well.
+// Evaluates the formula at every texel; the shader also evaluates it in between.
 std::vector<Image> joined_chain(const Formula& formula, const Material& material, std::vector<Image> rough,
                                 const std::vector<Image>& spread) {
   const NormalDistribution distribution = material.brdf.distribution;

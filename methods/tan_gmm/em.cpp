@@ -12,7 +12,7 @@
 namespace footprint::tan_gmm {
 namespace {
 
-// The components that have weight, in their order; the others have no share in any sample.
+// The components with weight, in their order; the others have no responsibility.
 struct Present {
   Terms terms;
   std::array<std::size_t, most_components> index{};  // in the mixture
@@ -31,7 +31,7 @@ struct Present {
   }
 };
 
-// A component alone takes every sample whole.
+// The sums of a single component, which is responsible for all samples.
 Sums sums_of_one(const Samples& samples, const Terms& terms) {
   Sums sums;
   for (std::size_t j = 0; j < samples.size(); ++j) {
@@ -71,7 +71,7 @@ class FullStep {
  public:
   explicit FullStep(std::span<FullGaussian> mixture) : mixture_(mixture) {}
 
-  // The E-step; returns the log-likelihood. A sample with a spread counts by the mean log density of its points.
+  // The E-step; returns the log-likelihood. A sample with a spread contributes the mean log density of its points.
   double expect(const Samples& samples) {
     std::array<std::size_t, most_components> index{};
     std::size_t count = 0;
@@ -115,7 +115,7 @@ class FullStep {
         g.alpha = 0.0;
         continue;
       }
-      const double x = s.x / s.weight;  // of the samples, from the mean before the step
+      const double x = s.x / s.weight;  // of the samples, relative to the mean before the step
       const double y = s.y / s.weight;
       const double pull = 2.0 * prior.weight(i);
       // (N I + pull S) d = N m + pull S (mu_0 - mu).
@@ -132,7 +132,7 @@ class FullStep {
       g.alpha = s.weight / total;
       g.x += dx;
       g.y += dy;
-      // About the new mean: the scatter about the samples' own and what lies between the two.
+      // About the new mean: the scatter about the samples' mean plus the squared distance between the two means.
       g.xx = std::max(s.xx / s.weight - x * x, 0.0) + (x - dx) * (x - dx);
       g.yy = std::max(s.yy / s.weight - y * y, 0.0) + (y - dy) * (y - dy);
       const double most = std::sqrt(g.xx * g.yy);

@@ -1,5 +1,5 @@
-// Components with a whole covariance over the disc (option covariance=full): a texel stores weight, first and second
-// moments of each, and a component reflects with the base lobe, stretched to its covariance.
+// Components with a full covariance over the disc (option covariance=full). A texel stores weight, first and second
+// moments of each component, which reflects with the base lobe, stretched to its covariance.
 //? if normal_variation
 const int parts = int(option_n);
 //? else
@@ -10,9 +10,9 @@ const int part_channels = 6;
 //? include parts_module.glsl
 
 //? if normal_variation
-// From the disc of (n_x, n_y) to stereographic coordinates, linear about the mean: along the tilt the disc is the cosine
-// times the sphere, across it as long, and the plane (1 + |p|^2) / 2 times the sphere. On the rim a component still has
-// the width along the tilt that it has over the disc.
+// Converts from the disc of (n_x, n_y) to stereographic coordinates, linearly about the mean. Lengths along the tilt
+// are cosine times those on the sphere, lengths across it are equal, and lengths on the plane are (1 + |p|^2) / 2 times
+// those on the sphere. On the rim a component keeps its width along the tilt over the disc.
 Part partOverDisc(float share, vec2 mean, vec3 spread, BaseLobe base) {
   float size2 = dot(mean, mean);
   if (size2 > 1.0) mean *= inversesqrt(size2);

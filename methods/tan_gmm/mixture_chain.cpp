@@ -1,4 +1,4 @@
-// Fits levels in fronts of blocks that run in parallel and see what scanline order would have shown them.
+// Fits levels in parallel fronts of blocks that have the result of scanline order.
 #include "methods/tan_gmm/mixture_chain.hpp"
 
 #include <fmt/format.h>
@@ -47,7 +47,7 @@ struct Workspace {
   CellPool cells;
 };
 
-// Fits the texels of one level; the coarser one, if any, is done.
+// Fits the texels of one level, after the coarser one.
 class LevelFit {
  public:
   LevelFit(const NormalField& normals, const PooledTiles& tiles, const FitSettings& settings, Moment moment,
@@ -67,9 +67,9 @@ class LevelFit {
   }
 
  private:
-  // A texel needs its neighbours W, NW, N and NE. In the coordinates u = x + y and y all of them lie at no greater u
-  // and no greater y, so that square blocks over (u, y) whose indices have equal sums need none of one another: a front
-  // of them runs in parallel and every texel still sees what scanline order would have shown it.
+  // A texel needs its neighbours W, NW, N and NE. In the coordinates u = x + y and y all of them have no greater u and
+  // no greater y. Therefore square blocks over (u, y) with equal sums of indices are independent. They run in parallel,
+  // and every texel reads the same neighbours as in scanline order.
   void run_wavefront(const std::function<void(double)>& report) const {
     const int side = std::clamp(level_->width() / 32, 1, 16);
     const int rows = (level_->height() + side - 1) / side;
@@ -137,7 +137,7 @@ class LevelFit {
     for (std::size_t i = 0; i < mixture.size(); ++i) store(mixture[i], coverage, stored_[i].at(x, y));
   }
 
-  // Whole covariances from the isotropic mixture on, which becomes what neighbours see of them.
+  // Fits full covariances from the isotropic mixture, and replaces it by their round Gaussians for the neighbours.
   void fit_whole(const Samples& samples, const Prior& known, double coverage, std::span<Gaussian> mixture, int x,
                  int y) const {
     std::array<FullGaussian, most_components> storage{};
@@ -155,11 +155,11 @@ class LevelFit {
     }
   }
 
-  // In double: the shader takes |mu|^2 away again.
+  // In double precision, because the shader subtracts |mu|^2.
   void store(const Gaussian& g, double coverage, std::span<float> texel) const {
     const double alpha = g.alpha * coverage;
     const double square = static_cast<double>(g.x) * g.x + static_cast<double>(g.y) * g.y;
-    const double variance = g.variance > variance_floor ? g.variance : 0.0;  // on the floor it is a single normal
+    const double variance = g.variance > variance_floor ? g.variance : 0.0;  // a single normal has the floor
     texel[0] = static_cast<float>(alpha);
     texel[1] = static_cast<float>(alpha * g.x);
     texel[2] = static_cast<float>(alpha * g.y);
@@ -189,12 +189,12 @@ MixtureChain mixture_chain(const NormalField& normals, const FitSettings& settin
     const int width = std::max(normals.width() >> index, 1);
     const int height = std::max(normals.height() >> index, 1);
     Level level(width, height, settings.components);
-    std::vector<Image> stored;  // each made in its place: copies of an empty one took a tenth of an easy map's fit
+    std::vector<Image> stored;  // constructed in place: copies took a tenth of an easy map's fit
     for (std::size_t i = 0; i < chain.size(); ++i) stored.emplace_back(width, height, 4);
     const LevelFit fit(normals, tiles, settings, moment, index == levels - 1 ? nullptr : &coarser, level, stored,
                        workspaces);
     const std::string what = fmt::format("fitting mixtures, {} x {}", width, height);
-    const int done = levels - 1 - index;  // every level visits every normal, so that each takes about as long
+    const int done = levels - 1 - index;  // each level takes about as long, because it visits every normal
     fit.run([&](double fraction) { progress(what, (done + fraction) / levels); });
     for (std::size_t i = 0; i < stored.size(); ++i) chain[i][static_cast<std::size_t>(index)] = std::move(stored[i]);
     coarser = std::move(level);

@@ -1,10 +1,10 @@
-// Sums by blocks of samples, a vector at a time. Highway compiles what lies in HWY_NAMESPACE once for each set of
-// vector instructions, by including this file again, and picks one when the program runs.
+// Sums blocks of samples, one vector at a time. Highway compiles HWY_NAMESPACE once for each set of vector
+// instructions, by including this file again, and selects one at run time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "methods/tan_gmm/sample_sums.cpp"
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)  // no arrays of their vectors
 #include <hwy/foreach_target.h>
-// It has to come first.
+// These have to come first.
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
@@ -22,11 +22,10 @@ constexpr std::size_t most_lanes = 16;
 using Lanes = hn::CappedTag<float, most_lanes>;
 using Vector = hn::Vec<Lanes>;
 
-// e^-60 is no responsibility to speak of; far below it products are subnormal, which processors take a hundred times as
-// long for.
+// Responsibilities below e^-60 are negligible. Far below it products are subnormal and a hundred times as slow.
 constexpr float least_exponent = -60.0F;
 
-// As many samples as a vector has lanes; those past the end weigh nothing.
+// A vector of samples; those past the end have weight 0.
 struct Points {
   Vector x, y, spread, weight;
 };

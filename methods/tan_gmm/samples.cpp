@@ -1,4 +1,4 @@
-// Gathers, merges and pools the points that a texel covers, by shares of whole texels.
+// Gathers the points of a texel by shares of whole texels, merges repeats, and pools them.
 #include "methods/tan_gmm/samples.hpp"
 
 #include <tbb/blocked_range.h>
@@ -22,8 +22,8 @@ int cell_of(float coordinate) {
 
 double centre_of(int cell) { return (cell + 0.5) * cell_size - 1.0; }
 
-// What coarse texel i of `coarse` covers of `fine` ones. Counted in units of 1 / coarse of a fine texel, in which every
-// border is a whole number.
+// The part of `fine` texels that texel i of `coarse` ones covers, in units of 1 / coarse of a fine texel, in which
+// every border is an integer.
 struct Span {
   std::int64_t begin, end, coarse;
 
@@ -39,17 +39,17 @@ struct Span {
   }
 };
 
-// In their order.
+// Keeps the order.
 void remove_weightless(Samples& samples) {
   if (std::ranges::find(samples.weight, 0.0F) == samples.weight.end()) return;
-  std::size_t kept = 0;
+  std::size_t count = 0;
   for (std::size_t j = 0; j < samples.size(); ++j) {
     if (samples.weight[j] <= 0.0F) continue;
     for (std::vector<float>* column : {&samples.x, &samples.y, &samples.spread, &samples.weight})
-      (*column)[kept] = (*column)[j];
-    ++kept;
+      (*column)[count] = (*column)[j];
+    ++count;
   }
-  samples.resize(kept);
+  samples.resize(count);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // Tan et al. 2005, "Multiresolution Reflectance Filtering": the normals under a footprint are a mixture of isotropic
-// Gaussians over the unit disc of (n_x, n_y). A component's weight, mean and second moment are linear in its samples,
-// so that the texture filter blends them; mean and variance are recovered behind the filter (section 4.2).
+// Gaussians over the unit disc of (n_x, n_y). The weight, mean and second moment of a component are linear in its
+// samples, so that the texture filter can blend them. Mean and variance are recovered after the filter (section 4.2).
 //? if covariance_full
 //? include full_mixture.glsl
 //? else
@@ -14,36 +14,36 @@ const int fetched_layers = components;
 const int components = 1;
 //? end
 
-// Components. Gaussian: `amount` is the share of the energy over the density's norm, `width` the variance per axis of
-// the disc, normals and base lobe together. Else `amount` is the share and `width` the parameter of the widened base
-// lobe. An amount of 0: the component is not there.
+// Components. lobe=gaussian: `amount` is the share of the energy over the norm of the density, and `width` the variance
+// per axis of the disc, of normals and base lobe together. lobe=base: `amount` is the share, and `width` the parameter
+// of the widened base lobe. Absent components have amount 0.
 struct Effective {
   vec3 mean[components];
   float share[components];
   float amount[components];
   float width[components];
 //? if multi_lobe
-  float spread[components];  // of the normals alone, as `width` has it: what widens each of the material's own lobes
+  float spread[components];  // of the normals only, in the unit of `width`; it widens each of the material's lobes
 //? end
   float lobe;  // of a single facet
 };
 
-// One Gaussian over the disc.
+// A Gaussian over the disc.
 struct Component {
   float share;
   vec2 mean;
-  float spread;  // variance per axis of the normals alone
+  float spread;  // variance per axis of the normals only
 };
 
-// A component weighs what it covers of the footprint; under this share it is left out, and no division is by nothing.
+// Components that cover less than this share of the footprint are left out, which also avoids divisions by 0.
 const float least_share = 1e-4;
 
 Component recovered(vec4 filtered) {
   if (filtered.x < least_share) return Component(0.0, vec2(0.0), 0.0);
   vec2 mean = filtered.yz / filtered.x;
-  float spread = max(filtered.w / filtered.x - dot(mean, mean), 0.0);  // rounding of the storage can leave less
+  float spread = max(filtered.w / filtered.x - dot(mean, mean), 0.0);  // rounding of the storage can make it negative
 //? if moment_corrected
-  spread *= 0.5;  // the texture holds E |n|^2 = |mu|^2 + 2 sigma^2, over both axes
+  spread *= 0.5;  // the texture stores E |n|^2 = |mu|^2 + 2 sigma^2, over both axes
 //? end
   return Component(filtered.x, mean, spread);
 }
@@ -52,8 +52,8 @@ Component recovered(vec4 filtered) {
 float heightOver(vec2 mean) { return sqrt(max(1.0 - dot(mean, mean), 0.0)); }
 
 //? if lobe_gaussian
-// The base lobe's variance over the disc. Seen from above, a solid angle shrinks by the cosine; a lobe on the rim still
-// reaches its own width above it.
+// The variance of the base lobe over the disc. From above, a solid angle shrinks by the cosine, but a lobe on the rim
+// still reaches its own width above it.
 float baseOverDisc(float variance, float height) {
 //? if foreshorten_on
   return variance * min(max(height, sqrt(variance)), 1.0);
@@ -77,8 +77,8 @@ float massInDisc(vec2 mean, float variance) {
   return normalCdf((pow(1.0 / (variance * sum), h) - centre) / (h * sqrt(2.0 * p) * (1.0 + 0.5 * m * p)));
 }
 
-// The share of a component's energy that the hemisphere shows, over the mass of its Gaussian that the disc does. Of a
-// facet's lobe the part below the horizon is lost; of the Gaussian far more falls off the disc.
+// The visible share of a component's energy over the hemisphere, divided by the share of its Gaussian inside the disc.
+// A lobe loses only the part below the horizon; the Gaussian loses far more beyond the disc.
 float rimFactor(vec2 mean, float variance, float height, float base_variance) {
 //? if rim_normalized
   return normalCdf(asin(height) * inversesqrt(base_variance)) / max(massInDisc(mean, variance), 1e-3);
@@ -87,8 +87,8 @@ float rimFactor(vec2 mean, float variance, float height, float base_variance) {
 //? end
 }
 
-// The Gaussian over the disc that stands for normals and base lobe together (Tan 2005, section 3): its variance, and
-// its share of the energy over the density's norm. `base` is the base lobe's variance.
+// The Gaussian over the disc of normals and base lobe together (Tan 2005, section 3): its variance, and its share of
+// the energy over the norm of the density. `base`: the variance of the base lobe.
 float widthOverDisc(float spread, float base, float height) {
   return clamp(spread + baseOverDisc(base, height), 1e-6, 4.0);
 }
@@ -96,7 +96,7 @@ float amountOverDisc(float share, vec2 mean, float width, float height, float ba
   return share * rimFactor(mean, width, height, base) / (2.0 * pi * width);
 }
 
-// Over solid angle: an area of the disc is h_z times the solid angle above it.
+// The density over solid angle: an area of the disc is h_z times the solid angle above it.
 float densityOverDisc(float amount, vec2 mean, float width, vec3 h) {
   countLobes(1);
   vec2 d = h.xy - mean;
@@ -117,8 +117,8 @@ float lobeOverComponent(Effective e, int i, vec3 h) {
 }
 
 //? if multi_lobe
-// Lobe k about its axis, turned with the mean; `own` is h in the mean's frame. Of an axis below the horizon nothing is
-// over the disc.
+// Lobe k about its axis, turned with the mean. `own`: h in the frame of the mean. A lobe with an axis below the horizon
+// is not over the disc.
 float lobeOverComponent(Effective e, int i, int k, vec3 h, vec3 own) {
   vec3 axis = turnedWithNormal(facet_lobes[k].axis, e.mean[i]);
   if (axis.z <= 0.0 || e.amount[i] <= 0.0) return 0.0;
@@ -128,8 +128,9 @@ float lobeOverComponent(Effective e, int i, int k, vec3 h, vec3 own) {
 }
 //? end
 //? else
-// The base lobe about the component's mean, widened by the component's spread. An area of the disc is the cosine times its
-// solid angle, so that the round lobe of the same area has the spread over the cosine; on the rim over its own width.
+// The base lobe about the component's mean, widened by the component's spread. An area of the disc is the cosine times
+// its solid angle. Therefore the round lobe of the same area has the spread divided by the cosine or, on the rim, by
+// its own width.
 void setLobe(inout Effective e, int i, float share, vec2 mean, float height, float spread) {
   float around = spread <= 0.0 ? 0.0 : spread / max(height, sqrt(spread));
   e.width[i] = spread <= 0.0 ? e.lobe : lobeFromVariance(lobeVariance(e.lobe) + around);
@@ -165,7 +166,7 @@ float componentDensity(Effective e, int i, vec3 h) {
   return lobeOverComponent(e, i, h);
 }
 
-// The geometry is that of single facets about the component's mean.
+// The geometry factor is that of single facets about the component's mean.
 float componentReflectance(Effective e, int i, vec3 h, vec3 wi, vec3 wo) {
 //? if multi_lobe
   if (facet_lobe_count > 0) {
@@ -191,7 +192,7 @@ float baseLobe(Footprints f) {
 
 void setComponent(inout Effective e, int i, Component c) {
   float size = length(c.mean);
-  vec2 mean = size > 1.0 ? c.mean / size : c.mean;  // by rounding
+  vec2 mean = size > 1.0 ? c.mean / size : c.mean;  // after rounding
   float height = heightOver(mean);
   e.mean[i] = vec3(mean, height);
   e.share[i] = c.share;
@@ -255,7 +256,7 @@ float ndf(Effective e, vec3 h) {
 int lobeCount(Effective e) { return components * facetLobeCount(); }
 
 //? if lobe_gaussian
-// The round lobe of the solid angle above a Gaussian's area of the disc.
+// The round lobe with the solid angle above the Gaussian's area of the disc.
 NormalLobe discNormalLobe(vec3 axis, float width, float amount, float base) {
   return vmfNormalLobe(axis, max(axis.z, sqrt(width)) / width, 2.0 * pi * width * amount, base);
 }

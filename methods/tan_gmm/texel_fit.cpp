@@ -13,7 +13,7 @@ namespace footprint::tan_gmm {
 namespace {
 
 constexpr int lloyd_steps = 4;
-constexpr float same_point = 1e-12F;  // squared distance of normals that rounding alone tells apart
+constexpr float same_point = 1e-12F;  // squared distance of normals that differ by rounding only
 
 struct Point {
   float x, y;
@@ -36,7 +36,8 @@ Point mean_of(const Samples& samples) {
   return {static_cast<float>(x / total), static_cast<float>(y / total)};
 }
 
-// The sample farthest from the mean, then each time the one farthest from all centres so far; fewer where none is left.
+// Chooses the sample farthest from the mean, then repeatedly the one farthest from all centres. Returns fewer centres
+// if the samples are exhausted.
 std::size_t farthest_first(const Samples& samples, std::span<Point> centres) {
   std::vector<float> nearest(samples.size(), std::numeric_limits<float>::max());
   Point last = mean_of(samples);
@@ -45,7 +46,7 @@ std::size_t farthest_first(const Samples& samples, std::span<Point> centres) {
     float most = -1.0F;
     for (std::size_t j = 0; j < samples.size(); ++j) {
       const float d = squared_distance(samples, j, last);
-      nearest[j] = count <= 1 ? d : std::min(nearest[j], d);  // the mean is no centre
+      nearest[j] = count <= 1 ? d : std::min(nearest[j], d);  // the mean is not a centre
       if (nearest[j] > most) {
         most = nearest[j];
         farthest = j;
@@ -58,7 +59,7 @@ std::size_t farthest_first(const Samples& samples, std::span<Point> centres) {
   return centres.size();
 }
 
-// Sums over the samples of one cluster, from its centre.
+// Sums over the samples of one cluster, relative to its centre.
 struct Cluster {
   double weight = 0, dx = 0, dy = 0, square = 0;
 };
@@ -114,16 +115,16 @@ Gaussian densest_spot(const Samples& samples) {
           .variance = seed_variance};
 }
 
-// For every set of components the best prior of a matching of the first clusters, as many as the set holds, to it.
+// The best prior of matching the first clusters to a set of as many components, for every set.
 struct Matching {
   double prior;
-  std::size_t last;  // the component that the last of those clusters took
+  std::size_t last;  // the component of the last of those clusters
 };
 
-// A histogram tells nothing of a handful of samples.
+// The fewest samples for a useful histogram.
 constexpr std::size_t fewest_for_histogram = 32;
 
-// Runs a few steps of EM from each start that it is handed and keeps the best.
+// Runs a few steps of EM from each start, and keeps the best.
 class Trials {
  public:
   Trials(const Samples& samples, const Prior& prior, const FitSettings& settings, std::span<Gaussian> best)
@@ -145,7 +146,7 @@ class Trials {
   double greatest_ = -std::numeric_limits<double>::infinity();
 };
 
-// Rounding aside.
+// Whether all samples are one normal, up to rounding.
 bool are_one_normal(const Samples& samples) {
   for (std::size_t j = 1; j < samples.size(); ++j) {
     const float dx = samples.x[j] - samples.x[0];
@@ -155,7 +156,8 @@ bool are_one_normal(const Samples& samples) {
   return true;
 }
 
-// To the component that suits the neighbours: shared among several a normal would be blended with several.
+// Assigns a normal to the component that suits the neighbours best. Shared among several, it would be blended with
+// several.
 void give_whole(float x, float y, const Prior& prior, std::span<Gaussian> mixture) {
   std::size_t best = 0;
   for (std::size_t i = 0; i < mixture.size(); ++i) {
@@ -221,7 +223,7 @@ void dense_start(const Samples& samples, std::span<Gaussian> mixture) {
   for (Gaussian& g : wide) g.alpha *= 1.0F - mixture.back().alpha;
 }
 
-// Exact, by dynamic programming over sets of components: 2^n n steps.
+// Exact, by dynamic programming over sets of components in 2^n n steps.
 void match_order(const Prior& prior, std::span<Gaussian> mixture) {
   const std::size_t n = mixture.size();
   std::array<std::array<double, most_components>, most_components> own{};  // of cluster j as component i

@@ -7,19 +7,19 @@
 
 namespace footprint::tan_gmm {
 
-/// Clusters of the samples as components (Tan 2005, section 4.1): centres farthest from one another, then Lloyd's
-/// steps. Where the samples have fewer distinct points than `mixture` components, the others get alpha 0.
+/// Clusters of the samples as components (Tan 2005, section 4.1): the most distant centres, then Lloyd's steps. If
+/// there are fewer distinct samples than components, the others get alpha 0.
 void cluster_start(const Samples& samples, std::span<Gaussian> mixture);
 
-/// Components one less than `mixture` from clusters, and one of variance 1e-4 on the cell of a histogram that holds the
-/// most weight: clusters miss spikes of equal normals inside of a wider spread. Needs two components.
+/// All components but one from clusters, and one of variance 1e-4 on the heaviest cell of a histogram, because clusters
+/// miss spikes of equal normals inside a wider spread. Needs two components.
 void dense_start(const Samples& samples, std::span<Gaussian> mixture);
 
-/// Orders the components so that the prior is greatest: which cluster is which is free until neighbours tell. Those
-/// of alpha 0 take the prior's mean.
+/// Orders the components so that the prior is greatest, because the order of clusters is arbitrary. Components of alpha
+/// 0 get the prior's mean.
 void match_order(const Prior& prior, std::span<Gaussian> mixture);
 
-/// Fits `mixture` to the samples. `parent`: the coarser texel's mixture, or empty. Without samples: every alpha is 0.
+/// Fits `mixture` to the samples. `parent`: the coarser texel's mixture, or empty. Without samples every alpha is 0.
 void fit_texel(const Samples& samples, const Prior& prior, std::span<const Gaussian> parent,
                const FitSettings& settings, std::span<Gaussian> mixture);
 

@@ -1,5 +1,5 @@
-// `template`: a method to copy. One lobe about the mean normal, widened as if the normals of different texels had
-// nothing to do with each other: N of them then hold, on average, 1 - 1/N of the whole map's spread.
+// `template`: a method to copy. One lobe about the mean normal, widened as if the normals of different texels were
+// independent. N of them then have, on average, 1 - 1/N of the spread of the whole map.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -23,7 +23,7 @@ float spread_of(std::span<const float> mean) {
   return (1.0F - consistency) / std::max(consistency, 1e-3F);  // normals that cancel have no mean: stay finite
 }
 
-// Four channels: the mean normal, and the spread to expect among the texels that a texel of this level stands for.
+// Four channels: the mean normal, and the expected spread among the texels that a texel of this level covers.
 std::vector<Image> normal_and_spread(const Material& material) {
   const std::vector<Image> normals = mean_normal_chain(material);
   const float whole_spread = spread_of(normals.back().at(0, 0));

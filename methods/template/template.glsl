@@ -1,4 +1,4 @@
-// One lobe about the mean normal, as wide as a facet's own and the expected spread together. Slope variances of
+// One lobe about the mean normal, as wide as a facet's lobe and the expected spread together. Slope variances of
 // independent spreads add.
 //? include facets_module.glsl
 

@@ -1,5 +1,5 @@
-// `toksvig`: the mean resultant length of the normals under a footprint tells their spread; one lobe about the mean
-// normal takes that spread into its width. Toksvig 2004/2005, "Mipmapping Normal Maps".
+// `toksvig`: the length of the mean normal under a footprint gives the spread of the normals. One lobe about the mean
+// normal is widened by that spread. Toksvig 2004/2005, "Mipmapping Normal Maps".
 #include <algorithm>
 
 #include "renderer/bake/method.hpp"

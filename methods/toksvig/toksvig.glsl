@@ -1,8 +1,8 @@
-// Toksvig 2005: the mean of unit normals has length |Na| = 1 - slope variance + ..., and a Blinn-Phong lobe of exponent
-// s over such normals is close to one of exponent s' = |Na| s / (|Na| + s (1 - |Na|)). The same said of widths,
+// Toksvig 2005: the mean of unit normals has length |Na| = 1 - slope variance + .... A Blinn-Phong lobe of exponent s over
+// such normals is close to one of exponent s' = |Na| s / (|Na| + s (1 - |Na|)). As widths,
 //   1 / s' = 1 / s + (1 - |Na|) / |Na|,
-// is a sum of slope variances per axis, which serves every distribution: alpha^2 / 2 takes the place of 1 / s for
-// Beckmann and GGX (Walter 2007, section 5.2), 1 / kappa for vMF.
+// is a sum of slope variances per axis and therefore applies to every distribution: 1 / s becomes alpha^2 / 2 for Beckmann
+// and GGX (Walter 2007, section 5.2), and 1 / kappa for vMF.
 //? include mean_normal.glsl
 //? include lobe_variance.glsl
 

@@ -36,7 +36,7 @@ gl::Framebuffer framebuffer(GLuint attachments) {
   return gl::Framebuffer(name);
 }
 
-// A texture of the job by its name; null where the precompute made none.
+// A texture of the job by its name; null if the precompute made none.
 const GpuTexture* texture_of(const FrameBuildJob& job, std::string_view name) {
   const auto& baked = job.baked.textures;
   const auto found = std::ranges::find(baked, name, &PrefilteredTexture::name);
@@ -53,7 +53,7 @@ bool in_camera_space(const FrameBuildJob& job) {
   return found != job.baked.scalars.end() && found->second > 0.5F;
 }
 
-// The level that a coarser one is made from.
+// Shows only the level that the next coarser one is computed from.
 void show_one_level(const gl::Texture& map, int level) {
   gl::api().TextureParameteri(map.name(), GL_TEXTURE_BASE_LEVEL, level);
   gl::api().TextureParameteri(map.name(), GL_TEXTURE_MAX_LEVEL, level);
@@ -79,7 +79,7 @@ const gl::Texture& DrawnLevel::make_room(const gl::Texture& like, int width, int
   gl::api().GetTextureLevelParameteriv(like.name(), 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
   const bool fits = format == format_ && width <= texture_.width() && height <= texture_.height() && layers <= layers_;
   if (fits) return texture_;
-  texture_ = gl::Texture();  // before the next one takes its memory
+  texture_ = gl::Texture();  // freed before the next one is allocated
   texture_ = gl::Texture(static_cast<GLenum>(format), width, height, 1, layers);
   format_ = format;
   layers_ = layers;
@@ -158,7 +158,7 @@ void InstantMap::run(const FrameBuildJob& job) const {
   for (const std::string_view name : {parts_name, parts_guard_name}) coarsen(job, name);
 }
 
-// Binds what the program reads.
+// Binds the inputs of the program.
 void InstantMap::prepare_join(const FrameBuildJob& job, const gl::Program& program, bool camera) const {
   constexpr std::array inputs{normals_name, variances_name, table_name};
   for (GLuint unit = 0; unit < inputs.size(); ++unit) {
@@ -211,7 +211,7 @@ void InstantMap::split(const FrameBuildJob& job) const {
   if (guards_) split(job, *split_guard_, whole_guard_name, parts_guard_name);
 }
 
-// Level 1 of the parts, from the finest level of the whole hemisphere's texture `from`.
+// Computes level 1 of the parts from the finest level of `from`, a texture of the whole hemisphere.
 void InstantMap::split(const FrameBuildJob& job, const gl::Program& program, std::string_view from,
                        std::string_view to) const {
   const gl::Texture& parts = *texture_of(job, to)->texture;
@@ -234,7 +234,7 @@ void InstantMap::split(const FrameBuildJob& job, const gl::Program& program, std
   }
 }
 
-// Draws a level of that size into the finest level of a texture, from a layer on.
+// Draws a level of `size` into the finest level of a texture, from `first_layer` on.
 void InstantMap::draw_into(const Stage& stage, const gl::Texture& target, const glm::ivec2& size,
                            int first_layer) const {
   for (GLuint i = 0; i < stage.layers; ++i) {
@@ -247,7 +247,7 @@ void InstantMap::draw_into(const Stage& stage, const gl::Texture& target, const 
   gl::api().DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-// Fills the further levels of a texture, if the job has it.
+// Fills the coarser levels of a texture, if the job has it.
 void InstantMap::coarsen(const FrameBuildJob& job, std::string_view name) const {
   const GpuTexture* built = texture_of(job, name);
   if (built == nullptr) return;

@@ -1,4 +1,5 @@
-// The passes that build `xu_vmf`'s map: joined at the finest level, split into the parts of the hemisphere, averaged.
+// The passes that build the map of `xu_vmf` every frame: join lobes at the finest level, split them into parts of the
+// hemisphere, and average.
 #pragma once
 
 #include <array>
@@ -11,7 +12,7 @@
 
 namespace footprint::xu_vmf {
 
-/// Names of the textures, as the shader has them.
+/// Texture names in the shaders.
 inline constexpr std::string_view whole_name = "xu_vmf_whole", parts_name = "xu_vmf_parts";
 inline constexpr std::string_view whole_guard_name = "xu_vmf_whole_guard", parts_guard_name = "xu_vmf_parts_guard";
 inline constexpr std::string_view normals_name = "xu_vmf_normals", variances_name = "xu_vmf_variances";
@@ -45,16 +46,17 @@ struct Settings {
 
 [[nodiscard]] Settings settings_of(const Options& options);
 
-/// A texture for drawing into, as large as the largest level so far. A level is not drawn straight into its texture:
-/// OpenGL allows that while another level of it is read (4.5 core, section 9.3.1, where base and maximum level keep
-/// them apart), but in Vulkan what a draw reads has another layout than what it draws into, and a driver over it that
-/// keeps one layout for a whole texture breaks that rule (Mesa's zink does, which `scripts/validate_vulkan` shows).
+/// A texture for drawing a level, as large as the largest level so far. OpenGL allows drawing into a level of a texture
+/// while another level is read (4.5 core, section 9.3.1, if base and maximum level separate them). But in Vulkan reads
+/// and draws need different layouts, and a driver over it with one layout per texture breaks that rule. Mesa's zink
+/// does, as `scripts/validate_vulkan` shows.
 class DrawnLevel {
  public:
   /// Makes room for `layers` of width x height texels in the format of `like`. Errors (machine): as gl::Texture.
   const gl::Texture& make_room(const gl::Texture& like, int width, int height, int layers);
 
-  /// Copies what was drawn to layers first_layer and after of a level of `map`, whose size it has.
+  /// Copies the drawn layers to layers `first_layer` and following of a level of `map`, which has the size of that
+  /// level.
   void copy_to(const gl::Texture& map, int level, int first_layer, int layers) const;
 
  private:
@@ -74,7 +76,8 @@ class InstantMap final : public FrameBuild {
   [[nodiscard]] std::optional<BuildInputs> kept_until_change_of() const override;
 
  private:
-  // A framebuffer with so many colour attachments, and what draws one level of as many layers from the finer one.
+  // A framebuffer with `layers` colour attachments, and the program that draws a level of as many layers from the finer
+  // level.
   struct Stage {
     gl::Framebuffer framebuffer;
     gl::Program coarsen;

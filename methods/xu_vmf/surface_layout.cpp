@@ -17,11 +17,11 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-constexpr double tolerance = 1e-2;          // texels that rounding may carry a coordinate over the map's edge
+constexpr double tolerance = 1e-2;          // texels by which rounding may move a coordinate over the map's edge
 constexpr double permitted_overlap = 1e-3;  // of the covered texels: rounding along shared edges
 constexpr double permitted_loss = 1e-3;     // of the surface's area: slivers between the texels
-constexpr double thinnest = 1e-3;           // texels; a triangle that is thinner in the map is a line there
-constexpr double largest_coordinate = 1e6;  // texels; what lies beyond is no layout
+constexpr double thinnest = 1e-3;           // texels; thinner triangles count as lines
+constexpr double largest_coordinate = 1e6;  // texels; no layout beyond
 
 // A rectangle of texels, `end` excluded.
 struct Box {
@@ -29,20 +29,20 @@ struct Box {
   [[nodiscard]] glm::ivec2 size() const { return end - first; }
 };
 
-// The triangles that hang together by their vertices, and the texels that they lie in.
+// Triangles that are connected by vertices, and the texels that they cover.
 struct Chart {
   std::vector<Triangle> triangles;
   Box box;
   glm::ivec2 corner{0};  // of its box in the atlas
 };
 
-// How many texels have been covered, and how many of them more than once.
+// Counts covered texels, and those covered more than once.
 class Coverage {
  public:
   explicit Coverage(const Box& box)
       : box_(box), covered_(static_cast<std::size_t>(box.size().x) * static_cast<std::size_t>(box.size().y)) {}
 
-  // Covers the texels whose centres lie inside, as a rasteriser does: of a shared edge one side alone has those on it.
+  // Covers the texels with centres inside, as a rasteriser does: centres on a shared edge belong to one side only.
   void add(std::span<const glm::dvec2, 3> corners) {
     const double area = cross(corners[1] - corners[0], corners[2] - corners[0]);
     if (area == 0.0) return;
@@ -60,7 +60,7 @@ class Coverage {
 
   [[nodiscard]] bool overlaps() const { return twice_ > permitted_overlap * once_; }
 
-  // Whether a fetch in the middle of a triangle that has been added finds something that was drawn.
+  // Whether a fetch in the middle of an added triangle reads a covered texel.
   [[nodiscard]] bool shows(std::span<const glm::dvec2, 3> corners) const {
     double longest = 0;
     for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, glm::distance(corners[i], corners[(i + 1) % 3]));
@@ -126,10 +126,10 @@ double surface_area(const Triangle& triangle, std::span<const Vertex> vertices) 
                                       glm::dvec3(vertices[triangle[2]].position) - from));
 }
 
-// What comes of triangles that are drawn where their coordinates have them.
+// The result of drawing triangles at their own coordinates.
 struct Drawing {
   bool overlaps;
-  double lost;  // area of the surface that no texel shows
+  double lost;  // area of the surface without texels
 };
 
 Drawing draw(std::span<const Triangle> triangles, std::span<const glm::dvec2> positions, const Box& box,
@@ -150,7 +150,7 @@ std::vector<Triangle> triangle_list(const TriangleSoup& soup) {
   return out;
 }
 
-// Vertices that triangles join, directly or by others, have one root.
+// Union-find over vertices: connected vertices have one root.
 class VertexGroups {
  public:
   explicit VertexGroups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
@@ -198,7 +198,7 @@ std::vector<Chart> charts_of(std::span<const Triangle> triangles, std::span<cons
   return charts;
 }
 
-// Shelves: charts by height, the highest first, from left to right. Gives the size of the whole; none if that is over
+// Packs charts in shelves, the highest first, from left to right. Returns the size of the atlas, or none above
 // `largest_atlas` or `longest_side`.
 std::optional<glm::ivec2> pack(std::vector<Chart>& charts) {
   double area = 0;
@@ -211,7 +211,7 @@ std::optional<glm::ivec2> pack(std::vector<Chart>& charts) {
     order.push_back(&chart);
   }
   if (area > static_cast<double>(largest_atlas)) return {};
-  constexpr int multiple = 64;  // halves evenly, level after level
+  constexpr int multiple = 64;  // even at several levels
   const auto rounded = [](int size) { return (size + multiple - 1) / multiple * multiple; };
   const int width = rounded(std::max(widest, static_cast<int>(std::ceil(std::sqrt(area)))));
   std::ranges::stable_sort(order, std::ranges::greater(), [](const Chart* chart) { return chart->box.size().y; });
@@ -223,7 +223,7 @@ std::optional<glm::ivec2> pack(std::vector<Chart>& charts) {
   return size;
 }
 
-// Moves every chart to its corner; `positions` turn from texels of the map to texels of the atlas.
+// Moves every chart to its corner. `positions` change from texels of the map to texels of the atlas.
 void move(std::span<const Chart> charts, std::span<glm::dvec2> positions) {
   std::vector<bool> moved(positions.size());
   for (const Chart& chart : charts) {
@@ -251,8 +251,7 @@ SurfaceLayout lay_out(const TriangleSoup& soup, const TextureCoordinates& coordi
     return layout(map_size, positions, why + ": joined in the tangent frame", false);
   };
   const bool sound = std::ranges::all_of(positions, [](const glm::dvec2& position) {
-    return std::abs(position.x) < largest_coordinate &&
-           std::abs(position.y) < largest_coordinate;  // false for a NaN too
+    return std::abs(position.x) < largest_coordinate && std::abs(position.y) < largest_coordinate;  // false for NaN
   });
   if (!sound) return none("texture coordinates are not finite, or far outside of the map");
   const std::vector<Triangle> triangles = triangle_list(soup);

@@ -1,4 +1,4 @@
-// Where the triangles of a material lie in a map of which each texel shows one point of the surface.
+// Lays out the triangles of a material in a map in which each texel shows one point of the surface.
 #pragma once
 
 #include <cstddef>
@@ -11,28 +11,29 @@
 
 namespace footprint::xu_vmf {
 
-/// Texels that an atlas has at most: 0.5 GiB of `xu_vmf:j=adaptive` in 32-bit floats.
+/// The most texels of an atlas: 0.5 GiB of `xu_vmf:j=adaptive` in 32-bit floats.
 inline constexpr std::size_t largest_atlas = std::size_t{1} << 23U;
 
-/// Nor longer: OpenGL 4.5 promises no larger textures than drivers have, all of which take this.
+/// The most texels along an edge; all drivers support it, though OpenGL 4.5 guarantees no such size.
 inline constexpr int longest_side = 16384;
 
-/// Texels between two charts of an atlas, so that no level up to 3 blends one with another.
+/// Texels between two charts of an atlas, so that levels up to 3 do not blend charts.
 inline constexpr int chart_gap = 16;
 
-/// A layout, or why there is none.
+/// A layout, or the reason for its absence.
 struct SurfaceLayout {
   glm::ivec2 size{1};                  ///< texels
-  std::vector<glm::vec2> coordinates;  ///< a vertex, 0 to 1 over the size; where there is none, those of the map itself
-  bool unique = true;                  ///< false: there is none
-  std::string note;                    ///< what a user should know; empty where the map's own layout serves
+  std::vector<glm::vec2> coordinates;  ///< per vertex, 0 to 1 over the size; without a layout those of the map
+  bool unique = true;                  ///< false: no layout
+  std::string note;                    ///< a note for the user; empty if the map's own layout is used
 };
 
-/// Lays triangles out in texels as large as those of a map of `map_size` at `coordinates`: as the map has them where
-/// they stay inside and do not overlap, else in an atlas, chart by chart (triangles that share vertices), each moved by
-/// whole texels, so that a texel of the atlas shows exactly one of the map. None where coordinates are not finite, a
-/// chart overlaps itself, the atlas is over `largest_atlas` or `longest_side`, or more than 1/1000 of the surface's
-/// area would have no texel: coordinates that are not there or lie on a line, charts smaller than a texel.
+/// Lays triangles out in texels as large as those of a map of `map_size` at `coordinates`. Keeps the map's own layout
+/// if triangles stay inside and do not overlap. Otherwise packs charts (triangles that share vertices) into an atlas,
+/// each moved by whole texels, so that a texel of the atlas shows exactly one texel of the map. No layout if
+/// coordinates are not finite, a chart overlaps itself, the atlas exceeds `largest_atlas` or `longest_side`, or more
+/// than 1/1000 of the surface's area has no texel. The latter happens with missing or collinear coordinates, and with
+/// charts smaller than a texel.
 [[nodiscard]] SurfaceLayout lay_out(const TriangleSoup& soup, const TextureCoordinates& coordinates,
                                     const glm::ivec2& map_size);
 

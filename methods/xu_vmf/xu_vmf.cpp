@@ -1,4 +1,4 @@
-// `xu_vmf`: base BRDF and normal map joined into von Mises-Fisher lobes every frame, averaged by parts of the
+// `xu_vmf`: joins base BRDF and normal map into von Mises-Fisher lobes every frame, and averages them by parts of the
 // hemisphere. Xu, Wang, Zhao, Bao 2017, "Real-Time Linear BRDF MIP-Mapping".
 #include <algorithm>
 #include <cmath>
@@ -50,8 +50,8 @@ std::vector<OptionSpec> option_table() {
           threshold_option("eps1", 0.85, "j=adaptive: one lobe serves one of the 4 parts where its |r| is above.")};
 }
 
-// Two maps can be joined texel by texel where one point of the surface is one point in both. A map that is not there is
-// anywhere.
+// Whether the maps can be joined texel by texel: a point of the surface is the same point in both. A missing map joins
+// with any other.
 bool can_join(const Material& material) {
   if (width_map(material) == nullptr) return true;
   const TextureCoordinates normal = normal_coordinates(material);
@@ -60,7 +60,7 @@ bool can_join(const Material& material) {
   return normal.set == roughness.set && normal.transform == roughness.transform && same_wrap;
 }
 
-// 1 - |r| over the logarithm of kappa, 0.01 to 100 000 (hard to store otherwise: |r| is near 1 for most of it).
+// 1 - |r| over the logarithm of kappa, 0.01 to 100 000. |r| itself is near 1 over most of the range.
 Image shortfall_table() {
   constexpr int entries = 1024;
   Image table(entries, 1, 1);
@@ -71,7 +71,7 @@ Image shortfall_table() {
   return table;
 }
 
-// The maps that are joined, and where they lie.
+// The maps to join, and their coordinates.
 struct Inputs {
   bool normals_vary, roughness_varies;
   Image normals, variances;
@@ -95,8 +95,8 @@ int layers_of(const Material& material, const EffectSet& effects) {
   return has(effects, Effect::multi_lobe) ? xu_vmf::whole_layers(material) : 1;
 }
 
-// The maps that the frame build fills, for a finest level of `size`. The walk over the parts gathers texels of the
-// whole hemisphere's and looks parts up at levels of its own, neither of which is an anisotropic sampler's business.
+// Declares the maps that the frame build fills, for a finest level of `size`. The walk over parts gathers texels of the
+// whole hemisphere's map and chooses levels itself, so anisotropic samplers must not be used.
 void declare_maps(Prefiltered& out, const glm::ivec2& size, const TextureCoordinates& coordinates, int layers,
                   const xu_vmf::Settings& settings, const EffectSet& effects) {
   const int parts = settings.part_layers();
@@ -127,11 +127,11 @@ void add_inputs(Prefiltered& out, Inputs& inputs, const Material& material, cons
     out.textures.push_back(make_texture(std::string(name), std::move(levels), Storage::fp32, coordinates));
   };
   if (inputs.normals_vary) {
-    std::vector<Image> finest;  // a list in braces would copy it
+    std::vector<Image> finest;  // an initializer list would copy the map
     finest.push_back(std::move(inputs.normals));
     add(xu_vmf::normals_name, std::move(finest), normal_coordinates(material));
   }
-  // Its further levels are for shading, which asks what of a lobe's width is the facets' own.
+  // Shading reads the coarser levels for the facets' own share of a lobe's width.
   if (inputs.roughness_varies)
     add(xu_vmf::variances_name, mip_chain(std::move(inputs.variances)), roughness_coordinates(material));
   if (settings.table) add(xu_vmf::table_name, {shortfall_table()}, {});
@@ -153,7 +153,7 @@ Prefiltered in_tangent_space(Inputs inputs, const Material& material, const xu_v
 
 class XuVmf final : public Method {
  public:
-  /// The frame build does the filtering: what is baked are its inputs, and the coordinates of its map.
+  /// The frame build filters. Therefore the bake consists of its inputs and the coordinates of its map.
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                                        const Progress& /*progress*/) const override {
     Inputs inputs(material, effects);
@@ -168,7 +168,7 @@ class XuVmf final : public Method {
     Inputs inputs(material, effects);
     if (!settings.camera_space || !inputs.anything()) return precompute(material, options, effects, progress);
     xu_vmf::SurfaceLayout layout = xu_vmf::lay_out(triangles_of(scene, index), inputs.coordinates, inputs.size());
-    // A material without maps among others with them: its one texel would show one normal of the whole mesh.
+    // In a scene with maps, the single texel of a material without maps would show one normal of the whole mesh.
     if (inputs.size() == glm::ivec2(1)) {
       layout.unique = false;
       layout.note.clear();

@@ -1,18 +1,18 @@
 // Xu, Wang, Zhao, Bao 2017: the effective BRDF is a mixture of von Mises-Fisher lobes, one for each part of the
-// hemisphere of normals; each is recovered from its characteristic vector, which the texture filter averages.
+// hemisphere of normals. Each lobe is recovered from its characteristic vector, which the texture filter averages.
 //? include xu_vmf_conversion.glsl
 //? include xu_vmf_lobes.glsl
 //? if texture_arrays
 //? include xu_vmf_parts.glsl
 //? end
 
-// Adds the lobes of the parts that a footprint needs, for each of a facet's lobes; where none has one, facets are flat.
+// Adds the lobes of the parts that a footprint needs, for each lobe of a facet. Facets without any lobe are flat.
 //
-// The loop runs over the layers that the map has: a count that the compiler does not know, so that it unrolls nothing
-// and compiles in a fraction of the time. It asks at its end: a software renderer runs a body that is asked for first
-// once more than needed. It runs what a condition leaves out as well, but not a loop's further rounds: so every part is
-// a round of its own, the whole hemisphere, which serves most footprints, the first, and a pixel goes on to what it
-// needs next: the parts that this one is cut into, or those beyond it.
+// The loop runs over the layers of the map, a number that the compiler does not know, so that it unrolls nothing and
+// compiles in a fraction of the time. The condition is at the end, because a software renderer runs a body with the
+// condition in front once more than needed. It also runs branches that a condition skips, but not further rounds of a
+// loop. Therefore every part is one round: first the whole hemisphere, which serves most footprints, then as needed the
+// parts of the current part, or those beyond it.
 Effective effective(Footprints f) {
   Effective e;
   e.count = 0;
@@ -26,29 +26,17 @@ Effective effective(Footprints f) {
       float weight;
       Part part = nextPart(walk, weight);
       if (hasLobe(part, weight)) {
-        KeptLobe kept = lobeOfPart(own, part, weight);
-        lobes[e.count] = kept.lobe;
-        weights[e.count] = kept.weights;
-//? if environment_light
-        shares[e.count] = kept.share;
-//? end
-        ++e.count;
+        addLobe(e.count, lobeOfPart(own, part, weight));
         e.covered += weight * part.r.w;
       }
     } while (walk.next < walk.parts);
 //? end
     if (e.count == first) {
-      KeptLobe kept = keptLobe(own, own.axis, own.shortfall, 1.0, 1.0);
-      lobes[e.count] = kept.lobe;
-      weights[e.count] = kept.weights;
-//? if environment_light
-      shares[e.count] = kept.share;
-//? end
-      ++e.count;
+      addLobe(e.count, storedLobe(own, own.axis, own.shortfall, 1.0, 1.0));
       e.covered = 1.0;
     }
 //? if multi_lobe
-    // Each of the facets' lobes has parts of its own, which cover what they cover.
+    // Each lobe of the facets has its own parts and its own coverage.
     int i = first;
     do {
       weights[i] *= own.weight / vec2(amountsOf(e.covered), e.covered);
@@ -67,7 +55,7 @@ Effective effective(Footprints f) {
   return e;
 }
 
-// Facets with lobes of their own axes hide each other by their normals, whatever the axes.
+// Facets with lobes about their own axes mask each other by their normals.
 vec3 geometryAxis(vec3 normal, vec3 mean) {
 //? if multi_lobe
   if (facet_lobe_count > 0) return normal / max(length(normal), 1e-6);
@@ -75,7 +63,7 @@ vec3 geometryAxis(vec3 normal, vec3 mean) {
   return mean;
 }
 
-// One loop for both terms: a lobe is dear to read.
+// One loop for both terms, because reading a lobe is expensive.
 Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   vec3 h = halfVector(wi, wo);
   float sum = 0.0;
@@ -90,7 +78,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   r.specular = vec3(0.0);
   if (halfVectorIsDefined(wi, wo)) r.specular = fresnelTerm(s.f0, wi, wo) * (sum / amountsOf(e.covered));
 //? if diffuse
-  vec3 n = (cosine / e.covered) * wi;  // any normal of that cosine with the light
+  vec3 n = (cosine / e.covered) * wi;  // any normal with that cosine to the light
   float size = 1.0;
 //? if multi_lobe
   if (facet_lobe_count > 0) {
@@ -115,14 +103,14 @@ float ndf(Effective e, vec3 h) {
 //? if environment_light
 int lobeCount(Effective e) { return e.count; }
 
-// A lobe reflects what its facets cover, seen along their own normals, and masks as they do: the density's integral is
-// another, and the wide lobe that stands for them masks more.
+// A lobe reflects the share that its facets cover, seen along their own normals, and masks as they do. The integral of
+// its density differs from that share, and the wide lobe alone would mask more.
 NormalLobe normalLobe(Effective e, int i) {
   Lobe lobe = lobeOf(lobes[i], weights[i]);
   float share = shares[i].x / amountsOf(e.covered);
 //? if lobe_base
 //? if distribution_ggx
-  // Seen along its axis GGX reflects 1 / (1 + alpha^2) of a furnace, and the rest below its horizon.
+  // Along its axis GGX reflects 1 / (1 + alpha^2) of a furnace; the rest is below its horizon.
   share *= (1.0 + lobe.base * lobe.base) / (1.0 + shares[i].y * shares[i].y);
 //? end
   NormalLobe normals = baseNormalLobe(lobe.mean, lobe.base, share);

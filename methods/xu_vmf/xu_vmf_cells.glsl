@@ -1,19 +1,19 @@
-// The parts that the hemisphere of normals is cut into: 8 cells, two of them to each of 4 parts. r has the direction.
+// The parts of the hemisphere of normals: 8 cells, in pairs 4 parts. r has the direction.
 //? if partition_azimuth
-// Four sectors about the axes, so that grooves along an axis fall whole into opposite ones; each is cut at the middle
+// Four sectors about the axes, so that grooves along an axis fall entirely into opposite sectors. Each is split at half
 // of the disc's radius.
 int cellOf(vec3 r) {
   int sector = abs(r.x) >= abs(r.y) ? (r.x >= 0.0 ? 0 : 2) : (r.y > 0.0 ? 1 : 3);
   return 2 * sector + (dot(r.xy, r.xy) >= 0.25 * dot(r, r) ? 1 : 0);
 }
 //? else
-// Four rings of equal width over the disc, each cut in halves.
+// Four rings of equal width over the disc, each split into halves.
 int cellOf(vec3 r) { return 2 * min(int(4.0 * sqrt(dot(r.xy, r.xy) / max(dot(r, r), 1e-30))), 3) + (r.x >= 0.0 ? 0 : 1); }
 //? end
 
-// The parts that the map stores, a layer each. `adaptive` has a tree of them, parents before what they are cut into: the
-// whole hemisphere (0), and the 4 coarse parts (1, 4, 7, 10), each before its two cells. What follows a part that is not
-// cut is beyondPart, what it holds are the parts between the two.
+// The parts that the map stores, one layer each. `adaptive` stores a tree, parents before their parts: the whole
+// hemisphere (0), then each of the 4 coarse parts (1, 4, 7, 10) before its two cells. beyondPart is the next part that
+// is not inside a part; the parts between the two are inside it.
 //? if j_adaptive
 const int part_count = 13;
 int partOfCell(int cell) { return 2 + cell + cell / 2; }

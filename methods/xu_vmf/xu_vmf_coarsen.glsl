@@ -1,10 +1,10 @@
-// The further passes of the frame build: one level of some layers from the next finer one.
+// The later passes of the frame build: compute one level of some layers from the next finer level.
 //? include xu_vmf_storing.glsl
 
 layout(location = 0) out vec4 coarse[layer_count];
 
 uniform int first_layer;
-layout(binding = 0) uniform sampler2DArray map;  // its base level is the finer one
+layout(binding = 0) uniform sampler2DArray map;  // its base level is the finer level
 
 void main() {
   ivec2 target = ivec2(gl_FragCoord.xy);

@@ -1,9 +1,9 @@
-// A base lobe as the von Mises-Fisher lobe of the same width, whose characteristic vector r = |r| mu averages linearly
-// (Xu 2017, section 3.2), and the way back. |r| is near 1 for narrow lobes: what is computed is q = 1 - |r|.
+// Converts a base lobe to the von Mises-Fisher lobe of the same width, whose characteristic vector r = |r| mu averages
+// linearly (Xu 2017, section 3.2), and back. |r| is near 1 for narrow lobes, so functions compute q = 1 - |r|.
 //? include vmf.glsl
 
 //? if distribution_blinn_phong
-// Equation 14: the lobe of the same peak and of the same energy over solid angle.
+// Equation 14: the lobe with the same peak and the same energy over solid angle.
 float kappaOfLobe(float s) { return s + 1.0; }
 float lobeOfKappa(float kappa) { return clamp(kappa - 1.0, 0.0, largest_exponent); }
 //? else
@@ -11,8 +11,8 @@ float kappaOfLobe(float lobe) { return 1.0 / max(lobeVariance(lobe), 1e-12); }
 float lobeOfKappa(float kappa) { return lobeFromVariance(1.0 / max(kappa, 1e-6)); }
 //? end
 
-// The energy of a base lobe over solid angle. That of a microfacet lobe grows with its width, while the mean of narrow
-// ones keeps theirs: a wide lobe that stands for them is scaled by the ratio.
+// The energy of a base lobe over solid angle. It grows with the width of a microfacet lobe, but the mean of narrow
+// lobes keeps their energy. Therefore a wide lobe that replaces narrow ones is scaled by the ratio.
 float energyOf(float base) {
 //? if lobe_base
   return lobeEnergy(base);
@@ -22,12 +22,12 @@ float energyOf(float base) {
 }
 
 //? if conversion_table
-// q = 1 - |r| of kappa from a table, as the paper has it, but over the logarithm of kappa and of q in place of |r|
-// (kappa of a table of |r| over kappa itself is wrong by a third where kappa is 1 to 10).
+// q = 1 - |r| of kappa from a table, as in the paper, but over the logarithm of kappa, and of q instead of |r|. (kappa
+// from a table of |r| over kappa itself is off by a third for kappa of 1 to 10.)
 const float table_first = 1e-2;  // of kappa
 const float table_last = 1e5;
 
-// Beyond the table's ends the root's own limits: |r| = kappa / 3, and q = 1 / (kappa - 1/2).
+// The limits beyond the table: |r| = kappa / 3, and q = 1 / (kappa - 1/2).
 float tabulatedShortfall(sampler2D table, float kappa) {
   if (kappa < table_first) return 1.0 - kappa / 3.0;
   if (kappa > table_last) return 1.0 / (kappa - 0.5);

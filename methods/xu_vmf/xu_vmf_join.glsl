@@ -1,17 +1,17 @@
-// First pass of the frame build: the base BRDF and the normal map joined into one lobe a texel (Xu 2017, section 4), of
-// facets with several lobes one for each, for the whole hemisphere: (r, 1), or 0 where the surface has no valid normal,
-// faces away, or is not at all. Means of texels are (w r, w): the share of the footprint that is covered, and its
-// lobes' mean.
+// First pass of the frame build: joins the base BRDF and the normal map into one lobe per texel (Xu 2017, section 4),
+// or one for each lobe of the facets. Writes (r, 1) for the whole hemisphere, or 0 where there is no valid normal, no
+// surface, or only a surface that faces away. Means of texels are (w r, w), with w the covered share of the footprint
+// and r the mean of its lobes.
 //? include xu_vmf_conversion.glsl
 //? include xu_vmf_storing.glsl
 
 layout(location = 0) out vec4 joined;
 //? if guard
-layout(location = 1) out vec4 guard;  // 1 - |r|, which no rounding of r reaches
+layout(location = 1) out vec4 guard;  // 1 - |r|, unaffected by the rounding of r
 //? end
 
 //? if normal_variation
-layout(binding = 0) uniform sampler2D normals;  // weight in w: 0 where the map has no valid normal
+layout(binding = 0) uniform sampler2D normals;  // weight in w: 0 if invalid
 //? end
 //? if roughness_variation
 layout(binding = 1) uniform sampler2D variances;  // of the base lobe's slopes
@@ -27,13 +27,13 @@ in vec4 world_tangent;
 in vec2 uv0;
 in vec2 uv1;
 uniform mat3 world_to_camera;
-uniform vec4 viewer;  // (position, 1), or (direction towards it, 0)
+uniform vec4 viewer;  // (position, 1), or (direction to the viewer, 0)
 uniform bool two_sided;
 
 //? include tangent_frame.glsl
 
-// Whether the viewer sees the triangle's front. Its outward side comes of how position changes over the texture, where
-// the triangle may lie mirrored.
+// Whether the viewer sees the front of the triangle. The outward side follows from the change of position over the
+// texture, in which the triangle may be mirrored.
 bool facesViewer() {
   vec3 outward = cross(dFdx(world_position), dFdy(world_position)) * (gl_FrontFacing ? 1.0 : -1.0);
   return dot(outward, viewer.xyz - viewer.w * world_position) > 0.0;
@@ -48,14 +48,14 @@ vec4 texelOf(sampler2D map, int slot) { return textureLod(map, mapped(slot), 0.0
 //? else
 uniform ivec2 map_size;
 
-// Maps of different sizes share their area: the texel under this one.
+// The texel of another map under this one; maps of different sizes share their area.
 vec4 texelOf(sampler2D map, int slot) {
   return texelFetch(map, ivec2(gl_FragCoord.xy) * textureSize(map, 0) / map_size, 0);
 }
 //? end
 
 //? if multi_lobe
-uniform int own_lobe;  // of a facet; -1: its normal alone
+uniform int own_lobe;  // of a facet; -1: only its normal
 //? end
 
 float shortfall(float kappa) {

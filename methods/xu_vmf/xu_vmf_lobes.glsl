@@ -1,18 +1,18 @@
 // The lobes of a facet, and the lobes that a pixel reflects with.
 
-// The lobes of one facet, which the map has joined with the normals: one about its normal, or several about axes of
-// their own.
+// A lobe of one facet, which the map has joined with the normals: one about its normal, or several about their own
+// axes.
 struct FacetsLobe {
   vec3 axis;
   float parameter, weight;
-  float shortfall, energy;  // 1 - |r|, and what energyOf has for it
+  float shortfall, energy;  // 1 - |r|, and energyOf the lobe
 };
 
 FacetsLobe facetsLobe(vec3 axis, float parameter, float weight) {
   return FacetsLobe(axis, parameter, weight, shortfallOf(kappaOfLobe(parameter)), energyOf(parameter));
 }
 
-// Where roughness varies, the lobe of the mean slope variance.
+// The lobe of the mean slope variance if the roughness varies.
 FacetsLobe baseLobe(Footprints f) {
 //? if roughness_variation
   return facetsLobe(vec3(0.0, 0.0, 1.0), lobeFromVariance(fetch(xu_vmf_variances, f.roughness).r), 1.0);
@@ -37,7 +37,7 @@ const int most_of_one = 1;
 //? elif j_4
 const int most_of_one = 4;
 //? elif thresholds_blended
-const int most_of_one = 13;  // on the way from one lobe to 4 parts, and in each of these on the way to 2
+const int most_of_one = 13;  // while blending from one lobe to 4 parts, and from each of these to 2
 //? else
 const int most_of_one = 8;
 //? end
@@ -47,20 +47,20 @@ const int most_lobes = most_of_one * most_facet_lobes;
 const int most_lobes = most_of_one;
 //? end
 
-// What all lights take of the pixel's lobes.
+// The data of the pixel's lobes that all lights share.
 struct Effective {
-  int count;      // of the lobes below that are there, from the first on
-  float covered;  // of the footprint, by the lobes: what their weights are still to be divided by
+  int count;      // of the valid lobes below, from the first on
+  float covered;  // share of the footprint that lobes cover; divide weights by it
   vec3 normal;    // mean of the unit normals of facets with lobes of their own axes
 };
 
-// The lobes themselves: a part of Effective that is not handed over with it. GLSL hands arrays over by copying them,
-// and Mesa does so for each light: in Effective they made a frame of carved_disk take 1.7 times as long. Few numbers,
-// since an array whose index is not known is dear to write and to read.
+// The lobes, which belong to Effective but are not passed with it. GLSL copies arrays that it passes, and Mesa does so
+// for each light: in Effective they made a frame of carved_disk take 1.7 times as long. Lobes are compact, because
+// accesses to an array by a variable index are expensive.
 vec4 lobes[most_lobes];    // mean direction, and width: the parameter of the base lobe, or kappa
 vec2 weights[most_lobes];  // of the density, and of the cosine of the mean normal
 //? if environment_light
-vec2 shares[most_lobes];   // of the footprint's facets, but as published, and the parameter of their lobe
+vec2 shares[most_lobes];   // of the footprint's facets (as published: the amount), and the parameter of their lobe
 //? end
 
 struct Lobe {
@@ -68,8 +68,8 @@ struct Lobe {
 //? if not lobe_base
   float kappa;
 //? end
-  float base;    // the base lobe of that width
-  float amount;  // what its density is multiplied by
+  float base;    // parameter of the base lobe of that width
+  float amount;  // factor on its density
 };
 
 Lobe lobeOf(vec4 lobe, vec2 weights) {
@@ -89,7 +89,7 @@ float densityOf(Lobe lobe, vec3 h) {
 //? end
 }
 
-// What the amounts are still to be divided by.
+// The divisor of the amounts.
 float amountsOf(float covered) {
 //? if variant_published
   return 1.0;
@@ -98,22 +98,31 @@ float amountsOf(float covered) {
 //? end
 }
 
-// A lobe as it is kept.
-struct KeptLobe {
+// A lobe as stored in the arrays.
+struct StoredLobe {
   vec4 lobe;
   vec2 weights;
   vec2 share;
 };
 
-// `amount` is what the lobe adds with as published: it is the share where lobes weigh what they cover.
-KeptLobe keptLobe(FacetsLobe own, vec3 mean, float q, float share, float amount) {
+void addLobe(inout int count, StoredLobe added) {
+  lobes[count] = added.lobe;
+  weights[count] = added.weights;
+//? if environment_light
+  shares[count] = added.share;
+//? end
+  ++count;
+}
+
+// `amount`: the factor of the lobe as published; otherwise the share is used.
+StoredLobe storedLobe(FacetsLobe own, vec3 mean, float q, float share, float amount) {
   float kappa = kappaOf(q);
   float base = lobeOfKappa(kappa);
 //? if not variant_published
   amount = share;
 //? end
 //? if sampling_texel
-  // The lobe of the one texel that was drawn is a facet's own. The roughness map may have drawn another.
+  // The lobe of the single texel that was drawn is that of a facet. The roughness map may have drawn another one.
   own.shortfall = q;
   own.energy = energyOf(base);
   own.parameter = base;
@@ -125,5 +134,5 @@ KeptLobe keptLobe(FacetsLobe own, vec3 mean, float q, float share, float amount)
 //? else
   vec4 lobe = vec4(mean, kappa);
 //? end
-  return KeptLobe(lobe, vec2(amount * own.energy / energyOf(base), share * normal_length), vec2(amount, own.parameter));
+  return StoredLobe(lobe, vec2(amount * own.energy / energyOf(base), share * normal_length), vec2(amount, own.parameter));
 }

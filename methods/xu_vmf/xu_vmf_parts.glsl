@@ -1,10 +1,10 @@
-// The parts of a footprint, as the map has them, one after the other.
+// The parts of a footprint in the order of the map.
 
-// A part that covers less of the footprint is left out, and no division is by nothing.
+// Parts that cover less of the footprint are left out, which also avoids divisions by 0.
 const float least_share = 1e-4;
 
-// Floats round |r| by as much; where the lobes spread less than that, nothing is known of how much. Half floats lose
-// that much of every spread; 32 bits lose nothing of a larger one.
+// The rounding error of |r|; spreads below it are unknown. Half floats lose it from every spread, 32-bit floats only
+// from smaller spreads.
 //? if storage_fp16
 float shortfallOfMean(float size, float least) { return max(1.0 - size - 1.0 / 2048.0, least); }
 //? else
@@ -15,14 +15,14 @@ float shortfallOfMean(float size, float least) {
 }
 //? end
 
-// A part of the footprint: (w r, w), and w times the mean of 1 - |r| of its texels, below which 1 - |r| of the mean
-// cannot lie, however it was rounded: |mean r| <= mean |r|.
+// A part of the footprint: (w r, w), and w times the mean of 1 - |r| of its texels. 1 - |r| of the mean is never below
+// that mean, because |mean r| <= mean |r|, whatever the rounding.
 struct Part {
   vec4 r;
   float least;
 };
 
-// `guard` is what the map keeps for `least`, where it keeps it; else it is the facets' own for every texel.
+// `guard`: the value of the map for `least` if it stores one; otherwise `least` is that of a facet in every texel.
 Part partOf(vec4 r, float guard, float facet_shortfall) {
 //? if roughness_variation
   return Part(r, guard);
@@ -33,7 +33,7 @@ Part partOf(vec4 r, float guard, float facet_shortfall) {
 
 //? if surface_coordinates
 Footprint mapFootprint(Footprints f) { return f.surface; }
-// The map has the camera's axes, but where no atlas could be made for it.
+// The map is in camera space, unless no atlas could be made for it.
 vec3 axisOf(vec3 r) { return xu_vmf_in_camera_space > 0.5 ? r * tangent_to_camera : r; }
 //? elif normal_variation
 Footprint mapFootprint(Footprints f) { return f.normal; }
@@ -43,34 +43,34 @@ Footprint mapFootprint(Footprints f) { return f.roughness; }
 vec3 axisOf(vec3 r) { return r; }
 //? end
 
-// The lobe of a part, of which `weight` counts; there is none where it covers next to nothing.
+// The lobe of a part that counts with `weight`, unless the part covers next to nothing.
 bool hasLobe(Part part, float weight) { return part.r.w >= least_share && weight > 0.0; }
 
-KeptLobe lobeOfPart(FacetsLobe own, Part part, float weight) {
+StoredLobe lobeOfPart(FacetsLobe own, Part part, float weight) {
   vec3 r = part.r.xyz / part.r.w;
   float size = length(r);
   float q = shortfallOfMean(size, part.least / part.r.w);
   vec3 mean = size < 1e-6 ? vec3(0.0, 0.0, 1.0) : axisOf(r / size);
-  return keptLobe(own, mean, clamp(q, 1.0 / largest_exponent, 1.0), weight * part.r.w, weight);
+  return storedLobe(own, mean, clamp(q, 1.0 / largest_exponent, 1.0), weight * part.r.w, weight);
 }
 
 //? if sampling_frame and not j_1
-// Algorithm 1: the parts of the hemisphere, cut as long as one lobe does not serve them.
+// Algorithm 1: splits the parts of the hemisphere until one lobe serves each.
 //? include xu_vmf_cells.glsl
 
-// Where a part of one of the facets' lobes is looked up. Its finest level is not stored: the texels of the whole
-// hemisphere's stand in for it below level 1, each for the part that its lobe is in.
+// A lookup of a part of one of the facets' lobes. The finest level of parts is not stored. Below level 1 the texels of
+// the whole hemisphere are used, each for the part that contains its lobe.
 struct Probe {
   int own;
   vec2 uv;
   float level;
-  mat4 texel;    // a column each, by its share
+  mat4 texel;    // one per column, times its share
   vec4 guard;
   ivec4 part;
 };
 
-// The four texels about a point come by their channels, gathered from the middle between them, where no hardware rounds
-// to others. Each is (r, 1), or 0: the fourth channel needs no look.
+// The four texels about a point, gathered channel by channel from the middle between them, where no hardware rounds to
+// others. Each is (r, 1) or 0, so the fourth channel needs no lookup.
 mat4 texelsAbout(sampler2DArray map, vec3 middle) {
   vec4 x = textureGather(map, middle, 0);
   vec4 y = textureGather(map, middle, 1);
@@ -127,18 +127,18 @@ Part partAt(Probe p, float facet_shortfall, int part) {
   return partOf(r, guard, facet_shortfall);
 }
 
-// Where a walk over the parts of one of the facets' lobes is.
+// The state of a walk over the parts of one of the facets' lobes.
 struct Walk {
   Footprint footprint;
   int own;
   float facet_shortfall;
-  int next;  // part; from `parts` on the walk is over
+  int next;  // next part; the walk ends at `parts`
   int parts;
 //? if not several_probes
   Probe probe;
 //? end
 //? if j_adaptive and thresholds_blended
-  float coarse_weight, cell_weight;  // what the hemisphere leaves to the coarse parts, and such a part to its cells
+  float coarse_weight, cell_weight;  // what the hemisphere leaves to coarse parts, and a coarse part to its cells
 //? end
 };
 
@@ -159,8 +159,7 @@ Part partUnder(Walk walk, int part) {
 //? end
 
 //? if j_adaptive
-// How far one lobe serves a part: 1 wholly, 0 not at all. Algorithm 1 steps at the threshold. A cell is not cut, nor
-// what nothing is in.
+// How far one lobe serves a part, from 0 to 1. Algorithm 1 steps at the threshold. Cells and empty parts are not split.
 float unityOf(Part part, int i) {
   if (beyondPart(i) == i + 1 || part.r.w < least_share) return 1.0;
   float size = length(part.r.xyz) / part.r.w;
@@ -215,7 +214,7 @@ Part nextPart(inout Walk walk, out float weight) {
   return part;
 }
 //? else
-// One part: a sample of the finest level has one texel, or what is blended of texels.
+// A single part: a sample of the finest level reads one texel or a blend of texels.
 struct Walk {
   Footprint footprint;
   int own;

@@ -1,4 +1,4 @@
-// Triangles laid out in texture space, with what a texel's lobe needs of the surface.
+// Draws triangles in texture space, with the surface data that the lobe of a texel needs.
 layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec4 in_tangent;

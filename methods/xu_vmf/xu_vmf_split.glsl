@@ -1,12 +1,12 @@
-// Second pass of the frame build: from the finest level, where a texel has one lobe, to the next one of some parts. The
-// finest level of a part is not stored: whether a texel's lobe is in it, its direction tells.
+// Second pass of the frame build: from the finest level, with one lobe per texel, to the next level of some parts. The
+// finest level of parts is not stored, because the direction of a texel's lobe gives its part.
 //? include xu_vmf_cells.glsl
 //? include xu_vmf_storing.glsl
 
 layout(location = 0) out vec4 part[layer_count];
 
-uniform int source;      // the layer that is split
-uniform int first_part;  // of those that are drawn
+uniform int source;      // the layer to split
+uniform int first_part;  // the first drawn part
 layout(binding = 0) uniform sampler2DArray finest;
 //? if guard
 layout(binding = 1) uniform sampler2DArray values;

@@ -1,5 +1,4 @@
-// What is written to a map that holds half floats is rounded here: some drivers cut the digits off instead, which
-// shortens r at every level.
+// Rounds values for a map of half floats. Some drivers truncate instead, which would shorten r at every level.
 vec4 stored(vec4 value) {
 //? if storage_fp16
   return vec4(unpackHalf2x16(packHalf2x16(value.xy)), unpackHalf2x16(packHalf2x16(value.zw)));
@@ -8,8 +7,8 @@ vec4 stored(vec4 value) {
 //? end
 }
 
-// Of the layers that a pass draws: whether one is a coarse part of `adaptive`'s tree, before its two cells, which need no
-// second look.
+// Whether a layer that a pass draws is a coarse part of `adaptive`'s tree. It is the sum of its two cells, which follow
+// it, and needs no lookups.
 bool isSumOfNext(int i, int layers) {
 //? if j_adaptive
   return layers > 1 && i % 3 == 0;
@@ -18,8 +17,8 @@ bool isSumOfNext(int i, int layers) {
 //? end
 }
 
-// A coarse texel is the exact mean of the area that it covers of the next finer level, for any size: two texels along
-// an even axis, three with the shares ((m - i), m, (1 + i)) / n along an odd one, n = 2m + 1 (Guthe and Heckbert 2005).
+// The shares of finer texels in a coarse texel, which is the exact mean of its area for any size: two texels along an
+// even axis, three with the shares ((m - i), m, (1 + i)) / n along an odd one, n = 2m + 1 (Guthe and Heckbert 2005).
 vec3 sharesOf(int i, int n) {
   if (n == 1) return vec3(1.0, 0.0, 0.0);
   if (n % 2 == 0) return vec3(0.5, 0.5, 0.0);

@@ -13,7 +13,7 @@
 namespace footprint {
 namespace {
 
-// The texel of the mean of valid normals of the finest level that has one over (x, y) of the finest map.
+// The mean of valid normals over (x, y), of the finest level that has one.
 std::span<const float> valid_mean(const std::vector<Image>& chain, int x, int y) {
   const Image& finest = chain.front();
   for (const Image& level : chain) {
@@ -25,7 +25,7 @@ std::span<const float> valid_mean(const std::vector<Image>& chain, int x, int y)
   return {};
 }
 
-// Every normal of unit length and weight 1.
+// Normals of unit length and weight 1.
 Image filled(const Image& normals) {
   std::vector<Image> chain{normals};
   const bool holes = [&] {
@@ -46,7 +46,7 @@ Image filled(const Image& normals) {
   return out;
 }
 
-// A map that goes on as its own mirror image along each axis that does not repeat.
+// Appends the mirror image along each axis that does not repeat.
 Image unfolded(const Image& map, const std::array<Wrap, 2>& wrap) {
   const bool along_u = wrap[0] != Wrap::repeat, along_v = wrap[1] != Wrap::repeat;
   Image out(map.width * (along_u ? 2 : 1), map.height * (along_v ? 2 : 1), map.channels);

@@ -1,5 +1,5 @@
-// `yan_gaussians`: position-normal distributions after Yan et al. 2016, one 4D Gaussian a texel and a hierarchy over
-// positions and normals. What prefiltering is compared with where every glint is to be seen.
+// `yan_gaussians`: position-normal distributions after Yan et al. 2016, with one 4D Gaussian per texel and a hierarchy
+// over positions and normals. A reference for prefiltering on surfaces where every glint is visible.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -19,7 +19,7 @@ extern const EmbeddedTexts yan_gaussians_glsl;
 
 namespace {
 
-// Rows of the textures that are lists; yan_sum.glsl has the same numbers.
+// Widths of the textures that store lists; yan_sum.glsl has the same numbers.
 constexpr int order_width = 4096, nodes_width = 2048;
 
 int rows_for(std::size_t count, int width) {
@@ -43,7 +43,7 @@ ElementTree tree_over(const Elements& elements, double cutoff) {
   return build_element_tree(points, reach);
 }
 
-// The texels' numbers in the order of the leaves, a byte a channel: exact, whatever their number.
+// The texel indices in the order of the leaves, one byte per channel and therefore exact.
 PrefilteredTexture order_texture(const ElementTree& tree) {
   TextureLevel level{.width = order_width, .height = rows_for(tree.order.size(), order_width), .bytes = {}};
   level.bytes.resize(std::size_t{4} * static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height));
@@ -59,7 +59,7 @@ PrefilteredTexture order_texture(const ElementTree& tree) {
           .levels = {std::move(level)}};
 }
 
-// Bounds of each node: the low ends in one layer, the high ones in another.
+// The bounds of each node: the lower ones in the first layer, the upper ones in the second.
 PrefilteredTexture nodes_texture(const ElementTree& tree) {
   const int rows = rows_for(tree.nodes.size(), nodes_width);
   std::vector<std::vector<Image>> layers(2);

@@ -1,6 +1,7 @@
-// Gaussian elements, one a texel, summed under a Gaussian footprint. One sample of many is one texel's facet.
+// Sums Gaussian elements, one per texel, under a Gaussian footprint. Samples of a supersampled image draw the facet of
+// one texel.
 //? if normal_variation
-// The footprint on the map as it is stored: one that does not repeat is followed by its mirror image.
+// The footprint on the stored map, which appends the mirror image of a map that does not repeat.
 Footprint folded(Footprint f) {
   vec2 share = vec2(yan_share_u, yan_share_v);
   f.uv = mix(f.uv, clamp(f.uv, 0.0, 1.0), vec2(yan_clamp_u, yan_clamp_v)) * share;
@@ -10,9 +11,10 @@ Footprint folded(Footprint f) {
 }
 
 //? end
-// What the normals of one element reflect: their mean and covariance on the disc, and the roughness of each.
+// The reflectance of one element, from the mean and the covariance of its normals on the disc and the roughness of
+// each.
 
-// What is asked of each element: its reflectance but for the Fresnel term, or its density of normals at h.
+// The value of each element: its reflectance without the Fresnel term, or its density of normals at h.
 struct Query {
   bool reflects;
   vec3 h;
@@ -30,8 +32,8 @@ vec3 onSphere(vec2 disc) {
 //? if roughness_intrinsic
 const vec3 no_spread = vec3(0.0);
 
-// A Gaussian on the disc (Yan 2016), whose covariance is that of the element's normals, (xx, xy, yy), and sigma_r^2
-// along both axes; times h_z it is a density over solid angle. The determinant is summed from parts of one sign.
+// A Gaussian on the disc (Yan 2016). Its covariance is that of the element's normals, (xx, xy, yy), plus sigma_r^2
+// along both axes. Multiplied by h_z it is a density over solid angle. The determinant is a sum of non-negative parts.
 float elementDensity(vec3 normal, vec3 spread, vec3 h) {
   countLobes(1);
   float rough = option_sigma_r * option_sigma_r;
@@ -48,29 +50,29 @@ float elementValue(vec3 normal, vec3 spread, Query q) {
   return density * geometryFactor(lobeFromVariance(option_sigma_r * option_sigma_r), normal, q.h, q.wi, q.wo);
 }
 
-// How far from h on the disc a normal may lie whose roughness still reaches h.
+// The largest distance on the disc between h and a normal whose roughness reaches h.
 float normalReach() { return option_cutoff * option_sigma_r; }
 //? else
 const float no_spread = 0.0;
 
-// The base lobe about the mean, widened alike in all directions by the mean of the element's variances on the sphere.
+// The base lobe about the mean normal, widened in all directions by the mean of the element's variances on the sphere.
 float elementValue(vec3 normal, float variance, Query q) {
   Facets facets = spreadFacets(normal, lobeVariance(yan_lobe), variance);
   return q.reflects ? facetReflectance(facets, q.h, q.wi, q.wo) : facetDensity(facets, q.h);
 }
 
-// How far from h, as a chord, the normal of a facet may lie whose lobe has exp(-cutoff^2 / 2) of its peak at h.
+// The largest chord between h and the normal of a facet whose lobe has exp(-cutoff^2 / 2) of its peak at h.
 float normalReach() {
   float most = 0.5 * option_cutoff * option_cutoff;
 //? if multi_lobe or distribution_ggx
-  return 4.0;  // a tail that no cut-off leaves whole, or axes anywhere
+  return 4.0;  // no cut-off preserves the tail, and lobes may have any axis
 //? elif distribution_blinn_phong
   return sqrt(2.0 * (1.0 - exp(-most / yan_lobe)));
 //? elif distribution_vmf
   return sqrt(min(2.0 * most / yan_lobe, 4.0));
 //? else
-  // exp(-t / alpha^2) (1 + t)^2 with t the squared tangent: a step of the fixed point
-  // t = alpha^2 (most + 2 log(1 + t)), from a start that is larger than it.
+  // exp(-t / alpha^2) (1 + t)^2 with t the squared tangent: one step of the fixed point t = alpha^2 (most + 2 log(1 +
+  // t)), from a start above the solution.
   float a2 = yan_lobe * yan_lobe;
   float t = a2 * (most + 2.0 * log(1.0 + a2 * (most + 8.0)));
   return sqrt(2.0 * (1.0 - inversesqrt(1.0 + t)));
@@ -80,7 +82,7 @@ float normalReach() {
 //? if normal_variation and sampling_frame
 //? include yan_sum.glsl
 //? else
-// One texel's own facet: of many samples, or where normals do not vary.
+// The facet of one texel, for samples of a supersampled image and for surfaces without a normal map.
 struct Effective {
   vec3 normal;
 };

@@ -1,5 +1,5 @@
-// The position-normal distribution under a Gaussian footprint (Yan 2016): a sum over the elements that reach both the
-// footprint and the half vector, found by walking the hierarchy. Lengths are in texels.
+// Evaluates the position-normal distribution under a Gaussian footprint (Yan 2016): a sum over the elements that reach
+// both the footprint and the half vector. A walk of the hierarchy finds them. Lengths are in texels.
 
 const float seed_variance = 0.18033688;  // 1 / (8 ln 2), of an element's position along each axis
 
@@ -10,18 +10,18 @@ struct Effective {
   vec2 size;         // of the map
   vec3 inverse_sum;  // of the covariance of footprint and seed together
   vec3 within;       // covariance of positions in an element, given the footprint
-  vec2 reach;        // half of the rectangle in which elements count
-  float scale;       // from exp(...) to an element's weight
-  vec3 root;         // of the covariance of footprint and seed together: the lower triangle whose square it is
-  bool wide;         // beyond half of the map: copies of an element count
+  vec2 reach;        // half of the rectangle of contributing elements
+  float scale;       // from exp(...) to the weight of an element
+  vec3 root;         // of the covariance of footprint and seed together: its lower triangular square root
+  bool wide;         // wider than half of the map: copies of elements contribute
 };
 
 vec3 inverseOf(vec3 m) { return vec3(m.z, -m.y, m.x) / (m.x * m.z - m.y * m.y); }
 
 float quadratic(vec3 m, vec2 d) { return m.x * d.x * d.x + 2.0 * m.y * d.x * d.y + m.z * d.y * d.y; }
 
-// Over a whole grid the weights of elements of covariance `m` sum to this at p from a texel's centre, but for 1e-6: the
-// grid's Poisson sum. Without it a flat map would show its texels, by a tenth where it is magnified.
+// The sum of the weights of all elements of covariance `m` on a grid, at p from the centre of a texel, within 1e-6:
+// Poisson's sum over the grid. Without this factor the texels of a magnified flat map would be visible, by a tenth.
 float gridSum(vec3 m, vec2 p) {
   float row = exp(-2.0 * pi * pi * m.x) * cos(2.0 * pi * p.x);
   float column = exp(-2.0 * pi * pi * m.z) * cos(2.0 * pi * p.y);
@@ -30,8 +30,9 @@ float gridSum(vec3 m, vec2 p) {
   return 1.0 + 2.0 * (row + column + rising + falling);
 }
 
-// Of the same mean and covariance as the pixel's parallelogram, e e^T / 12 for each edge e. Where it is wider than the
-// map, which repeats, it is drawn together to a deviation of half a map: there the copies' sum is even, but for 1.5%.
+// The Gaussian with the mean and the covariance of the pixel's parallelogram, e e^T / 12 for each edge e. If it is
+// wider than the map, which repeats, its deviation is limited to half of the map. There the sum over copies is constant
+// within 1.5%.
 vec3 footprintCovariance(vec2 dx, vec2 dy, vec2 size) {
   vec3 m = vec3(dx.x * dx.x + dy.x * dy.x, dx.x * dx.y + dy.x * dy.y, dx.y * dx.y + dy.y * dy.y) / 12.0;
   vec2 narrower = min(0.5 * size * inversesqrt(max(m.xz, 1e-12)), 1.0);
@@ -48,7 +49,7 @@ Effective effective(Footprints f) {
   vec3 pixel = footprintCovariance(f.normal.dx * e.size, f.normal.dy * e.size, e.size);
   vec3 sum = pixel + vec3(seed_variance, 0.0, seed_variance);
   e.inverse_sum = inverseOf(sum);
-  // (pixel^-1 + seed^-1)^-1 = seed (1 - seed sum^-1), without the difference of large numbers: seed sum^-1 pixel.
+  // (pixel^-1 + seed^-1)^-1 = seed (1 - seed sum^-1), as seed sum^-1 pixel without a difference of large numbers.
   vec3 i = e.inverse_sum;
   e.within = seed_variance * vec3(i.x * pixel.x + i.y * pixel.y, i.x * pixel.y + i.y * pixel.z,
                                   i.y * pixel.y + i.z * pixel.z);
@@ -60,7 +61,7 @@ Effective effective(Footprints f) {
   return e;
 }
 
-// Where copies count: those of a row, two to either side of the nearest.
+// The copies that contribute: those in a row, two on each side of the nearest.
 float rowOfCopies(Effective e, vec2 d) {
   float sum = exp(-0.5 * quadratic(e.inverse_sum, d));
   for (int i = 1; i <= 2; ++i) {
@@ -85,8 +86,8 @@ uint texelAt(uint place) {
 }
 
 //? if jacobian_central
-// The covariance of an element's normals on the disc, from that of its positions by the Jacobian `slopes`, n_x by u and
-// v and n_y by u and v.
+// The covariance of an element's normals on the disc, from that of its positions by the Jacobian `slopes`: n_x by u and
+// v, then n_y by u and v.
 vec3 spreadOnDisc(Effective e, vec4 slopes) {
   vec2 by_x = vec2(dot(e.within.xy, slopes.xy), dot(e.within.yz, slopes.xy));
   vec2 by_y = vec2(dot(e.within.xy, slopes.zw), dot(e.within.yz, slopes.zw));
@@ -95,9 +96,9 @@ vec3 spreadOnDisc(Effective e, vec4 slopes) {
 
 float heightOver(vec2 disc) { return sqrt(max(1.0 - dot(disc, disc), 0.0)); }
 
-// The mean of the variances on the sphere along its two axes: n_z changes too, by the difference over two texels, where
-// its derivative on the disc is infinite at the horizon. No normal of a map lies below the horizon: two deviations
-// reach it at most.
+// The mean of the variances on the sphere along both axes. The change of n_z is a difference over two texels, because
+// its derivative on the disc is infinite at the horizon. Two deviations reach the horizon at most, as no normal of a
+// map is below it.
 float spreadOnSphere(Effective e, vec2 disc, vec4 slopes) {
   vec3 spread = spreadOnDisc(e, slopes);
   vec2 rise = 0.5 * vec2(heightOver(disc + slopes.xz) - heightOver(disc - slopes.xz),
@@ -107,8 +108,8 @@ float spreadOnSphere(Effective e, vec2 disc, vec4 slopes) {
 }
 
 //? end
-// What the normals of the element of a texel reflect, which lies `d` from the footprint's centre. Given the footprint its
-// positions have the mean `shift` from its own and the covariance `within`, and its normals follow by the Jacobian.
+// The reflectance of the element of a texel at `d` from the footprint's centre. Given the footprint, its positions have
+// the mean `shift` from its own and the covariance `within`, and its normals follow by the Jacobian.
 float valueOfTexel(Effective e, ivec2 at, vec2 d, Query q) {
   vec3 normal = normalize(texelFetch(mean_normal, at, 0).xyz);
   countLookups(1);
@@ -128,7 +129,7 @@ float valueOfTexel(Effective e, ivec2 at, vec2 d, Query q) {
 //? end
 }
 
-// What an element adds: its weight under the footprint times what its normals there reflect.
+// The contribution of an element: its weight under the footprint times the reflectance of its normals there.
 float elementAt(Effective e, uint place, Query q) {
   uint texel = texelAt(place);
   uint width = uint(e.size.x);
@@ -141,8 +142,8 @@ float elementAt(Effective e, uint place, Query q) {
   return weight > 0.0 ? weight * value : 0.0;
 }
 
-// Whether elements of a node may count: their positions within `reach` of the footprint's centre on the map, which
-// repeats, and their normals within `normal_reach` of h.
+// Whether elements of a node may contribute: their positions are within `reach` of the footprint's centre on the
+// repeating map, and their normals within `normal_reach` of h.
 bool reaches(Effective e, uint node, vec3 h, float normal_reach) {
   ivec2 at = ivec2(node & 2047u, node >> 11u);
   vec4 low = texelFetch(yan_nodes, ivec3(at, 0), 0);
@@ -154,29 +155,29 @@ bool reaches(Effective e, uint node, vec3 h, float normal_reach) {
   return all(lessThanEqual(d, e.reach)) && all(lessThanEqual(apart, vec2(normal_reach)));
 }
 
-// The first place of a leaf, leaf * count / 2^depth, by 64 bits.
+// The first place of a leaf, leaf * count / 2^depth, in 64 bits.
 uint leafBegin(uint leaf, uint count, int depth) {
   uint high, low;
   umulExtended(leaf, count, high, low);
   return depth == 0 ? low : high << uint(32 - depth) | low >> uint(depth);
 }
 
-// llvmpipe ends loops after 65535 rounds a pixel, all lights together: no picture may pass for whole then. A step of the
-// walk takes one round and, where any of the eight pixels that are drawn together is in a leaf, five more.
+// llvmpipe ends loops after 65535 rounds per pixel, over all lights, and an incomplete image must not pass unnoticed. A
+// step of the walk takes one round, and five more if any of the eight pixels that are drawn together is in a leaf.
 float notWhole() { return uintBitsToFloat(0x7fc00000u); }
-// One call takes them all. Of several, each has its part of one half, and takes up to a quarter of what is left of the
-// other.
+// A single call may take all rounds. Each of several calls has an equal part of one half, and takes up to a quarter of
+// the remainder of the other half.
 const int own_steps = (shade_calls > 1 ? 4000 : 8000) / shade_calls;
 int shared_steps = shade_calls > 1 ? 4000 : 0;
 const int draws = max(8192 / shade_calls, 1);
 
-// The elements within reach of the footprint take more steps than there are, whatever their normals.
+// Whether the elements within reach of the footprint take more steps than allowed, whatever their normals.
 bool isTooWide(Effective e, int most_steps) {
   vec2 sides = min(2.0 * e.reach, e.size);
   return normalReach() >= 2.0 && sides.x * sides.y > 4.0 * float(most_steps);
 }
 
-// An estimate without bias: the mean of so many elements, drawn as often as the footprint weighs them.
+// An unbiased estimate: the mean over elements that are drawn in proportion to the footprint's weights.
 float estimateOver(Effective e, Query q) {
   float sum = 0.0;
   int seen = 0;
@@ -192,8 +193,8 @@ float estimateOver(Effective e, Query q) {
   return seen == draws ? sum / float(draws) : notWhole();
 }
 
-// Nodes in preorder: below one that reaches come its children, behind one that does not, or is a leaf, the next right
-// sibling of it or of an ancestor. The last ways lead back to the root, 1.
+// Visits nodes in preorder. A node that reaches is followed by its children; otherwise, or after a leaf, by the next
+// right sibling of the node or of an ancestor. The walk ends at the root, 1.
 float sumOver(Effective e, Query q) {
   int depth = int(yan_depth);
   uint leaves = 1u << uint(depth);

@@ -8,8 +8,8 @@
 #include <random>
 #include <utility>
 
+#include "methods/iwasaki_sg/lobe_fit.hpp"
 #include "methods/iwasaki_sg/material_table.hpp"
-#include "methods/iwasaki_sg/ndf_fit.hpp"
 #include "methods/iwasaki_sg/spherical_gaussian.hpp"
 #include "renderer/core/random.hpp"
 #include "renderer/lobes/lobe.hpp"
@@ -22,11 +22,11 @@ namespace {
 constexpr double least_area = 1e-6;  // of the patch, below which a direction sees nothing
 
 constexpr std::size_t random_count = 192;  // directions to the light, and to the viewer
-constexpr std::size_t truth_facets = 131'072;
-constexpr double least_height = 0.05;         // cosine: 3 degrees over the horizon, where rays still pass few periods
-constexpr std::uint64_t truth_seed = 12'345;  // not the method's
+constexpr std::size_t reference_facets = 131'072;
+constexpr double least_height = 0.05;  // cosine: 3 degrees over the horizon, where rays cross only a few periods
+constexpr std::uint64_t reference_seed = 12'345;  // differs from the method's
 
-// A bin for each triangle that has samples: its own normal, where the method takes the mean over a cell.
+// One bin per triangle with samples, which has its own normal instead of the mean over a cell.
 BinnedFacets by_triangles(const Patch& patch, FacetSamples samples) {
   BinnedFacets out;
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -48,7 +48,7 @@ Bvndf bvndf_of(const Patch& patch, BinnedFacets facets, std::vector<glm::dvec3> 
 
 // Uniform over the directions above `least_height`.
 std::vector<glm::dvec3> random_directions(std::size_t count) {
-  std::mt19937_64 random(truth_seed);
+  std::mt19937_64 random(reference_seed);
   std::vector<glm::dvec3> directions;
   for (std::size_t i = 0; i < count; ++i) {
     const double z = 1.0 - (1.0 - least_height) * uniform(random), azimuth = 2.0 * std::numbers::pi * uniform(random);
@@ -58,7 +58,7 @@ std::vector<glm::dvec3> random_directions(std::size_t count) {
   return directions;
 }
 
-// The base lobe as wide as it and the normals' lobe are together: slope variances add.
+// The base lobe, widened by the lobe of normals: slope variances add.
 double widened(const Lobe& base, const SphericalGaussian& lobe, const glm::dvec3& h) {
   const float variance = lobe_variance(base) + static_cast<float>(1.0 / lobe.sharpness);
   return lobe_density(lobe_from_variance(base.distribution, variance), one_minus_dot(lobe.axis, h));
@@ -135,13 +135,14 @@ std::size_t DenseTable::byte_count(int side, std::size_t channels) {
 
 double relative_error(const Material& material, const TableSettings& settings, const BrdfFunction& brdf) {
   const Patch& patch = material.microgeometry->patch;
-  const FacetSum truth(material, settings, by_triangles(patch, sample_facets(patch, truth_facets, truth_seed)),
-                       random_directions(2 * random_count), no_progress);
+  const FacetSum reference(material, settings,
+                           by_triangles(patch, sample_facets(patch, reference_facets, reference_seed)),
+                           random_directions(2 * random_count), no_progress);
   std::vector<double> away(random_count), all(random_count);
   tbb::parallel_for(std::size_t{0}, random_count, [&](std::size_t i) {
     for (std::size_t o = random_count; o < 2 * random_count; ++o) {
-      const glm::dvec3 sum = truth(i, o);
-      const glm::dvec3 difference = brdf(truth.directions()[i], truth.directions()[o]) - sum;
+      const glm::dvec3 sum = reference(i, o);
+      const glm::dvec3 difference = brdf(reference.directions()[i], reference.directions()[o]) - sum;
       away[i] += glm::dot(difference, difference);
       all[i] += glm::dot(sum, sum);
     }
@@ -200,7 +201,7 @@ glm::dvec3 EffectiveBrdf::convolved(const SphericalGaussian& fitted, const glm::
   return glm::dvec3(sum / vmf_integral(lobe.sharpness));
 }
 
-// Interpolated as the shader does it: with the cosine to the light over that of the surface.
+// Interpolates as the shader does, with the cosine to the light divided by that of the surface.
 std::vector<glm::dvec3> EffectiveBrdf::masses(const glm::dvec3& wi, const glm::dvec3& wo) const {
   const Amplitudes& table = table_.amplitudes;
   const GridCells in = cells_around(wi, side_), out = cells_around(wo, side_);

@@ -21,18 +21,18 @@
 
 namespace footprint::iwasaki_sg {
 
-/// f cos of an effective BRDF for unit vectors to the light and to the viewer, a value a channel.
+/// f cos of an effective BRDF for unit vectors to the light and to the viewer, one value per channel.
 using BrdfFunction = std::function<glm::dvec3(const glm::dvec3& wi, const glm::dvec3& wo)>;
 
-/// Eq. 1 over the facets of a material's patch, times the cosine to the light: of the base BRDF the normal distribution
-/// alone (without Fresnel and geometry terms), of a tabulated one all.
+/// Eq. 1 over the facets of a material's patch, times the cosine to the light. A base BRDF contributes only its normal
+/// distribution (without Fresnel and geometry terms), a tabulated BRDF all of it.
 class FacetSum {
  public:
-  /// The material has a patch, of which `facets` are samples. `settings` say the cosines and the channels.
+  /// The material has a patch, and `facets` are samples of it. `settings` give the cosines and the channels.
   FacetSum(const Material& material, const TableSettings& settings, BinnedFacets facets,
            std::vector<glm::dvec3> directions, const Progress& progress);
 
-  /// For directions by their indices in the list.
+  /// The sum for two directions by their indices in the list.
   [[nodiscard]] glm::dvec3 operator()(std::size_t wi, std::size_t wo) const;
 
   [[nodiscard]] const std::vector<glm::dvec3>& directions() const { return bvndf_.directions; }
@@ -49,9 +49,9 @@ class FacetSum {
   std::vector<PaintFactors> paints_;
 };
 
-/// A table of the sum for `side` x `side` directions to the light and as many to the viewer, over the same discretised
-/// normals as the lobes', interpolated between directions. Like the table of the lobes' amplitudes it holds f cos over
-/// the cosine where the facets' own cosine is in it.
+/// A table of the sum for `side` x `side` directions to the light and as many to the viewer, interpolated between
+/// directions. It has the same discretised normals as the lobes. Like the table of amplitudes it stores f cos divided
+/// by the cosine if the facets' own cosine is included.
 class DenseTable {
  public:
   /// `side` is 2 or more; time grows as its fourth power.
@@ -59,7 +59,7 @@ class DenseTable {
 
   [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& wi, const glm::dvec3& wo) const;
 
-  /// Of its 32-bit floats.
+  /// The bytes of its 32-bit floats.
   [[nodiscard]] static std::size_t byte_count(int side, std::size_t channels);
 
  private:
@@ -68,27 +68,28 @@ class DenseTable {
   std::vector<glm::vec3> values_;  // [wi][wo]
 };
 
-/// Root mean square difference of an effective BRDF from the sum over facets, over the root mean square of the sum, for
-/// 192 random directions to the light with each of 192 to the viewer, uniform over what is 3 degrees or more above
-/// the horizon. The sum is over facets drawn apart from the method's, each with its triangle's own normal.
+/// Root mean square difference between an effective BRDF and the sum over facets, divided by the root mean square of
+/// the sum. Over all pairs of 192 random directions to the light and 192 to the viewer, uniform above 3 degrees over
+/// the horizon. The sum is over facets that are drawn independently of the method, each with the normal of its
+/// triangle.
 [[nodiscard]] double relative_error(const Material& material, const TableSettings& settings, const BrdfFunction& brdf);
 
-/// What facets reflect with: the base lobe, that lobe as spherical Gaussians of unit energy, or those of a tabulated
-/// BRDF with its diffuse term.
+/// The reflection of facets: the base lobe, that lobe as spherical Gaussians of unit energy, or the lobes of a
+/// tabulated BRDF with its diffuse term.
 using FacetReflection = std::variant<Lobe, std::vector<BrdfLobe>, TabulatedLobes>;
 
-/// That of a material by the option `lobe`; a tabulated BRDF where the facets have one.
+/// The reflection of a material by the option `lobe`, or its tabulated BRDF if it has one.
 [[nodiscard]] FacetReflection facet_reflection(const Material& material, const Options& options);
 
-/// f cos of the effective BRDF but for the Fresnel and geometry terms (all of it, where the BRDF is tabulated): Eq. 15,
-/// with amplitudes interpolated between the table's directions.
+/// f cos of the effective BRDF without the Fresnel and geometry terms (a tabulated BRDF includes them): Eq. 15, with
+/// amplitudes interpolated between the directions of the table.
 class EffectiveBrdf {
  public:
-  /// `approximate`: Eq. 14 in place of Eq. 11 for a base lobe in spherical Gaussians. Refers to the table.
+  /// `approximate`: Eq. 14 instead of Eq. 11 for a base lobe of spherical Gaussians. Stores a reference to the table.
   EffectiveBrdf(const MaterialTable& table, const TableSettings& settings, FacetReflection reflection,
                 bool approximate);
 
-  /// Of unit vectors above the horizon, in each channel; a table of one channel has it in all.
+  /// The value for unit vectors above the horizon, in each channel; a table of one channel gives it in all.
   [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& wi, const glm::dvec3& wo) const;
 
  private:
@@ -98,7 +99,7 @@ class EffectiveBrdf {
   const MaterialTable& table_;
   int side_;
   std::vector<glm::dvec3> directions_;
-  bool with_cosine_;  // whether masses have the facets' cosine to the light
+  bool with_cosine_;  // whether masses include the facets' cosine to the light
   FacetReflection reflection_;
   bool approximate_;
 };

@@ -27,7 +27,7 @@ glm::dvec3 cube_point(int face, double u, double v) {
   return point;
 }
 
-// Directions to the middles of a cube map's cells.
+// Directions to the centres of a cube map's cells.
 std::vector<glm::dvec3> cell_middles() {
   std::vector<glm::dvec3> middles;
   for (int cell = 0; cell < 6 * cube_side * cube_side; ++cell) {
@@ -37,8 +37,8 @@ std::vector<glm::dvec3> cell_middles() {
   return middles;
 }
 
-// What a lobe holds in a cell, by steps^2 sub-cells.
-double held_by(const SphericalGaussian& lobe, int cell, int steps) {
+// The integral of a lobe over a cell, by steps^2 sub-cells.
+double integral_over(const SphericalGaussian& lobe, int cell, int steps) {
   const glm::dvec2 corner = glm::dvec2(cell % cube_side, cell / cube_side % cube_side) * cell_width - 1.0;
   const double width = cell_width / steps;
   double sum = 0.0;
@@ -53,25 +53,25 @@ double held_by(const SphericalGaussian& lobe, int cell, int steps) {
   return sum;
 }
 
-// A lobe over the cells that it reaches: (cell, share), the sum of the shares 1.
+// A lobe over the cells that it reaches: (cell, share), with shares that sum to 1.
 using Spread = std::vector<std::pair<std::uint32_t, double>>;
 
-// Sub-cells are as fine as the lobe's width asks for.
+// Chooses sub-cells by the width of the lobe.
 Spread spread_of(const SphericalGaussian& lobe, std::span<const glm::dvec3> middles) {
   constexpr int finest = 64;
-  constexpr double nothing = 40.0;  // an exponent below which a lobe adds nothing
+  constexpr double nothing = 40.0;  // exponent beyond which a lobe is negligible
   const int steps = std::clamp(static_cast<int>(std::ceil(2.0 * cell_width * std::sqrt(lobe.sharpness))), 1, finest);
-  // From the axis to the middle of the last cell that the lobe reaches.
+  // From the axis to the centre of the last cell that the lobe reaches.
   const double reach = std::acos(std::max(1.0 - nothing / lobe.sharpness, -1.0)) + cell_width;
   const double beyond = 1.0 - std::cos(std::min(reach, std::numbers::pi));
   Spread spread;
   double sum = 0.0;
   for (std::size_t cell = 0; cell < middles.size(); ++cell) {
     if (one_minus_dot(middles[cell], lobe.axis) > beyond) continue;
-    const double held = held_by(lobe, static_cast<int>(cell), steps);
-    if (held <= 0.0) continue;
-    spread.emplace_back(static_cast<std::uint32_t>(cell), held);
-    sum += held;
+    const double share = integral_over(lobe, static_cast<int>(cell), steps);
+    if (share <= 0.0) continue;
+    spread.emplace_back(static_cast<std::uint32_t>(cell), share);
+    sum += share;
   }
   for (auto& [cell, share] : spread) share /= sum;
   return spread;
@@ -79,12 +79,12 @@ Spread spread_of(const SphericalGaussian& lobe, std::span<const glm::dvec3> midd
 
 struct Sums {
   double squares = 0.0;      // of gamma~
-  double differences = 0.0;  // of gamma~ less the lobes, squared
+  double differences = 0.0;  // of gamma~ minus the lobes, squared
 };
 
-// What one pair of directions adds. A facet's normal is as wide as the sharpest lobe: one that stands for a single
-// normal is then just that. Over the cells that facets reach the difference is summed as it is; over the others the
-// lobes stand alone, by their products.
+// The contribution of one pair of directions. A facet's normal is as wide as the sharpest lobe, so that a lobe for a
+// single normal fits it exactly. The difference is summed directly over cells with facets. Over the other cells only
+// lobes contribute, by their products.
 class PairSums {
  public:
   PairSums(const Bvndf& bvndf, const Amplitudes& table, Cosines cosines)
@@ -114,11 +114,11 @@ class PairSums {
     const std::size_t n = shares_.size(), pairs = table_.directions * table_.directions;
     const auto mass = [&](std::size_t j) { return double{table_.masses[j * pairs + wi * table_.directions + wo]}; };
     for (const auto& [cell, bins] : bins_in_) {
-      double truth = 0.0;
-      for (const auto& [bin, share] : bins) truth += share * seen(bin, wi, wo);
-      double difference = truth;
+      double exact = 0.0;
+      for (const auto& [bin, share] : bins) exact += share * seen(bin, wi, wo);
+      double difference = exact;
       for (std::size_t j = 0; j < n; ++j) difference -= mass(j) * shares_[j][cell];
-      sums.squares += truth * truth;
+      sums.squares += exact * exact;
       sums.differences += difference * difference;
     }
     for (std::size_t a = 0; a < n; ++a) {
@@ -128,7 +128,7 @@ class PairSums {
   }
 
  private:
-  // gamma~ of a bin.
+  // Returns gamma~ of a bin.
   [[nodiscard]] double seen(std::size_t bin, std::size_t wi, std::size_t wo) const {
     const auto cosine = [&](std::size_t d) {
       return std::max(glm::dot(bvndf_.bins[bin].normal, bvndf_.directions[d]), 0.0);
@@ -141,7 +141,7 @@ class PairSums {
   const Amplitudes& table_;
   Cosines cosines_;
   std::vector<std::vector<double>> shares_;
-  std::map<std::uint32_t, std::vector<std::pair<std::size_t, double>>> bins_in_;  // of each cell that facets reach
+  std::map<std::uint32_t, std::vector<std::pair<std::size_t, double>>> bins_in_;  // of each cell with facets
   std::vector<double> elsewhere_;
 };
 
@@ -172,10 +172,11 @@ Sums mean_squares(const Patch& patch, TableSettings settings) {
   return mean;
 }
 
-// The largest difference of a stand-in from Eq. 11 over the angle between the axes.
+// The largest difference of an approximation from Eq. 11 over the angle between the axes.
 template <class Approximation>
 double largest_difference(double sharpness1, double sharpness2, const Approximation& approximation) {
-  // Dense where both forms live: up to where the exponent of Eq. 14 has fallen to -40, or to the antipode.
+  // Dense where both forms matter: up to the angle at which the exponent of Eq. 14 has fallen to -40, or to the
+  // antipode.
   constexpr int steps = 200'000;
   constexpr double nothing = 40.0;
   const double product = sharpness1 * sharpness2 / (sharpness1 + sharpness2);
@@ -189,10 +190,10 @@ double largest_difference(double sharpness1, double sharpness2, const Approximat
   return largest;
 }
 
-// By how much the mean vector of a vMF lobe is shorter than 1: 1 - coth k + 1 / k, without the cancellation.
+// 1 minus the length of the mean vector of a vMF lobe: 1 - coth k + 1 / k, without cancellation.
 double short_of_one(double sharpness) { return 1.0 / sharpness - 2.0 / std::expm1(2.0 * sharpness); }
 
-// The inverse, which falls from 1 to 0: bisection on the logarithm.
+// The inverse, which falls from 1 to 0, by bisection on the logarithm.
 double sharpness_of(double short_by) {
   double low = std::log(1e-6), high = std::log(1e12);
   for (int i = 0; i < 200; ++i) {

@@ -17,7 +17,7 @@
 namespace footprint::iwasaki_sg {
 namespace {
 
-// A material with a patch, and what the method's options make of it.
+// A material with a patch, and its settings by the options.
 struct Measured {
   const Material& material;
   const Options& options;
@@ -59,7 +59,7 @@ double measured_relative_fit_rms(const Material& material, const Options& option
   return relative_fit_rms(it.patch(), it.settings);
 }
 
-// Milliseconds of one stage of making the patch's table, once.
+// Milliseconds of one stage of the patch's table, measured once.
 double stage_ms(const Material& material, const Options& options, std::string_view stage) {
   const Measured it = measured(material, options);
   StageClock clock;

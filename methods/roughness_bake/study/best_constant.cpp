@@ -18,7 +18,7 @@ using std::numbers::pi;
 
 constexpr int angle_count = 160, tilt_count = 160, azimuth_count = 96;
 
-// The angles from the normal of slopes of a Gaussian of deviation sigma per axis, each as probable as the others.
+// Equally probable angles from the normal, of slopes of a Gaussian of deviation sigma per axis.
 std::vector<double> tilts_of(double sigma, int count) {
   std::vector<double> tilts;
   for (int i = 0; i < count; ++i) tilts.push_back(std::atan(sigma * std::sqrt(-2.0 * std::log1p(-(i + 0.5) / count))));
@@ -32,7 +32,7 @@ double shortfall_of(double sigma) {
   return shortfall;
 }
 
-// The mean of the lobe over normals at these tilts in all directions, seen at an angle from the mean normal.
+// The mean of the lobe over normals at these tilts in all directions, at an angle from the mean normal.
 double mean_density(const Lobe& lobe, std::span<const double> tilts, double angle) {
   double sum = 0;
   for (const double tilt : tilts) {
@@ -58,7 +58,7 @@ WidenedLobe::WidenedLobe(NormalDistribution distribution, double alpha, double s
   const Lobe lobe = lobe_of_alpha2(distribution, alpha * alpha);
   for (int i = 0; i < angle_count; ++i) {
     angles_.push_back((i + 0.5) / angle_count * reach);
-    truth_.push_back(mean_density(lobe, tilts, angles_.back()));
+    exact_.push_back(mean_density(lobe, tilts, angles_.back()));
   }
 }
 
@@ -70,8 +70,8 @@ double WidenedLobe::error_of(double alpha2) const {
   for (std::size_t i = 0; i < angles_.size(); ++i) {
     const double ring = std::sin(angles_[i]);
     const double density = lobe_density(lobe, 2.0 * std::pow(std::sin(angles_[i] / 2), 2));
-    difference += ring * std::pow(density - truth_[i], 2);
-    norm += ring * std::pow(truth_[i], 2);
+    difference += ring * std::pow(density - exact_[i], 2);
+    norm += ring * std::pow(exact_[i], 2);
   }
   return std::sqrt(difference / norm);
 }

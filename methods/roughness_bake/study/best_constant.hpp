@@ -1,5 +1,5 @@
-// The constant that `fit` has: of alpha'^2 = alpha^2 + c / kappa the c whose one lobe is closest to the true
-// distribution of normals, by brute force.
+// The constant of `fit`: the c of alpha'^2 = alpha^2 + c / kappa whose lobe is closest to the true distribution of
+// normals, by brute force.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace footprint::roughness_bake {
 
-/// Facets of a lobe of `alpha` (alpha^2 twice its slope variance) over texels whose slopes are an even Gaussian of
-/// deviation `sigma` per axis: the true NDF, and one lobe about the mean normal in its place.
+/// The true NDF of facets with a lobe of `alpha` (alpha^2 is twice its slope variance) over texels with Gaussian slopes
+/// of deviation `sigma` per axis, and the single lobe about the mean normal that replaces it.
 class WidenedLobe {
  public:
   WidenedLobe(NormalDistribution distribution, double alpha, double sigma);
@@ -19,22 +19,22 @@ class WidenedLobe {
   /// The relative L2 difference, over solid angle, between the true NDF and the lobe of alpha^2 + c / kappa.
   [[nodiscard]] double error(double c) const;
 
-  /// The same of the lobe of that alpha^2.
+  /// The same for the lobe of `alpha2`.
   [[nodiscard]] double error_of(double alpha2) const;
 
-  /// What the texels' mean normal is short of length 1 by.
+  /// 1 minus the length of the texels' mean normal.
   [[nodiscard]] double shortfall() const { return shortfall_; }
 
  private:
   NormalDistribution distribution_;
   double alpha_, shortfall_;
-  std::vector<double> angles_, truth_;  // from the mean normal, radians; density there
+  std::vector<double> angles_, exact_;  // from the mean normal, radians; density there
 };
 
-/// The c from 0 to 4 with the least mean of the errors over those deviations, to 0.005.
+/// The c from 0 to 4 with the least mean error over the deviations, within 0.005.
 [[nodiscard]] double best_constant(NormalDistribution distribution, double alpha, std::span<const double> sigmas);
 
-/// Deviations that bumps have from fine to coarse: what `fit` stands for.
+/// Deviations of bumps from fine to coarse, for which `fit` is optimised.
 inline constexpr std::array<double, 4> fit_sigmas{0.05, 0.1, 0.2, 0.35};
 
 }  // namespace footprint::roughness_bake

@@ -268,7 +268,7 @@ std::vector<ShaderGuard> method_guards() {
   const std::string gaussians =
       functions_of(vmf, GeometryTerm::none, {"test.glsl", "//? include iwasaki_sg_lobes.glsl\n", iwasaki.folder});
   const std::string component =
-      part_of(tan_gmm_method().shader(), "// One Gaussian over the disc.", "// The height of the hemisphere");
+      part_of(tan_gmm_method().shader(), "// A Gaussian over the disc.", "// The height of the hemisphere");
   const std::string recovered = functions_with(component);
   constexpr double sharp = 1e6;
   const glm::vec4 beside = leaning_by(5e-4);

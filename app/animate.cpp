@@ -4,8 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "app/commands.hpp"
 #include "app/experiment_runs.hpp"
@@ -16,8 +18,7 @@
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
 #include "app/standard_output.hpp"
-#include "app/written_animation.hpp"
-#include "experiments/studies/animate.hpp"
+#include "experiments/studies/compare.hpp"
 #include "renderer/core/process.hpp"
 
 namespace footprint {
@@ -25,7 +26,7 @@ namespace {
 
 constexpr const char* animate_examples =
     "The folder gets images/METHOD_NNNN and images/reference_NNNN (.exr and .png), index.html with the film and its\n"
-    "figures, animation.json, animation.csv and table.md. Finished frames stay in kept/, so an interrupted run "
+    "figures, results.json, results.csv and table.md. Finished frames stay in kept/, so an interrupted run "
     "resumes.\n"
     "`footprint merge` joins the parts of an animation that was rendered with --shard.\n"
     "\n"
@@ -49,7 +50,7 @@ struct AnimateArguments {
 void add_options(CLI::App& command, AnimateArguments& arguments) {
   command
       .add_option("-o,--output", arguments.output,
-                  "Folder for index.html, animation.json, animation.csv, table.md, images/, kept/")
+                  "Folder for index.html, results.json, results.csv, table.md, images/, kept/")
       ->type_name("DIR")
       ->capture_default_str();
   command
@@ -59,6 +60,15 @@ void add_options(CLI::App& command, AnimateArguments& arguments) {
   command.add_flag("--video", arguments.video, "Also make images/film.mp4 with ffmpeg: all methods side by side");
   command.add_flag("--fresh", arguments.fresh, "Render every frame again: discard the finished ones");
   add_quiet_flag(command, arguments.quiet);
+}
+
+// Nothing is measured but what frames differ by.
+RunSettings settings_of(const AnimateArguments& arguments) {
+  RunSettings settings = arguments.run.settings();
+  settings.reference.by_cause = false;
+  settings.reference.supersampling = {};
+  settings.timing.repeats = 0;
+  return settings;
 }
 
 FinishedWork finished_frames(const AnimateArguments& arguments, const RunSettings& settings) {
@@ -81,8 +91,11 @@ void animate_part(const AnimateArguments& arguments, const RunSettings& settings
   ProgressDisplay display(progress_style(arguments.quiet));
   {
     const OutputFolder scratch(output);  // never moved to its place
-    const auto range = [&](std::size_t frames) { return range_of(shard, frames); };
-    const std::string run = measure_animation(settings, range, scratch.path(), finished, display.callback());
+    const auto [first, last] = range_of(shard, static_cast<std::size_t>(settings.view.zoom.frames));
+    std::vector<std::size_t> frames(last - first);
+    std::iota(frames.begin(), frames.end(), first);
+    const std::string run =
+        measure_views(settings, frames, scratch.path(), display.callback(), {.finished = &finished});
     std::filesystem::create_directories(output);
     write_part_file(output, {.kind = PartKind::animation,
                              .experiment = settings.scene,
@@ -100,14 +113,14 @@ void animate_part(const AnimateArguments& arguments, const RunSettings& settings
 }
 
 void run_animate(const AnimateArguments& arguments) {
-  const RunSettings settings = arguments.run.settings();
+  const RunSettings settings = settings_of(arguments);
   if (!arguments.shard.empty()) return animate_part(arguments, settings);
   const std::filesystem::path ffmpeg = arguments.video ? find_ffmpeg() : std::filesystem::path();
   const FinishedWork finished = finished_frames(arguments, settings);
   ProgressDisplay display(progress_style(arguments.quiet));
-  write_and_print(arguments.output, [&](const std::filesystem::path& folder) {
+  write_and_print_animation(arguments.output, [&](const std::filesystem::path& folder) {
     ProgressParts parts(display.callback(), 20);
-    Animation animation = run_animation(settings, folder, finished, parts.next(19, ""));
+    Results animation = run_compare(settings, folder, parts.next(19, ""), {.finished = &finished});
     if (arguments.video) animation.film = make_film(ffmpeg, animation, folder, parts.next(1, ""));
     display.finish();
     return animation;

@@ -26,15 +26,15 @@ std::string pattern_of(const std::string& first) {
   return first.substr(0, first.size() - ending.size()) + "_%04d.png";
 }
 
-std::vector<std::string> columns_of(const Animation& animation) {
-  std::vector<std::string> patterns{pattern_of(animation.frames.front().image)};
-  for (const AnimationRecord& record : animation.records) {
-    if (record.frame == 0) patterns.push_back(pattern_of(record.image));
+std::vector<std::string> columns_of(const Results& animation) {
+  std::vector<std::string> patterns{pattern_of(animation.records.front().images.reference)};
+  for (const Record& record : animation.records) {
+    if (record.frame == 0) patterns.push_back(pattern_of(record.images.color));
   }
   return patterns;
 }
 
-std::vector<std::string> film_arguments(const Animation& animation) {
+std::vector<std::string> film_arguments(const Results& animation) {
   std::vector<std::string> arguments{"ffmpeg", "-y", "-nostdin", "-loglevel", "error"};
   const std::vector<std::string> columns = columns_of(animation);
   std::string inputs;
@@ -64,7 +64,7 @@ fs::path find_ffmpeg() {
               "install the package ffmpeg, or leave --video out: the frames are written anyway");
 }
 
-std::string make_film(const fs::path& ffmpeg, const Animation& animation, const fs::path& folder,
+std::string make_film(const fs::path& ffmpeg, const Results& animation, const fs::path& folder,
                       const Progress& progress) {
   const fs::path errors = folder / "ffmpeg.log";
   ChildProcess child(

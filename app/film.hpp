@@ -5,7 +5,7 @@
 #include <string>
 
 #include "renderer/core/progress.hpp"
-#include "results/report/animation_report.hpp"
+#include "results/report/records.hpp"
 
 namespace footprint {
 
@@ -15,7 +15,7 @@ namespace footprint {
 /// Writes FOLDER/images/film.mp4, the reference and then all methods side by side, 30 frames a second, and returns its
 /// path from the folder. Errors (machine): ffmpeg ends otherwise than well, in its own words; an interrupt through
 /// `progress`: ffmpeg is ended.
-[[nodiscard]] std::string make_film(const std::filesystem::path& ffmpeg, const Animation& animation,
+[[nodiscard]] std::string make_film(const std::filesystem::path& ffmpeg, const Results& animation,
                                     const std::filesystem::path& folder, const Progress& progress);
 
 }  // namespace footprint

@@ -15,8 +15,7 @@
 #include "app/output.hpp"
 #include "app/part_file.hpp"
 #include "app/run_options.hpp"
-#include "app/written_animation.hpp"
-#include "experiments/studies/animate.hpp"
+#include "experiments/studies/distance_result.hpp"
 #include "renderer/core/error.hpp"
 
 namespace footprint {
@@ -119,7 +118,7 @@ void merge_animation(const std::vector<Part>& parts, const std::string& output) 
     refuse(parts.front(), "was made by another program than this one", "merge with the program that ran the parts");
   const FinishedWork finished(kept_folder(output), parts.front().file.maker, true);
   take_all(parts, finished);
-  write_and_print(output, [&](const fs::path& folder) {
+  write_and_print_animation(output, [&](const fs::path& folder) {
     return joined_animation(finished, parts.front().file.fingerprint, folder);
   });
 }

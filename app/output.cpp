@@ -42,6 +42,17 @@ void print_results(const Results& results, const std::filesystem::path& folder, 
                                      (folder / "index.html").string(), (folder / "table.md").string()));
 }
 
+void write_and_print_animation(const std::filesystem::path& output,
+                               const std::function<Results(const std::filesystem::path& folder)>& make) {
+  const auto [animation, path] = write_whole(output, [&](OutputFolder& folder) {
+    Results made = make(folder.path());
+    keep_results(made, folder, write_report);
+    return made;
+  });
+  write_output(fmt::format("{}\nframes: {}\npage: {}\n", results_table(animation), (path / "images").string(),
+                           (path / "index.html").string()));
+}
+
 std::optional<Error> row_failures(const Results& results) {
   const auto is_failed = [](const Record& record) { return record.failure.has_value(); };
   const auto first = std::ranges::find_if(results.records, is_failed);

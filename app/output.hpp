@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -27,6 +28,11 @@ void keep(OutputFolder& folder);
 
 /// Prints the summary of `results`, or with `verbose` all of table.md, and the path of their page in `folder`.
 void print_results(const Results& results, const std::filesystem::path& folder, bool verbose = false);
+
+/// Lets `make` fill a folder out of sight, writes the report of the animation that it returns, moves all of it to
+/// `output` and prints the table. Errors: those of `make`; nothing is left of the folder then.
+void write_and_print_animation(const std::filesystem::path& output,
+                               const std::function<Results(const std::filesystem::path& folder)>& make);
 
 /// The error (check) for a run in which rows failed, to be thrown once everything else is written; none if all passed.
 [[nodiscard]] std::optional<Error> row_failures(const Results& results);

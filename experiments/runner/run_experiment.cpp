@@ -172,7 +172,10 @@ std::vector<WorkUnit> work_units(const Experiment& experiment) {
 
 void measure_unit(const Experiment& experiment, const WorkUnit& unit, const std::filesystem::path& folder,
                   const Progress& progress, const CompareContext& context) {
-  if (!unit.distances.empty()) return measure_distances(experiment.run, unit.distances, folder, progress, context);
+  if (!unit.distances.empty()) {
+    measure_views(experiment.run, unit.distances, folder, progress, context);
+    return;
+  }
   (void)further_figures(experiment, folder, progress, context.finished);
 }
 

@@ -61,9 +61,9 @@ inline constexpr std::array<Word<AnimationPath>, 3> animation_paths{{
 
 /// The path of an animation. ZoomSettings has the number of frames and the ends of a zoom.
 struct PathSettings {
-  AnimationPath kind = AnimationPath::zoom;
-  std::optional<double> degrees;   ///< angle from the first frame to the last; none: 60
-  std::optional<glm::dvec3> axis;  ///< of the rotation, unit, in world space; none: the camera's up
+  std::optional<AnimationPath> kind;  ///< none: the run is no animation
+  std::optional<double> degrees;      ///< angle from the first frame to the last; none: 60
+  std::optional<glm::dvec3> axis;     ///< of the rotation, unit, in world space; none: the camera's up
 };
 
 /// The view of the scene.

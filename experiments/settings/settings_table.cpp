@@ -32,6 +32,7 @@ std::optional<double>& zoom_from(Run& run) { return run.view.zoom.from; }
 std::optional<double>& zoom_to(Run& run) { return run.view.zoom.to; }
 int& zoom_frames(Run& run) { return run.view.zoom.frames; }
 std::optional<Exposure>& exposure_of(Run& run) { return run.view.exposure; }
+AnimationPath& animation_path(Run& run) { return run.path.kind ? *run.path.kind : run.path.kind.emplace(); }
 int& repeats(Run& run) { return run.timing.repeats; }
 
 std::vector<Setting> scene_settings() {
@@ -149,9 +150,10 @@ std::vector<Setting> view_settings() {
        .start = "1"},
       {.option = "--path",
        .commands = {"animate"},
-       .type = one_word([](Run& run) -> AnimationPath& { return run.path.kind; }, animation_paths, "path"),
+       .type = one_word(animation_path, animation_paths, "path"),
        .help =
-           "what moves: the camera away from the object (zoom) or around it (orbit), or the lights around it (light)"},
+           "what moves: the camera away from the object (zoom) or around it (orbit), or the lights around it (light)",
+       .start = "zoom"},
       {.option = "--frames",
        .commands = {"animate"},
        .type = whole_number(zoom_frames, 2, 10000),

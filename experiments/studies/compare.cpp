@@ -1,5 +1,4 @@
-// Chooses the exposure, then for each distance: the reference, the methods, their times. Finished distances are read
-// back.
+// Chooses the exposure, then for each view: the reference, the methods, their times. Finished views are read back.
 #include "experiments/studies/compare.hpp"
 
 #include <fmt/format.h>
@@ -13,13 +12,14 @@
 #include "experiments/studies/distance_result.hpp"
 #include "experiments/studies/error_pictures.hpp"
 #include "experiments/studies/exposure.hpp"
+#include "experiments/studies/flicker_causes.hpp"
 #include "experiments/studies/method_pairs.hpp"
 #include "experiments/studies/method_record.hpp"
 #include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/reference_noise.hpp"
 #include "experiments/studies/run_fingerprint.hpp"
 #include "experiments/studies/run_info.hpp"
-#include "experiments/studies/zoom.hpp"
+#include "experiments/studies/views.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
@@ -28,8 +28,12 @@
 namespace footprint {
 namespace {
 
-// Images of a frame's size at once: each method's image and its strips, and those of the reference.
-int images_at_once(std::size_t methods) { return 6 * static_cast<int>(methods) + 15; }
+// Images of a frame's size at once: each method's image and its strips, and those of the reference. An animation has
+// no strips, but two frames.
+int images_at_once(const RunSettings& settings) {
+  const int methods = static_cast<int>(settings.methods.size());
+  return is_animation(settings) ? 2 * methods + 28 : 6 * methods + 15;
+}
 
 double weight_of_methods(const RunSettings& settings) {
   return static_cast<double>(settings.methods.size()) * (settings.reference.spp + settings.timing.repeats);
@@ -39,7 +43,9 @@ double weight_of_methods(const RunSettings& settings) {
 struct Workbench {
   Workbench(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, const std::filesystem::path& folder,
             const Progress& staging, ProgressParts& progress, SharedReferences* shared)
-      : stage(std::move(scene), settings, staging, pictures_of_a_frame, Unit::direct, Refusal::keeps_a_row),
+      : stage(std::move(scene), settings, staging, pictures_of_a_frame,
+              is_animation(settings) ? Unit::none : Unit::direct,
+              is_animation(settings) ? Refusal::ends_the_run : Refusal::keeps_a_row),
         measurer(stage),
         references(settings, stage, folder, progress, shared) {}
 
@@ -48,7 +54,11 @@ struct Workbench {
   ReferenceRenderer references;
 };
 
-// A comparison's inputs, and its workbench once something is rendered.
+Scene scene_of(const RunSettings& settings) {
+  return scene_for_path(settings, load_scene(settings.scene, settings.scene_library, settings.overrides));
+}
+
+// A run's inputs, and its workbench once something is rendered.
 struct Job {
   Job(const RunSettings& of, std::filesystem::path into, const Progress& all, const CompareContext& with)
       : settings(of),
@@ -56,12 +66,11 @@ struct Job {
         context(with),
         whole(all, 4),
         staging(whole.next(1, "")),
-        scene(context.shared != nullptr ? Scene{}
-                                        : load_scene(settings.scene, settings.scene_library, settings.overrides)),
-        distances(run_distances(settings.view, loaded())),
-        progress(whole.next(3, ""), static_cast<double>(distances.size()) *
+        scene(context.shared != nullptr ? Scene{} : scene_of(settings)),
+        views(run_views(settings, loaded())),
+        progress(whole.next(3, ""), static_cast<double>(views.size()) *
                                         (ReferenceRenderer::weight(settings) + weight_of_methods(settings))) {
-    require_pictures(frame_size(loaded(), settings.view.size), images_at_once(settings.methods.size()));
+    require_pictures(frame_size(loaded(), settings.view.size), images_at_once(settings));
     if (context.finished != nullptr) run = fingerprint();
   }
 
@@ -109,27 +118,36 @@ struct Job {
   Progress staging;
   std::unique_ptr<Workbench> bench;
   Scene scene;  // until the workbench takes it; empty if scenes are shared
-  std::vector<double> distances;
+  std::vector<RunView> views;
   ProgressParts progress;
   std::string run;  // fingerprint, if work is stored
 };
 
 // The frame before, against which flicker is measured.
 struct FrameBefore {
-  std::size_t index = 0;
-  Supersampled reference;
+  ReferenceView target;
   std::vector<Image> images;  // of each method; empty: it failed
 };
 
-// ---- finished distances
+// ---- finished views
 
-std::string part_name(double distance) { return fmt::format("distance_{}", distance); }
+std::string part_name(const Job& job, std::size_t i) {
+  return is_animation(job.settings) ? frame_name(i) : fmt::format("distance_{}", job.views[i].distance);
+}
 
-std::vector<std::string> files_of(const DistanceResult& result) {
-  std::vector<std::string> files = exposable_files(result.reference);
+// An animation has neither darker copies of its images nor others.
+std::vector<std::string> files_of(const RunSettings& settings, const DistanceResult& result) {
+  std::vector<std::string> files;
+  const auto add = [&](const std::string& exr) {
+    std::vector<std::string> own = exposable_files(exr);
+    if (is_animation(settings)) own.pop_back();
+    std::ranges::move(own, std::back_inserter(files));
+  };
+  add(result.reference);
   for (const Record& record : result.records) {
-    if (!record.failure) std::ranges::copy(exposable_files(record.images.color), std::back_inserter(files));
+    if (!record.failure) add(record.images.color);
   }
+  if (is_animation(settings)) return files;
   const RecordImages& shared = result.records.front().images;
   files.insert(files.end(), {shared.standard_error, shared.interior,
                              std::filesystem::path(shared.interior).replace_extension(".png").string()});
@@ -146,16 +164,16 @@ std::vector<std::uint32_t> set_pixels(const Image& mask) {
   return pixels;
 }
 
-// A distance at which a method failed is measured again, unless everything must be there.
-std::optional<DistanceResult> finished_distance(const Job& job, std::size_t i) {
-  auto result = job.find<DistanceResult>(part_name(job.distances[i]));
+// A view in which a method failed is measured again, unless everything must be there.
+std::optional<DistanceResult> finished_view(const Job& job, std::size_t i) {
+  auto result = job.find<DistanceResult>(part_name(job, i));
   if (!result || result->records.size() != job.settings.methods.size()) return {};
   const bool any_failed =
       std::ranges::any_of(result->records, [](const Record& record) { return record.failure.has_value(); });
   if (any_failed && !job.context.finished->is_complete()) return {};
   for (Record& record : result->records) record.frame = static_cast<int>(i);
   if (result->wanted_noise && job.context.shared != nullptr)
-    job.context.shared->references.wanted_noise.emplace(result->distance, *result->wanted_noise);
+    job.context.shared->references.wanted_noise.emplace(job.views[i], *result->wanted_noise);
   return result;
 }
 
@@ -174,18 +192,22 @@ Image measure_method(Job& job, const ReferenceView& target, const StagedMethod& 
                      float exposure, Record& record) {
   Workbench& bench = job.workbench();
   const std::string& text = job.settings.methods[index].text;
-  const std::string prefix = fmt::format("distance {:g}: {}, ", target.distance, text);
+  const std::string prefix = fmt::format("{}: {}, ", view_words(job.settings, target.index, target.at), text);
   MethodPictures pictures{.frame = staged.frames().render(target.view), .finest = {}};
   if (job.settings.reference.by_cause) pictures.finest = finest_level(job, target, staged, prefix);
   bench.stage.context().check("rendering " + text);
   record = bench.measurer.measure(staged, pictures, target, exposure);
-  bench.measurer.count_work(record, staged, target.view);
-  const std::string stem = distance_stem(target.distance, method_stem(job.settings.methods, index));
-  record.images.color = write_exposable_picture(job.folder, stem, pictures.frame, exposure);
+  const std::string stem = view_stem(job.settings, target.index, target.at, method_stem(job.settings.methods, index));
+  if (is_animation(job.settings)) {
+    record.images.color = write_picture(job.folder, stem, pictures.frame, exposure);
+  } else {
+    bench.measurer.count_work(record, staged, target.view);
+    record.images.color = write_exposable_picture(job.folder, stem, pictures.frame, exposure);
+  }
   return std::move(pictures.frame);
 }
 
-// The same, or a record that says why the method failed.
+// The same, or a record that says why the method failed. Errors: an animation has no frame without all its methods.
 Image measure_or_fail(Job& job, const ReferenceView& target, std::size_t index, float exposure, Record& record) {
   Workbench& bench = job.workbench();
   const StagedMethod& staged = bench.stage.methods()[index];
@@ -195,17 +217,18 @@ Image measure_or_fail(Job& job, const ReferenceView& target, std::size_t index, 
     failure = failure_of(bench.stage.context(), job.settings.methods[index],
                          [&] { image = measure_method(job, target, staged, index, exposure, record); });
   if (!failure) return image;
+  if (is_animation(job.settings)) throw *failure;
   record = bench.measurer.failed(staged, target, *failure);
   return {};
 }
 
-// ---- one distance
+// ---- one view
 
 // Records with nothing but the errors that the reference's noise alone causes.
 std::vector<Record> noise_records(const RunSettings& settings, const ReferenceView& target) {
   Record record;
-  record.distance = target.distance;
-  record.frame = static_cast<int>(target.frame);
+  record.distance = target.at.distance;
+  record.frame = static_cast<int>(target.index);
   RecordError& error = record.error.emplace();
   error.noise_floor = target.noise_floor;
   error.causes.shading_floor = target.shading_floor;
@@ -217,20 +240,30 @@ std::vector<Record> noise_records(const RunSettings& settings, const ReferenceVi
   return records;
 }
 
-DistanceTimes time_distance(Job& job, double distance) {
+DistanceTimes time_view(Job& job, std::size_t i) {
   const RunSettings& settings = job.settings;
   const double weight = static_cast<double>(settings.methods.size()) * settings.timing.repeats;
-  const Stage& stage = job.workbench().stage;
-  return time_methods(stage, stage.view(distance), settings.timing.repeats,
-                      job.progress.next(weight, fmt::format("distance {:g}: ", distance)));
+  Stage& stage = job.workbench().stage;
+  return time_methods(stage, stage.move_to(job.views[i]), settings.timing.repeats,
+                      job.progress.next(weight, view_words(settings, i, job.views[i]) + ": "));
 }
 
-// Reads the frame before from what an earlier run finished. The reference is rendered again.
-FrameBefore finished_frame(Job& job, const DistanceResult& result, std::size_t index) {
-  FrameBefore before{.index = index, .reference = {}, .images = {}};
-  before.reference = job.workbench().references.render(index, result.distance, result.exposure.factor).reference;
-  for (const Record& record : result.records)
-    before.images.push_back(record.failure ? Image() : read_image(job.folder / record.images.color, Transfer::linear));
+// The frame before again. finished: its images are read from there; null: they are rendered.
+FrameBefore frame_again(Job& job, std::size_t index, float exposure, const DistanceResult* finished) {
+  Workbench& bench = job.workbench();
+  FrameBefore before{.target = bench.references.render(index, job.views[index], exposure), .images = {}};
+  for (std::size_t m = 0; m < job.settings.methods.size(); ++m) {
+    Image& image = before.images.emplace_back();
+    const StagedMethod& staged = bench.stage.methods()[m];
+    if (finished != nullptr) {
+      const Record& record = finished->records[m];
+      if (!record.failure) image = read_image(job.folder / record.images.color, Transfer::linear);
+    } else if (!staged.refusal()) {
+      // A failure shows again where the method is measured.
+      (void)failure_of(bench.stage.context(), job.settings.methods[m],
+                       [&] { image = staged.frames().render(before.target.view); });
+    }
+  }
   return before;
 }
 
@@ -238,16 +271,31 @@ void add_flicker(std::vector<Record>& records, const FrameBefore& before, const 
                  const ReferenceView& target, float exposure) {
   for (std::size_t m = 0; m < records.size(); ++m) {
     if (images[m].texels.empty() || before.images[m].texels.empty()) continue;
-    records[m].flicker = flicker_between(before.images[m], images[m], before.reference, target.reference, exposure);
+    std::optional<Flicker>& flicker = records[m].flicker;
+    flicker = flicker_between(before.images[m], images[m], before.target.reference, target.reference, exposure);
+    if (flicker) flicker->causes = flicker_causes(before.images[m], images[m], before.target, target, exposure);
   }
 }
 
-// Everything but the times. In a zoom `before` becomes this frame.
+// The largest error of the images, and every two of them compared.
+void compare_methods(Job& job, DistanceResult& result, const std::vector<Image>& images, const ReferenceView& target) {
+  const float exposure = result.exposure.factor;
+  std::vector<std::string> names;
+  for (std::size_t m = 0; m < images.size(); ++m) {
+    names.push_back(method_stem(job.settings.methods, m));
+    if (images[m].texels.empty()) continue;
+    const Image error = error_map(images[m], target.reference.mean, exposure);
+    result.largest_error = std::max(result.largest_error, error_percentile(error));
+  }
+  result.pairs = compare_pairs(job.folder, result.records, images, names, target, exposure);
+}
+
+// Everything but the times. On a path `before` becomes this frame.
 DistanceResult measure_images(Job& job, std::size_t i, const Exposure& exposure, std::optional<FrameBefore>& before) {
   const RunSettings& settings = job.settings;
-  ReferenceView target = job.workbench().references.find(i, job.distances[i], exposure.factor);
+  ReferenceView target = job.workbench().references.find(i, job.views[i], exposure.factor);
   if (job.context.watch) job.context.watch(noise_records(settings, target));
-  DistanceResult result{.distance = target.distance,
+  DistanceResult result{.distance = target.at.distance,
                         .exposure = exposure,
                         .wanted_noise = target.wanted_noise,
                         .standard_error = relative_standard_error(target.reference),
@@ -260,18 +308,12 @@ DistanceResult measure_images(Job& job, std::size_t i, const Exposure& exposure,
                         .curve = target.curve,
                         .warnings = target.warnings};
   std::vector<Image> images;
-  std::vector<std::string> names;
-  for (std::size_t m = 0; m < settings.methods.size(); ++m) {
+  for (std::size_t m = 0; m < settings.methods.size(); ++m)
     images.push_back(measure_or_fail(job, target, m, exposure.factor, result.records[m]));
-    names.push_back(method_stem(settings.methods, m));
-    if (images.back().texels.empty()) continue;
-    const Image error = error_map(images.back(), target.reference.mean, exposure.factor);
-    result.largest_error = std::max(result.largest_error, error_percentile(error));
-  }
-  result.pairs = compare_pairs(job.folder, result.records, images, names, target, exposure.factor);
+  if (!is_animation(settings)) compare_methods(job, result, images, target);
   if (settings.view.zoom.frames == 0) return result;
   if (before) add_flicker(result.records, *before, images, target, exposure.factor);
-  before = FrameBefore{.index = i, .reference = std::move(target.reference), .images = std::move(images)};
+  before = FrameBefore{.target = std::move(target), .images = std::move(images)};
   return result;
 }
 
@@ -280,10 +322,10 @@ class OtherProcesses {
  public:
   explicit OtherProcesses(const FurtherTimes& take) : take_(take) {}
 
-  [[nodiscard]] std::vector<DistanceTimes> at(std::size_t distance) {
+  [[nodiscard]] std::vector<DistanceTimes> of(std::size_t view) {
     if (!times_) times_ = take_ ? take_() : std::vector<FrameTimes>{};
     std::vector<DistanceTimes> own;
-    for (const FrameTimes& process : *times_) own.push_back(process.at(distance));
+    for (const FrameTimes& process : *times_) own.push_back(process.at(view));
     return own;
   }
 
@@ -295,31 +337,37 @@ class OtherProcesses {
 Exposure exposure_of(Job& job) {
   const std::optional<Exposure>& given = job.settings.view.exposure;
   if (given || job.loaded().exposure) return choose_exposure(given, job.loaded(), {});
-  return choose_exposure({}, job.loaded(), job.workbench().references.first_samples(job.distances.front()));
+  return choose_exposure({}, job.loaded(), job.workbench().references.first_samples(job.views.front()));
 }
 
-// Measures the distances in turn, or reads them back.
-class Distances {
+// Measures the views in turn, or reads them back.
+class Views {
  public:
-  explicit Distances(Job& job) : job_(job), processes_(job.context.further_times) {}
+  explicit Views(Job& job) : job_(job), processes_(job.context.further_times) {}
 
   DistanceResult next(std::size_t i) {
-    if (auto finished = finished_distance(job_, i)) {
+    if (auto finished = finished_view(job_, i)) {
       exposure_ = finished->exposure;
       if (job_.context.watch) job_.context.watch(finished->records);
       last_ = {i, *finished};
       return std::move(*finished);
     }
     if (!exposure_) exposure_ = exposure_of(job_);
-    const bool has_before = last_ && last_->first + 1 == i && job_.settings.view.zoom.frames > 0;
-    if (has_before && (!before_ || before_->index + 1 != i)) before_ = finished_frame(job_, last_->second, i - 1);
+    if (i > 0 && job_.settings.view.zoom.frames > 0 && (!before_ || before_->target.index + 1 != i)) {
+      const bool is_finished = last_ && last_->first + 1 == i;
+      before_ = frame_again(job_, i - 1, exposure_->factor, is_finished ? &last_->second : nullptr);
+    }
     DistanceResult result = measure_images(job_, i, *exposure_, before_);
     if (job_.context.watch) job_.context.watch(result.records);
-    std::vector<DistanceTimes> times = processes_.at(i);
-    times.push_back(time_distance(job_, result.distance));
-    result.processes = static_cast<int>(times.size());
-    set_times(result.records, job_.workbench().stage, times);
-    job_.store(part_name(result.distance), result, files_of(result));
+    if (is_animation(job_.settings)) {
+      for (Record& record : result.records) set_no_times(record);
+    } else {
+      std::vector<DistanceTimes> times = processes_.of(i);
+      times.push_back(time_view(job_, i));
+      result.processes = static_cast<int>(times.size());
+      set_times(result.records, job_.workbench().stage, times);
+    }
+    job_.store(part_name(job_, i), result, files_of(job_.settings, result));
     last_ = {i, result};
     return result;
   }
@@ -328,8 +376,8 @@ class Distances {
   Job& job_;
   OtherProcesses processes_;
   std::optional<Exposure> exposure_;
-  std::optional<FrameBefore> before_;                             // in a zoom
-  std::optional<std::pair<std::size_t, DistanceResult>> last_{};  // the distance before, with its index
+  std::optional<FrameBefore> before_;                             // on a path
+  std::optional<std::pair<std::size_t, DistanceResult>> last_{};  // the view before, with its index
 };
 
 // ---- the whole
@@ -344,75 +392,46 @@ void add_precompute_notes(const Stage& stage, std::size_t methods, std::vector<s
   }
 }
 
+std::optional<AnimationWay> way_of(const RunSettings& settings, const Scene& scene) {
+  if (!is_animation(settings)) return {};
+  AnimationWay way{.path = std::string(word_for(animation_paths, *settings.path.kind)), .axis = {}};
+  if (settings.path.kind == AnimationPath::zoom) return way;
+  const glm::dvec3 axis = turning_axis(settings.path, scene);
+  way.axis = {axis.x, axis.y, axis.z};
+  return way;
+}
+
+ReferenceInfo reference_of(const RunSettings& settings, const EffectSet& effects) {
+  ReferenceInfo info;
+  info.spp = settings.reference.spp;
+  info.filter = word_for(reference_filters, settings.reference.filter);
+  info.seed = settings.reference.seed;
+  if (has(effects, Effect::environment_light))
+    info.environment = word_for(reference_integrals, settings.reference.environment);
+  return info;
+}
+
 ComparisonHead head_of(Job& job) {
   if (auto finished = job.find<ComparisonHead>("head")) return std::move(*finished);
   const Stage& stage = job.workbench().stage;
+  const RunSettings& settings = job.settings;
   ComparisonHead head{.backend = backend_info(stage.context().info()),
                       .scene = stage.info({}),
-                      .footprint = footprint_filter_text(footprint_filter_of(job.settings, job.loaded())),
-                      .environment = {},
+                      .reference = reference_of(settings, stage.effects()),
+                      .footprint = footprint_filter_text(footprint_filter_of(settings, job.loaded())),
+                      .way = way_of(settings, stage.scene()),
+                      .frames = static_cast<std::size_t>(settings.view.zoom.frames),
+                      .timed_frames = settings.timing.repeats,
+                      .error_scale = settings.view.error_scale,
                       .first_warnings = job.workbench().references.warnings(),
                       .last_warnings = {}};
-  if (has(stage.effects(), Effect::environment_light))
-    head.environment = word_for(reference_integrals, job.settings.reference.environment);
-  const EffectSet left_out = effects_on(stage.decisions()) & job.settings.without;
+  const EffectSet left_out = effects_on(stage.decisions()) & settings.without;
   if (left_out.any())
     head.last_warnings.push_back(fmt::format("left out of every image, the reference's too, as was asked: {}",
                                              fmt::join(effect_names(left_out), ", ")));
-  add_precompute_notes(stage, job.settings.methods.size(), head.last_warnings);
+  add_precompute_notes(stage, settings.methods.size(), head.last_warnings);
   job.store("head", head);
   return head;
-}
-
-void append(std::vector<std::string>& texts, const std::vector<std::string>& more) {
-  texts.insert(texts.end(), more.begin(), more.end());
-}
-
-std::vector<std::string> warnings_of(const DistanceResult& result) {
-  std::vector<std::string> warnings;
-  for (const Record& record : result.records) {
-    if (record.failure)
-      warnings.push_back(fmt::format("distance {:g}: {} failed: {}", record.distance, record.method, *record.failure));
-  }
-  append(warnings, result.warnings);
-  if (auto warning = linear_measures_warning(result.distance, result.standard_error))
-    warnings.push_back(std::move(*warning));
-  return warnings;
-}
-
-// Of one distance or more.
-Results results_of(const RunSettings& settings, const ComparisonHead& head,
-                   const std::vector<DistanceResult>& distances) {
-  Results results;
-  results.backend = head.backend;
-  results.scene = head.scene;
-  results.footprint = head.footprint;
-  const Exposure& exposure = distances.front().exposure;
-  results.scene.exposure = exposure.factor;
-  results.scene.exposure_source = word_for(exposure_sources, exposure.source);
-  results.reference.spp = settings.reference.spp;
-  results.reference.filter = word_for(reference_filters, settings.reference.filter);
-  results.reference.seed = settings.reference.seed;
-  results.reference.environment = head.environment;
-  results.timing = {.frames = settings.timing.repeats, .processes = distances.back().processes};
-  append(results.scene.warnings, head.first_warnings);
-  double largest_error = 0;
-  for (const DistanceResult& result : distances) {
-    results.reference.standard_errors.push_back(result.standard_error);
-    results.reference.samples += result.samples;
-    results.reference.seconds += result.seconds;
-    largest_error = std::max(largest_error, result.largest_error);
-    results.error_scales.push_back(
-        {.distance = result.distance, .error = error_scale(result.largest_error, settings.view.error_scale)});
-    std::ranges::copy(result.records, std::back_inserter(results.records));
-    std::ranges::copy(result.pairs, std::back_inserter(results.pairs));
-    std::ranges::copy(result.curve, std::back_inserter(results.supersampling));
-    append(results.scene.warnings, warnings_of(result));
-  }
-  append(results.scene.warnings, head.last_warnings);
-  results.reference.samples /= static_cast<double>(distances.size());
-  results.error_scale = error_scale(largest_error, settings.view.error_scale);
-  return results;
 }
 
 }  // namespace
@@ -421,7 +440,7 @@ FrameTimes time_frames(const RunSettings& settings, const Progress& progress) {
   const CompareContext context;
   Job job(settings, {}, progress, context);
   FrameTimes all;
-  for (const double distance : job.distances) all.push_back(time_distance(job, distance));
+  for (std::size_t i = 0; i < job.views.size(); ++i) all.push_back(time_view(job, i));
   return all;
 }
 
@@ -429,28 +448,31 @@ Results run_compare(const RunSettings& settings, const std::filesystem::path& fo
                     const CompareContext& context) {
   Job job(settings, folder, progress, context);
   std::filesystem::create_directories(folder / "images");
-  Distances distances(job);
+  Views views(job);
   std::vector<DistanceResult> done;
-  for (std::size_t i = 0; i < job.distances.size(); ++i) {
-    done.push_back(distances.next(i));
+  for (std::size_t i = 0; i < job.views.size(); ++i) {
+    done.push_back(views.next(i));
+    if (is_animation(settings)) continue;
     write_error_images(folder, done.back(), error_scale(done.back().largest_error, settings.view.error_scale));
-    if (context.so_far && i + 1 < job.distances.size()) context.so_far(results_of(settings, head_of(job), done));
+    if (context.so_far && i + 1 < job.views.size()) context.so_far(results_of(head_of(job), done));
   }
-  const Results own_scales = results_of(settings, head_of(job), done);
-  for (std::size_t i = 0; i < done.size(); ++i) {
+  const Results own_scales = results_of(head_of(job), done);
+  for (std::size_t i = 0; i < own_scales.error_scales.size(); ++i) {
     if (own_scales.error_scales[i].error != own_scales.error_scale)
       write_shared_error_images(folder, done[i], own_scales.error_scale);
   }
-  return results_of(settings, head_of(job), done);
+  return results_of(head_of(job), done);
 }
 
-void measure_distances(const RunSettings& settings, std::span<const std::size_t> distances,
-                       const std::filesystem::path& folder, const Progress& progress, const CompareContext& context) {
+std::string measure_views(const RunSettings& settings, std::span<const std::size_t> views,
+                          const std::filesystem::path& folder, const Progress& progress,
+                          const CompareContext& context) {
   Job job(settings, folder, progress, context);
   std::filesystem::create_directories(folder / "images");
-  Distances measured(job);
-  for (const std::size_t i : distances) (void)measured.next(i);
+  Views measured(job);
+  for (const std::size_t i : views) (void)measured.next(i);
   (void)head_of(job);
+  return job.run;
 }
 
 }  // namespace footprint

@@ -1,4 +1,4 @@
-// The main study: methods against the supersampled reference over the distances of a scene, as records and images.
+// The main study: methods against the supersampled reference over the views of a run, as records and images.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ namespace footprint {
 /// other processes.
 using FurtherTimes = std::function<std::vector<FrameTimes>()>;
 
-/// Sees the records of one distance before its times are taken, one per method: first only with the noise that the
+/// Sees the records of one view before its times are taken, one per method: first only with the noise that the
 /// reference adds to their errors, before any method is rendered, then with their errors. An exception ends the run.
 using RecordWatch = std::function<void(std::span<const Record> records)>;
 
@@ -51,15 +51,16 @@ struct CompareContext {
   ResultsWatch so_far = {};
 };
 
-/// Runs the comparison and writes its images into FOLDER/images (created). If all parts are finished, no OpenGL context
-/// is created. The results lack tool and backend.cpu, which the program knows.
-/// Errors: of scene, methods and settings (usage), of the machine, an interrupt through `progress`.
+/// Runs the comparison or the animation and writes its images into FOLDER/images (created). If all parts are finished,
+/// no OpenGL context is created. The results lack tool and backend.cpu, which the program knows. Errors: of scene,
+/// methods and settings (usage), of the machine, an interrupt through `progress`.
 [[nodiscard]] Results run_compare(const RunSettings& settings, const std::filesystem::path& folder,
                                   const Progress& progress, const CompareContext& context);
 
-/// Measures some distances of the comparison, by their index, and stores them in `context.finished`; in a zoom the
-/// frame before each must be among them or finished. folder: for images until they are stored.
-void measure_distances(const RunSettings& settings, std::span<const std::size_t> distances,
-                       const std::filesystem::path& folder, const Progress& progress, const CompareContext& context);
+/// Measures some views of the run, by their index, and stores them in `context.finished`.
+/// folder: for images until they are stored.
+/// Returns the fingerprint under which they are stored.
+std::string measure_views(const RunSettings& settings, std::span<const std::size_t> views,
+                          const std::filesystem::path& folder, const Progress& progress, const CompareContext& context);
 
 }  // namespace footprint

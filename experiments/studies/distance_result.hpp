@@ -1,4 +1,4 @@
-// One distance of a comparison as plain values: what remains of it once its images are written.
+// Views of a run as plain values, which remain once their images are written, and the results that they make.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace footprint {
 
-/// Everything that was measured at one distance.
+/// Everything that was measured in one view.
 struct DistanceResult {
   double distance = 1;
   Exposure exposure;
@@ -30,13 +30,17 @@ struct DistanceResult {
   std::vector<std::string> warnings;
 };
 
-/// What a comparison says of itself, whatever its distances.
+/// What a run says of itself, whatever its views.
 struct ComparisonHead {
   BackendInfo backend;
   SceneInfo scene;
+  ReferenceInfo reference;  ///< as it was asked for
   std::string footprint;
-  std::optional<std::string> environment;                  ///< how the reference integrates it; none: there is none
-  std::vector<std::string> first_warnings, last_warnings;  ///< before and after those of the distances
+  std::optional<AnimationWay> way;                         ///< none: the run is no animation
+  std::size_t frames = 0;                                  ///< of a path; 0: there is none
+  int timed_frames = 0;                                    ///< as TimingInfo has it
+  std::optional<double> error_scale;                       ///< of all error images; none: derived from the run
+  std::vector<std::string> first_warnings, last_warnings;  ///< before and after those of the views
 };
 
 constexpr const auto& words_of(ExposureSource /*source*/) { return exposure_sources; }
@@ -63,10 +67,27 @@ template <class Archive>
 void fields(Archive& archive, Is<ComparisonHead> auto& value) {
   archive("backend", value.backend);
   archive("scene", value.scene);
+  archive("reference", value.reference);
   archive("footprint", value.footprint);
-  archive("environment", value.environment);
+  archive("way", value.way);
+  archive("frames", value.frames);
+  archive("timed_frames", value.timed_frames);
+  archive("error_scale", value.error_scale);
   archive("first_warnings", value.first_warnings);
   archive("last_warnings", value.last_warnings);
 }
+
+/// The name of a frame of an animation in finished work.
+[[nodiscard]] std::string frame_name(std::size_t index);
+
+/// The results of one view or more. They lack tool and backend.cpu.
+[[nodiscard]] Results results_of(const ComparisonHead& head, const std::vector<DistanceResult>& views);
+
+/// The results of an animation whose frames are all finished; its images go to FOLDER/images. They lack tool and
+/// backend.cpu.
+/// run: fingerprint of measure_views (compare.hpp).
+/// Errors (usage): a frame is missing or damaged.
+[[nodiscard]] Results joined_animation(const FinishedWork& finished, const std::string& run,
+                                       const std::filesystem::path& folder);
 
 }  // namespace footprint

@@ -182,8 +182,8 @@ TEST(CheapParts, LieWhereThePictureHasThem) {
   EXPECT_EQ(pixel_count(within(parts.interior, tiles)), 1024U);
 }
 
-FrameReference truth_of(const Image& reference, const Interior& interior) {
-  FrameReference truth;
+ReferenceView truth_of(const Image& reference, const Interior& interior) {
+  ReferenceView truth;
   truth.reference.mean = reference;
   truth.parts = pixel_parts(reference, interior);
   return truth;
@@ -197,7 +197,7 @@ TEST(FlickerCauses, AreToldByPixels) {
     for (int c = 0; c < 3; ++c)
       picture.at(1, y)[static_cast<std::size_t>(c)] = 1.0F - before.at(1, y)[static_cast<std::size_t>(c)];
   }
-  const FrameReference truth = truth_of(reference, stripes(4));
+  const ReferenceView truth = truth_of(reference, stripes(4));
   const FlickerCauses causes = flicker_causes(before, picture, truth, truth, 1.0F);
   EXPECT_EQ(causes.shading->mean, 0.0);
   EXPECT_GT(causes.edges->mean, 0.05);
@@ -208,7 +208,7 @@ TEST(FlickerCauses, AreToldByPixels) {
 // A pixel that is interior in one frame alone is an edge.
 TEST(FlickerCauses, AnInteriorPixelIsOneInBothFrames) {
   const Image reference = noise(4, 1);
-  const FrameReference striped = truth_of(reference, stripes(4)), none = truth_of(reference, everywhere(4, 0.0F));
+  const ReferenceView striped = truth_of(reference, stripes(4)), none = truth_of(reference, everywhere(4, 0.0F));
   const FlickerCauses causes = flicker_causes(reference, reference, striped, none, 1.0F);
   EXPECT_FALSE(causes.shading);
   EXPECT_EQ(causes.edges->mean, 0.0);
@@ -220,7 +220,7 @@ TEST(FlickerCauses, FilterAndMethodAreToldByTheBound) {
   const Image old_reference = noise(4, 1), reference = noise(4, 2);
   const Image old_bound = noise(4, 3), bound = noise(4, 4);
   const Image all(4, 4, 1, 1.0F);
-  FrameReference before = truth_of(old_reference, everywhere(4, 1.0F)), now = truth_of(reference, everywhere(4, 1.0F));
+  ReferenceView before = truth_of(old_reference, everywhere(4, 1.0F)), now = truth_of(reference, everywhere(4, 1.0F));
   before.bound = BoundPicture{.picture = old_bound, .pixels = all};
   now.bound = BoundPicture{.picture = bound, .pixels = all};
   const FlickerCauses same = flicker_causes(old_bound, bound, before, now, 1.0F);

@@ -29,8 +29,8 @@ std::optional<PartFlicker> part_of(const std::optional<FlickerFigures>& figures)
 
 }  // namespace
 
-FlickerCauses flicker_causes(const Image& before, const Image& picture, const FrameReference& target_before,
-                             const FrameReference& target, float exposure) {
+FlickerCauses flicker_causes(const Image& before, const Image& picture, const ReferenceView& target_before,
+                             const ReferenceView& target, float exposure) {
   const Image& old_reference = target_before.reference.mean;
   const Image& reference = target.reference.mean;
   const Image interior = in_both(target_before.parts.interior, target.parts.interior);

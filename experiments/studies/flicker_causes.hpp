@@ -2,23 +2,13 @@
 // frames.
 #pragma once
 
-#include "experiments/studies/bound.hpp"
-#include "experiments/studies/error_causes.hpp"
-#include "renderer/pipeline/supersample.hpp"
-#include "results/report/animation_report.hpp"
+#include "experiments/studies/reference_view.hpp"
 
 namespace footprint {
 
-/// What one frame's pictures are held against.
-struct FrameReference {
-  Supersampled reference;
-  PixelParts parts;
-  std::optional<BoundPicture> bound;
-};
-
 /// Of a method that drew `before` and then `picture`.
 [[nodiscard]] FlickerCauses flicker_causes(const Image& before, const Image& picture,
-                                           const FrameReference& target_before, const FrameReference& target,
+                                           const ReferenceView& target_before, const ReferenceView& target,
                                            float exposure);
 
 }  // namespace footprint

@@ -34,13 +34,13 @@ void set_frame_times(Record& record, const std::vector<double>& times) {
   record.fps = 1000.0 / record.frame_ms.median;
 }
 
+}  // namespace
+
 void set_no_times(Record& record) {
   record.frame_ms = {unknown, unknown, unknown};
   record.fps = unknown;
   record.ratio_to_direct = unknown_ratio;
 }
-
-}  // namespace
 
 // Of fewer rounds there is no interval (median_interval).
 bool is_ratio_known(const std::vector<double>& times, const std::vector<double>& unit) {

@@ -29,4 +29,7 @@ using FrameTimes = std::vector<DistanceTimes>;
 /// the stage's unit, which costs 1. If the unit failed, ratios are unknown.
 void set_times(std::span<Record> records, const Stage& stage, std::span<const DistanceTimes> processes);
 
+/// Marks the times of a record as not measured.
+void set_no_times(Record& record);
+
 }  // namespace footprint

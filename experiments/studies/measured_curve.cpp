@@ -70,11 +70,11 @@ std::map<int, Image> pictures_of(const Stage& stage, const View& view, std::span
 
 }  // namespace
 
-std::vector<SupersamplingPoint> measured_curve(const Stage& stage, const ReferenceSettings& settings, double distance,
+std::vector<SupersamplingPoint> measured_curve(const Stage& stage, const ReferenceSettings& settings,
                                                const ErrorTarget& target, ProgressParts& progress) {
   if (settings.supersampling.empty() || stage.methods()[stage.unit()].refusal()) return {};
-  const View view = stage.view(distance);
-  const std::string prefix = fmt::format("distance {:g}: ", distance);
+  const View& view = target.view;
+  const std::string prefix = fmt::format("distance {:g}: ", target.distance);
   const std::span<const int> counts = settings.supersampling;
   const std::vector<glm::dvec2> offsets = frame_offsets(most_frames(counts), settings.seed ^ curve_seed);
   const std::map<int, Image> pictures =
@@ -85,7 +85,7 @@ std::vector<SupersamplingPoint> measured_curve(const Stage& stage, const Referen
   for (const int spp : counts) {
     const Image& picture = pictures.at(spp);
     const int timed = timed_frames(spp);
-    curve.push_back({.distance = distance,
+    curve.push_back({.distance = target.distance,
                      .spp = spp,
                      .normalized_color = normalized_color(picture, target.reference, target.exposure),
                      .shading = normalized_color_over(picture, target.reference, target.exposure, target.interior),

@@ -9,8 +9,10 @@
 
 namespace footprint {
 
-/// What errors of one distance are taken against.
+/// What errors of one view are taken against.
 struct ErrorTarget {
+  const View& view;
+  double distance;         ///< its name in the curve
   const Image& reference;  ///< RGBA
   const Image& interior;   ///< a mask
   float exposure = 1;
@@ -18,8 +20,7 @@ struct ErrorTarget {
 
 /// A point for each count of frames that the settings name. The stage's first method is `direct`.
 [[nodiscard]] std::vector<SupersamplingPoint> measured_curve(const Stage& stage, const ReferenceSettings& settings,
-                                                             double distance, const ErrorTarget& target,
-                                                             ProgressParts& progress);
+                                                             const ErrorTarget& target, ProgressParts& progress);
 
 /// What it weighs in progress, in samples a pixel.
 [[nodiscard]] double curve_weight(std::span<const int> counts);

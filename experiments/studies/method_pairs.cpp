@@ -40,8 +40,8 @@ std::vector<MethodPair> compare_pairs(const std::filesystem::path& folder, std::
       const std::optional<Image> verdicts = closer_beyond_noise(images[i], images[j], target.reference, exposure);
       const auto shares = verdicts ? closer_shares(*verdicts, target.parts.interior) : std::nullopt;
       if (!shares) continue;
-      const std::string stem = fmt::format("{}_or_{}", distance_stem(target.distance, names[i]), names[j]);
-      pairs.push_back({.distance = target.distance,
+      const std::string stem = fmt::format("{}_or_{}", distance_stem(target.at.distance, names[i]), names[j]);
+      pairs.push_back({.distance = target.at.distance,
                        .methods = {records[i].method, records[j].method},
                        .closer = {shares->a, shares->b},
                        .materials = shares_by_material(*verdicts, target),

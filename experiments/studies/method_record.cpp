@@ -26,7 +26,7 @@ ErrorCauses causes_of(const ReferenceView& target, const Image& picture, float e
 std::optional<EquivalentSamples> equivalent(const ReferenceView& target, const RecordError& error) {
   const std::optional<double>& shading = error.causes.shading;
   const auto curve = supersampling_curve(
-      target.curve, target.distance, shading ? &SupersamplingPoint::shading : &SupersamplingPoint::normalized_color);
+      target.curve, target.at.distance, shading ? &SupersamplingPoint::shading : &SupersamplingPoint::normalized_color);
   return equivalent_samples(curve, shading.value_or(error.normalized_color));
 }
 
@@ -56,6 +56,8 @@ void set_error(Record& record, const ReferenceView& target, const MethodPictures
     record.error->representation = normalized_color(*pictures.finest, target.reference.mean, exposure);
     record.error->filtering = normalized_color(pictures.frame, *pictures.finest, exposure);
   }
+  record.highlight_energy = highlight_energy(pictures.frame, target.reference.mean, exposure);
+  record.reference_highlight_energy = target.highlight_energy;
   record.equivalent = equivalent(target, *record.error);
   record.other_references = errors_against_others(target, pictures.frame, exposure);
 }
@@ -108,8 +110,9 @@ Record MethodMeasurer::described(const StagedMethod& method, const ReferenceView
   record.scene = stage_.scene().name;
   record.method = baked.spec.text;
   record.options = {baked.options.all().begin(), baked.options.all().end()};
-  record.distance = target.distance;
-  record.frame = static_cast<int>(target.frame);
+  record.distance = target.at.distance;
+  record.degrees = target.at.degrees;
+  record.frame = static_cast<int>(target.index);
   record.width = target.view.size.x;
   record.height = target.view.size.y;
   record.pixels = target.parts.counts;

@@ -1,4 +1,4 @@
-// One method at one distance of a comparison, held against what is known there.
+// One method in one view of a run, compared with what is known there.
 #pragma once
 
 #include <map>
@@ -17,7 +17,7 @@ struct MethodPictures {
   std::optional<Image> finest;
 };
 
-/// Fills records. Keeps what a method needs to be drawn otherwise from distance to distance.
+/// Fills records. Stores what a method needs to be drawn otherwise for all views.
 class MethodMeasurer {
  public:
   /// Keeps the stage's address.

@@ -1,4 +1,4 @@
-// From the reference's first samples to all that methods are held against at one distance.
+// From the reference's first samples to all that methods are compared with in one view.
 #include "experiments/studies/reference_view.hpp"
 
 #include <fmt/format.h>
@@ -73,12 +73,12 @@ Image finest_mean(const Supersampler& sampler, const View& view, const Reference
   return sampler.render_mean(view, spp, settings.seed, progress);
 }
 
-SharedReferences::AtDistance* SharedReferences::at(double distance) {
-  const auto known = std::ranges::find(distances, distance, &AtDistance::distance);
-  return known != distances.end() ? &*known : nullptr;
+SharedReferences::OfView* SharedReferences::of(const RunView& at) {
+  const auto known = std::ranges::find(views, at, &OfView::at);
+  return known != views.end() ? &*known : nullptr;
 }
 
-ReferenceRenderer::ReferenceRenderer(const RunSettings& settings, const Stage& stage, std::filesystem::path folder,
+ReferenceRenderer::ReferenceRenderer(const RunSettings& settings, Stage& stage, std::filesystem::path folder,
                                      ProgressParts& progress, SharedReferences* shared)
     : settings_(settings),
       stage_(stage),
@@ -95,28 +95,33 @@ double ReferenceRenderer::weight(const RunSettings& settings) {
          curve_weight(reference.supersampling) + 2.0 * interior_weight;
 }
 
-const Image& ReferenceRenderer::first_samples(double distance) {
-  return begun_reference(distance, fmt::format("distance {:g}: ", distance)).begun;
+const Image& ReferenceRenderer::first_samples(const RunView& first) {
+  return begun_reference(first, stage_.move_to(first), prefix_of(0, first)).begun;
 }
 
-ReferenceView ReferenceRenderer::render(std::size_t frame, double distance, float exposure) {
-  ReferenceView target = refined(frame, distance, exposure);
+std::string ReferenceRenderer::prefix_of(std::size_t index, const RunView& at) const {
+  return view_words(settings_, index, at) + ": ";
+}
+
+ReferenceView ReferenceRenderer::render(std::size_t index, const RunView& at, float exposure) {
+  ReferenceView target = refined(index, at, exposure);
   leave_out_unresolved(target);
+  find_parts(target);
   return target;
 }
 
 // With its unresolved pixels.
-ReferenceView ReferenceRenderer::refined(std::size_t frame, double distance, float exposure) {
-  const std::string prefix = fmt::format("distance {:g}: ", distance);
+ReferenceView ReferenceRenderer::refined(std::size_t index, const RunView& at, float exposure) {
+  const std::string prefix = prefix_of(index, at);
   exposure_ = exposure;
   ReferenceView target;
-  target.frame = frame;
-  target.distance = distance;
-  target.view = stage_.view(distance);
-  SharedReferences::AtDistance& known = begun_reference(distance, prefix);
+  target.index = index;
+  target.at = at;
+  target.view = stage_.move_to(at);
+  SharedReferences::OfView& known = begun_reference(at, target.view, prefix);
   refine_reference(known, target.view,
                    progress_.next(automatic_work * settings_.reference.spp, prefix + "reference, "));
-  if (const auto noise = shared_->wanted_noise.find(distance); noise != shared_->wanted_noise.end())
+  if (const auto noise = shared_->wanted_noise.find(at); noise != shared_->wanted_noise.end())
     target.wanted_noise = noise->second;
   target.reference = known.reference;
   target.first = known.first;
@@ -125,36 +130,39 @@ ReferenceView ReferenceRenderer::refined(std::size_t frame, double distance, flo
   return target;
 }
 
-ReferenceView ReferenceRenderer::find(std::size_t frame, double distance, float exposure) {
-  const std::string prefix = fmt::format("distance {:g}: ", distance);
-  ReferenceView target = refined(frame, distance, exposure);
-  write_reference(target);
-  leave_out_unresolved(target);
+ReferenceView ReferenceRenderer::find(std::size_t index, const RunView& at, float exposure) {
+  const std::string prefix = prefix_of(index, at);
+  ReferenceView target = render(index, at, exposure);
+  write_files(target);
   target.noise_floor = noise_floor(target.reference, exposure_);
-  find_parts(target, prefix);
-  target.curve = measured_curve(
-      stage_, settings_.reference, distance,
-      {.reference = target.reference.mean, .interior = target.parts.interior, .exposure = exposure_}, progress_);
+  target.highlight_energy = highlight_energy(target.reference.mean, target.reference.mean, exposure_);
+  target.curve = measured_curve(stage_, settings_.reference,
+                                {.view = target.view,
+                                 .distance = at.distance,
+                                 .reference = target.reference.mean,
+                                 .interior = target.parts.interior,
+                                 .exposure = exposure_},
+                                progress_);
   for (const int spp : settings_.reference.other_spp) target.others.push_back(other_reference(target, spp, prefix));
   own_ = {};
   return target;
 }
 
 // Renders the first samples, which do not depend on the methods, unless they are known.
-SharedReferences::AtDistance& ReferenceRenderer::begun_reference(double distance, const std::string& prefix) {
+SharedReferences::OfView& ReferenceRenderer::begun_reference(const RunView& at, const View& view,
+                                                             const std::string& prefix) {
   const ReferenceSettings& settings = settings_.reference;
-  if (SharedReferences::AtDistance* known = shared_->at(distance)) return *known;
+  if (SharedReferences::OfView* known = shared_->of(at)) return *known;
   const Progress reference = progress_.next(settings.spp, prefix + "reference, ");
   const Progress finest = progress_.next(finest_samples(settings), prefix + "reference, ");
   const auto begin = std::chrono::steady_clock::now();
-  const View view = stage_.view(distance);
-  SharedReferences::AtDistance begun;
-  begun.distance = distance;
+  SharedReferences::OfView begun;
+  begun.at = at;
   begun.reference = stage_.reference().render(view, settings.spp, settings.seed, reference);
   begun.begun = begun.reference.mean;
   begun.first = samples_of_finest_levels(view, begun.begun, finest);
   begun.seconds = seconds_since(begin);
-  return shared_->distances.emplace_back(std::move(begun));
+  return shared_->views.emplace_back(std::move(begun));
 }
 
 // The reference over the samples of finest levels. Where its samples draw directions from an environment, their noise
@@ -168,8 +176,7 @@ Image ReferenceRenderer::samples_of_finest_levels(const View& view, const Image&
 }
 
 // Refines the reference to the requested noise, unless it was refined already.
-void ReferenceRenderer::refine_reference(SharedReferences::AtDistance& begun, const View& view,
-                                         const Progress& progress) {
+void ReferenceRenderer::refine_reference(SharedReferences::OfView& begun, const View& view, const Progress& progress) {
   if (begun.samples > 0) return;
   const ReferenceSettings& asked = settings_.reference;
   begun.samples = asked.spp;
@@ -177,7 +184,7 @@ void ReferenceRenderer::refine_reference(SharedReferences::AtDistance& begun, co
   const auto begin = std::chrono::steady_clock::now();
   const bool surrounded = has(stage_.effects(), Effect::environment_light);
   const double noise = noise_wanted(begun, view);
-  shared_->wanted_noise[begun.distance] = noise;
+  shared_->wanted_noise[begun.at] = noise;
   const Convergence wanted{.noise = noise,
                            .exposure = exposure_,
                            .spp_max = asked.spp_max,
@@ -187,9 +194,9 @@ void ReferenceRenderer::refine_reference(SharedReferences::AtDistance& begun, co
 }
 
 // As requested, or as the first comparison that shares the reference wanted it.
-double ReferenceRenderer::noise_wanted(const SharedReferences::AtDistance& begun, const View& view) {
+double ReferenceRenderer::noise_wanted(const SharedReferences::OfView& begun, const View& view) {
   if (settings_.reference.noise) return *settings_.reference.noise;
-  const auto known = shared_->wanted_noise.find(begun.distance);
+  const auto known = shared_->wanted_noise.find(begun.at);
   return known != shared_->wanted_noise.end() ? known->second : noise_that_separates(begun.reference, view);
 }
 
@@ -218,9 +225,16 @@ double ReferenceRenderer::noise_that_separates(const Supersampled& reference, co
   return std::max(least / 5.0, least_noise);
 }
 
-void ReferenceRenderer::write_reference(ReferenceView& target) const {
-  const std::string stem = distance_stem(target.distance, "reference");
-  target.files.reference = write_exposable_picture(folder_, stem, target.reference.mean, exposure_);
+// An animation has no images but those of its frames.
+void ReferenceRenderer::write_files(ReferenceView& target) const {
+  const auto stem_of = [&](const char* what) { return view_stem(settings_, target.index, target.at, what); };
+  const std::string stem = stem_of("reference");
+  if (is_animation(settings_)) {
+    target.files.reference = write_picture(folder_, stem, target.whole, exposure_);
+    return;
+  }
+  target.files.reference = write_exposable_picture(folder_, stem, target.whole, exposure_);
+  target.files.interior = write_mask(folder_, stem_of("interior"), target.parts.interior);
   target.files.standard_error = fmt::format("images/{}_standard_error.exr", stem);
   write_exr(folder_ / target.files.standard_error, target.reference.standard_error);
 }
@@ -235,14 +249,16 @@ void ReferenceRenderer::leave_out_unresolved(ReferenceView& target) const {
   const std::size_t left_out = whole - object_pixel_count(target.reference.mean);
   target.parts.counts.unresolved = left_out;
   if (left_out == 0) return;
-  target.warnings.push_back(fmt::format(
-      "distance {:g}: {:.2g}% of the object unresolved: in {} of {} pixels a few samples carry nearly all of the "
-      "light; they are left out of every figure",
-      target.distance, 100.0 * static_cast<double>(left_out) / static_cast<double>(whole), left_out, whole));
+  target.warnings.push_back(
+      fmt::format("{}: {:.2g}% of the object unresolved: in {} of {} pixels a few samples carry nearly all of the "
+                  "light; they are left out of every figure",
+                  view_words(settings_, target.index, target.at),
+                  100.0 * static_cast<double>(left_out) / static_cast<double>(whole), left_out, whole));
 }
 
 // The pixels that are interior, and the bound over them.
-void ReferenceRenderer::find_parts(ReferenceView& target, const std::string& prefix) {
+void ReferenceRenderer::find_parts(ReferenceView& target) {
+  const std::string prefix = prefix_of(target.index, target.at);
   const Interior interior = interior_of(target, progress_.next(interior_weight, prefix));
   const std::size_t left_out = target.parts.counts.unresolved;
   target.parts = pixel_parts(target.reference.mean, interior);
@@ -250,7 +266,6 @@ void ReferenceRenderer::find_parts(ReferenceView& target, const std::string& pre
   if (settings_.by_material)
     target.materials = material_masks(interior.materials, target.parts.interior, stage_.scene().materials.size());
   target.shading_floor = noise_floor_over(target.reference, exposure_, target.parts.interior);
-  target.files.interior = write_mask(folder_, distance_stem(target.distance, "interior"), target.parts.interior);
   if (has(stage_.effects(), Effect::environment_light)) {
     target.light = light_part(target.parts);
     target.parts.counts.light = pixel_count(target.light.pixels);
@@ -265,7 +280,7 @@ void ReferenceRenderer::find_parts(ReferenceView& target, const std::string& pre
 
 // As they are shared, or found and shared.
 Interior ReferenceRenderer::interior_of(const ReferenceView& target, const Progress& progress) const {
-  SharedReferences::AtDistance& known = *shared_->at(target.distance);
+  SharedReferences::OfView& known = *shared_->of(target.at);
   if (known.interior) return *known.interior;
   Interior interior = interior_finder_.render(target.view, object_part(target.reference.mean), settings_.reference.spp,
                                               settings_.reference.seed, progress);

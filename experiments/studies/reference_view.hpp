@@ -1,4 +1,4 @@
-// What a comparison knows of one distance besides its methods: the reference and how far it can be trusted, which
+// What a run knows of one view besides its methods: the reference and how far it can be trusted, which
 // pixels count for what, the bound, and what plain supersampling reaches.
 #pragma once
 
@@ -40,10 +40,10 @@ struct ReferenceFiles {
 [[nodiscard]] Image finest_mean(const Supersampler& sampler, const View& view, const ReferenceSettings& settings,
                                 const Progress& progress);
 
-/// What is known of one distance.
+/// What is known of one view.
 struct ReferenceView {
-  std::size_t frame = 0;
-  double distance = 1;
+  std::size_t index = 0;  ///< of the view in the run
+  RunView at;
   View view;
   Supersampled reference;  ///< its unresolved pixels uncovered
   Image whole;             ///< its mean with them
@@ -56,19 +56,20 @@ struct ReferenceView {
   PixelParts parts;
   std::vector<Image> materials;  ///< masks of the interior pixels of each material; empty where they are not told apart
   std::optional<BoundPicture> bound;
-  LightPart light;  ///< empty without an environment
+  LightPart light;                         ///< empty without an environment
+  std::optional<double> highlight_energy;  ///< of the reference
   ReferenceFiles files;
   std::vector<SupersamplingPoint> curve;
   std::vector<OtherReferenceImage> others;
   std::vector<std::string> warnings;
 };
 
-/// The references that several comparisons of one scene, view and reference share, distance by distance. A reference's
+/// The references that several comparisons of one scene and reference share, view by view. A reference's
 /// noise is a part of every error that is measured against it, so errors of different comparisons can be ranked only
 /// against the very same reference.
 struct SharedReferences {
-  struct AtDistance {
-    double distance = 1;
+  struct OfView {
+    RunView at;
     Supersampled reference;
     Image begun;         ///< its mean over its first samples, by which the exposure is chosen
     Image first;         ///< its mean over the samples of finest levels
@@ -76,58 +77,60 @@ struct SharedReferences {
     double seconds = 0;  ///< that all of it took
     std::optional<Interior> interior;
   };
-  std::vector<AtDistance> distances;
-  std::map<double, double> wanted_noise;  ///< by distance, the noise floor that the first comparison asked for
+  std::vector<OfView> views;
+  std::map<RunView, double> wanted_noise;  ///< the noise floor that the first comparison asked for
 
   /// Null if there is none.
-  [[nodiscard]] AtDistance* at(double distance);
+  [[nodiscard]] OfView* of(const RunView& at);
 };
 
-/// Renders the references of a comparison. Keeps the addresses of its arguments.
+/// Renders the references of a run, and moves the stage to their views. Keeps the addresses of its arguments.
 class ReferenceRenderer {
  public:
   /// folder: images go to its images/.
   /// shared: references are taken from here and added here; null: every reference is rendered.
-  ReferenceRenderer(const RunSettings& settings, const Stage& stage, std::filesystem::path folder,
-                    ProgressParts& progress, SharedReferences* shared = nullptr);
+  ReferenceRenderer(const RunSettings& settings, Stage& stage, std::filesystem::path folder, ProgressParts& progress,
+                    SharedReferences* shared = nullptr);
 
-  /// The share of progress that a distance takes.
+  /// The share of progress that a view takes.
   [[nodiscard]] static double weight(const RunSettings& settings);
 
-  /// The first samples of the reference at a distance, from which an exposure is chosen.
-  [[nodiscard]] const Image& first_samples(double distance);
+  /// The first samples of the reference in the run's first view, from which an exposure is chosen.
+  [[nodiscard]] const Image& first_samples(const RunView& first);
 
-  /// Everything about one distance; writes its images.
-  [[nodiscard]] ReferenceView find(std::size_t frame, double distance, float exposure);
+  /// Everything about one view; writes its images.
+  [[nodiscard]] ReferenceView find(std::size_t index, const RunView& at, float exposure);
 
-  /// The reference alone.
-  [[nodiscard]] ReferenceView render(std::size_t frame, double distance, float exposure);
+  /// As much of it as flicker is measured against; writes nothing.
+  [[nodiscard]] ReferenceView render(std::size_t index, const RunView& at, float exposure);
 
   /// Why there is no bound, if there is none.
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
-  [[nodiscard]] ReferenceView refined(std::size_t frame, double distance, float exposure);
-  [[nodiscard]] SharedReferences::AtDistance& begun_reference(double distance, const std::string& prefix);
+  [[nodiscard]] std::string prefix_of(std::size_t index, const RunView& at) const;
+  [[nodiscard]] ReferenceView refined(std::size_t index, const RunView& at, float exposure);
+  [[nodiscard]] SharedReferences::OfView& begun_reference(const RunView& at, const View& view,
+                                                          const std::string& prefix);
   [[nodiscard]] Image samples_of_finest_levels(const View& view, const Image& whole, const Progress& progress);
-  void refine_reference(SharedReferences::AtDistance& begun, const View& view, const Progress& progress);
-  [[nodiscard]] double noise_wanted(const SharedReferences::AtDistance& begun, const View& view);
+  void refine_reference(SharedReferences::OfView& begun, const View& view, const Progress& progress);
+  [[nodiscard]] double noise_wanted(const SharedReferences::OfView& begun, const View& view);
   [[nodiscard]] double noise_that_separates(const Supersampled& reference, const View& view) const;
-  void write_reference(ReferenceView& target) const;
+  void write_files(ReferenceView& target) const;
   void leave_out_unresolved(ReferenceView& target) const;
-  void find_parts(ReferenceView& target, const std::string& prefix);
+  void find_parts(ReferenceView& target);
   [[nodiscard]] Interior interior_of(const ReferenceView& target, const Progress& progress) const;
   [[nodiscard]] OtherReferenceImage other_reference(const ReferenceView& target, int spp, const std::string& prefix);
 
   const RunSettings& settings_;
-  const Stage& stage_;
+  Stage& stage_;
   std::filesystem::path folder_;
   ProgressParts& progress_;
-  float exposure_ = 1.0F;  // of the distance that is rendered
+  float exposure_ = 1.0F;  // of the view that is rendered
   InteriorFinder interior_finder_;
   std::vector<std::string> warnings_;
   std::optional<StagedMethod> bound_;
-  SharedReferences own_;  // of the distance that is rendered, if nothing is shared
+  SharedReferences own_;  // of the view that is rendered, if nothing is shared
   SharedReferences* shared_;
 };
 

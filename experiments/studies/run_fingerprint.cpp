@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <glm/vec3.hpp>
-
 #include "experiments/studies/stage.hpp"
-#include "experiments/studies/zoom.hpp"
+#include "experiments/studies/views.hpp"
 #include "renderer/core/hash.hpp"
 #include "renderer/scene/scene.hpp"
 
@@ -29,12 +27,13 @@ void add_view(ContentHash& hash, const RunSettings& settings, const Scene& scene
   const auto& [size, quick_size, distances, zoom, exposure, error_scale] = settings.view;
   const glm::ivec2 pixels = frame_size(scene, size);
   hash.add(fmt::format("{}x{}", pixels.x, pixels.y));
-  const std::vector<double> all = run_distances(settings.view, scene);
-  hash.add(fmt::format("{}", fmt::join(std::span(all).first(zoom.frames > 0 ? all.size() : 1), " ")));
+  const std::vector<RunView> all = run_views(settings, scene);
+  for (const RunView& view : std::span(all).first(zoom.frames > 0 ? all.size() : 1))
+    hash.add(fmt::format("{} {}", view.distance, view.degrees));
   hash.add(exposure ? fmt::format("{} {}", exposure->factor, static_cast<int>(exposure->source)) : "default");
   hash.add(fmt::format("{} {}", zoom.frames, number_or(error_scale, "auto")));
   const auto& [kind, degrees, axis] = settings.path;
-  hash.add(fmt::format("{} {}", static_cast<int>(kind), number_or(degrees, "default")));
+  hash.add(fmt::format("{} {}", kind ? static_cast<int>(*kind) : -1, number_or(degrees, "default")));
   if (axis) hash.add(fmt::format("{} {} {}", axis->x, axis->y, axis->z));
 }
 

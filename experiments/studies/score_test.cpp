@@ -9,7 +9,7 @@ namespace footprint {
 namespace {
 
 constexpr int edge = 200;
-constexpr float noise = 0.02F;  // standard error of each channel
+constexpr float channel_noise = 0.02F;  // standard error of each channel
 
 Image even(float value) {
   Image image(edge, edge, 4);
@@ -23,12 +23,12 @@ Image even(float value) {
 Supersampled noisy(float truth, bool same_in_all) {
   Supersampled reference{.spp = 64, .mean = even(truth), .standard_error = Image(edge, edge, 3), .halves = {}};
   std::mt19937 random(7);
-  std::normal_distribution<float> normal(0.0F, noise);
+  std::normal_distribution<float> normal(0.0F, channel_noise);
   for (std::size_t i = 0; i < reference.mean.texel_count(); ++i) {
     const float common = normal(random);
     for (std::size_t c = 0; c < 3; ++c) {
       reference.mean.texels[4 * i + c] += same_in_all ? common : normal(random);
-      reference.standard_error.texels[3 * i + c] = noise;
+      reference.standard_error.texels[3 * i + c] = channel_noise;
     }
   }
   reference.halves.emplace(reference.mean, reference.mean);

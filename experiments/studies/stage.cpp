@@ -149,7 +149,10 @@ Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress,
 
 Stage::Stage(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, const Progress& progress, int pictures,
              Unit unit, Refusal refusal)
-    : prepared_(std::move(scene)), settings_(settings), size_(frame_size(prepared_->scene, settings.view.size)) {
+    : prepared_(std::move(scene)),
+      settings_(settings),
+      lights_(prepared_->scene.lights),
+      size_(frame_size(prepared_->scene, settings.view.size)) {
   require_pictures(size_, pictures);
   PreparedScene& shared = *prepared_;
   const std::vector<Wanted> wanted = wanted_methods(unit);
@@ -213,9 +216,12 @@ SceneInfo Stage::info(const Exposure& exposure) const {
 
 View Stage::view(double distance) const { return {.size = size_, .camera = camera_at_distance(scene(), distance)}; }
 
-void Stage::move_lights(std::vector<Light> lights) {
-  prepared_->scene.lights = std::move(lights);
-  prepared_->gpu->update(scene());
+View Stage::move_to(const RunView& view) {
+  if (settings_.path.kind == AnimationPath::light) {
+    prepared_->scene.lights = lights_on_path(settings_.path, scene(), lights_, view);
+    prepared_->gpu->update(scene());
+  }
+  return {.size = size_, .camera = camera_on_path(settings_.path, scene(), view)};
 }
 
 StagedMethod Stage::stage(const MethodSpec& method, const Progress& progress) const {

@@ -11,6 +11,7 @@
 
 #include "experiments/settings/run_settings.hpp"
 #include "experiments/studies/exposure.hpp"
+#include "experiments/studies/views.hpp"
 #include "renderer/core/disk_cache.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/gl/context.hpp"
@@ -133,9 +134,8 @@ class Stage {
   [[nodiscard]] const Supersampler& reference() const { return *reference_; }
   [[nodiscard]] View view(double distance) const;
 
-  /// Puts lights in the place of the scene's own, of the same kinds in the same order; shadows follow. Errors (usage):
-  /// others.
-  void move_lights(std::vector<Light> lights);
+  /// Moves the lights to where they are in a view, shadows included, and returns the camera of that view.
+  [[nodiscard]] View move_to(const RunView& view);
 
   /// Another method over the same scene.
   [[nodiscard]] StagedMethod stage(const MethodSpec& method, const Progress& progress) const;
@@ -164,6 +164,7 @@ class Stage {
 
   std::shared_ptr<PreparedScene> prepared_;
   RunSettings settings_;
+  std::vector<Light> lights_;  // of the first view
   glm::ivec2 size_;
   std::vector<StagedMethod> methods_;
   std::optional<std::size_t> unit_;

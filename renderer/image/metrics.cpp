@@ -58,16 +58,24 @@ void require_mask(const Image& mask, const Image& reference) {
   throw Error(ErrorKind::usage, "comparison", "the mask is not an image of one channel and the reference's size");
 }
 
-template <typename Visit>  // visit(column, row, image's rgb, reference's rgb), row by row
-void visit_object_pixels(const Image& picture, const Image& reference, Visit visit) {
+// visit(column, row, image's rgb, reference's rgb), row by row, over the object pixels in `mask`; others need not be
+// finite.
+template <typename Visit>
+void visit_pixels_over(const Image& mask, const Image& picture, const Image& reference, Visit visit) {
+  require_mask(mask, reference);
   require_comparable(picture, reference);
   for (int y = 0; y < reference.height; ++y) {
     for (int x = 0; x < reference.width; ++x) {
-      if (!covers_whole_pixel(reference.at(x, y))) continue;
+      if (mask.at(x, y)[0] <= 0.0F || !covers_whole_pixel(reference.at(x, y))) continue;
       const Rgb expected = rgb_of(reference, x, y, "the reference");
       visit(x, y, rgb_of(picture, x, y, "the image"), expected);
     }
   }
+}
+
+template <typename Visit>
+void visit_object_pixels(const Image& picture, const Image& reference, Visit visit) {
+  visit_pixels_over(object_pixels(reference), picture, reference, visit);
 }
 
 double squared(double value) { return value * value; }
@@ -158,18 +166,12 @@ std::optional<double> normalized_color(const Image& picture, const Image& refere
 
 std::optional<double> normalized_color_over(const Image& picture, const Image& reference, float exposure,
                                             const Image& mask) {
-  require_mask(mask, reference);
-  require_comparable(picture, reference);
   double distance = 0;
   std::size_t pixels = 0;
-  for (int y = 0; y < reference.height; ++y) {
-    for (int x = 0; x < reference.width; ++x) {
-      if (mask.at(x, y)[0] <= 0.0F || !covers_whole_pixel(reference.at(x, y))) continue;
-      const Rgb shown = rgb_of(picture, x, y, "the image"), expected = rgb_of(reference, x, y, "the reference");
-      distance += std::sqrt(displayed_squared_distance(shown, expected, exposure) / 3);
-      ++pixels;
-    }
-  }
+  visit_pixels_over(mask, picture, reference, [&](int, int, const Rgb& shown, const Rgb& expected) {
+    distance += std::sqrt(displayed_squared_distance(shown, expected, exposure) / 3);
+    ++pixels;
+  });
   return pixels > 0 ? std::optional(distance / static_cast<double>(pixels)) : std::nullopt;
 }
 
@@ -181,12 +183,11 @@ std::optional<FlickerFigures> compare_changes(const Image& before, const Image& 
 std::optional<FlickerFigures> compare_changes_over(const Image& before, const Image& picture,
                                                    const Image& reference_before, const Image& reference,
                                                    float exposure, const Image& mask) {
-  require_mask(mask, reference);
   require_comparable(before, reference_before);
   require_comparable(reference_before, reference);
   std::vector<double> differences;
-  visit_object_pixels(picture, reference, [&](int column, int row, const Rgb& x, const Rgb& r) {
-    if (mask.at(column, row)[0] <= 0.0F || !covers_whole_pixel(reference_before.at(column, row))) return;
+  visit_pixels_over(mask, picture, reference, [&](int column, int row, const Rgb& x, const Rgb& r) {
+    if (!covers_whole_pixel(reference_before.at(column, row))) return;
     const Rgb old_x = rgb_of(before, column, row, "the image before");
     const Rgb old_r = rgb_of(reference_before, column, row, "the reference before");
     double sum = 0;

@@ -49,7 +49,7 @@ struct FlickerFigures {
                                                             const Image& reference_before, const Image& reference,
                                                             float exposure);
 
-/// The same over the pixels in `mask` (one channel, above 0).
+/// The same over the pixels in `mask` (one channel, above 0). Values outside of it need not be finite.
 [[nodiscard]] std::optional<FlickerFigures> compare_changes_over(const Image& before, const Image& picture,
                                                                  const Image& reference_before, const Image& reference,
                                                                  float exposure, const Image& mask);

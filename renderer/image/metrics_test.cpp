@@ -284,6 +284,9 @@ TEST(Flicker, OverAMaskCountsItsPixelsAlone) {
   mask.at(0, 0)[0] = 1.0F;
   EXPECT_NEAR(compare_changes_over(before, picture, before, before, 1.0F, mask)->mean, 0.5, 1e-7);
   EXPECT_NEAR(compare_changes(before, picture, before, before, 1.0F)->mean, 0.25, 1e-7);
+  Image broken = picture;
+  broken.at(1, 0)[0] = std::numeric_limits<float>::infinity();
+  EXPECT_NEAR(compare_changes_over(before, broken, before, before, 1.0F, mask)->mean, 0.5, 1e-7);
   mask.at(0, 0)[0] = 0.0F;
   EXPECT_FALSE(compare_changes_over(before, picture, before, before, 1.0F, mask));
   EXPECT_NE(error_text([&] {

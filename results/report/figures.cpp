@@ -117,9 +117,9 @@ std::vector<Provenance> provenance(const Results& results) {
       {"Scene", scene_text(scene)},
       {"Exposure", fmt::format("{} ({})", three_figures(scene.exposure), scene.exposure_source)},
       {"Reference", reference_text(results.reference)},
-      {"Footprint filter", fmt::format("{} (docs/filters.md)", results.footprint)},
-      {"Timing", timing_text(results.timing)},
-      {"Supplied", list_text(scene.defaults, "none")}};
+      {"Footprint filter", fmt::format("{} (docs/filters.md)", results.footprint)}};
+  if (results.timing.frames > 0) lines.push_back({"Timing", timing_text(results.timing)});
+  lines.push_back({"Supplied", list_text(scene.defaults, "none")});
   for (const std::string& warning : scene.warnings) lines.push_back({"Warning", warning});
   return lines;
 }

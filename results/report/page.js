@@ -399,17 +399,16 @@ function padded(values, below, above) {
 }
 
 function logAxis(title, range) {
+  const axis = linearAxis(title);
+  const label = (value) => (/^[125]e/.test(value.toExponential()) ? figure(value) : '');
+  return {...axis, type: 'logarithmic', min: range.min, max: range.max, ticks: {...axis.ticks, callback: label}};
+}
+
+function linearAxis(title) {
   return {
-    type: 'logarithmic',
-    min: range.min,
-    max: range.max,
     title: {display: true, text: title, color: styleValue('--ink')},
     grid: {color: styleValue('--line'), borderColor: styleValue('--muted')},
-    ticks: {
-      color: styleValue('--muted'),
-      maxRotation: 0,
-      callback: (value) => (/^[125]e/.test(value.toExponential()) ? figure(value) : ''),
-    },
+    ticks: {color: styleValue('--muted'), maxRotation: 0},
   };
 }
 
@@ -584,8 +583,7 @@ function showSparkle() {
       animation: false,
       maintainAspectRatio: false,
       scales: {
-        x: {...logAxis('Luminance as shown', {min: 0, max: 1}), type: 'linear',
-          ticks: {color: styleValue('--muted'), maxRotation: 0}},
+        x: {...linearAxis('Luminance as shown'), min: 0, max: 1},
         y: logAxis('Share of pixels', padded(shares, 1, 1.5)),
       },
       plugins: {
@@ -747,38 +745,52 @@ function methodBox(method) {
   return element('label', '', input, key(method), method);
 }
 
-byId('axes').append(...axes.map(axisSelect));
-byId('methods').append(...methods.map(methodBox));
-segments('distances', distances.map((value) => ({value, text: String(value)})), state.distance,
-  (distance) => change({distance}));
-segments('zooms', [1, 2, 4, 8].map((value) => ({value, text: `${value}×`})), 1, setZoom);
-segments('layouts', [{value: 'list', text: 'large'}, {value: 'grid', text: 'side by side'}], 'list', (layout) =>
-  byId('cards').classList.toggle('grid', layout === 'grid'));
-segments('scales', [{value: 'own', text: 'this distance'}, {value: 'shared', text: 'all distances'}], 'own', (scale) => {
-  state.scale = scale;
-  showScale();
-  showCards();
-});
-byId('exposure').addEventListener('input', (event) => setExposure(Number(event.target.value)));
-byId('all-distances').addEventListener('change', (event) => change({all: event.target.checked}));
-window.addEventListener('hashchange', () => {
-  readState();
-  showControls();
-  showAll();
-});
-/** All that is drawn in a method's colour, or in the page's. */
-function recolour() {
+function recolourKeys() {
   for (const node of document.querySelectorAll('.key')) {
     node.style.setProperty('--series', seriesColor(node.dataset.method));
   }
+}
+
+/** All that is drawn in a method's colour, or in the page's. */
+function recolour() {
+  recolourKeys();
   showPlot();
   showTrends();
   showSparkle();
 }
 
-for (const query of [dark, paper]) query.addEventListener('change', recolour);
+/** Everything that follows the chosen view. */
+function startViews() {
+  byId('axes').append(...axes.map(axisSelect));
+  byId('methods').append(...methods.map(methodBox));
+  segments('distances', distances.map((value) => ({value, text: String(value)})), state.distance,
+    (distance) => change({distance}));
+  segments('zooms', [1, 2, 4, 8].map((value) => ({value, text: `${value}×`})), 1, setZoom);
+  segments('layouts', [{value: 'list', text: 'large'}, {value: 'grid', text: 'side by side'}], 'list', (layout) =>
+    byId('cards').classList.toggle('grid', layout === 'grid'));
+  segments('scales', [{value: 'own', text: 'this distance'}, {value: 'shared', text: 'all distances'}], 'own', (scale) => {
+    state.scale = scale;
+    showScale();
+    showCards();
+  });
+  byId('exposure').addEventListener('input', (event) => setExposure(Number(event.target.value)));
+  byId('all-distances').addEventListener('change', (event) => change({all: event.target.checked}));
+  window.addEventListener('hashchange', () => {
+    readState();
+    showControls();
+    showAll();
+  });
+  for (const query of [dark, paper]) query.addEventListener('change', recolour);
+  showHead();
+  readState();
+  showControls();
+  showAll();
+}
 
-showHead();
-readState();
-showControls();
-showAll();
+if (runs[0].path) {  // an animation: film.js shows its frames
+  for (const id of ['views-bar', 'views']) byId(id).remove();
+  showFocus();
+  showCautions();
+} else {
+  startViews();
+}

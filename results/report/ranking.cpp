@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 #include <string_view>
 
 #include "results/report/figures.hpp"
@@ -143,6 +144,11 @@ bool is_all_noise(const DistanceRecords& records) {
   return sorted.size() > 1 && !is_better(sorted.front(), sorted.back());
 }
 
+// Whether the reference's noise floor is more than half of the least error measured against it.
+bool is_mostly_noise(double least_error, const std::optional<double>& noise_floor) {
+  return noise_floor && *noise_floor > 0.5 * least_error;
+}
+
 // Of the errors that methods are ranked by, where there are some, else over all of the object.
 bool has_not_converged(const DistanceRecords& records) {
   const auto is_noise = [](const Record& r) {
@@ -165,6 +171,21 @@ std::string at_distances(const Results& results, Holds holds, std::string_view s
   }
   if (found.empty()) return {};
   return fmt::format("At distance{} {} {}", found.size() == 1 ? "" : "s", enumerated(found), sentence);
+}
+
+// Of an animation: how many frames the reference has not converged in; empty without any.
+std::string noisy_frames(const Results& results) {
+  std::set<int> all, noisy;
+  for (const Record& record : results.records) {
+    all.insert(record.frame);
+    if (record.error && is_mostly_noise(record.error->normalized_color, record.error->noise_floor))
+      noisy.insert(record.frame);
+  }
+  if (noisy.empty()) return {};
+  return fmt::format(
+      "in {} of {} frames the reference has not converged: its noise floor is more than half of the least error; raise "
+      "--spp",
+      noisy.size(), all.size());
 }
 
 template <typename... Sentences>
@@ -210,11 +231,8 @@ std::optional<std::string> linear_measures_warning(double distance, const std::o
       distance, *standard_error);
 }
 
-bool is_mostly_noise(double least_error, const std::optional<double>& noise_floor) {
-  return noise_floor && *noise_floor > 0.5 * least_error;
-}
-
 std::vector<std::string> ranking_warnings(const Results& results) {
+  if (results.way) return those_said(noisy_frames(results));
   const auto pixels = [](const DistanceRecords& records) { return records.front().get().pixels; };
   return those_said(
       at_distances(

@@ -36,11 +36,9 @@ using DistanceRecords = std::vector<std::reference_wrapper<const Record>>;
 [[nodiscard]] std::optional<std::string> linear_measures_warning(double distance,
                                                                  const std::optional<double>& standard_error);
 
-/// Whether the reference's noise floor is more than half of the least error measured against it.
-[[nodiscard]] bool is_mostly_noise(double least_error, const std::optional<double>& noise_floor);
-
 /// What bears on the ranking and a reader must know first, one sentence each: a reference that has not converged,
-/// distances with few interior pixels, with differences below the noise, or with nothing to filter.
+/// distances with few interior pixels, with differences below the noise, or with nothing to filter. Of an animation the
+/// frames in which the reference has not converged.
 [[nodiscard]] std::vector<std::string> ranking_warnings(const Results& results);
 
 /// "12,345 object pixels, 8,100 of them interior (66%); noise floor 0.00017, over interior pixels 0.00012.", of a

@@ -56,10 +56,20 @@ void fields(Archive& archive, Is<RecordError> auto& value) {
 }
 
 template <class Archive>
+void fields(Archive& archive, Is<PartFlicker> auto& value) {
+  archive("mean", value.mean);
+  archive("p99", value.p99);
+}
+
+template <class Archive>
 void fields(Archive& archive, Is<Flicker> auto& value) {
   archive("mean", value.mean);
   archive("p99", value.p99);
   archive("noise_floor", value.noise_floor);
+  archive("shading", value.causes.shading);
+  archive("edges", value.causes.edges);
+  archive("filter", value.causes.filter);
+  archive("method", value.causes.method);
 }
 
 template <class Archive>
@@ -105,6 +115,7 @@ void fields(Archive& archive, Is<Record> auto& value) {
   archive("method", value.method);
   archive("options", value.options);
   archive("distance", value.distance);
+  archive("degrees", value.degrees);
   archive("frame", value.frame);
   archive("size", std::tie(value.width, value.height));
   archive("failure", value.failure);
@@ -117,6 +128,8 @@ void fields(Archive& archive, Is<Record> auto& value) {
                                        archive.at("equivalent_bound"));
   archive("other_references", value.other_references);
   archive("flicker", value.flicker);
+  archive("highlight_energy", value.highlight_energy);
+  archive("reference_highlight_energy", value.reference_highlight_energy);
   archive.group("time", [&](auto& time) {
     time("node", value.node);
     time("frame_ms", value.frame_ms);
@@ -227,6 +240,12 @@ template <class Archive>
 void fields(Archive& archive, Is<TimingInfo> auto& value) {
   archive("frames", value.frames);
   archive("processes", value.processes);
+}
+
+template <class Archive>
+void fields(Archive& archive, Is<AnimationWay> auto& value) {
+  archive("path", value.path);
+  archive("axis", value.axis);
 }
 
 template <class Archive>

@@ -89,11 +89,26 @@ struct RecordError {
   ErrorCauses causes = {};
 };
 
+/// Flicker over some of the object's pixels; docs/metrics.md.
+struct PartFlicker {
+  double mean = 0, p99 = 0;
+};
+
+/// What flicker is made of, as ErrorCauses has it of errors. None: no such pixel in both frames, or what tells it was
+/// not drawn.
+struct FlickerCauses {
+  std::optional<PartFlicker> shading;  ///< over pixels that are interior in both frames
+  std::optional<PartFlicker> edges;    ///< over the object's other pixels
+  std::optional<PartFlicker> filter;   ///< of `exact` under the same footprint filter, over its pixels in both frames
+  std::optional<PartFlicker> method;   ///< of the picture against that of `exact`, over the same
+};
+
 /// How much more or otherwise a picture changes from the frame before than the reference does; docs/metrics.md.
 struct Flicker {
   double mean = 0;                    ///< over the object's pixels, 0 to 2
   double p99 = 0;                     ///< 99th percentile over them
   std::optional<double> noise_floor;  ///< the mean that the references' own noise causes
+  FlickerCauses causes = {};
 };
 
 /// The error against another reference, of another count of samples.
@@ -122,12 +137,13 @@ struct MaterialError {
   std::uint64_t bytes = 0;        ///< that the method baked of the material
 };
 
-/// One method at one distance.
+/// One method in one view.
 struct Record {
   std::string scene;
   std::string method;                                                ///< the method as written, options included
   std::map<std::string, std::variant<double, std::string>> options;  ///< every option, defaults filled in
   double distance = 1;
+  double degrees = 0;  ///< that camera or lights have turned by since the first frame of an animation
   int frame = 0;
   int width = 0, height = 0;
   std::optional<std::string> failure = {};  ///< why the method has no figures here; none: it was drawn and measured
@@ -135,8 +151,10 @@ struct Record {
   std::optional<RecordError> error;              ///< none: the object covers no whole pixel, or there is a failure
   std::optional<EquivalentSamples> equivalent;   ///< none: there is no error, or no curve
   std::vector<OtherReference> other_references;  ///< none where there is no error
-  std::optional<Flicker> flicker;                ///< none: no frame of a zoom, or its first
-  std::string node = {};                         ///< the machine that the times below were taken on
+  std::optional<Flicker> flicker;                ///< none: no frame of a path, or its first
+  /// Exposed luminance above 0.8, mean over the object's pixels. None: there is no error.
+  std::optional<double> highlight_energy = {}, reference_highlight_energy = {};
+  std::string node = {};  ///< the machine that the times below were taken on
   FrameTime frame_ms;
   std::optional<double> frame_build_ms;    ///< median time to rebuild the method's maps; none: it rebuilds nothing
   std::optional<BuildTiming> frame_build;  ///< whether `frame_ms` includes that time; none: it rebuilds nothing
@@ -225,7 +243,7 @@ struct ReferenceInfo {
   int spp = 0;
   std::string filter;  ///< after_shading, nearest, bilinear
   std::uint64_t seed = 0;
-  /// At each distance or frame: root mean square of the per-pixel standard error over mean radiance; none: unknown.
+  /// In each view: root mean square of the per-pixel standard error over mean radiance; none: unknown.
   std::vector<std::optional<double>> standard_errors = {};
   std::optional<std::string> environment = {};  ///< sampled or dense; none: the scene has no environment
   double samples = 0;  ///< mean samples a pixel over all distances: `spp`, and more where the noise asked for it
@@ -236,6 +254,12 @@ struct ReferenceInfo {
 struct TimingInfo {
   int frames = 0;     ///< of each method and distance in each process, those of all methods in turn
   int processes = 0;  ///< one after the other
+};
+
+/// The way of an animation.
+struct AnimationWay {
+  std::string path;                           ///< zoom, orbit or light
+  std::optional<std::array<double, 3>> axis;  ///< of the rotation, unit, in world space; none: nothing turns
 };
 
 /// Where a member of an experiment's [matrix] stands: each axis with its value, as the file writes them.
@@ -249,6 +273,8 @@ struct Results {
   ReferenceInfo reference;
   std::string footprint;  ///< the footprint filter, as parse_footprint_filter reads it
   TimingInfo timing;
+  std::optional<AnimationWay> way = {};  ///< none: the run is no animation
+  std::optional<std::string> film = {};  ///< video of its frames, from the output folder; none: none was asked for
   std::vector<SupersamplingPoint> supersampling;
   std::vector<Record> records;
   std::vector<MethodPair> pairs;               ///< every two methods of a distance

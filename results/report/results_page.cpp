@@ -8,6 +8,7 @@
 
 #include "renderer/core/memory.hpp"
 #include "renderer/image/false_color.hpp"
+#include "results/report/animation_table.hpp"
 #include "results/report/experiment_section.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/matrix_report.hpp"
@@ -98,11 +99,14 @@ Json distance_json(const Results& results, double distance) {
 Json run_json(const Results& results, const std::string& folder) {
   Json head = Json::array();
   for (const Provenance& line : provenance(results)) head.push_back({{"label", line.label}, {"value", line.value}});
-  Json records = Json::array();
-  for (const Record& record : results.records) records.push_back(display(record, records_at(results, record.distance)));
-  Json distances = Json::array();
-  for (const double distance : distances_of(results)) distances.push_back(distance_json(results, distance));
+  Json records = Json::array(), distances = Json::array();
+  if (!results.way) {
+    for (const Record& record : results.records)
+      records.push_back(display(record, records_at(results, record.distance)));
+    for (const double distance : distances_of(results)) distances.push_back(distance_json(results, distance));
+  }
   return {{"folder", folder},
+          {"path", results.way ? path_words(results) : ""},
           {"coordinates", to_json_value(results.coordinates)},
           {"results", results_document(results)},
           {"provenance", std::move(head)},
@@ -113,6 +117,7 @@ Json run_json(const Results& results, const std::string& folder) {
 
 struct PageTexts {
   std::string title, table, experiment;
+  bool film = false;  // the results are of an animation
 };
 
 std::string page_of(Json runs, const PageTexts& own) {
@@ -122,6 +127,8 @@ std::string page_of(Json runs, const PageTexts& own) {
   return fill_page({.file = "page.html", .title = own.title}, {{"title", title},
                                                                {"chart", page_text("chart.min.js")},
                                                                {"script", page_text("page.js")},
+                                                               {"film", own.film ? page_text("film.html") : ""},
+                                                               {"film-script", own.film ? page_text("film.js") : ""},
                                                                {"table", table},
                                                                {"experiment", own.experiment},
                                                                {"data", filled}});
@@ -134,7 +141,8 @@ std::string results_page(const Results& results) {
   runs.push_back(run_json(results, ""));
   return page_of(std::move(runs), {.title = results.scene.name,
                                    .table = results_table(results),
-                                   .experiment = results.experiment ? experiment_html(*results.experiment) : ""});
+                                   .experiment = results.experiment ? experiment_html(*results.experiment) : "",
+                                   .film = results.way.has_value()});
 }
 
 std::string matrix_page(const MatrixResults& matrix) {

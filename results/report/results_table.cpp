@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "renderer/core/memory.hpp"
+#include "results/report/animation_table.hpp"
 #include "results/report/experiment_section.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/markdown_table.hpp"
@@ -299,6 +300,7 @@ Errors are normalised colour errors; lower is better.
 }  // namespace
 
 std::string results_table(const Results& results) {
+  if (results.way) return animation_table(results);
   std::string text = fmt::format("# {}\n\n", markdown_escaped(results.scene.name));
   for (const Provenance& line : provenance(results)) {
     text += fmt::format("- {}: {}\n", line.label, markdown_escaped(line.value));

@@ -274,7 +274,7 @@ const std::vector<Case> animate_cases{
     {.name = "Animate",
      .arguments = animate({"--method", "direct,toksvig:storage=fp16", "--frames", "2"}),
      .output_has = {"toksvig:storage=fp16", "Flicker", "frames: "},
-     .leaves = {"out/animation.json", "out/animation.csv", "out/table.md", "out/index.html",
+     .leaves = {"out/results.json", "out/results.csv", "out/table.md", "out/index.html",
                 "out/images/reference_0001.exr", "out/images/direct_0000.png",
                 "out/images/toksvig_storage_fp16_0001.exr"}},
     {.name = "FullDiskUnderAnimate",

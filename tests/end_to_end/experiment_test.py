@@ -11,6 +11,7 @@ import time
 import unittest
 import xml.etree.ElementTree
 
+from kept_runs import without_times
 from whole_runs import PROGRAM, SOURCE, WholeRunTest, largest_difference, picture_facts, results_of, run
 
 HEAD = """[experiment]
@@ -237,14 +238,16 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
         out = self.folder / "zoom"
         run("animate", "ribbed_plane", "--methods", "direct,toksvig", "--frames", 3, "--from", 1, "--to", 4, "--size",
             "32x32", "--spp", 16, "--quiet", "-o", out)
-        document = json.loads((out / "animation.json").read_text(encoding="utf-8"))
-        self.assertEqual([f["distance"] for f in document["frames"]], [1, 2, 4])
+        document = results_of(out)
+        self.assertEqual(document["way"], {"path": "zoom", "axis": None})
+        self.assertEqual([r["distance"] for r in document["records"][::2]], [1, 2, 4])
         self.assertEqual([r["frame"] for r in document["records"]], [0, 0, 1, 1, 2, 2])
         for record in document["records"]:
             self.assertEqual(record["flicker"] is None, record["frame"] == 0)
-            self.assertTrue((out / record["image"]).is_file())
-            self.assertTrue((out / record["image"]).with_suffix(".png").is_file())
-        with (out / "animation.csv").open(encoding="utf-8", newline="") as file:
+            for image in (record["images"]["color"], record["images"]["reference"]):
+                self.assertTrue((out / image).is_file())
+                self.assertTrue((out / image).with_suffix(".png").is_file())
+        with (out / "results.csv").open(encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file, strict=True))
         self.assertEqual([float(r["normalized_color_error"]) for r in rows],
                          [r["error"]["normalized_color"] for r in document["records"]])
@@ -266,8 +269,9 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
              "--spp", 4, "--quiet"]
 
     def files(self, folder):
-        return {str(file.relative_to(folder)): file.read_bytes() for file in folder.rglob("*")
-                if file.is_file() and "kept" not in file.relative_to(folder).parts}
+        """The images and table.md as bytes, and results.json without times."""
+        found = {str(file.relative_to(folder)): file.read_bytes() for file in folder.glob("images/*")}
+        return {**found, "table.md": (folder / "table.md").read_bytes(), "results.json": without_times(results_of(folder))}
 
     def test_an_animation_is_the_same_in_parts_and_in_pieces(self):
         whole, again, merged = (self.folder / name for name in ("whole", "again", "merged"))
@@ -278,7 +282,7 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
         light = [scene, *self.LIGHT[1:]]
         run("animate", *light, "-o", whole)
         run("animate", *light, "-o", again)
-        self.assertIn('"exposure_source": "automatic"', (whole / "animation.json").read_text(encoding="utf-8"))
+        self.assertEqual(results_of(whole)["scene"]["exposure_source"], "automatic")
         self.assertEqual(self.files(whole), self.files(again), "two runs")
         parts = [self.folder / f"part_{i}" for i in (1, 2)]
         for i, part in enumerate(parts, 1):
@@ -301,7 +305,7 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
             self.assertEqual(done.returncode, 2, done.stderr)
             for word in words:
                 self.assertIn(word, done.stderr)
-            self.assertFalse((out / "animation.json").exists())
+            self.assertFalse((out / "results.json").exists())
 
         refused(parts[:1], "part 2 of 2 is missing")
         refused([parts[0], parts[0]], "name each part once")
@@ -328,7 +332,7 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
         self.assertIn("-i images/reference_%04d.png -framerate 30 -i images/direct_%04d.png -framerate 30 -i images/lean_%04d.png",
                       said)
         self.assertEqual((out / "images/film.mp4").read_text(encoding="utf-8"), "film\n")
-        self.assertEqual(json.loads((out / "animation.json").read_text(encoding="utf-8"))["film"], "images/film.mp4")
+        self.assertEqual(results_of(out)["film"], "images/film.mp4")
         process, _, out = self.film("bad", 'for last; do :; done; echo half > $last; echo "no such codec" >&2; exit 1')
         self.assertIn("--video: ffmpeg ended with 1: no such codec", process.communicate()[1])
         self.assertEqual(process.returncode, 3)
@@ -359,7 +363,7 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
                 continue
             shown = [[min(max(value, 0), 1) for value in pixel[:3]] for pixel in (old, new, old_truth, truth)]
             sums.append(sum((b - a - d + c) ** 2 for a, b, c, d in zip(*shown, strict=True)) ** 0.5 / 3 ** 0.5)
-        flicker = json.loads((out / "animation.json").read_text(encoding="utf-8"))["records"][1]["flicker"]
+        flicker = results_of(out)["records"][1]["flicker"]
         self.assertGreater(len(sums), 100)
         self.assertAlmostEqual(flicker["mean"], sum(sums) / len(sums), 5)
 

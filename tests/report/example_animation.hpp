@@ -1,14 +1,14 @@
 // Animations made up for the tests of this folder.
 #pragma once
 
-#include "results/report/animation_report.hpp"
+#include "results/report/records.hpp"
 
 namespace footprint {
 
 /// Two methods in three frames of an orbit; every optional figure there in some records and absent in others.
-[[nodiscard]] Animation example_animation();
+[[nodiscard]] Results example_animation();
 
 /// The same with names that could break a page.
-[[nodiscard]] Animation hostile_animation();
+[[nodiscard]] Results hostile_animation();
 
 }  // namespace footprint

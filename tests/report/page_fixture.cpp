@@ -76,13 +76,14 @@ void write_pictures(const Results& results, const std::filesystem::path& folder)
   for (const std::string& name : results.experiment->pictures) write_png(folder / name, to_display(ball(64, 1), 1));
 }
 
-void write_film(const Animation& animation, const std::filesystem::path& folder) {
+void write_film(const Results& animation, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder / "images");
-  for (const AnimationFrame& frame : animation.frames)
-    write_png(png_of(folder, frame.image), to_display(ball(64, 0.05), static_cast<float>(frame.frame + 1)));
-  for (const AnimationRecord& record : animation.records)
-    write_png(png_of(folder, record.image), to_display(ball(64, 4), static_cast<float>(record.frame + 1)));
-  write_animation(animation, folder);
+  for (const Record& record : animation.records) {
+    const auto brightness = static_cast<float>(record.frame + 1);
+    write_png(png_of(folder, record.images.reference), to_display(ball(64, 0.05), brightness));
+    write_png(png_of(folder, record.images.color), to_display(ball(64, 4), brightness));
+  }
+  write_report(animation, folder);
 }
 
 constexpr std::size_t few_members = 4, many_members = 84;  // the latter: 1008 records

@@ -48,10 +48,30 @@ MATRIX_CHANGES = {
 }
 
 
+FILM_CHANGES = {
+    "another path": lambda d: d["way"].update(path="walk"),
+    "an axis of two": lambda d: d["way"].update(axis=[0, 1]),
+    "a way without its axis": lambda d: d["way"].pop("axis"),
+    "a number for a film": lambda d: d.update(film=1),
+    "a missing cause": lambda d: d["records"][4]["flicker"].pop("edges"),
+    "an unknown cause": lambda d: d["records"][4]["flicker"].update(luck=0),
+    "a flicker above 2": lambda d: d["records"][4]["flicker"].update(mean=2.5),
+    "a cause without its percentile": lambda d: d["records"][4]["flicker"]["shading"].pop("p99"),
+    "an error above 1": lambda d: d["records"][4]["error"].update(normalized_color=1.5),
+    "a negative highlight": lambda d: d["records"][0].update(highlight_energy=-1),
+    "half a frame": lambda d: d["records"][0].update(frame=0.5),
+    "an angle that is no number": lambda d: d["records"][0].update(degrees=None),
+    "no pixels": lambda d: d["records"][0].pop("pixels"),
+    "one time of three": lambda d: d["records"][0]["time"]["frame_ms"].update(p90=1),
+}
+
+
 def broken(document):
     """Copies of the document, each wrong in one place."""
     if "members" in document:
         return changed(document, MATRIX_CHANGES)
+    if document["way"]:
+        return changed(document, FILM_CHANGES)
     changes = {
         "an unknown key": lambda d: d.update(extra=1),
         "an unknown key in a record": lambda d: d["records"][0]["time"].update(gpu_ms=1),
@@ -109,7 +129,7 @@ def documents(schema_file, source):
         yield source, json.loads(pathlib.Path(source).read_text(encoding="utf-8"))
         return
     of_matrix = pathlib.Path(schema_file).name.startswith("matrix")
-    for kind in ("matrix",) if of_matrix else ("example", "hostile"):
+    for kind in ("matrix",) if of_matrix else ("example", "hostile", "film", "hostile_film"):
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([source, folder, kind], check=True)
             file = pathlib.Path(folder) / ("matrix.json" if of_matrix else "results.json")

@@ -1,11 +1,14 @@
 // Turns about an axis through the centre of the bounds, in double; a zoom's distances are those of zoom.hpp.
-#include "experiments/studies/camera_path.hpp"
+#include "experiments/studies/views.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
 #include <variant>
 
+#include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/zoom.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/effects/effects.hpp"
@@ -20,6 +23,7 @@ constexpr double default_turn = 60.0;  // degrees
 }
 
 void require_settings_of_its_own(const RunSettings& settings) {
+  if (!is_animation(settings)) return;
   const bool zooms = settings.path.kind == AnimationPath::zoom;
   if (zooms && settings.path.degrees) refuse("--degrees", "nothing turns in a zoom");
   if (zooms && settings.path.axis) refuse("--axis", "nothing turns in a zoom");
@@ -29,10 +33,10 @@ void require_settings_of_its_own(const RunSettings& settings) {
 }
 
 // The turn that a path has made in a frame, about the centre of the bounds.
-glm::dmat4 turn_of(const PathSettings& path, const Scene& scene, const PathFrame& frame) {
+glm::dmat4 turn_of(const PathSettings& path, const Scene& scene, const RunView& view) {
   const glm::dvec3 axis = turning_axis(path, scene);
   const glm::dvec3 centre(scene.bounds.centre());
-  return glm::translate(glm::dmat4(1.0), centre) * glm::rotate(glm::dmat4(1.0), glm::radians(frame.degrees), axis) *
+  return glm::translate(glm::dmat4(1.0), centre) * glm::rotate(glm::dmat4(1.0), glm::radians(view.degrees), axis) *
          glm::translate(glm::dmat4(1.0), -centre);
 }
 
@@ -70,12 +74,12 @@ bool casts_shadows(const Scene& scene) {
 
 }  // namespace
 
-std::vector<PathFrame> path_frames(const RunSettings& settings, const Scene& scene) {
+std::vector<RunView> run_views(const RunSettings& settings, const Scene& scene) {
   require_settings_of_its_own(settings);
-  std::vector<PathFrame> frames;
-  if (settings.path.kind == AnimationPath::zoom) {
-    for (const double distance : run_distances(settings.view, scene)) frames.push_back({.distance = distance});
-    return frames;
+  std::vector<RunView> views;
+  if (settings.path.kind.value_or(AnimationPath::zoom) == AnimationPath::zoom) {
+    for (const double distance : run_distances(settings.view, scene)) views.push_back({.distance = distance});
+    return views;
   }
   if (settings.path.kind == AnimationPath::light && scene.lights.empty())
     throw Error(ErrorKind::usage, "--path", scene.source + " has no light to move, and its environment stays",
@@ -83,35 +87,45 @@ std::vector<PathFrame> path_frames(const RunSettings& settings, const Scene& sce
   const int count = settings.view.zoom.frames;
   const double distance = settings.view.distances.empty() ? 1.0 : settings.view.distances.front();
   const double turn = settings.path.degrees.value_or(default_turn);
-  for (int i = 0; i < count; ++i) frames.push_back({.distance = distance, .degrees = turn * i / (count - 1)});
-  return frames;
+  for (int i = 0; i < count; ++i) views.push_back({.distance = distance, .degrees = turn * i / (count - 1)});
+  return views;
+}
+
+std::string view_words(const RunSettings& settings, std::size_t index, const RunView& view) {
+  if (!is_animation(settings)) return fmt::format("distance {:g}", view.distance);
+  return fmt::format("frame {} of {}", index + 1, settings.view.zoom.frames);
+}
+
+std::string view_stem(const RunSettings& settings, std::size_t index, const RunView& view, const std::string& what) {
+  return is_animation(settings) ? fmt::format("{}_{:04}", what, index) : distance_stem(view.distance, what);
 }
 
 glm::dvec3 turning_axis(const PathSettings& path, const Scene& scene) {
   return path.axis.value_or(glm::normalize(glm::dvec3(scene.camera.world[1])));
 }
 
-Camera camera_on_path(const PathSettings& path, const Scene& scene, const PathFrame& frame) {
-  Camera camera = camera_at_distance(scene, frame.distance);
-  if (path.kind != AnimationPath::orbit || frame.degrees == 0.0) return camera;
-  camera.world = glm::mat4(turn_of(path, scene, frame) * glm::dmat4(camera.world));
+Camera camera_on_path(const PathSettings& path, const Scene& scene, const RunView& view) {
+  Camera camera = camera_at_distance(scene, view.distance);
+  if (path.kind != AnimationPath::orbit || view.degrees == 0.0) return camera;
+  camera.world = glm::mat4(turn_of(path, scene, view) * glm::dmat4(camera.world));
   return camera;
 }
 
-std::vector<Light> lights_on_path(const PathSettings& path, const Scene& scene, const PathFrame& frame) {
-  if (path.kind != AnimationPath::light || frame.degrees == 0.0) return scene.lights;
-  const glm::dmat4 turn = turn_of(path, scene, frame);
-  std::vector<Light> lights;
-  for (const Light& light : scene.lights) lights.push_back(std::visit(Turned{turn}, light));
-  return lights;
+std::vector<Light> lights_on_path(const PathSettings& path, const Scene& scene, const std::vector<Light>& lights,
+                                  const RunView& view) {
+  if (path.kind != AnimationPath::light || view.degrees == 0.0) return lights;
+  const glm::dmat4 turn = turn_of(path, scene, view);
+  std::vector<Light> turned;
+  for (const Light& light : lights) turned.push_back(std::visit(Turned{turn}, light));
+  return turned;
 }
 
 Scene scene_for_path(const RunSettings& settings, Scene scene) {
   if (settings.path.kind != AnimationPath::light || scene.shadows.cast || casts_shadows(scene)) return scene;
   Scene moved = scene;
-  const std::vector<PathFrame> frames = path_frames(settings, scene);
-  const bool casts = std::ranges::any_of(frames, [&](const PathFrame& frame) {
-    moved.lights = lights_on_path(settings.path, scene, frame);
+  const std::vector<RunView> views = run_views(settings, scene);
+  const bool casts = std::ranges::any_of(views, [&](const RunView& view) {
+    moved.lights = lights_on_path(settings.path, scene, scene.lights, view);
     return casts_shadows(moved);
   });
   if (casts) scene.shadows.cast = true;

@@ -1,5 +1,5 @@
 // Where camera and lights are along a path, on a scene without a file.
-#include "experiments/studies/camera_path.hpp"
+#include "experiments/studies/views.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,19 +29,19 @@ RunSettings path_of(AnimationPath kind, int frames) {
 
 std::string refusal(const RunSettings& run, const Scene& scene) {
   try {
-    (void)path_frames(run, scene);
+    (void)run_views(run, scene);
   } catch (const Error& error) {
     return error.what();
   }
   return "no error";
 }
 
-TEST(CameraPath, AnOrbitKeepsItsDistanceAndLooksAtTheCentre) {
+TEST(RunViews, AnOrbitKeepsItsDistanceAndLooksAtTheCentre) {
   RunSettings run = path_of(AnimationPath::orbit, 3);
   run.path.degrees = 90;
   run.view.distances = {2.0};
   const Scene scene = looked_at();
-  const std::vector<PathFrame> frames = path_frames(run, scene);
+  const std::vector<RunView> frames = run_views(run, scene);
   ASSERT_EQ(frames.size(), 3U);
   EXPECT_EQ(frames[0].degrees, 0.0);
   EXPECT_EQ(frames[2].degrees, 90.0);
@@ -51,31 +51,31 @@ TEST(CameraPath, AnOrbitKeepsItsDistanceAndLooksAtTheCentre) {
   EXPECT_EQ(camera_on_path(run.path, scene, frames[0]), camera_at_distance(scene, 2.0));
 }
 
-TEST(CameraPath, LightsTurnTogetherAndTheCameraStays) {
+TEST(RunViews, LightsTurnTogetherAndTheCameraStays) {
   RunSettings run = path_of(AnimationPath::light, 2);
   run.path.degrees = 180;
   run.path.axis = glm::dvec3(0, 0, 1);
   Scene scene = looked_at();
   scene.lights = {PointLight{.position = glm::vec3(3, 0, 7), .range = {}},
                   DirectionalLight{.direction = glm::vec3(0.6F, 0, -0.8F)}};
-  const std::vector<PathFrame> frames = path_frames(run, scene);
-  const std::vector<Light> lights = lights_on_path(run.path, scene, frames[1]);
+  const std::vector<RunView> frames = run_views(run, scene);
+  const std::vector<Light> lights = lights_on_path(run.path, scene, scene.lights, frames[1]);
   EXPECT_NEAR(glm::length(std::get<PointLight>(lights[0]).position - glm::vec3(-3, 0, 7)), 0.0F, 1e-5F);
   EXPECT_NEAR(glm::length(std::get<DirectionalLight>(lights[1]).direction - glm::vec3(-0.6F, 0, -0.8F)), 0.0F, 1e-6F);
   EXPECT_EQ(camera_on_path(run.path, scene, frames[1]), camera_at_distance(scene, 1.0));
 }
 
-TEST(CameraPath, AZoomIsThatOfAnExperiment) {
+TEST(RunViews, AZoomIsThatOfAnExperiment) {
   RunSettings run = path_of(AnimationPath::zoom, 3);
   run.view.zoom.from = 1;
   run.view.zoom.to = 4;
-  const std::vector<PathFrame> frames = path_frames(run, looked_at());
+  const std::vector<RunView> frames = run_views(run, looked_at());
   ASSERT_EQ(frames.size(), 3U);
   EXPECT_EQ(frames[1].distance, 2.0);
-  EXPECT_EQ(lights_on_path(run.path, looked_at(), frames[2]).size(), 0U);
+  EXPECT_EQ(lights_on_path(run.path, looked_at(), {}, frames[2]).size(), 0U);
 }
 
-TEST(CameraPath, WhatAPathHasNoUseForIsRefused) {
+TEST(RunViews, WhatAPathHasNoUseForIsRefused) {
   RunSettings zoom = path_of(AnimationPath::zoom, 2);
   zoom.path.degrees = 5;
   EXPECT_NE(refusal(zoom, looked_at()).find("--degrees: nothing turns"), std::string::npos);
@@ -86,7 +86,7 @@ TEST(CameraPath, WhatAPathHasNoUseForIsRefused) {
 }
 
 // A plate before a plate: the light beside them casts no shadow until it has turned in front.
-TEST(CameraPath, ShadowsCountWhereAnyFrameCallsForThem) {
+TEST(RunViews, ShadowsCountWhereAnyFrameCallsForThem) {
   Scene scene = looked_at();
   scene.materials.resize(1);
   const auto plate = [](float half, float z) {

@@ -1,0 +1,51 @@
+// The views of a run, which are its distances or the frames of a path: where the camera stands, where the lights are.
+#pragma once
+
+#include <compare>
+#include <string>
+#include <vector>
+
+#include "experiments/settings/run_settings.hpp"
+
+namespace footprint {
+
+/// One view of the scene.
+struct RunView {
+  double distance = 1;  ///< factor on the camera's distance
+  double degrees = 0;   ///< that camera or lights have turned by since the first view
+
+  friend auto operator<=>(const RunView&, const RunView&) = default;
+};
+
+/// Whether the views are the frames of an animation: only images, errors and flicker are measured.
+[[nodiscard]] inline bool is_animation(const RunSettings& settings) { return settings.path.kind.has_value(); }
+
+/// The views of a run over `scene`: its distances, or as many frames of its path as the settings of its zoom say.
+/// Errors (usage): a zoom that ends where it starts; a setting that the path has no use for; lights are to move and the
+/// scene has none but an environment.
+[[nodiscard]] std::vector<RunView> run_views(const RunSettings& settings, const Scene& scene);
+
+/// A view in messages: "distance 4", or of an animation "frame 3 of 30".
+[[nodiscard]] std::string view_words(const RunSettings& settings, std::size_t index, const RunView& view);
+
+/// The file name part of something in a view: "d4_WHAT", or of an animation "WHAT_0002".
+[[nodiscard]] std::string view_stem(const RunSettings& settings, std::size_t index, const RunView& view,
+                                    const std::string& what);
+
+/// What a path turns around, unit: the camera's up where nothing is asked for.
+[[nodiscard]] glm::dvec3 turning_axis(const PathSettings& path, const Scene& scene);
+
+/// The camera in a view.
+[[nodiscard]] Camera camera_on_path(const PathSettings& path, const Scene& scene, const RunView& view);
+
+/// The lights in a view: turned around the centre of the bounds, positions and directions alike. The environment
+/// stays.
+/// lights: those of the first view.
+[[nodiscard]] std::vector<Light> lights_on_path(const PathSettings& path, const Scene& scene,
+                                                const std::vector<Light>& lights, const RunView& view);
+
+/// The scene as a path's first frame has it, with shadows switched on where any of its frames calls for them: effects
+/// are chosen once for all frames.
+[[nodiscard]] Scene scene_for_path(const RunSettings& settings, Scene scene);
+
+}  // namespace footprint

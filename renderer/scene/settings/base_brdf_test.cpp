@@ -75,7 +75,7 @@ TEST(FacetLobeSettings, MistakesNameTheirLine) {
   expect_brdf_error(lobe + "axis = [0, 0, 1]\nalpha = 0.3\n", {"scene.toml:6", "does not belong"});
   expect_brdf_error(lobe + "axis = [0, 0, 1]\nkapa = 3\n", {"scene.toml:6", "`kappa`"});
   const std::string whole = "[[brdf.lobe]]\naxis = [0, 0, 1]\nkappa = 3\n";
-  expect_brdf_error(vmf_plane + whole + "weight = 0.5\n" + whole, {"scene.toml:8", "`weight`", "others"});
+  expect_brdf_error(vmf_plane + whole + "weight = 0.5\n" + whole, {"scene.toml:8", "`weight`", "some lobes only"});
   expect_brdf_error(vmf_plane + "kappa = 5\n" + whole, {"excludes"});
   std::string many = vmf_plane;
   for (std::size_t i = 0; i <= most_facet_lobes; ++i) many += whole;

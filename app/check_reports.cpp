@@ -48,7 +48,7 @@ void CheckBook::add(const Results& results) {
   add(results.experiment.value());
   const BaselineFigures figures = baseline_figures(results);
   if (baseline_ && !reports_.update) {
-    for (CheckOutcome& outcome : held_against(*baseline_, figures, reports_.baseline))
+    for (CheckOutcome& outcome : compare_with_baseline(*baseline_, figures, reports_.baseline))
       outcomes_.push_back(std::move(outcome));
   }
   figures_.insert(figures.begin(), figures.end());
@@ -64,7 +64,7 @@ void CheckBook::report() const {
 void CheckBook::update_baseline() const {
   Baseline next = baseline_.value_or(Baseline{});
   std::string text;
-  for (const CheckOutcome& outcome : held_against(next, figures_, reports_.baseline)) {
+  for (const CheckOutcome& outcome : compare_with_baseline(next, figures_, reports_.baseline)) {
     if (!outcome.failure.empty())
       text += fmt::format("{}: {}: {}: {}\n", reports_.baseline, outcome.suite, outcome.name, outcome.failure);
   }

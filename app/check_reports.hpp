@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "results/report/baseline.hpp"
+#include "results/report/check_outcomes.hpp"
 
 namespace footprint {
 

@@ -9,7 +9,6 @@
 #include "app/standard_output.hpp"
 #include "renderer/core/process.hpp"
 #include "results/report/report.hpp"
-#include "results/report/results_summary.hpp"
 
 namespace footprint {
 

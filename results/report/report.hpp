@@ -1,4 +1,5 @@
-// Results as files that people and programs read: results.json, results.csv, table.md and index.html.
+// Results as files that people and programs read (results.json, results.csv, table.md, index.html), and as printed
+// text.
 #pragma once
 
 #include <filesystem>
@@ -20,6 +21,11 @@ namespace footprint {
 
 /// The page, whole and self-contained but for the pictures in `images/` beside it; opens from disk without a network.
 [[nodiscard]] std::string results_page(const Results& results);
+
+/// The text that the program prints: for each distance the most accurate method and the cheapest that improves on
+/// `direct`, then one row per method and distance, the smallest error first. At most about 110 columns wide with short
+/// names.
+[[nodiscard]] std::string results_summary(const Results& results);
 
 /// Writes the four files into `folder` (which exists), each whole or not at all. Errors (machine): cannot write.
 void write_report(const Results& results, const std::filesystem::path& folder);

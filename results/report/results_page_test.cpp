@@ -82,7 +82,7 @@ TEST(ResultsPage, NamesAddNoElement) {
   }
 }
 
-class WriteReport : public testing::Test {
+class WriteReport : public ::testing::Test {
  protected:
   const std::filesystem::path folder_ = test::fresh_folder();
 };

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "app/cpu_info.hpp"
 #include "app/standard_output.hpp"
 #include "renderer/core/process.hpp"
 #include "results/report/report.hpp"

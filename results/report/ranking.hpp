@@ -1,4 +1,4 @@
-// What a reader may conclude from the errors of a run: which methods are apart beyond noise, over how many pixels.
+// The conclusions from the errors of a run: which methods differ beyond noise, over how many pixels.
 #pragma once
 
 #include <functional>
@@ -39,7 +39,7 @@ using DistanceRecords = std::vector<std::reference_wrapper<const Record>>;
 /// Whether the reference's noise floor is more than half of the least error measured against it.
 [[nodiscard]] bool is_mostly_noise(double least_error, const std::optional<double>& noise_floor);
 
-/// What bears on the ranking and a reader must know first, one sentence each: a reference that has not converged,
+/// The limits of the ranking, which a reader must know first, one sentence each: a reference that has not converged,
 /// distances with few interior pixels, with differences below the noise, or with nothing to filter.
 [[nodiscard]] std::vector<std::string> ranking_warnings(const Results& results);
 
@@ -52,7 +52,7 @@ using DistanceRecords = std::vector<std::reference_wrapper<const Record>>;
 [[nodiscard]] std::optional<double> closer_share(const Results& results, double distance, const std::string& method,
                                                  const std::string& other);
 
-/// What was found at one distance, in sentences: which methods are best and which are not told apart, what the best
+/// The findings at one distance, in sentences: which methods are best and which do not differ, what the best
 /// one costs and what it is worth, in how many pixels it is closer than the next, what the bound leaves, and what edges
 /// add.
 [[nodiscard]] std::vector<std::string> findings(const Results& results, double distance);

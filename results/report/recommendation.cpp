@@ -152,7 +152,7 @@ Choice choose(const std::vector<Candidate>& candidates, const Limits& limits) {
   const auto plain = std::ranges::find_if(kept, [&](std::size_t i) { return is_plain(candidates[i]); });
   if (plain != kept.end() && !is_closer(candidates[chosen], candidates[*plain])) chosen = *plain;
   choice.chosen = chosen;
-  // In its place could stand what parts from it neither by the group's measure nor by the other one.
+  // Candidates are tied if neither the group's measure nor the other one separates them.
   std::ranges::copy_if(kept, std::back_inserter(choice.tied), [&](std::size_t i) {
     return i != chosen && cost_as_much(candidates[i], candidates[chosen]) &&
            !is_closer(candidates[i], candidates[chosen]) && !is_closer(candidates[chosen], candidates[i]);

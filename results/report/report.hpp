@@ -13,7 +13,7 @@ namespace footprint {
 /// infinities and absent figures as null.
 [[nodiscard]] std::string results_json(const Results& results);
 
-/// One line a record, RFC 4180; the header names every column with its unit.
+/// One line per record, RFC 4180; the header names every column (columns.hpp).
 [[nodiscard]] std::string results_csv(const Results& results);
 
 /// The error and fps table in Markdown, aligned so that it also reads well in a terminal.

@@ -33,7 +33,7 @@ std::string rank_text(const Record& record, const DistanceRecords& records) {
   return fmt::format("{}{}", *place, std::ranges::count_if(records, same) > 1 ? "=" : " ");
 }
 
-/// The shading error with its mark; unmarked ones keep its room, so that the figures stand under each other.
+/// The shading error with its mark; unmarked ones have blanks instead, so that the figures are aligned.
 std::string marked_shading(const Record& record, bool any_marked) {
   if (!record.error) return "n/a";
   const std::string_view mark = shading_at_noise_floor(record) ? " *" : any_marked ? "  " : "";
@@ -198,7 +198,7 @@ std::string quantity_section(const Results& results) {
          markdown_table({{"Name", false}, {"Method", false}, {"Quantity", false}, {"Value"}}, rows);
 }
 
-/// Frame builds, where a method has one: they are part of its price at that distance.
+/// Frame builds of methods that have one: they are part of the cost at that distance.
 std::string frame_build_section(const Results& results) {
   Rows rows;
   for (const Record& record : results.records) {

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <ostream>
 
-#include "app/program.hpp"
+#include "app/commands.hpp"
 
 namespace footprint::test {
 namespace {

@@ -18,7 +18,7 @@ namespace footprint {
 /// How much of an earlier run was reused, and how to measure it again.
 [[nodiscard]] std::string reuse_text(const FinishedWork& finished);
 
-/// Who makes this run's work: the program, and what draws for it by these settings. Errors (machine): no OpenGL.
+/// The program and the OpenGL renderer that measure a run with these settings. Errors (machine): no OpenGL.
 [[nodiscard]] std::string maker_for(const RunSettings& run);
 
 /// The receivers of results.

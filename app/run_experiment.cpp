@@ -197,10 +197,10 @@ std::optional<Baseline> baseline_of(const CheckReports& reports) {
 }
 
 // Collects the outcomes of runs and reports them.
-class CheckBook {
+class CheckReporter {
  public:
   // Reads the baseline. Errors (usage): it is missing or not a baseline; it is to be updated and not named.
-  explicit CheckBook(CheckReports reports);
+  explicit CheckReporter(CheckReports reports);
 
   // The outcomes of one run, or of a matrix.
   void add(const Results& results);
@@ -223,14 +223,14 @@ class CheckBook {
   std::size_t runs_ = 0;
 };
 
-CheckBook::CheckBook(CheckReports reports) : reports_(std::move(reports)), baseline_(baseline_of(reports_)) {}
+CheckReporter::CheckReporter(CheckReports reports) : reports_(std::move(reports)), baseline_(baseline_of(reports_)) {}
 
-void CheckBook::add(const ExperimentReport& report) {
+void CheckReporter::add(const ExperimentReport& report) {
   ++runs_;
   for (CheckOutcome& outcome : check_outcomes(report)) outcomes_.push_back(std::move(outcome));
 }
 
-void CheckBook::add(const Results& results) {
+void CheckReporter::add(const Results& results) {
   add(results.experiment.value());
   const BaselineFigures figures = baseline_figures(results);
   if (baseline_ && !reports_.update) {
@@ -240,14 +240,14 @@ void CheckBook::add(const Results& results) {
   figures_.insert(figures.begin(), figures.end());
 }
 
-void CheckBook::report() const {
+void CheckReporter::report() const {
   if (!reports_.junit.empty()) write_file_atomically(reports_.junit, junit_xml(outcomes_));
   if (reports_.update) update_baseline();
   if (reports_.github) write_output(github_annotations(outcomes_));
 }
 
 // Experiments that were not run stay as they are.
-void CheckBook::update_baseline() const {
+void CheckReporter::update_baseline() const {
   Baseline next = baseline_.value_or(Baseline{});
   std::string text;
   for (const CheckOutcome& outcome : compare_with_baseline(next, figures_, reports_.baseline)) {
@@ -259,7 +259,7 @@ void CheckBook::update_baseline() const {
   write_output(text.empty() ? fmt::format("{}: no differences\n", reports_.baseline) : text);
 }
 
-std::vector<std::string> CheckBook::shortfalls() const {
+std::vector<std::string> CheckReporter::shortfalls() const {
   std::vector<std::string> lines;
   for (const CheckOutcome& outcome : outcomes_) {
     if (outcome.failure.empty()) continue;
@@ -288,15 +288,15 @@ void check(const ExperimentArguments& arguments) {
                              .quiet = arguments.quiet});
   }
   if (!arguments.timing_file.empty()) return take_times(arguments);
-  CheckBook book(arguments.reports);
+  CheckReporter reporter(arguments.reports);
   std::optional<Error> failed;
   const auto add = [&](const Results& results) {
-    book.add(results);
+    reporter.add(results);
     if (!failed) failed = row_failures(results);
   };
-  run_all(arguments, {.experiment = add, .matrix = [&](const ExperimentReport& report) { book.add(report); }});
-  book.report();
-  const std::vector<std::string> shortfalls = book.shortfalls();
+  run_all(arguments, {.experiment = add, .matrix = [&](const ExperimentReport& report) { reporter.add(report); }});
+  reporter.report();
+  const std::vector<std::string> shortfalls = reporter.shortfalls();
   if (shortfalls.empty() && failed) throw *failed;
   if (shortfalls.empty()) return;
   std::string list;

@@ -21,14 +21,14 @@ const palette = {
 };
 const marks = ['circle', 'rectRot', 'triangle', 'rect', 'star', 'crossRot'];
 
-/** What is at a JSON pointer into a record. */
-const at = (record, place) => place.split('/').slice(1).reduce((value, name) => value?.[name], record);
+/** The value at a JSON pointer into a record. */
+const valueAt = (record, place) => place.split('/').slice(1).reduce((value, name) => value?.[name], record);
 
 // The program lists the columns. Two sort by something other than the figure at their place in results.json.
 const sortedBy = {rank: (r) => (r.display.rank === '–' ? null : Number(r.display.rank)), equivalent_spp: worth};
 const bestBy = {shading_error: 'is_best', equivalent_spp: 'is_best', frame_median_ms: 'is_fastest'};
 const columns = data.columns.map((column) => (
-  {...column, value: sortedBy[column.key] ?? ((r) => at(r, column.place)), best: bestBy[column.key]}));
+  {...column, value: sortedBy[column.key] ?? ((r) => valueAt(r, column.place)), best: bestBy[column.key]}));
 const nameColumn = {title: 'Method', key: 'name', words: true, value: (r) => r.method};
 const axisColumns = axes.map((axis) => ({title: axis, key: `axis ${axis}`, words: true, show: (r) => r.run.coordinates[axis],
   value: (r) => r.run.coordinates[axis], meaning: 'Axis of the matrix.'}));

@@ -1,4 +1,4 @@
-// The subcommands of `footprint`.
+// The subcommands of `footprint`, and the whole program as a function.
 #pragma once
 
 namespace CLI {
@@ -24,5 +24,10 @@ void add_score_command(CLI::App& app);
 void add_surface_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_completions_command(CLI::App& app);
+
+/// Runs the subcommand that the arguments name; `argv[0]` is the program's own name. Every error is printed as one line
+/// on standard error. Returns the exit code: 0 success, 1 a check failed, 2 the command line or an input is wrong, 3
+/// not possible on this machine, 130 interrupted. Changes the process's handling of SIGPIPE, SIGXFSZ and SIGINT.
+[[nodiscard]] int run_program(int argc, const char* const* argv);
 
 }  // namespace footprint

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "renderer/core/error.hpp"
+#include "tests/support/fresh_folder.hpp"
 
 namespace footprint {
 namespace {
@@ -63,7 +64,7 @@ TEST(Completions, AnotherShellIsAnError) {
 
 // What bash itself offers while a command line is being typed.
 TEST(Completions, BashPassesTheWordsUpToTheCursor) {
-  const std::string folder = ::testing::TempDir();
+  const std::string folder = test::fresh_folder().string() + "/";
   std::ofstream(folder + "footprint.bash") << completion_script("bash");
   std::ofstream(folder + "complete.sh") << "footprint() { printf '<%s>\\tmeaning\\n' \"$@\"; }\nsource '" << folder
                                         << "footprint.bash'\nCOMP_WORDS=(footprint draw --q '' later)\nCOMP_CWORD=3\n"

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The times of the further processes of an experiment, taken when they are asked for.
+// The times of the further processes of an experiment, taken when they are needed.
 FurtherTimes further_times_of(const Experiment& experiment, const fs::path& scratch, const Progress& progress) {
   const int others = experiment.run.timing.processes - 1;
   if (others == 0) return {};
@@ -49,24 +49,24 @@ Results run_into(const Experiment& experiment, OutputFolder& folder, const Finis
 
 // Experiments that are judged together: the members of a matrix, or one alone.
 struct Group {
-  const AskedMatrix* matrix;  // null: one alone
+  const RequestedMatrix* matrix;  // null: one alone
   std::span<const Experiment> experiments;
 
   [[nodiscard]] const Experiment& judged() const { return matrix != nullptr ? matrix->whole : experiments.front(); }
 };
 
-std::vector<Group> groups_of(const AskedExperiments& asked) {
+std::vector<Group> groups_of(const RequestedExperiments& requested) {
   std::vector<Group> groups;
-  const std::span<const Experiment> all = asked.experiments;
+  const std::span<const Experiment> all = requested.experiments;
   for (std::size_t i = 0; i < all.size(); i += groups.back().experiments.size()) {
-    const auto matrix = std::ranges::find(asked.matrices, i, &AskedMatrix::first);
-    const bool is_one = matrix != asked.matrices.end();
+    const auto matrix = std::ranges::find(requested.matrices, i, &RequestedMatrix::first);
+    const bool is_one = matrix != requested.matrices.end();
     groups.push_back({is_one ? &*matrix : nullptr, all.subspan(i, is_one ? matrix->count : 1)});
   }
   return groups;
 }
 
-// What became of all members together.
+// The report over all members together.
 ExperimentReport report_matrix(const Group& group, std::vector<Results> members, const fs::path& output) {
   const Experiment& whole = group.judged();
   MatrixResults results{.report = judge(whole, members), .left_out = group.matrix->left_out, .members = {}};
@@ -82,19 +82,19 @@ ExperimentReport report_matrix(const Group& group, std::vector<Results> members,
   return std::move(results.report);
 }
 
-// Runs groups into their folders, prints what became of them and tells it.
+// Runs groups into their folders, prints their results and passes them to the listener.
 class Runs {
  public:
-  Runs(const AskedExperiments& asked, const fs::path& output, const FinishedWork& finished, bool quiet,
+  Runs(const RequestedExperiments& requested, const fs::path& output, const FinishedWork& finished, bool quiet,
        const RunListener& listener)
-      : asked_(asked), output_(output), finished_(finished), quiet_(quiet), listener_(listener) {}
+      : requested_(requested), output_(output), finished_(finished), quiet_(quiet), listener_(listener) {}
 
   void run(const Group& group) const {
     NoiseGuard guard(group.judged(), group.experiments);
     std::vector<Results> all;
     for (const Experiment& experiment : group.experiments) {
       ProgressDisplay display(progress_style(quiet_));
-      auto [results, path] = write_whole(below(asked_.folder_of(experiment)), [&](OutputFolder& folder) {
+      auto [results, path] = write_whole(below(requested_.folder_of(experiment)), [&](OutputFolder& folder) {
         return run_into(experiment, folder, finished_, display.callback(), guard.watch(experiment));
       });
       display.finish();
@@ -103,13 +103,13 @@ class Runs {
       all.push_back(std::move(results));
     }
     if (group.matrix == nullptr) return;
-    listener_.matrix(report_matrix(group, std::move(all), below(asked_.folder_of(*group.matrix))));
+    listener_.matrix(report_matrix(group, std::move(all), below(requested_.folder_of(*group.matrix))));
   }
 
  private:
   [[nodiscard]] fs::path below(const fs::path& folder) const { return folder.empty() ? output_ : output_ / folder; }
 
-  const AskedExperiments& asked_;
+  const RequestedExperiments& requested_;
   const fs::path& output_;
   const FinishedWork& finished_;
   bool quiet_;
@@ -122,9 +122,9 @@ struct Assigned {
   WorkUnit unit;
 };
 
-std::vector<Assigned> all_units(const AskedExperiments& asked) {
+std::vector<Assigned> all_units(const RequestedExperiments& requested) {
   std::vector<Assigned> all;
-  for (const Experiment& experiment : asked.experiments) {
+  for (const Experiment& experiment : requested.experiments) {
     for (WorkUnit& unit : work_units(experiment)) all.push_back({&experiment, std::move(unit)});
   }
   return all;
@@ -162,10 +162,10 @@ std::string maker_for(const RunSettings& run) {
   return maker_of_work(fmt::format("{} {}", context.info().renderer, context.info().version));
 }
 
-void run_and_print(const AskedExperiments& asked, const fs::path& output, const FinishedWork& finished, bool quiet,
-                   const RunListener& listener) {
-  const Runs runs(asked, output, finished, quiet, listener);
-  const std::vector<Group> groups = groups_of(asked);
+void run_and_print(const RequestedExperiments& requested, const fs::path& output, const FinishedWork& finished,
+                   bool quiet, const RunListener& listener) {
+  const Runs runs(requested, output, finished, quiet, listener);
+  const std::vector<Group> groups = groups_of(requested);
   if (groups.size() == 1) return runs.run(groups.front());
   std::vector<std::string> missing;
   ErrorKind kind = ErrorKind::machine;
@@ -181,17 +181,17 @@ void run_and_print(const AskedExperiments& asked, const fs::path& output, const 
   }
   if (missing.empty()) return;
   throw Error(
-      kind, asked.file.string(),
+      kind, requested.file.string(),
       fmt::format("{} of {} experiments were not run: {}", missing.size(), groups.size(), fmt::join(missing, ", ")),
       "fix the causes and run it again; finished experiments are reused");
 }
 
-void run_part(const AskedExperiments& asked, const Shard& shard, const fs::path& output, const FinishedWork& finished,
-              bool quiet) {
+void run_part(const RequestedExperiments& requested, const Shard& shard, const fs::path& output,
+              const FinishedWork& finished, bool quiet) {
   const OutputFolder scratch(output);  // never moved to its place
-  const std::vector<Assigned> share = share_of(all_units(asked), shard);
+  const std::vector<Assigned> share = share_of(all_units(requested), shard);
   std::map<const Experiment*, std::shared_ptr<NoiseGuard>> guards;
-  for (const Group& group : groups_of(asked)) {
+  for (const Group& group : groups_of(requested)) {
     const auto guard = std::make_shared<NoiseGuard>(group.judged(), group.experiments);
     for (const Experiment& experiment : group.experiments) guards[&experiment] = guard;
   }

@@ -5,23 +5,23 @@
 #include <functional>
 #include <string>
 
-#include "app/asked_experiments.hpp"
 #include "app/part_file.hpp"
+#include "app/requested_experiments.hpp"
 #include "experiments/studies/finished_work.hpp"
 #include "results/report/records.hpp"
 
 namespace footprint {
 
-/// The folder below a run's output folder in which its finished work is finished.
+/// The folder below a run's output folder in which its finished work is stored.
 [[nodiscard]] std::filesystem::path kept_folder(const std::filesystem::path& output);
 
 /// How much of an earlier run was reused, and how to measure it again.
 [[nodiscard]] std::string reuse_text(const FinishedWork& finished);
 
-/// Who makes this run's work: the program, and what draws for it by these settings. Errors (machine): no OpenGL.
+/// The program and the OpenGL renderer that measure a run with these settings. Errors (machine): no OpenGL.
 [[nodiscard]] std::string maker_for(const RunSettings& run);
 
-/// Who is told what became of a run.
+/// The receivers of results.
 struct RunListener {
   std::function<void(const Results& results)> experiment = [](const Results& /*results*/) {};
   std::function<void(const ExperimentReport& report)> matrix = [](const ExperimentReport& /*report*/) {};
@@ -29,15 +29,15 @@ struct RunListener {
 
 /// Runs each experiment, except for its finished parts, into `output` or, of members, into folders of their own
 /// below it, and prints the tables; of a matrix the one over all members, which is written to its folder too. Errors:
-/// those of run_experiment, and (usage) a threshold within the reference's noise; what is finished until then is
-/// finished. Of several experiments one that cannot be run is passed over: the error comes at the end, of the first
+/// those of run_experiment, and (usage) a threshold within the reference's noise; work that is finished by then
+/// stays. Of several experiments one that cannot be run is passed over: the error comes at the end, of the first
 /// one's kind.
-void run_and_print(const AskedExperiments& asked, const std::filesystem::path& output, const FinishedWork& finished,
-                   bool quiet, const RunListener& listener);
+void run_and_print(const RequestedExperiments& requested, const std::filesystem::path& output,
+                   const FinishedWork& finished, bool quiet, const RunListener& listener);
 
 /// Measures one part of all experiments together and stores it in `finished`. Images are below `output` until they are
 /// stored.
-void run_part(const AskedExperiments& asked, const Shard& shard, const std::filesystem::path& output,
+void run_part(const RequestedExperiments& requested, const Shard& shard, const std::filesystem::path& output,
               const FinishedWork& finished, bool quiet);
 
 }  // namespace footprint

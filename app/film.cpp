@@ -1,4 +1,4 @@
-// One input a column, stacked horizontally; sides are padded to even numbers, as the pixel format asks for.
+// One input per column, stacked horizontally; sides are padded to even numbers, as the pixel format needs.
 #include "app/film.hpp"
 
 #include <fmt/format.h>

@@ -12,7 +12,7 @@
 #include <exception>
 #include <system_error>
 
-#include "app/program.hpp"
+#include "app/commands.hpp"
 #include "renderer/core/error.hpp"
 
 namespace footprint {

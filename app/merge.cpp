@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "app/asked_experiments.hpp"
 #include "app/commands.hpp"
 #include "app/experiment_runs.hpp"
 #include "app/output.hpp"
 #include "app/part_file.hpp"
+#include "app/requested_experiments.hpp"
 #include "app/run_options.hpp"
 #include "experiments/studies/distance_result.hpp"
 #include "renderer/core/error.hpp"
@@ -88,21 +88,21 @@ std::vector<Part> parts_of(const std::vector<std::string>& folders) {
 }
 
 // As the parts were run. Errors (usage): the files or this program are not what they were.
-AskedExperiments asked_by(const Part& first, const RunOptions& options) {
-  AskedExperiments asked = ask_experiments({.experiment = first.file.experiment,
-                                            .only = first.file.only,
-                                            .quick = first.file.quick,
-                                            .apply = [&](RunSettings& run) {
-                                              options.apply(run);
-                                              run.timing.processes = first.file.processes;
-                                              run.backend.tile = first.file.tile;
-                                            }});
-  if (asked.fingerprint != first.file.fingerprint)
-    refuse(first, fmt::format("{} has changed since this part was run", asked.file.string()),
+RequestedExperiments requested_by(const Part& first, const RunOptions& options) {
+  RequestedExperiments requested = requested_experiments({.experiment = first.file.experiment,
+                                                          .only = first.file.only,
+                                                          .quick = first.file.quick,
+                                                          .apply = [&](RunSettings& run) {
+                                                            options.apply(run);
+                                                            run.timing.processes = first.file.processes;
+                                                            run.backend.tile = first.file.tile;
+                                                          }});
+  if (requested.fingerprint != first.file.fingerprint)
+    refuse(first, fmt::format("{} has changed since this part was run", requested.file.string()),
            "run all parts again, or restore the file");
   if (!is_made_by_this_program(first.file.maker))
     refuse(first, "was made by another program than this one", "merge with the program that ran the parts");
-  return asked;
+  return requested;
 }
 
 // Copies the finished work of all parts.
@@ -126,11 +126,11 @@ void merge_animation(const std::vector<Part>& parts, const std::string& output) 
 void merge(const MergeArguments& arguments) {
   const std::vector<Part> parts = parts_of(arguments.parts);
   if (parts.front().file.kind == PartKind::animation) return merge_animation(parts, arguments.output);
-  const AskedExperiments asked = asked_by(parts.front(), arguments.run);
+  const RequestedExperiments requested = requested_by(parts.front(), arguments.run);
   const FinishedWork finished(kept_folder(arguments.output), parts.front().file.maker, true);
   take_all(parts, finished);
   std::optional<Error> failed;
-  run_and_print(asked, arguments.output, finished, arguments.quiet, {.experiment = [&](const Results& results) {
+  run_and_print(requested, arguments.output, finished, arguments.quiet, {.experiment = [&](const Results& results) {
                   if (!failed) failed = row_failures(results);
                 }});
   if (failed) throw *failed;

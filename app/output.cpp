@@ -5,11 +5,9 @@
 
 #include <algorithm>
 
-#include "app/cpu_info.hpp"
 #include "app/standard_output.hpp"
 #include "renderer/core/process.hpp"
 #include "results/report/report.hpp"
-#include "results/report/results_summary.hpp"
 
 namespace footprint {
 

@@ -1,4 +1,4 @@
-// part.json: what a part of a run says of itself (docs/cluster.md).
+// part.json: the description of a part of a run (docs/cluster.md).
 #pragma once
 
 #include <filesystem>
@@ -19,14 +19,14 @@ struct Shard {
 /// most.
 [[nodiscard]] std::pair<std::size_t, std::size_t> range_of(const Shard& shard, std::size_t total);
 
-/// What is run in parts.
+/// The kinds of runs that have parts.
 enum class PartKind { experiment, animation };
 
-/// What one part holds, and of what.
+/// The content of one part.
 struct PartFile {
   PartKind kind = PartKind::experiment;
   std::string experiment;   ///< its file, absolute; of an animation its scene
-  std::string fingerprint;  ///< of all that was asked for (AskedExperiments); of an animation the key of its head
+  std::string fingerprint;  ///< of the request (RequestedExperiments); of an animation the key of its head
   std::string maker;        ///< program and renderer (maker_of_work)
   Shard shard;
   std::string only;  ///< as the command line had it
@@ -34,7 +34,7 @@ struct PartFile {
   int processes = 1, tile = 0;
   std::string node;               ///< that ran it
   double seconds = 0;             ///< that it took, of the run that finished it
-  std::vector<std::string> keys;  ///< of the finished work that it holds
+  std::vector<std::string> keys;  ///< of its finished work
 };
 
 /// Writes FOLDER/part.json whole. Errors (machine): cannot be written.

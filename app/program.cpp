@@ -1,5 +1,5 @@
 // Parses the command line, runs one subcommand and turns every error into one line and an exit code.
-#include "app/program.hpp"
+#include "app/commands.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,7 +15,6 @@
 #include <system_error>
 #include <vector>
 
-#include "app/commands.hpp"
 #include "app/help_format.hpp"
 #include "app/messages.hpp"
 #include "app/standard_output.hpp"
@@ -95,7 +94,7 @@ std::string unexpected_word(const CLI::App& app) {
 }
 
 // The input of a command and its size: "carved_disk, --size 64x64".
-std::string asked_work(const CLI::App& command) {
+std::string requested_work(const CLI::App& command) {
   std::string text;
   for (const CLI::Option* const option : command.get_options()) {
     const bool size = option->check_lname("size");
@@ -108,7 +107,7 @@ std::string asked_work(const CLI::App& command) {
 
 // The error of a subcommand that threw std::bad_alloc: what it was working on, how large that is, and the memory taken.
 Error memory_error(const CLI::App& app) {
-  return {ErrorKind::machine, asked_work(innermost(app)), fmt::format("out of memory: {}", taken_memory_text()),
+  return {ErrorKind::machine, requested_work(innermost(app)), fmt::format("out of memory: {}", taken_memory_text()),
           "ask for a smaller --size or smaller maps, free memory, or raise its limit"};
 }
 

@@ -6,24 +6,30 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
-#include "app/asked_experiments.hpp"
-#include "app/check_reports.hpp"
 #include "app/commands.hpp"
 #include "app/experiment_runs.hpp"
 #include "app/folders.hpp"
 #include "app/hard_cases.hpp"
 #include "app/messages.hpp"
+#include "app/output.hpp"
 #include "app/part_file.hpp"
 #include "app/progress_display.hpp"
+#include "app/requested_experiments.hpp"
 #include "app/run_options.hpp"
 #include "app/standard_output.hpp"
 #include "app/timing_process.hpp"
 #include "experiments/runner/run_experiment.hpp"
+#include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/core/files.hpp"
 #include "renderer/core/process.hpp"
+#include "results/report/check_outcomes.hpp"
 
 namespace footprint {
 namespace {
@@ -54,6 +60,14 @@ constexpr const char* check_examples =
     "  footprint check quick -o out --junit out/junit.xml --github\n"
     "  footprint check quick -o out --baseline quick.json --update-baseline    first run; later without "
     "--update-baseline";
+
+// The reports of `check` besides the exit code.
+struct CheckReports {
+  std::string junit;     ///< file to write; empty: none
+  bool github = false;   ///< workflow commands on standard output
+  std::string baseline;  ///< file to compare with; empty: none
+  bool update = false;   ///< write it instead
+};
 
 struct ExperimentArguments {
   explicit ExperimentArguments(CLI::App& command) : run(command) {}
@@ -96,18 +110,18 @@ void add_options(CLI::App& command, ExperimentArguments& arguments) {
   add_quiet_flag(command, arguments.quiet);
 }
 
-AskedExperiments asked(const ExperimentArguments& arguments) {
+RequestedExperiments requested(const ExperimentArguments& arguments) {
   if (arguments.experiment.empty() && !arguments.all)
     throw Error(ErrorKind::usage, "EXPERIMENT", "no experiment is given", "`footprint list experiments` names them");
-  return ask_experiments({.experiment = arguments.all ? experiments_folder().string() : arguments.experiment,
-                          .only = arguments.only,
-                          .quick = arguments.quick,
-                          .apply = [&](RunSettings& run) { arguments.run.apply(run); }});
+  return requested_experiments({.experiment = arguments.all ? experiments_folder().string() : arguments.experiment,
+                                .only = arguments.only,
+                                .quick = arguments.quick,
+                                .apply = [&](RunSettings& run) { arguments.run.apply(run); }});
 }
 
 // What a further process does: times the frames of one member.
 void take_times(const ExperimentArguments& arguments) {
-  for (const Experiment& experiment : asked(arguments).experiments) {
+  for (const Experiment& experiment : requested(arguments).experiments) {
     if (experiment.full_name() != arguments.timing_member) continue;
     return write_frame_times(arguments.timing_file, time_frames(experiment.run, no_progress));
   }
@@ -115,15 +129,15 @@ void take_times(const ExperimentArguments& arguments) {
               "it is for processes that this program starts itself");
 }
 
-FinishedWork finished_work(const AskedExperiments& asked, const ExperimentArguments& arguments) {
-  FinishedWork finished(kept_folder(arguments.output), maker_for(asked.experiments.front().run));
+FinishedWork finished_work(const RequestedExperiments& requested, const ExperimentArguments& arguments) {
+  FinishedWork finished(kept_folder(arguments.output), maker_for(requested.experiments.front().run));
   if (arguments.fresh) finished.clear();
   return finished;
 }
 
 // Runs the experiment, or each of its members into a folder of its own, and prints the tables.
 void run_all(const ExperimentArguments& arguments, const RunListener& listener) {
-  const AskedExperiments experiments = asked(arguments);
+  const RequestedExperiments experiments = requested(arguments);
   const FinishedWork finished = finished_work(experiments, arguments);
   run_and_print(experiments, arguments.output, finished, arguments.quiet, listener);
   if (finished.reused() > 0 && !arguments.quiet) write_message(reuse_text(finished));
@@ -133,7 +147,7 @@ void run_all(const ExperimentArguments& arguments, const RunListener& listener) 
 void run_shard(const ExperimentArguments& arguments) {
   const auto begin = std::chrono::steady_clock::now();
   const Shard shard = parse_shard(arguments.shard);
-  const AskedExperiments experiments = asked(arguments);
+  const RequestedExperiments experiments = requested(arguments);
   const std::filesystem::path output = arguments.output;
   const FinishedWork finished = finished_work(experiments, arguments);
   std::error_code none;
@@ -165,7 +179,96 @@ void run(const ExperimentArguments& arguments) {
   if (failed) throw *failed;
 }
 
-// Errors (usage): a report is asked for that only experiments have.
+constexpr std::uint64_t largest_baseline = 1U << 26U;  // bytes
+
+// None if the file does not exist and is about to be written.
+std::optional<Baseline> baseline_of(const CheckReports& reports) {
+  if (reports.baseline.empty()) {
+    if (!reports.update) return {};
+    throw Error(ErrorKind::usage, "--update-baseline", "the baseline is not given", "add --baseline FILE");
+  }
+  std::error_code unknown;
+  if (std::filesystem::is_regular_file(reports.baseline, unknown)) {
+    const std::vector<std::uint8_t> bytes = read_file_bytes(reports.baseline, largest_baseline);
+    return parse_baseline(std::string(bytes.begin(), bytes.end()), reports.baseline);
+  }
+  if (reports.update) return {};
+  throw Error(ErrorKind::usage, reports.baseline, "no such baseline", "--update-baseline writes it");
+}
+
+// Collects the outcomes of runs and reports them.
+class CheckReporter {
+ public:
+  // Reads the baseline. Errors (usage): it is missing or not a baseline; it is to be updated and not named.
+  explicit CheckReporter(CheckReports reports);
+
+  // The outcomes of one run, or of a matrix.
+  void add(const Results& results);
+  void add(const ExperimentReport& report);
+
+  // Writes and prints the reports, and a baseline that is updated with its differences. Errors (machine): a file cannot
+  // be written.
+  void report() const;
+
+  // One line per failure, with its experiment if there are several.
+  [[nodiscard]] std::vector<std::string> shortfalls() const;
+
+ private:
+  void update_baseline() const;
+
+  CheckReports reports_;
+  std::optional<Baseline> baseline_;
+  BaselineFigures figures_;
+  std::vector<CheckOutcome> outcomes_;
+  std::size_t runs_ = 0;
+};
+
+CheckReporter::CheckReporter(CheckReports reports) : reports_(std::move(reports)), baseline_(baseline_of(reports_)) {}
+
+void CheckReporter::add(const ExperimentReport& report) {
+  ++runs_;
+  for (CheckOutcome& outcome : check_outcomes(report)) outcomes_.push_back(std::move(outcome));
+}
+
+void CheckReporter::add(const Results& results) {
+  add(results.experiment.value());
+  const BaselineFigures figures = baseline_figures(results);
+  if (baseline_ && !reports_.update) {
+    for (CheckOutcome& outcome : compare_with_baseline(*baseline_, figures, reports_.baseline))
+      outcomes_.push_back(std::move(outcome));
+  }
+  figures_.insert(figures.begin(), figures.end());
+}
+
+void CheckReporter::report() const {
+  if (!reports_.junit.empty()) write_file_atomically(reports_.junit, junit_xml(outcomes_));
+  if (reports_.update) update_baseline();
+  if (reports_.github) write_output(github_annotations(outcomes_));
+}
+
+// Experiments that were not run stay as they are.
+void CheckReporter::update_baseline() const {
+  Baseline next = baseline_.value_or(Baseline{});
+  std::string text;
+  for (const CheckOutcome& outcome : compare_with_baseline(next, figures_, reports_.baseline)) {
+    if (!outcome.failure.empty())
+      text += fmt::format("{}: {}: {}: {}\n", reports_.baseline, outcome.suite, outcome.name, outcome.failure);
+  }
+  for (const auto& [experiment, records] : figures_) next.figures[experiment] = records;
+  write_file_atomically(reports_.baseline, baseline_json(next));
+  write_output(text.empty() ? fmt::format("{}: no differences\n", reports_.baseline) : text);
+}
+
+std::vector<std::string> CheckReporter::shortfalls() const {
+  std::vector<std::string> lines;
+  for (const CheckOutcome& outcome : outcomes_) {
+    if (outcome.failure.empty()) continue;
+    lines.push_back(fmt::format("{}{}: {}", runs_ > 1 ? outcome.suite + ": " : "", outcome.name, outcome.failure));
+  }
+  return lines;
+}
+
+// Errors (usage): a report is requested that only experiments have.
 void refuse_reports(const CheckReports& reports) {
   const char* option = nullptr;
   if (!reports.junit.empty()) option = "--junit";
@@ -185,15 +288,15 @@ void check(const ExperimentArguments& arguments) {
                              .quiet = arguments.quiet});
   }
   if (!arguments.timing_file.empty()) return take_times(arguments);
-  CheckBook book(arguments.reports);
+  CheckReporter reporter(arguments.reports);
   std::optional<Error> failed;
   const auto add = [&](const Results& results) {
-    book.add(results);
+    reporter.add(results);
     if (!failed) failed = row_failures(results);
   };
-  run_all(arguments, {.experiment = add, .matrix = [&](const ExperimentReport& report) { book.add(report); }});
-  book.report();
-  const std::vector<std::string> shortfalls = book.shortfalls();
+  run_all(arguments, {.experiment = add, .matrix = [&](const ExperimentReport& report) { reporter.add(report); }});
+  reporter.report();
+  const std::vector<std::string> shortfalls = reporter.shortfalls();
   if (shortfalls.empty() && failed) throw *failed;
   if (shortfalls.empty()) return;
   std::string list;

@@ -13,13 +13,13 @@ namespace footprint {
 /// The option that makes a command take times, write them to its file and do nothing else.
 inline constexpr const char* timing_file_option = "--timing-file";
 
-/// Of `run` and `check`: which of an experiment's members such a process times.
+/// Of `run` and `check`: the member of an experiment that such a process times.
 inline constexpr const char* timing_member_option = "--timing-member";
 
 /// Weight of the main process in the progress of a run; a further process has 1.
 inline constexpr double main_process_weight = 10;
 
-/// Writes times for the process that asked for them. Errors (machine): the file cannot be written.
+/// Writes times for the process that started this one. Errors (machine): the file cannot be written.
 void write_frame_times(const std::filesystem::path& file, const FrameTimes& times);
 
 /// Runs this program `count` times, one after the other, each with this process's own arguments, `further` ones, and

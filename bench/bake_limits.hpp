@@ -1,4 +1,4 @@
-// What bakes take, and whether that is more than they may.
+// Time and memory of bakes, and limits on them.
 #pragma once
 
 #include <string>
@@ -7,14 +7,14 @@
 
 namespace footprint::bench {
 
-/// What every bake may take at most; 0: as much as it does.
+/// The most that every bake may take; 0: no limit.
 struct BakeLimits {
   double seconds = 0.0;    ///< wall clock of the quickest of all rounds: other load on the machine only adds to it
   double gigabytes = 0.0;  ///< 1e9 bytes: the process' peak, the scene that is baked included
 };
 
 /// A table of the bakes of a scene by methods of a list, `rounds` times each: wall clock and CPU time of the quickest
-/// round, bytes, and the most memory that the process has held by then. Errors (check): a bake takes more than it may,
+/// round, bytes, and the peak memory of the process until then. Errors (check): a bake takes more than it may,
 /// with the table before it on stdout.
 void print_bake_table(const Scene& scene, const std::string& methods, int rounds, const BakeLimits& limits);
 

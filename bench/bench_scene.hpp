@@ -37,7 +37,7 @@ class BenchScene {
 
   void draw_bare() const { bare_.draw(view_); }
   void draw(const StagedMethod& method) const { method.frames().draw(view_); }
-  /// The reference at 64 samples a pixel, not read back.
+  /// The reference at 64 samples per pixel, not read back.
   void draw_reference() const;
   /// The staged method as written, options included. Errors (usage): it is none of those staged.
   [[nodiscard]] const StagedMethod& method(const std::string& text) const;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/bench_scene.hpp"
-#include "bench/side_by_side.hpp"
+#include "bench/ratios.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/pipeline/frame.hpp"
 #include "renderer/scene/camera.hpp"

@@ -9,13 +9,11 @@
 #include <optional>
 #include <string>
 
+#include "bench/bake_benchmarks.hpp"
 #include "bench/bake_limits.hpp"
 #include "bench/footprint_sizes.hpp"
 #include "bench/frame_benchmarks.hpp"
-#include "bench/iwasaki_benchmarks.hpp"
-#include "bench/mip_benchmarks.hpp"
 #include "bench/ratios.hpp"
-#include "bench/tan_gmm_benchmarks.hpp"
 #include "renderer/core/error.hpp"
 
 namespace {

@@ -76,15 +76,18 @@ def number(value, digits=3, unit=""):
     return f"{value:.{digits}g}{' ' + unit if unit else ''}"
 
 
+def mean(values):
+    return sum(values) / len(values)
+
+
 def geometric_mean(values):
-    """Geometric mean and geometric standard deviation."""
-    logs = [math.log(max(v, 1e-9)) for v in values]
-    middle = sum(logs) / len(logs)
-    return math.exp(middle), math.exp(math.sqrt(sum((v - middle) ** 2 for v in logs) / len(logs)))
+    return math.exp(mean([math.log(max(v, 1e-9)) for v in values]))
 
 
 def spread(values):
-    middle, deviation = geometric_mean(values)
+    """Geometric mean and geometric standard deviation."""
+    middle = geometric_mean(values)
+    deviation = math.exp(math.sqrt(mean([math.log(max(v, 1e-9) / middle) ** 2 for v in values])))
     return f"{number(middle)} ×/÷ {deviation:.2f}"
 
 

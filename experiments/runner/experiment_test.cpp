@@ -12,6 +12,7 @@
 #include "experiments/studies/zoom.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
+#include "tests/support/fresh_folder.hpp"
 
 namespace footprint {
 namespace {
@@ -27,14 +28,10 @@ methods = ["direct", "toksvig:storage=fp16"]
 class ExperimentFile : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(::testing::TempDir()) / "footprint_experiment_test";
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     write("paper.toml",
           "[[value]]\nfigure = \"Figure 1\"\nmeasure = \"error(toksvig)\"\nvalue = 0.5\n"
           "[[value]]\nfigure = \"Figure 2\"\nmeasure = \"fps(nobody)\"\nvalue = 7\n");
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   fs::path write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
@@ -60,7 +57,7 @@ class ExperimentFile : public ::testing::Test {
     EXPECT_NE(found.find(part), std::string::npos) << found;
   }
 
-  fs::path folder_;
+  const fs::path folder_ = test::fresh_folder();
 };
 
 TEST_F(ExperimentFile, DefaultsAreThoseOfACompare) {

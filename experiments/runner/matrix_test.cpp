@@ -14,6 +14,7 @@
 #include "experiments/settings/known_methods.hpp"
 #include "renderer/core/error.hpp"
 #include "scenes/surfaces/registry.hpp"
+#include "tests/support/fresh_folder.hpp"
 #include "tests/support/source_folder.hpp"
 
 namespace footprint {
@@ -28,13 +29,6 @@ const std::string varied =
 
 class MatrixFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(::testing::TempDir()) / "footprint_matrix_test";
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   fs::path write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
     return folder_ / name;
@@ -60,7 +54,7 @@ class MatrixFile : public ::testing::Test {
     }
   }
 
-  fs::path folder_;
+  const fs::path folder_ = test::fresh_folder();
 };
 
 std::string claim(const std::string& inequality) {

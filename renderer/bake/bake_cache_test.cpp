@@ -8,18 +8,13 @@
 
 #include "renderer/bake/baked_method.hpp"
 #include "renderer/image/mipmap.hpp"
+#include "tests/support/fresh_folder.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path fresh_cache(const std::string& name) {
-  fs::path folder = fs::path(::testing::TempDir()) / ("footprint_bake_cache_" + name);
-  fs::remove_all(folder);
-  return folder;
-}
 
 Prefiltered example(float value = 1.0F) {
   std::vector<std::vector<Image>> layers(3, {Image(2, 1, 4, value), Image(1, 1, 4, value)});
@@ -63,7 +58,7 @@ TEST(PrefilteredFile, EveryCutAndEveryFlippedBitIsNoticed) {
 }
 
 TEST(BakeCache, FindsWhatItKeptAndNothingElse) {
-  const BakeCache cache{DiskCache(fresh_cache("find"))};
+  const BakeCache cache{DiskCache(test::fresh_folder() / "cache")};
   EXPECT_FALSE(cache.find("a"));
   cache.store("a", example());
   EXPECT_EQ(cache.find("a"), example());
@@ -71,7 +66,7 @@ TEST(BakeCache, FindsWhatItKeptAndNothingElse) {
 }
 
 TEST(BakeCache, DamagedFileCountsAsAbsent) {
-  const DiskCache files(fresh_cache("damaged"));
+  const DiskCache files(test::fresh_folder() / "cache");
   const BakeCache cache(files);
   cache.store("a", example());
   fs::resize_file(files.folder() / "a.bake", 40);
@@ -79,7 +74,7 @@ TEST(BakeCache, DamagedFileCountsAsAbsent) {
 }
 
 TEST(BakeCache, TheKeyFollowsEverythingThatABakeDependsOn) {
-  const BakeCache cache{DiskCache(fresh_cache("key"))};
+  const BakeCache cache{DiskCache(test::fresh_folder() / "cache")};
   const Material material = testing::square_scene(testing::constant_normals(4, 4, {0, 0, 1}), {}).materials[0];
   const std::vector<OptionSpec> specs{number_option("n", 4.0, 1, 8, "lobes")};
   const Options options(specs, {}, "test");
@@ -120,7 +115,7 @@ class Counting final : public Method {
 };
 
 TEST(Bake, SlowPrecomputeIsDoneOnce) {
-  const BakeCache cache{DiskCache(fresh_cache("bake"))};
+  const BakeCache cache{DiskCache(test::fresh_folder() / "cache")};
   const Scene scene = testing::square_scene(testing::constant_normals(4, 4, {0, 0, 1}), {});
   const Counting slow(true);
   const MethodSpec spec{.text = "counting", .name = "counting", .options = {}};
@@ -137,7 +132,7 @@ TEST(Bake, SlowPrecomputeIsDoneOnce) {
 }
 
 TEST(Bake, FastPrecomputeIsNotKept) {
-  const BakeCache cache{DiskCache(fresh_cache("fast"))};
+  const BakeCache cache{DiskCache(test::fresh_folder() / "cache")};
   const Scene scene = testing::square_scene(testing::constant_normals(4, 4, {0, 0, 1}), {});
   const Counting fast(false);
   const MethodSpec spec{.text = "counting", .name = "counting", .options = {}};

@@ -98,15 +98,15 @@ TEST(GltfCopy, OfAContainerIsTheSame) {
 // Files of the source lie elsewhere, under names that a copy could not have.
 TEST(GltfCopy, TakesItsFilesAlong) {
   GltfBuilder quad = bumpy();
-  fs::create_directories(test::test_folder() / "a b");
-  write_png(test::test_folder() / "a b" / "color.png", Image(2, 2, 3, 0.25F));
+  fs::create_directories(test::process_folder() / "a b");
+  write_png(test::process_folder() / "a b" / "color.png", Image(2, 2, 3, 0.25F));
   quad.json["images"].push_back({{"uri", "a%20b/color.png"}});
   quad.json["textures"][1]["source"] = quad.json["images"].size() - 1;
   const fs::path source = quad.write();
   const fs::path folder = test::fresh_folder();
   const ReplacedMaps maps = smaller_maps(false);
   const std::string name = write_gltf_copy(source, std::span(&maps, 1), folder);
-  fs::remove_all(test::test_folder() / "a b");
+  fs::remove_all(test::process_folder() / "a b");
   const auto color = load_gltf(folder / name).materials.at(0).base_color_map;
   ASSERT_TRUE(color.has_value());
   EXPECT_NEAR(color->image.decoded().texels[0], 0.0513, 1e-3);  // sRGB 0.25, 64 of 255

@@ -1,10 +1,11 @@
-// Errors, suggestions, options, content hashes and interrupts.
+// Errors, suggestions, options, content hashes, interrupts and the processor.
 #include <gtest/gtest.h>
 
 #include <csignal>
 #include <functional>
 #include <map>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -273,6 +274,29 @@ TEST(Interrupt, AClosedTerminalCountsUnlessItIsIgnored) {
   std::raise(SIGHUP);
   EXPECT_NO_THROW(throw_if_interrupted());
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
+}
+
+// --- the processor, by /proc/cpuinfo of several architectures
+
+TEST(CpuInfo, CountsProcessorsAndTakesTheFirstModel) {
+  std::istringstream in(
+      "processor\t: 0\nmodel name\t: A (R) Processor: fast \ncpu cores\t: 1\n\n"
+      "processor\t: 1\nmodel name\t: B\nflags\t\t: fpu vme\n");
+  const CpuInfo cpu = parse_cpu_info(in);
+  EXPECT_EQ(cpu.model, "A (R) Processor: fast");
+  EXPECT_EQ(cpu.logical_cores, 2);
+}
+
+TEST(CpuInfo, NamesTheArchitectureWhereThereIsNoModel) {
+  std::istringstream in("processor\t: 0\nBogoMIPS\t: 243.75\nCPU implementer\t: 0x41\n");
+  const CpuInfo cpu = parse_cpu_info(in);
+  EXPECT_FALSE(cpu.model.empty());
+  EXPECT_EQ(cpu.logical_cores, 1);
+}
+
+TEST(CpuInfo, SurvivesAnEmptyFile) {
+  std::istringstream in;
+  EXPECT_EQ(parse_cpu_info(in).logical_cores, 1);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
+#include "tests/support/fresh_folder.hpp"
 
 namespace footprint {
 namespace {
@@ -34,12 +35,6 @@ class Variable {
   std::optional<std::string> before_;
 };
 
-fs::path fresh_folder(const std::string& name) {
-  fs::path folder = fs::path(::testing::TempDir()) / ("footprint_disk_cache_" + name);
-  fs::remove_all(folder);
-  return folder;
-}
-
 const std::vector<std::uint8_t> some_bytes{1, 2, 3, 0, 255};
 
 // What is kept there, whole; empty where nothing is.
@@ -52,7 +47,7 @@ std::vector<std::uint8_t> found(const DiskCache& cache, const std::string& key) 
 }
 
 TEST(DiskCache, FindsWhatItKeptAndNothingElse) {
-  const DiskCache cache(fresh_folder("find"));
+  const DiskCache cache(test::fresh_folder() / "cache");
   EXPECT_FALSE(cache.find("a"));
   cache.store("a", some_bytes);
   EXPECT_EQ(found(cache, "a"), some_bytes);
@@ -60,7 +55,7 @@ TEST(DiskCache, FindsWhatItKeptAndNothingElse) {
 }
 
 TEST(DiskCache, AFileUnderAnothersNameIsNone) {
-  const DiskCache cache(fresh_folder("foreign"));
+  const DiskCache cache(test::fresh_folder() / "cache");
   cache.store("one", some_bytes);
   cache.store("two", std::vector<std::uint8_t>{9});
   fs::copy_file(cache.folder() / "one.bake", cache.folder() / "two.bake", fs::copy_options::overwrite_existing);
@@ -78,7 +73,7 @@ TEST(DiskCache, RelativeHomesAreNone) {
 }
 
 TEST(DiskCache, FolderThatIsAFileCostsNoError) {
-  const fs::path file = fresh_folder("closed");
+  const fs::path file = test::fresh_folder() / "cache";
   std::ofstream(file) << "a file";
   const DiskCache cache(file);
   EXPECT_NO_THROW(cache.store("a", some_bytes));
@@ -86,7 +81,7 @@ TEST(DiskCache, FolderThatIsAFileCostsNoError) {
 }
 
 TEST(DiskCache, TheLeastRecentlyUsedGoes) {
-  const DiskCache cache(fresh_folder("room"), 2 * some_bytes.size() + std::string("newold").size());
+  const DiskCache cache(test::fresh_folder() / "cache", 2 * some_bytes.size() + std::string("newold").size());
   cache.store("old", some_bytes);
   cache.store("new", some_bytes);
   const auto earlier = fs::file_time_type::clock::now() - std::chrono::hours(1);
@@ -100,13 +95,13 @@ TEST(DiskCache, TheLeastRecentlyUsedGoes) {
 }
 
 TEST(DiskCache, WhatIsLargerThanTheFolderMayBeIsNotKept) {
-  const DiskCache cache(fresh_folder("large"), some_bytes.size() - 1);
+  const DiskCache cache(test::fresh_folder() / "cache", some_bytes.size() - 1);
   cache.store("a", some_bytes);
   EXPECT_FALSE(cache.find("a"));
 }
 
 TEST(DiskCache, WhatIsHandedOverInPiecesComesBackInPieces) {
-  const DiskCache cache(fresh_folder("pieces"));
+  const DiskCache cache(test::fresh_folder() / "cache");
   cache.store("a", 3, [](const ByteSink& out) {
     out(std::vector<std::uint8_t>{7, 8});
     out(std::vector<std::uint8_t>{9});
@@ -124,7 +119,7 @@ TEST(DiskCache, WhatIsHandedOverInPiecesComesBackInPieces) {
 }
 
 TEST(DiskCache, WhatFailsHalfWayLeavesNothing) {
-  const DiskCache cache(fresh_folder("half"));
+  const DiskCache cache(test::fresh_folder() / "cache");
   cache.store("a", 3, [](const ByteSink& out) {
     out(some_bytes);
     throw Error(ErrorKind::machine, "", "no space left");
@@ -134,8 +129,7 @@ TEST(DiskCache, WhatFailsHalfWayLeavesNothing) {
 }
 
 TEST(ByteSource, OnlyRegularFilesAreRead) {
-  const fs::path folder = fresh_folder("kinds");
-  fs::create_directories(folder);
+  const fs::path folder = test::fresh_folder();
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
   EXPECT_FALSE(ByteSource::of_file(folder / "pipe")) << "nor waited for";
   EXPECT_FALSE(ByteSource::of_file(folder));
@@ -143,7 +137,7 @@ TEST(ByteSource, OnlyRegularFilesAreRead) {
 }
 
 TEST(ByteSource, AFileThatWasCutMeanwhileIsNotRead) {
-  const fs::path file = fresh_folder("cut");
+  const fs::path file = test::fresh_folder() / "cache";
   std::ofstream(file) << "0123456789";
   const std::optional<ByteSource> bytes = ByteSource::of_file(file);
   ASSERT_TRUE(bytes);

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "renderer/core/error.hpp"
+#include "tests/support/fresh_folder.hpp"
 
 namespace footprint {
 namespace {
@@ -20,19 +21,12 @@ constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
 class MemoryTest : public testing::Test {
  protected:
-  void SetUp() override {
-    root_ = fs::path(testing::TempDir()) /
-            (std::string("footprint_memory_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(root_);
-  }
-  void TearDown() override { fs::remove_all(root_); }
-
   void file(const fs::path& path, const std::string& text) const {
     fs::create_directories((root_ / path).parent_path());
     std::ofstream(root_ / path) << text;
   }
 
-  fs::path root_;
+  const fs::path root_ = test::fresh_folder();
 };
 
 TEST_F(MemoryTest, NothingToldIsNoLimit) { EXPECT_EQ(available_memory(root_), unlimited); }

@@ -1,12 +1,18 @@
-// The signal handler stores the signal in a lock-free atomic and restores its default action: the next one ends the
+// Counts processors and takes the first model name in /proc/cpuinfo; without one, the architecture. The signal handler
+// stores the signal in a lock-free atomic and restores its default action: the next one ends the
 // process.
 #include "renderer/core/process.hpp"
 
+#include <fmt/format.h>
+#include <sys/utsname.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <csignal>
+#include <fstream>
+#include <string_view>
 
 #include "renderer/core/error.hpp"
 
@@ -21,12 +27,44 @@ extern "C" void remember(int signal_number) {
   std::signal(signal_number, SIG_DFL);  // the next one ends the process
 }
 
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+std::string architecture() {
+  utsname system{};
+  return uname(&system) == 0 ? system.machine : "unknown processor";
+}
+
 }  // namespace
 
 std::string host_name() {
   std::array<char, 256> name{};  // POSIX: HOST_NAME_MAX is 255 at most
   if (::gethostname(name.data(), name.size() - 1) != 0 || name.front() == '\0') return "?";
   return name.data();
+}
+
+CpuInfo parse_cpu_info(std::istream& in) {
+  CpuInfo cpu{.model = {}, .logical_cores = 0};
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t colon = line.find(':');
+    if (colon == std::string::npos) continue;
+    const std::string_view key = trimmed(std::string_view(line).substr(0, colon));
+    const std::string_view value = trimmed(std::string_view(line).substr(colon + 1));
+    if (key == "processor") ++cpu.logical_cores;
+    if (key == "model name" && cpu.model.empty()) cpu.model = value;
+  }
+  if (cpu.model.empty()) cpu.model = architecture();
+  cpu.logical_cores = std::max(cpu.logical_cores, 1);
+  return cpu;
+}
+
+std::string describe_cpu() {
+  std::ifstream in("/proc/cpuinfo");
+  const CpuInfo cpu = parse_cpu_info(in);
+  return fmt::format("{}, {} {}", cpu.model, cpu.logical_cores, cpu.logical_cores == 1 ? "core" : "cores");
 }
 
 void watch_interrupts() {

@@ -1,12 +1,25 @@
-// The process: the machine that it runs on, and Ctrl-C, turned into an Error at the next safe point.
+// The machine that the process runs on, and Ctrl-C, turned into an Error at the next safe point.
 #pragma once
 
+#include <iosfwd>
 #include <string>
 
 namespace footprint {
 
 /// The network name of this machine; "?" if it has none.
 [[nodiscard]] std::string host_name();
+
+/// A processor as Linux describes it.
+struct CpuInfo {
+  std::string model;      ///< "Intel(R) Xeon(R) Processor"; the architecture if the system names no model
+  int logical_cores = 1;  ///< including hyper-threads
+};
+
+/// Reads the format of /proc/cpuinfo.
+[[nodiscard]] CpuInfo parse_cpu_info(std::istream& in);
+
+/// This machine's processor, "MODEL, N cores".
+[[nodiscard]] std::string describe_cpu();
 
 /// Installs handlers for SIGINT, SIGTERM and SIGHUP (unless it is ignored) that set a flag. A second signal ends the
 /// process at once.

@@ -8,13 +8,14 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/scene/model.hpp"
+#include "tests/support/fresh_folder.hpp"
 
 namespace footprint {
 namespace {
 
 std::filesystem::path write_obj(const std::string& text) {
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  const auto file = std::filesystem::path(::testing::TempDir()) / (std::string(test->name()) + ".obj");
+  const auto file = test::process_folder() / (std::string(test->name()) + ".obj");
   std::ofstream(file) << text;
   return file;
 }

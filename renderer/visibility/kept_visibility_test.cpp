@@ -9,18 +9,13 @@
 
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
+#include "tests/support/fresh_folder.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path fresh_visibility_folder(const std::string& name) {
-  fs::path folder = fs::path(::testing::TempDir()) / ("footprint_kept_visibility_" + name);
-  fs::remove_all(folder);
-  return folder;
-}
 
 // Two squares, one over the other's half: what the lower one sees varies.
 Scene two_squares() {
@@ -49,7 +44,7 @@ Asked ask(const Scene& scene, const DiskCache* cache) {
 fs::path only_file(const DiskCache& cache) { return fs::directory_iterator(cache.folder())->path(); }
 
 TEST(KeptVisibility, ASecondRunHasTheBytesOfTheFirst) {
-  const DiskCache cache(fresh_visibility_folder("second"));
+  const DiskCache cache(test::fresh_folder() / "cache");
   const Scene scene = two_squares();
   const Asked first = ask(scene, &cache), second = ask(scene, &cache);
   EXPECT_TRUE(first.anew);
@@ -61,7 +56,7 @@ TEST(KeptVisibility, ASecondRunHasTheBytesOfTheFirst) {
 }
 
 TEST(KeptVisibility, ADamagedFileIsAskedAnewAndReplaced) {
-  const DiskCache cache(fresh_visibility_folder("damaged"));
+  const DiskCache cache(test::fresh_folder() / "cache");
   const Scene scene = two_squares();
   const std::vector<std::uint8_t> whole = to_bytes(ask(scene, &cache).field);
   const fs::path file = only_file(cache);
@@ -80,7 +75,7 @@ TEST(KeptVisibility, ADamagedFileIsAskedAnewAndReplaced) {
 }
 
 TEST(KeptVisibility, AFieldOfAnotherSceneUnderThisNameIsAskedAnew) {
-  const DiskCache cache(fresh_visibility_folder("foreign"));
+  const DiskCache cache(test::fresh_folder() / "cache");
   const Scene scene = two_squares(), other = testing::square_scene({}, {});
   cache.store(visibility_key(scene, white_sky), to_bytes(ask(other, nullptr).field));
   EXPECT_TRUE(ask(scene, &cache).anew);
@@ -88,7 +83,7 @@ TEST(KeptVisibility, AFieldOfAnotherSceneUnderThisNameIsAskedAnew) {
 }
 
 TEST(KeptVisibility, AnInterruptLeavesNothing) {
-  const DiskCache cache(fresh_visibility_folder("interrupt"));
+  const DiskCache cache(test::fresh_folder() / "cache");
   const Progress stop = [](std::string_view /*what*/, double /*fraction*/) {
     throw Error(ErrorKind::interrupted, "", "interrupted");
   };

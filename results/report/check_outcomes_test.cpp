@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "renderer/core/error.hpp"
-#include "results/report/baseline.hpp"
 #include "tests/support/says.hpp"
 
 namespace footprint {
@@ -84,7 +83,7 @@ TEST(Baseline, ComesBackAsItWasWritten) {
 TEST(Baseline, WhatLiesWithinTheToleranceHolds) {
   const Baseline baseline{.tolerance = 1e-4, .figures = figures(0.1, 1024)};
   for (const double error : {0.1, 0.10009, 0.09991}) {
-    const auto outcomes = held_against(baseline, figures(error, 1024), "file");
+    const auto outcomes = compare_with_baseline(baseline, figures(error, 1024), "file");
     ASSERT_THAT(outcomes, SizeIs(1));
     EXPECT_THAT(outcomes[0].failure, IsEmpty());
   }
@@ -94,7 +93,7 @@ TEST(Baseline, WhatDiffersFallsShort) {
   const Baseline baseline{.tolerance = 1e-4, .figures = figures(0.1, 1024)};
   const auto failure = [&](const BaselineFigures& now) {
     std::string text;
-    for (const CheckOutcome& outcome : held_against(baseline, now, "file")) text += outcome.failure;
+    for (const CheckOutcome& outcome : compare_with_baseline(baseline, now, "file")) text += outcome.failure;
     return text;
   };
   EXPECT_TRUE(says(failure(figures(0.1002, 1024)), "error 0.1002, was 0.1"));
@@ -105,7 +104,7 @@ TEST(Baseline, WhatDiffersFallsShort) {
 }
 
 TEST(Baseline, AnExperimentThatWasNotRunIsNotLookedAt) {
-  EXPECT_THAT(held_against({.tolerance = 0, .figures = figures(0.1, 1)}, {}, "file"), IsEmpty());
+  EXPECT_THAT(compare_with_baseline({.tolerance = 0, .figures = figures(0.1, 1)}, {}, "file"), IsEmpty());
 }
 
 TEST(Baseline, OtherFilesAreRefused) {

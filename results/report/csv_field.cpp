@@ -1,4 +1,4 @@
-// Quotes text and writes numbers for CSV.
+// Quotes text and writes numbers for CSV, and writes results.csv from the list of columns.
 #include "results/report/csv_field.hpp"
 
 #include <fmt/format.h>
@@ -7,6 +7,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
+
+#include "results/report/columns.hpp"
+#include "results/report/record_fields.hpp"
+#include "results/report/report.hpp"
 
 namespace footprint {
 namespace {
@@ -20,6 +24,17 @@ std::string csv_text(const nlohmann::ordered_json& value) {
   for (const auto& [name, part] : value.items())
     parts.push_back(value.is_object() ? fmt::format("{}={}", name, csv_text(part)) : csv_text(part));
   return fmt::format("{}", fmt::join(parts, ";"));
+}
+
+std::span<const CsvColumn> columns_of_results() {
+  static const std::vector<CsvColumn> columns = [] {
+    std::vector<CsvColumn> found;
+    for (const Column& column : record_columns()) {
+      if (*column.place != '\0') found.push_back({column.key, column.place});
+    }
+    return found;
+  }();
+  return columns;
 }
 
 }  // namespace
@@ -48,6 +63,16 @@ std::string csv_line(std::span<const CsvColumn> columns, const nlohmann::ordered
     values.push_back(document.contains(place) ? csv_field(csv_text(document.at(place))) : std::string());
   }
   return fmt::format("{}", fmt::join(values, ","));
+}
+
+std::string csv_header() { return csv_header(columns_of_results()); }
+
+std::string csv_line(const Record& record) { return csv_line(columns_of_results(), to_json_value(record)); }
+
+std::string results_csv(const Results& results) {
+  std::string csv = csv_header().append(csv_line_end);
+  for (const Record& record : results.records) csv.append(csv_line(record)).append(csv_line_end);
+  return csv;
 }
 
 }  // namespace footprint

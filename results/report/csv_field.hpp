@@ -11,10 +11,10 @@
 
 namespace footprint {
 
-/// Text, quoted where it holds a comma, a quote or a line break.
+/// Text, quoted if it contains a comma, a quote or a line break.
 [[nodiscard]] std::string csv_field(std::string_view text);
 
-/// As many digits as it takes to read the same double back; empty for what is not finite, or absent.
+/// As many digits as reading the same double back takes; empty if it is absent or not finite.
 [[nodiscard]] std::string csv_field(double value);
 [[nodiscard]] std::string csv_field(const std::optional<double>& value);
 

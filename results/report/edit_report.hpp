@@ -42,10 +42,10 @@ struct EditRun {
 /// The document of docs/results.md, "schema": "footprint-edit/1".
 [[nodiscard]] std::string edit_json(const EditRun& run);
 
-/// One line a frame, one column a parameter and a stage (milliseconds), RFC 4180.
+/// One line per frame, one column per parameter and stage (milliseconds), RFC 4180.
 [[nodiscard]] std::string edit_csv(const EditRun& run);
 
-/// One line a stage in Markdown: median, least and most milliseconds over the frames; edits a second.
+/// One line per stage in Markdown: median, least and most milliseconds over the frames; edits per second.
 [[nodiscard]] std::string edit_table(const EditRun& run);
 
 /// Writes edit.json, edit.csv and table.md into `folder`, each whole or not at all. Errors (machine).

@@ -1,4 +1,4 @@
-// Equivalent samples: how many samples a pixel plain supersampling needs to reach a method's error.
+// Equivalent samples: the samples per pixel with which plain supersampling reaches a method's error.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace footprint {
 
 /// One measured point of a supersampling curve.
 struct CurvePoint {
-  double spp = 1;    ///< samples a pixel, above 0
+  double spp = 1;    ///< samples per pixel, above 0
   double error = 0;  ///< any error measure, 0 or more; the same measure all along the curve
 };
 

@@ -43,10 +43,10 @@ namespace footprint {
 /// "41", "1.5", or the bound.
 [[nodiscard]] std::string equivalent_text(const Record& record);
 
-/// Whether the error, over all of the object, cannot be told from the reference's own noise.
+/// Whether the reference's own noise explains the error over all of the object.
 [[nodiscard]] bool at_noise_floor(const Record& record);
 
-/// Whether the shading error cannot.
+/// Whether it explains the shading error.
 [[nodiscard]] bool shading_at_noise_floor(const Record& record);
 
 /// "a, b, c", or `none` for an empty list.

@@ -8,7 +8,7 @@
 namespace footprint {
 namespace {
 
-/// Columns that UTF-8 text takes in a terminal: code points, which holds for all but wide scripts.
+/// Columns that UTF-8 text takes in a terminal: code points, which is right for all but wide scripts.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }));

@@ -14,7 +14,7 @@ struct MarkdownColumn {
 /// `text` with the characters that mean something in Markdown or HTML escaped, line breaks as spaces.
 [[nodiscard]] std::string markdown_escaped(const std::string& text);
 
-/// The table, every cell escaped; each row has one cell a column.
+/// The table, every cell escaped; each row has one cell per column.
 [[nodiscard]] std::string markdown_table(const std::vector<MarkdownColumn>& columns,
                                          const std::vector<std::vector<std::string>>& rows);
 

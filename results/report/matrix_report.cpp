@@ -9,7 +9,7 @@
 
 #include "renderer/core/files.hpp"
 #include "results/report/csv_field.hpp"
-#include "results/report/experiment_section.hpp"
+#include "results/report/experiment_report.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/markdown_table.hpp"
 #include "results/report/record_fields.hpp"

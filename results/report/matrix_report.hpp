@@ -12,14 +12,14 @@ namespace footprint {
 
 /// One member.
 struct MatrixMember {
-  std::string folder;  ///< that its own report lies in, beside that of the matrix
+  std::string folder;  ///< of its own report, next to that of the matrix
   Results results;     ///< with its coordinates
 };
 
-/// A whole matrix, or what of it was run.
+/// A whole matrix, or the part of it that was run.
 struct MatrixResults {
   ExperimentReport report;            ///< claims, thresholds and published figures over all members
-  std::vector<std::string> left_out;  ///< of those, what was not judged because it is over members that were not run
+  std::vector<std::string> left_out;  ///< of those, the ones over members that were not run: they are not judged
   std::vector<MatrixMember> members;  ///< one or more
 };
 
@@ -30,7 +30,7 @@ struct MatrixResults {
 /// start from the matrix' folder.
 [[nodiscard]] std::string matrix_csv(const MatrixResults& matrix);
 
-/// What became of it, and every record in one table, in Markdown.
+/// Its claims and thresholds, and every record in one table, in Markdown.
 [[nodiscard]] std::string matrix_table(const MatrixResults& matrix);
 
 /// The page over all members, which shows their pictures in their folders; else as results_page (report.hpp).

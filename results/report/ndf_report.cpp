@@ -1,4 +1,4 @@
-// Writes the figures of the NDF inspector, one object a method.
+// Writes the figures of the NDF inspector, one object per method.
 #include "results/report/ndf_report.hpp"
 
 #include <fmt/format.h>

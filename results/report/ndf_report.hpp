@@ -1,4 +1,4 @@
-// What one run of the NDF inspector found, as JSON (docs/ndf.schema.json) and as a table.
+// The results of one run of the NDF inspector, as JSON (docs/ndf.schema.json) and as a table.
 #pragma once
 
 #include <array>
@@ -20,18 +20,18 @@ struct NdfImages {
   std::string difference;  ///< PNG of |method - truth| on the same scale; empty for the truth
 };
 
-/// One method's effective NDF beside the true one. Figures that are not finite were not to be had.
+/// One method's effective NDF beside the true one. Figures that are not finite could not be measured.
 struct NdfRecord {
   std::string method;  ///< as written
   std::map<std::string, std::variant<double, std::string>> options;
   double l2 = 0.0;      ///< relative L2 error over solid angle
   double energy = 0.0;  ///< over the truth's
   double peak = 0.0;    ///< largest density, per steradian
-  int lobes = 0;        ///< evaluated a pixel
+  int lobes = 0;        ///< evaluated per pixel
   NdfImages images;
 };
 
-/// The truth, and what it was taken of.
+/// The true distribution.
 struct NdfTruth {
   double energy = 0.0;           ///< its integral over the grid
   double expected_energy = 0.0;  ///< the same from the lobes' own integrals
@@ -68,7 +68,7 @@ inline constexpr double ndf_energy_tolerance = 0.005;
 
 [[nodiscard]] std::string ndf_json(const NdfResults& results);
 
-/// One row a method, and the truth's.
+/// One row per method, and the truth's.
 [[nodiscard]] std::string ndf_table(const NdfResults& results);
 
 }  // namespace footprint

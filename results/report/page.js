@@ -21,60 +21,21 @@ const palette = {
 };
 const marks = ['circle', 'rectRot', 'triangle', 'rect', 'star', 'crossRot'];
 
-const columns = [
-  {title: 'Distance', key: 'distance', show: (r) => String(r.distance), value: (r) => r.distance, only: () => state.all,
-   meaning: 'Camera distance, as a multiple of the scene’s own.'},
-  {title: 'Rank', text: 'rank', value: (r) => (r.display.rank === '–' ? null : Number(r.display.rank)),
-   meaning: 'By shading error. Methods that differ by no more than the reference’s noise share a rank; – if too few pixels are interior.'},
-  {title: 'Error', text: 'error', value: (r) => r.error?.normalized_color,
-   meaning: 'Normalised colour error against the reference, 0 to 1: mean over the object’s pixels. Lower is better.'},
-  {title: 'Shading', text: 'shading', value: (r) => r.error?.shading, best: 'is_best',
-   meaning: 'Mean error over interior pixels, in which the reference sees one smooth piece of surface. Methods are ranked by it.'},
-  {title: 'Edges', text: 'edges', value: (r) => r.error?.edges,
-   meaning: 'Mean error over the object’s other pixels, which no method filters.'},
-  {title: 'Filter', text: 'filter', value: (r) => r.error?.filter,
-   meaning: 'Error of the exact normal distribution under the same footprint filter.'},
-  {title: 'Own error', text: 'method', value: (r) => r.error?.method,
-   meaning: 'Difference between the method’s image and that of the exact normal distribution.'},
-  {title: 'Light', text: 'light', value: (r) => r.error?.light, only: () => records.some((r) => Number.isFinite(r.error?.light)),
-   meaning: 'Error of the environment lookup, compared with the whole environment.'},
-  {title: 'Lobe fit', text: 'representation', value: (r) => r.error?.representation,
-   meaning: 'Error of the method’s finest level, supersampled. It remains without any filtering.'},
-  {title: '=\u00a0spp', text: 'equivalent', value: worth, best: 'is_best',
-   meaning: 'Samples per pixel of plain supersampling with the same shading error.'},
-  {title: 'Pixels', text: 'pixels', value: (r) => r.pixels.interior,
-   meaning: 'Number of interior pixels; ! marks fewer than 100.'},
-  {title: 'Flicker', key: 'flicker', show: (r) => (r.flicker ? figure(r.flicker.mean) : '–'), value: (r) => r.flicker?.mean,
-   only: () => records.some((r) => r.flicker),
-   meaning: 'How much the change since the previous frame differs from the reference’s, 0 to 2.'},
-  {title: 'Frame ms', text: 'frame', value: (r) => r.time.frame_ms.median, best: 'is_fastest',
-   meaning: 'Time per frame: median (minimum–90th percentile of the repeats).'},
-  {title: '× direct', text: 'ratio', value: (r) => r.time.ratio_to_direct.median,
-   meaning: 'Frame time relative to direct under the same footprint filter: median (95% interval of the median).'},
-  {title: 'fps', text: 'fps', value: (r) => r.time.fps, meaning: 'Frames per second at the median frame time.'},
-  {title: 'Fetches', text: 'fetches', value: (r) => r.time.fetches, meaning: 'Texture lookups per pixel, counted; – for methods whose frames take seconds.'},
-  {title: 'Lobes', text: 'lobes', value: (r) => r.time.lobes, meaning: 'Lobes evaluated per pixel over all lights, counted; – for methods whose frames take seconds.'},
-  {title: 'Build ms', text: 'build', value: (r) => r.time.frame_build_ms,
-   only: () => records.some((r) => r.time.frame_build_ms !== null), meaning: 'Time to rebuild maps when something moves, and whether frame times include it.'},
-  {title: 'Bake s', text: 'precompute', value: (r) => r.precompute.seconds,
-   meaning: 'Bake time in seconds.'},
-  {title: 'Maps', text: 'bytes', value: (r) => r.precompute.bytes, meaning: 'Memory of the baked maps.'},
-  {title: 'B/texel', text: 'bytes_per_texel', value: (r) => r.precompute.bytes_per_texel,
-   meaning: 'Bytes per texel of the finest level.'},
-  {title: 'Left out', words: true, text: 'left_out', value: (r) => r.effects.left_out.join(),
-   meaning: 'Effects of the scene that the method cannot render.'},
-];
+/** The value at a JSON pointer into a record. */
+const valueAt = (record, place) => place.split('/').slice(1).reduce((value, name) => value?.[name], record);
+
+// The program lists the columns. Two sort by something other than the figure at their place in results.json.
+const sortedBy = {rank: (r) => (r.display.rank === '–' ? null : Number(r.display.rank)), equivalent_spp: worth};
+const bestBy = {shading_error: 'is_best', equivalent_spp: 'is_best', frame_median_ms: 'is_fastest'};
+const columns = data.columns.map((column) => (
+  {...column, value: sortedBy[column.key] ?? ((r) => valueAt(r, column.place)), best: bestBy[column.key]}));
 const nameColumn = {title: 'Method', key: 'name', words: true, value: (r) => r.method};
 const axisColumns = axes.map((axis) => ({title: axis, key: `axis ${axis}`, words: true, show: (r) => r.run.coordinates[axis],
   value: (r) => r.run.coordinates[axis], meaning: 'Axis of the matrix.'}));
 
 /** Whether any record has a figure in the column. */
 const blank = new Set(['n/a', 'none', '–']);
-const isUsed = (column) => (!column.only || column.only()) &&
-  (!column.text || records.some((r) => !blank.has(String(r.display[column.text]))));
-
-/** What the address calls a column: titles may be equal. */
-const keyOf = (column) => column.key ?? column.text;
+const isUsed = ({key}) => (key !== 'distance' || state.all) && records.some((r) => !blank.has(r.display[key]));
 
 /** The samples that a record is worth as a sortable number; bounds go beyond the curve's ends. */
 function worth(record) {
@@ -192,11 +153,11 @@ function headCell(column) {
 }
 
 function bodyCell(record, column) {
-  const text = column.show ? column.show(record) : String(record.display[column.text]);
+  const text = column.show ? column.show(record) : record.display[column.key];
   const [figure, spread] = text.split(/ (?=\()/);
   const cell = element('td', column.words ? 'words-column' : '', figure);
   if (spread) cell.append(element('small', '', ' ' + spread));
-  if (column.text === 'shading' && record.display.at_floor) cell.prepend(element('span', 'floor-mark', '≈ '));
+  if (column.key === 'shading_error' && record.display.at_floor) cell.prepend(element('span', 'floor-mark', '≈ '));
   if (column.best && !state.all && matching().length === 1 && record.display[column.best]) cell.classList.add('best');
   return cell;
 }
@@ -636,7 +597,7 @@ function card(record) {
   for (const node of pair.children) node.style.aspectRatio = record.size.join(' / ');
   return element('article', 'card',
     element('header', '', element('h3', '', key(record.method), record.method),
-      element('p', '', `shading error ${display.shading} · ${display.frame} ms`)),
+      element('p', '', `shading error ${display.shading_error} · ${display.frame_median_ms} ms`)),
     pair);
 }
 
@@ -689,7 +650,7 @@ function writeState() {
   if (state.all) words.set('all', '1');
   for (const axis of axes) if (state.place[axis] !== undefined) words.set(axis, state.place[axis]);
   for (const method of state.hidden) words.append('without', method);
-  if (state.sort) words.set('sort', keyOf(state.sort));
+  if (state.sort) words.set('sort', state.sort.key);
   if (state.descending) words.set('down', '1');
   history.replaceState(null, '', `#${words}`);
 }
@@ -706,7 +667,7 @@ function readState() {
   }
   if (matching().length === 0) state.place = {};
   state.hidden = new Set(words.getAll('without').filter((method) => methods.includes(method)));
-  state.sort = [nameColumn, ...axisColumns, ...columns].find((column) => keyOf(column) === words.get('sort')) ?? null;
+  state.sort = [nameColumn, ...axisColumns, ...columns].find((column) => column.key === words.get('sort')) ?? null;
   state.descending = words.has('down');
 }
 

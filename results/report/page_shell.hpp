@@ -7,7 +7,7 @@
 
 namespace footprint {
 
-/// A page's own template, what stands in the browser's title before the program's name, and whether it runs scripts.
+/// A page's own template, its title (the browser adds the program's name), and whether it runs scripts.
 struct PageShell {
   std::string_view file;  ///< "page.html"
   std::string title;      ///< plain text

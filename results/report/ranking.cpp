@@ -138,7 +138,7 @@ std::string what_edges_add(const DistanceRecords& records) {
 
 bool has_nothing_to_filter(const PixelCounts& pixels) { return pixels.interior > 0 && pixels.minified == 0; }
 
-// Whether even the best and the worst cannot be told apart.
+// Whether even the best and the worst differ by no more than noise.
 bool is_all_noise(const DistanceRecords& records) {
   const DistanceRecords sorted = ranked(records);
   return sorted.size() > 1 && !is_better(sorted.front(), sorted.back());
@@ -162,7 +162,7 @@ bool has_not_converged(const DistanceRecords& records) {
 
 bool has_few(const PixelCounts& pixels) { return pixels.interior < few_pixels && pixels.interior >= too_few_pixels; }
 
-// A sentence with the distances of which `holds`, put in front; empty where there is none.
+// A sentence that starts with the distances for which `holds` is true; empty if there are none.
 template <typename Holds>
 std::string at_distances(const Results& results, Holds holds, std::string_view sentence) {
   std::vector<std::string> found;

@@ -1,4 +1,4 @@
-// What a reader may conclude from the errors of a run: which methods are apart beyond noise, over how many pixels.
+// The conclusions from the errors of a run: which methods differ beyond noise, over how many pixels.
 #pragma once
 
 #include <functional>
@@ -36,8 +36,8 @@ using DistanceRecords = std::vector<std::reference_wrapper<const Record>>;
 [[nodiscard]] std::optional<std::string> linear_measures_warning(double distance,
                                                                  const std::optional<double>& standard_error);
 
-/// What bears on the ranking and a reader must know first, one sentence each: a reference that has not converged,
-/// distances with few interior pixels, with differences below the noise, or with nothing to filter. Of an animation the
+/// The limits of the ranking, which a reader must know first, one sentence each: a reference that has not converged,
+/// distances with few interior pixels, with differences below the noise, or with nothing to filter. Of an animation: the
 /// frames in which the reference has not converged.
 [[nodiscard]] std::vector<std::string> ranking_warnings(const Results& results);
 
@@ -50,7 +50,7 @@ using DistanceRecords = std::vector<std::reference_wrapper<const Record>>;
 [[nodiscard]] std::optional<double> closer_share(const Results& results, double distance, const std::string& method,
                                                  const std::string& other);
 
-/// What was found at one distance, in sentences: which methods are best and which are not told apart, what the best
+/// The findings at one distance, in sentences: which methods are best and which do not differ, what the best
 /// one costs and what it is worth, in how many pixels it is closer than the next, what the bound leaves, and what edges
 /// add.
 [[nodiscard]] std::vector<std::string> findings(const Results& results, double distance);

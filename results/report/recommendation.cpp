@@ -1,4 +1,4 @@
-// The choice among candidates: limits first, then errors and costs, each with its noise.
+// The choice among candidates (limits first, then errors and costs, each with its noise), as sentences and as JSON.
 #include "results/report/recommendation.hpp"
 
 #include <fmt/format.h>
@@ -11,6 +11,8 @@
 #include "renderer/core/memory.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/ranking.hpp"
+#include "results/report/record_fields.hpp"
+#include "results/report/results_document.hpp"
 
 namespace footprint {
 namespace {
@@ -150,7 +152,7 @@ Choice choose(const std::vector<Candidate>& candidates, const Limits& limits) {
   const auto plain = std::ranges::find_if(kept, [&](std::size_t i) { return is_plain(candidates[i]); });
   if (plain != kept.end() && !is_closer(candidates[chosen], candidates[*plain])) chosen = *plain;
   choice.chosen = chosen;
-  // In its place could stand what parts from it neither by the group's measure nor by the other one.
+  // Candidates are tied if neither the group's measure nor the other one separates them.
   std::ranges::copy_if(kept, std::back_inserter(choice.tied), [&](std::size_t i) {
     return i != chosen && cost_as_much(candidates[i], candidates[chosen]) &&
            !is_closer(candidates[i], candidates[chosen]) && !is_closer(candidates[chosen], candidates[i]);
@@ -224,6 +226,75 @@ std::string recommendation_text(const Recommendation& recommendation) {
     if (!advice.command.empty()) text += fmt::format("  Bake it: {}\n", advice.command);
   }
   return text;
+}
+
+void fields(JsonWriter& archive, const Candidate& value) {
+  archive("method", value.method);
+  archive("footprint", value.footprint);
+  archive("errors", value.errors);
+  archive("error", value.error);
+  archive("worst", value.worst);
+  archive("noise", value.noise);
+  archive("cost", value.cost);
+  archive("bytes", value.bytes);
+  archive("bake_seconds", value.bake_seconds);
+}
+
+void fields(JsonWriter& archive, const Limits& value) {
+  archive("max_error", value.max_error);
+  archive("max_cost", value.max_cost);
+  archive("max_bytes", value.max_bytes);
+}
+
+void fields(JsonWriter& archive, const LeftOutMethod& value) {
+  archive("method", value.method);
+  archive("reason", value.reason);
+}
+
+// The advice and the limits that its sentences name.
+struct WrittenAdvice {
+  const MaterialAdvice& advice;
+  const Limits& limits;
+};
+
+void fields(JsonWriter& archive, const WrittenAdvice& value) {
+  const MaterialAdvice& advice = value.advice;
+  archive("material", advice.material);
+  archive("distances", advice.distances);
+  archive("pixels", advice.pixels);
+  archive("chosen", advice.choice.chosen);
+  archive("tied", advice.choice.tied);
+  archive("better", advice.choice.better);
+  archive("nearest", advice.choice.nearest);
+  archive("filter_nothing", advice.choice.filter_nothing);
+  archive("closer_than_plain", advice.closer_than_plain);
+  archive("command", advice.command);
+  archive("words", advice_sentences(advice, value.limits));
+  archive("candidates", advice.candidates);
+}
+
+void fields(JsonWriter& archive, const Recommendation& value) {
+  std::vector<WrittenAdvice> materials;
+  for (const MaterialAdvice& advice : value.materials) materials.push_back({advice, value.limits});
+  archive("schema", "footprint-recommend/1");
+  archive("tool", value.tool);
+  archive("backend", value.backend);
+  archive("scene", value.scene);
+  archive("reference", value.reference);
+  archive("size", std::tie(value.width, value.height));
+  archive("distances", value.distances);
+  archive("limits", value.limits);
+  archive("exhaustive", value.exhaustive);
+  archive("tried", value.tried);
+  archive("measured", value.measured);
+  archive("coarse", value.coarse);
+  archive("left_out", value.left_out);
+  archive("reports", value.reports);
+  archive("materials", materials);
+}
+
+std::string recommendation_json(const Recommendation& recommendation) {
+  return json_text(to_json_value(recommendation), 2) + "\n";
 }
 
 }  // namespace footprint

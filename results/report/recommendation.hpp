@@ -1,4 +1,4 @@
-// Which method to take for a material: what was measured of each candidate, and what follows within a limit.
+// The method to use for a material: the measurements of each candidate, and the choice within a limit.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@ struct Candidate {
   std::string method, footprint;  ///< as written
   std::vector<double> errors;     ///< shading error at each distance that counts
   double error = 0;               ///< their mean, which candidates are ranked by
-  double worst = 0;               ///< the largest, which a limit is held against
+  double worst = 0;               ///< the largest, which limits are compared with
   std::optional<double> noise;    ///< standard error of `error`, of the reference's noise; none: it is not known
   TimeRatio cost;                 ///< whole frames over those of `direct` under trilinear lookups, means over distances
   std::uint64_t bytes = 0;        ///< that are baked of the material
   double bake_seconds = 0;        ///< for the whole scene
 };
 
-/// What is asked for: at most one.
+/// At most one is given.
 struct Limits {
   std::optional<double> max_error;         ///< at every distance: the cheapest within it
   std::optional<double> max_cost;          ///< times `direct`: the best within it
@@ -32,7 +32,7 @@ struct Limits {
 /// What candidates come to. Indices are into the candidates.
 struct Choice {
   std::optional<std::size_t> chosen;  ///< none: none keeps the limit, or nothing was measured
-  std::vector<std::size_t> tied;      ///< that could stand in its place: what parts them is within noise
+  std::vector<std::size_t> tied;      ///< candidates that are as good: they differ within noise
   std::optional<std::size_t> better;  ///< the cheapest that is closer to the reference than the chosen one beyond noise
   std::optional<std::size_t> nearest;  ///< where none is chosen: the one that comes closest to the limit
   bool filter_nothing = false;  ///< the chosen one is plain `direct`, and no candidate gains more than noise over it
@@ -59,7 +59,7 @@ struct Choice {
 [[nodiscard]] std::vector<std::size_t> contenders(const std::vector<Candidate>& candidates, const Limits& limits,
                                                   double error_share, double cost_share);
 
-/// A material's advice, with all that a reader is told of it.
+/// A material's advice, with its reasons.
 struct MaterialAdvice {
   std::string material;
   std::vector<std::size_t> pixels;  ///< interior ones that show it, at each distance that counts
@@ -107,7 +107,7 @@ struct Recommendation {
 /// "at most 0.01 of error at every distance", "the least error".
 [[nodiscard]] std::string limits_text(const Limits& limits);
 
-/// What was found of a material, in sentences.
+/// The findings on a material, in sentences.
 [[nodiscard]] std::vector<std::string> advice_sentences(const MaterialAdvice& advice, const Limits& limits);
 
 /// "First answer (coarse, 25% of the pixels)", of a recommendation that is one.

@@ -1,4 +1,4 @@
-// The fields of results.json, listed once for the writer, the reader and the CSV (json_archive.hpp).
+// The fields of results.json, listed once for the writer and the reader (json_archive.hpp).
 #pragma once
 
 #include <charconv>

@@ -1,11 +1,20 @@
-// results.csv, read back by a small reader of RFC 4180 that knows nothing of the writer.
+// results.csv, read back by a small reader of RFC 4180 that knows nothing of the writer, and its list of columns.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "results/report/columns.hpp"
+#include "results/report/record_fields.hpp"
 #include "results/report/report.hpp"
 #include "tests/report/example_results.hpp"
+#include "tests/support/says.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace footprint {
 namespace {
@@ -93,6 +102,39 @@ TEST(ResultsCsv, AbsentFiguresAreEmptyAndNamesSurvive) {
   EXPECT_EQ(value(lines, 4, "psnr_db"), "");
   EXPECT_EQ(value(lines, 4, "normalized_color_error"), "0");
   EXPECT_EQ(value(lines, 4, "ratio_to_direct_median"), "");
+}
+
+/// The table of docs/results.md: adjacent columns of one unit share a row.
+std::string documented_columns() {
+  std::string text = "| columns | unit |\n|---|---|\n", names;
+  const std::span<const Column> columns = record_columns();
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (*columns[i].place == '\0') continue;
+    names += fmt::format("{}`{}`", names.empty() ? "" : ", ", columns[i].key);
+    if (i + 1 < columns.size() && columns[i + 1].unit == columns[i].unit) continue;
+    text += fmt::format("| {} | {} |\n", names, columns[i].unit);
+    names.clear();
+  }
+  return text;
+}
+
+TEST(ResultsCsv, TheDocumentListsEveryColumnWithItsUnit) {
+  std::ostringstream document;
+  document << std::ifstream(testing::source_folder() / "docs/results.md").rdbuf();
+  EXPECT_TRUE(test::says(document.str(), documented_columns()));
+}
+
+TEST(Columns, HaveKeysOfTheirOwnAndPlacesThatARecordHas) {
+  const nlohmann::ordered_json record = to_json_value(example_results().records[3]);
+  std::set<std::string_view> keys;
+  for (const Column& column : record_columns()) {
+    EXPECT_TRUE(keys.insert(column.key).second) << column.key;
+    if (*column.place == '\0') continue;
+    const nlohmann::ordered_json::json_pointer place(column.place);
+    const bool is_there = record.contains(place) || (!place.empty() && record.at(place.parent_pointer()).is_null());
+    EXPECT_TRUE(is_there) << column.place;
+  }
+  EXPECT_THROW((void)column_of("nothing"), std::logic_error);
 }
 
 }  // namespace

@@ -5,11 +5,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <vector>
 
-#include "renderer/core/memory.hpp"
 #include "renderer/image/false_color.hpp"
 #include "results/report/animation_table.hpp"
-#include "results/report/experiment_section.hpp"
+#include "results/report/columns.hpp"
+#include "results/report/experiment_report.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/matrix_report.hpp"
 #include "results/report/page_shell.hpp"
@@ -52,37 +53,44 @@ bool is_best(const Record& record, const DistanceRecords& records) {
   return records.size() > 1 && is_first(record) && std::ranges::count_if(records, is_first) == 1;
 }
 
+/// The columns of the page's table, in order.
+std::vector<std::string_view> page_columns() {
+  std::vector<std::string_view> keys{"distance"};
+  keys.insert(keys.end(), error_columns.begin(), error_columns.end());
+  keys.emplace_back("flicker");
+  keys.insert(keys.end(), time_columns.begin(), time_columns.end());
+  for (const char* key :
+       {"frame_build_ms", "precompute_s", "precompute_bytes", "precompute_bytes_per_texel", "effects_left_out"})
+    keys.emplace_back(key);
+  return keys;
+}
+
+Json columns_json() {
+  Json columns = Json::array();
+  for (const std::string_view key : page_columns()) {
+    const Column& column = column_of(key);
+    columns.push_back({{"key", column.key},
+                       {"place", column.place},
+                       {"title", column.title},
+                       {"meaning", column.meaning},
+                       {"words", column.is_words}});
+  }
+  return columns;
+}
+
 /// A record's figures as the page prints them, the same as in the table.
-Json display(const Record& record, const DistanceRecords& records) {
-  const auto cause = [&record](auto member) { return record.error ? error_text(record.error->causes.*member) : "n/a"; };
+/// json: the record as results.json has it.
+Json display(const Record& record, const Json& json, const DistanceRecords& records) {
   const std::optional<int> place = rank(record, records);
-  const std::optional<double>& build = record.frame_build_ms;
-  const std::size_t interior = record.pixels.interior;
-  return {
-      {"rank", place ? fmt::format("{}", *place) : "–"},
-      {"error", record.error ? error_text(record.error->normalized_color) : "n/a"},
-      {"shading", cause(&ErrorCauses::shading)},
-      {"at_floor", shading_at_noise_floor(record)},
-      {"edges", cause(&ErrorCauses::edges)},
-      {"filter", cause(&ErrorCauses::filter)},
-      {"method", cause(&ErrorCauses::method)},
-      {"light", cause(&ErrorCauses::light)},
-      {"representation", record.error ? error_text(record.error->representation) : "n/a"},
-      {"equivalent", equivalent_text(record)},
-      {"pixels", fmt::format("{}{}", interior, interior < few_pixels ? " !" : "")},
-      {"frame", spread_text(record.frame_ms.median, record.frame_ms.minimum, record.frame_ms.p90)},
-      {"ratio", ratio_text(record.ratio_to_direct)},
-      {"fps", three_figures(record.fps)},
-      {"fetches", record.fetches ? three_figures(*record.fetches) : "–"},
-      {"lobes", record.lobes ? three_figures(*record.lobes) : "–"},
-      {"build", build ? fmt::format("{}, {}", three_figures(*build), word_for(build_timing_words, *record.frame_build))
-                      : "none"},
-      {"precompute", three_figures(record.precompute_seconds)},
-      {"bytes", readable_bytes(record.precompute_bytes)},
-      {"bytes_per_texel", bytes_per_texel_text(record)},
-      {"left_out", list_text(record.effects_left_out, "none")},
-      {"is_best", is_best(record, records)},
-      {"is_fastest", is_fastest(record, records)}};
+  Json cells{{"rank", place ? fmt::format("{}", *place) : "–"},
+             {"at_floor", shading_at_noise_floor(record)},
+             {"is_best", is_best(record, records)},
+             {"is_fastest", is_fastest(record, records)}};
+  for (const std::string_view key : page_columns()) {
+    const Column& column = column_of(key);
+    if (column.format != nullptr) cells[std::string(key)] = cell_text(column, record, json);
+  }
+  return cells;
 }
 
 /// What was found at a distance, and the scale of its error pictures.
@@ -99,16 +107,19 @@ Json distance_json(const Results& results, double distance) {
 Json run_json(const Results& results, const std::string& folder) {
   Json head = Json::array();
   for (const Provenance& line : provenance(results)) head.push_back({{"label", line.label}, {"value", line.value}});
+  Json document = results_document(results);
   Json records = Json::array(), distances = Json::array();
   if (!results.way) {
-    for (const Record& record : results.records)
-      records.push_back(display(record, records_at(results, record.distance)));
+    for (std::size_t i = 0; i < results.records.size(); ++i) {
+      const Record& record = results.records[i];
+      records.push_back(display(record, document.at("records").at(i), records_at(results, record.distance)));
+    }
     for (const double distance : distances_of(results)) distances.push_back(distance_json(results, distance));
   }
   return {{"folder", folder},
           {"path", results.way ? path_words(results) : ""},
           {"coordinates", to_json_value(results.coordinates)},
-          {"results", results_document(results)},
+          {"results", std::move(document)},
           {"provenance", std::move(head)},
           {"display", std::move(records)},
           {"distances", std::move(distances)},
@@ -121,7 +132,7 @@ struct PageTexts {
 };
 
 std::string page_of(Json runs, const PageTexts& own) {
-  const Json data{{"runs", std::move(runs)}, {"scale_colors", scale_colors()}};
+  const Json data{{"runs", std::move(runs)}, {"columns", columns_json()}, {"scale_colors", scale_colors()}};
   const std::string filled = script_escaped(json_text(data, -1));
   const std::string title = html_escaped(own.title), table = html_escaped(own.table);
   return fill_page({.file = "page.html", .title = own.title}, {{"title", title},

@@ -10,6 +10,7 @@
 #include "results/report/report.hpp"
 #include "results/report/text_template.hpp"
 #include "tests/report/example_results.hpp"
+#include "tests/support/fresh_folder.hpp"
 
 namespace footprint {
 namespace {
@@ -81,11 +82,9 @@ TEST(ResultsPage, NamesAddNoElement) {
   }
 }
 
-class WriteReport : public testing::Test {
+class WriteReport : public ::testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "footprint_write_report";
+  const std::filesystem::path folder_ = test::fresh_folder();
 };
 
 TEST_F(WriteReport, WritesTheFourFiles) {

@@ -1,5 +1,5 @@
 // Sentences from the ranking, and a table padded with spaces.
-#include "results/report/results_summary.hpp"
+#include "results/report/report.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "renderer/core/memory.hpp"
-#include "results/report/experiment_section.hpp"
+#include "results/report/experiment_report.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/ranking.hpp"
 

@@ -1,5 +1,5 @@
 // What a terminal shows: the answer, and a table that starts with the least error.
-#include "results/report/results_summary.hpp"
+#include "results/report/report.hpp"
 
 #include <gtest/gtest.h>
 

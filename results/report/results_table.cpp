@@ -3,18 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <iterator>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <sstream>
+#include <string_view>
 
-#include "renderer/core/memory.hpp"
 #include "results/report/animation_table.hpp"
-#include "results/report/experiment_section.hpp"
+#include "results/report/columns.hpp"
+#include "results/report/experiment_report.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/markdown_table.hpp"
 #include "results/report/ranking.hpp"
+#include "results/report/record_fields.hpp"
 #include "results/report/report.hpp"
 
 namespace footprint {
@@ -30,12 +34,7 @@ std::string rank_text(const Record& record, const DistanceRecords& records) {
   return fmt::format("{}{}", *place, std::ranges::count_if(records, same) > 1 ? "=" : " ");
 }
 
-/// The pixels that the shading error is over, marked where they are few.
-std::string pixels_text(const Record& record) {
-  return fmt::format("{}{}", record.pixels.interior, record.pixels.interior < few_pixels ? " !" : "");
-}
-
-/// The shading error with its mark; unmarked ones keep its room, so that the figures stand under each other.
+/// The shading error with its mark; unmarked ones have blanks instead, so that the figures are aligned.
 std::string marked_shading(const Record& record, bool any_marked) {
   if (!record.error) return "n/a";
   const std::string_view mark = shading_at_noise_floor(record) ? " *" : any_marked ? "  " : "";
@@ -46,41 +45,34 @@ bool has_light(const DistanceRecords& records) {
   return std::ranges::any_of(records, [](const Record& r) { return r.error && r.error->causes.light; });
 }
 
-std::vector<std::string> error_row(const Record& record, const DistanceRecords& records) {
-  const auto cause = [&record](auto member) { return record.error ? error_text(record.error->causes.*member) : "n/a"; };
-  std::vector<std::string> row{record.method,
-                               rank_text(record, records),
-                               record.error ? error_text(record.error->normalized_color) : "n/a",
-                               marked_shading(record, std::ranges::any_of(records, shading_at_noise_floor)),
-                               cause(&ErrorCauses::edges),
-                               cause(&ErrorCauses::filter),
-                               cause(&ErrorCauses::method)};
-  if (has_light(records)) row.push_back(cause(&ErrorCauses::light));
-  row.push_back(record.error ? error_text(record.error->representation) : "n/a");
-  row.push_back(equivalent_text(record));
-  row.push_back(pixels_text(record));
-  return row;
-}
+struct Table {
+  std::vector<MarkdownColumn> columns;
+  Rows rows;
+};
 
-std::vector<MarkdownColumn> error_columns(const DistanceRecords& records) {
-  std::vector<MarkdownColumn> columns{{"Method", false}, {"Rank"},   {"Error"},    {"Shading"},
-                                      {"Edges"},         {"Filter"}, {"Own error"}};
-  if (has_light(records)) columns.push_back({"Light"});
-  for (const char* title : {"Lobe fit", "= spp", "Pixels"}) columns.push_back({title});
-  return columns;
-}
-
-std::vector<std::string> time_row(const Record& record) {
-  const FrameTime& frame = record.frame_ms;
-  return {spread_text(frame.median, frame.minimum, frame.p90), ratio_text(record.ratio_to_direct),
-          three_figures(record.fps), record.fetches ? three_figures(*record.fetches) : "-",
-          record.lobes ? three_figures(*record.lobes) : "-"};
+/// "Method", then the columns of the keys; the light's only if there is one. Ranks and shading errors have marks.
+Table table_of(std::vector<std::string_view> keys, const DistanceRecords& records) {
+  if (!has_light(records)) std::erase(keys, "light_error");
+  const bool any_marked = std::ranges::any_of(records, shading_at_noise_floor);
+  Table table{.columns = {{"Method", false}}, .rows = {}};
+  for (const std::string_view key : keys) table.columns.push_back({plain(column_of(key).title)});
+  for (const Record& record : records) {
+    const nlohmann::ordered_json json = to_json_value(record);
+    std::vector<std::string>& row = table.rows.emplace_back(1, record.method);
+    for (const std::string_view key : keys) {
+      row.push_back(key == "rank"            ? rank_text(record, records)
+                    : key == "shading_error" ? marked_shading(record, any_marked)
+                                             : plain(cell_text(column_of(key), record, json)));
+    }
+  }
+  return table;
 }
 
 constexpr std::size_t terminal = 130;  // columns
 
 /// One table, or as many as it takes that none is wider than a terminal; each begins with the first column.
-std::string split_table(const std::vector<MarkdownColumn>& columns, const Rows& rows) {
+std::string split_table(const Table& table) {
+  const auto& [columns, rows] = table;
   const auto part = [&](std::size_t first, std::size_t count) {
     const auto cut = [&](const auto& all) {
       auto some = std::vector(all.begin(), all.begin() + 1);
@@ -101,24 +93,15 @@ std::string split_table(const std::vector<MarkdownColumn>& columns, const Rows& 
   return text;
 }
 
-/// Errors and times of a distance: in one table where it fits, else each in its own.
+/// Errors and times of a distance: in one table if it fits, else each in its own.
 std::string main_table(const DistanceRecords& records) {
-  const std::vector<MarkdownColumn> errors = error_columns(records);
-  const std::vector<MarkdownColumn> times{{"Frame ms"}, {"x direct"}, {"fps"}, {"Fetches"}, {"Lobes"}};
-  Rows error_rows, time_rows, whole_rows;
-  for (const Record& record : records) {
-    error_rows.push_back(error_row(record, records));
-    time_rows.push_back(time_row(record));
-    whole_rows.push_back(error_rows.back());
-    whole_rows.back().insert(whole_rows.back().end(), time_rows.back().begin(), time_rows.back().end());
-    time_rows.back().insert(time_rows.back().begin(), record.method);
-  }
-  std::vector<MarkdownColumn> all = errors, named_times = times;
+  const std::vector errors(error_columns.begin(), error_columns.end()), times(time_columns.begin(), time_columns.end());
+  std::vector<std::string_view> all = errors;
   all.insert(all.end(), times.begin(), times.end());
-  named_times.insert(named_times.begin(), errors.front());
-  std::string whole = markdown_table(all, whole_rows);
-  if (whole.find('\n') <= terminal) return whole;
-  return split_table(errors, error_rows) + "\n" + split_table(named_times, time_rows);
+  const Table whole = table_of(all, records);
+  std::string text = markdown_table(whole.columns, whole.rows);
+  if (text.find('\n') <= terminal) return text;
+  return split_table(table_of(errors, records)) + "\n" + split_table(table_of(times, records));
 }
 
 /// Every two methods of a distance pixel by pixel: empty where none were.
@@ -136,7 +119,7 @@ std::string pairs_table(const Results& results, const DistanceRecords& records) 
     }
     rows.push_back(std::move(row));
   }
-  return any ? "\n" + split_table(columns, rows) : std::string();
+  return any ? "\n" + split_table({columns, rows}) : std::string();
 }
 
 /// An entry of a list, escaped, in lines of a terminal's width.
@@ -162,18 +145,18 @@ std::string distance_section(const Results& results, double distance) {
                      any_marked ? "\n\\* at the noise floor: the reference's own noise explains this error.\n" : "");
 }
 
-/// What does not depend on the distance: one line a method, more only where its figures differ.
+/// The figures that do not depend on the distance: one line per method, more only if its figures differ.
 std::string preparation_section(const Results& results) {
-  const std::vector<MarkdownColumn> columns{{"Method", false}, {"Bake s"},        {"Maps"},
-                                            {"B/texel"},       {"Cached", false}, {"Effects left out", false}};
+  constexpr std::array<std::string_view, 3> keys{"precompute_s", "precompute_bytes", "precompute_bytes_per_texel"};
+  std::vector<MarkdownColumn> columns{{"Method", false}};
+  for (const std::string_view key : keys) columns.push_back({plain(column_of(key).title)});
+  columns.insert(columns.end(), {{"Cached", false}, {"Effects left out", false}});
   Rows rows;
   for (const Record& record : results.records) {
-    std::vector<std::string> row{record.method,
-                                 three_figures(record.precompute_seconds),
-                                 readable_bytes(record.precompute_bytes),
-                                 bytes_per_texel_text(record),
-                                 record.precompute_cached ? "yes" : "no",
-                                 list_text(record.effects_left_out, "none")};
+    const nlohmann::ordered_json json = to_json_value(record);
+    std::vector<std::string> row{record.method};
+    for (const std::string_view key : keys) row.push_back(plain(cell_text(column_of(key), record, json)));
+    row.insert(row.end(), {record.precompute_cached ? "yes" : "no", list_text(record.effects_left_out, "none")});
     if (std::ranges::find(rows, row) == rows.end()) rows.push_back(std::move(row));
   }
   return "\n## Bakes\n\n" + markdown_table(columns, rows);
@@ -216,7 +199,7 @@ std::string quantity_section(const Results& results) {
          markdown_table({{"Name", false}, {"Method", false}, {"Quantity", false}, {"Value"}}, rows);
 }
 
-/// Frame builds, where a method has one: they are part of its price at that distance.
+/// Frame builds of methods that have one: they are part of the cost at that distance.
 std::string frame_build_section(const Results& results) {
   Rows rows;
   for (const Record& record : results.records) {
@@ -272,29 +255,29 @@ std::string warnings_section(const Results& results) {
   return text;
 }
 
+/// The meanings of the columns, with those that only this table has.
+std::string notes() {
+  std::string text;
+  const auto add = [&text](std::string_view title, std::string_view note) {
+    text += fmt::format("- {}: {}\n", plain(title), note);
+  };
+  for (const std::string_view key : {"normalized_color_error", "shading_error", "rank", "edges_error", "filter_error",
+                                     "method_error", "light_error", "representation_error", "equivalent_spp"})
+    add(column_of(key).title, column_of(key).note);
+  add("% of pixels closer than", "interior pixels in which the row's method is closer to the reference, beyond noise.");
+  for (const std::string_view key : {"frame_median_ms", "ratio_to_direct_median"})
+    add(column_of(key).title, column_of(key).note);
+  add("Fetches, Lobes", "texture lookups and lobes per pixel, counted.");
+  return text;
+}
+
 std::string words_section(const Results& results) {
   std::string text = "\n## Summary\n";
   for (const double distance : distances_of(results)) {
     text += fmt::format("\nDistance {}:\n\n", distance);
     for (const std::string& finding : findings(results, distance)) text += list_entry(finding);
   }
-  return text + R"(
-Errors are normalised colour errors; lower is better.
-
-- Error: mean over the object's pixels.
-- Shading: mean over interior pixels, in which the reference sees one smooth piece of surface; `Pixels` counts them.
-- Rank: by the shading error; methods that differ by no more than the reference's noise share a rank (=).
-- Edges: mean over the object's other pixels, which no method filters.
-- Filter: shading error of the exact normal distribution under the same footprint filter.
-- Own error: difference between the method's image and that.
-- Light: error of its environment lookup, compared with the whole environment.
-- Lobe fit: error of the method's finest level, supersampled. It remains without any filtering.
-- = spp: samples per pixel of plain supersampling with the same shading error.
-- % of pixels closer than: interior pixels in which the row's method is closer to the reference, beyond noise.
-- Frame ms: median (minimum-90th percentile).
-- x direct: frame time over that of `direct`: median (95% interval of the median).
-- Fetches, Lobes: texture lookups and lobes per pixel, counted.
-)";
+  return text + "\nErrors are normalised colour errors; lower is better.\n\n" + notes();
 }
 
 }  // namespace

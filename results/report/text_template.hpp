@@ -1,4 +1,4 @@
-// Fills text into a page: `{{name}}` in a template, and the escaping that HTML asks for.
+// Fills text into a page: `{{name}}` in a template, and the escaping that HTML needs.
 #pragma once
 
 #include <map>

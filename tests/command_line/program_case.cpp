@@ -8,7 +8,7 @@
 #include <iterator>
 #include <ostream>
 
-#include "app/program.hpp"
+#include "app/commands.hpp"
 
 namespace footprint::test {
 namespace {
@@ -50,16 +50,12 @@ std::vector<Case> of_compare_and_render(const std::vector<Case>& rows) {
 }
 
 void CommandLine::SetUp() {
-  folder_ = fs::path(::testing::TempDir()) / ("footprint_command_line_" + GetParam().name);
-  fs::remove_all(folder_);
   fs::create_directories(work());
   for (const auto& [name, content] : GetParam().files) {
     fs::create_directories((work() / name).parent_path());
     std::ofstream(work() / name, std::ios::binary) << content;
   }
 }
-
-void CommandLine::TearDown() { fs::remove_all(folder_); }
 
 std::string CommandLine::in_place(std::string text) const {
   if (const auto at = text.find("{}"); at != std::string::npos) text.replace(at, 2, work().string());

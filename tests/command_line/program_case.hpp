@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/fresh_folder.hpp"
 #include "tests/support/process.hpp"
 
 namespace footprint::test {
@@ -49,7 +50,6 @@ void PrintTo(const Case& row, std::ostream* out);
 class CommandLine : public ::testing::TestWithParam<Case> {
  protected:
   void SetUp() override;
-  void TearDown() override;
 
   [[nodiscard]] ProcessResult run() const;
   /// Everything below the case's folder but the input files and their folders.
@@ -60,7 +60,7 @@ class CommandLine : public ::testing::TestWithParam<Case> {
   [[nodiscard]] std::filesystem::path work() const { return folder_ / "work"; }
   [[nodiscard]] std::string in_place(std::string text) const;
 
-  std::filesystem::path folder_;
+  const std::filesystem::path folder_ = fresh_folder();
 };
 
 }  // namespace footprint::test

@@ -53,7 +53,7 @@ const std::vector<Case> recommendations{
                    "256x256", "--spp", "4096", "-o", "{}/out"},
      .exit_code = 130,
      .errors_have = {"interrupted"},
-     .interrupt_at = "reference",
+     .interrupt_at = "4096 samples",  // after the coarse pass, whose work is stored
      .keeps_work = true},
     {.name = "RecommendOnAFullDisk",
      .arguments = {"recommend", "v_grooves", "--methods", "direct,toksvig", "--footprints", "trilinear", "--size",

@@ -214,11 +214,12 @@ TEST(BakedFilesOf, TheManifestNamesEveryFileAndNoOther) {
 
 TEST(BakedFilesOf, NothingAreRefused) {
   const auto refusal = [](const Scene& scene, const std::string& text) {
+    const fs::path folder = test::fresh_folder();
     try {
-      write_bake(Bake(scene, text).files(), test::fresh_folder());
+      write_bake(Bake(scene, text).files(), folder);
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::usage);
-      EXPECT_TRUE(fs::is_empty(fs::path(::testing::TempDir()) / "footprint_BakedFilesOf/NothingAreRefused"));
+      EXPECT_TRUE(fs::is_empty(folder));
       return std::string(error.what());
     }
     return std::string("no error");

@@ -343,7 +343,7 @@ def check_filters(browser, folder):
 def check_equal_titles(browser):
     """The address keeps the column of the order, though another one has its title."""
     sort = "return [document.querySelector('#table th[aria-sort]').cellIndex, document.querySelector('#table th[aria-sort]').textContent]"
-    browser.run("location.hash = ''; columns.find((column) => column.text === 'edges').title = 'Method'")
+    browser.run("location.hash = ''; columns.find((column) => column.key === 'edges_error').title = 'Method'")
     browser.wait_for("new Promise((done) => setTimeout(done, 200))")
     browser.click("#table thead th:nth-child(5) button")
     seen, address = browser.run(sort), browser.run("return location.hash")
@@ -363,7 +363,7 @@ def check_reading(browser):
     assert legend[-2:] == ["noise floor (dashed)", "Pareto front (dotted)"], legend
     heads = "return [...document.querySelectorAll('#table thead th')].map((cell) => cell.textContent)"
     assert "Left out" in browser.run(heads)
-    browser.run("for (const record of records) record.display.left_out = 'none'; showTable()")
+    browser.run("for (const record of records) record.display.effects_left_out = 'none'; showTable()")
     assert "Left out" not in browser.run(heads)
     for width in (390, 1280):
         browser.resize(width, 900)

@@ -1,14 +1,12 @@
 // Collects JSON and binary data, and writes them as text with a data URI or as a GLB container.
 #include "tests/support/gltf_builder.hpp"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <cstring>
 #include <fstream>
 
 #include "renderer/core/bytes.hpp"
 #include "renderer/image/image_io.hpp"
+#include "tests/support/fresh_folder.hpp"
 
 namespace footprint::test {
 namespace {
@@ -70,7 +68,7 @@ int GltfBuilder::add_indices(const std::vector<std::uint16_t>& values) {
 }
 
 int GltfBuilder::add_texture(const Image& image) {
-  const auto file = test_folder() / "texture.png";
+  const auto file = process_folder() / "texture.png";
   write_png(file, image);
   const int view = add_view(read_file_bytes(file, 1U << 20U));
   json["images"].push_back({{"bufferView", view}, {"mimeType", "image/png"}});
@@ -119,14 +117,8 @@ GltfBuilder make_quad() {
   return quad;
 }
 
-std::filesystem::path test_folder() {
-  auto folder = std::filesystem::path(::testing::TempDir()) / fmt::format("footprint_scene_test_{}", ::getpid());
-  std::filesystem::create_directories(folder);
-  return folder;
-}
-
 std::filesystem::path write_file(const std::string& name, const std::string& text) {
-  auto file = test_folder() / name;
+  auto file = process_folder() / name;
   std::filesystem::create_directories(file.parent_path());
   std::filesystem::remove(file);  // truncating a file that exists makes some file systems write it out at once
   std::ofstream(file, std::ios::binary) << text;

@@ -45,10 +45,7 @@ class GltfBuilder {
 /// A quad of 2 x 2 m in the xy plane facing +z with normals and glTF texture coordinates (v down), mesh 0 on node 0.
 [[nodiscard]] GltfBuilder make_quad();
 
-/// A folder of this process under GTest's temporary folder.
-[[nodiscard]] std::filesystem::path test_folder();
-
-/// Writes `text` to `name` in the test folder.
+/// Writes `text` to `name` in the folder of the process.
 std::filesystem::path write_file(const std::string& name, const std::string& text);
 
 /// Runs `action` and returns the text of the footprint::Error{usage} that it throws; "" if it throws none.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "renderer/image/image_io.hpp"
+#include "tests/support/fresh_folder.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/source_folder.hpp"
 
@@ -62,7 +63,7 @@ TEST(LoadScene, WrongNamesAreNamed) {
   EXPECT_NE(error_of("").find("empty"), std::string::npos);
   EXPECT_NE(error_of("nowhere.gltf").find("no such file"), std::string::npos);
   EXPECT_NE(error_of("nowhere/scene.toml").find("no such file"), std::string::npos);
-  EXPECT_NE(error_of(test::test_folder().string()).find("no scene.toml"), std::string::npos);
+  EXPECT_NE(error_of(test::process_folder().string()).find("no scene.toml"), std::string::npos);
   EXPECT_NE(error_of(test::write_file("model.stl", "solid").string()).find("neither"), std::string::npos);
 }
 
@@ -100,9 +101,9 @@ TEST(LoadScene, OwnLightsLeaveTheExposureAutomatic) {
 
 TEST(LoadScene, AnEnvironmentFromOutsideGoesBeforeTheScenesOwn) {
   Image radiance(2, 1, 3, 0.5F);
-  write_exr(test::test_folder() / "around.exr", radiance);
+  write_exr(test::process_folder() / "around.exr", radiance);
   SceneOverrides overrides;
-  overrides.environment = test::test_folder() / "around.exr";
+  overrides.environment = test::process_folder() / "around.exr";
   const Scene bare = load_scene(test::make_quad().write().string(), {}, overrides);
   EXPECT_EQ(bare.environment->name, "around.exr");
   EXPECT_TRUE(bare.lights.empty());
@@ -134,7 +135,7 @@ TEST(LoadScene, TheHorizonFollowsWhatIsDrawn) {
 }
 
 TEST(LoadScene, SettingsOverrideEveryMaterial) {
-  write_png(test::test_folder() / "made/grey.png", Image(4, 2, 3, 0.5F));
+  write_png(test::process_folder() / "made/grey.png", Image(4, 2, 3, 0.5F));
   const std::string plane =
       "[plane]\nsize = [4, 2]\nnormal_map = \"grey.png\"\nbase_color_map = \"grey.png\"\n"
       "metallic_roughness_map = \"grey.png\"\nroughness = 0.5\nmetallic = 1\n[tiling]\nuv = [3, 5]\n";

@@ -8,6 +8,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/scene/model.hpp"
+#include "tests/support/fresh_folder.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/png_file.hpp"
 
@@ -35,8 +36,8 @@ void expect_error(const std::string& place, const std::function<void(GltfBuilder
 json& primitive(GltfBuilder& quad) { return quad.json["meshes"][0]["primitives"][0]; }
 
 TEST(GltfBadInput, FilesThatAreNoGltf) {
-  EXPECT_NE(error_of(test::test_folder() / "nowhere.gltf").find("no such file"), std::string::npos);
-  EXPECT_NE(error_of(test::test_folder()).find("not a regular file"), std::string::npos);
+  EXPECT_NE(error_of(test::process_folder() / "nowhere.gltf").find("no such file"), std::string::npos);
+  EXPECT_NE(error_of(test::process_folder()).find("not a regular file"), std::string::npos);
   EXPECT_NE(error_of("/dev/zero").find("not a regular file"), std::string::npos);
   EXPECT_NE(error_of(test::write_file("empty.gltf", "")).find("empty"), std::string::npos);
   EXPECT_NE(error_of(test::write_file("words.gltf", "hello world")).find("not valid JSON"), std::string::npos);

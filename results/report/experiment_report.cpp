@@ -1,5 +1,5 @@
 // Lays out what became of an experiment as tables and sentences, in Markdown and in HTML.
-#include "results/report/experiment_section.hpp"
+#include "results/report/experiment_report.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,5 +1,5 @@
 // Members one after the other, those that --only names.
-#include "app/asked_experiments.hpp"
+#include "app/requested_experiments.hpp"
 
 #include <fmt/format.h>
 
@@ -34,8 +34,8 @@ std::regex expression_of(const std::string& only) {
 }
 
 // Adds those of a matrix whose names match; what is said of others is left out of the matrix.
-void add_members(AskedExperiments& asked, const Experiment& whole, const std::regex& only, bool quick) {
-  AskedMatrix matrix{.whole = whole, .first = asked.experiments.size(), .count = 0, .left_out = {}};
+void add_members(RequestedExperiments& requested, const Experiment& whole, const std::regex& only, bool quick) {
+  RequestedMatrix matrix{.whole = whole, .first = requested.experiments.size(), .count = 0, .left_out = {}};
   std::vector<Coordinates> missing;
   for (Experiment& member : members_of_matrix(whole)) {
     if (!std::regex_search(member.name, only)) {
@@ -43,29 +43,29 @@ void add_members(AskedExperiments& asked, const Experiment& whole, const std::re
       continue;
     }
     if (quick) make_quick(member);
-    asked.experiments.push_back(std::move(member));
+    requested.experiments.push_back(std::move(member));
     ++matrix.count;
   }
   matrix.whole.quick = quick;
   matrix.left_out = leave_out(matrix.whole, missing);
-  asked.matrices.push_back(std::move(matrix));
+  requested.matrices.push_back(std::move(matrix));
 }
 
 // Those of a folder, but for the ones that are made of others: their members lie there too.
-void add_folder(AskedExperiments& asked, const ExperimentRequest& request) {
+void add_folder(RequestedExperiments& requested, const ExperimentRequest& request) {
   const std::regex only = expression_of(request.only);
-  for (const std::string& name : list_experiments(asked.file)) {
+  for (const std::string& name : list_experiments(requested.file)) {
     if (!std::regex_search(name, only)) continue;
-    Experiment experiment = experiment_of(asked.file / (name + ".toml"), request);
+    Experiment experiment = experiment_of(requested.file / (name + ".toml"), request);
     if (!experiment.axes.empty()) {
-      add_members(asked, experiment, std::regex(""), request.quick);
+      add_members(requested, experiment, std::regex(""), request.quick);
     } else if (experiment.members.empty()) {
-      asked.experiments.push_back(std::move(experiment));
+      requested.experiments.push_back(std::move(experiment));
     }
   }
-  if (!asked.experiments.empty()) return;
-  throw Error(ErrorKind::usage, request.only.empty() ? asked.file.string() : "--only",
-              fmt::format("no experiment in {} matches", asked.file.string()),
+  if (!requested.experiments.empty()) return;
+  throw Error(ErrorKind::usage, request.only.empty() ? requested.file.string() : "--only",
+              fmt::format("no experiment in {} matches", requested.file.string()),
               "`footprint list experiments` names those of this program");
 }
 
@@ -83,15 +83,15 @@ std::vector<Experiment> members_of(const Experiment& named, const ExperimentRequ
 }
 
 // The settings that enter are those that a command line may set beside the file.
-std::string fingerprint_of(const AskedExperiments& asked, const ExperimentRequest& request) {
+std::string fingerprint_of(const RequestedExperiments& requested, const ExperimentRequest& request) {
   ContentHash hash;
   const auto add_file = [&](const std::filesystem::path& file) {
     const std::vector<std::uint8_t> bytes = read_file_bytes(file, largest_experiment);
     hash.add(file.stem().string());
     hash.add(std::as_bytes(std::span(bytes)));
   };
-  if (!std::filesystem::is_directory(asked.file)) add_file(asked.file);
-  for (const Experiment& experiment : asked.experiments) {
+  if (!std::filesystem::is_directory(requested.file)) add_file(requested.file);
+  for (const Experiment& experiment : requested.experiments) {
     add_file(experiment.file);
     if (experiment.presets) add_file(*experiment.presets);
     hash.add(experiment.full_name());
@@ -103,40 +103,40 @@ std::string fingerprint_of(const AskedExperiments& asked, const ExperimentReques
 
 }  // namespace
 
-std::filesystem::path AskedExperiments::folder_of(const AskedMatrix& matrix) const {
+std::filesystem::path RequestedExperiments::folder_of(const RequestedMatrix& matrix) const {
   return file == matrix.whole.file ? std::filesystem::path() : std::filesystem::path(matrix.whole.name);
 }
 
-std::filesystem::path AskedExperiments::folder_of(const Experiment& experiment) const {
+std::filesystem::path RequestedExperiments::folder_of(const Experiment& experiment) const {
   if (!has_members()) return {};
   return file == experiment.file ? experiment.name : experiment.full_name();
 }
 
-AskedExperiments ask_experiments(const ExperimentRequest& request) {
-  AskedExperiments asked;
+RequestedExperiments requested_experiments(const ExperimentRequest& request) {
+  RequestedExperiments requested;
   if (std::filesystem::is_directory(request.experiment)) {
-    asked.file = request.experiment;
-    add_folder(asked, request);
-    asked.fingerprint = fingerprint_of(asked, request);
-    return asked;
+    requested.file = request.experiment;
+    add_folder(requested, request);
+    requested.fingerprint = fingerprint_of(requested, request);
+    return requested;
   }
-  asked.file = find_experiment(request.experiment, experiments_folder());
-  const Experiment named = experiment_of(asked.file, request);
+  requested.file = find_experiment(request.experiment, experiments_folder());
+  const Experiment named = experiment_of(requested.file, request);
   const bool has_members = !named.members.empty() || !named.axes.empty();
   if (!has_members && !request.only.empty())
     throw Error(ErrorKind::usage, "--only", fmt::format("{} has no members to choose from", named.name),
                 "leave it out");
   if (!named.axes.empty()) {
-    add_members(asked, named, expression_of(request.only), request.quick);
+    add_members(requested, named, expression_of(request.only), request.quick);
   } else {
-    asked.experiments = has_members ? members_of(named, request) : std::vector{named};
+    requested.experiments = has_members ? members_of(named, request) : std::vector{named};
   }
-  if (asked.experiments.empty())
+  if (requested.experiments.empty())
     throw Error(ErrorKind::usage, "--only", fmt::format("no member of {} is called `{:.80}`", named.name, request.only),
                 named.axes.empty() ? "`footprint list experiments` names them"
                                    : fmt::format("its first is {}", members_of_matrix(named).front().name));
-  asked.fingerprint = fingerprint_of(asked, request);
-  return asked;
+  requested.fingerprint = fingerprint_of(requested, request);
+  return requested;
 }
 
 }  // namespace footprint

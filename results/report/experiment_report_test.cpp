@@ -1,5 +1,5 @@
 // An experiment's outcome as people read it, and what fell short of it.
-#include "results/report/experiment_section.hpp"
+#include "results/report/experiment_report.hpp"
 
 #include <gtest/gtest.h>
 

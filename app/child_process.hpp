@@ -19,6 +19,7 @@ struct ChildCommand {
   std::vector<std::string> arguments;  ///< with the program's name first
   std::filesystem::path errors;        ///< file for its standard error
   std::filesystem::path folder;        ///< working directory; empty: this program's own
+  std::vector<std::string> variables{};  ///< NAME=VALUE, in the place of this program's own
 };
 
 /// A child process that does not outlive its owner.

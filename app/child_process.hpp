@@ -15,10 +15,11 @@ namespace footprint {
 
 /// A command to start.
 struct ChildCommand {
-  std::filesystem::path program;       ///< absolute
-  std::vector<std::string> arguments;  ///< with the program's name first
-  std::filesystem::path errors;        ///< file for its standard error
-  std::filesystem::path folder;        ///< working directory; empty: this program's own
+  std::filesystem::path program;         ///< absolute
+  std::vector<std::string> arguments;    ///< with the program's name first
+  std::filesystem::path errors;          ///< file for its standard error
+  std::filesystem::path folder;          ///< working directory; empty: this program's own
+  std::vector<std::string> variables{};  ///< NAME=VALUE, in the place of this program's own
 };
 
 /// A child process that does not outlive its owner.

@@ -23,6 +23,8 @@ void add_ndf_command(CLI::App& app);
 void add_score_command(CLI::App& app);
 void add_surface_command(CLI::App& app);
 void add_info_command(CLI::App& app);
+void add_cost_command(CLI::App& app);
+void add_compile_command(CLI::App& app);
 void add_completions_command(CLI::App& app);
 
 /// Runs the subcommand that the arguments name; `argv[0]` is the program's own name. Every error is printed as one line

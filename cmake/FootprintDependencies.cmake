@@ -14,6 +14,8 @@ find_package(fmt CONFIG REQUIRED)
 find_package(TBB CONFIG REQUIRED)
 find_package(Eigen3 CONFIG REQUIRED)
 find_package(embree 3 CONFIG REQUIRED)
+find_package(glslang CONFIG REQUIRED)
+find_package(VulkanHeaders CONFIG REQUIRED)
 # Debian's Highway brings no CMake files.
 find_path(FOOTPRINT_HIGHWAY_HEADERS hwy/highway.h REQUIRED)
 find_library(FOOTPRINT_HIGHWAY_LIBRARY hwy REQUIRED)

@@ -12,14 +12,15 @@ using Run = RunSettings;
 using Commands = std::vector<std::string_view>;
 
 // Groups of subcommands.
-const Commands of_a_scene{"compare", "recommend", "render", "animate", "edit", "bake", "explain"};
-const Commands of_a_picture{"compare", "recommend", "render", "animate", "edit", "explain"};
+const Commands of_a_scene{"compare", "recommend", "render", "animate", "edit", "bake", "explain", "cost"};
+const Commands of_a_picture{"compare", "recommend", "render", "animate", "edit", "explain", "cost"};
 const Commands that_compare{"compare", "recommend"};
 const Commands with_a_reference{"compare", "recommend", "render", "animate", "score"};
-const Commands with_a_footprint{"compare", "render", "animate", "edit", "bake", "explain", "ndf"};
-const Commands that_draw{"compare", "recommend", "render", "animate", "edit",
-                         "explain", "ndf",       "run",    "check",   "score"};
-const Commands that_may_cache{"compare", "recommend", "render", "animate", "bake", "explain", "ndf", "run", "check"};
+const Commands with_a_footprint{"compare", "render", "animate", "edit", "bake", "explain", "ndf", "cost"};
+const Commands that_draw{"compare", "recommend", "render", "animate", "edit", "explain",
+                         "ndf",     "run",       "check",  "score",   "cost"};
+const Commands that_may_cache{"compare", "recommend", "render", "animate", "bake",
+                              "explain", "ndf",       "run",    "check",   "cost"};
 
 constexpr double largest_turn = 36000;  // degrees: a hundred turns
 constexpr int any_count = std::numeric_limits<int>::max();
@@ -68,7 +69,7 @@ std::vector<Setting> scene_settings() {
        .help = "material variant of the model file (KHR_materials_variants), by name or number from 0",
        .otherwise = "the file's own materials"},
       {.option = "--methods",
-       .commands = {"compare"},
+       .commands = {"compare", "cost"},
        .type = methods(all_of),
        .help = "methods to compare",
        .start = "direct,naive_mip,toksvig"},
@@ -144,7 +145,7 @@ std::vector<Setting> view_settings() {
        .help = "camera distances to the centre of the bounds, as multiples of the scene's own",
        .otherwise = "the scene's zoom path"},
       {.option = "--distance",
-       .commands = {"render", "score"},
+       .commands = {"render", "score", "cost"},
        .type = distances(distances_of, 1),
        .help = "camera distance to the centre of the bounds, as a multiple of the scene's own",
        .start = "1"},

@@ -142,7 +142,7 @@ void MethodMeasurer::set_light_error(Record& record, const ReferenceView& target
 
 void MethodMeasurer::count_work(Record& record, const StagedMethod& method, const View& view) {
   if (method.baked().method->info().slow_frame) return;
-  if (!counting_.contains(&method)) counting_.emplace(&method, stage_.counting_frames(method));
+  if (!counting_.contains(&method)) counting_.emplace(&method, stage_.counting_frames(method, Counting::work));
   const PixelWork work = pixel_work(counting_.at(&method), view);
   record.fetches = work.lookups;
   record.lobes = work.lobes;

@@ -237,10 +237,16 @@ FrameRenderer Stage::dense_frames(const StagedMethod& method) const {
   return {context().info(), *prepared_->gpu, method.gpu(), size_, program, settings_.backend.tile};
 }
 
-FrameRenderer Stage::counting_frames(const StagedMethod& method) const {
+FrameRenderer Stage::counting_frames(const StagedMethod& method, Counting counting) const {
   ProgramSettings program = frame_program(scene(), footprint_filter_of(settings_, scene()));
-  program.counting = true;
+  program.counting = counting;
   return {context().info(), *prepared_->gpu, method.gpu(), size_, program, settings_.backend.tile};
+}
+
+ForwardProgram Stage::program_for_cost(const StagedMethod& method, const FixedTrips& trips) const {
+  ProgramSettings program = frame_program(scene(), footprint_filter_of(settings_, scene()));
+  program.fixed_trips = trips;
+  return forward_program(*prepared_->gpu, method.baked(), program);
 }
 
 Supersampler Stage::finest_level(const StagedMethod& method) const {

@@ -147,8 +147,11 @@ class Stage {
   /// stands for.
   [[nodiscard]] FrameRenderer dense_frames(const StagedMethod& method) const;
 
-  /// A method's frames whose pixels are counts (PixelWork).
-  [[nodiscard]] FrameRenderer counting_frames(const StagedMethod& method) const;
+  /// A method's frames whose pixels are counts (PixelWork, PixelTrips).
+  [[nodiscard]] FrameRenderer counting_frames(const StagedMethod& method, Counting counting) const;
+
+  /// The texts of a method's frames with constant numbers of rounds in their loops.
+  [[nodiscard]] ForwardProgram program_for_cost(const StagedMethod& method, const FixedTrips& trips) const;
 
   /// A method's own finest level, supersampled as the reference is.
   [[nodiscard]] Supersampler finest_level(const StagedMethod& method) const;

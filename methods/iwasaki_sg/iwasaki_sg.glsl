@@ -131,6 +131,7 @@ vec3 tabulatedReflection(Effective e, vec3 wi, vec3 wo) {
   int count = textureSize(iwasaki_table, 0).x;
   vec3 shine = vec3(0.0), matte = vec3(0.0);
   vec4 layer = vec4(0.0);
+  int lobes = lobesHere(e.count);
   int j = 0;
   do {
     if (j % values_per_layer == 0) layer = tableLayer(j / values_per_layer, texels);
@@ -142,7 +143,7 @@ vec3 tabulatedReflection(Effective e, vec3 wi, vec3 wo) {
     }
     shine += valueIn(layer, j) * reflected / sgIntegral(lobe.w);
     matte += valueIn(layer, j);
-  } while (++j < e.count);
+  } while (++j < lobes);
   return (shine * riseOf(h, wi) + matte * texelFetch(iwasaki_table, ivec2(0), 0).yzw) * max(wi.z, 0.0);
 }
 //? end
@@ -156,6 +157,7 @@ vec3 lobesReflect(Effective e, vec3 f0, vec3 wi, vec3 wo) {
   vec4 layer = vec4(0.0);
 //? end
   vec3 sum = vec3(0.0);
+  int count = lobesHere(e.count);
   int j = 0;
   do {
     vec4 lobe = lobeOf(j);
@@ -166,7 +168,7 @@ vec3 lobesReflect(Effective e, vec3 f0, vec3 wi, vec3 wo) {
 //? else
     sum += shareOf(j) * reflected;
 //? end
-  } while (++j < e.count);
+  } while (++j < count);
   return fresnelTerm(f0, wi, wo) * sum;
 }
 
@@ -177,11 +179,12 @@ vec3 meanDiffuse(Effective e, Surface s, vec3 wi, vec3 wo) {
   return diffuse(vec3(0.0, 0.0, 1.0), s, wi, wo) * tableAt(e.count, tableTexels(wi, wo));
 //? else
   vec3 sum = vec3(0.0);
+  int count = lobesHere(e.count);
   int j = 0;
   do {
     vec4 lobe = lobeOf(j);
     sum += shareOf(j) * meanCosine(lobe.w) * diffuse(lobe.xyz, s, wi, wo);
-  } while (++j < e.count);
+  } while (++j < count);
   return sum;
 //? end
 }

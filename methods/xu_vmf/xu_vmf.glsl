@@ -22,6 +22,7 @@ Effective effective(Footprints f) {
     e.covered = 0.0;
 //? if texture_arrays
     Walk walk = walkOver(mapFootprint(f), k, own.shortfall);
+    int rounds = 0;
     do {
       float weight;
       Part part = nextPart(walk, weight);
@@ -29,7 +30,7 @@ Effective effective(Footprints f) {
         addLobe(e.count, lobeOfPart(own, part, weight));
         e.covered += weight * part.r.w;
       }
-    } while (walk.next < walk.parts);
+    } while (anotherRound(++rounds, walk.next < walk.parts));
 //? end
     if (e.count == first) {
       addLobe(e.count, storedLobe(own, own.axis, own.shortfall, 1.0, 1.0));
@@ -68,12 +69,13 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   vec3 h = halfVector(wi, wo);
   float sum = 0.0;
   float cosine = 0.0;  // of the facets' unit normals with the light
+  int count = lobesHere(e.count);
   int i = 0;
   do {
     Lobe lobe = lobeOf(lobes[i], weights[i]);
     sum += lobe.amount * densityOf(lobe, h) * geometryFactor(lobe.base, geometryAxis(e.normal, lobe.mean), h, wi, wo);
     cosine += weights[i].y * max(dot(lobe.mean, wi), 0.0);
-  } while (++i < e.count);
+  } while (++i < count);
   Reflected r;
   r.specular = vec3(0.0);
   if (halfVectorIsDefined(wi, wo)) r.specular = fresnelTerm(s.f0, wi, wo) * (sum / amountsOf(e.covered));

@@ -15,6 +15,19 @@ int edge_of(const gl::ContextInfo& context, int wanted) {
   return wanted > 0 ? std::min(wanted, most) : most;
 }
 
+// The means of a counting frame over the pixels that the object covers wholly; 0 without one.
+glm::dvec3 mean_counts(const FrameRenderer& counting, const View& view) {
+  const Image counts = counting.render(view);
+  glm::dvec3 sum(0.0);
+  double pixels = 0;
+  for (std::size_t i = 0; i < counts.texels.size(); i += 4) {
+    if (counts.texels[i + 3] < 1.0F) continue;
+    sum += glm::dvec3(counts.texels[i], counts.texels[i + 1], counts.texels[i + 2]);
+    ++pixels;
+  }
+  return pixels > 0 ? sum / pixels : sum;
+}
+
 }  // namespace
 
 FrameRenderer::FrameRenderer(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method,
@@ -75,17 +88,13 @@ void clear_target() {
 }
 
 PixelWork pixel_work(const FrameRenderer& counting, const View& view) {
-  const Image counts = counting.render(view);
-  PixelWork sum;
-  std::size_t pixels = 0;
-  for (std::size_t i = 0; i < counts.texels.size(); i += 4) {
-    if (counts.texels[i + 3] < 1.0F) continue;
-    sum.lookups += counts.texels[i];
-    sum.lobes += counts.texels[i + 1];
-    ++pixels;
-  }
-  if (pixels == 0) return {};
-  return {sum.lookups / static_cast<double>(pixels), sum.lobes / static_cast<double>(pixels)};
+  const glm::dvec3 means = mean_counts(counting, view);
+  return {.lookups = means.x, .lobes = means.y};
+}
+
+PixelTrips pixel_trips(const FrameRenderer& counting, const View& view) {
+  const glm::dvec3 means = mean_counts(counting, view);
+  return {.probes = means.x, .lobes = means.y, .rounds = means.z};
 }
 
 }  // namespace footprint

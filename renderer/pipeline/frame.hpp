@@ -54,7 +54,17 @@ struct PixelWork {
   double lobes = 0.0;    ///< lobe evaluations, over all lights
 };
 
-/// Counts one frame of a program whose settings are `counting`. Both are 0 if no pixel is covered.
+/// Counts one frame of a program that counts work. Both are 0 if no pixel is covered.
 [[nodiscard]] PixelWork pixel_work(const FrameRenderer& counting, const View& view);
+
+/// Mean rounds per loop over those pixels; 0 if a program has no such loop.
+struct PixelTrips {
+  double probes = 0.0;  ///< probes of a footprint, or parts of a `shaded` one
+  double lobes = 0.0;   ///< lobes of a method whose number depends on the pixel
+  double rounds = 0.0;  ///< other rounds of such methods
+};
+
+/// Counts one frame of a program that counts trips.
+[[nodiscard]] PixelTrips pixel_trips(const FrameRenderer& counting, const View& view);
 
 }  // namespace footprint

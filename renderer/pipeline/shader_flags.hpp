@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/prefiltered.hpp"
@@ -47,13 +48,27 @@ inline constexpr std::array<Word<EnvironmentUse>, 2> reference_integrals{{
     {EnvironmentUse::dense, "dense"},
 }};
 
+/// The figures that a program writes instead of radiance.
+enum class Counting {
+  none,
+  work,   ///< texture lookups and lobe evaluations
+  trips,  ///< mean rounds of the loops over probes, over lobes, and over the parts of a method
+};
+
+/// The rounds of each loop in a program that is compiled to estimate its cost; at least 1 each.
+struct FixedTrips {
+  int probes = 1, lobes = 1, rounds = 1;
+  int point_lights = 1, spot_lights = 1, directional_lights = 1;
+};
+
 /// What a program is compiled for. Equal variants give equal text.
 struct ShaderVariant {
   EffectSet effects;
   BaseBrdf brdf;
   Sampling sampling = Sampling::frame;
   FootprintFilter footprint{};  ///< of a frame
-  bool counting = false;        ///< writes counts of lookups and lobe evaluations instead of radiance
+  Counting counting = Counting::none;
+  std::optional<FixedTrips> fixed_trips{};  ///< loops with constant numbers of rounds
   bool orthographic = false;
   bool horizon_open = false;         ///< light from below the vertices' plane arrives (Horizon::open)
   bool shared_coordinates = false;   ///< all maps of the scene are looked up at one uv

@@ -46,6 +46,21 @@ std::string light_capacities(const ShaderVariant& v) {
   return text;
 }
 
+std::string fixed_trips(const std::optional<FixedTrips>& trips) {
+  if (!trips) return {};
+  std::string text;
+  const auto constant = [&](std::string_view name, int value) {
+    text += fmt::format("const int {} = {};\n", name, value);
+  };
+  constant("fixed_probes", trips->probes);
+  constant("fixed_lobes", trips->lobes);
+  constant("fixed_rounds", trips->rounds);
+  constant("point_light_count", trips->point_lights);
+  constant("spot_light_count", trips->spot_lights);
+  constant("directional_light_count", trips->directional_lights);
+  return text;
+}
+
 std::string number_options(const Options& options) {
   std::string text;
   for (const OptionSpec& option : options.specs()) {
@@ -155,7 +170,7 @@ ForwardShaders forward_shaders(const ShaderVariant& variant, const TextureUnits&
   vertex.add(version_line);
   vertex.include("surface_vertex.glsl");
   ShaderText fragment = module_text(flags, module);
-  fragment.add(units.declarations() + light_capacities(variant));
+  fragment.add(units.declarations() + light_capacities(variant) + fixed_trips(variant.fixed_trips));
   fragment.include("surface_lights.glsl");
   add_method_pass(fragment, variant, flags, options, prefiltered, "surface_fragment.glsl");
   return {vertex.text(), std::move(fragment)};

@@ -29,6 +29,13 @@ class TextureUnits {
   /// sampler: its type in the shader.
   void add(std::string_view name, std::string_view sampler);
 
+  /// A texture and its type in the shader.
+  struct Texture {
+    std::string name;
+    std::string_view sampler;
+  };
+  /// In the order of the units.
+  [[nodiscard]] const std::vector<Texture>& textures() const { return textures_; }
   [[nodiscard]] std::size_t size() const { return textures_.size(); }
   /// Throws std::logic_error if there is no such texture.
   [[nodiscard]] GLuint unit(std::string_view name) const;
@@ -41,10 +48,6 @@ class TextureUnits {
   void require_all_of(const gl::Program& program, const std::string& method) const;
 
  private:
-  struct Texture {
-    std::string name;
-    std::string_view sampler;
-  };
   std::vector<Texture> textures_;
 };
 

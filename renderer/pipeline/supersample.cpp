@@ -19,7 +19,7 @@ ProgramSettings settings_of(ReferenceFilter filter, bool orthographic, Environme
   return {.sampling = filter == ReferenceFilter::after_shading ? Sampling::texel : Sampling::point,
           .sampler_state = filter == ReferenceFilter::bilinear ? SamplerState::trilinear : SamplerState::nearest,
           .footprint = {},
-          .counting = false,
+          .counting = Counting::none,
           .orthographic = orthographic,
           .environment = environment};
 }

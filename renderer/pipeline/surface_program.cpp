@@ -43,6 +43,7 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
           .sampling = settings.sampling,
           .footprint = settings.footprint,
           .counting = settings.counting,
+          .fixed_trips = settings.fixed_trips,
           .orthographic = settings.orthographic,
           .horizon_open = scene.horizon() == Horizon::open,
           .shared_coordinates = scene.shared_coordinates(),
@@ -128,6 +129,35 @@ void set_state(const GpuBatch& batch) {
   set(GL_BLEND, batch.adds);
   gl::api().BlendFunc(GL_ONE, GL_ONE);
   gl::api().DepthFunc(batch.adds ? GL_EQUAL : GL_GREATER);
+}
+
+GLint texture_parameter(GLuint texture, GLint level, GLenum name) {
+  GLint value = 0;
+  gl::api().GetTextureLevelParameteriv(texture, level, name, &value);
+  return value;
+}
+
+// What a unit has bound: the texture's format and size, and whether the sampler blends levels.
+BoundTexture bound_texture(const std::string& name, GLuint unit, bool is_array) {
+  gl::api().ActiveTexture(GL_TEXTURE0 + unit);
+  GLint texture = 0, sampler = 0, filter = 0;
+  gl::api().GetIntegerv(is_array ? GL_TEXTURE_BINDING_2D_ARRAY : GL_TEXTURE_BINDING_2D, &texture);
+  gl::api().GetIntegerv(GL_SAMPLER_BINDING, &sampler);
+  if (sampler != 0) gl::api().GetSamplerParameteriv(static_cast<GLuint>(sampler), GL_TEXTURE_MIN_FILTER, &filter);
+  BoundTexture bound{.name = name};
+  const auto id = static_cast<GLuint>(texture);
+  for (const GLenum channel :
+       {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE, GL_TEXTURE_ALPHA_SIZE, GL_TEXTURE_DEPTH_SIZE})
+    bound.bits += texture_parameter(id, 0, channel);
+  int levels = 0;
+  for (double texels = 1; levels < 16; ++levels) {
+    texels = static_cast<double>(texture_parameter(id, levels, GL_TEXTURE_WIDTH)) *
+             texture_parameter(id, levels, GL_TEXTURE_HEIGHT) * texture_parameter(id, levels, GL_TEXTURE_DEPTH);
+    if (texels == 0) break;
+    bound.bytes += texels * bound.bits / 8.0;
+  }
+  bound.trilinear = filter == GL_LINEAR_MIPMAP_LINEAR && levels > 1;
+  return bound;
 }
 
 bool waits(const Prefiltered& prefiltered) {
@@ -246,15 +276,26 @@ void GpuMethod::bind(const GpuBatch& batch, GpuScene& scene, SamplerState state)
   if (part.block.name() != 0) gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::method, part.block.name());
 }
 
+ForwardProgram forward_program(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings) {
+  ShaderVariant variant = variant_of(scene, baked, settings);
+  TextureUnits units = forward_units(variant, baked.materials.front());
+  units.require_room(scene.context(), baked.spec.text);
+  ForwardShaders shaders =
+      forward_shaders(variant, units, baked.method->shader(), baked.options, baked.materials.front());
+  return {.variant = variant, .units = std::move(units), .shaders = std::move(shaders)};
+}
+
 SurfaceProgram::SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings)
-    : variant_(variant_of(scene, baked, settings)),
+    : SurfaceProgram(scene, baked, settings, forward_program(scene, baked, settings)) {}
+
+SurfaceProgram::SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings,
+                               ForwardProgram program)
+    : variant_(program.variant),
       sampler_state_(sampler_state_of(settings, scene.context())),
       scene_effects_(scene.effects()),
-      units_(forward_units(variant_, baked.materials.front())) {
-  units_.require_room(scene.context(), baked.spec.text);
-  const ForwardShaders shaders =
-      forward_shaders(variant_, units_, baked.method->shader(), baked.options, baked.materials.front());
-  fragment_text_ = shaders.fragment.text();
+      units_(std::move(program.units)),
+      fragment_text_(program.shaders.fragment.text()) {
+  const ForwardShaders& shaders = program.shaders;
   program_ =
       gl::Program(fmt::format("{} ({})", baked.spec.text, shaders.fragment.lines()), shaders.vertex, fragment_text_);
   units_.require_all_of(program_, baked.spec.text);
@@ -357,6 +398,15 @@ void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& 
     gl::api().DrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT, nullptr);
   }
   gl::api().Disable(GL_BLEND);
+}
+
+std::vector<BoundTexture> SurfaceProgram::bound_textures() const {
+  std::vector<BoundTexture> bound;
+  for (GLuint unit = 0; unit < units_.size(); ++unit) {
+    const TextureUnits::Texture& texture = units_.textures()[unit];
+    bound.push_back(bound_texture(texture.name, unit, texture.sampler != "sampler2D"));
+  }
+  return bound;
 }
 
 bool waits_for_build(const BakedMethod& baked) { return std::ranges::any_of(baked.materials, waits); }

@@ -104,9 +104,29 @@ struct ProgramSettings {
   Sampling sampling = Sampling::frame;
   SamplerState sampler_state = SamplerState::trilinear;  ///< of samples; a frame's follows from its footprint
   FootprintFilter footprint{};                           ///< of a frame
-  bool counting = false;  ///< writes texture lookups and lobe evaluations per pixel instead of radiance
+  Counting counting = Counting::none;
+  std::optional<FixedTrips> fixed_trips{};  ///< of a program that is only compiled, for its cost
   bool orthographic = false;
   EnvironmentUse environment = EnvironmentUse::sampled;  ///< dense for all; sampled: of a module that draws directions
+};
+
+/// The texts of a forward pass, not compiled yet.
+struct ForwardProgram {
+  ShaderVariant variant;
+  TextureUnits units;
+  ForwardShaders shaders;
+};
+
+/// The forward pass of a method over a scene. Throws Error (machine): as TextureUnits::require_room.
+[[nodiscard]] ForwardProgram forward_program(const GpuScene& scene, const BakedMethod& baked,
+                                             const ProgramSettings& settings);
+
+/// A texture of a program, as a draw leaves it bound.
+struct BoundTexture {
+  std::string name;
+  int bits = 0;            ///< of a texel
+  bool trilinear = false;  ///< its sampler blends two levels, and it has several
+  double bytes = 0;        ///< of all levels and layers
 };
 
 /// One compiled forward pass.
@@ -122,8 +142,12 @@ class SurfaceProgram {
             const SampleDraw& samples = {}) const;
 
   [[nodiscard]] const std::string& fragment_text() const { return fragment_text_; }
+  /// The textures that the last draw of this program bound, of the last material, in the order of their units. No other
+  /// program may have drawn since.
+  [[nodiscard]] std::vector<BoundTexture> bound_textures() const;
 
  private:
+  SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings, ForwardProgram program);
   void set_samples(const SampleDraw& samples) const;
   void set_directions(const SampleDraw& samples) const;
   void set_digits(const char* directions, const char* choices, std::span<const std::uint32_t> indices) const;

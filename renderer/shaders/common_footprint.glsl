@@ -117,6 +117,36 @@ void countLookups(int count) {}
 void countLobes(int count) {}
 //? end
 
+// The numbers of rounds of the loops that depend on the pixel. Programs whose cost a GPU's compiler estimates have
+// constants instead, because the compiler must unroll these loops to know their cost (docs/gpu-cost.md). A program that
+// counts rounds writes their means over the loops of a pixel.
+//? if fixed_trips
+int probesHere(int count) { return fixed_probes; }
+int lobesHere(int count) { return fixed_lobes; }
+bool anotherRound(int done, bool more) { return done < fixed_rounds; }
+//? elif counting_trips
+ivec2 probe_trips = ivec2(0);  // rounds and loops
+ivec2 lobe_trips = ivec2(0);
+ivec2 walk_trips = ivec2(0);
+int probesHere(int count) {
+  probe_trips += ivec2(count, 1);
+  return count;
+}
+int lobesHere(int count) {
+  lobe_trips += ivec2(count, 1);
+  return count;
+}
+bool anotherRound(int done, bool more) {
+  if (!more) walk_trips += ivec2(done, 1);
+  return more;
+}
+float meanTrips(ivec2 trips) { return float(trips.x) / float(max(trips.y, 1)); }
+//? else
+int probesHere(int count) { return count; }
+int lobesHere(int count) { return count; }
+bool anotherRound(int done, bool more) { return more; }
+//? end
+
 const float any_level = 1e3;  // no level is as coarse
 
 //? if sampling_frame

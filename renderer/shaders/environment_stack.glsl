@@ -279,7 +279,7 @@ vec3 tailedRadiance(Effective e, int i, NormalLobe lobe, float geometry, vec3 f0
 
 vec3 environmentSpecular(Effective e, vec3 f0, vec3 wo, mat3 frame) {
   vec3 radiance = vec3(0.0);
-  int count = lobeCount(e);
+  int count = lobesHere(lobeCount(e));
   int i = 0;
   do {
     NormalLobe lobe = normalLobe(e, i);

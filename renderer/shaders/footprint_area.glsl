@@ -146,7 +146,7 @@ Probes probesOf(vec2 size, Footprint f) {
   p.hem = hemOf(wide);
   p.pairs = pairsOf(wide + length(vec2(p.lean * min(2.0 * p.reach, 2.0), smear.x)) - 2.0 * p.hem);
   p.per_pairs = 1.0 / p.pairs;
-  p.count = int(p.strips * p.pairs);
+  p.count = probesHere(int(p.strips * p.pairs));
   return p;
 }
 

@@ -36,7 +36,7 @@ Probes probesOf(vec2 size, Footprint f) {
   float along_y = length(f.dy * size);
   float major = max(max(along_x, along_y), 1e-12);
   float minor = min(along_x, along_y);
-  int count = int(ceil(min(0.999 * major / max(minor, 1e-12), float(most_probes))));
+  int count = probesHere(int(ceil(min(0.999 * major / max(minor, 1e-12), float(most_probes)))));
   vec2 axis = along_x > along_y ? f.dx : f.dy;
   return Probes(count, log2(major / float(count)), axis / float(count + 1), 1.0 / float(count));
 }
@@ -46,7 +46,7 @@ float probeWeight(Probes p, int i) { return p.weight; }
 //? elif filter_box
 // n x n equal probes at the centres of parts that tile the footprint.
 Probes probesOf(vec2 size, Footprint f) {
-  return Probes(footprint_parts * footprint_parts, levelOf(size, f, float(footprint_parts)));
+  return Probes(probesHere(footprint_parts * footprint_parts), levelOf(size, f, float(footprint_parts)));
 }
 
 vec2 probeUv(Footprint f, Probes p, int i) {
@@ -82,7 +82,7 @@ Probes probesOf(vec2 size, Footprint f) {
   // Area over longer radius, because the difference of the roots would cancel.
   float minor = abs(edge_x.x * edge_y.y - edge_x.y * edge_y.x) / major;
   float width = max(minor, 1.0);  // no texel is finer than the finest
-  int count = clamp(int(ceil(2.0 * major / width - 1.0)), 1, most_probes);
+  int count = probesHere(clamp(int(ceil(2.0 * major / width - 1.0)), 1, most_probes));
   width = max(width, 2.0 * major / float(count + 1));
   // The eigenvector, from the row without cancellation.
   vec2 along = a >= c ? vec2(0.5 * (a - c + root), b) : vec2(b, 0.5 * (c - a + root));

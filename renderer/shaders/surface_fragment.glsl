@@ -236,7 +236,7 @@ Surface surfaceUnder(Footprints f, vec3 base_color) {
 float meanAlpha(Footprints f) {
 //? if filter_shaded
   float sum = 0.0;
-  int parts = footprint_parts * footprint_parts;
+  int parts = probesHere(footprint_parts * footprint_parts);
   for (int i = 0; i < parts; ++i) sum += baseColor(partOf(f, i)).a;
   return sum / float(parts);
 //? else
@@ -268,7 +268,7 @@ vec3 meanReflected(Footprints f, mat3 frame, vec3 wo) {
 //? if filter_shaded
   findLight(frame);
   vec3 sum = vec3(0.0);
-  int parts = footprint_parts * footprint_parts;
+  int parts = probesHere(footprint_parts * footprint_parts);
   int i = 0;
   do {
     sum += reflectedBy(partOf(f, i), frame, wo);
@@ -345,7 +345,9 @@ void main() {
   if (nothing_to_shade) radiance = vec3(0.0);
 //? end
 //? end
-//? if counting
+//? if counting_trips
+  radiance = vec3(meanTrips(probe_trips), meanTrips(lobe_trips), meanTrips(walk_trips));
+//? elif counting
   radiance = vec3(lookups, lobe_evaluations, 0.0);
 //? end
 //? if material_index

@@ -1,0 +1,50 @@
+// Programs and compiled stages as files: how a process that compiles gets its work and returns it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "renderer/core/progress.hpp"
+#include "renderer/gpu_cost/chips.hpp"
+#include "renderer/gpu_cost/spirv.hpp"
+#include "renderer/gpu_cost/vulkan_compiler.hpp"
+
+namespace footprint {
+
+/// A compiled program, or why the driver failed.
+struct CompileOutcome {
+  std::optional<CompiledStage> stage;
+  std::string failure;
+};
+
+/// The outcomes for a chip.
+struct ChipOutcomes {
+  std::string device;  ///< the driver's name of it
+  std::vector<CompileOutcome> programs;
+};
+
+/// Compiles programs for one chip. A program at which the driver fails or crashes costs only its own outcome.
+/// Throws Error (machine): no driver; an interrupt through `progress`.
+using GpuCompiler =
+    std::function<ChipOutcomes(const Chip& chip, std::span<const SpirvProgram> programs, const Progress& progress)>;
+
+/// Writes each program into `folder`. Throws Error (machine): the disk is full.
+void write_programs(std::span<const SpirvProgram> programs, const std::filesystem::path& folder);
+
+/// Compiles the programs of `folder` that have no outcome there, in their order, and writes each outcome next to it.
+/// An outcome says "was interrupted" until its program is compiled, so that a crash leaves that.
+/// Throws Error (machine): as VulkanCompiler.
+void compile_programs(const std::filesystem::path& folder);
+
+/// Whether `folder` has an outcome for every program.
+/// count: of the programs.
+[[nodiscard]] bool all_are_compiled(const std::filesystem::path& folder, std::size_t count);
+
+/// The outcomes of `folder`. Throws Error (machine): one is missing.
+[[nodiscard]] ChipOutcomes read_outcomes(const std::filesystem::path& folder, std::size_t count);
+
+}  // namespace footprint

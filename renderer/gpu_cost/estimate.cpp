@@ -1,0 +1,86 @@
+// A roofline: arithmetic, texture units and memory each take their time, and the slowest one counts.
+#include "renderer/gpu_cost/estimate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace footprint {
+namespace {
+
+constexpr double pixels_of_a_wave = 64;
+constexpr double pixel_bytes = 8;               // of a target of four half floats
+constexpr double largest_cached_table = 65536;  // bytes; smaller textures stay in the caches
+// A sample of the level that fits the pixel moves by one texel from pixel to pixel, and by a quarter on the next level.
+constexpr double new_texels_of_a_sample = 1.25;
+
+double rate_of(const Generation& generation, int bits) {
+  return bits <= 32 ? 1.0 : bits <= 64 ? generation.rate_64 : generation.rate_128;
+}
+
+// Clocks of a SIMD for a wave. A quarter-rate unit of its own needs the SIMD only to start.
+double alu_clocks(const Generation& generation, const Instructions& work) {
+  const double apart = generation.quarter_apart ? work.quarter * generation.full_clocks : 0.0;
+  const double quarter = work.quarter * generation.quarter_clocks;
+  const double vector = work.full * generation.full_clocks + (generation.quarter_apart ? apart : quarter);
+  return std::max({vector, quarter, work.scalar * generation.scalar_clocks});
+}
+
+// The lookups of shaders; a gather counts once for each of its reads.
+void add_texture(CostEstimate& estimate, const Chip& chip, const TextureReads& reads, const TextureCost& texture) {
+  const double samples = std::max(reads.samples, 0.0), gathers = std::max(reads.gathers, 0.0);
+  const double loads = std::max(reads.loads, 0.0);
+  const double bytes = texture.bits / 8.0;
+  const double levels = texture.trilinear ? 2.0 : 1.0;
+  estimate.texture_reads += samples + gathers + loads;
+  const auto count = [&](double number, const char* kind) {
+    if (number > 0) estimate.reads_by_format[fmt::format("{}-bit {}", texture.bits, kind)] += number;
+  };
+  count(samples, texture.trilinear ? "trilinear" : "bilinear");
+  count(gathers, "gather");
+  count(loads, "load");
+  estimate.bytes_fetched += bytes * (4.0 * levels * samples + 4.0 * gathers + loads);
+  if (texture.bytes > largest_cached_table)
+    estimate.bytes_from_memory += bytes * (new_texels_of_a_sample * samples + gathers + loads);
+  const double rate = chip.generation->filtered_per_clock * rate_of(*chip.generation, texture.bits);
+  estimate.texture_ns += (levels * samples + gathers + loads) / (rate * chip.compute_units * chip.ghz);
+}
+
+}  // namespace
+
+double CostEstimate::cost_ns() const { return std::max({arithmetic_ns, texture_ns, bandwidth_ns}); }
+
+CostBound CostEstimate::bound() const {
+  if (arithmetic_ns >= texture_ns && arithmetic_ns >= bandwidth_ns) return CostBound::arithmetic;
+  return texture_ns >= bandwidth_ns ? CostBound::textures : CostBound::bandwidth;
+}
+
+Instructions frame_work(const std::vector<WeighedWork>& works, double lookups, double& loop_rounds) {
+  Instructions straight, looped;
+  for (const WeighedWork& one : works) {
+    straight.add(one.work.straight, one.weight);
+    looped.add(one.work.looped, one.weight);
+  }
+  loop_rounds = 1.0;
+  if (const double reads = looped.texture_reads(); reads > 0)
+    loop_rounds = std::max((lookups - straight.texture_reads()) / reads, 1.0);
+  straight.add(looped, loop_rounds);
+  return straight;
+}
+
+CostEstimate estimate(const Chip& chip, const std::vector<WeighedWork>& works, double lookups,
+                      const std::map<int, TextureCost>& textures) {
+  CostEstimate estimate;
+  const Instructions work = frame_work(works, lookups, estimate.loop_rounds);
+  estimate.alu_clocks = alu_clocks(*chip.generation, work) / pixels_of_a_wave;
+  estimate.arithmetic_ns = estimate.alu_clocks / (chip.compute_units * chip.generation->simds * chip.ghz);
+  for (const auto& [binding, reads] : work.textures) {
+    const auto found = textures.find(binding);
+    add_texture(estimate, chip, reads, found == textures.end() ? TextureCost{} : found->second);
+  }
+  estimate.bytes_from_memory += pixel_bytes;
+  estimate.bandwidth_ns = estimate.bytes_from_memory / chip.gigabytes_per_second;
+  return estimate;
+}
+
+}  // namespace footprint

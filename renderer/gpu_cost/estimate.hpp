@@ -1,0 +1,66 @@
+// The cost of a frame on a chip: the counted work of a program against the chip's rates.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "renderer/core/names.hpp"
+#include "renderer/gpu_cost/chips.hpp"
+#include "renderer/gpu_cost/shader_work.hpp"
+
+namespace footprint {
+
+/// What a texture costs to read.
+struct TextureCost {
+  std::string name;
+  int bits = 128;          ///< of a texel
+  bool trilinear = false;  ///< samples blend two mip levels
+  double bytes = 0;        ///< of all levels and layers
+};
+
+/// A compiled program that counts `weight` times in a frame's work. The weights of one frame add up to 1: loops that
+/// run n times cost what one round costs, and n - 1 times what a further round adds.
+struct WeighedWork {
+  double weight = 1;
+  ShaderWork work;
+};
+
+/// The bound that a frame's cost comes from.
+enum class CostBound { arithmetic, textures, bandwidth };
+
+inline constexpr std::array<Word<CostBound>, 3> cost_bounds{{
+    {CostBound::arithmetic, "arithmetic"},
+    {CostBound::textures, "textures"},
+    {CostBound::bandwidth, "bandwidth"},
+}};
+
+/// An estimate for one pixel that the object covers.
+struct CostEstimate {
+  double alu_clocks = 0;                          ///< of one SIMD, arithmetic of all kinds
+  double texture_reads = 0;                       ///< texture instructions
+  std::map<std::string, double> reads_by_format;  ///< such as "64-bit trilinear"
+  double bytes_fetched = 0;                       ///< by all reads, before any cache
+  double bytes_from_memory = 0;                   ///< of texels new to the pixel, and of the pixel itself
+  double loop_rounds = 1;                         ///< rounds of the loops that the compiler did not unroll
+  double arithmetic_ns = 0, texture_ns = 0, bandwidth_ns = 0;
+
+  /// The largest of the three, nanoseconds; so many milliseconds per million pixels.
+  [[nodiscard]] double cost_ns() const;
+  [[nodiscard]] CostBound bound() const;
+};
+
+/// The work of a frame per pixel: the weighed sum, with loops that were not unrolled run until the lookups agree with
+/// those that were counted.
+/// works: the programs of the frame; at least one.
+/// lookups: texture lookups per pixel, counted on the software renderer.
+/// loop_rounds: set to the rounds; 1 without such loops, or if they read no texture.
+[[nodiscard]] Instructions frame_work(const std::vector<WeighedWork>& works, double lookups, double& loop_rounds);
+
+/// The estimate on a chip.
+/// textures: by binding.
+[[nodiscard]] CostEstimate estimate(const Chip& chip, const std::vector<WeighedWork>& works, double lookups,
+                                    const std::map<int, TextureCost>& textures);
+
+}  // namespace footprint

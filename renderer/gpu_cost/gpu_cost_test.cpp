@@ -1,0 +1,180 @@
+// Counts of programs that are known, by the driver's own compiler, and the arithmetic of an estimate. CTest sets the
+// chip (RADV_FORCE_FAMILY).
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "renderer/core/error.hpp"
+#include "renderer/gpu_cost/chips.hpp"
+#include "renderer/gpu_cost/estimate.hpp"
+#include "renderer/gpu_cost/shader_work.hpp"
+#include "renderer/gpu_cost/spirv.hpp"
+#include "renderer/gpu_cost/vulkan_compiler.hpp"
+
+namespace footprint {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* vertex_text =
+    "#version 450 core\nout vec4 place;\nvoid main() { place = vec4(gl_VertexID); gl_Position = vec4(0.0); }\n";
+
+// A fragment stage that declares two textures and computes `color` by the statements.
+std::string fragment_text(const std::string& statements) {
+  return "#version 450 core\nin vec4 place;\nlayout(binding = 0) uniform sampler2D first;\n"
+         "layout(binding = 1) uniform sampler2DArray second;\nlayout(location = 0) out vec4 color;\n"
+         "uniform int count;\nvoid main() {\n  vec4 sum = place;\n" +
+         statements + "  color = sum;\n}\n";
+}
+
+std::string repeated(int times, const std::string& statement) {
+  std::string text;
+  for (int i = 0; i < times; ++i) text += "  " + statement + "\n";
+  return text;
+}
+
+// Compiles on the chip of this process.
+class Driver : public testing::Test {
+ protected:
+  static const VulkanCompiler& compiler() {
+    static const VulkanCompiler only;
+    return only;
+  }
+
+  static std::string code_of(const std::string& statements) {
+    return compiler().compile(spirv_program("test", vertex_text, fragment_text(statements))).code;
+  }
+
+  static int between() {
+    static const int bytes =
+        descriptor_bytes(code_of("sum += textureLod(first, place.xy, 0.0) + textureLod(second, place.xyz, 0.0);\n"));
+    return bytes;
+  }
+
+  static ShaderWork work_of(const std::string& statements) { return shader_work(code_of(statements), between()); }
+};
+
+TEST_F(Driver, CountsEachFetchAtItsTexture) {
+  for (const int n : {1, 3, 8}) {
+    const ShaderWork work = work_of(repeated(n, "sum = textureLod(first, sum.xy, 0.0) + place;") +
+                                    repeated(2, "sum += textureLod(second, sum.xyz, 0.0);") +
+                                    "  sum += texelFetch(first, ivec2(sum.xy), 0);\n");
+    ASSERT_EQ(work.straight.textures.size(), 2U) << n;
+    EXPECT_EQ(work.straight.textures.at(0).samples, n);
+    EXPECT_EQ(work.straight.textures.at(0).loads, 1);
+    EXPECT_EQ(work.straight.textures.at(1).samples, 2);
+    EXPECT_EQ(work.straight.texture_reads(), n + 3);
+  }
+}
+
+TEST_F(Driver, CountsGathers) {
+  const ShaderWork work = work_of("  sum = textureGather(first, sum.xy, 0) + textureGather(first, sum.xy, 1);\n");
+  EXPECT_EQ(work.straight.textures.at(0).gathers, 2);
+}
+
+// n dependent multiply-adds of one channel are n instructions at full rate; n reciprocals are n at a quarter of it.
+TEST_F(Driver, CountsArithmetic) {
+  const auto multiply_adds = [](int n) { return work_of(repeated(n, "sum.x = sum.x * place.y + place.z;")); };
+  const auto reciprocals = [](int n) { return work_of(repeated(n, "sum.x = 1.0 / (sum.x + place.y);")); };
+  const double none = multiply_adds(0).straight.full;
+  for (const int n : {16, 64}) {
+    EXPECT_NEAR(multiply_adds(n).straight.full - none, n, 1) << n;
+    EXPECT_EQ(reciprocals(n).straight.quarter, n);
+  }
+}
+
+TEST_F(Driver, KeepsLoopsOfUnknownLengthApart) {
+  const ShaderWork work = work_of(
+      "  sum += textureLod(first, sum.xy, 0.0);\n"
+      "  for (int i = 0; i < count; ++i) sum += textureLod(second, vec3(sum.xy, i), 0.0);\n");
+  EXPECT_EQ(work.straight.textures.at(0).samples, 1);
+  EXPECT_EQ(work.looped.textures.at(1).samples, 1);
+  EXPECT_FALSE(work.straight.textures.contains(1));
+}
+
+TEST_F(Driver, GivesEqualCodeForEqualPrograms) {
+  const std::string statements = repeated(5, "sum = textureLod(first, sum.xy, 0.0) / (sum + 1.0);");
+  EXPECT_EQ(code_of(statements), code_of(statements));
+}
+
+TEST(Spirv, NamesTheProgramAndTheLineOfAFault) {
+  try {
+    (void)spirv_program("broken", vertex_text, "#version 450 core\nvoid main() {\n  nothing();\n}\n");
+    FAIL() << "compiled";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::machine);
+    EXPECT_THAT(error.what(), HasSubstr("broken"));
+    EXPECT_THAT(error.what(), HasSubstr("0:3"));
+    EXPECT_THAT(error.what(), HasSubstr("nothing"));
+  }
+}
+
+TEST(ShaderWork, RefusesTextThatIsNoCode) {
+  EXPECT_THROW((void)shader_work("something else\n", 96), Error);
+  EXPECT_THROW((void)descriptor_bytes("BB0\n\t v1: %1 = v_mul_f32 %2, %3\n"), Error);
+}
+
+TEST(Chips, AreFoundByNameInAnyCase) {
+  EXPECT_EQ(chips_named({"steam deck"}).front()->family, "VANGOGH");
+  EXPECT_EQ(chips_named({"all"}).size(), chips().size());
+  try {
+    (void)chips_named({"RX 6900"});
+    FAIL() << "found";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_THAT(error.what(), HasSubstr("rx 6800"));
+  }
+}
+
+const Chip& deck() { return *chips_named({"Steam Deck"}).front(); }
+
+ShaderWork work_with(double full, double samples) {
+  ShaderWork work;
+  work.straight.full = full;
+  if (samples > 0) work.straight.textures[0].samples = samples;
+  return work;
+}
+
+// 8 units of 2 SIMDs at 1.6 GHz: an instruction of a wave takes 2 clocks of a SIMD, so 2 / 64 / 25.6 ns per pixel.
+TEST(Estimate, IsTheLargestBound) {
+  const std::map<int, TextureCost> textures{{0, {.name = "map", .bits = 32, .trilinear = true, .bytes = 1e6}}};
+  const CostEstimate arithmetic = estimate(deck(), {{1, work_with(640, 1)}}, 1, textures);
+  EXPECT_NEAR(arithmetic.arithmetic_ns, 640 * 2 / 64.0 / 25.6, 1e-12);
+  EXPECT_EQ(arithmetic.bound(), CostBound::arithmetic);
+  const CostEstimate reads = estimate(deck(), {{1, work_with(64, 100)}}, 100, textures);
+  EXPECT_NEAR(reads.texture_ns, 100 * 2 / (4 * 8 * 1.6), 1e-12);
+  EXPECT_NEAR(reads.bandwidth_ns, (100 * 1.25 * 4 + 8) / 88, 1e-12);
+  EXPECT_EQ(reads.bytes_fetched, 100 * 8 * 4);
+  EXPECT_EQ(reads.cost_ns(), std::max(reads.texture_ns, reads.bandwidth_ns));
+}
+
+TEST(Estimate, ExtrapolatesLoopsFromOneRoundAndTwo) {
+  // One round costs 100 instructions and one read, a further one 30 and one: 3.5 rounds are 175 and 3.5.
+  const std::vector<WeighedWork> works{{-1.5, work_with(100, 1)}, {2.5, work_with(130, 2)}};
+  double rounds = 0;
+  const Instructions work = frame_work(works, 3.5, rounds);
+  EXPECT_NEAR(work.full, 175, 1e-9);
+  EXPECT_NEAR(work.texture_reads(), 3.5, 1e-9);
+  EXPECT_EQ(rounds, 1);
+}
+
+TEST(Estimate, RunsRemainingLoopsUntilLookupsAgree) {
+  ShaderWork work = work_with(100, 2);
+  work.looped.full = 10;
+  work.looped.textures[1].loads = 4;
+  double rounds = 0;
+  const Instructions frame = frame_work({{1, work}}, 42, rounds);
+  EXPECT_EQ(rounds, 10);
+  EXPECT_EQ(frame.full, 200);
+  EXPECT_EQ(frame.texture_reads(), 42);
+}
+
+TEST(Estimate, ReadsOfSmallTablesCostNoMemory) {
+  const std::map<int, TextureCost> table{{0, {.name = "table", .bits = 128, .trilinear = false, .bytes = 4096}}};
+  EXPECT_EQ(estimate(deck(), {{1, work_with(1, 10)}}, 10, table).bytes_from_memory, 8);
+}
+
+}  // namespace
+}  // namespace footprint

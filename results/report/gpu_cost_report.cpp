@@ -1,0 +1,113 @@
+// Writes estimated costs as JSON, CSV and Markdown.
+#include "results/report/gpu_cost_report.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "renderer/core/files.hpp"
+#include "renderer/core/memory.hpp"
+#include "results/report/csv_field.hpp"
+#include "results/report/figures.hpp"
+#include "results/report/markdown_table.hpp"
+#include "results/report/record_fields.hpp"
+#include "results/report/results_document.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr const char* cost_schema = "footprint-cost/1";
+
+// The figures of a CSV line, by their names in the JSON.
+constexpr std::array<const char*, 16> csv_columns{
+    "cost_ns",       "bound",         "arithmetic_ns",     "texture_ns",  "bandwidth_ns", "alu_clocks", "issue_clocks",
+    "texture_reads", "bytes_fetched", "bytes_from_memory", "loop_rounds", "instructions", "registers",  "waves",
+    "shader_bytes",  "failure"};
+
+std::string csv_value(const JsonWriter::Json& value) {
+  if (value.is_null()) return {};
+  return csv_field(value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+std::vector<std::string> table_row(const MethodCosts& method, const GpuCost& cost, double first_ns) {
+  if (cost.failure) return {method.method, "", "", *cost.failure, "", "", "", "", ""};
+  return {method.method,
+          three_figures(cost.cost_ns),
+          first_ns > 0 ? three_figures(cost.cost_ns / first_ns) : "",
+          cost.bound,
+          three_figures(cost.alu_clocks),
+          three_figures(cost.texture_reads),
+          three_figures(cost.bytes_fetched),
+          std::to_string(cost.registers),
+          std::to_string(cost.waves)};
+}
+
+std::string gpu_table(const CostReport& report, std::size_t gpu) {
+  std::vector<std::vector<std::string>> rows;
+  const GpuCost& first = report.methods.front().gpus.at(gpu);
+  for (const MethodCosts& method : report.methods)
+    rows.push_back(table_row(method, method.gpus.at(gpu), first.cost_ns));
+  return fmt::format("## {}\n\n", first.gpu) +
+         markdown_table({{"Method", false},
+                         {"ns per pixel"},
+                         {"Over the first"},
+                         {"Bound", false},
+                         {"ALU clocks"},
+                         {"Texture reads"},
+                         {"Bytes fetched"},
+                         {"Registers"},
+                         {"Waves"}},
+                        rows) +
+         "\n";
+}
+
+}  // namespace
+
+void fields(JsonWriter& archive, const CostReport& value) {
+  archive("schema", cost_schema);
+  archive("tool", value.tool);
+  archive("backend", value.backend);
+  archive("scene", value.scene);
+  archive("footprint", value.footprint);
+  archive("compiler", value.compiler);
+  archive("size", std::tie(value.width, value.height));
+  archive("distance", value.distance);
+  archive("methods", value.methods);
+}
+
+std::string cost_json(const CostReport& report) { return json_text(to_json_value(report), 2) + "\n"; }
+
+std::string cost_csv(const CostReport& report) {
+  std::string csv = "method,gpu,lookups,map_bytes,probes,lobes,rounds";
+  for (const char* column : csv_columns) csv += fmt::format(",{}", column);
+  csv += "\r\n";
+  for (const MethodCosts& method : report.methods) {
+    for (const GpuCost& cost : method.gpus) {
+      csv += fmt::format("{},{},{},{},{},{},{}", csv_field(method.method), csv_field(cost.gpu), method.lookups,
+                         method.map_bytes, method.trips.probes, method.trips.lobes, method.trips.rounds);
+      const auto json = to_json_value(cost);
+      for (const char* column : csv_columns) csv += "," + csv_value(json.at(column));
+      csv += "\r\n";
+    }
+  }
+  return csv;
+}
+
+std::string cost_table(const CostReport& report) {
+  std::string text =
+      fmt::format("# Estimated cost on GPUs: {}, {}x{}, distance {:g}, {}\n\n", markdown_escaped(report.scene.name),
+                  report.width, report.height, report.distance, report.footprint);
+  if (report.methods.empty()) return text;
+  for (std::size_t gpu = 0; gpu < report.methods.front().gpus.size(); ++gpu) text += gpu_table(report, gpu);
+  return text +
+         "An estimate from the driver's compiler and published rates, not a measurement (docs/gpu-cost.md): the " +
+         "largest of arithmetic, texture and memory time. 1 ns per pixel is 2.07 ms for 1920x1080 pixels.\n";
+}
+
+void write_cost(const CostReport& report, const std::filesystem::path& folder) {
+  write_file_atomically(folder / "cost.json", cost_json(report));
+  write_file_atomically(folder / "cost.csv", cost_csv(report));
+  write_file_atomically(folder / "table.md", cost_table(report));
+}
+
+}  // namespace footprint

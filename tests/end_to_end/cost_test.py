@@ -1,0 +1,85 @@
+"""Estimated costs on GPUs: the same on every run, ordered as the work is, and one clear error for what cannot be."""
+
+import csv
+import json
+import os
+import subprocess
+import unittest
+
+from whole_runs import PROGRAM, WholeRunTest
+
+SCENE = ["ribbed_plane", "--size", "32x32", "--distance", "2"]
+METHODS = ["direct", "toksvig", "lean", "tan_gmm:n=1", "tan_gmm:n=2", "tan_gmm:n=4"]
+
+
+def cost(*arguments, **variables):
+    command = [PROGRAM, "cost", *map(str, arguments), "-q"]
+    return subprocess.run(command, capture_output=True, text=True, check=False, env=os.environ | variables, timeout=300)
+
+
+class Costs(WholeRunTest):
+    def report(self, name, *arguments):
+        folder = self.folder / name
+        done = cost(*SCENE, *arguments, "-o", folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        report = json.loads((folder / "cost.json").read_text())
+        for method in report["methods"]:
+            for gpu in method["gpus"]:
+                gpu.pop("compile_seconds")
+        return report
+
+    def test_equal_runs_give_equal_estimates(self):
+        first, second = (self.report(name, "--methods", "toksvig,xu_vmf", "--gpu", "Steam Deck") for name in "ab")
+        self.assertEqual(first["methods"], second["methods"])
+
+    def test_costs_rise_with_the_work(self):
+        report = self.report("rise", "--methods", ",".join(METHODS), "--gpu", "RX 480,Steam Deck")
+        self.assertEqual([method["method"] for method in report["methods"]], METHODS)
+        for gpu in range(2):
+            figures = [method["gpus"][gpu] for method in report["methods"]]
+            for figure in figures:
+                self.assertIsNone(figure["failure"])
+                bounds = {name: figure[f"{name}_ns"] for name in ("arithmetic", "bandwidth")}
+                bounds["textures"] = figure["texture_ns"]
+                self.assertEqual(figure["cost_ns"], max(bounds.values()))
+                self.assertEqual(figure["cost_ns"], bounds[figure["bound"]])
+                self.assertEqual(figure["scratch_bytes"], 0)
+            alu = [figure["alu_clocks"] for figure in figures]
+            self.assertLess(alu[0], alu[1])  # direct, toksvig
+            self.assertLess(alu[1], alu[2])  # lean
+            self.assertEqual(alu[3:], sorted(alu[3:]))  # by the number of components
+            self.assertLess(alu[3], alu[5])
+        with open(self.folder / "rise" / "cost.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 2 * len(METHODS))
+        self.assertEqual(float(rows[0]["cost_ns"]), report["methods"][0]["gpus"][0]["cost_ns"])
+
+    def test_more_probes_cost_more(self):
+        figures = [self.report(name, "--methods", "lean", "--gpu", "Steam Deck", "--footprint", name)["methods"][0]
+                   for name in ("box:1", "box:2", "box:4")]
+        self.assertEqual([figure["trips"]["probes"] for figure in figures], [1, 4, 16])
+        reads = [figure["gpus"][0]["texture_reads"] for figure in figures]
+        self.assertEqual([reads[1] / reads[0], reads[2] / reads[0]], [4, 16])
+
+    def assert_fails(self, done, code, *texts):
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+        for text in texts:
+            self.assertIn(text, done.stderr)
+
+    def test_an_unknown_gpu(self):
+        self.assert_fails(cost(*SCENE, "--gpu", "RX 6900"), 2, "--gpu", "rx 6900", "did you mean", "rx 6800")
+
+    def test_a_driver_that_is_not_there(self):
+        done = cost(*SCENE, VK_DRIVER_FILES="/nonexistent/radeon_icd.json")
+        self.assert_fails(done, 3, "VK_DRIVER_FILES", "/nonexistent/radeon_icd.json does not exist")
+
+    def test_a_driver_without_the_compiler(self):
+        files = [name for name in os.listdir("/usr/share/vulkan/icd.d") if name.startswith("lvp_icd")]
+        self.assertTrue(files)
+        done = cost(*SCENE, VK_DRIVER_FILES=f"/usr/share/vulkan/icd.d/{files[0]}")
+        self.assert_fails(done, 3, "--gpu Steam Deck")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -64,7 +64,7 @@ Row row_at(const Stage& stage, const View& view, int repeats) {
   Row row;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     row.ms.push_back(quantile(times.cpu[i], 0.5));
-    row.lookups.push_back(pixel_work(stage.counting_frames(stage.methods()[i]), view).lookups);
+    row.lookups.push_back(pixel_work(stage.counting_frames(stage.methods()[i], Counting::work), view).lookups);
   }
   return row;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/commands.hpp"
+#include "app/gpu_compiler.hpp"
 #include "app/messages.hpp"
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
@@ -62,7 +63,9 @@ Results compare_into(OutputFolder& folder, const RunSettings& settings, bool qui
                                 (folder.path() / "index.html").string()));
   };
   const CompareContext context{
-      .further_times = [&] { return times_of_processes(others, {}, folder.path(), of_others); }, .so_far = so_far};
+      .further_times = [&] { return times_of_processes(others, {}, folder.path(), of_others); },
+      .so_far = so_far,
+      .gpu_compiler = amd_compiler()};
   Results results = run_compare(settings, folder.path(), parts.next(main_process_weight, ""), context);
   keep_results(results, folder, write_report);
   return results;

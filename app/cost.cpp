@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "app/commands.hpp"
 #include "app/gpu_compiler.hpp"
@@ -21,7 +20,6 @@ constexpr const char* cost_examples =
     "Compiles each method's program with Mesa's compiler for AMD GPUs, which needs no GPU, and combines the "
     "instructions\n"
     "with the loop counts of the frame and the published rates of each chip. It is an estimate (docs/gpu-cost.md).\n"
-    "GPUs: PS4, Xbox One, RX 480, RX Vega 64, RX 5700 XT, RX 6800, Steam Deck, RX 7900 XTX.\n"
     "\n"
     "Examples:\n"
     "  footprint cost model.gltf\n"
@@ -32,16 +30,14 @@ struct CostArguments {
   explicit CostArguments(CLI::App& command) : run(command) {}
 
   RunOptions run;
-  std::vector<std::string> gpus{"Steam Deck", "RX 6800"};
   std::string output;  // empty: the table is only printed
   bool quiet = false;
 };
 
 void run_cost(const CostArguments& arguments) {
-  const std::vector<const Chip*> chips = chips_named(arguments.gpus);
   const RunSettings settings = arguments.run.settings();
   ProgressDisplay display(progress_style(arguments.quiet));
-  CostReport report = estimate_costs(settings, chips, amd_compiler(), display.callback());
+  CostReport report = estimate_costs(settings, amd_compiler(), display.callback());
   display.finish();
   sign(report.tool, report.backend);
   if (!arguments.output.empty()) {
@@ -61,9 +57,6 @@ void run_cost(const CostArguments& arguments) {
 void add_cost_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("cost", "Estimate what methods cost on GPUs, without a GPU");
   const auto arguments = std::make_shared<CostArguments>(*command);
-  command->add_option("--gpu", arguments->gpus, "GPUs by name, or `all`; default: Steam Deck,RX 6800")
-      ->type_name("NAME,...")
-      ->delimiter(',');
   command->add_option("-o,--output", arguments->output, "Folder for cost.json, cost.csv, table.md; default: none")
       ->type_name("DIR");
   add_quiet_flag(*command, arguments->quiet);

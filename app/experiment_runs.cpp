@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include "app/gpu_compiler.hpp"
 #include "app/messages.hpp"
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
@@ -41,7 +42,8 @@ Results run_into(const Experiment& experiment, OutputFolder& folder, const Finis
   const CompareContext context{
       .further_times = further_times_of(experiment, folder.path(), parts.next(experiment.run.timing.processes - 1, "")),
       .finished = &finished,
-      .watch = watch};
+      .watch = watch,
+      .gpu_compiler = amd_compiler()};
   Results results = run_experiment(experiment, folder.path(), parts.next(main_process_weight, ""), context);
   keep_results(results, folder, write_report);
   return results;

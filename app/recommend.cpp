@@ -5,14 +5,17 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <memory>
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "app/commands.hpp"
 #include "app/experiment_runs.hpp"
+#include "app/gpu_compiler.hpp"
 #include "app/messages.hpp"
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
@@ -34,6 +37,7 @@ constexpr const char* recommend_examples =
     "  footprint recommend model.gltf -o advice\n"
     "  footprint recommend model.gltf --max-error 0.05 --distance 1,2,4,8 -o advice\n"
     "  footprint recommend model.gltf --max-cost 2 --footprints trilinear,anisotropic:8 -o advice\n"
+    "  footprint recommend model.gltf --max-cost '2@Steam Deck' -o advice\n"
     "  footprint recommend model.gltf --max-bytes 4000000 --methods direct,toksvig:storage=unorm8,lean:storage=fp16";
 
 struct RecommendArguments {
@@ -42,6 +46,7 @@ struct RecommendArguments {
   RunOptions run;
   std::string filters = "trilinear,anisotropic:8,shaded:2";
   Limits limits;
+  std::string max_cost;  // R or R@GPU
   bool exhaustive = false;
   bool fresh = false;
   std::string output = "out";
@@ -64,6 +69,23 @@ void require_positive(const char* option, const std::optional<double>& value) {
   throw Error(ErrorKind::usage, option, fmt::format("{} is not a valid limit", *value), "give a number above 0");
 }
 
+// Reads `R` or `R@GPU`.
+void set_max_cost(const std::string& text, RecommendSettings& settings) {
+  if (text.empty()) return;
+  const auto at = std::min(text.find('@'), text.size());
+  double limit = 0;
+  const auto parsed = std::from_chars(text.data(), text.data() + at, limit);
+  if (parsed.ec != std::errc() || parsed.ptr != text.data() + at)
+    throw Error(ErrorKind::usage, "--max-cost", fmt::format("`{}` is not a limit", text), "give R or R@GPU, as 2@PS4");
+  settings.limits.max_cost = limit;
+  require_positive("--max-cost", settings.limits.max_cost);
+  if (at == text.size()) return;
+  const std::vector<const Chip*> chips = chips_named("--max-cost", {text.substr(at + 1)});
+  if (chips.size() > 1) throw Error(ErrorKind::usage, "--max-cost", "names several GPUs", "name one");
+  settings.limits.gpu = chips.front()->name;
+  settings.run.gpus = {settings.limits.gpu};
+}
+
 void write_answer(const Recommendation& answer, const std::filesystem::path& folder) {
   write_file_atomically(folder / "recommend.json", recommendation_json(answer));
   write_file_atomically(folder / "index.html", recommendation_page(answer));
@@ -71,11 +93,12 @@ void write_answer(const Recommendation& answer, const std::filesystem::path& fol
 
 void run_recommend_command(const RecommendArguments& arguments) {
   require_positive("--max-error", arguments.limits.max_error);
-  require_positive("--max-cost", arguments.limits.max_cost);
-  const RecommendSettings settings{.run = arguments.run.settings(),
-                                   .filters = parse_filters(arguments.filters),
-                                   .limits = arguments.limits,
-                                   .exhaustive = arguments.exhaustive};
+  RecommendSettings settings{.run = arguments.run.settings(),
+                             .filters = parse_filters(arguments.filters),
+                             .limits = arguments.limits,
+                             .exhaustive = arguments.exhaustive,
+                             .gpu_compiler = amd_compiler()};
+  set_max_cost(arguments.max_cost, settings);
   ProgressDisplay display(progress_style(arguments.quiet));
   const FinishedWork finished(kept_folder(arguments.output), maker_for(settings.run));
   if (arguments.fresh) finished.clear();
@@ -112,8 +135,12 @@ void add_recommend_command(CLI::App& app) {
   const auto arguments = std::make_shared<RecommendArguments>(*command);
   auto* error = command->add_option("--max-error", arguments->limits.max_error,
                                     "Choose the cheapest with at most this error at every distance");
-  auto* cost = command->add_option("--max-cost", arguments->limits.max_cost,
-                                   "Choose the most accurate with at most this frame time, relative to direct");
+  auto* cost =
+      command
+          ->add_option("--max-cost", arguments->max_cost,
+                       "Choose the most accurate with at most this cost relative to direct: of frame times, or "
+                       "with @GPU as `footprint cost` estimates it")
+          ->type_name("R[@GPU]");
   auto* bytes = command
                     ->add_option("--max-bytes", arguments->limits.max_bytes,
                                  "Choose the most accurate with at most this many bytes of maps per material")

@@ -169,6 +169,8 @@ class Parser {
         return !value.empty() && measure.slice.emplace(selector_name(selector), value).second;
       case Selector::footprint:
         return read(value, measure.footprint);
+      case Selector::gpu:
+        return read(value, measure.gpu);
       case Selector::name:
         break;
     }

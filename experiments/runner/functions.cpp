@@ -73,6 +73,15 @@ void a_footprint(const Measure& measure, const Experiment& experiment) {
   refuse(measure, fmt::format("there is no footprint `{:.80}`", *measure.footprint), "use the name of one of [[ndf]]");
 }
 
+void a_gpu(const Measure& measure, const Experiment& experiment) {
+  const std::vector<std::string>& gpus = experiment.run.gpus;
+  if (gpus.empty()) refuse(measure, "no GPU's cost is estimated", "add gpu = [\"Steam Deck\"] to [experiment]");
+  if (measure.gpu && !has(gpus, *measure.gpu))
+    refuse(measure, fmt::format("the experiment has no GPU `{:.80}`", *measure.gpu), suggestion(*measure.gpu, gpus));
+  if (!measure.gpu && gpus.size() > 1)
+    refuse(measure, "does not say on which GPU", fmt::format("add gpu= and one of {}", fmt::join(gpus, ", ")));
+}
+
 void a_quantity(const Measure& measure, const Experiment& experiment) {
   if (!measure.name) refuse(measure, "does not say which", "add name=NAME, of one of [[quantity]]");
   const auto named = std::ranges::find(experiment.quantities, *measure.name, &NamedQuantity::name);
@@ -197,6 +206,14 @@ Sample error_sample(const Measure& measure, const Record& record) {
           .noise_floor = other->noise_floor};
 }
 
+// The estimated cost on a GPU, nanoseconds per pixel.
+Sample gpu_cost_sample(const Measure& measure, const Record& record) {
+  for (const GpuCost& cost : record.gpu_costs) {
+    if (!cost.failure && (!measure.gpu || cost.gpu == *measure.gpu)) return {.value = cost.cost_ns};
+  }
+  return {};
+}
+
 double build_ms(const Record& record) { return record.frame_build_ms.value_or(0.0); }
 
 // A frame without what is rebuilt in it, whether or not the timed frames rebuilt it.
@@ -295,6 +312,10 @@ std::vector<FigureFunction> function_table() {
       {"total", records, nothing, over_times([](const Record& r) { return shading_ms(r) + build_ms(r); })},
       {"supersampling_time", {distance, spp, scene, size, filter, seed}, a_timed_count, supersampling_ms},
       {"ratio", records, nothing, over_records([](const Record& r) { return r.ratio_to_direct.median; })},
+      {"gpu_cost",
+       {distance, frame, scene, size, filter, seed, gpu},
+       a_gpu,
+       over_samples(gpu_cost_sample, "no record has an estimate for that GPU")},
       {"precompute", records, nothing,
        over_records([](const Record& r) { return r.precompute_cached ? Figure() : Figure(r.precompute_seconds); },
                     "the bake came from the cache (give --no-cache)")},
@@ -326,6 +347,8 @@ std::string_view selector_name(Selector selector) {
       return "footprint";
     case Selector::seed:
       return "seed";
+    case Selector::gpu:
+      return "gpu";
     case Selector::name:
       break;
   }

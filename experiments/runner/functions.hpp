@@ -27,7 +27,8 @@ enum class Selector {
   filter,  ///< written "footprint": the footprint filter
   seed,
   footprint,  ///< of an effective NDF
-  name
+  name,
+  gpu  ///< of an estimated cost
 };
 
 /// As it is written: "distance".

@@ -22,6 +22,7 @@ std::string measure_text(const Measure& measure) {
   for (const auto& [axis, value] : measure.slice) text += fmt::format(", {}={}", axis, value);
   add(Selector::footprint, measure.footprint);
   add(Selector::name, measure.name);
+  add(Selector::gpu, measure.gpu);
   add(Selector::spp, measure.spp);
   return text + ")";
 }

@@ -21,6 +21,7 @@ struct Measure {
   std::map<std::string, std::string> slice{};  ///< of a matrix: by an axis' key the value that members must have
   std::optional<std::string> footprint;        ///< of an NDF: its name in the experiment
   std::optional<std::string> name;             ///< of a quantity in the experiment
+  std::optional<std::string> gpu;              ///< of an estimated cost; none: the experiment's only one
 };
 
 /// "error(toksvig:storage=fp16, distance=4)".

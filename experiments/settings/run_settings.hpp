@@ -135,6 +135,7 @@ struct RunSettings {
   std::optional<FootprintFilter> footprint;  ///< none: the scene's own, else default_footprint_filter
   ReferenceSettings reference;
   TimingSettings timing;
+  std::vector<std::string> gpus;  ///< whose cost is estimated, by name
   BackendSettings backend;
   std::optional<std::filesystem::path> cache;  ///< folder of cached bakes; none: they are not cached
 };

@@ -8,6 +8,7 @@
 
 #include "experiments/settings/known_methods.hpp"
 #include "renderer/core/memory.hpp"
+#include "renderer/gpu_cost/chips.hpp"
 
 namespace footprint::setting_types {
 namespace {
@@ -327,6 +328,20 @@ SettingType effects(Field<EffectSet> field) {
           .read_text = [=](RunSettings& run, std::string_view option,
                            const std::string& text) { field(run) = parse_effects(option, text); },
           .text = [=](RunSettings run) { return fmt::format("{}", fmt::join(effect_names(field(run)), ",")); },
+          .separator = ','};
+}
+
+SettingType gpus(Field<std::vector<std::string>> field) {
+  return {.word = "NAME,...",
+          .takes = fmt::format("{}, all", fmt::join(chip_names(), ", ")),
+          .file_takes = R"(a list as ["Steam Deck", "RX 6800"], or ["all"])",
+          .read_text =
+              [=](RunSettings& run, std::string_view option, const std::string& text) {
+                std::vector<std::string> names;
+                for (const Chip* chip : chips_named(option, parts_of(text))) names.emplace_back(chip->name);
+                field(run) = names;
+              },
+          .text = [=](RunSettings run) { return fmt::format("{}", fmt::join(field(run), ",")); },
           .separator = ','};
 }
 

@@ -75,6 +75,9 @@ using Field = Value& (*)(RunSettings& run);
 /// A set of effects, by name.
 [[nodiscard]] SettingType effects(Field<EffectSet> field);
 
+/// GPUs whose cost is estimated, by name.
+[[nodiscard]] SettingType gpus(Field<std::vector<std::string>> field);
+
 /// A flag that unsets a folder.
 [[nodiscard]] SettingType no_folder(Field<std::optional<std::filesystem::path>> field);
 

@@ -34,6 +34,7 @@ std::optional<double>& zoom_to(Run& run) { return run.view.zoom.to; }
 int& zoom_frames(Run& run) { return run.view.zoom.frames; }
 std::optional<Exposure>& exposure_of(Run& run) { return run.view.exposure; }
 AnimationPath& animation_path(Run& run) { return run.path.kind ? *run.path.kind : run.path.kind.emplace(); }
+std::vector<std::string>& gpus_of(Run& run) { return run.gpus; }
 int& repeats(Run& run) { return run.timing.repeats; }
 
 std::vector<Setting> scene_settings() {
@@ -218,6 +219,18 @@ std::vector<Setting> view_settings() {
        .type = positive_number([](Run& run) -> std::optional<double>& { return run.view.error_scale; }, 1e-6, 1.0),
        .help = "normalised colour error at the top of the colour scale of every error image",
        .otherwise = "the largest 99th percentile of all images"},
+      {.option = "--gpu",
+       .commands = {"compare"},
+       .table = "experiment",
+       .key = "gpu",
+       .type = gpus(gpus_of),
+       .help = "GPUs on which the cost of each method is estimated (docs/gpu-cost.md)",
+       .otherwise = "none"},
+      {.option = "--gpu",
+       .commands = {"cost"},
+       .type = gpus(gpus_of),
+       .help = "GPUs on which the cost of each method is estimated",
+       .start = "Steam Deck,RX 6800"},
       {.option = "--footprint",
        .commands = with_a_footprint,
        .table = "experiment",

@@ -42,16 +42,19 @@ double weight_of_methods(const RunSettings& settings) {
 // Everything that renders, created with the first image.
 struct Workbench {
   Workbench(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, const std::filesystem::path& folder,
-            const Progress& staging, ProgressParts& progress, SharedReferences* shared)
+            const Progress& staging, ProgressParts& progress, SharedReferences* shared, const GpuCompiler& compiler)
       : stage(std::move(scene), settings, staging, pictures_of_a_frame,
               is_animation(settings) ? Unit::none : Unit::direct,
               is_animation(settings) ? Refusal::ends_the_run : Refusal::keeps_a_row),
         measurer(stage),
-        references(settings, stage, folder, progress, shared) {}
+        references(settings, stage, folder, progress, shared) {
+    if (!settings.gpus.empty()) gpu_costs.emplace(stage, settings.gpus, compiler);
+  }
 
   Stage stage;
   MethodMeasurer measurer;
   ReferenceRenderer references;
+  std::optional<GpuCosts> gpu_costs{};
 };
 
 Scene scene_of(const RunSettings& settings) {
@@ -80,7 +83,8 @@ struct Job {
       auto prepared = context.shared != nullptr ? context.shared->scene
                                                 : std::make_shared<PreparedScene>(std::move(scene), settings);
       bench = std::make_unique<Workbench>(std::move(prepared), settings, folder, staging, progress,
-                                          context.shared != nullptr ? &context.shared->references : nullptr);
+                                          context.shared != nullptr ? &context.shared->references : nullptr,
+                                          context.gpu_compiler);
     }
     return *bench;
   }
@@ -202,6 +206,7 @@ Image measure_method(Job& job, const ReferenceView& target, const StagedMethod& 
     record.images.color = write_picture(job.folder, stem, pictures.frame, exposure);
   } else {
     bench.measurer.count_work(record, staged, target.view);
+    if (bench.gpu_costs) record.gpu_costs = bench.gpu_costs->costs(staged, target.view, no_progress).gpus;
     record.images.color = write_exposable_picture(job.folder, stem, pictures.frame, exposure);
   }
   return std::move(pictures.frame);

@@ -12,6 +12,7 @@
 #include "experiments/settings/run_settings.hpp"
 #include "experiments/studies/finished_work.hpp"
 #include "experiments/studies/frame_times.hpp"
+#include "experiments/studies/gpu_cost.hpp"
 #include "experiments/studies/reference_view.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/progress.hpp"
@@ -49,6 +50,7 @@ struct CompareContext {
   SharedWork* shared = nullptr;
   RecordWatch watch = {};
   ResultsWatch so_far = {};
+  GpuCompiler gpu_compiler = {};  ///< if the settings have GPUs
 };
 
 /// Runs the comparison or the animation and writes its images into FOLDER/images (created). If all parts are finished,

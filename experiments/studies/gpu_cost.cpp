@@ -16,12 +16,6 @@ namespace {
 
 constexpr int most_unrolled_lights = 4;  // of a kind; further ones cost what the last one adds
 
-// A program, and how often it counts in a frame (WeighedWork::weight).
-struct WeighedProgram {
-  FixedTrips trips;
-  double weight = 1;
-};
-
 // The programs of a frame: one with a single round per loop, and one per kind of loop with one round more.
 std::vector<WeighedProgram> weighed_programs(const PixelTrips& trips, const GpuScene::LightCounts& lights) {
   const auto unrolled = [](std::size_t count) { return std::clamp(static_cast<int>(count), 1, most_unrolled_lights); };
@@ -68,147 +62,168 @@ std::map<int, TextureCost> costs_of(const std::vector<BoundTexture>& textures) {
   return costs;
 }
 
-// A method before any compiler has seen it.
-struct CountedMethod {
+CompileOutcome no_failure(ChipOutcomes outcomes) {
+  if (!outcomes.programs.front().stage) throw Error(ErrorKind::machine, "--gpu", outcomes.programs.front().failure);
+  return std::move(outcomes.programs.front());
+}
+
+void set_statistics(GpuCost& cost, const CompiledStage& stage) {
+  const auto figure = [&](const char* name) {
+    const auto found = stage.statistics.find(name);
+    return found == stage.statistics.end() ? 0 : static_cast<int>(found->second);
+  };
+  constexpr double pixels_of_a_wave = 64;
+  cost.issue_clocks = figure("Inverse Throughput") / pixels_of_a_wave;
+  cost.instructions = figure("Instructions");
+  cost.registers = figure("VGPRs");
+  cost.waves = figure("Subgroups per SIMD");
+  cost.shader_bytes = figure("Code size");
+  cost.scratch_bytes = figure("Scratch size");
+  cost.compile_seconds = stage.seconds;
+}
+
+void set_estimate(GpuCost& cost, const CostEstimate& estimate) {
+  cost.cost_ns = estimate.cost_ns();
+  cost.bound = word_for(cost_bounds, estimate.bound());
+  cost.arithmetic_ns = estimate.arithmetic_ns;
+  cost.texture_ns = estimate.texture_ns;
+  cost.bandwidth_ns = estimate.bandwidth_ns;
+  cost.alu_clocks = estimate.alu_clocks;
+  cost.texture_reads = estimate.texture_reads;
+  cost.reads_by_format = estimate.reads_by_format;
+  cost.bytes_fetched = estimate.bytes_fetched;
+  cost.bytes_from_memory = estimate.bytes_from_memory;
+  cost.loop_rounds = estimate.loop_rounds;
+}
+
+// A method and its footprint filter, on which its programs depend.
+std::string name_of(const StagedMethod& method) {
+  return fmt::format("{}, {}", method.baked().spec.text, footprint_filter_text(method.filter()));
+}
+
+// The row of a method without figures.
+MethodCosts failed_costs(const RunSettings& settings, std::size_t method, const Error& why) {
   MethodCosts costs;
-  std::vector<WeighedProgram> weighed;
-  std::map<int, TextureCost> textures;
-  std::size_t first = 0;               // of its programs among all
-  std::optional<std::string> failure;  // before they could be compiled
-};
-
-class CostStudy {
- public:
-  CostStudy(const RunSettings& settings, const Progress& progress)
-      : settings_(settings),
-        parts_(progress, 10),
-        stage_(load_scene(settings.scene, settings.scene_library, settings.overrides), settings, parts_.next(4, ""),
-               pictures_of_a_frame, Unit::none, Refusal::keeps_a_row),
-        view_(stage_.view(settings.view.distances.empty() ? 1.0 : settings.view.distances.front())) {
-    programs_.push_back(calibration());
-    const Progress counting = parts_.next(3, "");
-    for (std::size_t m = 0; m < stage_.methods().size(); ++m) {
-      counting(settings.methods[m].text, static_cast<double>(m) / static_cast<double>(stage_.methods().size()));
-      methods_.push_back(count(stage_.methods()[m], settings.methods[m]));
-    }
+  costs.method = settings.methods[method].text;
+  for (const Chip* chip : chips_named("--gpu", settings.gpus)) {
+    costs.gpus.emplace_back().gpu = chip->name;
+    costs.gpus.back().failure = why.what();
   }
+  return costs;
+}
 
-  CostReport report(std::span<const Chip* const> chips, const GpuCompiler& compile) {
-    CostReport report = head();
-    ProgressParts compiling(parts_.next(3, ""), static_cast<double>(chips.size()));
-    for (const Chip* chip : chips) {
-      const ChipOutcomes outcomes = compile(*chip, programs_, compiling.next(1, ""));
-      report.compiler = outcomes.device.substr(0, outcomes.device.rfind(' '));
-      const int between = between_descriptors(outcomes);
-      for (CountedMethod& method : methods_) method.costs.gpus.push_back(cost_of(method, *chip, outcomes, between));
-    }
-    for (CountedMethod& method : methods_) report.methods.push_back(std::move(method.costs));
-    return report;
-  }
-
- private:
-  CountedMethod count(const StagedMethod& staged, const MethodSpec& spec) {
-    CountedMethod counted;
-    counted.costs.method = spec.text;
-    std::optional<Error> failure = staged.refusal();
-    if (!failure) failure = failure_of(stage_.context(), spec, [&] { count_work(staged, counted); });
-    if (failure) counted.failure = failure->what();
-    return counted;
-  }
-
-  void count_work(const StagedMethod& staged, CountedMethod& counted) {
-    const PixelTrips trips = pixel_trips(stage_.counting_frames(staged, Counting::trips), view_);
-    counted.costs.trips = {trips.probes, trips.lobes, trips.rounds};
-    const FrameRenderer work = stage_.counting_frames(staged, Counting::work);
-    counted.costs.lookups = pixel_work(work, view_).lookups;
-    counted.textures = costs_of(work.program().bound_textures());
-    counted.costs.map_bytes = static_cast<double>(staged.baked().bytes);
-    counted.weighed = weighed_programs(trips, stage_.gpu_scene().light_counts());
-    counted.first = programs_.size();
-    for (const WeighedProgram& one : counted.weighed) {
-      const ForwardProgram program = stage_.program_for_cost(staged, one.trips);
-      programs_.push_back(spirv_program(counted.costs.method, program.shaders.vertex, program.shaders.fragment.text()));
-    }
-  }
-
-  static int between_descriptors(const ChipOutcomes& outcomes) {
-    const CompileOutcome& first = outcomes.programs.front();
-    if (!first.stage) throw Error(ErrorKind::machine, "--gpu", first.failure);
-    return descriptor_bytes(first.stage->code);
-  }
-
-  static GpuCost cost_of(const CountedMethod& method, const Chip& chip, const ChipOutcomes& outcomes, int between) {
-    GpuCost cost;
-    cost.gpu = chip.name;
-    cost.failure = method.failure;
-    std::vector<WeighedWork> works;
-    for (std::size_t i = 0; i < method.weighed.size() && !cost.failure; ++i) {
-      const CompileOutcome& outcome = outcomes.programs.at(method.first + i);
-      if (!outcome.stage) {
-        cost.failure = outcome.failure;
-      } else {
-        works.push_back({method.weighed[i].weight, shader_work(outcome.stage->code, between)});
-      }
-    }
-    if (cost.failure) return cost;
-    set_statistics(cost, *outcomes.programs.at(method.first).stage);
-    set_estimate(cost, estimate(chip, works, method.costs.lookups, method.textures));
-    return cost;
-  }
-
-  static void set_statistics(GpuCost& cost, const CompiledStage& stage) {
-    const auto figure = [&](const char* name) {
-      const auto found = stage.statistics.find(name);
-      return found == stage.statistics.end() ? 0 : static_cast<int>(found->second);
-    };
-    constexpr double pixels_of_a_wave = 64;
-    cost.issue_clocks = figure("Inverse Throughput") / pixels_of_a_wave;
-    cost.instructions = figure("Instructions");
-    cost.registers = figure("VGPRs");
-    cost.waves = figure("Subgroups per SIMD");
-    cost.shader_bytes = figure("Code size");
-    cost.scratch_bytes = figure("Scratch size");
-    cost.compile_seconds = stage.seconds;
-  }
-
-  static void set_estimate(GpuCost& cost, const CostEstimate& estimate) {
-    cost.cost_ns = estimate.cost_ns();
-    cost.bound = word_for(cost_bounds, estimate.bound());
-    cost.arithmetic_ns = estimate.arithmetic_ns;
-    cost.texture_ns = estimate.texture_ns;
-    cost.bandwidth_ns = estimate.bandwidth_ns;
-    cost.alu_clocks = estimate.alu_clocks;
-    cost.texture_reads = estimate.texture_reads;
-    cost.reads_by_format = estimate.reads_by_format;
-    cost.bytes_fetched = estimate.bytes_fetched;
-    cost.bytes_from_memory = estimate.bytes_from_memory;
-    cost.loop_rounds = estimate.loop_rounds;
-  }
-
-  [[nodiscard]] CostReport head() const {
-    CostReport report;
-    report.backend = backend_info(stage_.context().info());
-    report.scene = stage_.info({});
-    report.footprint = footprint_filter_text(footprint_filter_of(settings_, stage_.scene()));
-    report.width = view_.size.x;
-    report.height = view_.size.y;
-    report.distance = settings_.view.distances.empty() ? 1.0 : settings_.view.distances.front();
-    return report;
-  }
-
-  const RunSettings& settings_;
-  ProgressParts parts_;
-  Stage stage_;
-  View view_;
-  std::vector<SpirvProgram> programs_;
-  std::vector<CountedMethod> methods_;
-};
+double distance_of(const RunSettings& settings) {
+  return settings.view.distances.empty() ? 1.0 : settings.view.distances.front();
+}
 
 }  // namespace
 
-CostReport estimate_costs(const RunSettings& settings, std::span<const Chip* const> chips, const GpuCompiler& compile,
-                          const Progress& progress) {
-  return CostStudy(settings, progress).report(chips, compile);
+GpuCosts::GpuCosts(const Stage& stage, const std::vector<std::string>& gpus, GpuCompiler compile)
+    : stage_(stage), compile_(std::move(compile)) {
+  const SpirvProgram program = calibration();
+  for (const Chip* chip : chips_named("--gpu", gpus)) {
+    ChipOutcomes outcomes = compile_(*chip, {&program, 1}, no_progress);
+    compiler_ = outcomes.device.substr(0, outcomes.device.rfind(' '));
+    chips_.push_back({.chip = chip,
+                      .between_descriptors = descriptor_bytes(no_failure(std::move(outcomes)).stage->code),
+                      .compiled = {}});
+  }
+}
+
+// The unit is `direct` of the stage, if it has one.
+MethodCosts GpuCosts::costs(const StagedMethod& method, const View& view, const Progress& progress) {
+  MethodCosts costs = own_costs(method, view, progress);
+  if (!stage_.has_unit()) return costs;
+  const StagedMethod& direct = stage_.methods()[stage_.unit()];
+  if (direct.refusal()) return costs;
+  if (!unit_ || unit_->first.camera != view.camera || unit_->first.size != view.size)
+    unit_.emplace(view, own_costs(direct, view, progress));
+  for (std::size_t i = 0; i < costs.gpus.size(); ++i) {
+    const double unit_ns = unit_->second.gpus[i].cost_ns;
+    if (!costs.gpus[i].failure && unit_ns > 0) costs.gpus[i].ratio_to_direct = costs.gpus[i].cost_ns / unit_ns;
+  }
+  return costs;
+}
+
+MethodCosts GpuCosts::own_costs(const StagedMethod& method, const View& view, const Progress& progress) {
+  MethodCosts costs;
+  costs.method = method.baked().spec.text;
+  const PixelTrips trips = pixel_trips(stage_.counting_frames(method, Counting::trips), view);
+  costs.trips = {.probes = trips.probes, .lobes = trips.lobes, .rounds = trips.rounds};
+  const FrameRenderer work = stage_.counting_frames(method, Counting::work);
+  costs.lookups = pixel_work(work, view).lookups;
+  costs.map_bytes = static_cast<double>(method.baked().bytes);
+  const std::map<int, TextureCost> textures = costs_of(work.program().bound_textures());
+  const std::vector<WeighedProgram> programs = weighed_programs(trips, stage_.gpu_scene().light_counts());
+  ProgressParts parts(progress, static_cast<double>(chips_.size()));
+  for (CompilingChip& chip : chips_) {
+    compile_missing(chip, method, programs, parts.next(1, costs.method + ", "));
+    costs.gpus.push_back(cost_of(chip, method, costs.lookups, programs, textures));
+  }
+  return costs;
+}
+
+void GpuCosts::compile_missing(CompilingChip& chip, const StagedMethod& method,
+                               const std::vector<WeighedProgram>& programs, const Progress& progress) {
+  const std::string text = name_of(method);
+  std::vector<SpirvProgram> missing;
+  std::vector<CompileOutcome*> places;
+  for (const WeighedProgram& one : programs) {
+    const auto [place, is_new] = chip.compiled.try_emplace({text, one.trips});
+    if (!is_new) continue;
+    const ForwardProgram program = stage_.program_for_cost(method, one.trips);
+    missing.push_back(spirv_program(text, program.shaders.vertex, program.shaders.fragment.text()));
+    places.push_back(&place->second);
+  }
+  if (missing.empty()) return;
+  ChipOutcomes outcomes = compile_(*chip.chip, missing, progress);
+  for (std::size_t i = 0; i < places.size(); ++i) *places[i] = std::move(outcomes.programs.at(i));
+}
+
+GpuCost GpuCosts::cost_of(const CompilingChip& chip, const StagedMethod& method, double lookups,
+                          const std::vector<WeighedProgram>& programs, const std::map<int, TextureCost>& textures) {
+  const std::string text = name_of(method);
+  GpuCost cost;
+  cost.gpu = chip.chip->name;
+  std::vector<WeighedWork> works;
+  for (const WeighedProgram& one : programs) {
+    const CompileOutcome& outcome = chip.compiled.at({text, one.trips});
+    if (!outcome.stage) {
+      cost.failure = outcome.failure;
+      return cost;
+    }
+    works.push_back({one.weight, shader_work(outcome.stage->code, chip.between_descriptors)});
+  }
+  set_statistics(cost, *chip.compiled.at({text, programs.front().trips}).stage);
+  set_estimate(cost, estimate(*chip.chip, works, lookups, textures));
+  return cost;
+}
+
+CostReport estimate_costs(const RunSettings& settings, const GpuCompiler& compile, const Progress& progress) {
+  ProgressParts parts(progress, 10);
+  const Stage stage(load_scene(settings.scene, settings.scene_library, settings.overrides), settings, parts.next(4, ""),
+                    pictures_of_a_frame, Unit::none, Refusal::keeps_a_row);
+  const View view = stage.view(distance_of(settings));
+  GpuCosts gpus(stage, settings.gpus, compile);
+  CostReport report;
+  report.backend = backend_info(stage.context().info());
+  report.scene = stage.info({});
+  report.footprint = footprint_filter_text(footprint_filter_of(settings, stage.scene()));
+  report.compiler = gpus.compiler();
+  report.width = view.size.x;
+  report.height = view.size.y;
+  report.distance = distance_of(settings);
+  ProgressParts methods(parts.next(6, ""), static_cast<double>(settings.methods.size()));
+  for (std::size_t m = 0; m < settings.methods.size(); ++m) {
+    const StagedMethod& method = stage.methods()[m];
+    const Progress own = methods.next(1, "");
+    std::optional<Error> failure = method.refusal();
+    if (!failure)
+      failure = failure_of(stage.context(), settings.methods[m],
+                           [&] { report.methods.push_back(gpus.costs(method, view, own)); });
+    if (failure) report.methods.push_back(failed_costs(settings, m, *failure));
+  }
+  return report;
 }
 
 }  // namespace footprint

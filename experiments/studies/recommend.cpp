@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <ranges>
 #include <utility>
@@ -84,6 +85,13 @@ std::optional<double> noise_of(const Records& records, const std::vector<std::si
   return std::sqrt(squares) / static_cast<double>(at.size());
 }
 
+// The estimated cost if the run has a GPU, else the frame time, relative to `direct`.
+TimeRatio cost_of(const Record& record) {
+  if (record.gpu_costs.empty()) return record.ratio_to_direct;
+  const double ratio = record.gpu_costs.front().ratio_to_direct.value_or(std::numeric_limits<double>::infinity());
+  return {.median = ratio, .low = ratio, .high = ratio};
+}
+
 Candidate candidate_of(const FilterRun& run, const std::string& method, const std::vector<std::size_t>& at,
                        std::size_t material) {
   const Records records = records_of(run, method);
@@ -94,9 +102,9 @@ Candidate candidate_of(const FilterRun& run, const std::string& method, const st
   candidate.error = mean_of(records, at, [&](const Record& r) { return *r.materials[material].shading; });
   candidate.worst = std::ranges::max(candidate.errors);
   candidate.noise = noise_of(records, at, material);
-  candidate.cost = {.median = mean_of(records, at, [](const Record& r) { return r.ratio_to_direct.median; }),
-                    .low = mean_of(records, at, [](const Record& r) { return r.ratio_to_direct.low; }),
-                    .high = mean_of(records, at, [](const Record& r) { return r.ratio_to_direct.high; })};
+  candidate.cost = {.median = mean_of(records, at, [](const Record& r) { return cost_of(r).median; }),
+                    .low = mean_of(records, at, [](const Record& r) { return cost_of(r).low; }),
+                    .high = mean_of(records, at, [](const Record& r) { return cost_of(r).high; })};
   candidate.bytes = records.front()->materials[material].bytes;
   candidate.bake_seconds = records.front()->precompute_seconds;
   return candidate;
@@ -279,7 +287,7 @@ class Advisor {
     const std::vector<MethodSpec> direct{{.text = "direct", .name = "direct", .options = {}}};
     const Results results =
         run_compare(settings_of(settings_, filter, direct, coarse_size_), own, progress, with(shared));
-    const auto costs = std::views::transform(results.records, [](const Record& r) { return r.ratio_to_direct.median; });
+    const auto costs = std::views::transform(results.records, [](const Record& r) { return cost_of(r).median; });
     const double least = std::ranges::min(costs);
     if (least * (1.0 - coarse_cost_share) <= *settings_.limits.max_cost) return false;
     left_out_.push_back({.method = fmt::format("every method under {}", footprint_filter_text(filter)),
@@ -287,7 +295,9 @@ class Advisor {
     return true;
   }
 
-  [[nodiscard]] CompareContext with(SharedWork& shared) const { return {.finished = &finished_, .shared = &shared}; }
+  [[nodiscard]] CompareContext with(SharedWork& shared) const {
+    return {.finished = &finished_, .shared = &shared, .gpu_compiler = settings_.gpu_compiler};
+  }
 
   std::vector<FilterRun> run_all(MethodsByFilter& methods, bool coarse) {
     const std::optional<glm::ivec2> size = coarse ? coarse_size_ : std::nullopt;

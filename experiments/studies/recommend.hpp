@@ -9,6 +9,7 @@
 #include "experiments/settings/run_settings.hpp"
 #include "experiments/studies/finished_work.hpp"
 #include "renderer/core/progress.hpp"
+#include "renderer/gpu_cost/compiled_programs.hpp"
 #include "results/report/recommendation.hpp"
 
 namespace footprint {
@@ -18,7 +19,8 @@ struct RecommendSettings {
   RunSettings run;                       ///< its methods are the candidates; its own footprint filter has no say
   std::vector<FootprintFilter> filters;  ///< under each of which every method is a candidate
   Limits limits;
-  bool exhaustive = false;  ///< measure every candidate in full
+  bool exhaustive = false;        ///< measure every candidate in full
+  GpuCompiler gpu_compiler = {};  ///< if the limit is of a GPU
 };
 
 /// How far the coarse run's errors and costs are trusted: what is behind another by more than that in both is dropped.

@@ -132,7 +132,8 @@ StagedMethod::StagedMethod(const MethodSpec& spec, const Error& refusal)
 
 StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& scene, const Scene& values,
                            const EffectSet& effects, const MethodSpec& spec, const FootprintFilter& filter,
-                           const glm::ivec2& size, const RunSettings& settings, const Progress& progress) {
+                           const glm::ivec2& size, const RunSettings& settings, const Progress& progress)
+    : filter_(filter) {
   prepared_ = std::make_shared<const PreparedMethod>(
       bake_and_upload(scene, values, effects, spec, cache_of(settings), progress));
   frames_ = frames_of(context, scene, *prepared_->gpu, values, filter, size, settings);
@@ -141,7 +142,8 @@ StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& scene, cons
 StagedMethod::StagedMethod(PreparedScene& scene, std::shared_ptr<const PreparedMethod> prepared,
                            const FootprintFilter& filter, const glm::ivec2& size, const RunSettings& settings)
     : prepared_(std::move(prepared)),
-      frames_(frames_of(scene.context.info(), *scene.gpu, *prepared_->gpu, scene.scene, filter, size, settings)) {}
+      frames_(frames_of(scene.context.info(), *scene.gpu, *prepared_->gpu, scene.scene, filter, size, settings)),
+      filter_(filter) {}
 
 Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress, int pictures, Unit unit,
              Refusal refusal)
@@ -238,13 +240,13 @@ FrameRenderer Stage::dense_frames(const StagedMethod& method) const {
 }
 
 FrameRenderer Stage::counting_frames(const StagedMethod& method, Counting counting) const {
-  ProgramSettings program = frame_program(scene(), footprint_filter_of(settings_, scene()));
+  ProgramSettings program = frame_program(scene(), method.filter());
   program.counting = counting;
   return {context().info(), *prepared_->gpu, method.gpu(), size_, program, settings_.backend.tile};
 }
 
 ForwardProgram Stage::program_for_cost(const StagedMethod& method, const FixedTrips& trips) const {
-  ProgramSettings program = frame_program(scene(), footprint_filter_of(settings_, scene()));
+  ProgramSettings program = frame_program(scene(), method.filter());
   program.fixed_trips = trips;
   return forward_program(*prepared_->gpu, method.baked(), program);
 }

@@ -99,10 +99,12 @@ class StagedMethod {
   [[nodiscard]] const BakedMethod& baked() const { return *prepared_->baked; }
   [[nodiscard]] const GpuMethod& gpu() const { return *prepared_->gpu; }
   [[nodiscard]] const FrameRenderer& frames() const { return *frames_; }
+  [[nodiscard]] const FootprintFilter& filter() const { return filter_; }
 
  private:
   std::shared_ptr<const PreparedMethod> prepared_;
   std::unique_ptr<FrameRenderer> frames_;
+  FootprintFilter filter_{};
   std::optional<Error> refusal_;
 };
 
@@ -131,6 +133,7 @@ class Stage {
   [[nodiscard]] const std::vector<StagedMethod>& methods() const { return methods_; }
   /// The place of the unit among them. Only of a stage that has one.
   [[nodiscard]] std::size_t unit() const { return unit_.value(); }
+  [[nodiscard]] bool has_unit() const { return unit_.has_value(); }
   [[nodiscard]] const Supersampler& reference() const { return *reference_; }
   [[nodiscard]] View view(double distance) const;
 

@@ -48,16 +48,22 @@ constexpr std::array<Chip, 8> all_chips{{
 
 std::span<const Chip> chips() { return all_chips; }
 
-std::vector<const Chip*> chips_named(const std::vector<std::string>& names) {
-  std::vector<std::string> known;
-  for (const Chip& chip : all_chips) known.push_back(lower_case(std::string(chip.name)));
+std::vector<std::string> chip_names() {
+  std::vector<std::string> names;
+  for (const Chip& chip : all_chips) names.emplace_back(chip.name);
+  return names;
+}
+
+std::vector<const Chip*> chips_named(std::string_view place, const std::vector<std::string>& names) {
+  std::vector<std::string> known = chip_names();
+  for (std::string& name : known) name = lower_case(name);
   std::vector<const Chip*> found;
   for (const std::string& name : names) {
     if (lower_case(name) == "all") {
       for (const Chip& chip : all_chips) found.push_back(&chip);
       continue;
     }
-    found.push_back(&all_chips.at(find_word(known, lower_case(name), "GPU", "--gpu")));
+    found.push_back(&all_chips.at(find_word(known, lower_case(name), "GPU", place)));
   }
   return found;
 }

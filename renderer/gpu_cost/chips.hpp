@@ -33,8 +33,11 @@ struct Chip {
 /// All chips, oldest first.
 [[nodiscard]] std::span<const Chip> chips();
 
+/// Their names.
+[[nodiscard]] std::vector<std::string> chip_names();
+
 /// The chips of names as a user writes them, in any case; `all` stands for all of them.
-/// Throws Error (usage): no chip has such a name; the message lists all, and the nearest.
-[[nodiscard]] std::vector<const Chip*> chips_named(const std::vector<std::string>& names);
+/// Throws Error (usage, at `place`): no chip has such a name; the message lists all, and the nearest.
+[[nodiscard]] std::vector<const Chip*> chips_named(std::string_view place, const std::vector<std::string>& names);
 
 }  // namespace footprint

@@ -117,10 +117,10 @@ TEST(ShaderWork, RefusesTextThatIsNoCode) {
 }
 
 TEST(Chips, AreFoundByNameInAnyCase) {
-  EXPECT_EQ(chips_named({"steam deck"}).front()->family, "VANGOGH");
-  EXPECT_EQ(chips_named({"all"}).size(), chips().size());
+  EXPECT_EQ(chips_named("--gpu", {"steam deck"}).front()->family, "VANGOGH");
+  EXPECT_EQ(chips_named("--gpu", {"all"}).size(), chips().size());
   try {
-    (void)chips_named({"RX 6900"});
+    (void)chips_named("--gpu", {"RX 6900"});
     FAIL() << "found";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
@@ -128,7 +128,7 @@ TEST(Chips, AreFoundByNameInAnyCase) {
   }
 }
 
-const Chip& deck() { return *chips_named({"Steam Deck"}).front(); }
+const Chip& deck() { return *chips_named("--gpu", {"Steam Deck"}).front(); }
 
 ShaderWork work_with(double full, double samples) {
   ShaderWork work;

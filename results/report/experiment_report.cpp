@@ -15,13 +15,6 @@
 namespace footprint {
 namespace {
 
-// A table of either kind of report.
-struct Table {
-  std::string heading;
-  std::vector<MarkdownColumn> columns;
-  std::vector<std::vector<std::string>> rows;
-};
-
 constexpr const char* floor_mark = " *";
 
 // Three figures: errors with as many decimals as they need.
@@ -106,23 +99,6 @@ std::string summary(const ExperimentReport& report) {
   if (!report.quick) return text;
   if (!text.empty()) text += " ";
   return text + "Test run (--quick): smaller than the experiment, so this is not a measurement.";
-}
-
-std::string html_table(const Table& table) {
-  if (table.rows.empty()) return {};
-  std::string html = fmt::format("<h3>{}</h3>\n<div class=\"scroll\"><table><thead><tr>", html_escaped(table.heading));
-  const auto cell = [&](const char* tag, std::size_t column, const std::string& text) {
-    return fmt::format("<{0}{1}>{2}</{0}>", tag, table.columns[column].numeric ? "" : " class=\"words-column\"",
-                       html_escaped(text));
-  };
-  for (std::size_t i = 0; i < table.columns.size(); ++i) html += cell("th", i, table.columns[i].title);
-  html += "</tr></thead><tbody>\n";
-  for (const std::vector<std::string>& row : table.rows) {
-    html += "<tr>";
-    for (std::size_t i = 0; i < row.size(); ++i) html += cell("td", i, row[i]);
-    html += "</tr>\n";
-  }
-  return html + "</tbody></table></div>\n";
 }
 
 }  // namespace

@@ -3,15 +3,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "renderer/core/files.hpp"
 #include "renderer/core/memory.hpp"
 #include "results/report/csv_field.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/markdown_table.hpp"
+#include "results/report/ranking.hpp"
 #include "results/report/record_fields.hpp"
 #include "results/report/results_document.hpp"
+#include "results/report/text_template.hpp"
 
 namespace footprint {
 namespace {
@@ -33,7 +37,7 @@ std::vector<std::string> table_row(const MethodCosts& method, const GpuCost& cos
   if (cost.failure) return {method.method, "", "", *cost.failure, "", "", "", "", ""};
   return {method.method,
           three_figures(cost.cost_ns),
-          first_ns > 0 ? three_figures(cost.cost_ns / first_ns) : "",
+          cost.ratio_to_direct ? three_figures(*cost.ratio_to_direct) : three_figures(cost.cost_ns / first_ns),
           cost.bound,
           three_figures(cost.alu_clocks),
           three_figures(cost.texture_reads),
@@ -42,24 +46,53 @@ std::vector<std::string> table_row(const MethodCosts& method, const GpuCost& cos
           std::to_string(cost.waves)};
 }
 
-std::string gpu_table(const CostReport& report, std::size_t gpu) {
-  std::vector<std::vector<std::string>> rows;
-  const GpuCost& first = report.methods.front().gpus.at(gpu);
-  for (const MethodCosts& method : report.methods)
-    rows.push_back(table_row(method, method.gpus.at(gpu), first.cost_ns));
-  return fmt::format("## {}\n\n", first.gpu) +
-         markdown_table({{"Method", false},
-                         {"ns per pixel"},
-                         {"Over the first"},
-                         {"Bound", false},
-                         {"ALU clocks"},
-                         {"Texture reads"},
-                         {"Bytes fetched"},
-                         {"Registers"},
-                         {"Waves"}},
-                        rows) +
-         "\n";
+// One table per GPU, of methods that have the same GPUs.
+std::vector<Table> gpu_tables(const std::vector<MethodCosts>& methods, const std::string& where) {
+  std::vector<Table> tables;
+  if (methods.empty()) return tables;
+  for (std::size_t gpu = 0; gpu < methods.front().gpus.size(); ++gpu) {
+    const GpuCost& first = methods.front().gpus[gpu];
+    Table& table = tables.emplace_back(Table{.heading = first.gpu + where,
+                                             .columns = {{"Method", false},
+                                                         {"ns per pixel"},
+                                                         {first.ratio_to_direct ? "Over direct" : "Over the first"},
+                                                         {"Bound", false},
+                                                         {"ALU clocks"},
+                                                         {"Texture reads"},
+                                                         {"Bytes fetched"},
+                                                         {"Registers"},
+                                                         {"Waves"}},
+                                             .rows = {}});
+    for (const MethodCosts& method : methods)
+      table.rows.push_back(table_row(method, method.gpus.at(gpu), first.cost_ns));
+  }
+  return tables;
 }
+
+// The tables of the distances of a run.
+std::vector<Table> gpu_tables(const Results& results) {
+  std::vector<Table> tables;
+  for (const double distance : distances_of(results)) {
+    std::vector<MethodCosts> methods;
+    for (const Record& record : records_at(results, distance)) {
+      if (!record.gpu_costs.empty())
+        methods.push_back({.method = record.method, .trips = {}, .gpus = record.gpu_costs});
+    }
+    std::ranges::move(gpu_tables(methods, fmt::format(", distance {:g}", distance)), std::back_inserter(tables));
+  }
+  return tables;
+}
+
+std::string markdown_of(const std::vector<Table>& tables) {
+  std::string text;
+  for (const Table& table : tables)
+    text += fmt::format("### {}\n\n{}\n", table.heading, markdown_table(table.columns, table.rows));
+  return text;
+}
+
+constexpr const char* gpu_note =
+    "An estimate from the driver's compiler and published rates, not a measurement (docs/gpu-cost.md): the largest of "
+    "arithmetic, texture and memory time. 1 ns per pixel is 2.07 ms for 1920x1080 pixels.";
 
 }  // namespace
 
@@ -97,11 +130,21 @@ std::string cost_table(const CostReport& report) {
   std::string text =
       fmt::format("# Estimated cost on GPUs: {}, {}x{}, distance {:g}, {}\n\n", markdown_escaped(report.scene.name),
                   report.width, report.height, report.distance, report.footprint);
-  if (report.methods.empty()) return text;
-  for (std::size_t gpu = 0; gpu < report.methods.front().gpus.size(); ++gpu) text += gpu_table(report, gpu);
-  return text +
-         "An estimate from the driver's compiler and published rates, not a measurement (docs/gpu-cost.md): the " +
-         "largest of arithmetic, texture and memory time. 1 ns per pixel is 2.07 ms for 1920x1080 pixels.\n";
+  return text + markdown_of(gpu_tables(report.methods, "")) + gpu_note + "\n";
+}
+
+std::string gpu_costs_markdown(const Results& results) {
+  const std::vector<Table> tables = gpu_tables(results);
+  if (tables.empty()) return {};
+  return fmt::format("\n## Estimated cost on GPUs\n\n{}{}\n", markdown_of(tables), gpu_note);
+}
+
+std::string gpu_costs_html(const Results& results) {
+  const std::vector<Table> tables = gpu_tables(results);
+  if (tables.empty()) return {};
+  std::string html = "<section aria-labelledby=\"gpu-title\"><h2 id=\"gpu-title\">Estimated cost on GPUs</h2>\n";
+  for (const Table& table : tables) html += html_table(table);
+  return html + fmt::format("<p class=\"note\">{}</p></section>\n", html_escaped(gpu_note));
 }
 
 void write_cost(const CostReport& report, const std::filesystem::path& folder) {

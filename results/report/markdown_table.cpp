@@ -1,9 +1,13 @@
 // Pads cells to the width of their column, and escapes what Markdown would take for markup.
 #include "results/report/markdown_table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <string_view>
+
+#include "results/report/text_template.hpp"
 
 namespace footprint {
 namespace {
@@ -84,6 +88,23 @@ std::string markdown_table(const std::vector<MarkdownColumn>& columns,
   text += "\n";
   for (const std::vector<std::string>& row : cells) text += row_text(row, widths, columns);
   return text;
+}
+
+std::string html_table(const Table& table) {
+  if (table.rows.empty()) return {};
+  std::string html = fmt::format("<h3>{}</h3>\n<div class=\"scroll\"><table><thead><tr>", html_escaped(table.heading));
+  const auto cell = [&](const char* tag, std::size_t column, const std::string& text) {
+    return fmt::format("<{0}{1}>{2}</{0}>", tag, table.columns[column].numeric ? "" : " class=\"words-column\"",
+                       html_escaped(text));
+  };
+  for (std::size_t i = 0; i < table.columns.size(); ++i) html += cell("th", i, table.columns[i].title);
+  html += "</tr></thead><tbody>\n";
+  for (const std::vector<std::string>& row : table.rows) {
+    html += "<tr>";
+    for (std::size_t i = 0; i < row.size(); ++i) html += cell("td", i, row[i]);
+    html += "</tr>\n";
+  }
+  return html + "</tbody></table></div>\n";
 }
 
 }  // namespace footprint

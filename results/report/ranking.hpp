@@ -37,8 +37,8 @@ using DistanceRecords = std::vector<std::reference_wrapper<const Record>>;
                                                                  const std::optional<double>& standard_error);
 
 /// The limits of the ranking, which a reader must know first, one sentence each: a reference that has not converged,
-/// distances with few interior pixels, with differences below the noise, or with nothing to filter. Of an animation: the
-/// frames in which the reference has not converged.
+/// distances with few interior pixels, with differences below the noise, or with nothing to filter. Of an animation:
+/// the frames in which the reference has not converged.
 [[nodiscard]] std::vector<std::string> ranking_warnings(const Results& results);
 
 /// "12,345 object pixels, 8,100 of them interior (66%); noise floor 0.00017, over interior pixels 0.00012.", of a

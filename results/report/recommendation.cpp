@@ -193,7 +193,9 @@ std::vector<std::size_t> contenders(const std::vector<Candidate>& candidates, co
 
 std::string limits_text(const Limits& limits) {
   if (limits.max_error) return fmt::format("an error of at most {:g} at every distance", *limits.max_error);
-  if (limits.max_cost) return fmt::format("at most {:g} times the cost of direct", *limits.max_cost);
+  if (limits.max_cost)
+    return fmt::format("at most {:g} times the cost of direct{}", *limits.max_cost,
+                       limits.gpu.empty() ? "" : " on " + limits.gpu);
   if (limits.max_bytes) return fmt::format("at most {}", readable_bytes(*limits.max_bytes));
   return "the smallest error";
 }
@@ -243,6 +245,7 @@ void fields(JsonWriter& archive, const Candidate& value) {
 void fields(JsonWriter& archive, const Limits& value) {
   archive("max_error", value.max_error);
   archive("max_cost", value.max_cost);
+  archive("gpu", value.gpu);
   archive("max_bytes", value.max_bytes);
 }
 

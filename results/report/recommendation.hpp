@@ -17,15 +17,17 @@ struct Candidate {
   double error = 0;               ///< their mean, which candidates are ranked by
   double worst = 0;               ///< the largest, which limits are compared with
   std::optional<double> noise;    ///< standard error of `error`, of the reference's noise; none: it is not known
-  TimeRatio cost;                 ///< whole frames over those of `direct` under trilinear lookups, means over distances
-  std::uint64_t bytes = 0;        ///< that are baked of the material
-  double bake_seconds = 0;        ///< for the whole scene
+  /// Whole frames over those of `direct` under trilinear lookups, or their estimated costs; means over distances.
+  TimeRatio cost;
+  std::uint64_t bytes = 0;  ///< that are baked of the material
+  double bake_seconds = 0;  ///< for the whole scene
 };
 
 /// At most one is given.
 struct Limits {
   std::optional<double> max_error;         ///< at every distance: the cheapest within it
   std::optional<double> max_cost;          ///< times `direct`: the best within it
+  std::string gpu{};                       ///< on which costs are estimated; empty: costs are frame times
   std::optional<std::uint64_t> max_bytes;  ///< of the material: the best within it
 };
 

@@ -110,6 +110,31 @@ void fields(Archive& archive, Is<MaterialError> auto& value) {
 }
 
 template <class Archive>
+void fields(Archive& archive, Is<GpuCost> auto& value) {
+  archive("gpu", value.gpu);
+  archive("cost_ns", value.cost_ns);
+  archive("bound", value.bound);
+  archive("ratio_to_direct", value.ratio_to_direct);
+  archive("arithmetic_ns", value.arithmetic_ns);
+  archive("texture_ns", value.texture_ns);
+  archive("bandwidth_ns", value.bandwidth_ns);
+  archive("alu_clocks", value.alu_clocks);
+  archive("issue_clocks", value.issue_clocks);
+  archive("texture_reads", value.texture_reads);
+  archive("reads_by_format", value.reads_by_format);
+  archive("bytes_fetched", value.bytes_fetched);
+  archive("bytes_from_memory", value.bytes_from_memory);
+  archive("loop_rounds", value.loop_rounds);
+  archive("instructions", value.instructions);
+  archive("registers", value.registers);
+  archive("waves", value.waves);
+  archive("shader_bytes", value.shader_bytes);
+  archive("scratch_bytes", value.scratch_bytes);
+  archive("compile_seconds", value.compile_seconds);
+  archive("failure", value.failure);
+}
+
+template <class Archive>
 void fields(Archive& archive, Is<Record> auto& value) {
   archive("scene", value.scene);
   archive("method", value.method);
@@ -140,6 +165,7 @@ void fields(Archive& archive, Is<Record> auto& value) {
     time("lobes", value.lobes);
     time("ratio_to_direct", value.ratio_to_direct);
   });
+  archive("gpu_costs", value.gpu_costs);
   archive("materials", value.materials);
   archive.group("precompute", [&](auto& precompute) {
     precompute("seconds", value.precompute_seconds);

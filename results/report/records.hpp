@@ -137,6 +137,25 @@ struct MaterialError {
   std::uint64_t bytes = 0;        ///< that the method baked of the material
 };
 
+/// The estimated cost of one method on one GPU, per pixel that the object covers (docs/gpu-cost.md).
+struct GpuCost {
+  std::string gpu;
+  double cost_ns = 0;                     ///< the largest of the next three; equal to milliseconds per million pixels
+  std::string bound;                      ///< arithmetic, textures or bandwidth: which one that is
+  std::optional<double> ratio_to_direct;  ///< cost_ns over that of `direct` under the filter of the time unit
+  double arithmetic_ns = 0, texture_ns = 0, bandwidth_ns = 0;
+  double alu_clocks = 0;    ///< of one SIMD
+  double issue_clocks = 0;  ///< the driver's inverse throughput, with one round per loop
+  double texture_reads = 0;
+  std::map<std::string, double> reads_by_format;
+  double bytes_fetched = 0;      ///< by all reads, before any cache
+  double bytes_from_memory = 0;  ///< of those, new to the pixel; and its output
+  double loop_rounds = 1;        ///< of the loops that the compiler did not unroll
+  int instructions = 0, registers = 0, waves = 0, shader_bytes = 0, scratch_bytes = 0;
+  double compile_seconds = 0;
+  std::optional<std::string> failure;  ///< why there is no estimate; all figures are 0 then
+};
+
 /// One method in one view.
 struct Record {
   std::string scene;
@@ -162,6 +181,7 @@ struct Record {
   TimeRatio ratio_to_direct;
   std::optional<double> fetches;         ///< texture lookups per pixel, mean over the object; none: not counted
   std::optional<double> lobes;           ///< lobes per pixel over all lights, mean over the object; none: not counted
+  std::vector<GpuCost> gpu_costs = {};   ///< estimates for the GPUs of the run's settings
   std::vector<MaterialError> materials;  ///< in the order of the scene; empty where the run does not tell them apart
   double precompute_seconds = 0;
   std::uint64_t precompute_bytes = 0;

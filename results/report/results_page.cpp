@@ -12,6 +12,7 @@
 #include "results/report/columns.hpp"
 #include "results/report/experiment_report.hpp"
 #include "results/report/figures.hpp"
+#include "results/report/gpu_cost_report.hpp"
 #include "results/report/matrix_report.hpp"
 #include "results/report/page_shell.hpp"
 #include "results/report/ranking.hpp"
@@ -127,7 +128,7 @@ Json run_json(const Results& results, const std::string& folder) {
 }
 
 struct PageTexts {
-  std::string title, table, experiment;
+  std::string title, table, experiment, gpus = {};
   bool film = false;  // the results are of an animation
 };
 
@@ -142,6 +143,7 @@ std::string page_of(Json runs, const PageTexts& own) {
                                                                {"film-script", own.film ? page_text("film.js") : ""},
                                                                {"table", table},
                                                                {"experiment", own.experiment},
+                                                               {"gpus", own.gpus},
                                                                {"data", filled}});
 }
 
@@ -153,6 +155,7 @@ std::string results_page(const Results& results) {
   return page_of(std::move(runs), {.title = results.scene.name,
                                    .table = results_table(results),
                                    .experiment = results.experiment ? experiment_html(*results.experiment) : "",
+                                   .gpus = gpu_costs_html(results),
                                    .film = results.way.has_value()});
 }
 

@@ -16,6 +16,7 @@
 #include "results/report/columns.hpp"
 #include "results/report/experiment_report.hpp"
 #include "results/report/figures.hpp"
+#include "results/report/gpu_cost_report.hpp"
 #include "results/report/markdown_table.hpp"
 #include "results/report/ranking.hpp"
 #include "results/report/record_fields.hpp"
@@ -293,7 +294,7 @@ std::string results_table(const Results& results) {
   for (const double distance : distances_of(results)) text += distance_section(results, distance);
   return text + flicker_section(results) + ndf_section(results) + quantity_section(results) +
          preparation_section(results) + frame_build_section(results) + supersampling_section(results) +
-         words_section(results);
+         gpu_costs_markdown(results) + words_section(results);
 }
 
 }  // namespace footprint

@@ -61,6 +61,39 @@ class Costs(WholeRunTest):
         reads = [figure["gpus"][0]["texture_reads"] for figure in figures]
         self.assertEqual([reads[1] / reads[0], reads[2] / reads[0]], [4, 16])
 
+    def check(self, name, limits):
+        """`check` of an experiment over three methods on one GPU, with these upper bounds."""
+        bounds = "".join(f'"gpu_cost({method})" = {limit!r}\n' for method, limit in limits.items())
+        experiment = self.folder / f"{name}.toml"
+        experiment.write_text('[experiment]\ntitle = "t"\nscene = "ribbed_plane"\nmethods = ["direct", "toksvig", "lean"]\n'
+                              'size = [32, 32]\ngpu = ["Steam Deck"]\nrepeats = 1\n[zoom]\ndistances = [2]\n'
+                              f'[reference]\nspp = 4\nsupersampling = [1]\n[threshold]\n{bounds}')
+        command = [PROGRAM, "check", experiment, "-q", "-o", self.folder / name]
+        return subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False, timeout=300)
+
+    def test_a_threshold_notices_one_more_texture_read(self):
+        report = self.report("bounds", "--methods", "direct,toksvig,lean", "--gpu", "Steam Deck")
+        direct, toksvig, lean = (method["gpus"][0]["cost_ns"] for method in report["methods"])
+        done = self.check("passes", {"direct": 1.0001 * direct, "toksvig": 1.0001 * toksvig, "lean": 1.0001 * lean})
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        # lean reads one map more than toksvig: the bound of toksvig, 0.01% above its cost, refuses that.
+        done = self.check("falls", {"lean": 1.0001 * toksvig})
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertIn("gpu_cost(lean)", done.stdout + done.stderr)
+        results = json.loads((self.folder / "passes" / "results.json").read_text())
+        self.assertEqual([record["gpu_costs"][0]["cost_ns"] for record in results["records"]], [direct, toksvig, lean])
+        page = (self.folder / "passes" / "index.html").read_text()
+        self.assertIn("Estimated cost on GPUs", page)
+        self.assertIn("## Estimated cost on GPUs", (self.folder / "passes" / "table.md").read_text())
+
+    def test_a_claim_about_a_gpu_that_is_not_there(self):
+        experiment = self.folder / "none.toml"
+        experiment.write_text('[experiment]\ntitle = "t"\nscene = "ribbed_plane"\nmethods = ["direct"]\n'
+                              '[threshold]\n"gpu_cost(direct, gpu=PS4)" = 1.0\n')
+        command = [PROGRAM, "check", str(experiment), "-q", "-o", str(self.folder / "none")]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
+        self.assert_fails(done, 2, "none.toml:6", "no GPU's cost is estimated", "gpu = ")
+
     def assert_fails(self, done, code, *texts):
         self.assertEqual(done.returncode, code, done.stderr)
         self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)

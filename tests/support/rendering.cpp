@@ -73,8 +73,9 @@ Image TestRenderer::frame(const Method& method, const std::string& text, const F
 
 PixelWork TestRenderer::work(const Method& method, const std::string& text, const FootprintFilter& filter) {
   const GpuMethod& gpu = prepared(method, text).gpu;
-  const FrameRenderer counting(context_->info(), gpu_scene_, gpu, size_,
-                               {.footprint = filter, .counting = Counting::work, .orthographic = scene_.camera.orthographic});
+  const FrameRenderer counting(
+      context_->info(), gpu_scene_, gpu, size_,
+      {.footprint = filter, .counting = Counting::work, .orthographic = scene_.camera.orthographic});
   return pixel_work(counting, {.size = size_, .camera = scene_.camera});
 }
 

@@ -86,6 +86,21 @@ class Costs(WholeRunTest):
         self.assertIn("Estimated cost on GPUs", page)
         self.assertIn("## Estimated cost on GPUs", (self.folder / "passes" / "table.md").read_text())
 
+    def test_recommend_limits_the_estimated_cost(self):
+        costs = {method["method"]: method["gpus"][0]["cost_ns"] for method in
+                 self.report("limits", "--methods", "direct,toksvig,lean", "--gpu", "PS4", "--footprint", "trilinear")["methods"]}
+        between = 0.5 * (costs["toksvig"] + costs["lean"]) / costs["direct"]
+        command = [PROGRAM, "recommend", *SCENE, "--methods", "direct,toksvig,lean", "--footprints", "trilinear", "--spp", "16",
+                   "--max-cost", f"{between}@PS4", "-q", "-o", str(self.folder / "advice")]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        advice = json.loads((self.folder / "advice" / "recommend.json").read_text())
+        self.assertEqual(advice["limits"]["gpu"], "PS4")
+        candidates = {candidate["method"]: candidate for candidate in advice["materials"][0]["candidates"]}
+        self.assertAlmostEqual(candidates["toksvig"]["cost"]["median"], costs["toksvig"] / costs["direct"], places=9)
+        self.assertGreater(candidates.get("lean", {"cost": {"median": 2 * between}})["cost"]["median"], between)
+        self.assertLessEqual(advice["materials"][0]["candidates"][advice["materials"][0]["chosen"]]["cost"]["median"], between)
+
     def test_a_claim_about_a_gpu_that_is_not_there(self):
         experiment = self.folder / "none.toml"
         experiment.write_text('[experiment]\ntitle = "t"\nscene = "ribbed_plane"\nmethods = ["direct"]\n'

@@ -78,8 +78,8 @@ int run_process(const Chip& chip, const fs::path& driver, const fs::path& folder
                       .folder = {},
                       .variables = {fmt::format("RADV_FORCE_FAMILY={}", chip.family),
                                     fmt::format("VK_ICD_FILENAMES={}", driver.string()),
-                                    fmt::format("VK_DRIVER_FILES={}", driver.string()),
-                                    "VK_INSTANCE_LAYERS=", "MESA_SHADER_CACHE_DISABLE=true"}},
+                                    fmt::format("VK_DRIVER_FILES={}", driver.string()), "VK_INSTANCE_LAYERS=",
+                                    "RADV_DEBUG=", "RADV_PERFTEST=", "MESA_SHADER_CACHE_DISABLE=true"}},
                      Error(ErrorKind::machine, "--gpu", "the compiling process cannot be started", "free memory"));
   return child.wait(tick);
 }

@@ -4,7 +4,7 @@ function(footprint_package)
   # What is opened at run time, which no linker sees, and what is only read.
   set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS
       "libegl1, libegl-mesa0 | libegl-vendor, libgl1-mesa-dri | libgl1, fonts-dejavu-core")
-  set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "assimp-testmodels, glmark2-data, blender-data")
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "assimp-testmodels, glmark2-data, blender-data, libvulkan1, mesa-vulkan-drivers")
   set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "libosmesa6, footprint-dev, ffmpeg")
   footprint_development_packages(development)
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "cmake, g++, ${development}")

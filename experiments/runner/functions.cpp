@@ -206,12 +206,18 @@ Sample error_sample(const Measure& measure, const Record& record) {
           .noise_floor = other->noise_floor};
 }
 
-// The estimated cost on a GPU, nanoseconds per pixel.
-Sample gpu_cost_sample(const Measure& measure, const Record& record) {
-  for (const GpuCost& cost : record.gpu_costs) {
-    if (!cost.failure && (!measure.gpu || cost.gpu == *measure.gpu)) return {.value = cost.cost_ns};
-  }
-  return {};
+// A figure of the estimate on a GPU.
+template <class Value>
+Evaluate over_gpu(Value GpuCost::*member) {
+  return over_samples(
+      [member](const Measure& measure, const Record& record) {
+        for (const GpuCost& cost : record.gpu_costs) {
+          if (!cost.failure && (!measure.gpu || cost.gpu == *measure.gpu))
+            return Sample{.value = static_cast<double>(cost.*member)};
+        }
+        return Sample{};
+      },
+      "no record has an estimate for that GPU");
 }
 
 double build_ms(const Record& record) { return record.frame_build_ms.value_or(0.0); }
@@ -267,6 +273,7 @@ Measured quantity_figure(const Measure& measure, const std::string& method, std:
 std::vector<FigureFunction> function_table() {
   using enum Selector;
   const std::vector<Selector> records{distance, frame, scene, size, filter, seed};
+  const std::vector<Selector> on_gpu{distance, frame, scene, size, filter, seed, gpu};
   return {
       {"error",
        {distance, frame, spp, scene, size, filter, seed},
@@ -312,10 +319,9 @@ std::vector<FigureFunction> function_table() {
       {"total", records, nothing, over_times([](const Record& r) { return shading_ms(r) + build_ms(r); })},
       {"supersampling_time", {distance, spp, scene, size, filter, seed}, a_timed_count, supersampling_ms},
       {"ratio", records, nothing, over_records([](const Record& r) { return r.ratio_to_direct.median; })},
-      {"gpu_cost",
-       {distance, frame, scene, size, filter, seed, gpu},
-       a_gpu,
-       over_samples(gpu_cost_sample, "no record has an estimate for that GPU")},
+      {"gpu_cost", on_gpu, a_gpu, over_gpu(&GpuCost::cost_ns)},
+      {"gpu_instructions", on_gpu, a_gpu, over_gpu(&GpuCost::instructions)},
+      {"gpu_texture_reads", on_gpu, a_gpu, over_gpu(&GpuCost::texture_reads)},
       {"precompute", records, nothing,
        over_records([](const Record& r) { return r.precompute_cached ? Figure() : Figure(r.precompute_seconds); },
                     "the bake came from the cache (give --no-cache)")},

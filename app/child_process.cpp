@@ -9,8 +9,6 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <fstream>
-#include <iterator>
 #include <thread>
 
 namespace footprint {
@@ -68,11 +66,6 @@ int ChildProcess::wait(const std::function<void()>& tick) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     if (const std::optional<int> exit_code = poll()) return *exit_code;
   }
-}
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 }  // namespace footprint

@@ -43,7 +43,4 @@ class ChildProcess {
   pid_t id_ = 0;
 };
 
-/// The content of a text file; empty if there is none.
-[[nodiscard]] std::string text_of(const std::filesystem::path& file);
-
 }  // namespace footprint

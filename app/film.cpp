@@ -11,6 +11,7 @@
 
 #include "app/child_process.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/core/files.hpp"
 
 namespace footprint {
 namespace {
@@ -71,7 +72,7 @@ std::string make_film(const fs::path& ffmpeg, const Results& animation, const fs
       {.program = ffmpeg, .arguments = film_arguments(animation), .errors = errors, .folder = folder},
       Error(ErrorKind::machine, "--video", fmt::format("{} cannot be started", ffmpeg.string()), "try it by hand"));
   const int exit_code = child.wait([&] { progress("the film", 0.0); });
-  std::string words = text_of(errors);
+  std::string words = file_text(errors);
   while (!words.empty() && words.back() == '\n') words.pop_back();
   fs::remove(errors);
   if (exit_code == 0 && fs::is_regular_file(folder / film_file)) return film_file;

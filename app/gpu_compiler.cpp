@@ -13,6 +13,7 @@
 #include "app/child_process.hpp"
 #include "app/commands.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/core/files.hpp"
 
 namespace footprint {
 namespace {
@@ -63,7 +64,7 @@ fs::path driver_file() {
 
 // The last line that the process wrote, without its own prefix.
 std::string last_message(const fs::path& log) {
-  std::string text = footprint::text_of(log);
+  std::string text = file_text(log);
   while (!text.empty() && text.back() == '\n') text.pop_back();
   const auto line = text.rfind('\n');
   if (line != std::string::npos) text = text.substr(line + 1);
@@ -89,18 +90,19 @@ ChipOutcomes compile(const Chip& chip, std::span<const SpirvProgram> programs, c
   const ScratchFolder scratch;
   write_programs(programs, scratch.path());
   const auto tick = [&] {
-    std::size_t done = 0;
-    while (done < programs.size() && fs::exists(scratch.path() / fmt::format("{}.json", done))) ++done;
     progress(fmt::format("compiling for {}", chip.name),
-             static_cast<double>(done) / static_cast<double>(programs.size()));
+             static_cast<double>(compiled_count(scratch.path())) / static_cast<double>(programs.size()));
   };
-  // Each crash leaves one more outcome, so this ends.
-  for (std::size_t run = 0; run <= programs.size(); ++run) {
+  const std::string place = fmt::format("--gpu {}", chip.name);
+  // A crash leaves one more outcome, unless it comes before the first program.
+  for (std::size_t done = 0; done < programs.size();) {
     const int exit_code = run_process(chip, driver, scratch.path(), tick);
-    if (exit_code == 0) break;
-    if (exit_code > 0)
-      throw Error(ErrorKind::machine, fmt::format("--gpu {}", chip.name), last_message(scratch.path() / "log.txt"));
-    if (all_are_compiled(scratch.path(), programs.size())) break;
+    if (exit_code > 0) throw Error(ErrorKind::machine, place, last_message(scratch.path() / "log.txt"));
+    const std::size_t now = compiled_count(scratch.path());
+    if (now == done)
+      throw Error(ErrorKind::machine, place, "the driver crashes before it compiles",
+                  "install another version of mesa-vulkan-drivers");
+    done = now;
   }
   return read_outcomes(scratch.path(), programs.size());
 }

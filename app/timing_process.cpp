@@ -46,8 +46,8 @@ FrameTimes times_of_one(const std::vector<std::string>& further, const fs::path&
       {.program = "/proc/self/exe", .arguments = std::move(arguments), .errors = errors, .folder = {}},
       Error(ErrorKind::machine, "--processes", "a timing process cannot be started", "ask for fewer --processes"));
   const int exit_code = child.wait(tick);
-  if (exit_code != 0) throw failure_of(exit_code, text_of(errors));
-  FrameTimes times = nlohmann::json::parse(text_of(file)).get<FrameTimes>();
+  if (exit_code != 0) throw failure_of(exit_code, file_text(errors));
+  FrameTimes times = nlohmann::json::parse(file_text(file)).get<FrameTimes>();
   fs::remove(file);
   fs::remove(errors);
   return times;

@@ -10,6 +10,8 @@
 #include <charconv>
 #include <csignal>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <string>
 #include <system_error>
@@ -298,6 +300,11 @@ void OutputFolder::commit() {
     throw machine_error(final_, "cannot be put in place", failure.code());
   }
   committed_ = true;
+}
+
+std::string file_text(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 }  // namespace footprint

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +20,9 @@ void write_file_atomically(const std::filesystem::path& file, std::span<const st
 void write_file_atomically(const std::filesystem::path& file, std::string_view content);
 /// The same for content that `write` produces piece by piece. Exceptions from `write` count as failures.
 void write_file_atomically(const std::filesystem::path& file, const ByteWriter& write);
+
+/// The whole content of a file; empty if there is none.
+[[nodiscard]] std::string file_text(const std::filesystem::path& file);
 
 /// An output folder that is filled in a hidden staging folder, and moved to its final place by `commit`. Without a
 /// commit nothing remains. Other files in the final folder stay.

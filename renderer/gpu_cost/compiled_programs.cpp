@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "renderer/core/error.hpp"
@@ -20,11 +18,6 @@ fs::path file_of(const fs::path& folder, std::size_t program, const char* extens
   return folder / fmt::format("{}.{}", program, extension);
 }
 
-std::string content_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 void write_words(const fs::path& file, const Spirv& words) {
   std::string bytes(words.size() * sizeof(Spirv::value_type), '\0');
   std::memcpy(bytes.data(), words.data(), bytes.size());
@@ -32,7 +25,7 @@ void write_words(const fs::path& file, const Spirv& words) {
 }
 
 Spirv words_of(const fs::path& file) {
-  const std::string bytes = content_of(file);
+  const std::string bytes = file_text(file);
   Spirv words(bytes.size() / sizeof(Spirv::value_type));
   std::memcpy(words.data(), bytes.data(), words.size() * sizeof(Spirv::value_type));
   return words;
@@ -85,19 +78,18 @@ void compile_programs(const fs::path& folder) {
   }
 }
 
-bool all_are_compiled(const fs::path& folder, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!fs::exists(file_of(folder, i, "json"))) return false;
-  }
-  return true;
+std::size_t compiled_count(const fs::path& folder) {
+  std::size_t count = 0;
+  while (fs::exists(file_of(folder, count, "json"))) ++count;
+  return count;
 }
 
 ChipOutcomes read_outcomes(const fs::path& folder, std::size_t count) {
-  ChipOutcomes outcomes{.device = content_of(folder / "device.txt"), .programs = {}};
+  ChipOutcomes outcomes{.device = file_text(folder / "device.txt"), .programs = {}};
   for (std::size_t i = 0; i < count; ++i) {
     const fs::path file = file_of(folder, i, "json");
     try {
-      outcomes.programs.push_back(outcome_of(nlohmann::json::parse(content_of(file))));
+      outcomes.programs.push_back(outcome_of(nlohmann::json::parse(file_text(file))));
     } catch (const nlohmann::json::exception& error) {
       throw Error(ErrorKind::machine, file.string(), error.what(), "run the command again");
     }

@@ -40,9 +40,8 @@ void write_programs(std::span<const SpirvProgram> programs, const std::filesyste
 /// Throws Error (machine): as VulkanCompiler.
 void compile_programs(const std::filesystem::path& folder);
 
-/// Whether `folder` has an outcome for every program.
-/// count: of the programs.
-[[nodiscard]] bool all_are_compiled(const std::filesystem::path& folder, std::size_t count);
+/// How many programs of `folder` have an outcome.
+[[nodiscard]] std::size_t compiled_count(const std::filesystem::path& folder);
 
 /// The outcomes of `folder`. Throws Error (machine): one is missing.
 [[nodiscard]] ChipOutcomes read_outcomes(const std::filesystem::path& folder, std::size_t count);

@@ -9,7 +9,8 @@ import unittest
 from whole_runs import PROGRAM, WholeRunTest
 
 SETTINGS = ["ribbed_plane", "--method", "toksvig", "--size", "32x32", "--distance", "2", "--exposure", "1"]
-FAULTS = {name: os.environ[f"FOOTPRINT_FAULT_{name.upper()}"] for name in ("no_thread", "no_memory", "no_gl_memory", "lost_context", "early_interrupt")}
+FAULTS = {name: os.environ[f"FOOTPRINT_FAULT_{name.upper()}"] for name in ("no_thread", "no_memory", "no_gl_memory", "lost_context", "early_interrupt",
+                                                                            "crashing_driver")}
 
 
 def try_run(*arguments, **settings):
@@ -40,6 +41,14 @@ class Faults(WholeRunTest):
         done = self.with_fault("no_gl_memory", "render", *SETTINGS[:3], *sizes)
         self.assert_fails(done, 3, "512x512 texels of format", "cannot be allocated (GL_OUT_OF_MEMORY)")
         self.assertFalse((self.folder / "none.exr").exists())
+
+    def test_a_gpu_driver_that_crashes(self):
+        driver = self.folder / "radeon_icd.json"
+        library = {"library_path": FAULTS["crashing_driver"], "api_version": "1.1.0"}
+        driver.write_text(json.dumps({"file_format_version": "1.0.0", "ICD": library}))
+        done = try_run("cost", *SETTINGS[:1], *SETTINGS[3:7], "--methods", "direct", "--gpu", "PS4", "-q",
+                       env=os.environ | {"VK_DRIVER_FILES": str(driver)}, timeout=60)
+        self.assert_fails(done, 3, "--gpu PS4: the driver crashes before it compiles")
 
     def small_grooves(self):
         """A map of 256 x 256: the normals take 1 MiB, tan_gmm's lobes 5."""

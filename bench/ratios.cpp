@@ -68,7 +68,7 @@ WallAndCpu side_by_side(const gl::ContextInfo& context, std::span<const DrawFram
     });
   }
   times.wall = interleaved_times(context, measured, repeats, no_progress);
-  for (std::vector<double>& cpu : times.cpu) cpu.erase(cpu.begin());  // the round that warms up
+  for (std::vector<double>& cpu : times.cpu) cpu.erase(cpu.begin(), cpu.end() - repeats);  // rounds that warm up
   return times;
 }
 

@@ -21,8 +21,7 @@ constexpr int most_timed = 4;  // frames at once; more of them take as many time
 
 int timed_frames(int spp) { return std::min(spp, most_timed); }
 
-// How often they are timed: few of them, which a passing disturbance would spoil, more often.
-int curve_repeats(int spp) { return std::clamp(16 / spp, 2, 5); }
+constexpr int curve_rounds = 5;
 
 // The counts that are timed, each once however many points of the curve it stands for.
 std::set<int> timed_counts(std::span<const int> counts) {
@@ -33,7 +32,7 @@ std::set<int> timed_counts(std::span<const int> counts) {
 
 double timing_weight(std::span<const int> counts) {
   double frames = 0.0;
-  for (const int spp : timed_counts(counts)) frames += spp * curve_repeats(spp);
+  for (const int spp : timed_counts(counts)) frames += spp * (curve_rounds + 1);
   return frames;
 }
 
@@ -41,13 +40,17 @@ double timing_weight(std::span<const int> counts) {
 std::map<int, double> measured_ms(const Stage& stage, const View& view, std::span<const int> counts,
                                   std::span<const glm::dvec2> offsets, const Progress& progress) {
   const FrameRenderer& direct = stage.methods()[stage.unit()].frames();
-  std::map<int, double> ms;
-  for (const int spp : timed_counts(counts)) {
-    const DrawFrame draw = [&] {
-      for (const glm::dvec2& offset : offsets.first(static_cast<std::size_t>(spp))) direct.draw(view, offset);
-    };
-    ms[spp] = quantile(repeated_times(stage.context().info(), draw, curve_repeats(spp), progress), 0.5);
+  const std::set<int> timed = timed_counts(counts);
+  std::vector<DrawFrame> draws;
+  for (const int spp : timed) {
+    draws.emplace_back([&direct, &view, frames = offsets.first(static_cast<std::size_t>(spp))] {
+      for (const glm::dvec2& offset : frames) direct.draw(view, offset);
+    });
   }
+  const RepeatedTimes times = interleaved_times(stage.context().info(), draws, curve_rounds, progress);
+  std::map<int, double> ms;
+  std::size_t draw = 0;
+  for (const int spp : timed) ms[spp] = quantile(times[draw++], 0.5);
   return ms;
 }
 

@@ -152,7 +152,9 @@ class EglContext final : public NativeContext {
 };
 
 std::vector<EGLDeviceEXT> egl_devices() {
-  require_extension(EGL_NO_DISPLAY, "EGL device", "EGL_EXT_device_enumeration");
+  // EGL_EXT_device_base is the older name of enumeration and query together; NVIDIA's driver lists it alone.
+  if (!has_extension(EGL_NO_DISPLAY, "EGL_EXT_device_base"))
+    require_extension(EGL_NO_DISPLAY, "EGL device", "EGL_EXT_device_enumeration");
   require_extension(EGL_NO_DISPLAY, "EGL device", "EGL_EXT_platform_device");
   const auto query = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(eglGetProcAddress("eglQueryDevicesEXT"));
   EGLint count = 0;

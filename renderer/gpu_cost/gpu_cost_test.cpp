@@ -85,6 +85,15 @@ TEST_F(Driver, CountsArithmetic) {
   }
 }
 
+// The driver leaves a body of this length in a loop unless it is asked to unroll.
+TEST_F(Driver, CountsEveryRoundOfAConstantLoop) {
+  const std::string body = repeated(64, "sum.x = sum.x * place.y + place.z;");
+  const double once = work_of(body).straight.full;
+  const ShaderWork work = work_of("  for (int i = 0; i < 12; ++i) {\n" + body + "  }\n");
+  EXPECT_NEAR(work.straight.full - once, 11 * 64, 2);
+  EXPECT_EQ(work.looped.full, 0);
+}
+
 TEST_F(Driver, KeepsLoopsOfUnknownLengthApart) {
   const ShaderWork work = work_of(
       "  sum += textureLod(first, sum.xy, 0.0);\n"

@@ -4,6 +4,7 @@
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
+#include <glslang/SPIRV/spirv.hpp>
 
 #include "renderer/core/error.hpp"
 
@@ -36,6 +37,22 @@ void parse(glslang::TShader& shader, EShLanguage stage, const std::string& name,
   if (!shader.parse(GetDefaultResources(), 450, false, messages)) throw invalid(name, shader.getInfoLog());
 }
 
+// Requests that each loop be unrolled. A driver leaves long loops as they are, and an instruction in a loop then counts
+// once, however many rounds the loop has.
+void request_unrolling(Spirv& code) {
+  constexpr std::size_t header_words = 5, control = 3;
+  for (std::size_t at = header_words; at < code.size(); at += code[at] >> spv::WordCountShift) {
+    if ((code[at] & spv::OpCodeMask) == spv::OpLoopMerge) code[at + control] |= spv::LoopControlUnrollMask;
+  }
+}
+
+Spirv spirv_of(const glslang::TProgram& program, EShLanguage stage) {
+  Spirv code;
+  glslang::GlslangToSpv(*program.getIntermediate(stage), code);
+  request_unrolling(code);
+  return code;
+}
+
 }  // namespace
 
 SpirvProgram spirv_program(const std::string& name, const std::string& vertex, const std::string& fragment) {
@@ -47,10 +64,7 @@ SpirvProgram spirv_program(const std::string& name, const std::string& vertex, c
   program.addShader(&vertex_stage);
   program.addShader(&fragment_stage);
   if (!program.link(messages) || !program.mapIO()) throw invalid(name, program.getInfoLog());
-  SpirvProgram compiled;
-  glslang::GlslangToSpv(*program.getIntermediate(EShLangVertex), compiled.vertex);
-  glslang::GlslangToSpv(*program.getIntermediate(EShLangFragment), compiled.fragment);
-  return compiled;
+  return {.vertex = spirv_of(program, EShLangVertex), .fragment = spirv_of(program, EShLangFragment)};
 }
 
 }  // namespace footprint

@@ -2,40 +2,48 @@
 #include "renderer/pipeline/timing.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 
 #include "renderer/gl/objects.hpp"
 
 namespace footprint {
+namespace {
+
+/// How long a GPU draws before its frames are timed, so that its clocks rise from idle: an H100 drew five times slower
+/// during the first half second.
+constexpr std::chrono::duration<double> gpu_warm_up(1.0);
+
+double time_of(gl::FrameTimer& timer, const DrawFrame& draw) {
+  timer.begin();
+  draw();
+  return timer.end_ms();
+}
+
+// At least one round.
+void warm_up(const gl::ContextInfo& context, gl::FrameTimer& timer, std::span<const DrawFrame> candidates) {
+  const auto start = std::chrono::steady_clock::now();
+  do {
+    for (const DrawFrame& draw : candidates) time_of(timer, draw);
+  } while (!context.software && std::chrono::steady_clock::now() - start < gpu_warm_up);
+}
+
+}  // namespace
 
 RepeatedTimes interleaved_times(const gl::ContextInfo& context, std::span<const DrawFrame> candidates, int repeats,
                                 const Progress& progress, const std::function<bool(const RepeatedTimes&)>& is_enough) {
   gl::FrameTimer timer(context);
   RepeatedTimes times(candidates.size());
-  for (int repeat = -1; repeat < repeats; ++repeat) {
+  progress("timing frames", 0.0);
+  warm_up(context, timer, candidates);
+  for (int repeat = 0; repeat < repeats; ++repeat) {
     progress("timing frames", static_cast<double>(repeat + 1) / (repeats + 1));
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       const std::size_t candidate = (i + static_cast<std::size_t>(repeat + 1)) % candidates.size();
-      timer.begin();
-      candidates[candidate]();
-      const double ms = timer.end_ms();
-      if (repeat >= 0) times[candidate].push_back(ms);
+      times[candidate].push_back(time_of(timer, candidates[candidate]));
     }
-    if (repeat >= 0 && is_enough && is_enough(times)) break;
-  }
-  return times;
-}
-
-std::vector<double> repeated_times(const gl::ContextInfo& context, const DrawFrame& draw, int repeats,
-                                   const Progress& progress) {
-  gl::FrameTimer timer(context);
-  std::vector<double> times;
-  for (int repeat = 0; repeat < repeats; ++repeat) {
-    progress("timing supersampling", static_cast<double>(repeat) / repeats);
-    timer.begin();
-    draw();
-    times.push_back(timer.end_ms());
+    if (is_enough && is_enough(times)) break;
   }
   return times;
 }

@@ -17,16 +17,12 @@ using DrawFrame = std::function<void()>;
 /// Times by candidate and repeat, milliseconds.
 using RepeatedTimes = std::vector<std::vector<double>>;
 
-/// One untimed round warms up. Then each repeat draws one frame of every candidate, each time in another order.
-/// Software renderers use the wall clock around glFinish, GPUs timer queries.
-/// repeats: at most so many; stops earlier if `is_enough` returns true.
+/// One untimed round warms up; on a GPU, a second of rounds, until its clocks have risen. Then each repeat draws one
+/// frame of every candidate, each time in another order. Software renderers use the wall clock around glFinish, GPUs
+/// timer queries. repeats: at most so many; stops earlier if `is_enough` returns true.
 [[nodiscard]] RepeatedTimes interleaved_times(const gl::ContextInfo& context, std::span<const DrawFrame> candidates,
                                               int repeats, const Progress& progress,
                                               const std::function<bool(const RepeatedTimes&)>& is_enough = {});
-
-/// Milliseconds of each of `repeats` draws of one candidate, without a warm-up round.
-[[nodiscard]] std::vector<double> repeated_times(const gl::ContextInfo& context, const DrawFrame& draw, int repeats,
-                                                 const Progress& progress);
 
 /// The q-quantile by linear interpolation between order statistics.
 /// values: not empty. q: 0 to 1.

@@ -54,6 +54,16 @@ class Costs(WholeRunTest):
         self.assertEqual(len(rows), 2 * len(METHODS))
         self.assertEqual(float(rows[0]["cost_ns"]), report["methods"][0]["gpus"][0]["cost_ns"])
 
+    def test_more_lobes_cost_more_under_four_lights(self):
+        steps = [["tan_gmm:n=2", "tan_gmm:n=4"], ["xu_vmf:j=1", "xu_vmf:j=4"]]
+        done = cost("carved_disk", "--size", "32x32", "--methods", ",".join(sum(steps, [])), "--gpu", "RX 480", "-o",
+                    self.folder / "lobes")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        methods = json.loads((self.folder / "lobes/cost.json").read_text())["methods"]
+        alu = {method["method"]: method["gpus"][0]["alu_clocks"] for method in methods}
+        for less, more in steps:
+            self.assertLess(1.2 * alu[less], alu[more])
+
     def test_more_probes_cost_more(self):
         figures = [self.report(name, "--methods", "lean", "--gpu", "Steam Deck", "--footprint", name)["methods"][0]
                    for name in ("box:1", "box:2", "box:4")]

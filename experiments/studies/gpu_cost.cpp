@@ -16,8 +16,14 @@ namespace {
 
 constexpr int most_unrolled_lights = 4;  // of a kind; further ones cost what the last one adds
 
+// Constant numbers of rounds, and how often a program with them counts.
+struct WeighedTrips {
+  FixedTrips trips;
+  double weight = 1;
+};
+
 // The programs of a frame: one with a single round per loop, and one per kind of loop with one round more.
-std::vector<WeighedProgram> weighed_programs(const PixelTrips& trips, const GpuScene::LightCounts& lights) {
+std::vector<WeighedTrips> weighed_trips(const PixelTrips& trips, const GpuScene::LightCounts& lights) {
   const auto unrolled = [](std::size_t count) { return std::clamp(static_cast<int>(count), 1, most_unrolled_lights); };
   const FixedTrips base{.probes = 1,
                         .lobes = 1,
@@ -25,7 +31,7 @@ std::vector<WeighedProgram> weighed_programs(const PixelTrips& trips, const GpuS
                         .point_lights = unrolled(lights.point),
                         .spot_lights = unrolled(lights.spot),
                         .directional_lights = unrolled(lights.directional)};
-  std::vector<WeighedProgram> programs{{base, 1.0}};
+  std::vector<WeighedTrips> programs{{base, 1.0}};
   const auto add = [&](int FixedTrips::*loop, double further) {
     if (further <= 0) return;
     FixedTrips longer = base;
@@ -52,14 +58,46 @@ SpirvProgram calibration() {
                        "textureLod(second, gl_FragCoord.yx, 0.0); }\n");
 }
 
+TextureCost cost_of_texture(const BoundTexture& texture) {
+  return {.name = texture.name, .bits = texture.bits, .trilinear = texture.trilinear, .bytes = texture.bytes};
+}
+
 std::map<int, TextureCost> costs_of(const std::vector<BoundTexture>& textures) {
   std::map<int, TextureCost> costs;
-  for (std::size_t unit = 0; unit < textures.size(); ++unit) {
-    const BoundTexture& texture = textures[unit];
-    costs[static_cast<int>(unit)] = {
-        .name = texture.name, .bits = texture.bits, .trilinear = texture.trilinear, .bytes = texture.bytes};
-  }
+  for (std::size_t unit = 0; unit < textures.size(); ++unit)
+    costs[static_cast<int>(unit)] = cost_of_texture(textures[unit]);
   return costs;
+}
+
+std::map<int, TextureCost> costs_of(const std::map<int, BoundTexture>& textures) {
+  std::map<int, TextureCost> costs;
+  for (const auto& [unit, texture] : textures) costs[unit] = cost_of_texture(texture);
+  return costs;
+}
+
+CostedProgram program_of(const RecordedDraw& draw) {
+  CostedProgram program{.vertex = draw.vertex, .fragment = draw.fragment, .targets = {}};
+  for (const TexelFormat& target : draw.targets)
+    program.targets.push_back({.channels = target.channels, .bits = target.bits});
+  return program;
+}
+
+double written_bytes(const RecordedDraw& draw) {
+  double bytes = 0;
+  for (const TexelFormat& target : draw.targets) bytes += target.bytes();
+  return bytes;
+}
+
+bool is_copy(const RecordedDraw& draw) { return draw.fragment.empty(); }
+
+// Those of the forward pass and of the passes before it.
+std::vector<CostedProgram> programs_of(const CostedFrame& frame) {
+  std::vector<CostedProgram> programs;
+  for (const WeighedProgram& one : frame.programs) programs.push_back(one.program);
+  for (const RecordedDraw& draw : frame.passes) {
+    if (!is_copy(draw)) programs.push_back(program_of(draw));
+  }
+  return programs;
 }
 
 CompileOutcome no_failure(ChipOutcomes outcomes) {
@@ -150,29 +188,42 @@ MethodCosts GpuCosts::own_costs(const StagedMethod& method, const View& view, co
   costs.method = method.baked().spec.text;
   const PixelTrips trips = pixel_trips(stage_.counting_frames(method, Counting::trips), view);
   costs.trips = {.probes = trips.probes, .lobes = trips.lobes, .rounds = trips.rounds};
-  const FrameRenderer work = stage_.counting_frames(method, Counting::work);
-  costs.lookups = pixel_work(work, view).lookups;
+  const FrameRenderer counting = stage_.counting_frames(method, Counting::work);
+  const PixelWork work = pixel_work(counting, view);
+  costs.lookups = work.lookups;
+  costs.pixels = work.pixels;
   costs.map_bytes = static_cast<double>(method.baked().bytes);
-  const std::map<int, TextureCost> textures = costs_of(work.program().bound_textures());
-  const std::vector<WeighedProgram> programs = weighed_programs(trips, stage_.gpu_scene().light_counts());
+  const CostedFrame frame{.name = name_of(method),
+                          .programs = weighed_programs(method, trips),
+                          .lookups = work.lookups,
+                          .textures = costs_of(counting.program().bound_textures()),
+                          .passes = method.gpu().draws_per_frame(view),
+                          .pixels = work.pixels};
   ProgressParts parts(progress, static_cast<double>(chips_.size()));
   for (CompilingChip& chip : chips_) {
-    compile_missing(chip, method, programs, parts.next(1, costs.method + ", "));
-    costs.gpus.push_back(cost_of(chip, method, costs.lookups, programs, textures));
+    compile_missing(chip, frame, parts.next(1, costs.method + ", "));
+    costs.gpus.push_back(cost_of(chip, frame));
   }
   return costs;
 }
 
-void GpuCosts::compile_missing(CompilingChip& chip, const StagedMethod& method,
-                               const std::vector<WeighedProgram>& programs, const Progress& progress) {
-  const std::string text = name_of(method);
+std::vector<WeighedProgram> GpuCosts::weighed_programs(const StagedMethod& method, const PixelTrips& trips) const {
+  std::vector<WeighedProgram> programs;
+  for (const WeighedTrips& one : weighed_trips(trips, stage_.gpu_scene().light_counts())) {
+    const ForwardShaders shaders = stage_.program_for_cost(method, one.trips).shaders;
+    programs.push_back({{.vertex = shaders.vertex, .fragment = shaders.fragment.text()}, one.weight});
+  }
+  return programs;
+}
+
+void GpuCosts::compile_missing(CompilingChip& chip, const CostedFrame& frame, const Progress& progress) {
   std::vector<SpirvProgram> missing;
   std::vector<CompileOutcome*> places;
-  for (const WeighedProgram& one : programs) {
-    const auto [place, is_new] = chip.compiled.try_emplace({text, one.trips});
+  for (const CostedProgram& program : programs_of(frame)) {
+    const auto [place, is_new] = chip.compiled.try_emplace(program);
     if (!is_new) continue;
-    const ForwardProgram program = stage_.program_for_cost(method, one.trips);
-    missing.push_back(spirv_program(text, program.shaders.vertex, program.shaders.fragment.text()));
+    missing.push_back(spirv_program(frame.name, program.vertex, program.fragment));
+    missing.back().targets = program.targets;
     places.push_back(&place->second);
   }
   if (missing.empty()) return;
@@ -180,23 +231,41 @@ void GpuCosts::compile_missing(CompilingChip& chip, const StagedMethod& method,
   for (std::size_t i = 0; i < places.size(); ++i) *places[i] = std::move(outcomes.programs.at(i));
 }
 
-GpuCost GpuCosts::cost_of(const CompilingChip& chip, const StagedMethod& method, double lookups,
-                          const std::vector<WeighedProgram>& programs, const std::map<int, TextureCost>& textures) {
-  const std::string text = name_of(method);
+GpuCost GpuCosts::cost_of(const CompilingChip& chip, const CostedFrame& frame) {
   GpuCost cost;
   cost.gpu = chip.chip->name;
-  std::vector<WeighedWork> works;
-  for (const WeighedProgram& one : programs) {
-    const CompileOutcome& outcome = chip.compiled.at({text, one.trips});
-    if (!outcome.stage) {
-      cost.failure = outcome.failure;
-      return cost;
-    }
-    works.push_back({one.weight, shader_work(outcome.stage->code, chip.between_descriptors)});
+  for (const CostedProgram& program : programs_of(frame)) {
+    const CompileOutcome& outcome = chip.compiled.at(program);
+    if (outcome.stage) continue;
+    cost.failure = outcome.failure;
+    return cost;
   }
-  set_statistics(cost, *chip.compiled.at({text, programs.front().trips}).stage);
-  set_estimate(cost, estimate(*chip.chip, works, lookups, textures));
+  std::vector<WeighedWork> works;
+  for (const WeighedProgram& one : frame.programs)
+    works.push_back({one.weight, shader_work(chip.compiled.at(one.program).stage->code, chip.between_descriptors)});
+  set_statistics(cost, *chip.compiled.at(frame.programs.front().program).stage);
+  set_estimate(cost, estimate(*chip.chip, works, frame.lookups, frame.textures));
+  if (frame.pixels > 0) cost.passes_ns = passes_ns(chip, frame) / frame.pixels;
+  cost.cost_ns += cost.passes_ns;
   return cost;
+}
+
+// The passes of one frame: one after the other, because each reads what the one before has written.
+double GpuCosts::passes_ns(const CompilingChip& chip, const CostedFrame& frame) {
+  std::map<CostedProgram, ShaderWork> works;
+  double sum = 0;
+  for (const RecordedDraw& draw : frame.passes) {
+    if (is_copy(draw)) {
+      sum += copy_ns(*chip.chip, draw.pixels * written_bytes(draw));
+      continue;
+    }
+    const auto [work, is_new] = works.try_emplace(program_of(draw));
+    if (is_new) work->second = shader_work(chip.compiled.at(work->first).stage->code, chip.between_descriptors);
+    const CostEstimate pixel =
+        estimate(*chip.chip, {{1.0, work->second}}, draw.lookups, costs_of(draw.textures), written_bytes(draw));
+    sum += draw.pixels * pixel.cost_ns();
+  }
+  return sum;
 }
 
 CostReport estimate_costs(const RunSettings& settings, const GpuCompiler& compile, const Progress& progress) {

@@ -16,10 +16,28 @@
 
 namespace footprint {
 
+/// A program as a driver compiles it.
+struct CostedProgram {
+  std::string vertex, fragment;  ///< GLSL for OpenGL
+  std::vector<ColorTarget> targets{{}};
+
+  friend auto operator<=>(const CostedProgram&, const CostedProgram&) = default;
+};
+
 /// A program, and how often it counts in a frame (WeighedWork::weight).
 struct WeighedProgram {
-  FixedTrips trips;
+  CostedProgram program;
   double weight = 1;
+};
+
+/// The work of a method's frame on any GPU.
+struct CostedFrame {
+  std::string name;                      ///< of the method, for messages
+  std::vector<WeighedProgram> programs;  ///< one with a single round per loop first
+  double lookups = 0;                    ///< per pixel
+  std::map<int, TextureCost> textures;   ///< by unit
+  RecordedDraws passes;                  ///< that each frame repeats before it draws
+  double pixels = 0;                     ///< that the object covers
 };
 
 /// The costs of a stage's methods. Stores what is compiled, so that further views only count again.
@@ -41,14 +59,13 @@ class GpuCosts {
   struct CompilingChip {
     const Chip* chip;
     int between_descriptors;
-    std::map<std::pair<std::string, FixedTrips>, CompileOutcome> compiled;  // by method and footprint filter
+    std::map<CostedProgram, CompileOutcome> compiled;
   };
-  void compile_missing(CompilingChip& chip, const StagedMethod& method, const std::vector<WeighedProgram>& programs,
-                       const Progress& progress);
+  void compile_missing(CompilingChip& chip, const CostedFrame& frame, const Progress& progress);
   [[nodiscard]] MethodCosts own_costs(const StagedMethod& method, const View& view, const Progress& progress);
-  [[nodiscard]] static GpuCost cost_of(const CompilingChip& chip, const StagedMethod& method, double lookups,
-                                       const std::vector<WeighedProgram>& programs,
-                                       const std::map<int, TextureCost>& textures);
+  [[nodiscard]] std::vector<WeighedProgram> weighed_programs(const StagedMethod& method, const PixelTrips& trips) const;
+  [[nodiscard]] static GpuCost cost_of(const CompilingChip& chip, const CostedFrame& frame);
+  [[nodiscard]] static double passes_ns(const CompilingChip& chip, const CostedFrame& frame);
 
   const Stage& stage_;
   GpuCompiler compile_;

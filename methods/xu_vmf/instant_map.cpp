@@ -64,6 +64,13 @@ void show_all_levels(const gl::Texture& map, int levels) {
   gl::api().TextureParameteri(map.name(), GL_TEXTURE_MAX_LEVEL, levels - 1);
 }
 
+// The lookups that average the texels under a texel of the next level (sharesOf in xu_vmf_storing.glsl).
+double averaging_lookups(const gl::Texture& map, int level) {
+  const glm::ivec2 finer = glm::max(glm::ivec2(map.width(), map.height()) >> level, 1);
+  const glm::ivec2 taps = glm::min(finer, 2 + finer % 2);
+  return static_cast<double>(taps.x) * taps.y;
+}
+
 const PrefilteredTexture& declared(const FrameBuildJob& job, std::string_view name) {
   return *std::ranges::find(job.baked.textures, name, &PrefilteredTexture::name);
 }
@@ -124,7 +131,7 @@ InstantMap::InstantMap(const ShaderVariant& variant, const Options& options)
     return Stage{framebuffer(layers),
                  program("xu_vmf_coarsen", screen_vertex_shader(),
                          pass("xu_vmf_coarsen.glsl", guards_, false, layer_count(layers))),
-                 layers};
+                 layers, settings_.adaptive ? layers - layers / 3 : layers};
   };
   join_flat_ = program("xu_vmf_join", screen_vertex_shader(), pass("xu_vmf_join.glsl", guards_, false));
   whole_ = stage(1);
@@ -197,12 +204,14 @@ void InstantMap::join(const FrameBuildJob& job) const {
     }
     const bool normals_alone = layers > 1 && layer == layers - 1;
     if (has(effects_, Effect::multi_lobe)) gl::api().Uniform1i(program.uniform("own_lobe"), normals_alone ? -1 : layer);
-    if (!camera) {
-      gl::api().DrawArrays(GL_TRIANGLES, 0, 3);
-      continue;
-    }
-    for (GLint i = 0; i < (guards_ ? 2 : 1); ++i) gl::api().ClearBufferfv(GL_COLOR, i, nothing.data());
-    gl::api().DrawElements(GL_TRIANGLES, job.batch.index_count, GL_UNSIGNED_INT, nullptr);
+    for (GLint i = 0; camera && i < (guards_ ? 2 : 1); ++i) gl::api().ClearBufferfv(GL_COLOR, i, nothing.data());
+    draw_recorded(job.record, program, 0, [&] {  // its loops have constant rounds and read nothing
+      if (camera) {
+        gl::api().DrawElements(GL_TRIANGLES, job.batch.index_count, GL_UNSIGNED_INT, nullptr);
+      } else {
+        gl::api().DrawArrays(GL_TRIANGLES, 0, 3);
+      }
+    });
   }
 }
 
@@ -216,12 +225,15 @@ void InstantMap::split(const FrameBuildJob& job, const gl::Program& program, std
                        std::string_view to) const {
   const gl::Texture& parts = *texture_of(job, to)->texture;
   const int own_lobes = declared(job, to).layers / parts_;
+  const glm::ivec2 size(parts.width(), parts.height());
+  const double lookups = averaging_lookups(*texture_of(job, from)->texture, 0);
+  const int inputs = from == whole_name ? 1 : 2;
   for (int own = 0; own < own_lobes; ++own) {
     if (first_cut_ > 0) {  // the hemisphere itself
       bind(0, *texture_of(job, from)->texture);
       gl::api().UseProgram(whole_.coarsen.name());
       gl::api().Uniform1i(whole_.coarsen.uniform("first_layer"), own);
-      draw_into(whole_, parts, {parts.width(), parts.height()}, own * parts_);
+      draw_into(job, whole_, {whole_.coarsen, lookups, parts, size, own * parts_});
     }
     bind(0, *texture_of(job, whole_name)->texture);
     bind(1, *texture_of(job, from)->texture);
@@ -229,22 +241,20 @@ void InstantMap::split(const FrameBuildJob& job, const gl::Program& program, std
     gl::api().Uniform1i(program.uniform("source"), own);
     for (int first = first_cut_; first < parts_; first += static_cast<int>(split_stage_.layers)) {
       gl::api().Uniform1i(program.uniform("first_part"), first);
-      draw_into(split_stage_, parts, {parts.width(), parts.height()}, own * parts_ + first);
+      draw_into(job, split_stage_, {program, inputs * lookups, parts, size, own * parts_ + first});
     }
   }
 }
 
-// Draws a level of `size` into the finest level of a texture, from `first_layer` on.
-void InstantMap::draw_into(const Stage& stage, const gl::Texture& target, const glm::ivec2& size,
-                           int first_layer) const {
+void InstantMap::draw_into(const FrameBuildJob& job, const Stage& stage, const LevelDraw& draw) const {
   for (GLuint i = 0; i < stage.layers; ++i) {
-    gl::api().NamedFramebufferTextureLayer(stage.framebuffer.name(), GL_COLOR_ATTACHMENT0 + i, target.name(), 0,
-                                           first_layer + static_cast<GLint>(i));
+    gl::api().NamedFramebufferTextureLayer(stage.framebuffer.name(), GL_COLOR_ATTACHMENT0 + i, draw.target.name(), 0,
+                                           draw.first_layer + static_cast<GLint>(i));
   }
   gl::api().BindFramebuffer(GL_FRAMEBUFFER, stage.framebuffer.name());
-  gl::api().Viewport(0, 0, size.x, size.y);
+  gl::api().Viewport(0, 0, draw.size.x, draw.size.y);
   gl::api().BindVertexArray(no_vertices_.name());
-  gl::api().DrawArrays(GL_TRIANGLES, 0, 3);
+  draw_recorded(job.record, draw.program, draw.lookups, [] { gl::api().DrawArrays(GL_TRIANGLES, 0, 3); });
 }
 
 // Fills the coarser levels of a texture, if the job has it.
@@ -257,14 +267,17 @@ void InstantMap::coarsen(const FrameBuildJob& job, std::string_view name) const 
   bind(0, *built->texture);
   for (int level = 1; level < levels; ++level) {
     show_one_level(*built->texture, level - 1);
+    const double taps = averaging_lookups(*built->texture, level - 1);
     const glm::ivec2 size = glm::max(glm::ivec2(built->texture->width(), built->texture->height()) >> level, 1);
     for (int first = 0; first < layers;) {
       const Stage& stage = of_parts && first % parts_ >= first_cut_ ? split_stage_ : whole_;
       gl::api().UseProgram(stage.coarsen.name());
       gl::api().Uniform1i(stage.coarsen.uniform("first_layer"), first);
       const int drawn = static_cast<int>(stage.layers);
-      draw_into(stage, drawn_.make_room(*built->texture, size.x, size.y, drawn), size, 0);
+      const gl::Texture& target = drawn_.make_room(*built->texture, size.x, size.y, drawn);
+      draw_into(job, stage, {stage.coarsen, stage.averaged * taps, target, size, 0});
       drawn_.copy_to(*built->texture, level, first, drawn);
+      record_copy(job.record, target, static_cast<double>(size.x) * size.y * drawn);
       first += drawn;
     }
   }

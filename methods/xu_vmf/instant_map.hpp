@@ -82,6 +82,15 @@ class InstantMap final : public FrameBuild {
     gl::Framebuffer framebuffer;
     gl::Program coarsen;
     GLuint layers = 0;
+    GLuint averaged = 0;  // of the layers; each of the others is a sum of two of these
+  };
+  // A draw of a level of `size` into the finest level of a texture.
+  struct LevelDraw {
+    const gl::Program& program;
+    double lookups;  // per pixel
+    const gl::Texture& target;
+    glm::ivec2 size;
+    int first_layer;
   };
 
   void join(const FrameBuildJob& job) const;
@@ -89,7 +98,7 @@ class InstantMap final : public FrameBuild {
   void split(const FrameBuildJob& job) const;
   void split(const FrameBuildJob& job, const gl::Program& program, std::string_view from, std::string_view to) const;
   void coarsen(const FrameBuildJob& job, std::string_view name) const;
-  void draw_into(const Stage& stage, const gl::Texture& target, const glm::ivec2& size, int first_layer) const;
+  void draw_into(const FrameBuildJob& job, const Stage& stage, const LevelDraw& draw) const;
 
   Settings settings_;
   EffectSet effects_;

@@ -6,7 +6,10 @@
 #include <functional>
 #include <numbers>
 
+#include "renderer/bake/baked_method.hpp"
+#include "renderer/effects/effects.hpp"
 #include "renderer/image/mipmap.hpp"
+#include "renderer/pipeline/surface_program.hpp"
 #include "tests/methods/built_map.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/test_scenes.hpp"
@@ -191,6 +194,79 @@ TEST(XuFrameBuild, IsNotThereWhereNothingVaries) {
   const Material material = blinn_phong_square(constant_normals(4, 4, {0, 0, 1}), 100).materials[0];
   EXPECT_EQ(xu_vmf_method().frame_build({}, options), nullptr);
   EXPECT_TRUE(xu_vmf_method().precompute(material, options, {}, no_progress).textures.empty());
+}
+
+// The draws and copies of a build, added up.
+struct BuildTotals {
+  double written = 0, copied = 0;  // bytes
+  double lookups = 0;
+};
+
+struct BuiltBytes {
+  double all = 0, coarser = 0;  // of all levels, and of those that are not the finest
+};
+
+BuildTotals totals_of(const RecordedDraws& draws) {
+  BuildTotals totals;
+  for (const RecordedDraw& draw : draws) {
+    for (const TexelFormat& target : draw.targets)
+      (draw.fragment.empty() ? totals.copied : totals.written) += draw.pixels * target.bytes();
+    totals.lookups += draw.pixels * draw.lookups;
+  }
+  return totals;
+}
+
+BuiltBytes built_bytes(const Prefiltered& baked) {
+  BuiltBytes bytes;
+  for (const PrefilteredTexture& texture : baked.textures) {
+    if (!texture.built) continue;
+    const auto all = static_cast<double>(byte_count(texture));
+    const TextureLevel& finest = texture.levels.front();
+    const double texel_bytes = texture.channels * (texture.storage == Storage::fp16 ? 2.0 : 4.0);
+    bytes.all += all;
+    bytes.coarser += all - texel_bytes * finest.width * finest.height * texture.layers;
+  }
+  return bytes;
+}
+
+// The passes of a frame of a square with such maps.
+RecordedDraws passes_of(const Scene& scene, const Words& words, Prefiltered& baked) {
+  const EffectSet effects = effects_on(derive_effects(scene));
+  GpuScene gpu_scene(shared_context().info(), scene, effects);
+  const Options options(xu_vmf_method().info().options, words, "xu_vmf");
+  const BakedMethod method =
+      bake(xu_vmf_method(), {.text = "xu_vmf", .name = "xu_vmf", .options = words}, scene, effects, no_progress);
+  const GpuMethod gpu(gpu_scene, method);
+  baked = method.materials.front();
+  RecordedDraws draws = gpu.draws_per_frame({.size = {8, 8}, .camera = scene.camera});
+  shared_context().check("recording a build");
+  return draws;
+}
+
+// Each texel is drawn once, and each below the finest level is copied once, for any size, partition and storage.
+TEST(XuFrameBuild, WritesEachTexelOnceAndCopiesTheCoarserLevels) {
+  const Scene odd = rough_square(random_normals(13, 7, 0.6F, 5), Image(13, 7, 1, 0.3F));
+  Scene rough = rough_square(random_normals(16, 8, 0.6F, 5), Image(16, 8, 1, 0.3F));
+  for (const Scene& scene : {odd, rough}) {
+    for (const Words& words : {Words{{"j", "1"}}, Words{{"j", "8"}}, Words{}, Words{{"storage", "fp16"}}}) {
+      Prefiltered baked;
+      const BuildTotals totals = totals_of(passes_of(scene, words, baked));
+      const BuiltBytes bytes = built_bytes(baked);
+      EXPECT_GT(bytes.all, 0);
+      EXPECT_EQ(totals.written, bytes.all);
+      EXPECT_EQ(totals.copied, bytes.coarser);
+    }
+  }
+}
+
+// With even sizes each finer texel is read once: 16 x 8 of the whole, then 8 x 4, 4 x 2 and 2 x 1 of 4 parts.
+TEST(XuFrameBuild, ReadsEachFinerTexelOnce) {
+  const Scene scene = blinn_phong_square(random_normals(16, 8, 0.6F, 5), 100);
+  Prefiltered baked;
+  const RecordedDraws draws = passes_of(scene, {{"j", "4"}}, baked);
+  EXPECT_EQ(totals_of(draws).lookups, 16 * 8 + 4 * (8 * 4 + 4 * 2 + 2 * 1));
+  EXPECT_EQ(draws.front().pixels, 16 * 8);
+  EXPECT_TRUE(passes_of(scene, {{"j", "4"}, {"rebuild", "changed"}}, baked).empty());
 }
 
 // A facet with two lobes has layers for each, and one of normals.

@@ -56,7 +56,7 @@ class FrameBuild {
   FrameBuild& operator=(const FrameBuild&) = delete;
   virtual ~FrameBuild() = default;
 
-  /// Issues the passes for one material. The caller adds memory barriers before and after.
+  /// Issues the passes for one material, each draw by draw_recorded. The caller adds memory barriers before and after.
   virtual void run(const FrameBuildJob& job) const = 0;
 
   /// Whether the result depends on the view, so that it cannot be exported as a map of the material.

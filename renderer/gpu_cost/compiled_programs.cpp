@@ -1,4 +1,5 @@
-// NUMBER.vert and NUMBER.frag have SPIR-V; NUMBER.json the outcome; device.txt the driver's name of the chip.
+// NUMBER.vert and NUMBER.frag have SPIR-V; NUMBER.targets the formats of the targets; NUMBER.json the outcome;
+// device.txt the driver's name of the chip.
 #include "renderer/gpu_cost/compiled_programs.hpp"
 
 #include <fmt/format.h>
@@ -29,6 +30,25 @@ Spirv words_of(const fs::path& file) {
   Spirv words(bytes.size() / sizeof(Spirv::value_type));
   std::memcpy(words.data(), bytes.data(), words.size() * sizeof(Spirv::value_type));
   return words;
+}
+
+void write_targets(const fs::path& file, const std::vector<ColorTarget>& targets) {
+  auto json = nlohmann::json::array();
+  for (const ColorTarget& target : targets) json.push_back({target.channels, target.bits});
+  write_file_atomically(file, std::string_view(json.dump()));
+}
+
+std::vector<ColorTarget> targets_of(const fs::path& file) {
+  std::vector<ColorTarget> targets;
+  for (const nlohmann::json& target : nlohmann::json::parse(file_text(file)))
+    targets.push_back({.channels = target.at(0).get<int>(), .bits = target.at(1).get<int>()});
+  return targets;
+}
+
+SpirvProgram program_of(const fs::path& folder, std::size_t program) {
+  return {.vertex = words_of(file_of(folder, program, "vert")),
+          .fragment = words_of(file_of(folder, program, "frag")),
+          .targets = targets_of(file_of(folder, program, "targets"))};
 }
 
 nlohmann::json json_of(const CompileOutcome& outcome) {
@@ -64,6 +84,7 @@ void write_programs(std::span<const SpirvProgram> programs, const fs::path& fold
   for (std::size_t i = 0; i < programs.size(); ++i) {
     write_words(file_of(folder, i, "vert"), programs[i].vertex);
     write_words(file_of(folder, i, "frag"), programs[i].fragment);
+    write_targets(file_of(folder, i, "targets"), programs[i].targets);
   }
 }
 
@@ -73,8 +94,7 @@ void compile_programs(const fs::path& folder) {
   for (std::size_t i = 0; fs::exists(file_of(folder, i, "frag")); ++i) {
     if (fs::exists(file_of(folder, i, "json"))) continue;
     write_outcome(folder, i, {.stage = {}, .failure = "the driver's compiler was interrupted by a crash"});
-    write_outcome(folder, i,
-                  compiled(compiler, {words_of(file_of(folder, i, "vert")), words_of(file_of(folder, i, "frag"))}));
+    write_outcome(folder, i, compiled(compiler, program_of(folder, i)));
   }
 }
 

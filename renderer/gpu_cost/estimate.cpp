@@ -9,7 +9,6 @@ namespace footprint {
 namespace {
 
 constexpr double pixels_of_a_wave = 64;
-constexpr double pixel_bytes = 8;               // of a target of four half floats
 constexpr double largest_cached_table = 65536;  // bytes; smaller textures stay in the caches
 // A sample of the level that fits the pixel moves by one texel from pixel to pixel, and by a quarter on the next level.
 constexpr double new_texels_of_a_sample = 1.25;
@@ -69,7 +68,7 @@ Instructions frame_work(const std::vector<WeighedWork>& works, double lookups, d
 }
 
 CostEstimate estimate(const Chip& chip, const std::vector<WeighedWork>& works, double lookups,
-                      const std::map<int, TextureCost>& textures) {
+                      const std::map<int, TextureCost>& textures, double written_bytes) {
   CostEstimate estimate;
   const Instructions work = frame_work(works, lookups, estimate.loop_rounds);
   estimate.alu_clocks = alu_clocks(*chip.generation, work) / pixels_of_a_wave;
@@ -78,9 +77,11 @@ CostEstimate estimate(const Chip& chip, const std::vector<WeighedWork>& works, d
     const auto found = textures.find(binding);
     add_texture(estimate, chip, reads, found == textures.end() ? TextureCost{} : found->second);
   }
-  estimate.bytes_from_memory += pixel_bytes;
+  estimate.bytes_from_memory += written_bytes;
   estimate.bandwidth_ns = estimate.bytes_from_memory / chip.gigabytes_per_second;
   return estimate;
 }
+
+double copy_ns(const Chip& chip, double bytes) { return 2.0 * bytes / chip.gigabytes_per_second; }
 
 }  // namespace footprint

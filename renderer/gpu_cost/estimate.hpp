@@ -58,9 +58,17 @@ struct CostEstimate {
 /// loop_rounds: set to the rounds; 1 without such loops, or if they read no texture.
 [[nodiscard]] Instructions frame_work(const std::vector<WeighedWork>& works, double lookups, double& loop_rounds);
 
+/// The bytes of a frame's target: four half floats.
+inline constexpr double frame_pixel_bytes = 8;
+
 /// The estimate on a chip.
 /// textures: by binding.
+/// written_bytes: of a pixel, in all targets.
 [[nodiscard]] CostEstimate estimate(const Chip& chip, const std::vector<WeighedWork>& works, double lookups,
-                                    const std::map<int, TextureCost>& textures);
+                                    const std::map<int, TextureCost>& textures,
+                                    double written_bytes = frame_pixel_bytes);
+
+/// The time of a copy on a chip, which memory bounds: each byte is read and written once. Nanoseconds.
+[[nodiscard]] double copy_ns(const Chip& chip, double bytes);
 
 }  // namespace footprint

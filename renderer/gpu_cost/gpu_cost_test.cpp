@@ -94,6 +94,25 @@ TEST_F(Driver, CountsEveryRoundOfAConstantLoop) {
   EXPECT_EQ(work.looped.full, 0);
 }
 
+// A pass that draws into two targets: n multiply-adds for the second one count, unless it has no such target.
+TEST_F(Driver, CountsTheWorkOfEachTarget) {
+  const auto full = [](int n, std::vector<ColorTarget> targets) {
+    SpirvProgram program =
+        spirv_program("pass", vertex_text,
+                      "#version 450 core\nin vec4 place;\nlayout(location = 0) out vec4 map[2];\nvoid main() {\n"
+                      "  vec4 sum = place;\n  map[0] = sum;\n" +
+                          repeated(n, "sum.x = sum.x * place.y + place.z;") + "  map[1] = sum;\n}\n");
+    program.targets = std::move(targets);
+    return shader_work(compiler().compile(program).code, between()).straight.full;
+  };
+  for (const ColorTarget target : {ColorTarget{.channels = 4, .bits = 32}, ColorTarget{.channels = 1, .bits = 16}}) {
+    for (const int n : {16, 64}) {
+      EXPECT_NEAR(full(n, {target, target}) - full(0, {target, target}), n, 1) << n;
+      EXPECT_EQ(full(n, {target}), full(0, {target}));
+    }
+  }
+}
+
 TEST_F(Driver, KeepsLoopsOfUnknownLengthApart) {
   const ShaderWork work = work_of(
       "  sum += textureLod(first, sum.xy, 0.0);\n"
@@ -157,6 +176,18 @@ TEST(Estimate, IsTheLargestBound) {
   EXPECT_NEAR(reads.bandwidth_ns, (100 * 1.25 * 4 + 8) / 88, 1e-12);
   EXPECT_EQ(reads.bytes_fetched, 100 * 8 * 4);
   EXPECT_EQ(reads.cost_ns(), std::max(reads.texture_ns, reads.bandwidth_ns));
+}
+
+// A pass that averages four texels of 16 bytes into one: each is read once. A copy reads and writes.
+TEST(Estimate, OfAPassCountsWhatItWrites) {
+  ShaderWork work;
+  work.looped.textures[0].loads = 1;
+  const std::map<int, TextureCost> textures{{0, {.name = "map", .bits = 128, .trilinear = false, .bytes = 1e6}}};
+  const CostEstimate pass = estimate(deck(), {{1, work}}, 4, textures, 16);
+  EXPECT_EQ(pass.bytes_from_memory, 4 * 16 + 16);
+  EXPECT_NEAR(pass.bandwidth_ns, 80 / 88.0, 1e-12);
+  EXPECT_EQ(pass.bound(), CostBound::bandwidth);
+  EXPECT_NEAR(copy_ns(deck(), 88e6), 2e6, 1e-6);
 }
 
 TEST(Estimate, ExtrapolatesLoopsFromOneRoundAndTwo) {

@@ -16,9 +16,18 @@ inline constexpr std::uint32_t plain_uniforms = 90;  ///< the block of all unifo
 /// Words of SPIR-V 1.3.
 using Spirv = std::vector<std::uint32_t>;
 
+/// The texels of one target that a program draws into: floats.
+struct ColorTarget {
+  int channels = 4;  ///< 1, 2 or 4
+  int bits = 16;     ///< of a channel: 16 or 32
+
+  friend auto operator<=>(const ColorTarget&, const ColorTarget&) = default;
+};
+
 /// The stages of a raster program.
 struct SpirvProgram {
   Spirv vertex, fragment;
+  std::vector<ColorTarget> targets{{}};  ///< in the order of the outputs
 };
 
 /// Compiles and links both stages by glslang under its relaxed Vulkan rules, which accept plain uniforms.

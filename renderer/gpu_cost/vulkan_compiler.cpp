@@ -53,9 +53,20 @@ std::vector<VkDescriptorSetLayoutBinding> all_bindings() {
   return bindings;
 }
 
-// The fixed state of every pipeline: float vertex attributes, one colour target of half floats.
+// The format of a target.
+VkFormat format_of(const ColorTarget& target) {
+  if (target.bits == 16)
+    return target.channels == 1   ? VK_FORMAT_R16_SFLOAT
+           : target.channels == 2 ? VK_FORMAT_R16G16_SFLOAT
+                                  : VK_FORMAT_R16G16B16A16_SFLOAT;
+  return target.channels == 1   ? VK_FORMAT_R32_SFLOAT
+         : target.channels == 2 ? VK_FORMAT_R32G32_SFLOAT
+                                : VK_FORMAT_R32G32B32A32_SFLOAT;
+}
+
+// The fixed state of every pipeline: float vertex attributes, and all channels of each target written.
 struct FixedState {
-  FixedState() {
+  explicit FixedState(std::size_t targets) : written(targets) {
     for (std::uint32_t i = 0; i < most_attributes; ++i)
       attributes.at(i) = {i, 0, VK_FORMAT_R32G32B32A32_SFLOAT, 16 * i};
     vertices.vertexBindingDescriptionCount = 1;
@@ -68,9 +79,9 @@ struct FixedState {
     viewport.pScissors = &scissor;
     raster.lineWidth = 1.0F;
     samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
-    target.colorWriteMask = 0xF;
-    blend.attachmentCount = 1;
-    blend.pAttachments = &target;
+    for (VkPipelineColorBlendAttachmentState& target : written) target.colorWriteMask = 0xF;
+    blend.attachmentCount = static_cast<std::uint32_t>(written.size());
+    blend.pAttachments = written.data();
   }
   FixedState(const FixedState&) = delete;
   FixedState& operator=(const FixedState&) = delete;
@@ -80,7 +91,7 @@ struct FixedState {
   std::array<VkVertexInputAttributeDescription, most_attributes> attributes{};
   VkViewport area{0, 0, 512, 512, 0, 1};
   VkRect2D scissor{{0, 0}, {512, 512}};
-  VkPipelineColorBlendAttachmentState target{};
+  std::vector<VkPipelineColorBlendAttachmentState> written;
   VkPipelineVertexInputStateCreateInfo vertices =
       info_of<VkPipelineVertexInputStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
   VkPipelineInputAssemblyStateCreateInfo assembly =
@@ -104,7 +115,6 @@ struct VulkanCompiler::Implementation {
     make_instance();
     make_device();
     make_layout();
-    make_pass();
   }
 
   // A function of the loader or an instance, before there is a device.
@@ -193,26 +203,31 @@ struct VulkanCompiler::Implementation {
     layout = own<PFN_vkDestroyPipelineLayout>(made, "vkDestroyPipelineLayout");
   }
 
-  void make_pass() {
-    VkAttachmentDescription attachment{};
-    attachment.format = VK_FORMAT_R16G16B16A16_SFLOAT;
-    attachment.samples = VK_SAMPLE_COUNT_1_BIT;
-    attachment.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-    attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    attachment.finalLayout = VK_IMAGE_LAYOUT_GENERAL;
-    const VkAttachmentReference reference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+  // A pass that draws into these targets.
+  [[nodiscard]] Owned<VkRenderPass> pass_of(const std::vector<ColorTarget>& targets) const {
+    std::vector<VkAttachmentDescription> attachments;
+    std::vector<VkAttachmentReference> references;
+    for (const ColorTarget& target : targets) {
+      references.push_back({static_cast<std::uint32_t>(references.size()), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL});
+      VkAttachmentDescription& attachment = attachments.emplace_back();
+      attachment.format = format_of(target);
+      attachment.samples = VK_SAMPLE_COUNT_1_BIT;
+      attachment.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+      attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+      attachment.finalLayout = VK_IMAGE_LAYOUT_GENERAL;
+    }
     VkSubpassDescription subpass{};
-    subpass.colorAttachmentCount = 1;
-    subpass.pColorAttachments = &reference;
+    subpass.colorAttachmentCount = static_cast<std::uint32_t>(references.size());
+    subpass.pColorAttachments = references.data();
     auto create = info_of<VkRenderPassCreateInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO);
-    create.attachmentCount = 1;
-    create.pAttachments = &attachment;
+    create.attachmentCount = static_cast<std::uint32_t>(attachments.size());
+    create.pAttachments = attachments.data();
     create.subpassCount = 1;
     create.pSubpasses = &subpass;
     VkRenderPass made = nullptr;
     require(find<PFN_vkCreateRenderPass>("vkCreateRenderPass")(device.get(), &create, nullptr, &made),
             "creating a render pass");
-    pass = own<PFN_vkDestroyRenderPass>(made, "vkDestroyRenderPass");
+    return own<PFN_vkDestroyRenderPass>(made, "vkDestroyRenderPass");
   }
 
   // Owns an object of the device.
@@ -243,7 +258,8 @@ struct VulkanCompiler::Implementation {
     stages[0].module = vertex.get();
     stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
     stages[1].module = fragment.get();
-    const FixedState state;
+    const FixedState state(program.targets.size());
+    const Owned<VkRenderPass> pass = pass_of(program.targets);
     auto create = info_of<VkGraphicsPipelineCreateInfo>(VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO);
     create.flags =
         VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR | VK_PIPELINE_CREATE_CAPTURE_INTERNAL_REPRESENTATIONS_BIT_KHR;
@@ -321,7 +337,6 @@ struct VulkanCompiler::Implementation {
   Owned<VkDevice> device;
   Owned<VkDescriptorSetLayout> set;
   Owned<VkPipelineLayout> layout;
-  Owned<VkRenderPass> pass;
 };
 
 VulkanCompiler::VulkanCompiler() : implementation_(std::make_unique<Implementation>()) {}

@@ -15,8 +15,8 @@ int edge_of(const gl::ContextInfo& context, int wanted) {
   return wanted > 0 ? std::min(wanted, most) : most;
 }
 
-// The means of a counting frame over the pixels that the object covers wholly; 0 without one.
-glm::dvec3 mean_counts(const FrameRenderer& counting, const View& view) {
+// The means of a counting frame over the pixels that the object covers wholly, and their number; 0 without one.
+glm::dvec4 mean_counts(const FrameRenderer& counting, const View& view) {
   const Image counts = counting.render(view);
   glm::dvec3 sum(0.0);
   double pixels = 0;
@@ -25,7 +25,7 @@ glm::dvec3 mean_counts(const FrameRenderer& counting, const View& view) {
     sum += glm::dvec3(counts.texels[i], counts.texels[i + 1], counts.texels[i + 2]);
     ++pixels;
   }
-  return pixels > 0 ? sum / pixels : sum;
+  return {pixels > 0 ? sum / pixels : sum, pixels};
 }
 
 }  // namespace
@@ -88,12 +88,12 @@ void clear_target() {
 }
 
 PixelWork pixel_work(const FrameRenderer& counting, const View& view) {
-  const glm::dvec3 means = mean_counts(counting, view);
-  return {.lookups = means.x, .lobes = means.y};
+  const glm::dvec4 means = mean_counts(counting, view);
+  return {.lookups = means.x, .lobes = means.y, .pixels = means.w};
 }
 
 PixelTrips pixel_trips(const FrameRenderer& counting, const View& view) {
-  const glm::dvec3 means = mean_counts(counting, view);
+  const glm::dvec4 means = mean_counts(counting, view);
   return {.probes = means.x, .lobes = means.y, .rounds = means.z};
 }
 

@@ -52,9 +52,10 @@ void clear_target();
 struct PixelWork {
   double lookups = 0.0;  ///< texture lookups, including shared textures and the environment's
   double lobes = 0.0;    ///< lobe evaluations, over all lights
+  double pixels = 0.0;   ///< number of those pixels
 };
 
-/// Counts one frame of a program that counts work. Both are 0 if no pixel is covered.
+/// Counts one frame of a program that counts work. All are 0 if no pixel is covered.
 [[nodiscard]] PixelWork pixel_work(const FrameRenderer& counting, const View& view);
 
 /// Mean rounds per loop over those pixels; 0 if a program has no such loop.

@@ -60,8 +60,6 @@ enum class Counting {
 struct FixedTrips {
   int probes = 1, lobes = 1, rounds = 1;
   int point_lights = 1, spot_lights = 1, directional_lights = 1;
-
-  friend auto operator<=>(const FixedTrips&, const FixedTrips&) = default;
 };
 
 /// What a program is compiled for. Equal variants give equal text.

@@ -131,35 +131,6 @@ void set_state(const GpuBatch& batch) {
   gl::api().DepthFunc(batch.adds ? GL_EQUAL : GL_GREATER);
 }
 
-GLint texture_parameter(GLuint texture, GLint level, GLenum name) {
-  GLint value = 0;
-  gl::api().GetTextureLevelParameteriv(texture, level, name, &value);
-  return value;
-}
-
-// What a unit has bound: the texture's format and size, and whether the sampler blends levels.
-BoundTexture bound_texture(const std::string& name, GLuint unit, bool is_array) {
-  gl::api().ActiveTexture(GL_TEXTURE0 + unit);
-  GLint texture = 0, sampler = 0, filter = 0;
-  gl::api().GetIntegerv(is_array ? GL_TEXTURE_BINDING_2D_ARRAY : GL_TEXTURE_BINDING_2D, &texture);
-  gl::api().GetIntegerv(GL_SAMPLER_BINDING, &sampler);
-  if (sampler != 0) gl::api().GetSamplerParameteriv(static_cast<GLuint>(sampler), GL_TEXTURE_MIN_FILTER, &filter);
-  BoundTexture bound{.name = name};
-  const auto id = static_cast<GLuint>(texture);
-  for (const GLenum channel :
-       {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE, GL_TEXTURE_ALPHA_SIZE, GL_TEXTURE_DEPTH_SIZE})
-    bound.bits += texture_parameter(id, 0, channel);
-  int levels = 0;
-  for (double texels = 1; levels < 16; ++levels) {
-    texels = static_cast<double>(texture_parameter(id, levels, GL_TEXTURE_WIDTH)) *
-             texture_parameter(id, levels, GL_TEXTURE_HEIGHT) * texture_parameter(id, levels, GL_TEXTURE_DEPTH);
-    if (texels == 0) break;
-    bound.bytes += texels * bound.bits / 8.0;
-  }
-  bound.trilinear = filter == GL_LINEAR_MIPMAP_LINEAR && levels > 1;
-  return bound;
-}
-
 bool waits(const Prefiltered& prefiltered) {
   return std::ranges::any_of(prefiltered.textures, &PrefilteredTexture::built);
 }
@@ -253,7 +224,13 @@ void GpuMethod::build_frame(const View& view) const {
   if (build_ && !is_built_for(view)) rebuild(view);
 }
 
-void GpuMethod::rebuild(const View& view) const {
+RecordedDraws GpuMethod::draws_per_frame(const View& view) const {
+  RecordedDraws draws;
+  if (build_ && !keeps_builds()) rebuild(view, &draws);
+  return draws;
+}
+
+void GpuMethod::rebuild(const View& view, RecordedDraws* record) const {
   if (!build_) return;
   const StateKeeper state;
   // Waits for draws that read the textures, and for earlier builds.
@@ -263,7 +240,8 @@ void GpuMethod::rebuild(const View& view) const {
                  .vertex_array = vertex_array(batch),
                  .baked = baked_->materials.at(batch.material),
                  .textures = batches_.at(batch.index).textures,
-                 .view = view});
+                 .view = view,
+                 .record = record});
   }
   gl::api().MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   built_ = {.camera = view.camera, .content = scene_->content()};

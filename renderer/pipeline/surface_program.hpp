@@ -13,6 +13,7 @@
 #include "renderer/gl/context.hpp"
 #include "renderer/gl/functions.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
+#include "renderer/pipeline/recorded_draws.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 #include "renderer/pipeline/view.hpp"
 #include "renderer/scene/scene.hpp"
@@ -26,6 +27,7 @@ struct FrameBuildJob {
   const Prefiltered& baked;              ///< the result of the precompute
   std::span<const GpuTexture> textures;  ///< the textures of `baked`, in its order
   const View& view;                      ///< to be drawn
+  RecordedDraws* record = nullptr;       ///< of draw_recorded and record_copy
 };
 
 /// Called with the number of a texture when it was uploaded.
@@ -50,7 +52,11 @@ class GpuMethod {
   /// Preserves framebuffers, viewport, vertex array, depth test, culling and blending.
   void build_frame(const View& view) const;
   /// Runs the frame build even if the last one is valid.
-  void rebuild(const View& view) const;
+  /// record: receives its draws and copies, unless it is null.
+  void rebuild(const View& view, RecordedDraws* record = nullptr) const;
+  /// The draws and copies of the frame build that every frame repeats, which it runs for them. Empty without a build,
+  /// and for one that frames reuse (keeps_builds).
+  [[nodiscard]] RecordedDraws draws_per_frame(const View& view) const;
   /// The size of a batch's largest map with the normal map's coordinates: samples of the reference separate its texels.
   /// (1, 1) without such a map.
   [[nodiscard]] glm::ivec2 texels(const GpuBatch& batch) const;
@@ -120,14 +126,6 @@ struct ForwardProgram {
 /// The forward pass of a method over a scene. Throws Error (machine): as TextureUnits::require_room.
 [[nodiscard]] ForwardProgram forward_program(const GpuScene& scene, const BakedMethod& baked,
                                              const ProgramSettings& settings);
-
-/// A texture of a program, as a draw leaves it bound.
-struct BoundTexture {
-  std::string name;
-  int bits = 0;            ///< of a texel
-  bool trilinear = false;  ///< its sampler blends two levels, and it has several
-  double bytes = 0;        ///< of all levels and layers
-};
 
 /// One compiled forward pass.
 class SurfaceProgram {

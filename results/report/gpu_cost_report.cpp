@@ -23,10 +23,10 @@ namespace {
 constexpr const char* cost_schema = "footprint-cost/1";
 
 // The figures of a CSV line, by their names in the JSON.
-constexpr std::array<const char*, 16> csv_columns{
-    "cost_ns",       "bound",         "arithmetic_ns",     "texture_ns",  "bandwidth_ns", "alu_clocks", "issue_clocks",
-    "texture_reads", "bytes_fetched", "bytes_from_memory", "loop_rounds", "instructions", "registers",  "waves",
-    "shader_bytes",  "failure"};
+constexpr std::array<const char*, 17> csv_columns{
+    "cost_ns",      "bound",         "arithmetic_ns", "texture_ns",        "bandwidth_ns", "passes_ns",    "alu_clocks",
+    "issue_clocks", "texture_reads", "bytes_fetched", "bytes_from_memory", "loop_rounds",  "instructions", "registers",
+    "waves",        "shader_bytes",  "failure"};
 
 std::string csv_value(const JsonWriter::Json& value) {
   if (value.is_null()) return {};
@@ -34,11 +34,12 @@ std::string csv_value(const JsonWriter::Json& value) {
 }
 
 std::vector<std::string> table_row(const MethodCosts& method, const GpuCost& cost, double first_ns) {
-  if (cost.failure) return {method.method, "", "", *cost.failure, "", "", "", "", ""};
+  if (cost.failure) return {method.method, "", "", *cost.failure, "", "", "", "", "", ""};
   return {method.method,
           three_figures(cost.cost_ns),
           cost.ratio_to_direct ? three_figures(*cost.ratio_to_direct) : three_figures(cost.cost_ns / first_ns),
           cost.bound,
+          three_figures(cost.passes_ns),
           three_figures(cost.alu_clocks),
           three_figures(cost.texture_reads),
           three_figures(cost.bytes_fetched),
@@ -57,6 +58,7 @@ std::vector<Table> gpu_tables(const std::vector<MethodCosts>& methods, const std
                                                          {"ns per pixel"},
                                                          {first.ratio_to_direct ? "Over direct" : "Over the first"},
                                                          {"Bound", false},
+                                                         {"Passes ns"},
                                                          {"ALU clocks"},
                                                          {"Texture reads"},
                                                          {"Bytes fetched"},
@@ -92,7 +94,7 @@ std::string markdown_of(const std::vector<Table>& tables) {
 
 constexpr const char* gpu_note =
     "An estimate from the driver's compiler and published rates, not a measurement (docs/gpu-cost.md): the largest of "
-    "arithmetic, texture and memory time. 1 ns per pixel is 2.07 ms for 1920x1080 pixels.";
+    "arithmetic, texture and memory time, plus the passes before it. 1 ns per pixel is 2.07 ms for 1920x1080 pixels.";
 
 }  // namespace
 
@@ -111,13 +113,13 @@ void fields(JsonWriter& archive, const CostReport& value) {
 std::string cost_json(const CostReport& report) { return json_text(to_json_value(report), 2) + "\n"; }
 
 std::string cost_csv(const CostReport& report) {
-  std::string csv = "method,gpu,lookups,map_bytes,probes,lobes,rounds";
+  std::string csv = "method,gpu,lookups,map_bytes,pixels,probes,lobes,rounds";
   for (const char* column : csv_columns) csv += fmt::format(",{}", column);
   csv += "\r\n";
   for (const MethodCosts& method : report.methods) {
     for (const GpuCost& cost : method.gpus) {
-      csv += fmt::format("{},{},{},{},{},{},{}", csv_field(method.method), csv_field(cost.gpu), method.lookups,
-                         method.map_bytes, method.trips.probes, method.trips.lobes, method.trips.rounds);
+      csv += fmt::format("{},{},{},{},{},{},{},{}", csv_field(method.method), csv_field(cost.gpu), method.lookups,
+                         method.map_bytes, method.pixels, method.trips.probes, method.trips.lobes, method.trips.rounds);
       const auto json = to_json_value(cost);
       for (const char* column : csv_columns) csv += "," + csv_value(json.at(column));
       csv += "\r\n";

@@ -20,6 +20,7 @@ struct MethodCosts {
   LoopTrips trips;
   double lookups = 0;  ///< texture lookups per pixel, counted on the software renderer
   double map_bytes = 0;
+  double pixels = 0;  ///< that the object covers
   std::vector<GpuCost> gpus;
 };
 
@@ -47,6 +48,7 @@ void fields(Archive& archive, Is<MethodCosts> auto& value) {
   archive("trips", value.trips);
   archive("lookups", value.lookups);
   archive("map_bytes", value.map_bytes);
+  archive("pixels", value.pixels);
   archive("gpus", value.gpus);
 }
 

@@ -118,6 +118,7 @@ void fields(Archive& archive, Is<GpuCost> auto& value) {
   archive("arithmetic_ns", value.arithmetic_ns);
   archive("texture_ns", value.texture_ns);
   archive("bandwidth_ns", value.bandwidth_ns);
+  archive("passes_ns", value.passes_ns);
   archive("alu_clocks", value.alu_clocks);
   archive("issue_clocks", value.issue_clocks);
   archive("texture_reads", value.texture_reads);

@@ -140,10 +140,11 @@ struct MaterialError {
 /// The estimated cost of one method on one GPU, per pixel that the object covers (docs/gpu-cost.md).
 struct GpuCost {
   std::string gpu;
-  double cost_ns = 0;                     ///< the largest of the next three; equal to milliseconds per million pixels
-  std::string bound;                      ///< arithmetic, textures or bandwidth: which one that is
+  double cost_ns = 0;                     ///< largest of the next three, and passes_ns; milliseconds per million pixels
+  std::string bound;                      ///< arithmetic, textures or bandwidth: which of the three is the largest
   std::optional<double> ratio_to_direct;  ///< cost_ns over that of `direct` under the filter of the time unit
   double arithmetic_ns = 0, texture_ns = 0, bandwidth_ns = 0;
+  double passes_ns = 0;     ///< of the passes that each frame repeats before it draws, over the object's pixels
   double alu_clocks = 0;    ///< of one SIMD
   double issue_clocks = 0;  ///< the driver's inverse throughput, with one round per loop
   double texture_reads = 0;

@@ -18,9 +18,9 @@ def cost(*arguments, **variables):
 
 
 class Costs(WholeRunTest):
-    def report(self, name, *arguments):
+    def report(self, name, *arguments, scene=SCENE):
         folder = self.folder / name
-        done = cost(*SCENE, *arguments, "-o", folder)
+        done = cost(*scene, *arguments, "-o", folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         report = json.loads((folder / "cost.json").read_text())
         for method in report["methods"]:
@@ -42,6 +42,7 @@ class Costs(WholeRunTest):
                 bounds = {name: figure[f"{name}_ns"] for name in ("arithmetic", "bandwidth")}
                 bounds["textures"] = figure["texture_ns"]
                 self.assertEqual(figure["cost_ns"], max(bounds.values()))
+                self.assertEqual(figure["passes_ns"], 0)
                 self.assertEqual(figure["cost_ns"], bounds[figure["bound"]])
                 self.assertEqual(figure["scratch_bytes"], 0)
             alu = [figure["alu_clocks"] for figure in figures]
@@ -70,6 +71,26 @@ class Costs(WholeRunTest):
         self.assertEqual([figure["trips"]["probes"] for figure in figures], [1, 4, 16])
         reads = [figure["gpus"][0]["texture_reads"] for figure in figures]
         self.assertEqual([reads[1] / reads[0], reads[2] / reads[0]], [4, 16])
+
+    def test_passes_of_a_frame_count_where_they_are_repeated(self):
+        always, changed, many = (
+            self.report(name, "--methods", method, "--gpu", "RX 480,Steam Deck")["methods"][0]["gpus"]
+            for name, method in (("always", "xu_vmf:j=4"), ("changed", "xu_vmf:j=4:rebuild=changed"), ("many", "xu_vmf:j=8")))
+        for each, kept, more in zip(always, changed, many):
+            self.assertIsNone(each["failure"])
+            self.assertGreater(each["passes_ns"], 0)
+            self.assertGreater(more["passes_ns"], each["passes_ns"])
+            self.assertEqual(kept["passes_ns"], 0)
+            self.assertAlmostEqual(each["cost_ns"], kept["cost_ns"] + each["passes_ns"], places=12)
+            self.assertEqual(each["texture_reads"], kept["texture_reads"])
+
+    def test_the_passes_of_a_frame_are_shared_by_its_pixels(self):
+        small, large = (
+            self.report(size, "--methods", "xu_vmf:j=4", "--gpu", "RX 480", scene=["ribbed_plane", "--size", size])["methods"][0]
+            for size in ("32x32", "64x64"))
+        self.assertGreater(large["pixels"], 3 * small["pixels"])
+        totals = [method["pixels"] * method["gpus"][0]["passes_ns"] for method in (small, large)]
+        self.assertAlmostEqual(totals[0] / totals[1], 1, places=9)
 
     def check(self, name, limits):
         """`check` of an experiment over three methods on one GPU, with these upper bounds."""

@@ -322,6 +322,62 @@ TEST_F(ExperimentFile, JudgingGoesEitherWay) {
   EXPECT_NE(lines[4].find("division by 0"), std::string::npos);
 }
 
+constexpr const char* over_times = R"toml(
+[[claim]]
+name = "time"
+text = "t"
+inequality = "time(toksvig) < 2 * time(direct)"
+expect = "not_reproduced"
+reason = "r"
+[[claim]]
+name = "frames"
+text = "t"
+inequality = "fps(direct) > 1000"
+expect = "not_reproduced"
+reason = "r"
+[[claim]]
+name = "error"
+text = "t"
+inequality = "error(toksvig) < error(direct)"
+expect = "not_reproduced"
+reason = "r"
+)toml";
+
+// Measured, toksvig takes 4 and direct 1 ms; estimated, 3e5 pixels at 1.5 and 1 ns, on a GPU that fails for toksvig
+// nothing. The claim over errors gets no second verdict, and no second verdict counts with the claims.
+TEST_F(ExperimentFile, ClaimsOverTimesAreDecidedAgainByEstimates) {
+  const Experiment experiment = read(std::string(head) + over_times);
+  Results results;
+  for (const bool is_direct : {true, false}) {
+    Record& record = results.records.emplace_back();
+    record.method = is_direct ? "direct" : "toksvig:storage=fp16";
+    record.node = "here";
+    record.error.emplace().normalized_color = 0.1;
+    record.pixels.object = 300'000;
+    record.frame_ms.median = is_direct ? 1.0 : 4.0;
+    record.fps = 1000.0 / record.frame_ms.median;
+    record.gpu_costs.resize(2);
+    record.gpu_costs[0].gpu = "whole";
+    record.gpu_costs[0].cost_ns = is_direct ? 1.0 : 1.5;
+    record.gpu_costs[1].gpu = "failing";
+    record.gpu_costs[1].cost_ns = 1.0;
+    if (!is_direct) record.gpu_costs[1].failure = "refused";
+  }
+  const ExperimentReport report = judge(experiment, std::span(&results, 1));
+  EXPECT_TRUE(report.shortfalls().empty());
+  ASSERT_EQ(report.second_verdicts.size(), 4U);
+  EXPECT_EQ(report.second_verdicts[0].claim, "time");
+  EXPECT_EQ(report.second_verdicts[0].gpu, "whole");
+  EXPECT_EQ(report.second_verdicts[0].outcome, Verdict::reproduced);
+  EXPECT_DOUBLE_EQ(report.second_verdicts[0].left.value(), 0.45);
+  EXPECT_DOUBLE_EQ(report.second_verdicts[0].right.value(), 0.6);
+  EXPECT_EQ(report.second_verdicts[1].claim, "frames");
+  EXPECT_DOUBLE_EQ(report.second_verdicts[1].left.value(), 1000.0 / 0.3);
+  EXPECT_EQ(report.second_verdicts[2].outcome, Verdict::undecided);
+  EXPECT_FALSE(report.second_verdicts[2].problem.empty());
+  EXPECT_EQ(report.second_verdicts[3].outcome, Verdict::reproduced);
+}
+
 TEST(Zoom, StepsAreEqualRatiosBetweenExactEnds) {
   EXPECT_EQ(zoom_distances(1, 8, 4), (std::vector<double>{1, 2, 4, 8}));
   EXPECT_EQ(zoom_distances(0.1, 0.7, 2), (std::vector<double>{0.1, 0.7}));

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "experiments/runner/estimated_times.hpp"
 #include "experiments/runner/functions.hpp"
 #include "experiments/runner/noise_guard.hpp"
 
@@ -66,6 +67,32 @@ ThresholdOutcome outcome_of(const Threshold& threshold, std::span<const Results>
   return outcome;
 }
 
+bool is_over_times(const Claim& claim, std::span<const Results> runs) {
+  return !claim.inequality.left().evaluate(runs).nodes.empty() ||
+         !claim.inequality.right().evaluate(runs).nodes.empty();
+}
+
+// The claims over times, decided again by the estimates for each GPU.
+std::vector<SecondVerdict> second_verdicts(const Experiment& experiment, std::span<const Results> runs) {
+  std::vector<SecondVerdict> verdicts;
+  if (runs.empty()) return verdicts;
+  for (const std::string& gpu : estimated_gpus(runs.front())) {
+    std::vector<Results> estimated;
+    for (const Results& run : runs) estimated.push_back(with_estimated_times(run, gpu));
+    for (const Claim& claim : experiment.claims) {
+      if (!is_over_times(claim, runs)) continue;
+      const ClaimOutcome outcome = outcome_of(claim, estimated);
+      verdicts.push_back({.claim = claim.name,
+                          .gpu = gpu,
+                          .left = outcome.left,
+                          .right = outcome.right,
+                          .outcome = outcome.outcome,
+                          .problem = outcome.problem});
+    }
+  }
+  return verdicts;
+}
+
 }  // namespace
 
 ExperimentReport judge(const Experiment& experiment, std::span<const Results> runs) {
@@ -75,6 +102,7 @@ ExperimentReport judge(const Experiment& experiment, std::span<const Results> ru
                           .file = experiment.file.string(),
                           .published = {},
                           .claims = {},
+                          .second_verdicts = second_verdicts(experiment, runs),
                           .thresholds = {},
                           .pictures = {}};
   for (const PublishedValue& published : experiment.published) {

@@ -220,7 +220,7 @@ std::vector<Setting> view_settings() {
        .help = "normalised colour error at the top of the colour scale of every error image",
        .otherwise = "the largest 99th percentile of all images"},
       {.option = "--gpu",
-       .commands = {"compare"},
+       .commands = {"compare", "check"},
        .table = "experiment",
        .key = "gpu",
        .type = gpus(gpus_of),

@@ -70,6 +70,17 @@ Table claims_table(const ExperimentReport& report) {
   return table;
 }
 
+Table second_verdicts_table(const ExperimentReport& report) {
+  Table table{.heading = "Claims over times, by estimated cost",
+              .columns = {{"Claim", false}, {"GPU", false}, {"Left"}, {"Right"}, {"Outcome", false}},
+              .rows = {}};
+  for (const SecondVerdict& verdict : report.second_verdicts) {
+    table.rows.push_back({verdict.claim, verdict.gpu, figure_text(verdict.left), figure_text(verdict.right),
+                          verdict.problem.empty() ? std::string(in_words(verdict.outcome)) : verdict.problem});
+  }
+  return table;
+}
+
 Table thresholds_table(const ExperimentReport& report) {
   Table table{
       .heading = "Thresholds", .columns = {{"Measure", false}, {"At most"}, {"Measured"}, {"", false}}, .rows = {}};
@@ -117,7 +128,8 @@ std::vector<std::string> ExperimentReport::shortfalls() const { return shortfall
 std::string experiment_markdown(const ExperimentReport& report) {
   std::string text = fmt::format("\n## Experiment {}\n\n{}\n\n{}\n", markdown_escaped(report.name),
                                  markdown_escaped(report.title), summary(report));
-  for (const Table& table : {published_table(report), claims_table(report), thresholds_table(report)}) {
+  for (const Table& table :
+       {published_table(report), claims_table(report), second_verdicts_table(report), thresholds_table(report)}) {
     if (table.rows.empty()) continue;
     text += fmt::format("\n### {}\n\n{}", table.heading, markdown_table(table.columns, table.rows));
     if (table.heading != "Claims") continue;
@@ -144,7 +156,7 @@ std::string experiment_html(const ExperimentReport& report) {
   for (const ClaimOutcome& claim : report.claims)
     html += fmt::format("<li>{}</li>\n", html_escaped(claim_sentence(claim)));
   if (!report.claims.empty()) html += "</ul>\n";
-  return html + html_table(thresholds_table(report)) + "</section>\n";
+  return html + html_table(second_verdicts_table(report)) + html_table(thresholds_table(report)) + "</section>\n";
 }
 
 }  // namespace footprint

@@ -56,6 +56,16 @@ struct ClaimOutcome {
   [[nodiscard]] bool as_expected() const { return outcome == expect; }
 };
 
+/// A claim over times, decided by estimated cost in place of measured times (docs/gpu-cost.md). It is never expected or
+/// counted with the claims.
+struct SecondVerdict {
+  std::string claim;  ///< its name
+  std::string gpu;
+  std::optional<double> left, right;
+  Verdict outcome = Verdict::undecided;
+  std::string problem;  ///< of an undecided one
+};
+
 /// An upper bound and what was measured.
 struct ThresholdOutcome {
   std::string measure;
@@ -74,6 +84,7 @@ struct ExperimentReport {
   bool quick = false;  ///< smaller than the file says: the figures are no measurement
   std::vector<PublishedFigure> published;
   std::vector<ClaimOutcome> claims;
+  std::vector<SecondVerdict> second_verdicts;
   std::vector<ThresholdOutcome> thresholds;
   std::vector<std::string> pictures;  ///< composed figures, paths from the output folder
 

@@ -308,6 +308,16 @@ void fields(Archive& archive, Is<ClaimOutcome> auto& value) {
 }
 
 template <class Archive>
+void fields(Archive& archive, Is<SecondVerdict> auto& value) {
+  archive("claim", value.claim);
+  archive("gpu", value.gpu);
+  archive("left", value.left);
+  archive("right", value.right);
+  archive("outcome", value.outcome);
+  archive("problem", value.problem);
+}
+
+template <class Archive>
 void fields(Archive& archive, Is<ThresholdOutcome> auto& value) {
   archive("measure", value.measure);
   archive("limit", value.limit);
@@ -325,6 +335,7 @@ void fields(Archive& archive, Is<ExperimentReport> auto& value) {
   archive("quick", value.quick);
   archive("published", value.published);
   archive("claims", value.claims);
+  archive("second_verdicts", value.second_verdicts);
   archive("thresholds", value.thresholds);
   archive("pictures", value.pictures);
 }

@@ -1,5 +1,6 @@
 // Procedural surfaces through the program: written to files, named in scenes, refused where they make no sense.
 #include "tests/command_line/program_case.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace footprint::test {
 namespace {
@@ -26,6 +27,18 @@ const std::vector<Case> good_surfaces{
      .arguments = {"surface", "scales", "--resolution", "1", "--seed", "0", "--parameter", "count=2", "-o", "{}/a.png"},
      .output_has = {"a.png"},
      .leaves = {"a.png"}},
+    {.name = "StatisticsOfAMap",
+     .arguments = {"statistics", (footprint::testing::source_folder() / "scenes/ribbed_plane/ribs_normal.png").string(),
+                   "--json"},
+     .output_has = {"footprint-statistics/1", "\"unit_share\": 1.0", "\"level\": 3", "\"gloss_correlation\": null"}},
+    {.name = "StatisticsAsText",
+     .arguments = {"statistics",
+                   (footprint::testing::source_folder() / "scenes/ribbed_plane/ribs_normal.png").string()},
+     .output_has = {"100.0% of them unit vectors", "anisotropy"}},
+    {.name = "StatisticsWithoutAMap",
+     .arguments = {"statistics", "{}/none.png"},
+     .exit_code = 2,
+     .errors_have = {"none.png"}},
     {.name = "ExplainSurface",
      .arguments = {"explain", "v_grooves", "--size", "16x16"},
      .output_has = {"normal_variation         on"}},

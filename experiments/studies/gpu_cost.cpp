@@ -62,10 +62,19 @@ TextureCost cost_of_texture(const BoundTexture& texture) {
   return {.name = texture.name, .bits = texture.bits, .trilinear = texture.trilinear, .bytes = texture.bytes};
 }
 
-std::map<int, TextureCost> costs_of(const std::vector<BoundTexture>& textures) {
+// Whether samples of a method's map read its finest level whatever the footprint, because it has no other.
+bool has_one_level(const BakedMethod& baked, const BoundTexture& texture) {
+  return std::ranges::any_of(baked.materials.front().textures, [&](const PrefilteredTexture& map) {
+    return map.name == texture.name && map.filter != TextureFilter::linear && map.levels.size() == 1 && map.layers <= 1;
+  });
+}
+
+std::map<int, TextureCost> costs_of(const std::vector<BoundTexture>& textures, const BakedMethod& baked) {
   std::map<int, TextureCost> costs;
-  for (std::size_t unit = 0; unit < textures.size(); ++unit)
-    costs[static_cast<int>(unit)] = cost_of_texture(textures[unit]);
+  for (std::size_t unit = 0; unit < textures.size(); ++unit) {
+    TextureCost& cost = costs[static_cast<int>(unit)] = cost_of_texture(textures[unit]);
+    if (has_one_level(baked, textures[unit])) cost.finest_texels = 8.0 * cost.bytes / cost.bits;
+  }
   return costs;
 }
 
@@ -195,10 +204,9 @@ MethodCosts GpuCosts::own_costs(const StagedMethod& method, const View& view, co
   costs.map_bytes = static_cast<double>(method.baked().bytes);
   const CostedFrame frame{.name = name_of(method),
                           .programs = weighed_programs(method, trips),
-                          .lookups = work.lookups,
-                          .textures = costs_of(counting.program().bound_textures()),
+                          .textures = costs_of(counting.program().bound_textures(), method.baked()),
                           .passes = method.gpu().draws_per_frame(view),
-                          .pixels = work.pixels};
+                          .work = work};
   ProgressParts parts(progress, static_cast<double>(chips_.size()));
   for (CompilingChip& chip : chips_) {
     compile_missing(chip, frame, parts.next(1, costs.method + ", "));
@@ -244,8 +252,9 @@ GpuCost GpuCosts::cost_of(const CompilingChip& chip, const CostedFrame& frame) {
   for (const WeighedProgram& one : frame.programs)
     works.push_back({one.weight, shader_work(chip.compiled.at(one.program).stage->code, chip.between_descriptors)});
   set_statistics(cost, *chip.compiled.at(frame.programs.front().program).stage);
-  set_estimate(cost, estimate(*chip.chip, works, frame.lookups, frame.textures));
-  if (frame.pixels > 0) cost.passes_ns = passes_ns(chip, frame) / frame.pixels;
+  set_estimate(cost, estimate(*chip.chip, works, frame.work.lookups, frame.textures, frame_pixel_bytes,
+                              frame.work.finest_areas));
+  if (frame.work.pixels > 0) cost.passes_ns = passes_ns(chip, frame) / frame.work.pixels;
   cost.cost_ns += cost.passes_ns;
   return cost;
 }

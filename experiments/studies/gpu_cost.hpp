@@ -34,10 +34,9 @@ struct WeighedProgram {
 struct CostedFrame {
   std::string name;                      ///< of the method, for messages
   std::vector<WeighedProgram> programs;  ///< one with a single round per loop first
-  double lookups = 0;                    ///< per pixel
   std::map<int, TextureCost> textures;   ///< by unit
   RecordedDraws passes;                  ///< that each frame repeats before it draws
-  double pixels = 0;                     ///< that the object covers
+  PixelWork work;                        ///< counted on the software renderer
 };
 
 /// The costs of a stage's methods. Stores what is compiled, so that further views only count again.

@@ -19,7 +19,8 @@ constexpr Generation gcn{.name = "GCN",
                          .scalar_clocks = 4,
                          .filtered_per_clock = 4,
                          .rate_64 = 0.5,
-                         .rate_128 = 0.25};
+                         .rate_128 = 0.25,
+                         .line_bytes = 64};
 
 // RDNA: two SIMDs of 32 lanes run it in 2 clocks, and a unit of 8 lanes beside them those at a quarter of the rate.
 // Texels of 64 bits filter at full rate.
@@ -31,7 +32,8 @@ constexpr Generation rdna{.name = "RDNA",
                           .scalar_clocks = 1,
                           .filtered_per_clock = 4,
                           .rate_64 = 1.0,
-                          .rate_128 = 0.5};
+                          .rate_128 = 0.5,
+                          .line_bytes = 128};
 
 constexpr std::array<Chip, 8> all_chips{{
     {"PS4", "BONAIRE", &gcn, 18, 0.8, 176},

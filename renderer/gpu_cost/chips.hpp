@@ -18,6 +18,7 @@ struct Generation {
   double scalar_clocks;       ///< of a SIMD for a scalar instruction
   double filtered_per_clock;  ///< bilinear samples of a compute unit, of texels of 32 bits
   double rate_64, rate_128;   ///< factors on that for texels of 64 and 128 bits
+  double line_bytes;          ///< of a line of the last cache before memory
 };
 
 /// A product.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace footprint {
 namespace {
@@ -25,8 +26,20 @@ double alu_clocks(const Generation& generation, const Instructions& work) {
   return std::max({vector, quarter, work.scalar * generation.scalar_clocks});
 }
 
+// Texels from memory per sample: the mean over the pixels if the map's finest level is read whatever the footprint.
+double new_texels(const TextureCost& texture, double line_bytes, std::span<const float> finest_areas) {
+  if (texture.finest_texels == 0 || finest_areas.empty()) return new_texels_of_a_sample;
+  double sum = 0;
+  for (const float area : finest_areas) {
+    const double texels = minified_sample_texels(area * texture.finest_texels, texture.bits / 8.0, line_bytes);
+    sum += std::max(new_texels_of_a_sample, texels);
+  }
+  return sum / static_cast<double>(finest_areas.size());
+}
+
 // The lookups of shaders; a gather counts once for each of its reads.
-void add_texture(CostEstimate& estimate, const Chip& chip, const TextureReads& reads, const TextureCost& texture) {
+void add_texture(CostEstimate& estimate, const Chip& chip, const TextureReads& reads, const TextureCost& texture,
+                 std::span<const float> finest_areas) {
   const double samples = std::max(reads.samples, 0.0), gathers = std::max(reads.gathers, 0.0);
   const double loads = std::max(reads.loads, 0.0);
   const double bytes = texture.bits / 8.0;
@@ -40,7 +53,8 @@ void add_texture(CostEstimate& estimate, const Chip& chip, const TextureReads& r
   count(loads, "load");
   estimate.bytes_fetched += bytes * (4.0 * levels * samples + 4.0 * gathers + loads);
   if (texture.bytes > largest_cached_table)
-    estimate.bytes_from_memory += bytes * (new_texels_of_a_sample * samples + gathers + loads);
+    estimate.bytes_from_memory +=
+        bytes * (new_texels(texture, chip.generation->line_bytes, finest_areas) * samples + gathers + loads);
   const double rate = chip.generation->filtered_per_clock * rate_of(*chip.generation, texture.bits);
   estimate.texture_ns += (levels * samples + gathers + loads) / (rate * chip.compute_units * chip.ghz);
 }
@@ -68,18 +82,27 @@ Instructions frame_work(const std::vector<WeighedWork>& works, double lookups, d
 }
 
 CostEstimate estimate(const Chip& chip, const std::vector<WeighedWork>& works, double lookups,
-                      const std::map<int, TextureCost>& textures, double written_bytes) {
+                      const std::map<int, TextureCost>& textures, double written_bytes,
+                      std::span<const float> finest_areas) {
   CostEstimate estimate;
   const Instructions work = frame_work(works, lookups, estimate.loop_rounds);
   estimate.alu_clocks = alu_clocks(*chip.generation, work) / pixels_of_a_wave;
   estimate.arithmetic_ns = estimate.alu_clocks / (chip.compute_units * chip.generation->simds * chip.ghz);
   for (const auto& [binding, reads] : work.textures) {
     const auto found = textures.find(binding);
-    add_texture(estimate, chip, reads, found == textures.end() ? TextureCost{} : found->second);
+    add_texture(estimate, chip, reads, found == textures.end() ? TextureCost{} : found->second, finest_areas);
   }
   estimate.bytes_from_memory += written_bytes;
   estimate.bandwidth_ns = estimate.bytes_from_memory / chip.gigabytes_per_second;
   return estimate;
+}
+
+// Lines of w x w texels. Close samples share lines and fetch all of them, `texels` texels per sample. Samples further
+// apart than w + 1 texels share none: the 2 x 2 texels of each touch 1 + 1/w lines along both axes. w^2 texels are a
+// line.
+double minified_sample_texels(double texels, double texel_bytes, double line_bytes) {
+  const double edge = std::sqrt(line_bytes / texel_bytes) + 1;
+  return std::min(texels, edge * edge);
 }
 
 double copy_ns(const Chip& chip, double bytes) { return 2.0 * bytes / chip.gigabytes_per_second; }

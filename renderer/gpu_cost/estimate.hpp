@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct TextureCost {
   int bits = 128;          ///< of a texel
   bool trilinear = false;  ///< samples blend two mip levels
   double bytes = 0;        ///< of all levels and layers
+  double finest_texels =
+      0;  ///< of the finest level, if samples read it whatever the footprint; 0: samples read levels that fit
 };
 
 /// A compiled program that counts `weight` times in a frame's work. The weights of one frame add up to 1: loops that
@@ -58,15 +61,21 @@ struct CostEstimate {
 /// loop_rounds: set to the rounds; 1 without such loops, or if they read no texture.
 [[nodiscard]] Instructions frame_work(const std::vector<WeighedWork>& works, double lookups, double& loop_rounds);
 
+/// The texels that a bilinear sample fetches from memory if neighbouring samples are far apart on the map: whole lines.
+/// texels: of the map, per sample; above 1 the map is minified.
+/// line_bytes: of a cache line, which stores a square of texels.
+[[nodiscard]] double minified_sample_texels(double texels, double texel_bytes, double line_bytes);
+
 /// The bytes of a frame's target: four half floats.
 inline constexpr double frame_pixel_bytes = 8;
 
 /// The estimate on a chip.
 /// textures: by binding.
 /// written_bytes: of a pixel, in all targets.
+/// finest_areas: of each pixel on maps with `finest_texels`; the whole map has 1. Empty: their texels fit the pixels.
 [[nodiscard]] CostEstimate estimate(const Chip& chip, const std::vector<WeighedWork>& works, double lookups,
                                     const std::map<int, TextureCost>& textures,
-                                    double written_bytes = frame_pixel_bytes);
+                                    double written_bytes = frame_pixel_bytes, std::span<const float> finest_areas = {});
 
 /// The time of a copy on a chip, which memory bounds: each byte is read and written once. Nanoseconds.
 [[nodiscard]] double copy_ns(const Chip& chip, double bytes);

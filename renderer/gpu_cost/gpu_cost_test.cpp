@@ -4,7 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "renderer/core/error.hpp"
 #include "renderer/gpu_cost/chips.hpp"
@@ -209,6 +213,51 @@ TEST(Estimate, RunsRemainingLoopsUntilLookupsAgree) {
   EXPECT_EQ(rounds, 10);
   EXPECT_EQ(frame.full, 200);
   EXPECT_EQ(frame.texture_reads(), 42);
+}
+
+// The lines that bilinear samples touch, counted on a grid of samples `step` texels apart over a map that repeats.
+double lines_counted(int step, int edge) {
+  constexpr int samples = 64;
+  std::set<std::pair<int, int>> lines;
+  for (int y = 0; y < samples; ++y) {
+    for (int x = 0; x < samples; ++x) {
+      for (const int corner : {0, 1, 2, 3})
+        lines.emplace((x * step + corner % 2) % (samples * step) / edge,
+                      (y * step + corner / 2) % (samples * step) / edge);
+    }
+  }
+  return static_cast<double>(lines.size()) / (samples * samples);
+}
+
+// Lines of 4 x 4 texels of 32 bits, of 2 x 2 of 128, and lines of 128 bytes of 4 x 4 texels of 64 bits. Odd steps meet
+// lines at all places alike.
+TEST(Estimate, OfAMinifiedMapFetchesTheLinesThatItsSamplesTouch) {
+  struct Case {
+    int edge;
+    double texel_bytes, line_bytes;
+  };
+  for (const Case& c : {Case{4, 4, 64}, Case{2, 16, 64}, Case{4, 8, 128}}) {
+    for (const int step : {1, 3, 5, 7, 11, 33}) {
+      const double lines = lines_counted(step, c.edge);
+      EXPECT_NEAR(c.texel_bytes * minified_sample_texels(step * step, c.texel_bytes, c.line_bytes),
+                  lines * c.line_bytes, 1e-9)
+          << step << ", " << c.edge;
+    }
+  }
+}
+
+TEST(Estimate, CountsLinesOnlyWhereTheFinestLevelIsMinified) {
+  const std::map<int, TextureCost> map{
+      {0, {.name = "map", .bits = 128, .trilinear = false, .bytes = 16e6, .finest_texels = 1e6}}};
+  const auto bytes = [&](const std::vector<float>& areas) {
+    return estimate(deck(), {{1, work_with(1, 1)}}, 1, map, 8, areas).bytes_from_memory - 8;
+  };
+  EXPECT_EQ(bytes({}), 1.25 * 16);
+  EXPECT_EQ(bytes({1e-7F}), 1.25 * 16);  // a tenth of a texel
+  EXPECT_NEAR(bytes({4e-6F}), 4 * 16, 1e-4);
+  const double whole_lines = 16 * std::pow(std::sqrt(128.0 / 16) + 1, 2);
+  EXPECT_NEAR(bytes({1.0F}), whole_lines, 1e-9);
+  EXPECT_NEAR(bytes({1.0F, 4e-6F}), 0.5 * (whole_lines + 4 * 16), 1e-4);
 }
 
 TEST(Estimate, ReadsOfSmallTablesCostNoMemory) {

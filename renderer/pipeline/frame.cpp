@@ -16,8 +16,7 @@ int edge_of(const gl::ContextInfo& context, int wanted) {
 }
 
 // The means of a counting frame over the pixels that the object covers wholly, and their number; 0 without one.
-glm::dvec4 mean_counts(const FrameRenderer& counting, const View& view) {
-  const Image counts = counting.render(view);
+glm::dvec4 mean_counts(const Image& counts) {
   glm::dvec3 sum(0.0);
   double pixels = 0;
   for (std::size_t i = 0; i < counts.texels.size(); i += 4) {
@@ -88,12 +87,17 @@ void clear_target() {
 }
 
 PixelWork pixel_work(const FrameRenderer& counting, const View& view) {
-  const glm::dvec4 means = mean_counts(counting, view);
-  return {.lookups = means.x, .lobes = means.y, .pixels = means.w};
+  const Image counts = counting.render(view);
+  const glm::dvec4 means = mean_counts(counts);
+  PixelWork work{.lookups = means.x, .lobes = means.y, .pixels = means.w};
+  for (std::size_t i = 0; means.z > 0 && i < counts.texels.size(); i += 4) {
+    if (counts.texels[i + 3] >= 1.0F) work.finest_areas.push_back(counts.texels[i + 2]);
+  }
+  return work;
 }
 
 PixelTrips pixel_trips(const FrameRenderer& counting, const View& view) {
-  const glm::dvec4 means = mean_counts(counting, view);
+  const glm::dvec4 means = mean_counts(counting.render(view));
   return {.probes = means.x, .lobes = means.y, .rounds = means.z};
 }
 

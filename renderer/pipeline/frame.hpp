@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "renderer/pipeline/surface_program.hpp"
 
@@ -53,6 +54,9 @@ struct PixelWork {
   double lookups = 0.0;  ///< texture lookups, including shared textures and the environment's
   double lobes = 0.0;    ///< lobe evaluations, over all lights
   double pixels = 0.0;   ///< number of those pixels
+  /// The area of each of them on a map whose finest level is read whatever the footprint; the whole map has 1. Empty if
+  /// no such map is read.
+  std::vector<float> finest_areas{};
 };
 
 /// Counts one frame of a program that counts work. All are 0 if no pixel is covered.

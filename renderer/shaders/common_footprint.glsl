@@ -110,11 +110,14 @@ vec2 levelSize(ivec2 finest, int level) { return vec2(max(finest >> level, ivec2
 //? if counting
 int lookups = 0;
 int lobe_evaluations = 0;
+float finest_area = 0.0;  // of the pixel on a map whose finest level is read whatever the footprint; the whole map has 1
 void countLookups(int count) { lookups += count; }
 void countLobes(int count) { lobe_evaluations += count; }
+void countFinest(Footprint f) { finest_area = max(finest_area, abs(determinant(mat2(f.dx, f.dy)))); }
 //? else
 void countLookups(int count) {}
 void countLobes(int count) {}
+void countFinest(Footprint f) {}
 //? end
 
 // The numbers of rounds of the loops that depend on the pixel. Programs whose cost a GPU's compiler estimates have
@@ -211,11 +214,13 @@ vec4 fetchUpTo(sampler2DArray map, int layer, Footprint f, float coarsest) {
 // The finest level without filtering.
 vec4 fetchFinest(sampler2D map, Footprint f) {
   countLookups(1);
+  countFinest(f);
   return textureLod(map, f.uv, 0.0);
 }
 //? if texture_arrays
 vec4 fetchFinest(sampler2DArray map, int layer, Footprint f) {
   countLookups(1);
+  countFinest(f);
   return textureLod(map, vec3(f.uv, layer), 0.0);
 }
 //? end

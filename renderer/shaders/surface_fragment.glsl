@@ -348,7 +348,7 @@ void main() {
 //? if counting_trips
   radiance = vec3(meanTrips(probe_trips), meanTrips(lobe_trips), meanTrips(walk_trips));
 //? elif counting
-  radiance = vec3(lookups, lobe_evaluations, 0.0);
+  radiance = vec3(lookups, lobe_evaluations, finest_area);
 //? end
 //? if material_index
   radiance_coverage = vec4(radiance, share_uv_offset_set.w + coverage - 1.0);

@@ -72,6 +72,15 @@ class Costs(WholeRunTest):
         reads = [figure["gpus"][0]["texture_reads"] for figure in figures]
         self.assertEqual([reads[1] / reads[0], reads[2] / reads[0]], [4, 16])
 
+    def test_the_finest_level_costs_whole_cache_lines_far_away(self):
+        # 16 bytes per texel and 8 of the output. A bilinear sample touches (w + 1)^2 texels' worth of lines of w x w texels.
+        for distance, gcn, rdna in ((0.02, 8 + 1.25 * 16, 8 + 1.25 * 16), (4, 8 + 16 * 3**2, 8 + 16 * (8**0.5 + 1)**2)):
+            scene = ["ribbed_plane", "--size", "32x32", "--distance", str(distance)]
+            report = self.report(f"lines{distance}", "--methods", "direct", "--gpu", "RX 480,Steam Deck", scene=scene)
+            bytes_read = [gpu["bytes_from_memory"] for gpu in report["methods"][0]["gpus"]]
+            self.assertAlmostEqual(bytes_read[0], gcn, delta=0.001 * gcn)
+            self.assertAlmostEqual(bytes_read[1], rdna, delta=0.001 * rdna)
+
     def test_passes_of_a_frame_count_where_they_are_repeated(self):
         always, changed, many = (
             self.report(name, "--methods", method, "--gpu", "RX 480,Steam Deck")["methods"][0]["gpus"]

@@ -24,7 +24,7 @@ int timed_frames(int spp) { return std::min(spp, most_timed); }
 // How often they are timed: few of them, which a passing disturbance would spoil, more often.
 int curve_repeats(int spp) { return std::clamp(16 / spp, 2, 5); }
 
-// The counts that are timed, each once however many points of the curve it stands for.
+// The counts that are timed, each once, even if several points of the curve share it.
 std::set<int> timed_counts(std::span<const int> counts) {
   std::set<int> timed;
   for (const int spp : counts) timed.insert(timed_frames(spp));
